@@ -1,0 +1,252 @@
+// elastic-limit: the largest stable step of undamped motion, and how it shrinks with the cells.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "convergence/order.h"
+#include "convergence/studies.h"
+#include "reference/dynamics/integrator.h"
+#include "reference/mesh/shapes.h"
+#include "verification/subject.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double side = 0.61;  // m
+constexpr double disturbance =
+    1e-7;  // of the flat sheet [m]: small enough to be linear, large enough for differences
+
+/// What resists: springs or hinges, and the exponent of the cells' width that follows for the step.
+struct Regime {
+  std::string name, words;
+  double stretch, bending;  // Y [N/m], ke [J]
+  double exponent;          // of the width in the largest stable step
+};
+
+std::vector<Regime> regimes() {
+  return {{"springs", "springs alone", 29, 0, 1}, {"bending", "bending alone", 0, 0.0071, 2}};
+}
+
+Regime both_regimes() { return {"both", "springs and bending", 29, 0.0071, nan}; }
+
+Scene flat_sheet(const Regime& regime, int cells) {
+  Scene scene = scene_of(make_sheet({SheetPattern::union_jack, side, side, cells, cells}), 0.23);
+  if (regime.stretch > 0) scene.stretch = StretchMaterial{regime.stretch, 0, 1};
+  if (regime.bending > 0)
+    scene.bending = BendingMaterial{regime.bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  return scene;
+}
+
+/// Numbers in [-1/2, 1/2), 3 x n, the same on every machine.
+PerParticle3 noise(Eigen::Index n) {
+  std::mt19937_64 generator(6021);
+  PerParticle3 values(3, n);
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values.data()[i] = double(generator() >> 11) * 0x1p-53 - 0.5;
+  return values;
+}
+
+/// The largest angular frequency of the subject's elastic forces about the scene's start [rad/s]: power
+/// iteration on M^{-1/2} K M^{-1/2}, with products by central differences of the forces.
+double largest_frequency(const Subject& subject, const Scene& scene) {
+  constexpr int rounds = 400;
+  const auto prepared = offered(subject.prepare, "prepare")(scene);
+  const auto& forces = offered(subject.elastic_forces, "elastic_forces");
+  const PerParticle root = lumped_masses(scene.mesh, scene.density).cwiseSqrt().cwiseInverse();
+  State s = start_state(scene);
+  PerParticle3 mode = noise(s.x.cols()).normalized();
+  double squared = 0;
+  for (int i = 0; i < rounds; ++i) {
+    PerParticle3 shift = mode * root.asDiagonal();
+    shift *= disturbance / shift.norm();
+    s.x = scene.x + shift;
+    const PerParticle3 ahead = forces(*prepared, s);
+    s.x = scene.x - shift;
+    const PerParticle3 behind = forces(*prepared, s);
+    const PerParticle3 unit = shift * root.cwiseInverse().asDiagonal();
+    const PerParticle3 product = (behind - ahead) / 2 * root.asDiagonal();
+    squared = product.cwiseProduct(unit).sum() / unit.squaredNorm();
+    mode = product.normalized();
+  }
+  return std::sqrt(squared);
+}
+
+/// Does a small disturbance stay small in steps of h [s]? Stable motion is bounded by the modes' amplitudes,
+/// unstable motion grows beyond every bound.
+enum class Fate { stays, grows };
+
+Fate fate_of(const Subject& subject, Prepared& prepared, const Scene& scene, double h) {
+  constexpr int steps = 600;
+  constexpr double growth = 1000;
+  State s = start_state(scene);
+  s.x += disturbance * noise(s.x.cols());
+  const double start = (s.x - scene.x).norm();
+  Work uncounted;
+  for (int i = 0; i < steps; ++i) {
+    s = subject.step(prepared, s, h, uncounted);
+    if (!((s.x - scene.x).norm() <= growth * start)) return Fate::grows;
+  }
+  return Fate::stays;
+}
+
+/// Bisects the step between 0.8 and 1.2 of 2/omega; returns it over 2/omega. NaN if the limit lies outside.
+double measured_limit(const Subject& subject, Scene scene, std::string_view scheme, double omega) {
+  constexpr int halvings = 8;
+  scene.integrator = std::string(scheme);
+  const auto prepared = offered(subject.prepare, "prepare")(scene);
+  offered(subject.step, "step");
+  double below = 0.8, above = 1.2;
+  if (fate_of(subject, *prepared, scene, below * 2 / omega) == Fate::grows) return nan;
+  if (fate_of(subject, *prepared, scene, above * 2 / omega) == Fate::stays) return nan;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (below + above) / 2;
+    (fate_of(subject, *prepared, scene, middle * 2 / omega) == Fate::stays ? below : above) = middle;
+  }
+  return (below + above) / 2;
+}
+
+/// Limits of one regime over all meshes.
+struct Limits {
+  Convergence exact;           // 2/omega [s] over the width of a cell [m]
+  std::vector<double> bounds;  // the reference's elastic limit [s]
+};
+
+Limits limits_of(const Subject& subject, const Regime& regime, const std::vector<int>& meshes) {
+  Limits limits;
+  for (int cells : meshes) {
+    const Scene scene = flat_sheet(regime, cells);
+    limits.exact.steps.push_back(side / cells);
+    limits.exact.errors.push_back(2 / largest_frequency(subject, scene));
+    limits.bounds.push_back(elastic_limit(build_system(scene), start_state(scene)));
+  }
+  return limits;
+}
+
+NamedFinding exponent_of(const Regime& regime, const Limits& limits) {
+  const Estimate deviation = order_deviation(limits.exact, regime.exponent, 1);
+  std::vector<double> orders = pair_orders(limits.exact);
+  orders.insert(orders.begin(), nan);
+  const Verdict verdict{deviation.value, 0.05, 0, "1",
+                        "a whole exponent would be off by 1; what the border does to the fastest mode dies "
+                        "out as the cells become many"};
+  return {"elastic-limit.exponent." + regime.name,
+          "With " + regime.words +
+              ", the largest stable step is proportional to the cells' width to the power " +
+              (regime.exponent == 1 ? "one." : "two."),
+          {verdict,
+           {{"width of a cell", "m", limits.exact.steps},
+            {"2/omega", "s", limits.exact.errors},
+            {"exponent", "1", orders}},
+           "measured is |exponent - expected| of the last pair"}};
+}
+
+NamedFinding bound_of(const Regime& regime, const Limits& limits) {
+  Worst worst;
+  std::vector<double> ratios;
+  for (size_t i = 0; i < limits.bounds.size(); ++i) {
+    ratios.push_back(limits.bounds[i] / limits.exact.errors[i]);
+    worst.see(ratios.back());
+  }
+  const Verdict verdict{worst.value(), 1, 0, "1", "the bound on the frequency must not lie below it"};
+  return {
+      "elastic-limit.bound-is-safe." + regime.name,
+      "With " + regime.words + ", the reference's elastic limit is no longer than the largest stable step.",
+      {verdict,
+       {{"width of a cell", "m", limits.exact.steps}, {"elastic limit over 2/omega", "1", ratios}},
+       "power iteration approaches omega from below, so that 2/omega is not underestimated"}};
+}
+
+/// On a flat sheet at rest springs act in its plane and hinges across it: neither adds to the other.
+NamedFinding smaller_of_both(const std::vector<Limits>& alone, const Limits& both) {
+  Worst worst;
+  std::vector<double> springs, bending;
+  for (size_t i = 0; i < both.exact.errors.size(); ++i) {
+    springs.push_back(alone[0].exact.errors[i]);
+    bending.push_back(alone[1].exact.errors[i]);
+    worst.see(std::abs(both.exact.errors[i] / std::min(springs.back(), bending.back()) - 1));
+  }
+  const Verdict verdict{worst.value(), 0.01, 0, "1",
+                        "power iteration has found the frequencies to better than a hundredth"};
+  return {
+      "elastic-limit.both.is-the-smaller",
+      "With springs and bending, the largest stable step is the smaller of the two: springs' on wide cells, "
+      "bending's on narrow ones.",
+      {verdict,
+       {{"width of a cell", "m", both.exact.steps},
+        {"2/omega, both", "s", both.exact.errors},
+        {"2/omega, springs alone", "s", springs},
+        {"2/omega, bending alone", "s", bending}},
+       ""}};
+}
+
+NamedFinding scheme_limit(const Subject& subject, const Regime& regime, const Integrator& integrator) {
+  const Scene scene = flat_sheet(regime, 6);
+  const double ratio = measured_limit(subject, scene, integrator.name, largest_frequency(subject, scene));
+  const Verdict verdict{std::abs(ratio - 1), 0.01, 0, "1",
+                        "the bisection ends at a width of a sixth of that, and a run this long tells growth "
+                        "rates that much beyond the limit"};
+  const std::string name(integrator.name);
+  return {"elastic-limit.is-two-over-omega." + regime.name + "." + name,
+          "With " + regime.words + ", the largest stable step of scheme " + name +
+              " on an undamped flat sheet is 2/omega.",
+          {verdict, {{"largest stable step over 2/omega", "1", std::vector<double>{ratio}}}, ""}};
+}
+
+StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+  std::vector<int> meshes = {4, 8, 16, 32};
+  if (tier == Tier::full) meshes.push_back(64);
+  StudyResult result;
+  Figure figure{"largest-step",
+                "Largest stable step of undamped motion",
+                {"width of a cell", "m", Scale::log},
+                {"2/omega", "s", Scale::log},
+                1,
+                "The slope is that of springs; bending has twice that.",
+                {}};
+  double done = 0;
+  const double parts = 1 + double(regimes().size() * (1 + integrators().size()));
+  std::vector<Limits> alone;
+  for (const Regime& regime : regimes()) {
+    const Limits limits = limits_of(subject, regime, meshes);
+    result.findings.push_back(exponent_of(regime, limits));
+    result.findings.push_back(bound_of(regime, limits));
+    figure.curves.push_back(
+        {regime.words, limits.exact.steps, limits.exact.errors, nan, pair_orders(limits.exact)});
+    figure.curves.push_back(
+        {regime.words + ", the solver's bound", limits.exact.steps, limits.bounds, nan, {}});
+    alone.push_back(limits);
+    progress(++done / parts);
+    for (const Integrator& integrator : integrators()) {
+      result.findings.push_back(scheme_limit(subject, regime, integrator));
+      progress(++done / parts);
+    }
+  }
+  const Limits both = limits_of(subject, both_regimes(), meshes);
+  result.findings.push_back(smaller_of_both(alone, both));
+  figure.curves.push_back({both_regimes().words, both.exact.steps, both.exact.errors, nan, {}});
+  progress(1);
+  result.figures.push_back(std::move(figure));
+  return result;
+}
+
+}  // namespace
+
+Study elastic_limit_study() {
+  return {"elastic-limit",
+          "The largest stable step of undamped motion is 2/omega for schemes A, B and C; it is proportional "
+          "to the cells' width where "
+          "springs dominate, and to its square where bending does.",
+          "BMF03 section 3",
+          "A flat, free, undamped sheet is disturbed a little. Its fastest mode is found by power iteration "
+          "on the elastic forces, the "
+          "largest stable step of each scheme by bisection on runs that stay bounded or do not. The paper "
+          "gives the limit as "
+          "proportional to the width; hinges alone make it fall with the square.",
+          run};
+}
+
+}  // namespace foldproof

@@ -1,0 +1,20 @@
+// The studies: rates and costs, measured over a range. Their findings are judged like checks.
+#pragma once
+
+#include <vector>
+
+#include "verification/check.h"
+
+namespace foldproof {
+
+Study hinge_time_order();  // time-order.hinge: errors at the end of a driven hinge's motion against the step
+Study sheet_time_order();  // time-order.sheet: the same on a hanging sheet
+Study momentum_drift();    // momentum-drift: angular momentum of a free sheet
+Study cg_iterations();     // cg-iterations: cost of the implicit solves
+Study bending_scaling();   // bending-scaling: bending damping under refinement
+Study elastic_limit_study();  // elastic-limit: the largest stable step under refinement
+
+/// All of them, in the order in which they are reported.
+std::vector<Study> all_studies();
+
+}  // namespace foldproof

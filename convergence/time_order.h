@@ -1,0 +1,48 @@
+// Order studies in time: every integrator, three kinds of step sequence, errors in x and v against an oracle.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "verification/oracles/cloth.h"
+#include "verification/subject.h"
+
+namespace foldproof {
+
+/// How the lengths of the steps of a run follow one another.
+struct StepPattern {
+  std::string_view name;         // part of the findings' names
+  std::string_view words;        // "alternating steps 9:1"
+  std::vector<double> relative;  // the pattern, repeated to the end: lengths in units of their mean [1]
+};
+
+/// constant; alternating 9:1; random (8 steps, fixed once for all, at most 9:1).
+///
+/// A finer level has every step of the coarser halved and the pattern repeated twice as often, so that
+/// neighbouring steps differ in length at every level. (Halving each step in place would make runs of equal
+/// steps, on which a method that needs a constant step could pass.)
+std::vector<StepPattern> step_patterns();
+
+/// The steps [s] of a run from 0 to `end` [s] with `count` steps, which must be a multiple of the pattern's
+/// length, else InputError.
+std::vector<double> steps_of(const StepPattern& pattern, double end, int count);
+
+/// A motion whose end is known from elsewhere.
+struct OrderProblem {
+  std::string study;          // the name of the study
+  std::string thing;          // "the driven hinge"
+  Scene scene;                // its integrator is replaced by each of the table
+  double end;                 // s
+  int coarsest;               // number of steps of the first level, a multiple of 8
+  int levels;                 // each has twice the steps of the one before
+  oracles::ClothState truth;  // at the end
+  double uncertainty;         // of every component of truth [m], [m/s]
+};
+
+/// Runs everything: a finding per integrator, pattern and quantity, one on B with variable steps, two
+/// figures, a table.
+StudyResult time_order(const Subject& subject, const OrderProblem& problem, const Progress& progress);
+
+}  // namespace foldproof

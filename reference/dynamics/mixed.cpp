@@ -1,0 +1,91 @@
+#include "reference/dynamics/mixed.h"
+
+namespace foldproof {
+
+namespace {
+
+/// All that a half step needs to know of one state: forces that do not depend on velocity, and the damping's cached terms.
+struct Forces {
+  PerParticle3 elastic;  // 3 x N [N], external forces included
+  DampingOperator damping;
+};
+
+Forces forces_at(const System& system, const State& s, Work& work) {
+  return {elastic_forces(system.forces, s, work), damping_at(system.forces, s, work)};
+}
+
+/// v + h/2 M^{-1} (F_elastic + D v_damped); prescribed particles keep v.
+PerParticle3 explicit_half_step(const System& system, const Forces& at, const PerParticle3& v, const PerParticle3& v_damped,
+                                double h, Work& work) {
+  PerParticle3 force = at.elastic;
+  at.damping.add_product(v_damped, force);
+  ++work.damping_products;
+  return v + (h / 2) * force * system.inverse_mass.asDiagonal();
+}
+
+/// The w of w = v + h/2 M^{-1} (F_elastic + D w), with the known velocities imposed.
+PerParticle3 implicit_half_step(const System& system, const Forces& at, const PerParticle3& v,
+                                const std::vector<KnownVelocity>& known, double h, Work& work) {
+  PerParticle3 w = v + (h / 2) * at.elastic * system.inverse_mass.asDiagonal();
+  impose(known, w);
+  solve_velocity(at.damping, h / 2, system.mass, system.inverse_mass, system.solver, w, work);
+  return w;
+}
+
+}  // namespace
+
+State mixed_explicit_implicit(const System& system, std::span<const State> past, double h, Work& work) {
+  const State& now = past.back();
+  const double end = now.time + h;
+  const Forces here = forces_at(system, now, work);
+
+  // position: leapfrog with the explicit half-step velocity, once it has been modified
+  const PerParticle3 v_half = explicit_half_step(system, here, now.v, now.v, h, work);
+  PerParticle3 v_move = v_half;
+  impose(mean_velocities(system.led, now.x, now.time, h), v_move);
+  correct(system.filters, {now.time, end}, now, v_move);
+  State next{end, now.x + h * v_move, v_move};
+
+  // velocity: trapezoidal rule, continued from the half-step velocity before its modification
+  const Forces there = forces_at(system, next, work);
+  next.v = implicit_half_step(system, there, v_half, velocities_at(system.led, end), h, work);
+  correct(system.filters, {end, end}, next, next.v);
+  return next;
+}
+
+State central_newmark(const System& system, std::span<const State> past, double h, Work& work) {
+  const State& now = past.back();
+  const double end = now.time + h;
+  const Forces here = forces_at(system, now, work);
+
+  // position: move with a velocity that is implicit in the damping
+  PerParticle3 v_half = implicit_half_step(system, here, now.v, mean_velocities(system.led, now.x, now.time, h), h, work);
+  correct(system.filters, {now.time, end}, now, v_half);
+  State next{end, now.x + h * v_half, v_half};
+
+  // velocity: the rest of the step, explicit, from the modified half-step velocity
+  const Forces there = forces_at(system, next, work);
+  next.v = explicit_half_step(system, there, v_half, v_half, h, work);
+  impose(velocities_at(system.led, end), next.v);
+  return next;
+}
+
+State variable_step_newmark(const System& system, std::span<const State> past, double h, Work& work) {
+  const State& now = past.back();
+  const double end = now.time + h;
+  const Forces here = forces_at(system, now, work);
+
+  // position: move with a velocity that is implicit in the damping, as in scheme B
+  PerParticle3 v_move = implicit_half_step(system, here, now.v, mean_velocities(system.led, now.x, now.time, h), h, work);
+  correct(system.filters, {now.time, end}, now, v_move);
+  State next{end, now.x + h * v_move, v_move};
+
+  // velocity: trapezoidal rule from v_n, as in scheme A
+  const PerParticle3 v_half = explicit_half_step(system, here, now.v, now.v, h, work);
+  const Forces there = forces_at(system, next, work);
+  next.v = implicit_half_step(system, there, v_half, velocities_at(system.led, end), h, work);
+  correct(system.filters, {end, end}, next, next.v);
+  return next;
+}
+
+}  // namespace foldproof

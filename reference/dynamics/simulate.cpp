@@ -1,0 +1,176 @@
+#include "reference/dynamics/simulate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "reference/forces/degenerate.h"
+
+namespace foldproof {
+
+namespace {
+
+// A particle that crosses ten times the cloth's own size in one step is taken for divergence.
+constexpr double sizes_per_step = 10;
+
+void check(const Schedule& schedule, const State& start) {
+  if (!(schedule.end >= start.time)) throw InputError("time: the end must not lie before the start");
+  if (!(schedule.frame_interval > 0)) throw InputError("time: the frame interval must be > 0 s");
+  if (!(schedule.step.fixed >= 0)) throw InputError("time: a fixed step must be > 0 s");
+  if (!(schedule.step.safety > 0)) throw InputError("time: the safety factor must be > 0");
+  if (!(schedule.step.strain_per_step > 0)) throw InputError("time: strain_per_step must be > 0");
+}
+
+/// The longest step in which no spring changes its length by more than `fraction` of its rest length [s].
+double strain_limit(const System& system, const State& s, double fraction) {
+  double fastest = 0;  // 1/s
+  for (const Force& force : system.forces) {
+    const auto* stretch = std::get_if<StretchSprings>(&force);
+    if (!stretch) continue;
+    for (const Spring& spring : stretch->springs) {
+      const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
+      const double rate = d.dot(s.v.col(spring.b) - s.v.col(spring.a)) / d.norm();
+      fastest = std::max(fastest, std::abs(rate) / spring.rest_length);
+    }
+  }
+  return fraction / fastest;
+}
+
+double size_of(const PerParticle3& x) {
+  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
+}
+
+/// What is wrong with `next`, if anything: values that are not finite, or a leap.
+std::optional<Stop> fault_in(const State& now, const State& next, double size, long step) {
+  int worst = -1;
+  double farthest = sizes_per_step * size;
+  for (Eigen::Index i = 0; i < next.x.cols(); ++i) {
+    if (!next.x.col(i).allFinite() || !next.v.col(i).allFinite())
+      return Stop{"NaN or infinite values", now.time, step, int(i)};
+    const double moved = (next.x.col(i) - now.x.col(i)).norm();
+    if (moved > farthest) {
+      farthest = moved;
+      worst = int(i);
+    }
+  }
+  if (worst < 0) return {};
+  return Stop{"divergence: a particle moved more than ten times the cloth's size in one step", now.time, step, worst};
+}
+
+class Watch {
+ public:
+  Watch(const System& system, const Observer& observer)
+      : system_(system), observer_(observer), start_(std::chrono::steady_clock::now()) {}
+
+  void frame(const State& s) const {
+    if (observer_.frame) observer_.frame(s);
+  }
+
+  void step(const State& s, double h, const Work& work) {
+    if (!observer_.step) return;
+    Diagnostics row;
+    row.time = s.time;
+    row.step = h;
+    row.energy = energies(system_, s);
+    const double power = damping_power(s);
+    damping_work_ += h / 2 * (power_before_ + power);
+    power_before_ = power;
+    row.damping_work = damping_work_;
+    row.linear_momentum = linear_momentum(system_, s);
+    row.angular_momentum = angular_momentum(system_, s);
+    row.cg_iterations = work.cg_iterations;
+    row.cg_residual = work.worst_residual;
+    row.step_over_elastic_limit = h / elastic_limit(system_, s);
+    row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    observer_.step(row);
+  }
+
+ private:
+  double damping_power(const State& s) const {  // v.(D v) [W]
+    Work uncounted;
+    PerParticle3 force = PerParticle3::Zero(3, s.x.cols());
+    damping_at(system_.forces, s, uncounted).add_product(s.v, force);
+    return force.cwiseProduct(s.v).sum();
+  }
+
+  const System& system_;
+  const Observer& observer_;
+  std::chrono::steady_clock::time_point start_;
+  double damping_work_ = 0, power_before_ = 0;
+};
+
+void add(Work& sum, const Work& part) {
+  sum.elastic_evaluations += part.elastic_evaluations;
+  sum.damping_preparations += part.damping_preparations;
+  sum.damping_products += part.damping_products;
+  sum.solves += part.solves;
+  sum.cg_iterations += part.cg_iterations;
+  sum.unfinished_solves += part.unfinished_solves;
+  if (!(part.worst_residual <= sum.worst_residual)) sum.worst_residual = part.worst_residual;
+}
+
+/// Advances `outcome.last` to the time `target`, or sets outcome.stop.
+void run_to(double target, const System& system, const Integrator& integrator, const Schedule& schedule, double size,
+            Watch& watch, Outcome& outcome) {
+  while (outcome.last.time < target && !outcome.stop) {
+    const State& now = outcome.last;
+    const long number = outcome.steps + 1;
+    if (number > schedule.max_steps) {
+      outcome.stop = Stop{"the cap on the number of steps was reached", now.time, number, -1};
+      return;
+    }
+    try {
+      const double left = target - now.time;
+      const double h = step_allowed(system, now, schedule.step, left);
+      Work work;
+      State next = integrator.step(system, {&now, 1}, h, work);
+      if (h == left) next.time = target;  // no rounding between a frame's time and its state's
+      outcome.stop = fault_in(now, next, size, number);
+      if (outcome.stop) return;
+      watch.step(next, h, work);
+      add(outcome.work, work);
+      outcome.last = std::move(next);
+      ++outcome.steps;
+    } catch (const DegenerateElement& error) {
+      outcome.stop = Stop{error.what(), now.time, number, error.particles.front()};
+    }
+  }
+}
+
+}  // namespace
+
+double step_allowed(const System& system, const State& s, const StepRule& rule, double left) {
+  double wanted = rule.fixed;
+  if (wanted == 0) {
+    wanted = std::min(rule.safety * elastic_limit(system, s), strain_limit(system, s, rule.strain_per_step));
+    if (std::isnan(wanted)) throw DegenerateElement("the elastic limit of the step is not a number", {-1});
+  }
+  // an even part of what is left; a hair of tolerance so that 0.1 s in steps of 0.01 s are 10 steps, not 11
+  const double parts = std::ceil(left / wanted * (1 - 1e-9));
+  return parts <= 1 ? left : left / parts;
+}
+
+Outcome simulate(const System& system, const Integrator& integrator, const State& start, const Schedule& schedule,
+                 const Observer& observer) {
+  check(schedule, start);
+  const double size = size_of(start.x);
+  Outcome outcome;
+  outcome.last = start;
+  Watch watch(system, observer);
+  watch.frame(start);
+  try {
+    watch.step(start, 0, {});
+  } catch (const DegenerateElement& error) {
+    outcome.stop = Stop{error.what(), start.time, 0, error.particles.front()};
+  }
+
+  for (long frame = 1; !outcome.stop && outcome.last.time < schedule.end; ++frame) {
+    const double target = std::min(schedule.end, start.time + double(frame) * schedule.frame_interval);
+    run_to(target, system, integrator, schedule, size, watch, outcome);
+    if (!outcome.stop) watch.frame(outcome.last);
+  }
+  return outcome;
+}
+
+}  // namespace foldproof

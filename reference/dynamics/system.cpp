@@ -1,0 +1,57 @@
+#include "reference/dynamics/system.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace foldproof {
+
+System make_system(PerParticle mass) {
+  System system;
+  for (Eigen::Index i = 0; i < mass.size(); ++i)
+    if (!(mass[i] > 0) || !std::isfinite(mass[i]))
+      throw InputError("particle " + std::to_string(i) + " has mass " + std::to_string(mass[i]) + " kg; it must be > 0");
+  system.inverse_mass = mass.cwiseInverse();
+  system.mass = std::move(mass);
+  return system;
+}
+
+void prescribe(System& system, const PrescribedParticle& particle) {
+  const int i = particle.particle;
+  if (!(i >= 0 && i < system.mass.size()))
+    throw InputError("cannot prescribe the motion of particle " + std::to_string(i) + ": there are " +
+                     std::to_string(system.mass.size()));
+  if (system.inverse_mass[i] == 0)
+    throw InputError("the motion of particle " + std::to_string(i) + " is prescribed twice");
+  system.inverse_mass[i] = 0;
+  system.led.push_back(particle);
+}
+
+double elastic_limit(const System& system, const State& s) {
+  return 2 / frequency_bound(system.forces, s, system.inverse_mass);
+}
+
+Energies energies(const System& system, const State& s) {
+  Energies e;
+  e.kinetic = 0.5 * s.v.colwise().squaredNorm().dot(system.mass.transpose());
+  for (const Force& force : system.forces) {
+    const double energy = std::visit([&](const auto& part) { return part.energy(s); }, force);
+    if (std::holds_alternative<Gravity>(force)) e.gravity += energy;
+    if (std::holds_alternative<StretchSprings>(force)) e.stretch += energy;
+    if (std::holds_alternative<Bending>(force)) e.bending += energy;
+    if (std::holds_alternative<CustomForce>(force)) e.custom += energy;
+  }
+  return e;
+}
+
+Vector3 linear_momentum(const System& system, const State& s) { return s.v * system.mass; }
+
+Vector3 angular_momentum(const System& system, const State& s) {
+  Vector3 sum = Vector3::Zero();
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
+    const Vector3 x = s.x.col(i), v = s.v.col(i);
+    sum += system.mass[i] * x.cross(v);
+  }
+  return sum;
+}
+
+}  // namespace foldproof

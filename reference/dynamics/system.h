@@ -1,0 +1,43 @@
+// What moves: masses, forces, filters, and what is led. It holds only what its scene names.
+#pragma once
+
+#include <vector>
+
+#include "reference/dynamics/conjugate_gradient.h"
+#include "reference/filters/filter.h"
+#include "reference/forces/force.h"
+#include "reference/motion/motion.h"
+#include "reference/types.h"
+
+namespace foldproof {
+
+struct System {
+  PerParticle mass;          // N [kg]
+  PerParticle inverse_mass;  // N [1/kg]; 0 where the motion is prescribed
+  std::vector<Force> forces;
+  std::vector<Filter> filters;
+  std::vector<PrescribedParticle> led;
+  SolverSettings solver;
+};
+
+/// A system of free particles with these masses (N [kg], each > 0, else InputError), without forces.
+System make_system(PerParticle mass);
+
+/// Prescribes the motion of a particle. Throws InputError if it is prescribed already or does not exist.
+void prescribe(System& system, const PrescribedParticle& particle);
+
+/// Largest stable step of the undamped motion by the bound on the elastic frequency: 2/omega [s]; infinite without stiffness.
+double elastic_limit(const System& system, const State& s);
+
+struct Energies {
+  double kinetic = 0, stretch = 0, bending = 0, gravity = 0, custom = 0;  // J
+
+  double total() const { return kinetic + stretch + bending + gravity + custom; }
+};
+
+Energies energies(const System& system, const State& s);
+
+Vector3 linear_momentum(const System& system, const State& s);   // sum m v [kg m/s]
+Vector3 angular_momentum(const System& system, const State& s);  // sum m x x v about the origin [kg m^2/s]
+
+}  // namespace foldproof

@@ -1,0 +1,210 @@
+#include "reference/forces/bending.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "reference/forces/degenerate.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// Squared height over edge below which a triangle counts as degenerate: at 1e-10 of the edge rounding has eaten the normal.
+constexpr double smallest_height_squared = 1e-20;
+
+HingeShape shape_of(const BendingHinge& hinge, const PerParticle3& x) {
+  const auto [i1, i2, i3, i4] = hinge.particles;
+  return hinge_shape(x.col(i1), x.col(i2), x.col(i3), x.col(i4));
+}
+
+HingeShape checked_shape_of(const BendingHinge& hinge, const PerParticle3& x) {
+  HingeShape shape = shape_of(hinge, x);
+  if (shape.degenerate) {
+    const auto& p = hinge.particles;
+    throw DegenerateElement("a triangle of a hinge has lost its area", {p[0], p[1], p[2], p[3]});
+  }
+  return shape;
+}
+
+double angle_of(const HingeShape& shape) { return 2 * std::asin(std::min(1.0, std::max(-1.0, shape.sin_half))); }
+
+double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting) {
+  return weighting == Weighting::rest ? hinge.rest_weight : shape.edge * shape.edge / shape.area_sum;
+}
+
+void add_forces(const std::array<int, 4>& particles, const HingeShape& shape, double magnitude, PerParticle3& f) {
+  const Vector3 f1 = magnitude * shape.u1, f2 = magnitude * shape.u2;
+  const Vector3 f3 = -(shape.b1 * f1 + shape.b2 * f2);
+  f.col(particles[0]) += f1;
+  f.col(particles[1]) += f2;
+  f.col(particles[2]) += f3;
+  f.col(particles[3]) -= f1 + f2 + f3;
+}
+
+double sine_magnitude(double theta, double rest_angle) { return std::sin(theta / 2) - std::sin(rest_angle / 2); }
+
+double sine_slope(double theta, double) { return 0.5 * std::cos(theta / 2); }
+
+double sine_potential(double theta, double rest_angle) {
+  // 2 (cos(theta0/2) - cos(theta/2)) as a product of sines, which loses no digits near the rest angle
+  return 4 * std::sin((theta + rest_angle) / 4) * std::sin((theta - rest_angle) / 4) -
+         std::sin(rest_angle / 2) * (theta - rest_angle);
+}
+
+double cubic_magnitude(double theta, double rest_angle) {
+  const double change = theta - rest_angle;
+  return 0.5 * change * (1 + change * change);
+}
+
+double cubic_slope(double theta, double rest_angle) {
+  return 0.5 + 1.5 * (theta - rest_angle) * (theta - rest_angle);
+}
+
+double cubic_potential(double theta, double rest_angle) {
+  const double squared = (theta - rest_angle) * (theta - rest_angle);
+  return 0.25 * squared + 0.125 * squared * squared;
+}
+
+}  // namespace
+
+const std::vector<BendingLaw>& bending_laws() {
+  static const std::vector<BendingLaw> laws = {{"sine", sine_magnitude, sine_slope, sine_potential},
+                                               {"cubic", cubic_magnitude, cubic_slope, cubic_potential}};
+  return laws;
+}
+
+const BendingLaw& bending_law(std::string_view name) {
+  std::string known;
+  for (const BendingLaw& law : bending_laws()) {
+    if (law.name == name) return law;
+    known += (known.empty() ? "" : ", ") + std::string(law.name);
+  }
+  throw InputError("unknown bending law '" + std::string(name) + "'; known: " + known);
+}
+
+HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4) {
+  const Vector3 E = x4 - x3, to1 = x1 - x4, to2 = x2 - x4;
+  const Vector3 N1 = (x1 - x3).cross(to1), N2 = to2.cross(x2 - x3);
+  const double E_squared = E.squaredNorm(), N1_squared = N1.squaredNorm(), N2_squared = N2.squaredNorm();
+  const double edge = std::sqrt(E_squared), length1 = std::sqrt(N1_squared), length2 = std::sqrt(N2_squared);
+  const double per_edge_squared = 1 / E_squared, per_length1 = 1 / length1, per_length2 = 1 / length2;
+
+  HingeShape shape;
+  shape.u1 = (edge * per_length1 * per_length1) * N1;
+  shape.u2 = (edge * per_length2 * per_length2) * N2;
+  shape.b1 = -to1.dot(E) * per_edge_squared;
+  shape.b2 = -to2.dot(E) * per_edge_squared;
+  shape.edge = edge;
+  shape.area_sum = length1 + length2;
+  const double smallest = smallest_height_squared * E_squared * E_squared;
+  shape.degenerate = !(N1_squared > smallest && N2_squared > smallest);
+
+  // sin(theta) = (n1 x n2).e^ is the height of x2 below the first triangle's plane over its distance from the edge. Folded less
+  // than a right angle, sin(theta/2) = sin(theta)/(2 cos(theta/2)): exactly 0 when flat, no digit lost beside it. Beyond, the
+  // printed sqrt((1 - n1.n2)/2), which is accurate just there.
+  const double cosine = N1.dot(N2) * (per_length1 * per_length2);
+  const double sine = N1.dot(x3 - x2) * (edge * per_length1 * per_length2);
+  shape.sin_half = cosine >= 0 ? sine / std::sqrt(2 + 2 * cosine)
+                               : std::copysign(std::sqrt(0.5 - 0.5 * cosine), sine);
+  return shape;
+}
+
+double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4) {
+  const Vector3 E = x4 - x3, N1 = (x1 - x3).cross(x1 - x4), N2 = (x2 - x4).cross(x2 - x3);
+  return std::atan2(N1.dot(x3 - x2) * E.norm(), N1.dot(N2));
+}
+
+Eigen::Matrix<double, 3, 4> bending_mode(const HingeShape& shape) {
+  Eigen::Matrix<double, 3, 4> u;
+  u.col(0) = shape.u1;
+  u.col(1) = shape.u2;
+  u.col(2) = -(shape.b1 * shape.u1 + shape.b2 * shape.u2);
+  u.col(3) = -((1 - shape.b1) * shape.u1 + (1 - shape.b2) * shape.u2);
+  return u;
+}
+
+void Bending::add_elastic(const State& s, PerParticle3& f) const {
+  const BendingLaw& law = bending_law(material.law);
+  const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
+  for (const BendingHinge& hinge : hinges) {
+    const HingeShape shape = checked_shape_of(hinge, s.x);
+    const double magnitude =
+        is_sine ? shape.sin_half - hinge.sin_half_rest : law.magnitude(angle_of(shape), hinge.rest_angle);
+    add_forces(hinge.particles, shape, material.stiffness * weight_of(hinge, shape, material.weighting) * magnitude, f);
+  }
+}
+
+double Bending::energy(const State& s) const {
+  const BendingLaw& law = bending_law(material.law);
+  double sum = 0;
+  for (const BendingHinge& hinge : hinges) {
+    const HingeShape shape = checked_shape_of(hinge, s.x);
+    const auto [i1, i2, i3, i4] = hinge.particles;
+    const double theta = hinge_angle(s.x.col(i1), s.x.col(i2), s.x.col(i3), s.x.col(i4));
+    sum += weight_of(hinge, shape, material.weighting) * law.potential(theta, hinge.rest_angle);
+  }
+  return material.stiffness * sum;
+}
+
+void Bending::prepare_damping(const State& s, DampingOperator& damping) const {
+  if (material.damping == 0) return;
+  damping.hinges.reserve(damping.hinges.size() + hinges.size());
+  for (const BendingHinge& hinge : hinges) {
+    const HingeShape shape = checked_shape_of(hinge, s.x);
+    const double factor = material.damping_factor == DampingFactor::edge
+                              ? shape.edge
+                              : shape.edge * shape.edge / shape.area_sum;
+    const double root = std::sqrt(material.damping * factor);
+    damping.hinges.push_back({hinge.particles, shape.b1, shape.b2, root * shape.u1, root * shape.u2});
+  }
+}
+
+void Bending::add_stiffness_bound(const State& s, PerParticle& rows) const {
+  // One hinge's stiffness matrix is ke c (magnitude' u u^T - magnitude grad u). A row of the first sums to |u_i| sum |u_j|; the
+  // second, which matters only for sharp folds, has the same scale: |grad u| is at most about twice |u|^2.
+  const BendingLaw& law = bending_law(material.law);
+  for (const BendingHinge& hinge : hinges) {
+    const HingeShape shape = checked_shape_of(hinge, s.x);
+    const double theta = angle_of(shape);
+    const double response = std::abs(law.slope(theta, hinge.rest_angle)) + 2 * std::abs(law.magnitude(theta, hinge.rest_angle));
+    const double stiffness = material.stiffness * weight_of(hinge, shape, material.weighting) * response;
+    const Eigen::Vector4d norms = bending_mode(shape).colwise().norm();
+    for (int k = 0; k < 4; ++k) rows[hinge.particles[k]] += stiffness * norms[k] * norms.sum();
+  }
+}
+
+std::vector<double> hinge_angles(const TriangleMesh& mesh, const PerParticle3& x) {
+  std::vector<double> angles;
+  angles.reserve(mesh.hinges.size());
+  for (const Hinge& hinge : mesh.hinges) {
+    const auto [i1, i2, i3, i4] = hinge.particles;
+    angles.push_back(hinge_angle(x.col(i1), x.col(i2), x.col(i3), x.col(i4)));
+  }
+  return angles;
+}
+
+Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material, const std::vector<double>& rest_angles) {
+  if (!(material.stiffness >= 0)) throw InputError("bending: stiffness must be a number >= 0 [J]");
+  if (!(material.damping >= 0)) throw InputError("bending: damping must be a number >= 0 [N s]");
+  if (rest_angles.size() != mesh.hinges.size())
+    throw InputError("bending: " + std::to_string(rest_angles.size()) + " rest angles given for " +
+                     std::to_string(mesh.hinges.size()) + " hinges");
+  bending_law(material.law);
+
+  Bending bending{material, {}};
+  bending.hinges.reserve(mesh.hinges.size());
+  for (size_t h = 0; h < mesh.hinges.size(); ++h) {
+    const double theta0 = rest_angles[h];
+    if (!(std::abs(theta0) <= pi)) throw InputError("bending: rest angles must lie in [-pi, pi] rad");
+    BendingHinge hinge{mesh.hinges[h].particles, 0, theta0, std::sin(theta0 / 2)};
+    const HingeShape shape = checked_shape_of(hinge, mesh.rest);
+    hinge.rest_weight = shape.edge * shape.edge / shape.area_sum;
+    bending.hinges.push_back(hinge);
+  }
+  return bending;
+}
+
+}  // namespace foldproof

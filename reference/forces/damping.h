@@ -1,0 +1,38 @@
+// The damping forces at one set of positions: F_damping = D v, linear in v, D symmetric negative semi-definite.
+//
+// Every damper of the paper resists one mode: F = -w (w.v), a matrix of rank one that is never assembled. All that depends
+// on positions is in w, computed once and used for every product of a solve (BMF03 section 3).
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "reference/types.h"
+
+namespace foldproof {
+
+/// Resists the lengthening of a pair: w = (-along, +along).
+struct PairDamper {
+  int a, b;
+  Vector3 along;  // sqrt(coefficient [N s/m]) times the unit direction from a to b
+};
+
+/// Resists the folding of a hinge: w = sqrt(coefficient) u, of which two vectors and two weights say everything:
+///   w3 = -(weight1 w1 + weight2 w2),   w4 = -((1 - weight1) w1 + (1 - weight2) w2)
+struct HingeDamper {
+  std::array<int, 4> particles;
+  double weight1, weight2;  // barycentric coordinates of x1 and x2 along the edge, 1 at x3 and 0 at x4
+  Vector3 w1, w2;
+};
+
+struct DampingOperator {
+  std::vector<PairDamper> pairs;
+  std::vector<HingeDamper> hinges;
+  std::vector<std::function<void(const PerParticle3& v, PerParticle3& f)>> custom;
+
+  /// f += D v; both 3 x N, v in m/s, f in N.
+  void add_product(const PerParticle3& v, PerParticle3& f) const;
+};
+
+}  // namespace foldproof

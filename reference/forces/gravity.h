@@ -1,0 +1,16 @@
+#pragma once
+
+#include "reference/types.h"
+
+namespace foldproof {
+
+/// A uniform force density: m_i g on every particle.
+struct Gravity {
+  Vector3 acceleration;  // g [m/s^2]
+  PerParticle mass;      // N [kg]
+
+  void add_elastic(const State& s, PerParticle3& f) const;
+  double energy(const State& s) const;  // -sum m_i g.x_i [J], zero at the origin
+};
+
+}  // namespace foldproof

@@ -1,0 +1,76 @@
+#include "reference/forces/springs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/forces/degenerate.h"
+
+namespace foldproof {
+
+namespace {
+
+double checked_length(const Vector3& d, const Spring& spring) {
+  const double length = d.norm();
+  if (!(length > 0)) throw DegenerateElement("a spring has no length", {spring.a, spring.b});
+  return length;
+}
+
+}  // namespace
+
+void StretchSprings::add_elastic(const State& s, PerParticle3& f) const {
+  for (const Spring& spring : springs) {
+    const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
+    const double length = checked_length(d, spring);
+    const Vector3 pull = spring.stiffness * (length - spring.rest_length) / length * d;
+    f.col(spring.a) += pull;
+    f.col(spring.b) -= pull;
+  }
+}
+
+double StretchSprings::energy(const State& s) const {
+  double sum = 0;
+  for (const Spring& spring : springs) {
+    const double extension = (s.x.col(spring.b) - s.x.col(spring.a)).norm() - spring.rest_length;
+    sum += 0.5 * spring.stiffness * extension * extension;
+  }
+  return sum;
+}
+
+void StretchSprings::prepare_damping(const State& s, DampingOperator& damping) const {
+  damping.pairs.reserve(damping.pairs.size() + springs.size());
+  for (const Spring& spring : springs) {
+    if (spring.damping == 0) continue;
+    const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
+    const double length = checked_length(d, spring);
+    damping.pairs.push_back({spring.a, spring.b, std::sqrt(spring.damping) / length * d});
+  }
+}
+
+void StretchSprings::add_stiffness_bound(const State& s, PerParticle& rows) const {
+  // One spring's stiffness matrix is k along d and tension/|d| across it; a row of it sums to at most twice the larger.
+  for (const Spring& spring : springs) {
+    const double length = checked_length(s.x.col(spring.b) - s.x.col(spring.a), spring);
+    const double across = spring.stiffness * std::abs(length - spring.rest_length) / length;
+    const double row = 2 * std::max(spring.stiffness, across);
+    rows[spring.a] += row;
+    rows[spring.b] += row;
+  }
+}
+
+StretchSprings make_springs(const TriangleMesh& mesh, const StretchMaterial& material) {
+  if (!(material.stiffness >= 0)) throw InputError("springs: stiffness must be a number >= 0 [N/m]");
+  if (!(material.damping >= 0)) throw InputError("springs: damping must be a number >= 0 [N s/m]");
+  if (!(material.rest_length_scale > 0)) throw InputError("springs: rest_length_scale must be > 0");
+
+  const Eigen::VectorXd lengths = rest_lengths(mesh), areas = edge_areas(mesh);
+  StretchSprings result;
+  result.springs.reserve(mesh.edges.size());
+  for (size_t e = 0; e < mesh.edges.size(); ++e) {
+    const double shape = areas[e] / (lengths[e] * lengths[e]);  // A_e/L0^2 of the rest shape [1]
+    result.springs.push_back({mesh.edges[e].a, mesh.edges[e].b, material.rest_length_scale * lengths[e],
+                              material.stiffness * shape, material.damping * shape});
+  }
+  return result;
+}
+
+}  // namespace foldproof

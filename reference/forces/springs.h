@@ -1,0 +1,49 @@
+// Springs along the edges: stretch and shear of the sheet (BMF03 presumes them; the mesh-independent form is ours).
+#pragma once
+
+#include <vector>
+
+#include "reference/forces/damping.h"
+#include "reference/mesh/triangle_mesh.h"
+#include "reference/types.h"
+
+namespace foldproof {
+
+//   a ----- b     d = x_b - x_a, d^ = d/|d|, L0 rest length, A_e full rest areas of the edge's one or two triangles
+//
+//   F_a =  Y (A_e/L0) (|d|/L0 - 1) d^  +  kd_s (A_e/L0^2) ((v_b - v_a).d^) d^,     F_b = -F_a
+//
+// so that the spring's stiffness is Y A_e/L0^2 [N/m]. On an equilateral mesh the sheet has Young's modulus Y [N/m] and
+// Poisson ratio 1/3 exactly; elsewhere effective ones.
+struct Spring {
+  int a, b;
+  double rest_length;  // L0 [m]
+  double stiffness;    // Y A_e/L0^2 [N/m]
+  double damping;      // kd_s A_e/L0^2 [N s/m]
+};
+
+struct StretchMaterial {
+  double stiffness = 0;          // Y, 2D Young's modulus [N/m]
+  double damping = 0;            // kd_s [N s/m]
+  double rest_length_scale = 1;  // rest lengths over those of the rest shape [1]
+};
+
+struct StretchSprings {
+  std::vector<Spring> springs;
+
+  /// Throws DegenerateElement when the ends of a spring coincide: its direction is lost there.
+  void add_elastic(const State& s, PerParticle3& f) const;
+
+  /// sum of stiffness/2 (|d| - L0)^2 [J].
+  double energy(const State& s) const;
+
+  void prepare_damping(const State& s, DampingOperator& damping) const;
+
+  /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see forces/force.h.
+  void add_stiffness_bound(const State& s, PerParticle& rows) const;
+};
+
+/// One spring per edge. Throws InputError when the material's values are not: stiffness >= 0, damping >= 0, scale > 0.
+StretchSprings make_springs(const TriangleMesh& mesh, const StretchMaterial& material);
+
+}  // namespace foldproof

@@ -1,0 +1,26 @@
+// Wavefront OBJ files: triangle meshes in and out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/mesh/triangle_mesh.h"
+
+namespace foldproof {
+
+/// Reads the vertices (v, in m) and faces (f) of an OBJ file; all other records are ignored, and so are w,
+/// colours, texture and normal indices. Polygons are cut into fans about their first vertex, which suits
+/// convex ones. Negative indices count back from the last vertex so far; vertices may also come after the
+/// faces that use them. Comments, CR LF and continued lines are understood. Numbers are read the same in
+/// every locale, to the nearest double.
+/// Throws InputError "FILE:LINE: reason; what to do": a file that cannot be read or holds no face, a
+/// malformed number or index, a face with fewer than three vertices, an index that is 0 or out of range, and
+/// all that make_triangle_mesh refuses.
+TriangleMesh read_obj(const std::string& path);
+
+/// Writes positions (3 x N [m]) and triangles. With 17 significant digits read_obj gets every bit back.
+/// Throws InputError: a file that cannot be written, a triangle with an index outside 0 .. N - 1.
+void write_obj(const std::string& path, const PerParticle3& positions,
+               const std::vector<Triangle>& triangles);
+
+}  // namespace foldproof

@@ -1,0 +1,64 @@
+// A triangle mesh with boundary, of any topology, oriented and manifold; its edges and hinges.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "reference/types.h"
+
+namespace foldproof {
+
+using Triangle = std::array<int, 3>;  // particles, counter-clockwise seen from the front
+
+struct Edge {
+  int a, b;                     // particles, a < b
+  std::array<int, 2> triangles;  // one or two triangles; the second is -1 on the boundary
+};
+
+//      x1
+//     /  \      triangles (x1, x3, x4) and (x2, x4, x3) share the edge 3-4 (BMF03 figure 1)
+//   x3 -- x4
+//     \  /
+//      x2
+struct Hinge {
+  std::array<int, 4> particles;  // x1, x2, x3, x4
+  int edge;                      // index into TriangleMesh::edges
+};
+
+struct TriangleMesh {
+  PerParticle3 rest;                // 3 x N rest positions [m]
+  std::vector<Triangle> triangles;  // M
+  std::vector<Edge> edges;          // sorted by (a, b)
+  std::vector<Hinge> hinges;        // one for each edge with two triangles, in the order of the edges
+
+  int particles() const { return int(rest.cols()); }
+};
+
+/// Where the parts of a mesh were read, so that a refusal can name the line. Empty for meshes made by code.
+struct MeshOrigin {
+  std::string file;
+  std::vector<int> vertex_lines;    // N, 1-based
+  std::vector<int> triangle_lines;  // M, 1-based
+};
+
+/// Finds edges and hinges of the triangles over the N rest positions (3 x N [m]).
+/// Refuses (InputError naming origin's file and line, and the reason) what is no oriented manifold with boundary: no triangles, indices out of
+/// range, NaN or infinite coordinates, unused vertices, zero-area triangles, edges with three triangles or more, two neighbours
+/// of opposite orientation, a vertex whose triangles do not form one fan.
+TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangles, const MeshOrigin& origin = {});
+
+/// Area of each triangle at the positions x (3 x N [m]); M values [m^2].
+Eigen::VectorXd triangle_areas(const std::vector<Triangle>& triangles, const PerParticle3& x);
+
+/// Lumped masses: a third of each adjacent triangle's rest area times the area density [kg/m^2]; N values [kg].
+PerParticle lumped_masses(const TriangleMesh& mesh, double density);
+
+/// Rest length of each edge [m], and the sum of the full rest areas of its one or two triangles [m^2].
+Eigen::VectorXd rest_lengths(const TriangleMesh& mesh);
+Eigen::VectorXd edge_areas(const TriangleMesh& mesh);
+
+/// V - E + F.
+int euler_characteristic(const TriangleMesh& mesh);
+
+}  // namespace foldproof

@@ -1,0 +1,53 @@
+#include "reference/motion/motion.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace foldproof {
+
+namespace {
+
+constexpr double two_pi = 6.283185307179586476925286766559;
+
+Vector3 turned(const Motion& motion, const Vector3& start, double t) {
+  const double rate = motion.angular_velocity.norm();
+  if (rate == 0) return start - motion.center;
+  return Eigen::AngleAxisd(rate * t, motion.angular_velocity / rate) * (start - motion.center);
+}
+
+}  // namespace
+
+Vector3 position_at(const Motion& motion, const Vector3& start, double t) {
+  const double swing = std::sin(two_pi * motion.frequency * t + motion.phase) - std::sin(motion.phase);
+  return motion.center + turned(motion, start, t) + t * motion.velocity + swing * motion.amplitude;
+}
+
+Vector3 velocity_at(const Motion& motion, const Vector3& start, double t) {
+  const double omega = two_pi * motion.frequency;
+  const double swing_rate = omega * std::cos(omega * t + motion.phase);
+  return motion.angular_velocity.cross(turned(motion, start, t)) + motion.velocity + swing_rate * motion.amplitude;
+}
+
+std::vector<KnownVelocity> velocities_at(const std::vector<PrescribedParticle>& led, double t) {
+  std::vector<KnownVelocity> known;
+  known.reserve(led.size());
+  for (const PrescribedParticle& p : led) known.push_back({p.particle, velocity_at(p.motion, p.start, t)});
+  return known;
+}
+
+std::vector<KnownVelocity> mean_velocities(const std::vector<PrescribedParticle>& led, const PerParticle3& x, double t,
+                                           double h) {
+  std::vector<KnownVelocity> known;
+  known.reserve(led.size());
+  for (const PrescribedParticle& p : led) {
+    const Vector3 end = position_at(p.motion, p.start, t + h);
+    known.push_back({p.particle, (end - x.col(p.particle)) / h});
+  }
+  return known;
+}
+
+void impose(const std::vector<KnownVelocity>& known, PerParticle3& v) {
+  for (const KnownVelocity& k : known) v.col(k.particle) = k.velocity;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,56 @@
+#include "reference/scene/scene.h"
+
+namespace foldproof {
+
+Scene scene_of(TriangleMesh mesh, double density) {
+  Scene scene;
+  scene.x = mesh.rest;
+  scene.v = PerParticle3::Zero(3, mesh.rest.cols());
+  scene.mesh = std::move(mesh);
+  scene.density = density;
+  return scene;
+}
+
+System build_system(const Scene& scene) {
+  System system = make_system(lumped_masses(scene.mesh, scene.density));
+  if (scene.gravity) system.forces.push_back(Gravity{*scene.gravity, system.mass});
+  if (scene.stretch) system.forces.push_back(make_springs(scene.mesh, *scene.stretch));
+  if (scene.bending) system.forces.push_back(make_bending(scene.mesh, *scene.bending, scene.rest_angles));
+  for (const PrescribedParticle& particle : scene.led) prescribe(system, particle);
+  system.solver = scene.solver;
+  return system;
+}
+
+State start_state(const Scene& scene) {
+  State s{0, scene.x, scene.v};
+  for (const PrescribedParticle& p : scene.led) {
+    s.x.col(p.particle) = position_at(p.motion, p.start, 0);
+    s.v.col(p.particle) = velocity_at(p.motion, p.start, 0);
+  }
+  return s;
+}
+
+namespace {
+
+std::string described(const BendingMaterial& material) {
+  return std::string(material.weighting == Weighting::rest ? "rest" : "current") + " weighting, law '" +
+         std::string(material.law) + "'" + (material.damping > 0 ? ", damped" : "");
+}
+
+}  // namespace
+
+std::vector<std::string> built_parts(const Scene& scene, const System& system) {
+  std::vector<std::string> parts = {std::to_string(scene.mesh.particles()) + " particles, " +
+                                    std::to_string(scene.mesh.triangles.size()) + " triangles"};
+  for (const Force& force : system.forces) {
+    if (std::holds_alternative<Gravity>(force)) parts.push_back("gravity");
+    if (const auto* springs = std::get_if<StretchSprings>(&force))
+      parts.push_back(std::to_string(springs->springs.size()) + " springs" + (scene.stretch->damping > 0 ? ", damped" : ""));
+    if (const auto* bending = std::get_if<Bending>(&force))
+      parts.push_back(std::to_string(bending->hinges.size()) + " hinges, " + described(bending->material));
+  }
+  if (!system.led.empty()) parts.push_back(std::to_string(system.led.size()) + " particles with prescribed motion");
+  return parts;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,266 @@
+#include "reference/scene/key_file.h"
+
+#include <toml++/toml.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace foldproof {
+
+namespace {
+
+std::string place(const std::string& file, const toml::source_region& source) {
+  return source.begin.line == 0 || file.starts_with("--") ? file : file + ":" + std::to_string(source.begin.line);
+}
+
+std::shared_ptr<KeyTable> converted(const toml::table& table, const std::string& name, const std::string& file);
+
+KeyValue converted(const toml::node& node, const std::string& name, const std::string& file) {
+  const std::string where = place(file, node.source());
+  if (const auto* value = node.as_boolean()) return {value->get(), where};
+  if (const auto* value = node.as_integer()) return {long(value->get()), where};
+  if (const auto* value = node.as_floating_point()) return {value->get(), where};
+  if (const auto* value = node.as_string()) return {value->get(), where};
+  if (const auto* value = node.as_table()) return {converted(*value, name, file), where};
+  if (const auto* list = node.as_array()) {
+    std::vector<KeyValue> values;
+    for (const toml::node& entry : *list) values.push_back(converted(entry, name, file));
+    return {values, where};
+  }
+  throw InputError(where + ": '" + name + "' is a date or time, which no key takes");
+}
+
+std::shared_ptr<KeyTable> converted(const toml::table& table, const std::string& name, const std::string& file) {
+  auto result = std::make_shared<KeyTable>(name, place(file, table.source()));
+  for (const auto& [key, node] : table) {
+    const std::string full = name.empty() ? std::string(key) : name + "." + std::string(key);
+    KeyValue value = converted(node, full, file);
+    value.where = file.starts_with("--") ? file : file + ":" + std::to_string(key.source().begin.line);
+    result->entries.emplace(std::string(key), std::move(value));
+  }
+  return result;
+}
+
+const double* as_number(const KeyValue& value, double& storage) {
+  if (const auto* integer = std::get_if<long>(&value.data)) {
+    storage = double(*integer);
+    return &storage;
+  }
+  const auto* number = std::get_if<double>(&value.data);
+  return number && std::isfinite(*number) ? number : nullptr;
+}
+
+bool as_vector(const KeyValue& value, Vector3& result) {
+  const auto* list = std::get_if<std::vector<KeyValue>>(&value.data);
+  if (!list || list->size() != 3) return false;
+  for (int k = 0; k < 3; ++k) {
+    double storage = 0;
+    const double* number = as_number((*list)[size_t(k)], storage);
+    if (!number) return false;
+    result[k] = *number;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool KeyTable::has(const std::string& key) const {
+  asked_.insert(key);
+  return entries.contains(key);
+}
+
+const KeyValue& KeyTable::required(const std::string& key) const {
+  if (!has(key)) throw InputError(where_ + ": " + (name_.empty() ? "the file" : "[" + name_ + "]") + " needs the key '" + key + "'");
+  return entries.at(key);
+}
+
+void KeyTable::wrong_type(const std::string& key, const std::string& wanted) const {
+  throw InputError(where(key) + ": '" + key + "'" + (name_.empty() ? "" : " in [" + name_ + "]") + " must be " + wanted);
+}
+
+std::string KeyTable::where(const std::string& key) const {
+  const auto entry = entries.find(key);
+  return entry == entries.end() ? where_ : entry->second.where;
+}
+
+double KeyTable::number(const std::string& key) const {
+  double storage = 0;
+  const double* number = as_number(required(key), storage);
+  if (!number) wrong_type(key, "a finite number");
+  return *number;
+}
+
+double KeyTable::number_or(const std::string& key, double otherwise) const { return has(key) ? number(key) : otherwise; }
+
+long KeyTable::integer(const std::string& key) const {
+  const auto* value = std::get_if<long>(&required(key).data);
+  if (!value) wrong_type(key, "a whole number");
+  return *value;
+}
+
+long KeyTable::integer_or(const std::string& key, long otherwise) const { return has(key) ? integer(key) : otherwise; }
+
+bool KeyTable::flag_or(const std::string& key, bool otherwise) const {
+  if (!has(key)) return otherwise;
+  const auto* value = std::get_if<bool>(&required(key).data);
+  if (!value) wrong_type(key, "true or false");
+  return *value;
+}
+
+std::string KeyTable::text(const std::string& key) const {
+  const auto* value = std::get_if<std::string>(&required(key).data);
+  if (!value) wrong_type(key, "a text in quotes");
+  return *value;
+}
+
+std::string KeyTable::text_or(const std::string& key, const std::string& otherwise) const {
+  return has(key) ? text(key) : otherwise;
+}
+
+bool KeyTable::is_text(const std::string& key) const {
+  return has(key) && std::holds_alternative<std::string>(entries.at(key).data);
+}
+
+Vector3 KeyTable::vector(const std::string& key) const {
+  Vector3 result;
+  if (!as_vector(required(key), result)) wrong_type(key, "three numbers [x, y, z]");
+  return result;
+}
+
+Vector3 KeyTable::vector_or(const std::string& key, const Vector3& otherwise) const {
+  return has(key) ? vector(key) : otherwise;
+}
+
+std::vector<long> KeyTable::integers(const std::string& key) const {
+  const auto* list = std::get_if<std::vector<KeyValue>>(&required(key).data);
+  if (!list) wrong_type(key, "a list of whole numbers");
+  std::vector<long> result;
+  for (const KeyValue& entry : *list) {
+    const auto* value = std::get_if<long>(&entry.data);
+    if (!value) wrong_type(key, "a list of whole numbers");
+    result.push_back(*value);
+  }
+  return result;
+}
+
+std::vector<std::string> KeyTable::texts(const std::string& key) const {
+  const auto* list = std::get_if<std::vector<KeyValue>>(&required(key).data);
+  if (!list) wrong_type(key, "a list of texts");
+  std::vector<std::string> result;
+  for (const KeyValue& entry : *list) {
+    const auto* value = std::get_if<std::string>(&entry.data);
+    if (!value) wrong_type(key, "a list of texts");
+    result.push_back(*value);
+  }
+  return result;
+}
+
+std::vector<Vector3> KeyTable::vectors(const std::string& key) const {
+  const auto* list = std::get_if<std::vector<KeyValue>>(&required(key).data);
+  if (!list) wrong_type(key, "a list of points [[x, y, z], ...]");
+  std::vector<Vector3> result(list->size());
+  for (size_t k = 0; k < list->size(); ++k)
+    if (!as_vector((*list)[k], result[k])) wrong_type(key, "a list of points [[x, y, z], ...]");
+  return result;
+}
+
+std::shared_ptr<KeyTable> KeyTable::table(const std::string& key) const {
+  if (!has(key)) return nullptr;
+  const auto* value = std::get_if<std::shared_ptr<KeyTable>>(&entries.at(key).data);
+  if (!value) wrong_type(key, "a table");
+  return *value;
+}
+
+std::vector<std::shared_ptr<KeyTable>> KeyTable::tables(const std::string& key) const {
+  std::vector<std::shared_ptr<KeyTable>> result;
+  if (!has(key)) return result;
+  const auto* list = std::get_if<std::vector<KeyValue>>(&entries.at(key).data);
+  if (!list) wrong_type(key, "a list of tables, [[" + key + "]]");
+  for (const KeyValue& entry : *list) {
+    const auto* value = std::get_if<std::shared_ptr<KeyTable>>(&entry.data);
+    if (!value) wrong_type(key, "a list of tables, [[" + key + "]]");
+    result.push_back(*value);
+  }
+  return result;
+}
+
+void KeyTable::refuse_unused() const {
+  std::string known;
+  for (const std::string& key : asked_) known += (known.empty() ? "" : ", ") + key;
+  for (const auto& [key, value] : entries) {
+    if (!asked_.contains(key))
+      throw InputError(value.where + ": unknown key '" + key + "' in " + (name_.empty() ? "the file" : "[" + name_ + "]") +
+                       "; known here: " + known);
+    if (const auto* below = std::get_if<std::shared_ptr<KeyTable>>(&value.data)) (*below)->refuse_unused();
+    if (const auto* list = std::get_if<std::vector<KeyValue>>(&value.data))
+      for (const KeyValue& entry : *list)
+        if (const auto* below = std::get_if<std::shared_ptr<KeyTable>>(&entry.data)) (*below)->refuse_unused();
+  }
+}
+
+std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file) {
+  try {
+    return converted(toml::parse(text, file), "", file);
+  } catch (const toml::parse_error& error) {
+    throw InputError(place(file, error.source()) + ": " + std::string(error.description()));
+  }
+}
+
+namespace {
+
+KeyValue parsed_value(const std::string& text) {
+  try {
+    return converted(*toml::parse("value = " + text).get("value"), "value", "--set");
+  } catch (const toml::parse_error&) {
+    return {text, "--set"};
+  }
+}
+
+KeyTable& table_below(KeyTable& table, const std::string& step, const std::string& assignment) {
+  auto [entry, is_new] = table.entries.try_emplace(step, KeyValue{std::make_shared<KeyTable>(step, "--set"), "--set"});
+  auto* below = std::get_if<std::shared_ptr<KeyTable>>(&entry->second.data);
+  if (!below) throw InputError("--set " + assignment + ": '" + step + "' is not a table");
+  return **below;
+}
+
+KeyTable& list_entry(KeyTable& table, const std::string& step, const std::string& number, const std::string& assignment) {
+  const auto entry = table.entries.find(step);
+  auto* list = entry == table.entries.end() ? nullptr : std::get_if<std::vector<KeyValue>>(&entry->second.data);
+  const size_t index = std::stoul(number);
+  if (!list || index >= list->size()) throw InputError("--set " + assignment + ": there is no " + step + "." + number);
+  auto* below = std::get_if<std::shared_ptr<KeyTable>>(&(*list)[index].data);
+  if (!below) throw InputError("--set " + assignment + ": " + step + "." + number + " is not a table");
+  return **below;
+}
+
+bool is_number(const std::string& text) {
+  return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+}  // namespace
+
+void set_key(KeyTable& root, const std::string& assignment) {
+  const size_t equals = assignment.find('=');
+  std::vector<std::string> path;
+  std::istringstream steps(assignment.substr(0, equals));
+  for (std::string step; std::getline(steps, step, '.');) path.push_back(step);
+  if (equals == std::string::npos || path.empty()) throw InputError("--set " + assignment + ": write table.key=value");
+
+  KeyTable* table = &root;
+  for (size_t k = 0; k + 1 < path.size(); ++k) {
+    const bool picks = k + 2 < path.size() && is_number(path[k + 1]);
+    table = picks ? &list_entry(*table, path[k], path[k + 1], assignment) : &table_below(*table, path[k], assignment);
+    if (picks) ++k;
+  }
+  table->entries.insert_or_assign(path.back(), parsed_value(assignment.substr(equals + 1)));
+}
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!(text << file.rdbuf())) throw InputError(path + ": cannot be read, or is empty");
+  return text.str();
+}
+
+}  // namespace foldproof

@@ -1,0 +1,74 @@
+// Keys of a TOML file, each with the place it was read; a key that nobody asks for is an error.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "reference/types.h"
+
+namespace foldproof {
+
+class KeyTable;
+
+struct KeyValue {
+  std::variant<bool, long, double, std::string, std::vector<KeyValue>, std::shared_ptr<KeyTable>> data;
+  std::string where;  // "file:line", or "--set"
+};
+
+/// One table of keys. Every reader throws InputError "file:line: ..." for a missing key, a wrong type or a number that is not finite.
+class KeyTable {
+ public:
+  KeyTable(std::string name, std::string where) : name_(std::move(name)), where_(std::move(where)) {}
+
+  bool has(const std::string& key) const;  // asking makes the key known
+  double number(const std::string& key) const;
+  double number_or(const std::string& key, double otherwise) const;
+  long integer(const std::string& key) const;
+  long integer_or(const std::string& key, long otherwise) const;
+  bool flag_or(const std::string& key, bool otherwise) const;
+  std::string text(const std::string& key) const;
+  std::string text_or(const std::string& key, const std::string& otherwise) const;
+  bool is_text(const std::string& key) const;
+  Vector3 vector(const std::string& key) const;
+  Vector3 vector_or(const std::string& key, const Vector3& otherwise) const;
+  std::vector<long> integers(const std::string& key) const;
+  std::vector<std::string> texts(const std::string& key) const;
+  std::vector<Vector3> vectors(const std::string& key) const;
+
+  /// The table under the key; nullptr if there is none.
+  std::shared_ptr<KeyTable> table(const std::string& key) const;
+  /// The tables of [[key]]; empty if there is none.
+  std::vector<std::shared_ptr<KeyTable>> tables(const std::string& key) const;
+
+  /// "file:line" of the key, or of the table if it lacks the key.
+  std::string where(const std::string& key) const;
+  const std::string& where() const { return where_; }
+
+  /// Throws InputError for the first key, here or below, that no one asked for, and lists those that were.
+  void refuse_unused() const;
+
+  std::map<std::string, KeyValue> entries;
+
+ private:
+  const KeyValue& required(const std::string& key) const;
+  [[noreturn]] void wrong_type(const std::string& key, const std::string& wanted) const;
+
+  std::string name_, where_;
+  mutable std::set<std::string> asked_;
+};
+
+/// Parses TOML text; `file` names it in messages. Throws InputError "file:line: ..." for a syntax error.
+std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file);
+
+/// Overrides "a.b.c=value" (value as in TOML; what does not parse as such is taken for a string; a number in the path
+/// picks an entry of a list). Missing tables are made. Throws InputError for an override without '=' or a path through a value.
+void set_key(KeyTable& root, const std::string& assignment);
+
+/// The whole file. Throws InputError if it cannot be read.
+std::string read_text(const std::string& path);
+
+}  // namespace foldproof

@@ -1,0 +1,213 @@
+#include <Eigen/Geometry>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <random>
+
+#include "reference/scene/key_file.h"
+#include "reference/scene/scene.h"
+#include "reference/scene/shapes_of.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double radians_per_degree = 3.14159265358979323846 / 180;
+
+double positive(const KeyTable& keys, const std::string& key) {
+  const double value = keys.number(key);
+  if (!(value > 0)) throw InputError(keys.where(key) + ": '" + key + "' must be > 0");
+  return value;
+}
+
+double positive_or(const KeyTable& keys, const std::string& key, double otherwise) {
+  return keys.has(key) ? positive(keys, key) : otherwise;
+}
+
+double not_negative_or(const KeyTable& keys, const std::string& key, double otherwise) {
+  const double value = keys.number_or(key, otherwise);
+  if (!(value >= 0)) throw InputError(keys.where(key) + ": '" + key + "' must not be negative");
+  return value;
+}
+
+template <class Choice>
+Choice choice(const KeyTable& keys, const std::string& key, std::vector<std::pair<std::string, Choice>> choices) {
+  const std::string wanted = keys.text_or(key, choices.front().first);  // the first is the default
+  std::string known;
+  for (const auto& [name, value] : choices) {
+    if (name == wanted) return value;
+    known += (known.empty() ? "" : ", ") + name;
+  }
+  throw InputError(keys.where(key) + ": unknown " + key + " '" + wanted + "'; known: " + known);
+}
+
+StretchMaterial read_stretch(const KeyTable& keys) {
+  StretchMaterial material;
+  material.stiffness = not_negative_or(keys, "stiffness", keys.number("stiffness"));
+  material.damping = not_negative_or(keys, "damping", 0);
+  material.rest_length_scale = positive_or(keys, "rest_length_scale", 1);
+  return material;
+}
+
+BendingMaterial read_bending(const KeyTable& keys) {
+  BendingMaterial material;
+  material.stiffness = not_negative_or(keys, "stiffness", keys.number("stiffness"));
+  material.damping = not_negative_or(keys, "damping", 0);
+  material.weighting = choice<Weighting>(keys, "weighting", {{"rest", Weighting::rest}, {"current", Weighting::current}});
+  material.damping_factor = choice<DampingFactor>(
+      keys, "damping_factor",
+      {{"edge", DampingFactor::edge}, {"edge_squared_over_area", DampingFactor::edge_squared_over_area}});
+  std::vector<std::pair<std::string, std::string_view>> laws;
+  for (const BendingLaw& law : bending_laws()) laws.emplace_back(std::string(law.name), law.name);
+  material.law = choice<std::string_view>(keys, "law", laws);
+  return material;
+}
+
+std::vector<double> read_rest_angles(const KeyTable& keys, const TriangleMesh& mesh) {
+  if (keys.has("rest_angle") && !keys.is_text("rest_angle")) {
+    const double degrees = keys.number("rest_angle");
+    if (!(std::abs(degrees) <= 180)) throw InputError(keys.where("rest_angle") + ": 'rest_angle' must lie in [-180, 180] degrees");
+    return std::vector<double>(mesh.hinges.size(), degrees * radians_per_degree);
+  }
+  enum class Source { rest_shape, flat };
+  const Source source =
+      choice<Source>(keys, "rest_angle", {{"rest_shape", Source::rest_shape}, {"flat", Source::flat}});
+  if (source == Source::flat) return std::vector<double>(mesh.hinges.size(), 0.0);
+  return hinge_angles(mesh, mesh.rest);
+}
+
+Motion read_motion(const KeyTable& keys) {
+  Motion motion;
+  motion.velocity = keys.vector_or("velocity", Vector3::Zero());
+  motion.amplitude = keys.vector_or("amplitude", Vector3::Zero());
+  motion.frequency = keys.number_or("frequency", 0);
+  motion.phase = keys.number_or("phase", 0) * radians_per_degree;
+  motion.center = keys.vector_or("center", Vector3::Zero());
+  motion.angular_velocity = keys.vector_or("angular_velocity", Vector3::Zero()) * radians_per_degree;
+  return motion;
+}
+
+std::vector<int> particles_in_box(const KeyTable& keys, const PerParticle3& x) {
+  const std::vector<Vector3> box = keys.vectors("box");
+  if (box.size() != 2) throw InputError(keys.where("box") + ": 'box' must be two points [[x, y, z], [x, y, z]], lowest and highest");
+  std::vector<int> chosen;
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    if ((x.col(i).array() >= box[0].array()).all() && (x.col(i).array() <= box[1].array()).all()) chosen.push_back(int(i));
+  return chosen;
+}
+
+std::vector<int> particles_at_top(const KeyTable& keys, const PerParticle3& x) {
+  const double fraction = positive(keys, "top");
+  const double low = x.row(1).minCoeff(), high = x.row(1).maxCoeff();
+  std::vector<int> chosen;
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    if (x(1, i) >= high - fraction * (high - low)) chosen.push_back(int(i));
+  return chosen;
+}
+
+std::vector<int> particles_named(const KeyTable& keys, Eigen::Index count) {
+  std::vector<int> chosen;
+  for (long i : keys.integers("particles")) {
+    if (i < 0 || i >= count)
+      throw InputError(keys.where("particles") + ": particle " + std::to_string(i) + " does not exist; there are " + std::to_string(count));
+    chosen.push_back(int(i));
+  }
+  return chosen;
+}
+
+void read_hold(const KeyTable& keys, Scene& scene) {
+  if (int(keys.has("particles")) + int(keys.has("box")) + int(keys.has("top")) != 1)
+    throw InputError(keys.where() + ": [[hold]] needs one of 'particles', 'box', 'top'");
+  const std::vector<int> chosen = keys.has("particles") ? particles_named(keys, scene.x.cols())
+                                  : keys.has("box")     ? particles_in_box(keys, scene.x)
+                                                        : particles_at_top(keys, scene.x);
+  if (chosen.empty()) throw InputError(keys.where() + ": [[hold]] names no particle");
+  const Motion motion = read_motion(keys);
+  for (int i : chosen) scene.led.push_back({i, scene.x.col(i), motion});
+}
+
+void read_start(const KeyTable& keys, Scene& scene) {
+  const Vector3 center = scene.x.rowwise().mean();
+  const double stretch = positive_or(keys, "stretch", 1);
+  scene.x = (stretch * (scene.x.colwise() - center)).colwise() + center;
+
+  const Vector3 spin = keys.vector_or("spin", Vector3::Zero()) * radians_per_degree;
+  const Vector3 velocity = keys.vector_or("velocity", Vector3::Zero());
+  const double noise = not_negative_or(keys, "noise", 0);
+  std::mt19937_64 random(std::uint64_t(keys.integer_or("seed", 1)));
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    const Vector3 arm = scene.x.col(i) - center;
+    scene.v.col(i) = velocity + spin.cross(arm);
+    for (int k = 0; k < 3; ++k) scene.x(k, i) += noise * (2 * double(random() >> 11) * 0x1p-53 - 1);
+  }
+}
+
+void read_time(const KeyTable& keys, Scene& scene) {
+  scene.schedule.end = positive(keys, "end");
+  scene.schedule.frame_interval = 1 / positive_or(keys, "frames_per_second", 30);
+  if (keys.is_text("step")) {
+    if (keys.text("step") != "automatic") throw InputError(keys.where("step") + ": 'step' must be a number [s] or \"automatic\"");
+  } else if (keys.has("step")) {
+    scene.schedule.step.fixed = positive(keys, "step");
+  }
+  scene.schedule.step.safety = positive_or(keys, "safety", scene.schedule.step.safety);
+  scene.schedule.step.strain_per_step = positive_or(keys, "strain_per_step", scene.schedule.step.strain_per_step);
+  scene.schedule.max_steps = keys.integer_or("max_steps", scene.schedule.max_steps);
+  scene.integrator = keys.text_or("integrator", scene.integrator);
+  try {
+    integrator_named(scene.integrator);
+  } catch (const InputError& error) {
+    throw InputError(keys.where("integrator") + ": " + error.what());
+  }
+}
+
+void read_solver(const KeyTable& keys, SolverSettings& solver) {
+  solver.tolerance = positive_or(keys, "tolerance", solver.tolerance);
+  solver.max_iterations = int(keys.integer_or("max_iterations", solver.max_iterations));
+  solver.scale = choice<ResidualScale>(
+      keys, "relative_to", {{"momentum", ResidualScale::momentum}, {"initial_residual", ResidualScale::initial_residual}});
+}
+
+Scene scene_from(const KeyTable& keys, const std::string& folder) {
+  const auto cloth = keys.table("cloth"), time = keys.table("time");
+  if (!cloth || !time) throw InputError(keys.where() + ": a case needs the tables [cloth] and [time]");
+  PlacedMesh placed = read_cloth_mesh(*cloth, folder);
+  Scene scene = scene_of(std::move(placed.mesh), positive(*cloth, "density"));
+  scene.x = std::move(placed.start);
+  scene.title = keys.text_or("title", "");
+  scene.about = keys.text_or("about", "");
+
+  if (const auto start = keys.table("start")) read_start(*start, scene);
+  if (const auto gravity = keys.table("gravity")) scene.gravity = gravity->vector_or("acceleration", {0, -9.80665, 0});
+  if (const auto stretch = keys.table("stretch")) scene.stretch = read_stretch(*stretch);
+  if (const auto bending = keys.table("bending")) {
+    scene.bending = read_bending(*bending);
+    scene.rest_angles = read_rest_angles(*bending, scene.mesh);
+  }
+  for (const auto& hold : keys.tables("hold")) read_hold(*hold, scene);
+  read_time(*time, scene);
+  if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
+  keys.refuse_unused();
+  build_system(scene);  // a particle held twice and the like are found here, not in the middle of a run
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene_text(const std::string& text, const std::string& path, const std::vector<std::string>& overrides) {
+  const auto keys = parse_keys(text, path);
+  for (const std::string& assignment : overrides) set_key(*keys, assignment);
+  const std::filesystem::path file(path);
+  Scene scene = scene_from(*keys, file.parent_path().string());
+  scene.name = file.stem().string();
+  scene.text = text;
+  for (const std::string& assignment : overrides) scene.text += "\n# --set " + assignment;
+  return scene;
+}
+
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": there is no such case file");
+  return read_scene_text(read_text(path), path, overrides);
+}
+
+}  // namespace foldproof

@@ -1,0 +1,108 @@
+#include "reference/scene/shapes_of.h"
+
+#include <Eigen/Geometry>
+#include <filesystem>
+
+#include "reference/mesh/obj.h"
+#include "reference/mesh/shapes.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double radians_per_degree = 3.14159265358979323846 / 180;
+
+struct PatternName {
+  const char* name;
+  SheetPattern pattern;
+};
+
+constexpr PatternName patterns[] = {
+    {"one_diagonal", SheetPattern::one_diagonal}, {"alternating", SheetPattern::alternating},
+    {"union_jack", SheetPattern::union_jack},     {"criss_cross", SheetPattern::criss_cross},
+    {"equilateral", SheetPattern::equilateral},   {"jittered", SheetPattern::jittered},
+    {"random_delaunay", SheetPattern::random_delaunay},
+};
+
+SheetPattern read_pattern(const KeyTable& keys) {
+  const std::string wanted = keys.text_or("pattern", "one_diagonal");
+  std::string known;
+  for (const auto& [name, pattern] : patterns) {
+    if (name == wanted) return pattern;
+    known += (known.empty() ? "" : ", ") + std::string(name);
+  }
+  throw InputError(keys.where("pattern") + ": unknown pattern '" + wanted + "'; known: " + known);
+}
+
+TriangleMesh read_sheet(const KeyTable& keys) {
+  Sheet sheet;
+  sheet.pattern = read_pattern(keys);
+  sheet.width = keys.number("width");
+  sheet.height = keys.number("height");
+  sheet.columns = int(keys.integer("columns"));
+  sheet.rows = int(keys.integer("rows"));
+  sheet.jitter = keys.number_or("jitter", 0);
+  sheet.seed = unsigned(keys.integer_or("seed", 1));
+  return make_sheet(sheet);
+}
+
+TriangleMesh make_shape(const KeyTable& keys) {
+  const std::string shape = keys.text("shape");
+  if (shape == "sheet") return read_sheet(keys);
+  if (shape == "disc") return make_disc(keys.number("radius"), int(keys.integer("rings")));
+  if (shape == "cylinder")
+    return make_cylinder(keys.number("radius"), keys.number("height"), int(keys.integer("around")),
+                         int(keys.integer("along")));
+  if (shape == "sphere") return make_icosphere(keys.number("radius"), int(keys.integer("subdivisions")));
+  if (shape == "statue") return make_statue(keys.number("height"), int(keys.integer("subdivisions")));
+  if (shape == "hinge") return make_hinge(keys.number("length"), keys.number("angle") * radians_per_degree);
+  throw InputError(keys.where("shape") + ": unknown shape '" + shape +
+                   "'; known: sheet, disc, cylinder, sphere, statue, hinge");
+}
+
+TriangleMesh read_mesh_file(const KeyTable& keys, const std::string& folder) {
+  std::filesystem::path file = keys.text("mesh");
+  const std::string where = keys.where("mesh");
+  if (file.empty()) throw InputError(where + ": this case takes a mesh of yours: --set cloth.mesh=FILE.obj");
+  if (file.is_relative() && where != "--set") file = folder / file;
+  if (!std::filesystem::exists(file)) throw InputError(where + ": there is no mesh file '" + file.string() + "'");
+  return read_obj(file.string());
+}
+
+/// Scales, turns and moves the positions, in this order.
+void place(const KeyTable& keys, PerParticle3& x) {
+  if (keys.has("fit")) {
+    const double size = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff(), wanted = keys.number("fit");
+    if (!(wanted > 0)) throw InputError(keys.where("fit") + ": 'fit' must be > 0 m");
+    x *= wanted / size;
+  }
+  if (const auto turn = keys.table("turn")) {
+    const Vector3 axis = turn->vector("axis");
+    if (!(axis.norm() > 0)) throw InputError(turn->where("axis") + ": 'axis' must not be zero");
+    const PerParticle3 turned =
+        Eigen::AngleAxisd(turn->number("angle") * radians_per_degree, axis.normalized()).toRotationMatrix() * x;
+    x = turned;
+  }
+  x.colwise() += keys.vector_or("move", Vector3::Zero());
+}
+
+}  // namespace
+
+PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder) {
+  if (cloth.has("shape") == cloth.has("mesh"))
+    throw InputError(cloth.where("mesh") + ": [cloth] needs either 'shape' or 'mesh' (an OBJ file), and not both");
+  PlacedMesh result{cloth.has("mesh") ? read_mesh_file(cloth, folder) : make_shape(cloth), {}};
+
+  const auto pleats = cloth.table("pleats");
+  result.start = result.mesh.rest;
+  if (pleats) {
+    result.mesh.rest = pleated(result.mesh, int(pleats->integer("columns")), pleats->number("angle") * radians_per_degree);
+    if (!pleats->flag_or("start_flat", true)) result.start = result.mesh.rest;
+  }
+  place(cloth, result.start);
+  if (!pleats) result.mesh.rest = result.start;
+  if (pleats && cloth.has("fit")) throw InputError(cloth.where("fit") + ": 'fit' does not go with pleats");
+  return result;
+}
+
+}  // namespace foldproof

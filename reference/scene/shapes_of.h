@@ -1,0 +1,17 @@
+// The cloth of a case: its mesh, made or read, placed in the world.
+#pragma once
+
+#include "reference/mesh/triangle_mesh.h"
+#include "reference/scene/key_file.h"
+
+namespace foldproof {
+
+struct PlacedMesh {
+  TriangleMesh mesh;  // with the rest shape
+  PerParticle3 start;  // 3 x N [m]
+};
+
+/// Reads the keys of [cloth] that say shape and place. folder: where relative files of the case are looked for.
+PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder);
+
+}  // namespace foldproof

@@ -1,0 +1,39 @@
+// The words everything else is written in: state, work, and the unit convention.
+//
+// Units are SI throughout: m, s, kg, N, J. Angles are in radians in code, in degrees in case files (each key says so).
+#pragma once
+
+#include <Eigen/Core>
+#include <stdexcept>
+#include <string>
+
+namespace foldproof {
+
+using Vector3 = Eigen::Vector3d;
+using PerParticle = Eigen::VectorXd;     // N
+using PerParticle3 = Eigen::Matrix3Xd;   // 3 x N; column i belongs to particle i
+
+/// Positions and velocities at one time.
+struct State {
+  double time = 0;  // s
+  PerParticle3 x;   // 3 x N [m]
+  PerParticle3 v;   // 3 x N [m/s]
+};
+
+/// Counted work: what a method costs, whatever the machine. Returned or added to, never global.
+struct Work {
+  long elastic_evaluations = 0;    // evaluations of all elastic and external forces of the system
+  long damping_preparations = 0;   // times the position-dependent terms of the damping forces were computed
+  long damping_products = 0;       // products D(x) v
+  long solves = 0;                 // linear systems solved for a velocity
+  long cg_iterations = 0;          // over all solves
+  long unfinished_solves = 0;      // solves that hit the cap on iterations before they kept their promise
+  double worst_residual = 0;       // largest relative residual returned by a solve [1]
+};
+
+/// Bad input: the message says what, where and what to do.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace foldproof

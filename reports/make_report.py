@@ -1,0 +1,131 @@
+#!/usr/bin/python3
+"""Writes the report of a run: one HTML page that needs nothing beside it, and its figures as files.
+
+    reports/make_report.py results                    -> results/report.html, results/figures/
+    reports/make_report.py results --out page.html --figures paper
+"""
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+sys.dont_write_bytecode = True
+
+from case_pictures import make_pictures  # noqa: E402
+from case_plots import plot_diagnostics  # noqa: E402
+from page import CaseView, Page, StudyView, faults_of, findings_by_section, render  # noqa: E402
+from plot_style import use_style  # noqa: E402
+from results import CaseEntry, Run, Study, case_entry_of_file, load_case, load_run  # noqa: E402
+from study_plots import plot_study_figure  # noqa: E402
+
+Job = tuple[Callable[..., Any], tuple[Any, ...]]
+
+
+def main() -> int:
+    """Returns 0 when the report is written, 2 when there is nothing to report on."""
+    parser = argparse.ArgumentParser(description="Write the report of a run as one self-contained HTML page.")
+    parser.add_argument("dir", metavar="DIR", type=Path, help="folder with run.h5, bench.h5 or case files")
+    parser.add_argument("--out", metavar="FILE", type=Path, help="the page (default: DIR/report.html)")
+    parser.add_argument("--figures", metavar="DIR", type=Path,
+                        help="folder for the figures (default: DIR/figures)")
+    said = parser.parse_args()
+    try:
+        out = make_report(said.dir, said.out or said.dir / "report.html",
+                          said.figures or said.dir / "figures")
+    except (OSError, KeyError) as error:
+        print(f"make_report: {error}", file=sys.stderr)
+        return 2
+    print(out)
+    return 0
+
+
+def make_report(folder: Path, out: Path, figures: Path) -> Path:
+    """Reads the folder, draws, and writes the page. Throws FileNotFoundError if the folder holds no
+    results."""
+    run, bench = read_folder(folder)
+    figures.mkdir(parents=True, exist_ok=True)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    page = draw(run, bench, figures)
+    unfinished = out.with_name(out.name + ".unfinished")
+    unfinished.write_text(render(page), encoding="utf-8")
+    os.replace(unfinished, out)
+    return out
+
+
+def read_folder(folder: Path) -> tuple[Run, Run | None]:
+    """The run (made up of the case files alone if there is no run.h5) and the speed measurements, if any."""
+    bench = load_run(folder / "bench.h5") if (folder / "bench.h5").is_file() else None
+    if (folder / "run.h5").is_file():
+        return load_run(folder / "run.h5"), bench
+    entries = [case_entry_of_file(path) for path in sorted(folder.glob("*.h5")) if path.name != "bench.h5"]
+    cases = [entry for entry in entries if entry is not None]
+    if not cases and bench is None:
+        raise FileNotFoundError(f"{folder}: no run.h5, no bench.h5 and no case file; run `foldproof verify` "
+                                "or `foldproof run` with --out first")
+    provenance = load_case(cases[0].path).about_run if cases else bench.provenance
+    return Run(provenance=provenance, findings=[], studies=[], cases=cases, faults=[]), bench
+
+
+def draw(run: Run, bench: Run | None, figures: Path) -> Page:
+    """Draws everything, on all cores, and gathers it for the page."""
+    bench_studies = bench.studies if bench else []
+    jobs: list[Job] = [(draw_case, (entry, figures)) for entry in run.cases]
+    jobs += [(draw_study, (study, figures)) for study in run.studies + bench_studies]
+    drawn = run_jobs(jobs)
+    cases, studies = drawn[:len(run.cases)], drawn[len(run.cases):]
+    everything = run.findings + (bench.findings if bench else [])
+    for view in studies:
+        view.findings = [finding for finding in everything
+                         if finding.kind == "study" and finding.study == view.study.name]
+    checks, others, rates = findings_by_section(run, bench)
+    return Page(provenance=run.provenance, checks=checks, studies=studies[:len(run.studies)],
+                other_findings=others, cases=cases, rates=rates, bench_studies=studies[len(run.studies):],
+                bench_provenance=bench.provenance if bench else {}, faults=faults_of(run))
+
+
+def run_jobs(jobs: list[Job]) -> list[Any]:
+    """The results of the jobs, in their order; one process per core."""
+    workers = min(os.cpu_count() or 1, len(jobs))
+    if workers < 2:
+        use_style()
+        return [make(*arguments) for make, arguments in jobs]
+    with ProcessPoolExecutor(workers, initializer=use_style) as pool:
+        waiting = [pool.submit(make, *arguments) for make, arguments in jobs]
+        return [job.result() for job in waiting]
+
+
+def draw_study(study: Study, figures: Path) -> StudyView:
+    """All figures of one study."""
+    name = file_name(study.name)
+    plots = [plot_study_figure(figure, f"{name}-{file_name(figure.name)}", figures)
+             for figure in study.figures]
+    return StudyView(study, f"study-{name}", plots, [])
+
+
+def draw_case(entry: CaseEntry, figures: Path) -> CaseView:
+    """Pictures and diagnostics of one case; a file that cannot be read becomes a sentence on the page."""
+    name = file_name(entry.name)
+    view = CaseView(entry, f"case-{name}")
+    try:
+        view.case = load_case(entry.path)
+    except (OSError, KeyError) as error:
+        view.problem = f"{entry.path.name} could not be read: {error}"
+        return view
+    view.row = make_pictures(view.case, name, figures)
+    view.plots = plot_diagnostics(view.case, name, figures)
+    return view
+
+
+def file_name(name: str) -> str:
+    """The name with all but letters, digits, dots, hyphens and underscores replaced, so that any file system
+    takes it."""
+    return "".join(c if c.isalnum() or c in ".-_" else "-" for c in name).strip(".-") or "unnamed"
+
+
+if __name__ == "__main__":
+    sys.exit(main())

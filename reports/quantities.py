@@ -1,0 +1,129 @@
+"""How numbers and units are written: three significant digits, a proper minus, powers of ten, and always the
+unit."""
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+
+from markupsafe import Markup, escape
+
+MINUS = "\u2212"
+THIN = "\u202f"  # narrow no-break space
+_SUPERSCRIPTS = str.maketrans("0123456789-+.", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺·")
+
+
+def superscript(text: str) -> str:
+    """The text in Unicode superscripts: -5 becomes ⁻⁵."""
+    return text.translate(_SUPERSCRIPTS)
+
+
+def split_number(value: float, digits: int = 3) -> tuple[str, int | None]:
+    """(mantissa, exponent of ten); the exponent is None where plain decimals read better.
+
+    Whole numbers below 1e7 are written in full. A number that fewer digits write exactly gets no more than it
+    needs: 0.1, not 0.100.
+    """
+    if is_count(value):
+        return (MINUS if value < 0 else "") + _grouped(str(abs(int(value)))), None
+    enough = (count for count in range(1, digits) if float(f"{value:.{count - 1}e}") == value)
+    return rounded_number(value, next(enough, digits))
+
+
+def is_count(value: float) -> bool:
+    """Whether a number is whole and small enough to be written in full."""
+    return math.isfinite(value) and abs(value) < 1e7 and value == int(value)
+
+
+def rounded_number(value: float, digits: int = 3) -> tuple[str, int | None]:
+    """As split_number, but a whole number is rounded like any other. NaN and infinities are named."""
+    if math.isnan(value):
+        return "NaN", None
+    if math.isinf(value):
+        return ("" if value > 0 else MINUS) + "∞", None
+    if value == 0:
+        return "0", None
+    sign = MINUS if value < 0 else ""
+    size = abs(value)
+    exponent = int(f"{size:.{digits - 1}e}".split("e")[1])
+    if -3 <= exponent < 6:
+        places = digits - 1 - exponent
+        return sign + _grouped(f"{round(size, places):.{max(0, places)}f}"), None
+    mantissa, power = f"{size:.{digits - 1}e}".split("e")
+    return sign + mantissa, int(power)
+
+
+def _grouped(text: str) -> str:
+    """Thousands apart from five digits on: 12345 becomes 12 345."""
+    whole, point, rest = text.partition(".")
+    if len(whole) >= 5:
+        whole = f"{int(whole):,}".replace(",", THIN)
+    return whole + point + rest
+
+
+def number_text(value: float, digits: int = 3) -> str:
+    """A number as plain Unicode text, for plots and file names' captions."""
+    mantissa, exponent = split_number(float(value), digits)
+    return mantissa if exponent is None else f"{mantissa}×10{superscript(str(exponent))}"
+
+
+def number_html(value: float) -> Markup:
+    """A number for the page; the full value shows when pointed at, if it was rounded."""
+    return _marked_up(float(value), *split_number(float(value)))
+
+
+def _marked_up(value: float, mantissa: str, exponent: int | None) -> Markup:
+    power = "" if exponent is None else Markup("{}×{}10<sup>{}</sup>").format(
+        "\u200a", "\u200a", str(exponent).replace("-", MINUS))
+    if math.isfinite(value) and not is_count(value) and float(f"{value:.2e}") != value:
+        return Markup('<span class="n" title="{}">{}{}</span>').format(f"{value:.17g}", mantissa, power)
+    return Markup('<span class="n">{}{}</span>').format(mantissa, power)
+
+
+def unit_text(unit: str) -> str:
+    """A unit for print: m^2 becomes m², N*m becomes N·m; none at all becomes 1."""
+    unit = unit.strip() or "1"
+    unit = re.sub(r"\^\(?([-+]?\d+)\)?", lambda found: superscript(found[1]), unit)
+    return unit.replace("*", "·")
+
+
+def quantity_html(value: float, unit: str) -> Markup:
+    """A number with its unit; the unit 1 is not written."""
+    written = number_html(value)
+    if unit.strip() in ("", "1"):
+        return written
+    return Markup('{}\u2009<span class="unit">{}</span>').format(written, unit_text(unit))
+
+
+def cells_html(values: Iterable[object]) -> list[Markup]:
+    """The cells of one column: texts, or numbers written in one manner (all whole, or all rounded)."""
+    values = list(values)
+    if any(isinstance(value, str) for value in values):
+        return [escape(value) for value in values]
+    numbers = [float(value) for value in values]  # type: ignore[arg-type]
+    if all(is_count(value) or not math.isfinite(value) for value in numbers):
+        return [number_html(value) for value in numbers]
+    return [_marked_up(value, *rounded_number(value)) for value in numbers]
+
+
+def seconds_html(value: float) -> Markup:
+    """A duration as a reader would say it."""
+    if math.isnan(value):
+        return Markup("duration not recorded")
+    if value >= 120:
+        minutes = _marked_up(value / 60, *rounded_number(value / 60))
+        return Markup('{}\u2009<span class="unit">min</span>').format(minutes)
+    return quantity_html(value, "s") if value >= 0.1 or value == 0 else quantity_html(value * 1e3, "ms")
+
+
+def order_html(value: float) -> Markup:
+    """An observed order of convergence, to two decimals."""
+    written = "NaN" if math.isnan(value) else f"{value:.2f}".replace("-", MINUS).replace("inf", "∞")
+    return Markup('<span class="n">{}</span>').format(written)
+
+
+def ratio_of(value: float, reference: float) -> float:
+    """value/reference where both are positive (or value is 0); NaN where a ratio says nothing."""
+    if not (math.isfinite(value) and math.isfinite(reference) and reference > 0 and value >= 0):
+        return float("nan")
+    return value / reference

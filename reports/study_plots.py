@@ -1,0 +1,270 @@
+"""Curves of a study: markers and lines, labels beside the curves, the noise floor, and the slope that theory
+expects."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from textwrap import fill
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.axes import Axes
+from matplotlib.markers import MarkerStyle
+
+from plot_style import (BAND, COLOURS, INK, MARKERS, MUTED, PAPER, Plot, finish, label_axes, new_figure,
+                        say_in_the_middle, scale_axis, variable_of)
+from quantities import number_text
+from results import Curve, StudyFigure
+
+WIDTH, HEIGHT = 7.6, 4.0            # [inch]
+LABEL_STEP = 0.055                  # least distance of two labels, as a fraction of the axes' height
+LABEL_WIDTH = 34                    # characters of a line of a label
+SAME = 0.03                         # curves whose values differ by less than this fraction lie on each other
+FLOOR_REACH = 1.3                   # decades below the lowest point within which a floor is drawn
+
+Points = tuple[np.ndarray, np.ndarray]   # x and y of the points of a curve that can be drawn
+
+
+@dataclass
+class Pen:
+    """How one curve is drawn. Curves that lie on each other get nested markers and lines of falling width."""
+    colour: str
+    marker: str
+    width: float
+    size: float
+
+
+def plot_study_figure(figure: StudyFigure, name: str, folder: Path) -> Plot:
+    """Draws one figure of a study and writes its files."""
+    canvas = new_figure(WIDTH, HEIGHT)
+    axes = canvas.add_axes((0.085, 0.125, 0.60, 0.78))
+    label_axes(axes, figure.x_label, figure.x_unit, figure.y_label, figure.y_unit)
+    shown = [_drawable(curve, figure) for curve in figure.curves]
+    if not any(len(x) for x, _ in shown):
+        say_in_the_middle(axes, "no finite points to draw")
+        return finish(canvas, name, folder, figure.title)
+    pens = choose_pens(figure.curves)
+    for axis, scale, values in (("x", figure.x_scale, 0), ("y", figure.y_scale, 1)):
+        scale_axis(axes, axis, scale, np.concatenate([points[values] for points in shown]))
+    for layer, (curve, pen, (x, y)) in enumerate(zip(figure.curves, pens, shown)):
+        _draw_curve(axes, curve, pen, x, y, layer)
+    _set_limits(axes, figure, shown)
+    if figure.x_scale == figure.y_scale == "log" and np.isfinite(figure.slope) and figure.slope != 0:
+        _draw_slope(axes, shown, pens, figure.slope)
+    _draw_floors(axes, figure, pens)
+    _label_curves(axes, figure.curves, pens, shown)
+    return finish(canvas, name, folder, figure.title)
+
+
+def points_left_out(figure: StudyFigure) -> int:
+    """How many points cannot be drawn: NaN, infinite, or not positive on a logarithmic axis."""
+    return sum(len(curve.x) - len(_drawable(curve, figure)[0]) for curve in figure.curves)
+
+
+def floors_below(figure: StudyFigure) -> list[float]:
+    """The floors that lie too far below the points to be drawn."""
+    lowest = _lowest(figure)
+    return [curve.floor for curve in figure.curves if np.isfinite(curve.floor)
+            and not _floor_shows(curve, lowest)]
+
+
+def key_svg(pen: Pen) -> Markup:
+    """The curve's line and marker as a small inline picture, for the page's tables and keys."""
+    marker = MarkerStyle(pen.marker)
+    outlines = marker.get_path().transformed(marker.get_transform()).to_polygons()
+    d = " ".join("M" + "L".join(f"{13 + 8 * x:.2f},{6 - 8 * y:.2f}" for x, y in outline) + "Z"
+                 for outline in outlines)
+    colour = variable_of(pen.colour)
+    picture = Markup('<svg class="key" viewBox="0 0 26 12" aria-hidden="true">'
+                     '<path d="M0,6H26" stroke="{0}" stroke-width="1.6"/>'
+                     '<path d="{1}" stroke="{0}" stroke-width="1.3" fill="var(--paper)"/></svg>')
+    return picture.format(colour, d)
+
+
+def choose_pens(curves: list[Curve]) -> list[Pen]:
+    """One pen for every curve; within a group of coincident curves the first is the widest."""
+    groups: list[list[int]] = []
+    for index, curve in enumerate(curves):
+        home = next((group for group in groups if _coincide(curves[group[0]], curve)), None)
+        (home.append(index) if home is not None else groups.append([index]))
+    pens: dict[int, Pen] = {}
+    for group in groups:
+        for depth, index in enumerate(group):
+            above = min(len(group) - 1 - depth, 4)
+            pens[index] = Pen(COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)],
+                              1.2 + 1.9 * above, 4.6 + 3.6 * above)
+    return [pens[index] for index in range(len(curves))]
+
+
+def _drawable(curve: Curve, figure: StudyFigure) -> Points:
+    good = np.isfinite(curve.x) & np.isfinite(curve.y)
+    if figure.x_scale == "log":
+        good &= curve.x > 0
+    if figure.y_scale == "log":
+        good &= curve.y > 0
+    return curve.x[good], curve.y[good]
+
+
+def _coincide(one: Curve, other: Curve) -> bool:
+    if len(one.x) != len(other.x) or not np.allclose(one.x, other.x, rtol=1e-6):
+        return False
+    scale = np.maximum(np.abs(one.y), np.abs(other.y))
+    with np.errstate(invalid="ignore"):
+        least = 0.0 if one.y.min() > 0 else 1e-3 * np.nanmax(scale, initial=0.0)
+        close = np.abs(one.y - other.y) <= SAME * scale + least
+    return bool(np.mean(close) > 0.6)
+
+
+def _draw_curve(axes: Axes, curve: Curve, pen: Pen, x: np.ndarray, y: np.ndarray, layer: int) -> None:
+    order = np.argsort(x, kind="stable")
+    x, y = x[order], y[order]
+    axes.plot(x, y, color=pen.colour, linewidth=pen.width, zorder=3 + 0.01 * layer)
+    if len(x) > 60:
+        return
+    above = ~(y <= curve.floor)
+    axes.plot(x[above], y[above], linestyle="none", marker=pen.marker, markersize=pen.size, color=pen.colour,
+              markerfacecolor=PAPER, markeredgewidth=1.1, zorder=4 + 0.01 * layer)
+    axes.plot(x[~above], y[~above], linestyle="none", marker=pen.marker, markersize=0.7 * pen.size,
+              color=pen.colour,
+              markerfacecolor=PAPER, markeredgewidth=0.6, alpha=0.5, zorder=4 + 0.01 * layer)
+
+
+def _set_limits(axes: Axes, figure: StudyFigure, shown: list[Points]) -> None:
+    for part, scale, set_limits in ((0, figure.x_scale, axes.set_xlim), (1, figure.y_scale, axes.set_ylim)):
+        values = np.concatenate([points[part] for points in shown])
+        low, high = values.min(), values.max()
+        if scale == "log":
+            room = max(0.06 * np.log10(high / low), 0.06 if part == 0 else 0.15)
+            set_limits(low / 10 ** room, high * 10 ** room)
+            continue
+        room = 0.06 * (high - low) or 0.1 * abs(high) or 1.0
+        from_zero = part == 1 and low >= 0 and low < 0.4 * high
+        set_limits(0.0 if from_zero else low - room, high + room)
+
+
+def _lowest(figure: StudyFigure) -> float:
+    points = [y for y in (_drawable(curve, figure)[1] for curve in figure.curves) if len(y)]
+    return float(min(y.min() for y in points)) if points else float("nan")
+
+
+def _floor_shows(curve: Curve, lowest: float) -> bool:
+    return bool(curve.floor > 0 and lowest > 0 and curve.floor > lowest / 10 ** FLOOR_REACH)
+
+
+def _draw_floors(axes: Axes, figure: StudyFigure, pens: list[Pen]) -> None:
+    """Shades what lies below every floor; where floors differ each also gets a dotted line in its curve's
+    colour."""
+    lowest = _lowest(figure)
+    drawn = [(curve, pen) for curve, pen in zip(figure.curves, pens) if _floor_shows(curve, lowest)]
+    if not drawn:
+        return
+    floors = np.array([curve.floor for curve, _ in drawn])
+    bottom, top = axes.get_ylim()
+    if figure.y_scale == "log":
+        bottom = min(bottom, floors.min() / 10 ** (0.05 * np.log10(top / bottom)))
+    axes.set_ylim(bottom, top)
+    axes.axhspan(bottom, floors.min(), facecolor=BAND, edgecolor="none", zorder=0.5)
+    axes.axhline(floors.min(), color=MUTED, linewidth=0.7, linestyle=(0, (4, 3)), zorder=2)
+    axes.annotate("noise floor of the reference", (0.995, floors.min()), xycoords=("axes fraction", "data"),
+                  xytext=(0, -2.5), textcoords="offset points", ha="right", va="top", fontsize=6.8,
+                  color=MUTED, zorder=6)
+    for curve, pen in drawn:
+        if curve.floor > 1.01 * floors.min():
+            axes.plot([curve.x.min(), curve.x.max()], [curve.floor] * 2, color=pen.colour, linewidth=0.8,
+                      linestyle=(0, (1, 2.2)), zorder=2)
+
+
+def _draw_slope(axes: Axes, shown: list[Points], pens: list[Pen], slope: float) -> None:
+    """A triangle of the expected slope, where it needs the least extra room below or above the curves."""
+    (left, right), (bottom, top) = np.log10(axes.get_xlim()), np.log10(axes.get_ylim())
+    width = 0.15 * (right - left)
+    rise = slope * width
+    if abs(rise) > 0.35 * (top - bottom):
+        width, rise = width * 0.35 * (top - bottom) / abs(rise), np.sign(rise) * 0.35 * (top - bottom)
+    gap = (0.06 if max(pen.size for pen in pens) < 8 else 0.1) * (top - bottom)
+    places = []
+    first = left + (0.04 if slope > 0 else 0.08) * (right - left)
+    for start in np.linspace(first, right - width - 0.05 * (right - left), 12):
+        here = _envelope(shown, start, start + width, slope)
+        if here is None:
+            continue
+        low, high = here
+        places.append((max(0.0, bottom - (low - gap + min(rise, 0.0) - gap)), start, low - gap, 0))
+        places.append((max(0.0, high + gap + max(rise, 0.0) + gap - top), start, high + gap, 1))
+    if not places:
+        return
+    side = np.sign(slope)
+    _, start, base, above = min(places, key=lambda place: (round(place[0], 3), place[3], -place[1] * side))
+    axes.set_ylim(10 ** min(bottom, base + min(rise, 0) - 1.3 * gap),
+                  10 ** max(top, base + max(rise, 0) + 1.3 * gap))
+    _draw_triangle(axes, start, base, width, rise, slope, (slope > 0) != bool(above))
+
+
+def _envelope(shown: list[Points], start: float, stop: float,
+              slope: float) -> tuple[float, float] | None:
+    """Lowest and highest level (log10, at `start`) of lines of the given slope that touch the curves over the
+    span."""
+    levels = []
+    for x, y in shown:
+        order = np.argsort(x)
+        at, level = np.log10(x[order]), np.log10(y[order])
+        if len(at) > 1 and at[0] < stop and at[-1] > start:
+            here = np.linspace(max(start, at[0]), min(stop, at[-1]), 9)
+            levels.append(np.interp(here, at, level) - slope * (here - start))
+    return (min(map(np.min, levels)), max(map(np.max, levels))) if levels else None
+
+
+def _draw_triangle(axes: Axes, start: float, base: float, width: float, rise: float, slope: float,
+                   corner_right: bool) -> None:
+    x0, x1, y0, y1 = 10 ** start, 10 ** (start + width), 10 ** base, 10 ** (base + rise)
+    corner = (x1, y0) if corner_right else (x0, y1)
+    axes.fill([x0, x1, corner[0]], [y0, y1, corner[1]], facecolor="none", edgecolor=INK, linewidth=0.8,
+              zorder=5,
+              joinstyle="round")
+    beside = x1 if corner_right else x0
+    axes.annotate(number_text(slope), (beside, 10 ** (base + rise / 2)),
+                  xytext=(4 if corner_right else -4, 0),
+                  textcoords="offset points", ha="left" if corner_right else "right", va="center",
+                  fontsize=7.5)
+    below = (rise > 0) == corner_right
+    axes.annotate("1", (10 ** (start + width / 2), corner[1]), xytext=(0, -3 if below else 3),
+                  textcoords="offset points", ha="center", va="top" if below else "bottom", fontsize=7.5)
+
+
+def _label_curves(axes: Axes, curves: list[Curve], pens: list[Pen], shown: list[Points]) -> None:
+    """Labels in a column right of the axes, near the right end of their curves, with thin leaders."""
+    to_axes = axes.transData + axes.transAxes.inverted()
+    ends = [tuple(to_axes.transform((x[x.argmax()], y[x.argmax()]))) if len(x) else (0.0, -1.0)
+            for x, y in shown]
+    labels = [fill(curve.label, LABEL_WIDTH) for curve in curves]
+    step = min(LABEL_STEP * max(1 + label.count("\n") for label in labels), 1.06 / max(len(curves), 1))
+    heights = spread([end[1] for end in ends], step)
+    size = 7.6 if step >= LABEL_STEP else 6.4
+    for label, pen, end, height in zip(labels, pens, ends, heights):
+        axes.plot([1.075], [height], transform=axes.transAxes, clip_on=False, color=pen.colour,
+                  marker=pen.marker,
+                  markersize=4.6, markerfacecolor=PAPER, markeredgewidth=1.1)
+        axes.text(1.10, height, label, transform=axes.transAxes, ha="left", va="center", fontsize=size,
+                  color=INK)
+        if end[0] > 0.85 and 0 <= end[1] <= 1:
+            axes.plot([end[0] + 0.012, 1.015, 1.06], [end[1], end[1], height], transform=axes.transAxes,
+                      clip_on=False,
+                      color=pen.colour, linewidth=0.5, alpha=0.7)
+
+
+def spread(heights: list[float], step: float) -> list[float]:
+    """The heights, moved apart to at least `step` with their order kept, inside [0, 1] as far as they fit."""
+    order = np.argsort(heights, kind="stable")
+    placed = np.clip(np.array(heights, dtype=float)[order], 0.0, 1.0)
+    for _ in range(200):
+        gaps = np.diff(placed)
+        short = np.maximum(step - gaps, 0.0)
+        if not short.max(initial=0.0) > 1e-6:
+            break
+        placed[1:] += 0.5 * short
+        placed[:-1] -= 0.5 * short
+        over = max(placed[-1] - 1.0, 0.0) - max(-placed[0], 0.0)
+        placed -= over if len(placed) * step <= 1.0 else 0.0
+    result = np.empty(len(placed))
+    result[order] = placed
+    return [float(value) for value in result]

@@ -1,0 +1,211 @@
+#include "scripts/program/bench.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "reference/mesh/shapes.h"
+#include "reference/scene/scene.h"
+#include "scripts/program/progress.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+double seconds_of(const std::function<void()>& run) {
+  const auto start = std::chrono::steady_clock::now();
+  run();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The least time of enough repeats to fill a fifth of a second, at least three [s].
+double least_seconds(const std::function<void()>& run) {
+  double least = seconds_of(run), total = least;
+  for (int k = 1; k < 3 || total < 0.2; ++k) {
+    const double seconds = seconds_of(run);
+    least = std::min(least, seconds);
+    total += seconds;
+  }
+  return least;
+}
+
+double peak_megabytes() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return double(usage.ru_maxrss) / 1024;  // ru_maxrss is in KiB
+}
+
+/// A square sheet of n x n cells, gently waved and moving, damping ratio 0.1 of springs and hinges at the bound on omega.
+struct Load {
+  Scene scene;
+  System system;
+  State state;
+  double limit;  // elastic limit [s]
+};
+
+Load make_load(int cells) {
+  constexpr double damping_ratio = 0.1, density = 0.2, young = 60, bending_stiffness = 3e-5;
+  Load load{scene_of(make_sheet({SheetPattern::alternating, 1, 1, cells, cells, 0, 1}), density), {}, {}, 0};
+  Scene& scene = load.scene;
+  scene.stretch = StretchMaterial{young, 0, 1};
+  scene.bending = BendingMaterial{bending_stiffness, 0, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  std::mt19937_64 random(7);
+  const double amplitude = 0.1 / cells;
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    scene.x(2, i) += amplitude * (std::sin(17 * scene.x(0, i)) + double(random() >> 11) * 0x1p-53);
+    scene.v.col(i) = Vector3(std::sin(5 * scene.x(1, i)), std::cos(3 * scene.x(0, i)), double(random() >> 11) * 0x1p-53);
+  }
+  const double time_scale = 2 * damping_ratio / (2 / elastic_limit(build_system(scene), start_state(scene)));  // 2 zeta/omega [s]
+  scene.stretch->damping = young * time_scale;
+  const double hinge_slope = bending_stiffness / 2 * cells;  // ke c/2 over |E|, with c near 1 and |E| near 1/cells
+  scene.bending->damping = hinge_slope * time_scale;
+  scene.gravity = Vector3(0, -9.80665, 0);
+  scene.solver.tolerance = 1e-6;
+  load.system = build_system(scene);
+  load.state = start_state(scene);
+  load.limit = elastic_limit(load.system, load.state);
+  return load;
+}
+
+struct Speeds {
+  double particles, hinges, bending, springs, product, preparation, iteration, step, iterations;  // seconds of each, but counts first and last
+};
+
+Speeds measure(int cells) {
+  const Load load = make_load(cells);
+  const State& s = load.state;
+  PerParticle3 f = PerParticle3::Zero(3, s.x.cols());
+  Work work;
+  const auto& springs = std::get<StretchSprings>(load.system.forces[1]);
+  const auto& bending = std::get<Bending>(load.system.forces[2]);
+  Speeds speeds{};
+  speeds.particles = double(s.x.cols());
+  speeds.hinges = double(bending.hinges.size());
+  speeds.bending = least_seconds([&] { bending.add_elastic(s, f); });
+  speeds.springs = least_seconds([&] { springs.add_elastic(s, f); });
+  speeds.preparation = least_seconds([&] { damping_at(load.system.forces, s, work); });
+  const DampingOperator damping = damping_at(load.system.forces, s, work);
+  speeds.product = least_seconds([&] { damping.add_product(s.v, f); });
+
+  // one iteration: the difference between a solve cut after 12 and one cut after 2
+  SolverSettings settings = load.system.solver;
+  settings.tolerance = 1e-300;
+  const auto solve = [&](int iterations) {
+    settings.max_iterations = iterations;
+    PerParticle3 v = s.v;
+    solve_velocity(damping, load.limit / 4, load.system.mass, load.system.inverse_mass, settings, v, work);
+  };
+  speeds.iteration = (least_seconds([&] { solve(12); }) - least_seconds([&] { solve(2); })) / 10;
+
+  const Integrator& scheme = integrator_named("C");
+  Work counted;
+  scheme.step(load.system, {&s, 1}, load.limit / 2, counted);
+  speeds.iterations = double(counted.cg_iterations) / double(counted.solves);
+  speeds.step = least_seconds([&] { scheme.step(load.system, {&s, 1}, load.limit / 2, work); });
+  return speeds;
+}
+
+/// Least-squares slope of log y over log x.
+double exponent(const std::vector<double>& x, const std::vector<double>& y) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  const double n = double(x.size());
+  for (size_t k = 0; k < x.size(); ++k) {
+    const double a = std::log(x[k]), b = std::log(y[k]);
+    sx += a, sy += b, sxx += a * a, sxy += a * b;
+  }
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+Record rate(const std::string& name, const std::string& claim, double measured, double target, const std::string& unit,
+            const std::string& better) {
+  return {"bench." + name, "bench",    "",     claim, "", {{measured, target, 0, unit, "the target"}, {}, "one thread, least of repeats"},
+          "measured",      better, 0, {}};
+}
+
+std::vector<double> column(const std::vector<Speeds>& all, double Speeds::*member, double factor = 1) {
+  std::vector<double> values;
+  for (const Speeds& speeds : all) values.push_back(factor * speeds.*member);
+  return values;
+}
+
+Figure growth_figure(const std::vector<Speeds>& all) {
+  const std::vector<double> particles = column(all, &Speeds::particles);
+  Figure figure{"seconds", "Time against particles", {"particles", "1", Scale::log}, {"time", "s", Scale::log}, 1,
+                "Least time of repeats on one thread; the slope triangle is linear growth. Where the data outgrow the caches, "
+                "each particle costs more.", {}};
+  figure.curves = {{"bending, elastic", particles, column(all, &Speeds::bending), not_a_number, {}},
+                   {"springs, elastic", particles, column(all, &Speeds::springs), not_a_number, {}},
+                   {"damping, terms", particles, column(all, &Speeds::preparation), not_a_number, {}},
+                   {"damping, product", particles, column(all, &Speeds::product), not_a_number, {}},
+                   {"CG iteration", particles, column(all, &Speeds::iteration), not_a_number, {}},
+                   {"step of scheme C", particles, column(all, &Speeds::step), not_a_number, {}}};
+  return figure;
+}
+
+Table growth_table(const std::vector<Speeds>& all) {
+  return {"speeds",
+          "What each part costs",
+          {{"particles", "1", column(all, &Speeds::particles)},
+           {"hinges", "1", column(all, &Speeds::hinges)},
+           {"bending, elastic", "ms", column(all, &Speeds::bending, 1e3)},
+           {"springs, elastic", "ms", column(all, &Speeds::springs, 1e3)},
+           {"damping, terms", "ms", column(all, &Speeds::preparation, 1e3)},
+           {"damping, product", "ms", column(all, &Speeds::product, 1e3)},
+           {"CG iteration", "ms", column(all, &Speeds::iteration, 1e3)},
+           {"step of scheme C", "ms", column(all, &Speeds::step, 1e3)},
+           {"CG iterations a solve", "1", column(all, &Speeds::iterations)}}};
+}
+
+std::vector<Record> rates(const std::vector<Speeds>& all, double megabytes) {
+  const Speeds& large = *std::find_if(all.begin(), all.end(), [](const Speeds& s) { return s.particles > 9e4; });
+  const std::vector<double> particles = column(all, &Speeds::particles);
+  std::vector<double> evaluations;
+  for (const Speeds& s : all) evaluations.push_back(s.bending + s.springs);
+  return {
+      rate("bending-elastic", fmt::format("Elastic bending forces a second, {:.0f} hinges.", large.hinges),
+           large.hinges / large.bending / 1e6, 20, "million hinges/s", "higher"),
+      rate("step-C", fmt::format("One step of scheme C, {:.0f} particles, damping ratio 0.1, half the elastic limit, CG to 1e-6 "
+                                 "({:.1f} iterations a solve).", large.particles, large.iterations),
+           large.step, 0.3, "s", "lower"),
+      rate("memory", fmt::format("Peak memory of the process with {:.0f} particles.", large.particles), megabytes, 500, "MB", "lower"),
+      rate("growth-of-iteration", "Growth exponent of the time per CG iteration in the number of particles.",
+           exponent(particles, column(all, &Speeds::iteration)), 1.1, "1", "lower"),
+      rate("growth-of-forces", "Growth exponent of the time per evaluation of the elastic forces.", exponent(particles, evaluations),
+           1.1, "1", "lower"),
+  };
+}
+
+}  // namespace
+
+RunRecord bench(int most_particles) {
+  std::vector<Speeds> all;
+  double megabytes = 0;
+  ProgressLine progress("bench");
+  const std::vector<int> cells = {31, 99, 315, 999};  // 1k, 10k, 100k, 1M particles
+  for (const int n : cells) {
+    if ((n + 1) * (n + 1) > most_particles) break;
+    all.push_back(measure(n));
+    if (n == 315) megabytes = peak_megabytes();
+    progress.show(double(n + 1) * (n + 1) / most_particles);
+  }
+  RunRecord run;
+  run.tier = "";
+  run.subject = "foldproof reference";
+  run.records = rates(all, megabytes);
+  run.studies.push_back({"bench", "Time grows in proportion to the number of particles.", "measured",
+                         "A square sheet of alternating diagonals, gently waved, springs and hinges damped at a ratio of 0.1. Times "
+                         "are of a shared machine: compare them as ratios.",
+                         0, {growth_figure(all)}, {growth_table(all)}});
+  return run;
+}
+
+}  // namespace foldproof

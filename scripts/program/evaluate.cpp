@@ -1,0 +1,112 @@
+#include "scripts/program/evaluate.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+#include "reference/forces/bending.h"
+#include "reference/forces/degenerate.h"
+
+namespace foldproof {
+
+namespace {
+
+struct Row {
+  std::string where;  // file:line
+  std::vector<double> values;
+};
+
+double parsed(const std::string& field, const std::string& where) {
+  const size_t first = field.find_first_not_of(" \t\r"), last = field.find_last_not_of(" \t\r");
+  const std::string trimmed = first == std::string::npos ? "" : field.substr(first, last - first + 1);
+  const char* begin = trimmed.c_str() + (trimmed.starts_with('+') ? 1 : 0);
+  double value = 0;
+  const auto [end, error] = std::from_chars(begin, trimmed.c_str() + trimmed.size(), value);
+  if (error != std::errc() || end != trimmed.c_str() + trimmed.size() || !std::isfinite(value))
+    throw InputError(where + ": '" + trimmed + "' is not a finite number");
+  return value;
+}
+
+/// Rows of `columns` comma-separated numbers; lines that start with '#' or a letter (a heading) are passed over.
+std::vector<Row> read_rows(const std::string& file, size_t columns) {
+  std::ifstream in(file);
+  if (!in) throw InputError(file + ": cannot be read");
+  std::vector<Row> rows;
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    const size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') continue;
+    if (rows.empty() && std::isalpha(static_cast<unsigned char>(line[first])) && line.find(',') != std::string::npos &&
+        !line.substr(first).starts_with("nan") && !line.substr(first).starts_with("inf"))
+      continue;  // a heading
+    Row row{file + ":" + std::to_string(number), {}};
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');) row.values.push_back(parsed(field, row.where));
+    if (row.values.size() != columns)
+      throw InputError(fmt::format("{}: {} values, but a row has {}", row.where, row.values.size(), columns));
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) throw InputError(file + ": there is no row of numbers in it");
+  return rows;
+}
+
+PerParticle3 four_columns(const std::vector<double>& values, size_t from) {
+  return Eigen::Map<const PerParticle3>(values.data() + from, 3, 4);
+}
+
+void print_row(const PerParticle3& elastic, const PerParticle3& damping) {
+  std::string line;
+  for (const PerParticle3* part : {&elastic, &damping})
+    for (Eigen::Index k = 0; k < 12; ++k) line += fmt::format("{}{:.17g}", line.empty() ? "" : ",", part->data()[k]);
+  fmt::print("{}\n", line);
+}
+
+void evaluate_row(const Row& row, const PerParticle3& rest, Weighting weighting) {
+  BendingMaterial material;
+  material.stiffness = row.values[24];
+  material.damping = row.values[25];
+  material.weighting = weighting;
+  TriangleMesh mesh{rest, {}, {}, {Hinge{{0, 1, 2, 3}, 0}}};
+  State s{0, four_columns(row.values, 0), four_columns(row.values, 12)};
+  try {
+    const Bending bending = make_bending(mesh, material, {row.values[26]});
+    PerParticle3 elastic = PerParticle3::Zero(3, 4), damping = PerParticle3::Zero(3, 4);
+    bending.add_elastic(s, elastic);
+    DampingOperator terms;
+    bending.prepare_damping(s, terms);
+    terms.add_product(s.v, damping);
+    print_row(elastic, damping);
+  } catch (const DegenerateElement& error) {
+    throw InputError(row.where + ": " + error.what());
+  } catch (const InputError& error) {
+    throw InputError(row.where + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+void evaluate_bending(const std::string& file, const std::string& rest_file) {
+  const std::vector<Row> rows = read_rows(file, 27);
+  std::vector<Row> rest_rows;
+  if (!rest_file.empty()) {
+    rest_rows = read_rows(rest_file, 12);
+    if (rest_rows.size() != rows.size())
+      throw InputError(fmt::format("{}: {} rows, but {} has {}", rest_file, rest_rows.size(), file, rows.size()));
+  }
+  std::string heading;
+  for (const char* kind : {"elastic", "damping"})
+    for (int particle = 1; particle <= 4; ++particle)
+      for (const char* axis : {"x", "y", "z"}) heading += fmt::format("{}{}_{}{}", heading.empty() ? "" : ",", kind, axis, particle);
+  fmt::print("{}\n", heading);
+  for (size_t k = 0; k < rows.size(); ++k) {
+    const PerParticle3 rest = four_columns(rest_rows.empty() ? rows[k].values : rest_rows[k].values, 0);
+    evaluate_row(rows[k], rest, rest_rows.empty() ? Weighting::current : Weighting::rest);
+  }
+}
+
+}  // namespace foldproof

@@ -1,0 +1,29 @@
+// Progress on standard error: a bar with the time left on a terminal, a plain line now and then elsewhere.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace foldproof {
+
+class ProgressLine {
+ public:
+  explicit ProgressLine(std::string label);
+  ~ProgressLine();  // wipes the bar
+
+  /// fraction done, from 0 to 1.
+  void show(double fraction);
+
+ private:
+  double seconds() const;
+
+  std::string label_;
+  bool on_terminal_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double last_shown_ = 0;  // s
+};
+
+/// A plain line on standard error.
+void say(const std::string& line);
+
+}  // namespace foldproof

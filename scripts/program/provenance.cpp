@@ -1,0 +1,46 @@
+#include "scripts/program/provenance.h"
+
+#include <ctime>
+#include <fstream>
+#include <thread>
+
+#include "build_facts.h"  // written by every build: commit, tree, compiler, flags
+
+namespace foldproof {
+
+namespace {
+
+std::string cpu_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  return text;
+}
+
+}  // namespace
+
+Provenance provenance(const std::string& command) {
+  Provenance p;
+  p.version = FOLDPROOF_VERSION;
+  p.commit = FOLDPROOF_COMMIT;
+  p.tree = FOLDPROOF_TREE;
+  p.compiler = FOLDPROOF_COMPILER;
+  p.flags = FOLDPROOF_FLAGS;
+  p.build_type = FOLDPROOF_BUILD_TYPE;
+  p.cpu = cpu_name();
+  p.cores = int(std::thread::hardware_concurrency());
+  p.date = utc_now();
+  p.command = command;
+  return p;
+}
+
+std::string project_folder() { return FOLDPROOF_FOLDER; }
+
+}  // namespace foldproof

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "verification/results_file.h"
+
+namespace foldproof {
+
+/// Of this program, this machine and this moment. command: what was typed.
+Provenance provenance(const std::string& command);
+
+/// The folder with cases, reports and the list of faults.
+std::string project_folder();
+
+}  // namespace foldproof

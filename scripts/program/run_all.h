@@ -1,0 +1,39 @@
+// Running checks, studies and cases by name, and telling the world.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "verification/check.h"
+#include "verification/results_file.h"
+#include "verification/subject.h"
+
+namespace foldproof {
+
+struct Selection {
+  std::vector<Check> checks;
+  std::vector<Study> studies;
+  std::vector<std::string> findings;  // if not empty: only these of the studies' findings are wanted
+};
+
+/// What the names choose: checks, studies, single findings of studies, or groups ("bending" for all that begins with "bending."). No name:
+/// all checks (and all studies if with_studies). Throws InputError for a name that chooses nothing, with the nearest known ones.
+struct Wanted {
+  std::vector<std::string> names;
+  std::vector<std::string> kinds;  // of "check", "study": what a missing name stands for
+};
+Selection select(const Wanted& wanted);
+
+/// Runs the selection with progress, adds to the run, and says a line about each that does not hold.
+void run_selection(const Selection& selection, const Subject& subject, Tier tier, RunRecord& run);
+
+/// "121 hold, 0 fail, 0 inconclusive, 0 not applicable".
+std::string summary(const RunRecord& run);
+
+/// 0 if every finding holds (or is not applicable, or measured only), else 1.
+int exit_code(const RunRecord& run);
+
+/// A line for each finding: outcome, name, measured, bound, unit.
+std::string listing(const RunRecord& run);
+
+}  // namespace foldproof

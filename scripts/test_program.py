@@ -1,0 +1,129 @@
+#!/usr/bin/python3
+"""Tests of the program as a user meets it: commands, exit codes, messages, files."""
+
+import json
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parent.parent
+PROGRAM = ROOT / "build" / "foldproof"
+
+HINGE_ROW = [0.03, 0.12, 0.01, 0.05, -0.09, 0.04, 0, 0, 0, 0.11, 0.005, -0.003]  # x1 x2 x3 x4
+
+
+def run(*arguments: str, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([str(PROGRAM), *arguments], cwd=folder, capture_output=True, text=True, check=False)
+
+
+class ProgramTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.folder = tempfile.TemporaryDirectory(prefix="foldproof test ")
+        self.path = Path(self.folder.name)
+
+    def tearDown(self) -> None:
+        self.folder.cleanup()
+
+    def write(self, name: str, text: str) -> str:
+        (self.path / name).write_text(text)
+        return str(self.path / name)
+
+    def simulate(self, *arguments: str) -> subprocess.CompletedProcess[str]:
+        return run("simulate", *arguments, "--out", str(self.path / "out"))
+
+    def test_help_shows_examples(self) -> None:
+        shown = run("--help")
+        self.assertEqual(shown.returncode, 0)
+        self.assertIn("Examples:", shown.stdout)
+
+    def test_list_names_checks_studies_and_integrators(self) -> None:
+        shown = json.loads(run("list", "--json").stdout)
+        self.assertIn("bending.forces-sum-to-zero", [row["name"] for row in shown["checks"]])
+        self.assertIn("time-order.hinge", [row["name"] for row in shown["studies"]])
+        self.assertEqual([row["name"] for row in shown["integrators"]], ["A", "B", "C"])
+
+    def test_simulate_writes_frames_at_their_times(self) -> None:
+        done = self.simulate(str(ROOT / "cases/hinge.toml"), "--set", "time.end=0.25", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["time"], 0.25)
+        with h5py.File(self.path / "out/hinge.h5") as file:
+            times = file["frames/time"][:]
+            self.assertEqual(len(times), 16)
+            np.testing.assert_array_equal(times[:-1], np.arange(15) * (1 / 60))
+            self.assertEqual(file["frames/positions"].shape, (16, 4, 3))
+            self.assertEqual(file["diagnostics/time"][-1], 0.25)
+            self.assertIn("gravity", list(file.attrs["built"].astype(str)))
+        self.assertFalse(list((self.path / "out").glob("*.partial")))
+        self.assertIn("hinge.h5:/frames/positions", (self.path / "out/hinge.xdmf").read_text())
+
+    def test_a_misspelt_key_is_refused_with_its_place(self) -> None:
+        text = (ROOT / "cases/hinge.toml").read_text().replace("stiffness = 3e-4", "stifness = 3e-4")
+        done = self.simulate(self.write("wrong.toml", text))
+        self.assertEqual(done.returncode, 2)
+        line = 1 + [k for k, row in enumerate(text.splitlines()) if "stifness" in row][0]
+        self.assertIn("wrong.toml:", done.stderr)
+        self.assertIn("stiffness", done.stderr)
+        self.assertTrue(f":{line}:" in done.stderr or "[bending] needs the key 'stiffness'" in done.stderr, done.stderr)
+
+    def test_missing_files_are_named(self) -> None:
+        self.assertEqual(self.simulate("nowhere.toml").returncode, 2)
+        done = self.simulate(str(ROOT / "cases/any_mesh.toml"), "--set", "cloth.mesh=none.obj")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("none.obj", done.stderr)
+
+    def test_any_obj_mesh_runs(self) -> None:
+        quad = "v 0 0 0\nv 1 0 0\nv 1 1 0.1\nv 0 1 0\nv 0 2 0.2\nv 1 2 0\nf 1 2 3 4\nf 4 3 6 5\n"
+        done = self.simulate(str(ROOT / "cases/any_mesh.toml"), "--set", "cloth.mesh=" + self.write("quad.obj", quad),
+                             "--set", "time.end=0.05")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_run_that_diverges_says_when_and_where_and_keeps_its_frames(self) -> None:
+        done = self.simulate(str(ROOT / "cases/hanging_sheet.toml"), "--set", "time.step=0.02", "--set", "time.frames_per_second=50")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"stopped: .*step \d+, after t = .* s, particle \d+")
+        with h5py.File(self.path / "out/hanging_sheet.h5") as file:
+            self.assertGreaterEqual(file["frames/positions"].shape[0], 1)
+            self.assertTrue(np.isfinite(file["frames/positions"][:]).all())
+            self.assertIn("step", file.attrs["stopped"])
+
+    def test_evaluate_bending(self) -> None:
+        row = HINGE_ROW + [0.1, -0.2, 0.3, 0.2, 0.1, -0.1, 0, 0, 0.05, 0.02, 0, 0] + [2e-3, 3e-4, 0.4]
+        done = run("evaluate", "bending", self.write("rows.csv", ",".join(map(str, row)) + "\n"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        forces = np.array([float(value) for value in done.stdout.splitlines()[1].split(",")]).reshape(8, 3)
+        elastic, damping = forces[:4], forces[4:]
+        x = np.array(HINGE_ROW).reshape(4, 3)
+        for part in (elastic, damping):
+            scale = np.abs(part).max()
+            self.assertGreater(scale, 0)
+            self.assertLess(np.abs(part.sum(axis=0)).max(), 1e-15 * scale * 8)
+            self.assertLess(np.abs(np.cross(x, part).sum(axis=0)).max(), 1e-15 * scale * 8)
+        self.assertLess((damping * np.array(row[12:24]).reshape(4, 3)).sum(), 0)
+
+    def test_evaluate_names_the_bad_line(self) -> None:
+        done = run("evaluate", "bending", self.write("rows.csv", "# heading\n1,2,x\n"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("rows.csv:2", done.stderr)
+
+    def test_an_unknown_check_is_refused_with_neighbours(self) -> None:
+        done = run("check", "bending.forces-sum-to-zer")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("bending.forces-sum-to-zero", done.stderr)
+
+    def test_a_check_writes_its_results(self) -> None:
+        done = run("check", "bending.forces-sum-to-zero", "--json", "--out", str(self.path / "out"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        finding = json.loads(done.stdout)["findings"][0]
+        self.assertEqual(finding["outcome"], "holds")
+        self.assertTrue(finding["faults"])
+        with h5py.File(self.path / "out/run.h5") as file:
+            self.assertEqual(file["findings/bending.forces-sum-to-zero"].attrs["outcome"], "holds")
+        self.assertIn("testcase", (self.path / "out/junit.xml").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,12 @@
+// The list of checks, written out by hand.
+#pragma once
+
+#include <vector>
+
+#include "verification/check.h"
+
+namespace foldproof {
+
+std::vector<Check> all_checks();
+
+}  // namespace foldproof

@@ -1,0 +1,139 @@
+// What a verification says: verdicts, findings, the evidence behind them, and the checks and studies that make them.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace foldproof {
+
+struct Subject;
+
+enum class Ruling { holds, fails, inconclusive, not_applicable };
+
+std::string_view name_of(Ruling ruling);  // "holds", "fails", "inconclusive", "not applicable"
+
+/// A measured number against its bound. Every statement is put so that smaller is better.
+struct Verdict {
+  double measured = 0, bound = 0, uncertainty = 0;  // all in `unit`
+  std::string unit;                                 // "1" for none
+  std::string why_bound;                            // the bound's reason in words
+};
+
+/// holds iff measured + uncertainty <= bound, fails iff measured - uncertainty > bound or anything is NaN, else inconclusive.
+Ruling ruling(const Verdict& verdict);
+
+/// One column of evidence; the columns of a finding have the same length.
+struct Column {
+  std::string name, unit;
+  std::variant<std::vector<double>, std::vector<std::string>> values;
+};
+
+struct Finding {
+  Verdict verdict;
+  std::vector<Column> evidence;
+  std::string note;  // what a reader has to know beside the numbers; may be empty
+};
+
+/// A maximum that keeps NaN: once a NaN was seen, it stays.
+class Worst {
+ public:
+  void see(double value) {
+    if (!(value <= worst_)) worst_ = value;
+  }
+  double value() const { return worst_; }  // 0 if nothing was seen
+
+ private:
+  double worst_ = 0;
+};
+
+/// A property that the subject must have. `run` may throw NotOffered.
+struct Check {
+  std::string name;    // "subject-matter.statement-in-the-present-tense"
+  std::string claim;   // one sentence, true when the check passes
+  std::string source;  // paper section or citation
+  std::function<Finding(const Subject&)> run;
+};
+
+/// Thrown by a check whose subject lacks an operation: the check is "not applicable".
+struct NotOffered {
+  std::string operation;
+};
+
+/// A curve of a figure; floor is the level below which its y means nothing (NaN: none).
+struct Curve {
+  std::string label;
+  std::vector<double> x, y;
+  double floor;
+  std::vector<double> pair_orders;  // observed order of each neighbouring pair; empty if orders make no sense
+};
+
+enum class Scale { linear, log };
+
+struct Axis {
+  std::string label, unit;
+  Scale scale;
+};
+
+struct Figure {
+  std::string name, title;
+  Axis x, y;
+  double slope;  // expected in log-log, NaN: none
+  std::string caption;
+  std::vector<Curve> curves;
+};
+
+struct Table {
+  std::string name, title;
+  std::vector<Column> columns;
+};
+
+enum class Tier { quick, full };
+
+/// Told how far a study has come, from 0 to 1.
+using Progress = std::function<void(double)>;
+
+struct NamedFinding {
+  std::string name;   // the study's name, a dot, and which of its measurements
+  std::string claim;  // one sentence
+  Finding finding;
+};
+
+struct StudyResult {
+  std::vector<NamedFinding> findings;
+  std::vector<Figure> figures;
+  std::vector<Table> tables;
+};
+
+/// Measures a rate or a cost over a range: its findings are judged like checks, its curves are evidence.
+struct Study {
+  std::string name, claim, source;
+  std::string about;  // a paragraph for the report
+  std::function<StudyResult(const Subject&, Tier, const Progress&)> run;
+};
+
+/// A finding with all that a reader wants to know of it: what a run records.
+struct Record {
+  std::string name, kind, study;  // kind "check", "study" or "bench"; study: the name of the study, or ""
+  std::string claim, source;
+  Finding finding;
+  std::string outcome;  // name_of(ruling), or "measured" for a bench
+  std::string better;   // bench only: "higher" or "lower"
+  double seconds = 0;
+  std::vector<std::string> faults;  // seeded faults that it catches
+};
+
+struct StudyRecord {
+  std::string name, claim, source, about;
+  double seconds = 0;
+  std::vector<Figure> figures;
+  std::vector<Table> tables;
+};
+
+/// Runs a check or a study. A check that throws anything but NotOffered fails, with the message as its note.
+Record run_check(const Check& check, const Subject& subject);
+std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const Subject& subject, Tier tier,
+                                                      const Progress& progress);
+
+}  // namespace foldproof

@@ -1,0 +1,43 @@
+#include "verification/checks/damping_laws.h"
+
+#include <Eigen/Eigenvalues>
+
+#include "verification/checks/moving_scenes.h"
+
+namespace foldproof {
+
+PowerOfDamping power_of_damping(const Probe& probe, const State& s) {
+  const PerParticle3 f = probe.damping(s, s.v);
+  const double power = f.cwiseProduct(s.v).sum();
+  return {power, power / (epsilon * f.colwise().norm().cwiseProduct(s.v.colwise().norm()).sum())};
+}
+
+Finding asymmetry(const Subject& subject, const std::vector<DampedScene>& cases) {
+  Measured measured = roundings_of("largest |D_ij|");
+  for (const DampedScene& damped : cases) {
+    const Eigen::MatrixXd D = damping_matrix(Probe(subject, damped.scene), damped.state);
+    const double largest = (D - D.transpose()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    measured.see(damped.name, largest / (epsilon * D.cwiseAbs().maxCoeff()));
+  }
+  return measured.judged(32, "an entry of D is a product of two rounded components and a sum over about ten elements");
+}
+
+Finding largest_eigenvalue(const Subject& subject, const std::vector<DampedScene>& cases) {
+  Measured measured = roundings_of("3N times the largest |eigenvalue|");
+  std::vector<double> lowest, highest;
+  for (const DampedScene& damped : cases) {
+    const Eigen::MatrixXd D = damping_matrix(Probe(subject, damped.scene), damped.state);
+    const Eigen::MatrixXd symmetric_part = 0.5 * (D + D.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric_part, Eigen::EigenvaluesOnly);
+    lowest.push_back(solver.eigenvalues().minCoeff());
+    highest.push_back(solver.eigenvalues().maxCoeff());
+    const double size = solver.eigenvalues().cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    measured.see(damped.name, highest.back() / (epsilon * double(D.rows()) * size));
+  }
+  Finding finding = measured.judged(4, "the eigenvalue solver's backward error is about epsilon 3N times the largest eigenvalue");
+  finding.evidence.push_back({"lowest eigenvalue", "N s/m", lowest});
+  finding.evidence.push_back({"highest eigenvalue", "N s/m", highest});
+  return finding;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,32 @@
+// Laws that every damping force obeys, measured on any scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "verification/checks/measured.h"
+
+namespace foldproof {
+
+/// A scene with damping, small enough for a dense matrix, and a state of it.
+struct DampedScene {
+  std::string name;
+  Scene scene;
+  State state;
+};
+
+struct PowerOfDamping {
+  double power;              // sum of v_i.F_i [W]; negative when the motion loses energy
+  double gain_in_roundings;  // power over epsilon times sum |v_i||F_i|; NaN without any force
+};
+
+/// At the state's own velocities.
+PowerOfDamping power_of_damping(const Probe& probe, const State& s);
+
+/// Largest entry of D - D^T, over epsilon times the largest entry of D.
+Finding asymmetry(const Subject& subject, const std::vector<DampedScene>& cases);
+
+/// Largest eigenvalue of D over epsilon 3N times the largest in size; the whole spectrum's ends as evidence.
+Finding largest_eigenvalue(const Subject& subject, const std::vector<DampedScene>& cases);
+
+}  // namespace foldproof

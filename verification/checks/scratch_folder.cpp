@@ -1,0 +1,21 @@
+#include "verification/checks/scratch_folder.h"
+
+#include <stdlib.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace foldproof {
+
+ScratchFolder::ScratchFolder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "foldproof-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) throw std::system_error(errno, std::generic_category(), pattern);
+  path_ = pattern;
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;  // a folder left behind is no reason to stop
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace foldproof

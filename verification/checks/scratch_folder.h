@@ -1,0 +1,23 @@
+// A folder of its own for files that a check writes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace foldproof {
+
+/// Made under the system's folder for temporary files, and removed with all that is in it.
+class ScratchFolder {
+ public:
+  ScratchFolder();  // throws std::system_error if it cannot be made
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace foldproof

@@ -1,0 +1,36 @@
+// Work of a subject's elastic forces along paths through the space of all positions.
+#pragma once
+
+#include <functional>
+
+#include "verification/checks/measured.h"
+#include "verification/oracles/estimate.h"
+
+namespace foldproof {
+
+/// Positions and their derivative, 3 x N [m], as functions of a parameter from 0 to 1.
+struct Path {
+  std::function<PerParticle3(double)> x, slope;
+};
+
+/// A straight line through x in a random direction, particles moving by up to `size` [m] either way.
+Path random_line(const PerParticle3& x, double size, unsigned seed);
+
+/// An ellipse about x in a random plane, particles moving by up to `size` [m] along each of its axes.
+Path random_loop(const PerParticle3& x, double size, unsigned seed);
+
+/// |E(1) - E(0) + work| over epsilon times (integral of |F||dx| + |E(0)| + |E(1)|). Gauss-Legendre quadrature of tenth order on 8
+/// and on 16 panels; their difference is the uncertainty.
+oracles::Estimate energy_against_work(const Probe& probe, const Path& path);
+
+/// What the elastic forces do once round a closed path.
+struct RoundTrip {
+  double work = 0, uncertainty = 0;  // J
+  double scale = 0;                  // integral of |F||dx| [J]
+};
+
+/// By the trapezoidal rule, which converges exponentially on a smooth closed path, on 64 and on 128 points; their difference is
+/// the uncertainty.
+RoundTrip round_trip(const Probe& probe, const Path& loop);
+
+}  // namespace foldproof

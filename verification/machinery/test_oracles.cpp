@@ -1,0 +1,497 @@
+// Every oracle against a second way of getting the same answer, at two points with distinct parameters.
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "verification/oracles/cloth.h"
+#include "verification/oracles/definitions.h"
+#include "verification/oracles/driven_hinge.h"
+#include "verification/oracles/exact_solutions.h"
+#include "verification/oracles/gsl.h"
+#include "verification/oracles/heavy_cantilever.h"
+#include "verification/oracles/scalars.h"
+
+using namespace foldproof;
+using namespace foldproof::oracles;
+using Corners = std::array<Vector3, 4>;
+
+namespace {
+
+// u and the forces are rounded once each; sums of up to twelve such numbers stay within this many times
+// epsilon
+constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
+
+HingeInput first_hinge() {
+  HingeInput hinge;
+  hinge.x = {Vector3(-.71, .13, .36), Vector3(.59, .44, .27), Vector3(.04, -.03, -.11),
+             Vector3(-.06, .05, .83)};
+  hinge.v = {Vector3(.31, -1.2, .45), Vector3(-.62, .83, .17), Vector3(.92, .24, -.53),
+             Vector3(-.14, .37, .76)};
+  hinge.rest = {Vector3(-.8, .02, .3), Vector3(.67, 0, .41), Vector3(.01, 0, -.07), Vector3(0, .03, .9)};
+  hinge.ke = 3.7e-3;
+  hinge.kd = 4.1e-4;
+  hinge.theta0 = .63;
+  return hinge;
+}
+
+/// Folded beyond a right angle the other way, small and thin.
+HingeInput second_hinge() {
+  HingeInput hinge;
+  hinge.x = {Vector3(.045, .014, .017), Vector3(.031, .052, .024), Vector3(.003, .001, .002),
+             Vector3(.009, .012, .061)};
+  hinge.v = {Vector3(1.7, .3, -.6), Vector3(-.9, 2.3, .8), Vector3(.5, -.7, 1.1), Vector3(.2, .6, -1.3)};
+  hinge.rest = {Vector3(-.05, .003, .01), Vector3(.06, .002, .02), Vector3(0, .001, 0),
+                Vector3(.004, 0, .057)};
+  hinge.ke = 2.9e-5;
+  hinge.kd = 1.3e-6;
+  hinge.theta0 = -.87;
+  return hinge;
+}
+
+std::array<HingeInput, 2> hinges() { return {first_hinge(), second_hinge()}; }
+
+double size(const Corners& p) {
+  double sum = 0;
+  for (const Vector3& vector : p) sum += vector.norm();
+  return sum;
+}
+
+double distance(const Corners& p, const Corners& q) {
+  return size({p[0] - q[0], p[1] - q[1], p[2] - q[2], p[3] - q[3]});
+}
+
+double dot(const Corners& p, const Corners& q) {
+  return p[0].dot(q[0]) + p[1].dot(q[1]) + p[2].dot(q[2]) + p[3].dot(q[3]);
+}
+
+Corners scaled(double factor, const Corners& p) {
+  return {factor * p[0], factor * p[1], factor * p[2], factor * p[3]};
+}
+
+}  // namespace
+
+TEST_CASE("dual numbers carry first and second derivatives of every function they offer") {
+  using First = Dual<Digits50, 2>;
+  using Second = Dual<First, 2>;
+  const auto f = [](const auto& x, const auto& y) {
+    return atan2(y, x) * sqrt(x + y * y) - sin(x * y) / (2 + cos(x)) + acos(x / 3 - y / 5) * abs(y - x);
+  };
+  for (const auto& [px, py] : {std::pair{.7, .4}, std::pair{-.3, 1.9}}) {
+    const Digits50 x = px, y = py, step("1e-12");
+    const Second value = f(variable<First, 2>(variable<Digits50, 2>(x, 0), 0),
+                           variable<First, 2>(variable<Digits50, 2>(y, 1), 1));
+    const auto at = [&](int i, int j) { return f(Digits50(x + i * step), Digits50(y + j * step)); };
+    const auto close = [](const Digits50& p, const Digits50& q) { return abs(p - q) < Digits50("1e-20"); };
+    CHECK(close(value.value.value, at(0, 0)));
+    CHECK(close(value.derivative[0].value, (at(1, 0) - at(-1, 0)) / (2 * step)));
+    CHECK(close(value.value.derivative[1], (at(0, 1) - at(0, -1)) / (2 * step)));
+    CHECK(close(value.derivative[0].derivative[0], (at(1, 0) - 2 * at(0, 0) + at(-1, 0)) / (step * step)));
+    CHECK(close(value.derivative[1].derivative[0],
+                (at(1, 1) - at(1, -1) - at(-1, 1) + at(-1, -1)) / (4 * step * step)));
+    CHECK(value.derivative[1].derivative[0] - value.derivative[0].derivative[1] < Digits50("1e-45"));
+  }
+}
+
+TEST_CASE("theta is the turn of corner 2 about the edge, and sin(theta/2) as printed agrees") {
+  for (const double turn : {-3.1, -1.7, -1e-9, 0., 1e-9, .4, 2.2, 3.1}) {
+    const Vector3 arm(.83 * std::cos(turn), .83 * std::sin(turn), .29);
+    const Corners x{Vector3(-.57, 0, .31), arm, Vector3(0, 0, -.13), Vector3(0, 0, .97)};
+    CHECK(std::abs(hinge_angle_50(x).value - turn) < roundings);
+    CHECK(std::abs(sin_half_angle_50(x).value - std::sin(turn / 2)) < roundings);
+  }
+  for (const HingeInput& hinge : hinges()) {
+    CHECK(std::abs(sin_half_angle_50(hinge.x).value - std::sin(hinge_angle_50(hinge.x).value / 2)) <
+          roundings);
+  }
+  CHECK(hinge_angle_50(first_hinge().x).value * hinge_angle_50(second_hinge().x).value < 0);
+}
+
+TEST_CASE("u is orthogonal to the eleven other modes") {
+  for (const HingeInput& hinge : hinges()) {
+    const auto& [x1, x2, x3, x4] = hinge.x;
+    const Corners u = bending_mode_50(hinge.x).value;
+    const double bound = roundings * size(u);
+    CHECK((u[0] + u[1] + u[2] + u[3]).norm() < bound);
+    Vector3 torque = Vector3::Zero();
+    for (std::size_t i = 0; i < 4; ++i) torque += hinge.x[i].cross(u[i]);
+    CHECK(torque.norm() < bound * size(hinge.x));
+    for (const Vector3& in_plane : {Vector3(x1 - x3), Vector3(x1 - x4)})
+      CHECK(std::abs(u[0].dot(in_plane)) < bound);
+    for (const Vector3& in_plane : {Vector3(x2 - x3), Vector3(x2 - x4)})
+      CHECK(std::abs(u[1].dot(in_plane)) < bound);
+    CHECK(std::abs((u[3] - u[2]).dot(x4 - x3)) < bound);
+  }
+}
+
+TEST_CASE("u is minus the gradient of theta, by autodiff and by differences") {
+  for (const HingeInput& hinge : hinges()) {
+    const Corners minus_u = scaled(-1, bending_mode_50(hinge.x).value);
+    const auto by_autodiff = theta_gradient_autodiff(hinge.x),
+               by_differences = theta_gradient_differences(hinge.x);
+    CHECK(distance(by_autodiff.value, by_differences.value) <= 12 * by_autodiff.uncertainty);
+    CHECK(distance(by_autodiff.value, minus_u) <= 12 * by_autodiff.uncertainty);
+    const Estimate rate = theta_rate_autodiff(hinge.x, hinge.v);
+    CHECK(std::abs(rate.value - dot(minus_u, hinge.v)) < roundings * size(minus_u) * size(hinge.v));
+  }
+}
+
+TEST_CASE("the elastic force is minus the gradient of the energy, if its factor is taken at rest") {
+  for (HingeInput hinge : hinges()) {
+    const Corners force = bending_elastic_50(hinge).value;
+    CHECK(distance(force, scaled(-1, energy_gradient_autodiff(hinge).value)) < roundings * size(force));
+    const auto factor = [](const Corners& x) {
+      const double twice_areas =
+          (x[0] - x[2]).cross(x[0] - x[3]).norm() + (x[1] - x[2]).cross(x[1] - x[3]).norm();
+      return (x[3] - x[2]).squaredNorm() / twice_areas;
+    };
+    const double deflection = std::sin(hinge_angle_50(hinge.x).value / 2) - std::sin(hinge.theta0 / 2);
+    const Corners u = bending_mode_50(hinge.x).value;
+    CHECK(distance(force, scaled(hinge.ke * factor(hinge.rest) * deflection, u)) < roundings * size(force));
+    hinge.elastic_geometry = Geometry::current;
+    const Corners now = bending_elastic_50(hinge).value;
+    CHECK(distance(now, scaled(hinge.ke * factor(hinge.x) * deflection, u)) < roundings * size(now));
+    CHECK(distance(now, force) > 1e-3 * size(force));
+    hinge.theta0 = hinge_angle_50(hinge.x).value;
+    CHECK(std::abs(bending_energy_50(hinge).value) < roundings * hinge.ke);
+    CHECK(size(bending_elastic_50(hinge).value) < roundings * size(force));
+  }
+}
+
+TEST_CASE("the damping force takes kd factor (d theta/dt)^2 of power, whichever factor") {
+  for (HingeInput hinge : hinges()) {
+    const double rate = theta_rate_autodiff(hinge.x, hinge.v).value;
+    for (const Geometry geometry : {Geometry::rest, Geometry::current}) {
+      const Corners& shape = geometry == Geometry::rest ? hinge.rest : hinge.x;
+      const double edge = (shape[3] - shape[2]).norm();
+      const double N1 = (shape[0] - shape[2]).cross(shape[0] - shape[3]).norm();
+      const double N2 = (shape[1] - shape[2]).cross(shape[1] - shape[3]).norm();
+      for (const auto& [kind, factor] : {std::pair{DampingFactor::edge_length, edge},
+                                         std::pair{DampingFactor::anisotropy, edge * edge / (N1 + N2)}}) {
+        hinge.damping_geometry = geometry;
+        hinge.damping_factor = kind;
+        const Corners force = bending_damping_50(hinge).value;
+        const double power = dot(force, hinge.v), expected = -hinge.kd * factor * rate * rate;
+        CHECK(std::abs(power - expected) < roundings * size(force) * size(hinge.v));
+        CHECK(power < 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("a spring's force is minus the gradient of its energy, and its damping takes power along it only") {
+  const SpringInput first{{Vector3(.1, .2, -.3), Vector3(.9, -.4, .5)},
+                          {Vector3(1, .7, .2), Vector3(-.4, 2, .6)},
+                          {53, .21, .34, .91}};
+  const SpringInput second{{Vector3(-2, .6, 1.3), Vector3(.3, 1.4, .8)},
+                           {Vector3(.3, -.9, 3), Vector3(.8, .5, -.2)},
+                           {710, 1.9, .067, 3.3}};
+  for (const SpringInput& spring : {first, second}) {
+    const auto force = spring_elastic_50(spring), gradient = spring_energy_gradient_autodiff(spring);
+    const Vector3 d = spring.x[1] - spring.x[0], direction = d.normalized();
+    const SpringLaw<double>& law = spring.law;
+    const double strain = d.norm() / law.rest_length - 1;
+    for (std::size_t i : {0, 1}) CHECK((force.value[i] + gradient.value[i]).norm() <= 4 * force.uncertainty);
+    const double tension = law.young * law.area / law.rest_length * strain;
+    CHECK((force.value[0] - tension * direction).norm() < roundings * law.young * law.area / law.rest_length);
+    const double energy = law.young * law.area / 2 * strain * strain;
+    CHECK(std::abs(spring_energy_50(spring).value - energy) < roundings * law.young * law.area);
+    const auto damping = spring_damping_50(spring);
+    const double closing = (spring.v[1] - spring.v[0]).dot(direction);
+    const double coefficient = law.damping * law.area / (law.rest_length * law.rest_length);
+    CHECK((damping.value[0] - coefficient * closing * direction).norm() < roundings * coefficient * 10);
+    CHECK((damping.value[0] + damping.value[1]).norm() == 0);
+  }
+}
+
+TEST_CASE("degenerate input is refused") {
+  HingeInput hinge = first_hinge();
+  hinge.rest[0] = hinge.rest[2];
+  CHECK_THROWS_AS(bending_elastic_50(hinge), InputError);
+  hinge.x[1].x() = std::nan("");
+  CHECK_THROWS_AS(bending_mode_50(hinge.x), InputError);
+  CHECK_THROWS_AS(oscillator_at({-1., .2, 1, 0}, 1), InputError);
+  CHECK_THROWS_AS(verlet_oscillator({4., 0, 1, 0}, 1.01, 5), InputError);
+  CHECK_THROWS_AS(heavy_cantilever(std::nan("")), InputError);
+}
+
+namespace {
+
+/// One step of the scheme's lines as printed, on x'' = -k x - c x', with numbers for a and no algebra.
+Eigen::Vector2d step_by_lines(Scheme scheme, const Oscillator& o, double h, const Eigen::Vector2d& state) {
+  const auto explicit_half = [&](double x, double v) {
+    return v + h / 2 * (-o.stiffness * x - o.damping * v);
+  };
+  const auto implicit_half = [&](double x, double v) {
+    return (v - h / 2 * o.stiffness * x) / (1 + h / 2 * o.damping);
+  };
+  const double x = state[0], v = state[1];
+  const double v_move = scheme == Scheme::mixed ? explicit_half(x, v) : implicit_half(x, v);
+  const double x_next = x + h * v_move;
+  if (scheme == Scheme::central_newmark) {
+    return {x_next, v_move + h / 2 * (-o.stiffness * x_next - o.damping * v_move)};
+  }
+  return {x_next, implicit_half(x_next, explicit_half(x, v))};
+}
+
+constexpr std::array<Scheme, 3> schemes{Scheme::mixed, Scheme::central_newmark,
+                                        Scheme::variable_step_newmark};
+
+double spectral_radius(const Eigen::Matrix2d& matrix) {
+  return Eigen::EigenSolver<Eigen::Matrix2d>(matrix, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("step matrices are the scheme's lines, with the table's determinants and traces") {
+  for (const auto& [o, h] :
+       {std::pair{Oscillator{37.3, 2.9, 0, 0}, .11}, std::pair{Oscillator{.83, 7.1, 0, 0}, 1.7}}) {
+    const double a = h * o.damping / 2, b = h * h * o.stiffness / 2, p = 1 + a;
+    for (const Scheme scheme : schemes) {
+      const Eigen::Matrix2d matrix = step_matrix(scheme, o, h);
+      for (const Eigen::Vector2d& state : {Eigen::Vector2d(.7, -1.9), Eigen::Vector2d(2.3, .4)}) {
+        CHECK((matrix * state - step_by_lines(scheme, o, h, state)).norm() <
+              roundings * matrix.norm() * state.norm());
+      }
+      const bool is_c = scheme == Scheme::variable_step_newmark;
+      const double determinant = (1 - a) / p + (is_c ? a * b / (p * p) : 0);
+      const double trace = is_c ? (2 * p - b * (2 + a)) / (p * p) : 2 * (1 - b) / p;
+      CHECK(std::abs(matrix.determinant() - determinant) < roundings * matrix.squaredNorm());
+      CHECK(std::abs(matrix.trace() - trace) < roundings * matrix.norm());
+      const double limit = largest_stable_step(scheme, o).value;
+      CHECK(spectral_radius(step_matrix(scheme, o, limit * (1 - 1e-6))) < 1);
+      CHECK(spectral_radius(step_matrix(scheme, o, limit * (1 + 1e-6))) > 1);
+    }
+  }
+  const std::array<std::pair<double, double>, 6> table{
+      {{0, 2.}, {.1, 2.21}, {.5, 3.2361}, {1, 4.8284}, {2, 8.4721}, {10, 40.10}}};
+  for (const auto& [zeta, omega_h] : table) {
+    const Oscillator o{49, 2 * zeta * 7, 0, 0};
+    CHECK(std::abs(7 * largest_stable_step(Scheme::variable_step_newmark, o).value - omega_h) < 5.1e-3);
+  }
+}
+
+TEST_CASE("velocity Verlet's closed form is what a thousand undamped steps of every scheme give") {
+  for (const auto& [o, h] :
+       {std::pair{Oscillator{29, 0, .7, -1.3}, .041}, std::pair{Oscillator{3.1, 0, -2.3, .6}, .93}}) {
+    const OscillatorEstimate expected = verlet_oscillator(o, h, 1000);
+    for (const Scheme scheme : schemes) {
+      Eigen::Vector2d state(o.x0, o.v0);
+      for (int i = 0; i < 1000; ++i) state = step_by_lines(scheme, o, h, state);
+      CHECK(std::abs(state[0] - expected.x.value) < 1000 * roundings);
+      CHECK(std::abs(state[1] - expected.v.value) < 1000 * roundings * std::sqrt(o.stiffness));
+    }
+  }
+}
+
+TEST_CASE("GSL and the closed forms of the damped oscillator and of free fall agree") {
+  const std::array<double, 2> times{.37, 2.9};
+  for (const Oscillator& o :
+       {Oscillator{31, 1.7, .8, -.3}, Oscillator{2.9, 9.1, -.4, 1.6}, Oscillator{6.25, 5, .9, .7}}) {
+    const RightHandSide rhs = [&o](double, std::span<const double> y, std::span<double> dy) {
+      dy[0] = y[1];
+      dy[1] = -o.stiffness * y[0] - o.damping * y[1];
+    };
+    const std::array<double, 2> start{o.x0, o.v0};
+    const ReferenceSolution solution = reference_solution(rhs, start, 0, times, 1e-13);
+    for (std::size_t i : {0, 1}) {
+      const OscillatorEstimate exact = oscillator_at(o, times[i]);
+      CHECK(solution.uncertainty[i] < 2e-11);
+      CHECK(std::abs(solution.values[i][0] - exact.x.value) <= solution.uncertainty[i] + exact.x.uncertainty);
+      CHECK(std::abs(solution.values[i][1] - exact.v.value) <= solution.uncertainty[i] + exact.v.uncertainty);
+    }
+  }
+  const FallEstimate fall =
+      free_fall({Vector3(.3, -2, 5), Vector3(1.1, .4, -.7), Vector3(.2, .5, -9.80665)}, 1.3);
+  CHECK((fall.x - Vector3(1.899, -1.0575, -4.19661925)).norm() < 1e-14);
+  CHECK((fall.v - Vector3(1.36, 1.05, -13.448645)).norm() < 1e-14);
+}
+
+TEST_CASE("GSL's doors refuse what has no answer and pass exceptions on") {
+  const std::array<double, 1> start{1}, times{2};
+  const RightHandSide infinite = [](double, std::span<const double> y, std::span<double> dy) {
+    dy[0] = y[0] * y[0];
+  };
+  const RightHandSide throwing = [](double, std::span<const double>, std::span<double>) {
+    throw std::domain_error("own");
+  };
+  CHECK_THROWS_AS(reference_solution(infinite, start, 0, times, 1e-10), std::runtime_error);
+  CHECK_THROWS_AS(reference_solution(throwing, start, 0, times, 1e-10), std::domain_error);
+  CHECK_THROWS_AS(reference_solution(throwing, start, 3, times, 1e-10), InputError);
+  const Estimate root = bracketed_root([](double x) { return x * x - 2; }, .3, 5, 0);
+  CHECK(std::abs(root.value - std::numbers::sqrt2) <= root.uncertainty + roundings);
+  CHECK_THROWS_AS(bracketed_root([](double x) { return x * x + 2; }, .3, 5, 0), InputError);
+}
+
+namespace {
+
+/// H/L and W/L by shooting from the clamp with the curvature there as the unknown: the equation as printed.
+std::array<double, 2> cantilever_from_clamp(double gamma) {
+  const auto integrate = [gamma](double curvature) {
+    const RightHandSide rhs = [gamma](double s, std::span<const double> y, std::span<double> dy) {
+      dy[0] = y[1];
+      dy[1] = -gamma * (1 - s) * std::cos(y[0]);
+      dy[2] = std::sin(y[0]);
+      dy[3] = std::cos(y[0]);
+    };
+    const std::array<double, 4> clamp{0, curvature, 0, 0};
+    return reference_solution(rhs, clamp, 0, std::array<double, 1>{1}, 1e-13).values[0];
+  };
+  const Estimate curvature =
+      bracketed_root([&](double k) { return integrate(k)[1]; }, 0, gamma / 2 + .01, 1e-14);
+  const std::vector<double> tip = integrate(curvature.value);
+  return {tip[2], tip[3]};
+}
+
+}  // namespace
+
+TEST_CASE("the heavy cantilever's tip is the table's, and that of shooting from the clamp") {
+  const std::array<std::array<double, 3>, 5> table{{{1, .1234714020, .9912463953},
+                                                    {5, .4959050446, .8466571800},
+                                                    {10, .7001997155, .6563537612},
+                                                    {100, .9375239354, .1592233826},
+                                                    {1e4, .9941099339, .0142608898}}};
+  for (const auto& [gamma, drop, reach] : table) {
+    const CantileverTip tip = heavy_cantilever(gamma);
+    CHECK(std::abs(tip.drop.value - drop) <= 5e-11 + tip.drop.uncertainty);
+    CHECK(std::abs(tip.reach.value - reach) <= 5e-11 + tip.reach.uncertainty);
+    CHECK(std::max(tip.drop.uncertainty, tip.reach.uncertainty) < 5e-11);  // the table's last digit
+    if (gamma > 10) continue;
+    const auto [other_drop, other_reach] = cantilever_from_clamp(gamma);
+    CHECK(std::abs(tip.drop.value - other_drop) <= tip.drop.uncertainty + 1e-12);
+    CHECK(std::abs(tip.reach.value - other_reach) <= tip.reach.uncertainty + 1e-12);
+  }
+  const auto slope = [](double gamma) {
+    return heavy_cantilever(gamma).drop.value / heavy_cantilever(gamma).reach.value;
+  };
+  CHECK(std::abs(slope(1e-3) * 8 / 1e-3 - 1) < 1e-6);
+  const double test_angle = std::tan(41.5 * std::numbers::pi / 180);
+  const Estimate gamma = bracketed_root([&](double g) { return slope(g) - test_angle; }, 7, 9, 1e-9);
+  CHECK(std::abs(gamma.value - 8.004197) < 5.1e-7);
+}
+
+namespace {
+
+/// A corner shaken, a corner pushed by a force of time, an edge of which one end is held: nothing is
+/// autonomous.
+DrivenHinge driven(const HingeInput& hinge) {
+  DrivenHinge problem{hinge, .23, 31, .017, Vector3(.4, -.9, -9.80665), {}, {}};
+  problem.prescribed[2] = held_at(hinge.x[2]);
+  problem.prescribed[1] = harmonic_motion({hinge.x[1], .1 * (hinge.x[1] - hinge.x[2]), 1.9, .6});
+  problem.external_force = [](int particle, double t) {
+    return Vector3(1e-2 * std::sin(5 * t), 3e-3 * particle, 1e-2 * t);
+  };
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("a driven hinge accelerates as the 50-digit forces say") {
+  for (const HingeInput& hinge : hinges()) {
+    const DrivenHinge problem = driven(hinge);
+    const ClothDefinition cloth = driven_hinge(problem);
+    const std::vector<double> y = driven_hinge_start(problem);
+    std::vector<double> dy(y.size());
+    const double t = .31;
+    cloth_rhs(cloth)(t, y, dy);
+    const ClothState state = cloth_state(cloth, t, y);
+    HingeInput now = hinge;
+    for (int i = 0; i < 4; ++i) now.x[i] = state.x.col(i), now.v[i] = state.v.col(i);
+    CHECK((now.x[1] - problem.prescribed.at(1).x(t)).norm() == 0);
+    Corners force = bending_elastic_50(now).value;
+    for (int i = 0; i < 4; ++i)
+      force[i] += bending_damping_50(now).value[i] + cloth.masses[i] * problem.gravity;
+    for (const SpringDefinition& edge : cloth.springs) {
+      const double opposite_area = edge.area, length = (hinge.rest[edge.a] - hinge.rest[edge.b]).norm();
+      const SpringInput spring{{now.x[edge.a], now.x[edge.b]},
+                               {now.v[edge.a], now.v[edge.b]},
+                               {problem.young, problem.spring_damping, opposite_area, length}};
+      force[edge.a] += spring_elastic_50(spring).value[0] + spring_damping_50(spring).value[0];
+      force[edge.b] += spring_elastic_50(spring).value[1] + spring_damping_50(spring).value[1];
+    }
+    for (const auto& [particle, row] : {std::pair{0, 6}, std::pair{3, 9}}) {
+      const Vector3 expected =
+          (force[particle] + problem.external_force(particle, t)) / cloth.masses[particle];
+      CHECK((Vector3(dy[row], dy[row + 1], dy[row + 2]) - expected).norm() <
+            roundings * 10 * expected.norm());
+    }
+  }
+}
+
+TEST_CASE("a free hinge falls with its centre of mass, keeps its spin, and loses what damping takes") {
+  for (const HingeInput& hinge : hinges()) {
+    DrivenHinge problem = driven(hinge);
+    problem.prescribed.clear();
+    problem.external_force = nullptr;
+    const double end_time = .07;  // the second hinge folds through pi at .077 s, where its energy jumps
+    const auto run = [end_time](const DrivenHinge& p) {
+      const ClothDefinition cloth = driven_hinge(p);
+      const std::array<double, 1> times{end_time};
+      const auto solution = reference_solution(cloth_rhs(cloth), driven_hinge_start(p), 0, times, 1e-13);
+      CHECK(solution.uncertainty[0] < 1e-9);
+      return std::pair{cloth, cloth_state(cloth, times[0], solution.values[0])};
+    };
+    const auto [cloth, end] = run(problem);
+    const ClothState start = cloth_state(cloth, 0, driven_hinge_start(problem));
+    const Eigen::Map<const Eigen::VectorXd> m(cloth.masses.data(), 4);
+    const Vector3 centre = start.x * m / m.sum(), drift = start.v * m / m.sum();
+    CHECK((end.x * m / m.sum() - free_fall({centre, drift, problem.gravity}, end_time).x).norm() < 1e-11);
+    const auto spin = [&m](const ClothState& state) {
+      const Vector3 x = state.x * m / m.sum(), v = state.v * m / m.sum();
+      Vector3 total = Vector3::Zero();
+      for (int i = 0; i < 4; ++i)
+        total += m[i] * Vector3(state.x.col(i) - x).cross(Vector3(state.v.col(i) - v));
+      return total;
+    };
+    CHECK((spin(end) - spin(start)).norm() < 1e-10 * spin(start).norm());
+    CHECK(mechanical_energy(cloth, end) < mechanical_energy(cloth, start));
+    problem.hinge.kd = problem.spring_damping = 0;
+    const auto [undamped, undamped_end] = run(problem);
+    const double energy = mechanical_energy(undamped, start);
+    CHECK(std::abs(mechanical_energy(undamped, undamped_end) - energy) < 1e-10 * std::abs(energy));
+  }
+}
+
+TEST_CASE("a pre-stretched pair turns steadily at the length of the closed form") {
+  for (const auto& [pair, omega] : {std::pair{SpringPair{41, .13, .7, .05, .09}, 7.3},
+                                    std::pair{SpringPair{9, 2.1, 1.6, .4, .23}, 1.9}}) {
+    const double length = steady_rotation_length(pair, omega).value, total = pair.mass_a + pair.mass_b;
+    const double reach_a = length * pair.mass_b / total, reach_b = length * pair.mass_a / total;
+    ClothDefinition cloth;
+    cloth.masses = {pair.mass_a, pair.mass_b};
+    cloth.springs = {{0, 1, pair.rest_length, pair.area}};
+    cloth.material.young = pair.young;
+    cloth.material.spring_damping = .3;
+    const std::array<double, 12> start{reach_a,         0, 0, -reach_b,         0, 0, 0,
+                                       omega * reach_a, 0, 0, -omega * reach_b, 0};
+    const std::array<double, 1> times{2.3};
+    const auto solution = reference_solution(cloth_rhs(cloth), start, 0, times, 1e-13);
+    const Vector3 expected(reach_a * std::cos(2.3 * omega), reach_a * std::sin(2.3 * omega), 0);
+    CHECK((cloth_state(cloth, 2.3, solution.values[0]).x.col(0) - expected).norm() <
+          solution.uncertainty[0] + 1e-12);
+    CHECK_THROWS_AS(steady_rotation_length(pair, 100 * omega), InputError);
+  }
+}
+
+TEST_CASE("an equilateral sheet's springs store the energy of Young's modulus Y and Poisson's ratio 1/3") {
+  for (const auto& [young, side] : {std::pair{7.9, .31}, std::pair{430., 1.7}}) {
+    const SheetModuli moduli = equilateral_sheet_moduli(young);
+    const double cell = std::sqrt(3.) / 2 * side * side, strain = 1e-5;
+    const auto energy = [&, young = young, side = side](const Eigen::Matrix2d& stretch) {
+      double sum = 0;
+      for (const double turn : {.2, .2 + std::numbers::pi / 3, .2 + 2 * std::numbers::pi / 3}) {
+        const Eigen::Vector2d d = stretch * side * Eigen::Vector2d(std::cos(turn), std::sin(turn));
+        sum += spring_energy<double>({}, {d.x(), d.y(), 0}, {young, 0, cell, side});
+      }
+      return sum / cell;
+    };
+    const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
+    const double nu = moduli.poisson.value;
+    const Eigen::Matrix2d uniaxial = unit + strain * Eigen::Vector2d(1, -nu).asDiagonal().toDenseMatrix();
+    CHECK(std::abs(energy(uniaxial) / (strain * strain / 2) / moduli.young.value - 1) < 10 * strain);
+    const Eigen::Matrix2d equal = unit + strain * unit;
+    CHECK(std::abs(energy(equal) / (strain * strain) * (1 - nu) / moduli.young.value - 1) < 10 * strain);
+  }
+}

@@ -1,0 +1,47 @@
+#include "verification/subject.h"
+
+#include "reference/dynamics/integrator.h"
+#include "reference/forces/force.h"
+
+namespace foldproof {
+
+namespace {
+
+struct PreparedReference : Prepared {
+  System system;
+  const Integrator& integrator;
+
+  explicit PreparedReference(const Scene& scene)
+      : system(build_system(scene)), integrator(integrator_named(scene.integrator)) {}
+};
+
+const PreparedReference& own(const Prepared& prepared) { return static_cast<const PreparedReference&>(prepared); }
+
+}  // namespace
+
+Subject reference_subject() {
+  Subject subject;
+  subject.name = "foldproof reference";
+  subject.version = "0.1.0";
+  subject.prepare = [](const Scene& scene) { return std::make_unique<PreparedReference>(scene); };
+  subject.elastic_forces = [](Prepared& prepared, const State& s) {
+    Work uncounted;
+    return elastic_forces(own(prepared).system.forces, s, uncounted);
+  };
+  subject.damping_forces = [](Prepared& prepared, const State& s, const PerParticle3& v) {
+    Work uncounted;
+    PerParticle3 force = PerParticle3::Zero(3, s.x.cols());
+    damping_at(own(prepared).system.forces, s, uncounted).add_product(v, force);
+    return force;
+  };
+  subject.potential_energy = [](Prepared& prepared, const State& s) {
+    const Energies e = energies(own(prepared).system, s);
+    return e.total() - e.kinetic;
+  };
+  subject.step = [](Prepared& prepared, const State& s, double dt, Work& work) {
+    return own(prepared).integrator.step(own(prepared).system, {&s, 1}, dt, work);
+  };
+  return subject;
+}
+
+}  // namespace foldproof

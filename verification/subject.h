@@ -1,0 +1,49 @@
+// What is being verified: the reference, or another solver that offers the same operations.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "reference/scene/scene.h"
+#include "reference/types.h"
+#include "verification/check.h"
+
+namespace foldproof {
+
+/// A scene as a subject has made it ready: built once, then handed to the calls below.
+struct Prepared {
+  virtual ~Prepared() = default;
+};
+
+/// The operations that a check may ask for. An empty function: the subject does not offer it.
+struct Subject {
+  std::string name, version;
+
+  /// Builds the scene; the integrator and the solver's settings are the scene's. Throws NotOffered for what it does not have.
+  std::function<std::unique_ptr<Prepared>(const Scene&)> prepare;
+
+  /// All elastic and external forces at s [N], 3 x N.
+  std::function<PerParticle3(Prepared&, const State& s)> elastic_forces;
+
+  /// The damping forces at the positions of s for the velocities v [N], 3 x N: D(x) v.
+  std::function<PerParticle3(Prepared&, const State& s, const PerParticle3& v)> damping_forces;
+
+  /// Elastic and potential energy [J].
+  std::function<double(Prepared&, const State& s)> potential_energy;
+
+  /// One step of dt [s]; adds the work that it counted, if it counts.
+  std::function<State(Prepared&, const State& s, double dt, Work& work)> step;
+};
+
+/// The plain solver of reference/.
+Subject reference_subject();
+
+/// Throws NotOffered if the operation is empty.
+template <class Operation>
+const Operation& offered(const Operation& operation, const char* name) {
+  if (!operation) throw NotOffered{name};
+  return operation;
+}
+
+}  // namespace foldproof

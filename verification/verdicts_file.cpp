@@ -1,0 +1,98 @@
+#include "verification/verdicts_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace foldproof {
+
+namespace {
+
+nlohmann::json number(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
+
+nlohmann::json as_json(const Record& record) {
+  const Verdict& verdict = record.finding.verdict;
+  return {{"name", record.name},
+          {"kind", record.kind},
+          {"study", record.study},
+          {"claim", record.claim},
+          {"source", record.source},
+          {"measured", number(verdict.measured)},
+          {"uncertainty", number(verdict.uncertainty)},
+          {"bound", number(verdict.bound)},
+          {"unit", verdict.unit},
+          {"why_bound", verdict.why_bound},
+          {"outcome", record.outcome},
+          {"note", record.finding.note},
+          {"seconds", record.seconds},
+          {"faults", record.faults}};
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += (static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t') ? ' ' : c;
+    }
+  return out;
+}
+
+std::string junit_case(const Record& record) {
+  const Verdict& v = record.finding.verdict;
+  std::string text = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", record.kind,
+                                 escaped(record.name), record.seconds);
+  const std::string message = escaped(fmt::format("measured {:.6g}, uncertainty {:.3g}, bound {:.6g} [{}]. {} {}", v.measured,
+                                                  v.uncertainty, v.bound, v.unit, record.claim, record.finding.note));
+  if (record.outcome == "holds" || record.outcome == "measured") return text + "/>\n";
+  const char* kind = record.outcome == "not applicable" ? "skipped" : "failure";
+  return text + fmt::format(">\n    <{0} message=\"{1}: {2}\"/>\n  </testcase>\n", kind, record.outcome, message);
+}
+
+std::string junit_xml(const RunRecord& run) {
+  size_t failures = 0, skipped = 0;
+  std::string cases;
+  for (const Record& record : run.records) {
+    failures += record.outcome == "fails" || record.outcome == "inconclusive";
+    skipped += record.outcome == "not applicable";
+    cases += junit_case(record);
+  }
+  return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"foldproof\" tests=\"{}\" failures=\"{}\" "
+                     "skipped=\"{}\" time=\"{:.3f}\" timestamp=\"{}\">\n{}</testsuite>\n",
+                     run.records.size(), failures, skipped, run.seconds, escaped(run.provenance.date), cases);
+}
+
+}  // namespace
+
+std::string verdicts_json(const RunRecord& run) {
+  const Provenance& p = run.provenance;
+  nlohmann::json json = {{"schema", 1},
+                         {"program",
+                          {{"name", "foldproof"}, {"version", p.version}, {"commit", p.commit}, {"tree", p.tree},
+                           {"compiler", p.compiler}, {"flags", p.flags}, {"cpu", p.cpu}, {"date", p.date},
+                           {"command", p.command}, {"tier", run.tier}, {"subject", run.subject}}},
+                         {"findings", nlohmann::json::array()}};
+  for (const Record& record : run.records) json["findings"].push_back(as_json(record));
+  return json.dump(1) + "\n";
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  const std::string partial = path + ".partial";
+  std::ofstream out(partial, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(path + ": cannot be written; is the folder there and writable?");
+  rename_when_whole(partial, path);
+}
+
+void write_verdicts(const std::string& folder, const RunRecord& run) {
+  write_text(folder + "/verdicts.json", verdicts_json(run));
+  write_text(folder + "/junit.xml", junit_xml(run));
+}
+
+}  // namespace foldproof
