@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -30,6 +31,11 @@ struct Work {
   long unfinished_solves = 0;      // solves that hit the cap on iterations before they kept their promise
   double worst_residual = 0;       // largest relative residual returned by a solve [1]
 };
+
+/// Sets `worst` to `value` if that is larger or NaN; a NaN stays whatever comes after it.
+inline void keep_worst(double& worst, double value) {
+  if (!std::isnan(worst) && !(value <= worst)) worst = value;
+}
 
 /// Bad input: the message says what, where and what to do.
 struct InputError : std::runtime_error {

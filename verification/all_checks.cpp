@@ -1,9 +1,18 @@
 #include "verification/all_checks.h"
 
+#include "verification/checks/bending_checks.h"
+#include "verification/checks/dynamics_checks.h"
+#include "verification/checks/force_checks.h"
+#include "verification/checks/mesh_checks.h"
+#include "verification/checks/scene_checks.h"
+#include "verification/checks/solver_checks.h"
+
 namespace foldproof {
 
 std::vector<Check> all_checks() {
   std::vector<Check> all;
+  for (const auto& part : {mesh_checks(), force_checks(), bending_checks(), solver_checks(), dynamics_checks(), scene_checks()})
+    all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 

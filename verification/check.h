@@ -1,6 +1,7 @@
 // What a verification says: verdicts, findings, the evidence behind them, and the checks and studies that make them.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <variant>
@@ -40,7 +41,7 @@ struct Finding {
 class Worst {
  public:
   void see(double value) {
-    if (!(value <= worst_)) worst_ = value;
+    if (!std::isnan(worst_) && !(value <= worst_)) worst_ = value;
   }
   double value() const { return worst_; }  // 0 if nothing was seen
 

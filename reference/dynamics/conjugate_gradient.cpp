@@ -32,7 +32,7 @@ Solve record(Solve solve, Work& work) {
   ++work.solves;
   work.cg_iterations += solve.iterations;
   if (!solve.converged) ++work.unfinished_solves;
-  if (!(solve.residual <= work.worst_residual)) work.worst_residual = solve.residual;
+  keep_worst(work.worst_residual, solve.residual);
   return solve;
 }
 

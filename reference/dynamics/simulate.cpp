@@ -107,7 +107,7 @@ void add(Work& sum, const Work& part) {
   sum.solves += part.solves;
   sum.cg_iterations += part.cg_iterations;
   sum.unfinished_solves += part.unfinished_solves;
-  if (!(part.worst_residual <= sum.worst_residual)) sum.worst_residual = part.worst_residual;
+  keep_worst(sum.worst_residual, part.worst_residual);
 }
 
 /// Advances `outcome.last` to the time `target`, or sets outcome.stop.

@@ -38,10 +38,7 @@ double frequency_bound(const std::vector<Force>& forces, const State& s, const P
     if (const auto* bending = std::get_if<Bending>(&force)) bending->add_stiffness_bound(s, rows);
   }
   double largest = 0;
-  for (Eigen::Index i = 0; i < rows.size(); ++i) {
-    const double row = rows[i] * inverse_mass[i];
-    if (!(row <= largest)) largest = row;  // keeps a NaN
-  }
+  for (Eigen::Index i = 0; i < rows.size(); ++i) keep_worst(largest, rows[i] * inverse_mass[i]);
   return std::sqrt(largest);
 }
 

@@ -7,9 +7,11 @@
 
 namespace foldproof {
 
-std::vector<Check> bending_mode_checks();     // bending_mode_checks.cpp: the twelve motions of a hinge
-std::vector<Check> bending_angle_checks();    // bending_angle_checks.cpp: the angle's sine, extreme and lost shapes
-std::vector<Check> bending_energy_checks();   // bending_energy_checks.cpp: energies and work round closed paths
+std::vector<Check> bending_mode_checks();  // bending_mode_checks.cpp: the twelve motions of a hinge
+std::vector<Check>
+bending_angle_checks();  // bending_angle_checks.cpp: the angle's sine, extreme and lost shapes
+std::vector<Check>
+bending_energy_checks();  // bending_energy_checks.cpp: energies and work round closed paths
 std::vector<Check> bending_damping_checks();  // bending_damping_checks.cpp: damping
 
 /// All of the above, and those of the forces as a whole.

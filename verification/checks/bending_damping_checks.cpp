@@ -40,12 +40,14 @@ PerParticle damping_scale(const Specimen& specimen, const PerParticle3& v) {
   for (const Hinge& hinge : specimen.scene.mesh.hinges) {
     const Corners x = corners_of(hinge, specimen.state.x);
     const HingeShape shape = hinge_shape(x[0], x[1], x[2], x[3]);
-    const double s =
-        material.damping_factor == DampingFactor::edge ? shape.edge : shape.edge * shape.edge / shape.area_sum;
+    const double s = material.damping_factor == DampingFactor::edge
+                         ? shape.edge
+                         : shape.edge * shape.edge / shape.area_sum;
     const Eigen::Vector4d u = bending_mode(shape).colwise().norm();
     double rate = 0;
     for (int k = 0; k < 4; ++k) rate += u[k] * v.col(hinge.particles[k]).norm();
-    for (int k = 0; k < 4; ++k) scale[hinge.particles[k]] += material.damping * s * u.maxCoeff() * rate * thinness(x);
+    for (int k = 0; k < 4; ++k)
+      scale[hinge.particles[k]] += material.damping * s * u.maxCoeff() * rate * thinness(x);
   }
   return scale;
 }
@@ -67,9 +69,11 @@ Finding damping_is_as_defined(const Subject& subject) {
     }
     const PerParticle unit = epsilon * damping_scale(specimen, specimen.state.v);
     const PerParticle error = (f - expected).colwise().norm().transpose().cwiseQuotient(unit);
-    measured.see(damped.name, {error.maxCoeff<Eigen::PropagateNaN>(), uncertainty.cwiseQuotient(unit).maxCoeff()});
+    measured.see(damped.name,
+                 {error.maxCoeff<Eigen::PropagateNaN>(), uncertainty.cwiseQuotient(unit).maxCoeff()});
   }
-  return measured.judged(64, "a hinge's damping force takes fewer than 64 roundings, magnified by the triangles' thinness");
+  return measured.judged(
+      64, "a hinge's damping force takes fewer than 64 roundings, magnified by the triangles' thinness");
 }
 
 Finding damping_dissipates(const Subject& subject) {
@@ -81,7 +85,8 @@ Finding damping_dissipates(const Subject& subject) {
     measured.see(damped.name, power.gain_in_roundings);
     powers.push_back(power.power);
   }
-  Finding finding = measured.judged(0, "kd s (u.v)^2 is taken out of the motion: far more than roundings, at random velocities");
+  Finding finding = measured.judged(
+      0, "kd s (u.v)^2 is taken out of the motion: far more than roundings, at random velocities");
   finding.evidence.push_back({"power of the damping forces", "W", powers});
   return finding;
 }
@@ -101,7 +106,8 @@ Finding leaves_rigid_motion_alone(const Subject& subject) {
     const PerParticle3 v = rigid_velocity(x, Vector3(0.4, -0.9, 0.3), Vector3(-3.1, 1.9, 4.7));
     measured.see(damped.name, force_in_roundings(Probe(subject, specimen.scene), specimen, v));
   }
-  return measured.judged(32, "u.v of a rigid motion is a sum of fewer than 32 terms' roundings, magnified by the thinness");
+  return measured.judged(
+      32, "u.v of a rigid motion is a sum of fewer than 32 terms' roundings, magnified by the thinness");
 }
 
 /// x1 and x2 moving in the planes of their triangles, the edge stretching at `rates` [1/s]: no angle changes.
@@ -116,8 +122,8 @@ PerParticle3 in_plane_velocity(const Corners& x, const std::array<double, 5>& ra
 }
 
 Finding leaves_in_plane_motion_alone(const Subject& subject) {
-  const std::array<const char*, 5> names = {"x1 away from x3", "x1 along the edge", "x2 away from x3", "x2 along the edge",
-                                            "stretch of the edge"};
+  const std::array<const char*, 5> names = {"x1 away from x3", "x1 along the edge", "x2 away from x3",
+                                            "x2 along the edge", "stretch of the edge"};
   Measured measured = roundings_of("kd s |u| sum |u_j||v_j| thinness");
   const std::vector<Damped> cases = with_damping(hinges_of_all_angles());
   for (size_t motion = 0; motion < names.size(); ++motion) {
@@ -131,8 +137,8 @@ Finding leaves_in_plane_motion_alone(const Subject& subject) {
     }
     measured.see(names[motion], worst.value());
   }
-  Finding finding =
-      measured.judged(32, "u.v of an in-plane motion is a sum of fewer than 32 terms' roundings, magnified by the thinness");
+  Finding finding = measured.judged(
+      32, "u.v of an in-plane motion is a sum of fewer than 32 terms' roundings, magnified by the thinness");
   finding.note = "The six rigid motions, which complete the eleven, have a check of their own.";
   return finding;
 }
@@ -159,28 +165,33 @@ Finding keeps_momentum(const Subject& subject) {
     measured.see(damped.name + ", force", net_force(f));
     measured.see(damped.name + ", torque", net_torque(specimen.state.x, f));
   }
-  return measured.judged(
-      32, "each hinge's forces cancel to a few roundings and about 20 hinge forces are added to a particle, a rounding each");
+  return measured.judged(32,
+                         "each hinge's forces cancel to a few roundings and about 20 hinge forces are added "
+                         "to a particle, a rounding each");
 }
 
 }  // namespace
 
 std::vector<Check> bending_damping_checks() {
   const char* const section = "BMF03 section 4";
-  return {{"bending.damping-is-as-defined", "The damping force is the printed one to rounding, with either of its two factors.",
-           "BMF03 section 4, evaluated in 50 digits", damping_is_as_defined},
-          {"bending.damping-dissipates", "Bending damping takes energy out of every random motion.", section,
-           damping_dissipates},
-          {"bending.damping-leaves-rigid-motion-alone", "A sheet that moves as a rigid body feels no bending damping.", section,
-           leaves_rigid_motion_alone},
-          {"bending.damping-leaves-in-plane-motion-alone",
-           "Motions of a hinge in the planes of its triangles feel no bending damping.", section, leaves_in_plane_motion_alone},
-          {"bending.damping-is-symmetric", "The matrix of the bending damping is symmetric.", "BMF03 sections 3 and 4",
-           damping_is_symmetric},
-          {"bending.damping-is-negative-semidefinite", "The matrix of the bending damping has no positive eigenvalue.",
-           "BMF03 sections 3 and 4", damping_is_negative},
-          {"bending.damping-forces-keep-momentum", "The bending damping's forces and torques sum to zero.", section,
-           keeps_momentum}};
+  return {
+      {"bending.damping-is-as-defined",
+       "The damping force is the printed one to rounding, with either of its two factors.",
+       "BMF03 section 4, evaluated in 50 digits", damping_is_as_defined},
+      {"bending.damping-dissipates", "Bending damping takes energy out of every random motion.", section,
+       damping_dissipates},
+      {"bending.damping-leaves-rigid-motion-alone",
+       "A sheet that moves as a rigid body feels no bending damping.", section, leaves_rigid_motion_alone},
+      {"bending.damping-leaves-in-plane-motion-alone",
+       "Motions of a hinge in the planes of its triangles feel no bending damping.", section,
+       leaves_in_plane_motion_alone},
+      {"bending.damping-is-symmetric", "The matrix of the bending damping is symmetric.",
+       "BMF03 sections 3 and 4", damping_is_symmetric},
+      {"bending.damping-is-negative-semidefinite",
+       "The matrix of the bending damping has no positive eigenvalue.", "BMF03 sections 3 and 4",
+       damping_is_negative},
+      {"bending.damping-forces-keep-momentum", "The bending damping's forces and torques sum to zero.",
+       section, keeps_momentum}};
 }
 
 }  // namespace foldproof

@@ -11,14 +11,14 @@ namespace {
 
 using Mode = Eigen::Matrix<double, 12, 1>;
 
-/// The motions of a hinge that change no angle, each of length 1: three translations, three rotations, two motions of x1 and two
-/// of x2 in the planes of their triangles, one stretch of the edge.
+/// The motions of a hinge that change no angle, each of length 1: three translations, three rotations, two
+/// motions of x1 and two of x2 in the planes of their triangles, one stretch of the edge.
 struct Eleven {
   Eigen::Matrix<double, 12, 11> modes;
   static constexpr std::array<const char*, 11> names = {
-      "translation x",        "translation y",        "translation z",        "rotation x",
-      "rotation y",           "rotation z",           "x1 along the edge",    "x1 towards the edge",
-      "x2 along the edge",    "x2 towards the edge",  "stretch of the edge"};
+      "translation x",     "translation y",       "translation z",      "rotation x",
+      "rotation y",        "rotation z",          "x1 along the edge",  "x1 towards the edge",
+      "x2 along the edge", "x2 towards the edge", "stretch of the edge"};
 };
 
 Eleven eleven_modes(const Corners& x) {
@@ -52,7 +52,8 @@ Mode stacked(const std::array<Vector3, 4>& vectors) {
 
 std::vector<Corners> shapes() {
   std::vector<Corners> list;
-  for (const Specimen& hinge : hinges_of_all_angles()) list.push_back(corners_of(hinge.scene.mesh.hinges[0], hinge.state.x));
+  for (const Specimen& hinge : hinges_of_all_angles())
+    list.push_back(corners_of(hinge.scene.mesh.hinges[0], hinge.state.x));
   return list;
 }
 
@@ -67,8 +68,10 @@ Finding mode_is_orthogonal(const Subject&) {
   }
   Measured measured = roundings_of("|u| thinness");
   for (int m = 0; m < 11; ++m) measured.see(Eleven::names[m], worst[m].value());
-  return measured.judged(32, "u, a normalised motion and their scalar product take fewer than 32 roundings each of |u|, magnified "
-                             "by the triangles' thinness");
+  return measured.judged(
+      32,
+      "u, a normalised motion and their scalar product take fewer than 32 roundings each of |u|, magnified "
+      "by the triangles' thinness");
 }
 
 Finding mode_is_the_only_one(const Subject&) {
@@ -84,10 +87,13 @@ Finding mode_is_the_only_one(const Subject&) {
     measured.see("hinge " + std::to_string(gaps.size()),
                  several ? std::nan("") : sine * smallest / (epsilon * thinness(x)));
   }
-  Finding finding = measured.judged(
-      64, "the null vector of the eleven moves by their roundings, fewer than 64, over their smallest singular value");
+  Finding finding = measured.judged(64,
+                                    "the null vector of the eleven moves by their roundings, fewer than 64, "
+                                    "over their smallest singular value");
   finding.evidence.push_back({"smallest over largest singular value", "1", gaps});
-  finding.note = "A smallest singular value of 1e-4 or less would mean that the eleven are not independent: it counts as NaN.";
+  finding.note =
+      "A smallest singular value of 1e-4 or less would mean that the eleven are not independent: it counts "
+      "as NaN.";
   return finding;
 }
 
@@ -107,12 +113,16 @@ Finding mode_is_minus_gradient(const Subject&) {
     rates.push_back(oracles::theta_rate_autodiff(x, {v.col(0), v.col(1), v.col(2), v.col(3)}).value);
     products.push_back(u.dot(v.reshaped()));
   }
-  Finding finding = measured.judged(32, "u takes fewer than 32 roundings, magnified by the triangles' thinness");
-  finding.evidence.push_back({"the same against 50-digit differences", "epsilon |u| thinness", by_differences});
+  Finding finding =
+      measured.judged(32, "u takes fewer than 32 roundings, magnified by the triangles' thinness");
+  finding.evidence.push_back(
+      {"the same against 50-digit differences", "epsilon |u| thinness", by_differences});
   finding.evidence.push_back({"d(theta)/dt of a random motion", "rad/s", rates});
   finding.evidence.push_back({"u.v of the same motion", "rad/s", products});
-  finding.note = "The printed line d(theta)/dt = u.v has the wrong sign: d(theta)/dt = -u.v, as the last two columns show. "
-                 "The printed forces are right.";
+  finding.note =
+      "The printed line d(theta)/dt = u.v has the wrong sign: d(theta)/dt = -u.v, as the last two columns "
+      "show. "
+      "The printed forces are right.";
   return finding;
 }
 
@@ -147,7 +157,8 @@ Finding weights_are_barycentric(const Subject& subject) {
     measured.see(hinge.name, worst.value());
     heights.push_back(height(x, x[0]) / height(x, x[1]));
   }
-  Finding finding = measured.judged(32, "weights, heights and forces take fewer than 32 roundings, magnified by the thinness");
+  Finding finding = measured.judged(
+      32, "weights, heights and forces take fewer than 32 roundings, magnified by the thinness");
   finding.evidence.push_back({"height of x1 over height of x2", "1", heights});
   return finding;
 }
@@ -156,15 +167,19 @@ Finding weights_are_barycentric(const Subject& subject) {
 
 std::vector<Check> bending_mode_checks() {
   return {{"bending.mode-is-orthogonal-to-the-eleven-others",
-           "The reference's bending mode u is orthogonal to translations, rotations, in-plane motions and the edge's stretch.",
+           "The reference's bending mode u is orthogonal to translations, rotations, in-plane motions and "
+           "the edge's stretch.",
            "BMF03 section 4", mode_is_orthogonal},
           {"bending.mode-is-the-only-one",
-           "Nothing but the reference's u is orthogonal to the eleven other modes: their null space is the line along u.",
+           "Nothing but the reference's u is orthogonal to the eleven other modes: their null space is the "
+           "line along u.",
            "BMF03 section 4", mode_is_the_only_one},
-          {"bending.mode-is-minus-gradient-of-theta", "The reference's u is minus the gradient of the angle theta.",
+          {"bending.mode-is-minus-gradient-of-theta",
+           "The reference's u is minus the gradient of the angle theta.",
            "BMF03 section 4, with the sign of d(theta)/dt corrected", mode_is_minus_gradient},
           {"bending.mode-weights-are-barycentric",
-           "Forces on x1 and x2 fall off with their distance from the edge; those on x3 and x4 are minus them in barycentric shares.",
+           "Forces on x1 and x2 fall off with their distance from the edge; those on x3 and x4 are minus "
+           "them in barycentric shares.",
            "BMF03 section 4", weights_are_barycentric}};
 }
 

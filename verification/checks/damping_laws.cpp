@@ -19,7 +19,8 @@ Finding asymmetry(const Subject& subject, const std::vector<DampedScene>& cases)
     const double largest = (D - D.transpose()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     measured.see(damped.name, largest / (epsilon * D.cwiseAbs().maxCoeff()));
   }
-  return measured.judged(32, "an entry of D is a product of two rounded components and a sum over about ten elements");
+  return measured.judged(
+      32, "an entry of D is a product of two rounded components and a sum over about ten elements");
 }
 
 Finding largest_eigenvalue(const Subject& subject, const std::vector<DampedScene>& cases) {
@@ -34,7 +35,8 @@ Finding largest_eigenvalue(const Subject& subject, const std::vector<DampedScene
     const double size = solver.eigenvalues().cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     measured.see(damped.name, highest.back() / (epsilon * double(D.rows()) * size));
   }
-  Finding finding = measured.judged(4, "the eigenvalue solver's backward error is about epsilon 3N times the largest eigenvalue");
+  Finding finding = measured.judged(
+      4, "the eigenvalue solver's backward error is about epsilon 3N times the largest eigenvalue");
   finding.evidence.push_back({"lowest eigenvalue", "N s/m", lowest});
   finding.evidence.push_back({"highest eigenvalue", "N s/m", highest});
   return finding;

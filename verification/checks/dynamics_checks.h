@@ -7,12 +7,14 @@
 
 namespace foldproof {
 
-std::vector<Check> oscillator_checks();  // oscillator_checks.cpp: against exact solutions of the schemes
-std::vector<Check> momentum_checks();    // momentum_checks.cpp: conservation and reversal
-std::vector<Check> step_checks();        // step_checks.cpp: lines of the schemes, filters, prescribed particles, counts
-std::vector<Check> symmetry_checks();    // symmetry_checks.cpp: units, frames of reference, repetition
-std::vector<Check> run_checks();         // run_checks.cpp: frames, automatic steps, stops
-std::vector<Check> energy_checks();      // energy_checks.cpp: diagnostics and the balance of energy
+std::vector<Check> oscillator_checks();    // oscillator_checks.cpp: the schemes as matrices
+std::vector<Check> exact_motion_checks();  // exact_motion_checks.cpp: free fall, a turning pair
+std::vector<Check> momentum_checks();      // momentum_checks.cpp: conservation and reversal
+std::vector<Check>
+step_checks();  // step_checks.cpp: lines of the schemes, filters, prescribed particles, counts
+std::vector<Check> symmetry_checks();  // symmetry_checks.cpp: units, frames of reference, repetition
+std::vector<Check> run_checks();       // run_checks.cpp: frames, automatic steps, stops
+std::vector<Check> energy_checks();    // energy_checks.cpp: diagnostics and the balance of energy
 
 /// All of the above, in this order.
 std::vector<Check> dynamics_checks();

@@ -39,6 +39,11 @@ Finding Measured::judged(double bound, const std::string& why_bound) const {
 
 Measured roundings_of(const std::string& scale) { return {"measured", "epsilon " + scale}; }
 
+State still_at(PerParticle3 x) {
+  PerParticle3 v = PerParticle3::Zero(3, x.cols());
+  return {0, std::move(x), std::move(v)};
+}
+
 double net_force(const PerParticle3& f) {
   const Vector3 sum = f.rowwise().sum();
   return sum.norm() / (epsilon * f.colwise().norm().sum());

@@ -47,10 +47,14 @@ class Measured {
 /// A Measured in multiples of epsilon times a scale.
 Measured roundings_of(const std::string& scale);
 
+/// The positions x (3 x N [m]) without motion.
+State still_at(PerParticle3 x);
+
 /// |sum of F| over epsilon times sum |F_i|; NaN without any force. f: 3 x N [N].
 double net_force(const PerParticle3& f);
 
-/// |sum of x_i x F_i| about the mean of x, over epsilon times sum |x_i||F_i|; NaN without any force. x: 3 x N [m].
+/// |sum of x_i x F_i| about the mean of x, over epsilon times sum |x_i||F_i|; NaN without any force. x: 3 x N
+/// [m].
 double net_torque(const PerParticle3& x, const PerParticle3& f);
 
 /// The damping matrix D at s, column by column: 3N x 3N [N s/m], coordinates particle by particle.

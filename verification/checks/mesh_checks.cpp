@@ -43,23 +43,22 @@ Sheet sheet_of(SheetPattern pattern) {
 }
 
 std::vector<Known> known_shapes() {
-  const std::vector<std::pair<std::string, SheetPattern>> patterns = {{"one_diagonal", SheetPattern::one_diagonal},
-                                                                      {"alternating", SheetPattern::alternating},
-                                                                      {"union_jack", SheetPattern::union_jack},
-                                                                      {"criss_cross", SheetPattern::criss_cross},
-                                                                      {"equilateral", SheetPattern::equilateral},
-                                                                      {"jittered", SheetPattern::jittered},
-                                                                      {"random_delaunay", SheetPattern::random_delaunay}};
+  const std::vector<std::pair<std::string, SheetPattern>> patterns = {
+      {"one_diagonal", SheetPattern::one_diagonal},      {"alternating", SheetPattern::alternating},
+      {"union_jack", SheetPattern::union_jack},          {"criss_cross", SheetPattern::criss_cross},
+      {"equilateral", SheetPattern::equilateral},        {"jittered", SheetPattern::jittered},
+      {"random_delaunay", SheetPattern::random_delaunay}};
   std::vector<Known> shapes;
-  for (const auto& [name, pattern] : patterns) shapes.push_back({name, make_sheet(sheet_of(pattern)), 1, width * height});
-  const double disc = 0.5 * 24 * 0.31 * 0.31 * std::sin(2 * pi / 24);     // a regular polygon of 6 * 4 corners
-  const double cylinder = 11 * 2 * 0.13 * std::sin(pi / 11) * 0.37;       // 11 flat strips
-  const double side = 0.23 / std::sin(2 * pi / 5);                        // of an icosahedron in a sphere of .23 m
+  for (const auto& [name, pattern] : patterns)
+    shapes.push_back({name, make_sheet(sheet_of(pattern)), 1, width * height});
+  const double disc = 0.5 * 24 * 0.31 * 0.31 * std::sin(2 * pi / 24);  // a regular polygon of 6 * 4 corners
+  const double cylinder = 11 * 2 * 0.13 * std::sin(pi / 11) * 0.37;    // 11 flat strips
+  const double side = 0.23 / std::sin(2 * pi / 5);  // of an icosahedron in a sphere of .23 m
   shapes.push_back({"disc", make_disc(0.31, 4), 1, disc});
   shapes.push_back({"cylinder", make_cylinder(0.13, 0.37, 11, 6), 0, cylinder});
   shapes.push_back({"icosahedron", make_icosphere(0.23, 0), 2, 5 * std::sqrt(3.0) * side * side});
   shapes.push_back({"icosphere", make_icosphere(0.23, 3), 2, std::nan("")});
-  shapes.push_back({"statue", make_statue(0.41, 3), 2, std::nan("")});
+  shapes.push_back({"statue", small_statue(), 2, std::nan("")});
   shapes.push_back({"hinge", make_hinge(0.17, 2.1), 1, 0.5 * (0.9 + 0.6) * 0.17 * 0.17});
   return shapes;
 }
@@ -72,9 +71,12 @@ Finding euler_characteristic_is_known(const Subject&) {
       for (int k = 0; k < 3; ++k) ++edges[std::minmax({t[k], t[(k + 1) % 3]})];
     }
     const int counted = shape.mesh.particles() - int(edges.size()) + int(shape.mesh.triangles.size());
-    measured.see(shape.name, std::abs(euler_characteristic(shape.mesh) - shape.euler) + std::abs(counted - shape.euler));
+    measured.see(shape.name,
+                 std::abs(euler_characteristic(shape.mesh) - shape.euler) + std::abs(counted - shape.euler));
   }
-  return measured.judged(0, "whole numbers: 1 for a sheet or a disc, 0 for an open cylinder, 2 for a closed surface without handles");
+  return measured.judged(0,
+                         "whole numbers: 1 for a sheet or a disc, 0 for an open cylinder, 2 for a closed "
+                         "surface without handles");
 }
 
 /// True if the triangle is (a, b, c) or the same begun elsewhere.
@@ -98,7 +100,8 @@ Finding hinges_are_oriented(const Subject&) {
     }
     measured.see(shape.name, otherwise);
   }
-  return measured.judged(0, "every hinge must be (x1, x3, x4) and (x2, x4, x3) of its two triangles, as drawn in the paper");
+  return measured.judged(
+      0, "every hinge must be (x1, x3, x4) and (x2, x4, x3) of its two triangles, as drawn in the paper");
 }
 
 Finding every_inner_edge_is_one_hinge(const Subject&) {
@@ -108,7 +111,8 @@ Finding every_inner_edge_is_one_hinge(const Subject&) {
     for (const Triangle& t : shape.mesh.triangles) {
       for (int k = 0; k < 3; ++k) ++triangles[std::minmax({t[k], t[(k + 1) % 3]})];
     }
-    for (const Hinge& hinge : shape.mesh.hinges) ++hinges[std::minmax({hinge.particles[2], hinge.particles[3]})];
+    for (const Hinge& hinge : shape.mesh.hinges)
+      ++hinges[std::minmax({hinge.particles[2], hinge.particles[3]})];
     int wrong = std::abs(int(triangles.size()) - int(shape.mesh.edges.size()));
     for (const Edge& edge : shape.mesh.edges) {
       const int count = triangles[{edge.a, edge.b}], hinge_count = hinges[{edge.a, edge.b}];
@@ -116,7 +120,9 @@ Finding every_inner_edge_is_one_hinge(const Subject&) {
     }
     measured.see(shape.name, wrong);
   }
-  return measured.judged(0, "edges and hinges are counted: one edge for each pair of neighbours, one hinge for each edge of two triangles");
+  return measured.judged(0,
+                         "edges and hinges are counted: one edge for each pair of neighbours, one hinge for "
+                         "each edge of two triangles");
 }
 
 Finding areas_and_masses_sum(const Subject&) {
@@ -127,13 +133,17 @@ Finding areas_and_masses_sum(const Subject&) {
     const double exact = std::isnan(shape.area) ? sum : shape.area;
     Worst worst;
     worst.see(std::abs(sum - exact) / (epsilon * exact));
-    worst.see(std::abs(lumped_masses(shape.mesh, density).sum() - density * exact) / (epsilon * density * exact));
+    worst.see(std::abs(lumped_masses(shape.mesh, density).sum() - density * exact) /
+              (epsilon * density * exact));
     worst.see(std::abs(edge_areas(shape.mesh).sum() - 3 * exact) / (epsilon * 3 * exact));
     measured.see(shape.name, worst.value());
   }
-  Finding finding = measured.judged(64, "about ten roundings an area, with errors of either sign, added one by one");
-  finding.note = "Areas are those of plane geometry; for the round sphere and the statue the mesh's own area stands in, and only masses "
-                 "and edge areas are compared with it.";
+  Finding finding =
+      measured.judged(64, "about ten roundings an area, with errors of either sign, added one by one");
+  finding.note =
+      "Areas are those of plane geometry; for the round sphere and the statue the mesh's own area stands in, "
+      "and only masses "
+      "and edge areas are compared with it.";
   return finding;
 }
 
@@ -149,7 +159,8 @@ Finding obj_round_trip_is_exact(const Subject&) {
     const TriangleMesh back = read_obj(path);
     int otherwise = int(back.triangles != shape.mesh.triangles) + 1000 * int(back.rest.cols() != x.cols());
     for (Eigen::Index k = 0; k < std::min(x.size(), back.rest.size()); ++k) {
-      otherwise += std::bit_cast<uint64_t>(x.reshaped()[k]) != std::bit_cast<uint64_t>(back.rest.reshaped()[k]);
+      otherwise +=
+          std::bit_cast<uint64_t>(x.reshaped()[k]) != std::bit_cast<uint64_t>(back.rest.reshaped()[k]);
     }
     measured.see(shape.name, otherwise);
   }
@@ -162,9 +173,11 @@ Finding pleats_are_isometric(const Subject&) {
     for (const SheetPattern pattern : {SheetPattern::one_diagonal, SheetPattern::union_jack}) {
       Sheet sheet = sheet_of(pattern);
       sheet.columns = 9;
-      const TriangleMesh flat = make_sheet(sheet), folded = make_triangle_mesh(pleated(flat, 3, angle), flat.triangles);
+      const TriangleMesh flat = make_sheet(sheet),
+                         folded = make_triangle_mesh(pleated(flat, 3, angle), flat.triangles);
       Worst length, fold;
-      length.see((rest_lengths(folded) - rest_lengths(flat)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / (epsilon * width));
+      length.see((rest_lengths(folded) - rest_lengths(flat)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
+                 (epsilon * width));
       int fold_lines = 0;
       for (const Hinge& hinge : flat.hinges) {
         const Corners x = corners_of(hinge, folded.rest);
@@ -179,7 +192,9 @@ Finding pleats_are_isometric(const Subject&) {
       measured.see(name + " by " + std::to_string(angle) + " rad, angles", fold.value());
     }
   }
-  return measured.judged(64, "a vertex is placed by adding up to nine columns; angles divide such errors by a cell, a ninth of the width");
+  return measured.judged(64,
+                         "a vertex is placed by adding up to nine columns; angles divide such errors by a "
+                         "cell, a ninth of the width");
 }
 
 Finding hinge_folds_by_its_angle(const Subject&) {
@@ -197,20 +212,26 @@ Finding hinge_folds_by_its_angle(const Subject&) {
 std::vector<Check> mesh_checks() {
   const char* const source = "plane geometry and topology";
   std::vector<Check> checks = {
-      {"mesh.euler-characteristic", "The reference's meshes have the Euler characteristic of their surfaces.", source,
-       euler_characteristic_is_known},
-      {"mesh.hinges-are-oriented-as-drawn", "Every hinge of the reference's meshes is (x1, x3, x4) and (x2, x4, x3).",
-       "BMF03 figure 1", hinges_are_oriented},
-      {"mesh.every-inner-edge-is-one-hinge", "The reference finds each edge once, and one hinge for each inner edge.", source,
+      {"mesh.euler-characteristic", "The reference's meshes have the Euler characteristic of their surfaces.",
+       source, euler_characteristic_is_known},
+      {"mesh.hinges-are-oriented-as-drawn",
+       "Every hinge of the reference's meshes is (x1, x3, x4) and (x2, x4, x3).", "BMF03 figure 1",
+       hinges_are_oriented},
+      {"mesh.every-inner-edge-is-one-hinge",
+       "The reference finds each edge once, and one hinge for each inner edge.", source,
        every_inner_edge_is_one_hinge},
-      {"mesh.areas-and-masses-sum", "The reference's areas, masses and edge areas sum to those of the surface.", source,
+      {"mesh.areas-and-masses-sum",
+       "The reference's areas, masses and edge areas sum to those of the surface.", source,
        areas_and_masses_sum},
-      {"mesh.obj-round-trip-is-exact", "A mesh that the reference writes and reads back is the same, bit for bit.",
-       "the OBJ format", obj_round_trip_is_exact},
-      {"mesh.pleats-are-isometric", "The reference's pleats keep every length and fold by the angle asked for.", source,
+      {"mesh.obj-round-trip-is-exact",
+       "A mesh that the reference writes and reads back is the same, bit for bit.", "the OBJ format",
+       obj_round_trip_is_exact},
+      {"mesh.pleats-are-isometric",
+       "The reference's pleats keep every length and fold by the angle asked for.", source,
        pleats_are_isometric},
-      {"mesh.hinge-folds-by-its-angle", "The reference's hinge is folded by the angle asked for, sign included.",
-       "BMF03 section 4", hinge_folds_by_its_angle}};
+      {"mesh.hinge-folds-by-its-angle",
+       "The reference's hinge is folded by the angle asked for, sign included.", "BMF03 section 4",
+       hinge_folds_by_its_angle}};
   const std::vector<Check> refusals = mesh_refusal_checks();
   checks.insert(checks.end(), refusals.begin(), refusals.end());
   return checks;

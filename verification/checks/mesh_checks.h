@@ -1,4 +1,5 @@
-// Checks of the reference's meshes: what is built of triangles, what is refused. One function a file, and their sum.
+// Checks of the reference's meshes: what is built of triangles, what is refused. One function a file, and
+// their sum.
 #pragma once
 
 #include <vector>

@@ -92,7 +92,9 @@ Stepper::Stepper(const Subject& subject, Scene scene, const std::string& integra
   prepared_ = offered(subject.prepare, "prepare")(scene_);
 }
 
-State Stepper::step(const State& s, double h) { return offered(subject_.step, "step")(*prepared_, s, h, work_); }
+State Stepper::step(const State& s, double h) {
+  return offered(subject_.step, "step")(*prepared_, s, h, work_);
+}
 
 State Stepper::run(State s, double h, int steps) {
   for (int n = 0; n < steps; ++n) s = step(s, h);
@@ -137,8 +139,9 @@ double extent(const PerParticle3& x) {
 
 double largest_speed(const PerParticle3& v) { return largest_difference(v, PerParticle3::Zero(3, v.cols())); }
 
-void add_for_each_integrator(std::vector<Check>& list, const Check& pattern,
-                             const std::function<Finding(const Subject&, const std::string& integrator)>& run) {
+void add_for_each_integrator(
+    std::vector<Check>& list, const Check& pattern,
+    const std::function<Finding(const Subject&, const std::string& integrator)>& run) {
   for (const Integrator& integrator : integrators()) {
     const std::string name(integrator.name);
     Check check = pattern;

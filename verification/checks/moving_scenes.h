@@ -22,22 +22,22 @@ class Random {
   explicit Random(unsigned seed) : bits_(seed) {}
 
   double in(double low, double high) { return low + (high - low) * (double(bits_() >> 11) * 0x1p-53); }
-  double in_decades(double low, double high);  // uniform in the logarithm; low > 0
+  double in_decades(double low, double high);             // uniform in the logarithm; low > 0
   PerParticle3 vectors(Eigen::Index count, double size);  // 3 x count, components in [-size, size]
 
  private:
   std::mt19937_64 bits_;
 };
 
-/// A free crumpled sheet of irregular triangles that moves at random: stretched, folded by up to a right angle, with
-/// rest angles of its own. Springs and bending, both damped; no gravity. Elastic limit about 6 ms.
+/// A free crumpled sheet of irregular triangles that moves at random: stretched and folded, with rest angles
+/// of its own. Springs and bending, both damped; no gravity. Elastic limit about 6 ms.
 Scene free_sheet();
 
 /// The same without any damping.
 Scene undamped_sheet();
 
-/// A jittered sheet under gravity, damped, moving: one corner is held, two particles are led (an oscillation with drift, a
-/// rotation with drift), the others are free.
+/// A jittered sheet under gravity, damped, moving: one corner is held, two particles are led (an oscillation
+/// with drift, a rotation with drift), the others are free. Elastic limit about 2 ms, by the bound.
 Scene led_sheet();
 
 /// A scene made ready by a subject, stepped by it.
@@ -49,9 +49,9 @@ class Stepper {
   State start() const { return start_state(scene_); }
   State step(const State& s, double h);  // h [s]
   State run(State s, double h, int steps);
-  PerParticle3 elastic_forces(const State& s) const;                           // 3 x N [N]
+  PerParticle3 elastic_forces(const State& s) const;                         // 3 x N [N]
   PerParticle3 damping_forces(const State& s, const PerParticle3& v) const;  // 3 x N [N]
-  const Work& work() const { return work_; }  // of all steps so far
+  const Work& work() const { return work_; }                                 // of all steps so far
 
  private:
   const Subject& subject_;
@@ -60,8 +60,8 @@ class Stepper {
   Work work_;
 };
 
-/// How many times a small disturbance of the start has grown at most, in all of `steps` steps of h [1], at least 1. The
-/// disturbance is random, its velocities scaled with 1/(steps h); so rounding errors made on the way grow no faster.
+/// How many times a small disturbance of the start has grown at most, in all of `steps` steps of h [1], at
+/// least 1. It is random, its velocities scaled with 1/(steps h); rounding errors on the way grow no faster.
 double growth(Stepper& stepper, const State& start, double h, int steps);
 
 /// Largest distance between the columns of two 3 x N arrays; NaN if any is.
@@ -73,7 +73,8 @@ double extent(const PerParticle3& x);
 double largest_speed(const PerParticle3& v);  // m/s
 
 /// One check for each row of the table of integrators, its name ended by a dot and the row's name.
-void add_for_each_integrator(std::vector<Check>& list, const Check& pattern,
-                             const std::function<Finding(const Subject&, const std::string& integrator)>& run);
+void add_for_each_integrator(
+    std::vector<Check>& list, const Check& pattern,
+    const std::function<Finding(const Subject&, const std::string& integrator)>& run);
 
 }  // namespace foldproof

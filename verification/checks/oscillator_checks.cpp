@@ -1,11 +1,8 @@
-// The schemes against what is known of them in closed form: one oscillator, free fall, a turning pair.
+// The schemes on one oscillator, where each is a matrix of two by two.
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include "reference/dynamics/integrator.h"
-#include "reference/mesh/shapes.h"
 #include "verification/checks/dynamics_checks.h"
 #include "verification/checks/moving_scenes.h"
 #include "verification/oracles/exact_solutions.h"
@@ -24,7 +21,7 @@ Scheme scheme_named(const std::string& integrator) {
   throw NotOffered{"a derived step matrix for integrator " + integrator};
 }
 
-/// One particle of mass m with x'' = -k x - c x' in every direction. m = 1/4 kg, so that no mass adds a rounding.
+/// One particle with x'' = -k x - c x' in every direction; of 1/4 kg, so that no mass adds a rounding.
 System oscillator_system(const Oscillator& oscillator) {
   const double m = 0.25, k = oscillator.stiffness, c = oscillator.damping;
   System system = make_system(PerParticle::Constant(1, m));
@@ -60,7 +57,8 @@ Finding verlet_finding(const Subject&, const std::string& integrator) {
   const std::vector<std::pair<Oscillator, double>> cases = {{{27.25, 0, 0.6875, -1.84375}, 0.140625},
                                                             {{11.375, 0, -0.40625, 0.78125}, 0.53125}};
   Worst worst;
-  Column omega_h{"omega h", "1", std::vector<double>{}}, errors{"error over amplitude", "1", std::vector<double>{}};
+  Column omega_h{"omega h", "1", std::vector<double>{}},
+      errors{"error over amplitude", "1", std::vector<double>{}};
   for (const auto& [oscillator, h] : cases) {
     const System system = oscillator_system(oscillator);
     const double omega = std::sqrt(oscillator.stiffness), speed = omega * std::cos(std::asin(omega * h / 2));
@@ -79,14 +77,16 @@ Finding verlet_finding(const Subject&, const std::string& integrator) {
     std::get<0>(errors.values).push_back(here.value());
   }
   return {{worst.value(), 4e-14, 2 * epsilon, "1",
-           "1,000 steps of five roundings that add up like a random walk: sqrt(5000)/2 = 35 epsilon of the amplitude, and up "
-           "to five times that at the worst step near the stability limit. The constants have few bits, so that no "
+           "1,000 steps of five roundings that add up like a random walk: sqrt(5000)/2 = 35 epsilon of the "
+           "amplitude, and up "
+           "to five times that at the worst step near the stability limit. The constants have few bits, so "
+           "that no "
            "rounding is the same in every step"},
           {omega_h, errors},
           ""};
 }
 
-/// Sums of the absolute values of all terms of which an entry of the step matrix is made, explicit guesses included.
+/// Sums of the absolute values of the terms that make an entry of the step matrix, explicit guesses included.
 Eigen::Matrix2d term_sizes(const std::string& integrator, const Oscillator& oscillator, double h) {
   const double a = h * oscillator.damping / 2, b = h * h * oscillator.stiffness / 2;
   const double first = integrator == "A" ? 1 + a : 1;  // what multiplies v in the moving velocity
@@ -103,7 +103,8 @@ Finding matrix_finding(const Subject&, const std::string& integrator) {
   Column as{"h c/2", "1", std::vector<double>{}}, bs{"h^2 k/2", "1", std::vector<double>{}};
   Column errors{"error", "eps of the terms", std::vector<double>{}};
   for (int n = 0; n < 300; ++n) {
-    const double h = random.in_decades(1e-4, 0.7), a = random.in_decades(3e-3, 300), b = random.in_decades(2e-3, 9);
+    const double h = random.in_decades(1e-4, 0.7), a = random.in_decades(3e-3, 300),
+                 b = random.in_decades(2e-3, 9);
     const Oscillator oscillator{2 * b / (h * h), 2 * a / h, 0, 0};
     const Eigen::Matrix2d error =
         stepped_matrix(integrator, oscillator, h) - oracles::step_matrix(scheme, oscillator, h);
@@ -116,7 +117,8 @@ Finding matrix_finding(const Subject&, const std::string& integrator) {
     std::get<0>(errors.values).push_back(here.value());
   }
   return {{worst.value(), 16, 0.5, "eps of the terms",
-           "about twenty roundings lie between the unit vector and an entry, half an epsilon each, and one correction of the solve"},
+           "about twenty roundings lie between the unit vector and an entry, half an epsilon each, and one "
+           "correction of the solve"},
           {as, bs, errors},
           ""};
 }
@@ -131,7 +133,8 @@ Finding stability_finding(const Subject&, const std::string& integrator) {
   const std::vector<double> over_limit = {0.03, 0.21, 0.57, 0.83, 0.97, 1 - 1e-6, 1 + 1e-6, 1.04, 1.37, 2.9};
   Random random(23);
   double misjudged = 0;
-  Column ratios{"damping ratio", "1", std::vector<double>{}}, wrong{"steps misjudged", "1", std::vector<double>{}};
+  Column ratios{"damping ratio", "1", std::vector<double>{}},
+      wrong{"steps misjudged", "1", std::vector<double>{}};
   for (int n = 0; n < 60; ++n) {
     const double k = random.in_decades(0.3, 3000), ratio = n % 10 == 0 ? 0 : random.in_decades(0.003, 30);
     const Oscillator oscillator{k, 2 * ratio * std::sqrt(k), 0, 0};
@@ -147,7 +150,8 @@ Finding stability_finding(const Subject&, const std::string& integrator) {
     std::get<0>(wrong.values).push_back(here);
   }
   return {{misjudged, 0, 0, "1",
-           "a step is stable if the spectral radius is at most 1 + 1e-10: rounding moves it by 1e-13 at most, and a millionth beyond "
+           "a step is stable if the spectral radius is at most 1 + 1e-10: rounding moves it by 1e-13 at "
+           "most, and a millionth beyond "
            "the limit it exceeds 1 by 1e-8 at least"},
           {ratios, wrong},
           ""};
@@ -156,11 +160,13 @@ Finding stability_finding(const Subject&, const std::string& integrator) {
 Finding pure_damping_finding(const Subject&, const std::string& integrator) {
   const double c = 7.3, v0 = -0.83;
   Worst worst;
-  Column as{"h c/2", "1", std::vector<double>{}}, totals{"displacement over exact", "1", std::vector<double>{}};
+  Column as{"h c/2", "1", std::vector<double>{}},
+      totals{"displacement over exact", "1", std::vector<double>{}};
   for (double a : {0.11, 0.37, 0.94, 2.7, 10.0, 23.0}) {
     const double h = 2 * a / c, expected = integrator == "A" ? 1 - a * a : 1;
     const System system = oscillator_system({0, c, 0, 0});
-    const int steps = int(std::ceil(40 / -std::log(std::abs((1 - a) / (1 + a)))));  // to e^-40 of the velocity
+    const int steps =
+        int(std::ceil(40 / -std::log(std::abs((1 - a) / (1 + a)))));  // to e^-40 of the velocity
     State s = one_particle(0, v0);
     double path = 0;
     for (int n = 0; n < steps; ++n) {
@@ -174,104 +180,10 @@ Finding pure_damping_finding(const Subject&, const std::string& integrator) {
     std::get<0>(totals.values).push_back(total);
   }
   return {{worst.value(), 4, 0, "eps of the path, a step",
-           "each step rounds the position once and the velocity about six times; (1 + h c/2) is how much larger the terms are than "
+           "each step rounds the position once and the velocity about six times; (1 + h c/2) is how much "
+           "larger the terms are than "
            "the velocity that they leave"},
           {as, totals},
-          ""};
-}
-
-Finding free_fall_finding(const Subject& subject, const std::string& integrator) {
-  Scene scene = led_sheet();
-  scene.led.clear();
-  scene.stretch.reset();
-  scene.bending.reset();
-  Stepper stepper(subject, scene, integrator);
-  const State start = stepper.start();
-  State s = start;
-  Worst worst;
-  const int steps = 120;
-  for (int n = 0; n < steps; ++n) s = stepper.step(s, n % 3 == 0 ? 0.0171 : 0.0033);
-  double uncertainty = 0;
-  for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
-    const oracles::FallEstimate exact = oracles::free_fall({start.x.col(i), start.v.col(i), *scene.gravity}, s.time);
-    const double speed = start.v.col(i).norm() + scene.gravity->norm() * s.time;
-    const double way = start.x.col(i).norm() + speed * s.time;
-    worst.see((s.x.col(i) - exact.x).norm() / (epsilon * way));
-    worst.see((s.v.col(i) - exact.v).norm() / (epsilon * speed));
-    uncertainty = std::max(uncertainty, 2 * exact.x_uncertainty / (epsilon * way));
-  }
-  return {{worst.value(), 4.0 * steps, uncertainty, "eps of the way",
-           "120 steps, each of which rounds the velocity three times, the position once and the time once"},
-          {},
-          ""};
-}
-
-struct TurningPair {
-  System system;
-  State start;
-  double length, omega;
-};
-
-/// A pre-stretched pair that turns about its centre of mass, exactly steadily in continuous time.
-TurningPair turning_pair() {
-  const oracles::SpringPair pair{53, 0.31, 0.62, 0.27, 0.43};
-  TurningPair turning;
-  turning.omega = 6.1;
-  turning.length = oracles::steady_rotation_length(pair, turning.omega).value;
-  turning.system = make_system(Eigen::Vector2d(pair.mass_a, pair.mass_b));
-  const double stiffness = pair.young * pair.area / (pair.rest_length * pair.rest_length);
-  const std::vector<Spring> springs = {{0, 1, pair.rest_length, stiffness, 0}};
-  turning.system.forces.emplace_back(std::in_place_type<StretchSprings>, springs);
-
-  const Vector3 direction = Vector3(0.3, -0.7, 0.5).normalized();
-  const Vector3 spin = turning.omega * direction.cross(Vector3(0.9, 0.2, -0.4)).normalized();
-  const double sum = pair.mass_a + pair.mass_b;
-  turning.start.x.resize(3, 2);
-  turning.start.x.col(0) = -pair.mass_b / sum * turning.length * direction;
-  turning.start.x.col(1) = pair.mass_a / sum * turning.length * direction;
-  turning.start.v.resize(3, 2);
-  for (int i = 0; i < 2; ++i) {
-    const Vector3 arm = turning.start.x.col(i);
-    turning.start.v.col(i) = spin.cross(arm);
-  }
-  return turning;
-}
-
-/// Largest relative deviation of the length from the steady one over the turns (first, last] [1].
-double deviation(const TurningPair& pair, const std::string& integrator, double h, double first, double last) {
-  const double turn = 2 * std::numbers::pi / pair.omega;
-  State s = pair.start;
-  Worst worst;
-  while (s.time < last * turn) {
-    s = step_once(integrator, pair.system, s, h);
-    const double length = (s.x.col(1) - s.x.col(0)).norm();
-    if (s.time > first * turn) worst.see(std::abs(length / pair.length - 1));
-  }
-  return worst.value();
-}
-
-Finding rotation_finding(const Subject&, const std::string& integrator) {
-  const TurningPair pair = turning_pair();
-  const std::vector<double> steps = {8e-3, 4e-3, 2e-3, 1e-3};
-  std::vector<double> deviations, orders = {NAN};
-  for (double h : steps) deviations.push_back(deviation(pair, integrator, h, 0, 6));
-  Worst worst;
-  for (size_t k = 1; k < steps.size(); ++k) {
-    orders.push_back(std::log2(deviations[k - 1] / deviations[k]));
-    worst.see(std::abs(orders.back() - 2));
-  }
-  return {{worst.value(), 0.1, 0, "1", "second order, two-sided; the next term is of fourth order, (omega h)^2 < 0.03 of the first"},
-          {{"step", "s", steps}, {"deviation of the length", "1", deviations}, {"observed order", "1", orders}},
-          "over six turns"};
-}
-
-Finding no_drift_finding(const Subject&, const std::string& integrator) {
-  const TurningPair pair = turning_pair();
-  const double early = deviation(pair, integrator, 8e-3, 0, 6), late = deviation(pair, integrator, 8e-3, 54, 60);
-  return {{late / early - 1, 0.02, 0, "1",
-           "the length swings about a steady one for ever; 2 % is what the sampling of the swing's extremes by steps allows"},
-          {{"turns", "1", std::vector<std::string>{"0 to 6", "54 to 60"}},
-           {"deviation of the length", "1", std::vector<double>{early, late}}},
           ""};
 }
 
@@ -280,31 +192,21 @@ Finding no_drift_finding(const Subject&, const std::string& integrator) {
 std::vector<Check> oscillator_checks() {
   const std::string source = "BMF03 section 3", derived = "derived from BMF03 section 3";
   std::vector<Check> list;
-  add_for_each_integrator(
-      list, {"dynamics.undamped-oscillator-is-verlet", "the reference's undamped oscillator is velocity Verlet's.", source, {}},
-      verlet_finding);
-  add_for_each_integrator(
-      list, {"dynamics.step-matrix-is-as-derived", "the reference's step on the damped oscillator is the derived matrix.", derived, {}},
-      matrix_finding);
-  add_for_each_integrator(list,
-                          {"dynamics.stability-limit-is-as-derived",
-                           "the reference is stable on the damped oscillator up to the derived step and not beyond.", derived, {}},
-                          stability_finding);
-  add_for_each_integrator(list,
-                          {"dynamics.pure-damping-displacement",
-                           "the reference's way of a particle that is only damped is, over the exact one, 1 - (h c/2)^2 in A and 1 in "
-                           "B and C.",
-                           derived, {}},
-                          pure_damping_finding);
-  add_for_each_integrator(list, {"dynamics.free-fall-is-exact", "free fall is exact for any steps.", source, {}}, free_fall_finding);
-  add_for_each_integrator(list,
-                          {"dynamics.steady-rotation",
-                           "the length of a steadily turning stretched pair of the reference is kept to second order.", source, {}},
-                          rotation_finding);
-  add_for_each_integrator(list,
-                          {"dynamics.steady-rotation-does-not-drift",
-                           "the length of a turning pair of the reference deviates no more after sixty turns than after six.", source, {}},
-                          no_drift_finding);
+  const auto add = [&](const char* name, const char* claim, const std::string& from, const auto& run) {
+    add_for_each_integrator(list, {name, claim, from, {}}, run);
+  };
+  add("dynamics.undamped-oscillator-is-verlet", "the reference's undamped oscillator is velocity Verlet's.",
+      source, verlet_finding);
+  add("dynamics.step-matrix-is-as-derived",
+      "the reference's step on the damped oscillator is the derived matrix.", derived, matrix_finding);
+  add("dynamics.stability-limit-is-as-derived",
+      "the reference is stable on the damped oscillator up to the derived step and not beyond.", derived,
+      stability_finding);
+  add("dynamics.pure-damping-displacement",
+      "the reference's way of a particle that is only damped is, over the exact one, 1 - (h c/2)^2 in A and "
+      "1 in "
+      "B and C.",
+      derived, pure_damping_finding);
   return list;
 }
 

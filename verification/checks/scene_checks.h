@@ -8,8 +8,10 @@ namespace foldproof {
 
 std::vector<Check> scene_refusal_checks();  // scene_refusal_checks.cpp: what a case file may not say
 std::vector<Check> scene_meaning_checks();  // scene_checks.cpp: what is built of what it says
+std::vector<Check>
+scene_place_checks();  // scene_place_checks.cpp: where the cloth is, how it starts and is held
 
-/// Both.
+/// All of the above.
 std::vector<Check> scene_checks();
 
 }  // namespace foldproof

@@ -46,8 +46,8 @@ max_iterations = 30
 
 /// One edit of the case above that has to be refused.
 struct Refusal {
-  std::string find, replace;             // the last line of `replace` is the one that is wrong
-  std::vector<std::string> mentions;     // what the message has to contain beside file and line
+  std::string find, replace;          // the last line of `replace` is the one that is wrong
+  std::vector<std::string> mentions;  // what the message has to contain beside file and line
 };
 
 std::string edited(const Refusal& refusal) {
@@ -91,7 +91,8 @@ Finding refused(const std::vector<Refusal>& refusals) {
     edits.push_back(refusal.replace);
     messages.push_back(message);
   }
-  return {{wrong, 0, 0, "cases", "each wrong case is refused with file and line, the key, and what is known or wanted"},
+  return {{wrong, 0, 0, "cases",
+           "each wrong case is refused with file and line, the key, and what is known or wanted"},
           {{"edit", "1", edits}, {"message", "1", messages}, {"lacking", "1", lacking}},
           ""};
 }
@@ -124,7 +125,9 @@ Finding types_finding(const Subject&) {
       {"density = 0.23", "density = \"0.23\"", {"'density'", "finite number"}},
       {"density = 0.23", "density = inf", {"'density'", "finite number"}},
       {"move = [0.3, -0.2, 0.7]", "move = [0.3, -0.2]", {"'move'", "three numbers"}},
-      {"acceleration = [0.1, -9.7, 0.3]", "acceleration = [0.1, nan, 0.3]", {"'acceleration'", "[gravity]", "three numbers"}},
+      {"acceleration = [0.1, -9.7, 0.3]",
+       "acceleration = [0.1, nan, 0.3]",
+       {"'acceleration'", "[gravity]", "three numbers"}},
       {"stiffness = 37.0", "stiffness = true", {"'stiffness'", "[stretch]", "finite number"}},
       {"particles = [0, 4]", "particles = [0, 4.5]", {"'particles'", "list of whole numbers"}},
       {"particles = [0, 4]", "particles = 4", {"'particles'", "list of whole numbers"}},
@@ -142,7 +145,10 @@ Finding values_finding(const Subject&) {
       {"density = 0.23", "density = 0", {"'density'", "> 0"}},
       {"shape = \"sheet\"", "shape = \"shet\"", {"'shet'", "known", "sheet", "statue"}},
       {"pattern = \"jittered\"", "pattern = \"jitter\"", {"'jitter'", "known", "jittered", "criss_cross"}},
-      {"shape = \"sheet\"\npattern = \"jittered\"\nwidth = 0.6\nheight = 0.43\ncolumns = 5\nrows = 4\njitter = 0.2", "mesh = \"nowhere.obj\"", {"nowhere.obj", "no mesh file"}},
+      {"shape = \"sheet\"\npattern = \"jittered\"\nwidth = 0.6\nheight = 0.43\ncolumns = 5\nrows = 4\njitter "
+       "= 0.2",
+       "mesh = \"nowhere.obj\"",
+       {"nowhere.obj", "no mesh file"}},
       {"axis = [1, 2, 3]", "axis = [0, 0, 0]", {"'axis'", "zero"}},
       {"stretch = 1.02", "stretch = 0", {"'stretch'", "> 0"}},
       {"stretch = 1.02", "noise = -0.01", {"'noise'", "negative"}},
@@ -167,7 +173,9 @@ Finding values_finding(const Subject&) {
       {"step = 0.003", "step = \"adaptive\"", {"'step'", "automatic"}},
       {"step = 0.003", "safety = 0", {"'safety'", "> 0"}},
       {"tolerance = 1e-8", "tolerance = 0", {"'tolerance'", "> 0"}},
-      {"tolerance = 1e-8", "relative_to = \"nothing\"", {"'nothing'", "known", "momentum", "initial_residual"}},
+      {"tolerance = 1e-8",
+       "relative_to = \"nothing\"",
+       {"'nothing'", "known", "momentum", "initial_residual"}},
   });
 }
 
@@ -176,9 +184,17 @@ Finding values_finding(const Subject&) {
 std::vector<Check> scene_refusal_checks() {
   const std::string source = "good practice";
   return {
-      {"scene.unknown-keys-are-refused", "A case of the reference with a key that no one asks for is refused, with file, line and the keys known there.", source, unknown_finding},
-      {"scene.wrong-types-are-refused", "A case of the reference with a value of the wrong type is refused, with file, line and the type wanted.", source, types_finding},
-      {"scene.bad-values-are-refused", "A case of the reference with a value out of its range is refused, with file, line and what is known.", source, values_finding},
+      {"scene.unknown-keys-are-refused",
+       "A case of the reference with a key that no one asks for is refused, with file, line and the keys "
+       "known there.",
+       source, unknown_finding},
+      {"scene.wrong-types-are-refused",
+       "A case of the reference with a value of the wrong type is refused, with file, line and the type "
+       "wanted.",
+       source, types_finding},
+      {"scene.bad-values-are-refused",
+       "A case of the reference with a value out of its range is refused, with file, line and what is known.",
+       source, values_finding},
   };
 }
 

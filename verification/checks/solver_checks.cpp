@@ -3,86 +3,19 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <cmath>
 
 #include "reference/dynamics/system.h"
 #include "verification/checks/moving_scenes.h"
+#include "verification/checks/solver_problems.h"
 
 namespace foldproof {
 
 namespace {
 
-/// A crumpled sheet of which some particles have known velocities, its damping, and random velocities to start from.
-struct Problem {
-  System system;
-  State s;
-  DampingOperator damping;
-  PerParticle3 guess;  // 3 x N [m/s]
-};
-
-Problem make_problem(const Scene& scene, unsigned seed) {
-  Problem problem{build_system(scene), start_state(scene), {}, {}};
-  Work work;
-  problem.damping = damping_at(problem.system.forces, problem.s, work);
-  problem.guess = Random(seed).vectors(problem.s.x.cols(), 0.9);
-  return problem;
+const char* name_of_scale(ResidualScale scale) {
+  return scale == ResidualScale::momentum ? "momentum" : "initial residual";
 }
-
-Eigen::MatrixXd dense_damping(const DampingOperator& damping, Eigen::Index particles) {
-  Eigen::MatrixXd D = Eigen::MatrixXd::Zero(3 * particles, 3 * particles);
-  const auto add = [&](const std::vector<int>& who, const std::vector<Vector3>& w) {
-    for (size_t i = 0; i < who.size(); ++i)
-      for (size_t j = 0; j < who.size(); ++j) D.block<3, 3>(3 * who[i], 3 * who[j]) -= w[i] * w[j].transpose();
-  };
-  for (const PairDamper& p : damping.pairs) add({p.a, p.b}, {-p.along, p.along});
-  for (const HingeDamper& h : damping.hinges)
-    add({h.particles.begin(), h.particles.end()},
-        {h.w1, h.w2, -(h.weight1 * h.w1 + h.weight2 * h.w2), -((1 - h.weight1) * h.w1 + (1 - h.weight2) * h.w2)});
-  return D;
-}
-
-/// (M - s D) and M w0 of a problem, with the rows and columns of known velocities kept apart.
-struct DenseProblem {
-  Eigen::MatrixXd A;           // of the free coordinates [kg]
-  Eigen::VectorXd b;           // [kg m/s], what known velocities contribute included
-  Eigen::VectorXd mass;        // of the free coordinates [kg]
-  Eigen::VectorXd momentum;    // M w0 of the free coordinates [kg m/s]
-  std::vector<Eigen::Index> free;  // coordinates
-};
-
-DenseProblem make_dense(const Problem& problem, double s) {
-  const Eigen::Index n = problem.guess.size();
-  const Eigen::MatrixXd D = dense_damping(problem.damping, problem.guess.cols());
-  const Eigen::VectorXd w0 = problem.guess.reshaped();
-  DenseProblem dense;
-  Eigen::VectorXd known = w0, mass(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    mass[k] = problem.system.mass[k / 3];
-    if (problem.system.inverse_mass[k / 3] == 0) continue;
-    known[k] = 0;
-    dense.free.push_back(k);
-  }
-  const Eigen::MatrixXd whole = Eigen::MatrixXd(mass.asDiagonal()) - s * D;
-  const Eigen::VectorXd pull = s * (D * known);
-  dense.A = whole(dense.free, dense.free);
-  dense.mass = mass(dense.free);
-  dense.momentum = dense.mass.cwiseProduct(Eigen::VectorXd(w0(dense.free)));
-  dense.b = dense.momentum + pull(dense.free);
-  return dense;
-}
-
-double weighted_norm(const Eigen::VectorXd& r, const Eigen::VectorXd& mass) {
-  return std::sqrt(r.cwiseAbs2().cwiseQuotient(mass).sum());
-}
-
-double scale_of(const DenseProblem& dense, ResidualScale scale) {
-  if (scale == ResidualScale::momentum) return weighted_norm(dense.momentum, dense.mass);
-  const Eigen::VectorXd w0 = dense.momentum.cwiseQuotient(dense.mass);
-  return weighted_norm(dense.b - dense.A * w0, dense.mass);
-}
-
-const char* name_of_scale(ResidualScale scale) { return scale == ResidualScale::momentum ? "momentum" : "initial residual"; }
 
 /// The columns that the checks of residuals share.
 struct ResidualTable {
@@ -90,7 +23,11 @@ struct ResidualTable {
   std::vector<double> step, tolerance, returned, recomputed;
 
   std::vector<Column> columns() const {
-    return {{"relative to", "1", scale}, {"half step", "s", step}, {"tolerance", "1", tolerance}, {"returned", "1", returned}, {"recomputed", "1", recomputed}};
+    return {{"relative to", "1", scale},
+            {"half step", "s", step},
+            {"tolerance", "1", tolerance},
+            {"returned", "1", returned},
+            {"recomputed", "1", recomputed}};
   }
 };
 
@@ -103,8 +40,8 @@ ResidualTable residual_table() {
       for (double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
         PerParticle3 w = problem.guess;
         Work work;
-        const Solve solve = solve_velocity(problem.damping, s, problem.system.mass, problem.system.inverse_mass,
-                                           {tolerance, 1000, scale}, w, work);
+        const Solve solve = solve_velocity(problem.damping, s, problem.system.mass,
+                                           problem.system.inverse_mass, {tolerance, 1000, scale}, w, work);
         const Eigen::VectorXd r = dense.b - dense.A * Eigen::VectorXd(w.reshaped()(dense.free));
         table.scale.push_back(name_of_scale(scale));
         table.step.push_back(s);
@@ -121,7 +58,8 @@ Finding promise_finding(const Subject&) {
   Worst worst;
   for (size_t k = 0; k < table.step.size(); ++k) worst.see(table.recomputed[k] / table.tolerance[k]);
   return {{worst.value(), 1.05, 0, "of the tolerance",
-           "the tolerance, and what the iteration's residual and the true one drift apart: some hundred epsilon, a twentieth of "
+           "the tolerance, and what the iteration's residual and the true one drift apart: some hundred "
+           "epsilon, a twentieth of "
            "the smallest tolerance, 1e-12"},
           table.columns(),
           "The residual b - (M - s D) w is recomputed with a dense D made of the modes of all dampers."};
@@ -130,9 +68,11 @@ Finding promise_finding(const Subject&) {
 Finding returned_finding(const Subject&) {
   const ResidualTable table = residual_table();
   Worst worst;
-  for (size_t k = 0; k < table.step.size(); ++k) worst.see(std::abs(table.returned[k] - table.recomputed[k]) / epsilon);
+  for (size_t k = 0; k < table.step.size(); ++k)
+    worst.see(std::abs(table.returned[k] - table.recomputed[k]) / epsilon);
   return {{worst.value(), 256, 0, "eps of the scale",
-           "each of up to a hundred iterations rounds r in proportion to the correction of that iteration, and the solve began with |r| "
+           "each of up to a hundred iterations rounds r in proportion to the correction of that iteration, "
+           "and the solve began with |r| "
            "of the scale's own size or a few times it"},
           table.columns(),
           ""};
@@ -150,7 +90,8 @@ Finding cholesky_finding(const Subject&) {
       solve_velocity(problem.damping, s, problem.system.mass, problem.system.inverse_mass,
                      {tolerance, 1000, ResidualScale::momentum}, w, work);
       const Eigen::VectorXd exact = dense.A.ldlt().solve(dense.b);
-      const Eigen::VectorXd error = dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)) - exact);
+      const Eigen::VectorXd error =
+          dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)) - exact);
       steps.push_back(s);
       tolerances.push_back(tolerance);
       errors.push_back(weighted_norm(error, dense.mass) / scale_of(dense, ResidualScale::momentum));
@@ -158,10 +99,12 @@ Finding cholesky_finding(const Subject&) {
       for (const PrescribedParticle& p : problem.system.led)
         worst.see((w.col(p.particle) - problem.guess.col(p.particle)).norm() / tolerance);
     }
-  return {{worst.value(), 1.05, 0, "of the tolerance",
-           "in the mass-weighted norm the operator is at least the identity, so that the error is at most the residual; 5 % for rounding"},
-          {{"half step", "s", steps}, {"tolerance", "1", tolerances}, {"error over the velocity", "1", errors}},
-          "Known velocities are moved to the right-hand side there, and must come back unchanged here."};
+  return {
+      {worst.value(), 1.05, 0, "of the tolerance",
+       "in the mass-weighted norm the operator is at least the identity, so that the error is at most the "
+       "residual; 5 % for rounding"},
+      {{"half step", "s", steps}, {"tolerance", "1", tolerances}, {"error over the velocity", "1", errors}},
+      "Known velocities are moved to the right-hand side there, and must come back unchanged here."};
 }
 
 /// Particles that are each damped at one of k rates: D has k distinct eigenvalues beside zero.
@@ -181,7 +124,8 @@ Solve solve_with_rates(int k, unsigned seed) {
   Work work;
   const State s{0, PerParticle3::Zero(3, particles), v};
   const DampingOperator damping = damping_at(system.forces, s, work);
-  return solve_velocity(damping, 0.19, system.mass, system.inverse_mass, {1e-12, 100, ResidualScale::momentum}, v, work);
+  return solve_velocity(damping, 0.19, system.mass, system.inverse_mass,
+                        {1e-12, 100, ResidualScale::momentum}, v, work);
 }
 
 Finding eigenvalue_finding(const Subject&) {
@@ -194,8 +138,9 @@ Finding eigenvalue_finding(const Subject&) {
     worst.see(std::abs(solve.iterations - k));
     if (!solve.converged) worst.see(1);
   }
-  return {{worst.value(), 0, 0, "iterations", "conjugate gradients are exact after as many iterations as there are distinct eigenvalues in "
-                                   "the residual; particles without damping are not in it"},
+  return {{worst.value(), 0, 0, "iterations",
+           "conjugate gradients are exact after as many iterations as there are distinct eigenvalues in "
+           "the residual; particles without damping are not in it"},
           {{"distinct eigenvalues", "1", distinct}, {"iterations", "1", iterations}},
           ""};
 }
@@ -204,7 +149,8 @@ Finding eigenvalue_finding(const Subject&) {
 Finding cap_finding(const Subject&) {
   const Problem problem = make_problem(free_sheet(), 3);
   const auto solve = [&](const SolverSettings& settings, PerParticle3 w, Work& work) {
-    return solve_velocity(problem.damping, 0.047, problem.system.mass, problem.system.inverse_mass, settings, w, work);
+    return solve_velocity(problem.damping, 0.047, problem.system.mass, problem.system.inverse_mass, settings,
+                          w, work);
   };
   PerParticle3 spoiled = problem.guess;
   spoiled(1, 6) = std::numeric_limits<double>::quiet_NaN();
@@ -212,14 +158,26 @@ Finding cap_finding(const Subject&) {
   const Solve cap = solve({1e-13, 3, ResidualScale::momentum}, problem.guess, capped);
   const Solve whole = solve({1e-6, 500, ResidualScale::momentum}, problem.guess, finished);
   const Solve nan = solve({1e-6, 500, ResidualScale::momentum}, spoiled, broken);
-  const std::vector<std::string> statements = {
-      "a capped solve is not converged", "it took the cap's iterations", "its residual is above the tolerance", "it is counted as unfinished",
-      "its residual is recorded",        "a whole solve is converged",   "it is not counted as unfinished",     "NaN is not converged",
-      "NaN is counted as unfinished",    "NaN is recorded"};
-  const std::vector<double> holds = {double(!cap.converged), double(cap.iterations == 3 && capped.cg_iterations == 3),
-      double(cap.residual > 1e-13), double(capped.unfinished_solves == 1), double(capped.worst_residual == cap.residual),
-      double(whole.converged && whole.residual <= 1e-6), double(finished.unfinished_solves == 0 && finished.solves == 1),
-      double(!nan.converged), double(broken.unfinished_solves == 1), double(std::isnan(broken.worst_residual))};
+  const std::vector<std::string> statements = {"a capped solve is not converged",
+                                               "it took the cap's iterations",
+                                               "its residual is above the tolerance",
+                                               "it is counted as unfinished",
+                                               "its residual is recorded",
+                                               "a whole solve is converged",
+                                               "it is not counted as unfinished",
+                                               "NaN is not converged",
+                                               "NaN is counted as unfinished",
+                                               "NaN is recorded"};
+  const std::vector<double> holds = {double(!cap.converged),
+                                     double(cap.iterations == 3 && capped.cg_iterations == 3),
+                                     double(cap.residual > 1e-13),
+                                     double(capped.unfinished_solves == 1),
+                                     double(capped.worst_residual == cap.residual),
+                                     double(whole.converged && whole.residual <= 1e-6),
+                                     double(finished.unfinished_solves == 0 && finished.solves == 1),
+                                     double(!nan.converged),
+                                     double(broken.unfinished_solves == 1),
+                                     double(std::isnan(broken.worst_residual))};
   double wrong = 0;
   for (double one : holds) wrong += 1 - one;
   return {{wrong, 0, 0, "false reports", "a report is true or false"},
@@ -241,14 +199,16 @@ Finding operator_finding(const Subject& subject) {
     A.col(k) = PerParticle3(column * mass.cwiseSqrt().cwiseInverse().asDiagonal()).reshaped();
   }
   const double largest = A.cwiseAbs().maxCoeff();
-  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd eigenvalues =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
   const double asymmetry = (A - A.transpose()).cwiseAbs().maxCoeff() / (epsilon * largest);
   const double deficit = (1 - eigenvalues[0]) / (epsilon * eigenvalues[n - 1]);
   Worst worst;
   worst.see(asymmetry);
   worst.see(deficit);
   return {{worst.value(), 64, 0, "eps of the largest",
-           "an entry sums some twenty dampers of five roundings; the smallest eigenvalue, 1 but for rounding, is found to about the "
+           "an entry sums some twenty dampers of five roundings; the smallest eigenvalue, 1 but for "
+           "rounding, is found to about the "
            "square root of the matrix' size, 10, in epsilon of the largest"},
           {{"asymmetry", "eps of the largest entry", std::vector<double>{asymmetry}},
            {"smallest eigenvalue below 1", "eps of the largest", std::vector<double>{deficit}},
@@ -271,7 +231,8 @@ Finding rigid_finding(const Subject&) {
   Worst worst;
   worst.see(solve.iterations);
   worst.see(double((v.array() != before.array()).count()));
-  return {{worst.value(), 0, 0, "iterations", "no damper resists a rigid motion: the explicit guess is the solution, and is not touched"},
+  return {{worst.value(), 0, 0, "iterations",
+           "no damper resists a rigid motion: the explicit guess is the solution, and is not touched"},
           {{"residual", "1", std::vector<double>{solve.residual}}},
           ""};
 }
@@ -281,17 +242,26 @@ Finding rigid_finding(const Subject&) {
 std::vector<Check> solver_checks() {
   const std::string source = "BMF03 section 3";
   return {
-      {"solver.residual-promise-is-kept", "The true residual of the reference's solve is below the tolerance, on both scales.", source, promise_finding},
-      {"solver.returned-residual-is-true", "The residual that the reference's solve returns is the true one.", source, returned_finding},
+      {"solver.residual-promise-is-kept",
+       "The true residual of the reference's solve is below the tolerance, on both scales.", source,
+       promise_finding},
+      {"solver.returned-residual-is-true", "The residual that the reference's solve returns is the true one.",
+       source, returned_finding},
       {"solver.iterate-is-the-dense-cholesky-solution",
-       "The reference's solve finds the velocities that a dense Cholesky factorization finds, known velocities included.", source,
-       cholesky_finding},
+       "The reference's solve finds the velocities that a dense Cholesky factorization finds, known "
+       "velocities included.",
+       source, cholesky_finding},
       {"solver.iterations-are-the-number-of-distinct-eigenvalues",
-       "The reference's solve takes as many iterations as the damping has distinct nonzero eigenvalues.", source, eigenvalue_finding},
-      {"solver.cap-is-reported", "A solve of the reference that does not finish says so and is counted.", source, cap_finding},
+       "The reference's solve takes as many iterations as the damping has distinct nonzero eigenvalues.",
+       source, eigenvalue_finding},
+      {"solver.cap-is-reported", "A solve of the reference that does not finish says so and is counted.",
+       source, cap_finding},
       {"solver.operator-is-symmetric-positive-definite",
-       "The operator of the implicit velocity is symmetric, and at least the identity in the mass-weighted norm.", source, operator_finding},
-      {"solver.rigid-motion-needs-no-iteration", "The reference's solve leaves a rigid motion as it is, without an iteration.", source, rigid_finding},
+       "The operator of the implicit velocity is symmetric, and at least the identity in the mass-weighted "
+       "norm.",
+       source, operator_finding},
+      {"solver.rigid-motion-needs-no-iteration",
+       "The reference's solve leaves a rigid motion as it is, without an iteration.", source, rigid_finding},
   };
 }
 

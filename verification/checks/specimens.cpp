@@ -75,19 +75,26 @@ std::vector<Specimen> crumpled_sheets() {
           crumpled("criss_cross", make_sheet(sheet_of(SheetPattern::criss_cross)), 0.044, 11),
           crumpled("jittered", make_sheet(sheet_of(SheetPattern::jittered)), 0.066, 13),
           crumpled("random_delaunay", make_sheet(sheet_of(SheetPattern::random_delaunay)), 0.05, 17),
-          crumpled("disc", make_disc(0.29, 4), 0.07, 19), crumpled("icosphere", make_icosphere(0.17, 1), 0.1, 23)};
+          crumpled("disc", make_disc(0.29, 4), 0.07, 19),
+          crumpled("icosphere", make_icosphere(0.17, 1), 0.1, 23)};
 }
 
 std::vector<Specimen> small_crumpled_sheets() {
   Sheet even = sheet_of(SheetPattern::one_diagonal), irregular = sheet_of(SheetPattern::random_delaunay);
   even.columns = irregular.columns = 3;
   even.rows = irregular.rows = 2;
-  return {crumpled("one_diagonal", make_sheet(even), 0.14, 29), crumpled("random_delaunay", make_sheet(irregular), 0.1, 31),
+  return {crumpled("one_diagonal", make_sheet(even), 0.14, 29),
+          crumpled("random_delaunay", make_sheet(irregular), 0.1, 31),
           crumpled("icosahedron", make_icosphere(0.19, 0), 0.2, 37)};
 }
 
+const TriangleMesh& small_statue() {
+  static const TriangleMesh statue = make_statue(0.37, 3);
+  return statue;
+}
+
 std::vector<Specimen> curved_shapes() {
-  return {at_rest("statue", make_statue(0.37, 3)), at_rest("icosphere", make_icosphere(0.13, 2)),
+  return {at_rest("statue", small_statue()), at_rest("icosphere", make_icosphere(0.13, 2)),
           at_rest("cylinder", make_cylinder(0.11, 0.27, 13, 5)), at_rest("pleats", pleats())};
 }
 
@@ -98,7 +105,8 @@ Corners random_corners(Random& random, double angle) {
   Corners corners = {Vector3(foot1, height1, 0),
                      Vector3(foot2, -height2 * std::cos(angle), -height2 * std::sin(angle)), Vector3(0, 0, 0),
                      Vector3(edge, 0, 0)};
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(random.in(-3, 3), random.vectors(1, 1).col(0).normalized()).matrix();
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(random.in(-3, 3), random.vectors(1, 1).col(0).normalized()).matrix();
   const Vector3 shift = random.vectors(1, 0.3).col(0);
   for (Vector3& corner : corners) corner = (turn * corner + shift).eval();
   return corners;

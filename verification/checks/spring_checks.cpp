@@ -19,12 +19,14 @@ StretchMaterial stiff_and_shrunk() { return {2900.0, 1.7, 0.93}; }
 /// Crumpled sheets with springs of both materials by turns.
 std::vector<Specimen> sprung_sheets() {
   std::vector<Specimen> sheets = crumpled_sheets();
-  for (size_t k = 0; k < sheets.size(); ++k) sheets[k].scene.stretch = k % 2 == 0 ? soft() : stiff_and_shrunk();
+  for (size_t k = 0; k < sheets.size(); ++k)
+    sheets[k].scene.stretch = k % 2 == 0 ? soft() : stiff_and_shrunk();
   return sheets;
 }
 
 const char* const why_sums =
-    "a spring's two forces are equal and opposite but for a rounding of each sum; about eight springs meet in a particle";
+    "a spring's two forces are equal and opposite but for a rounding of each sum; about eight springs meet "
+    "in a particle";
 
 Finding forces_sum_to_zero(const Subject& subject) {
   Measured measured = roundings_of("sum |F_i|");
@@ -49,7 +51,8 @@ oracles::SpringInput spring_input(const Specimen& sheet, size_t edge) {
   input.x = {sheet.state.x.col(a), sheet.state.x.col(b)};
   input.v = {sheet.state.v.col(a), sheet.state.v.col(b)};
   // A_e/L0^2 is that of the rest shape, whatever the scale of the rest lengths
-  input.law = {material.stiffness, material.damping, scale * scale * edge_areas(sheet.scene.mesh)[edge], scale * length};
+  input.law = {material.stiffness, material.damping, scale * scale * edge_areas(sheet.scene.mesh)[edge],
+               scale * length};
   return input;
 }
 
@@ -62,10 +65,12 @@ double elastic_scale(const oracles::SpringInput& input) {
 }
 
 double damping_scale(const oracles::SpringInput& input) {
-  return input.law.damping * input.law.area / std::pow(input.law.rest_length, 2) * (input.v[0] - input.v[1]).norm();
+  return input.law.damping * input.law.area / std::pow(input.law.rest_length, 2) *
+         (input.v[0] - input.v[1]).norm();
 }
 
-/// The worst particle's difference from the sum of the oracle's forces, over epsilon times the sum of its springs' scales.
+/// The worst particle's difference from the sum of the oracle's forces, over epsilon times the sum of its
+/// springs' scales.
 oracles::Estimate difference_from(const Specimen& sheet, const PerParticle3& f, SpringOracle oracle,
                                   double (*scale_of)(const oracles::SpringInput&)) {
   PerParticle3 expected = PerParticle3::Zero(3, f.cols());
@@ -103,13 +108,16 @@ Finding damping_is_as_defined(const Subject& subject) {
 }
 
 Finding force_is_minus_gradient(const Subject& subject) {
-  Measured measured = roundings_of("of path length times |F|, and of the energies");
+  Measured measured = roundings_of("(integral |F||dx| + |E|)");
   for (const Specimen& sheet : sprung_sheets()) {
     const double size = 0.05 * rest_lengths(sheet.scene.mesh).minCoeff();
-    measured.see(sheet.name, energy_against_work(Probe(subject, sheet.scene), random_line(sheet.state.x, size, 61)));
+    measured.see(sheet.name,
+                 energy_against_work(Probe(subject, sheet.scene), random_line(sheet.state.x, size, 61)));
   }
-  return measured.judged(64, "80 forces and two energies enter the balance, each good to a few roundings of its scale; the "
-                             "quadrature's own error is the uncertainty");
+  return measured.judged(
+      64,
+      "80 forces and two energies enter the balance, each good to a few roundings of its scale; the "
+      "quadrature's own error is the uncertainty");
 }
 
 Finding energy_is_as_defined(const Subject& subject) {
@@ -119,11 +127,14 @@ Finding energy_is_as_defined(const Subject& subject) {
     for (size_t e = 0; e < sheet.scene.mesh.edges.size(); ++e) {
       const oracles::SpringInput input = spring_input(sheet, e);
       energy += oracles::spring_energy_50(input).value;
-      scale += input.law.young * input.law.area * (1 + (input.x[1] - input.x[0]).squaredNorm() / std::pow(input.law.rest_length, 2));
+      scale += input.law.young * input.law.area *
+               (1 + (input.x[1] - input.x[0]).squaredNorm() / std::pow(input.law.rest_length, 2));
     }
-    measured.see(sheet.name, std::abs(Probe(subject, sheet.scene).energy(sheet.state) - energy) / (epsilon * scale));
+    measured.see(sheet.name,
+                 std::abs(Probe(subject, sheet.scene).energy(sheet.state) - energy) / (epsilon * scale));
   }
-  return measured.judged(32, "a spring's energy takes about ten roundings, and the springs are added one by one");
+  return measured.judged(32,
+                         "a spring's energy takes about ten roundings, and the springs are added one by one");
 }
 
 Finding rest_gives_no_force(const Subject& subject) {
@@ -131,10 +142,12 @@ Finding rest_gives_no_force(const Subject& subject) {
   for (Specimen& shape : curved_shapes()) {
     shape.scene.stretch = StretchMaterial{410.0, 0.37, 1};
     const PerParticle3 f = Probe(subject, shape.scene).elastic(shape.state);
-    const double scale = 410.0 * edge_areas(shape.scene.mesh).cwiseQuotient(rest_lengths(shape.scene.mesh)).maxCoeff();
+    const double scale =
+        410.0 * edge_areas(shape.scene.mesh).cwiseQuotient(rest_lengths(shape.scene.mesh)).maxCoeff();
     measured.see(shape.name, f.colwise().norm().maxCoeff<Eigen::PropagateNaN>() / (epsilon * scale));
   }
-  return measured.judged(16, "two ways to a length differ by a few roundings; about eight springs meet in a particle");
+  return measured.judged(
+      16, "two ways to a length differ by a few roundings; about eight springs meet in a particle");
 }
 
 /// Y A_e/L0^2 is that of the rest shape, so a scale only moves the length at which a spring is at ease.
@@ -150,9 +163,11 @@ Finding rest_length_scale_is_kept(const Subject& subject) {
     const double force_scale = 530.0 * areas.cwiseQuotient(rest_lengths(sheet.scene.mesh)).maxCoeff();
     const std::string name = "rest lengths times " + std::to_string(scale);
     measured.see(name + ", force at ease",
-                 probe.elastic({0, at_ease, {}}).colwise().norm().maxCoeff<Eigen::PropagateNaN>() / (epsilon * force_scale));
-    measured.see(name + ", energy at the unscaled rest shape",
-                 std::abs(probe.energy({0, sheet.scene.mesh.rest, {}}) - energy) / (epsilon * 530.0 * areas.sum()));
+                 probe.elastic(still_at(at_ease)).colwise().norm().maxCoeff<Eigen::PropagateNaN>() /
+                     (epsilon * force_scale));
+    measured.see(
+        name + ", energy at the unscaled rest shape",
+        std::abs(probe.energy(still_at(sheet.scene.mesh.rest)) - energy) / (epsilon * 530.0 * areas.sum()));
   }
   return measured.judged(32, "two ways to a length differ by a few roundings; springs are added one by one");
 }
@@ -165,7 +180,8 @@ Finding damping_dissipates(const Subject& subject) {
     measured.see(sheet.name, power.gain_in_roundings);
     powers.push_back(power.power);
   }
-  Finding finding = measured.judged(0, "a square is taken out of the motion of each spring: far more than roundings, at random velocities");
+  Finding finding = measured.judged(
+      0, "a square is taken out of the motion of each spring: far more than roundings, at random velocities");
   finding.evidence.push_back({"power of the damping forces", "W", powers});
   return finding;
 }
@@ -175,13 +191,15 @@ Finding damping_leaves_rigid_motion_alone(const Subject& subject) {
   for (const Specimen& sheet : sprung_sheets()) {
     const PerParticle3 v = rigid_velocity(sheet.state.x, Vector3(-0.7, 0.2, 1.1), Vector3(2.3, -4.1, 1.3));
     const Eigen::VectorXd lengths = rest_lengths(sheet.scene.mesh);
-    const double coefficient =
-        sheet.scene.stretch->damping * edge_areas(sheet.scene.mesh).cwiseQuotient(lengths.cwiseAbs2()).maxCoeff();
+    const double coefficient = sheet.scene.stretch->damping *
+                               edge_areas(sheet.scene.mesh).cwiseQuotient(lengths.cwiseAbs2()).maxCoeff();
     const double scale = coefficient * 2 * v.colwise().norm().maxCoeff();
     const PerParticle3 f = Probe(subject, sheet.scene).damping(sheet.state, v);
     measured.see(sheet.name, f.colwise().norm().maxCoeff<Eigen::PropagateNaN>() / (epsilon * scale));
   }
-  return measured.judged(16, "d.(v_b - v_a) of a rigid motion cancels to a few roundings; about eight springs meet in a particle");
+  return measured.judged(
+      16,
+      "d.(v_b - v_a) of a rigid motion cancels to a few roundings; about eight springs meet in a particle");
 }
 
 Finding damping_is_symmetric_negative(const Subject& subject) {
@@ -208,29 +226,35 @@ Finding damping_is_symmetric_negative(const Subject& subject) {
 std::vector<Check> spring_checks() {
   const char* const source = "mesh-independent form of the springs, ours: BMF03 presumes springs";
   const char* const section3 = "BMF03 section 3";
-  return {{"springs.forces-sum-to-zero", "The elastic spring forces on crumpled sheets sum to zero.", source, forces_sum_to_zero},
-          {"springs.torques-sum-to-zero", "The torques of the elastic spring forces sum to zero.", source, torques_sum_to_zero},
-          {"springs.force-is-as-defined", "The elastic spring force is Y (A_e/L0)(|d|/L0 - 1) d^.", source, force_is_as_defined},
-          {"springs.damping-is-as-defined", "The spring damping force is kd_s (A_e/L0^2)((v_b - v_a).d^) d^.", source,
-           damping_is_as_defined},
-          {"springs.force-is-minus-gradient-of-energy", "The elastic spring force's work along a path is the energy's loss.",
-           source, force_is_minus_gradient},
-          {"springs.energy-is-as-defined", "The energy of the springs is the sum of Y A_e/2 (|d|/L0 - 1)^2.", source,
-           energy_is_as_defined},
-          {"springs.rest-gives-no-force", "Flat or curved, a sheet in its rest shape feels no spring force.", source,
-           rest_gives_no_force},
-          {"springs.rest-length-scale-is-kept",
-           "Scaled rest lengths move the shape at ease and leave the springs' stiffness as it was.", source,
-           rest_length_scale_is_kept},
-          {"springs.equilateral-sheet-has-modulus-Y-and-Poisson-third",
-           "A sheet of equilateral triangles has Young's modulus Y and Poisson ratio 1/3 in every direction.",
-           "derived from the springs' form", equilateral_moduli},
-          {"springs.damping-dissipates", "Spring damping takes energy out of every random motion.", section3, damping_dissipates},
-          {"springs.damping-leaves-rigid-motion-alone", "A sheet that moves as a rigid body feels no spring damping.", section3,
-           damping_leaves_rigid_motion_alone},
-          {"springs.damping-is-symmetric-negative-semidefinite",
-           "The matrix of the spring damping is symmetric and has no positive eigenvalue.", section3,
-           damping_is_symmetric_negative}};
+  return {
+      {"springs.forces-sum-to-zero", "The elastic spring forces on crumpled sheets sum to zero.", source,
+       forces_sum_to_zero},
+      {"springs.torques-sum-to-zero", "The torques of the elastic spring forces sum to zero.", source,
+       torques_sum_to_zero},
+      {"springs.force-is-as-defined", "The elastic spring force is Y (A_e/L0)(|d|/L0 - 1) d^.", source,
+       force_is_as_defined},
+      {"springs.damping-is-as-defined", "The spring damping force is kd_s (A_e/L0^2)((v_b - v_a).d^) d^.",
+       source, damping_is_as_defined},
+      {"springs.force-is-minus-gradient-of-energy",
+       "The elastic spring force's work along a path is the energy's loss.", source, force_is_minus_gradient},
+      {"springs.energy-is-as-defined", "The energy of the springs is the sum of Y A_e/2 (|d|/L0 - 1)^2.",
+       source, energy_is_as_defined},
+      {"springs.rest-gives-no-force", "Flat or curved, a sheet in its rest shape feels no spring force.",
+       source, rest_gives_no_force},
+      {"springs.rest-length-scale-is-kept",
+       "Scaled rest lengths move the shape at ease and leave the springs' stiffness as it was.", source,
+       rest_length_scale_is_kept},
+      {"springs.equilateral-sheet-has-modulus-Y-and-Poisson-third",
+       "A sheet of equilateral triangles has Young's modulus Y and Poisson ratio 1/3 in every direction.",
+       "derived from the springs' form", equilateral_moduli},
+      {"springs.damping-dissipates", "Spring damping takes energy out of every random motion.", section3,
+       damping_dissipates},
+      {"springs.damping-leaves-rigid-motion-alone",
+       "A sheet that moves as a rigid body feels no spring damping.", section3,
+       damping_leaves_rigid_motion_alone},
+      {"springs.damping-is-symmetric-negative-semidefinite",
+       "The matrix of the spring damping is symmetric and has no positive eigenvalue.", section3,
+       damping_is_symmetric_negative}};
 }
 
 }  // namespace foldproof

@@ -12,7 +12,7 @@ namespace foldproof {
 namespace {
 
 constexpr int columns = 9, rows = 7;
-constexpr double edge = 0.037;   // m
+constexpr double edge = 0.037;  // m
 constexpr double young = 83.0;  // N/m
 
 /// A parallelogram of whole equilateral triangles.
@@ -38,22 +38,25 @@ struct Strain {
   double along, across;
 };
 
-/// Energy per area and squared strain [N/m] of a homogeneous strain, turned by `direction` [rad] and `size` large; the mean of both
-/// signs, which leaves an error relative size^2.
-double energy_density(const Probe& probe, const TriangleMesh& mesh, const Strain& strain, double direction, double size) {
+/// Energy per area and squared strain [N/m] of a homogeneous strain, turned by `direction` [rad] and `size`
+/// large; the mean of both signs, which leaves an error relative size^2.
+double energy_density(const Probe& probe, const TriangleMesh& mesh, const Strain& strain, double direction,
+                      double size) {
   const double area = columns * rows * edge * edge * 0.5 * std::numbers::sqrt3;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(direction, Vector3::UnitZ()).matrix();
-  const Eigen::Matrix3d shape = turn * Eigen::DiagonalMatrix<double, 3>(strain.along, strain.across, 0) * turn.transpose();
+  const Eigen::Matrix3d shape =
+      turn * Eigen::DiagonalMatrix<double, 3>(strain.along, strain.across, 0) * turn.transpose();
   double sum = 0;
   for (const double sign : {1.0, -1.0}) {
     const PerParticle3 x = mesh.rest + sign * size * (shape * mesh.rest);
-    sum += probe.energy({0, x, {}});
+    sum += probe.energy(still_at(x));
   }
   return sum / (2 * area * size * size);
 }
 
 /// The same for vanishing strain, by Richardson extrapolation.
-oracles::Estimate stiffness(const Probe& probe, const TriangleMesh& mesh, const Strain& strain, double direction) {
+oracles::Estimate stiffness(const Probe& probe, const TriangleMesh& mesh, const Strain& strain,
+                            double direction) {
   const double size = 1e-3;
   const double coarse = energy_density(probe, mesh, strain, direction, 2 * size);
   const double fine = energy_density(probe, mesh, strain, direction, size);
@@ -85,8 +88,10 @@ Finding equilateral_moduli(const Subject& subject) {
     const double uncertainty = (along.uncertainty + across.uncertainty + both.uncertainty) * 4 / young;
     measured.see(std::to_string(int(degrees)) + " degrees", {error.value(), uncertainty});
   }
-  Finding finding = measured.judged(1e-7, "strains of 1e-3 and 2e-3, extrapolated, leave errors of their fourth power times about "
-                                          "ten; rounding leaves epsilon over the strain, 1e-13, over the strain once more");
+  Finding finding = measured.judged(
+      1e-7,
+      "strains of 1e-3 and 2e-3, extrapolated, leave errors of their fourth power times about "
+      "ten; rounding leaves epsilon over the strain, 1e-13, over the strain once more");
   finding.evidence.push_back({"Young's modulus", "N/m", youngs});
   finding.evidence.push_back({"Poisson ratio", "1", poissons});
   return finding;

@@ -66,11 +66,15 @@ Finding powers_finding(const Subject& subject, const std::string& integrator) {
     lengths.push_back(u.length);
     masses.push_back(u.mass);
     times.push_back(u.time);
-    differing.push_back(double((other.x.array() != plain.x.array()).count() + (other.v.array() != plain.v.array()).count()));
+    differing.push_back(
+        double((other.x.array() != plain.x.array()).count() + (other.v.array() != plain.v.array()).count()));
     worst.see(differing.back());
   }
   return {{worst.value(), 0, 0, "numbers", "a power of two changes no digit of any number on the way"},
-          {{"length", "1", lengths}, {"mass", "1", masses}, {"time", "1", times}, {"numbers that differ", "1", differing}},
+          {{"length", "1", lengths},
+           {"mass", "1", masses},
+           {"time", "1", times},
+           {"numbers that differ", "1", differing}},
           ""};
 }
 
@@ -85,7 +89,8 @@ Finding units_finding(const Subject& subject, const std::string& integrator) {
   for (const Units& u : {Units{39.37, 1000, 1}, Units{0.3, 2.2046, 3600}, Units{1e3, 0.07, 0.011}})
     worst.see(distance(run_in(u, subject, integrator, h, steps), plain, size, steps * h));
   return {{worst.value(), 64 * steps * grown, 0, "eps of the extent",
-           "20 steps of 64 roundings, those of the converted constants included, each grown at most as a disturbance of the start grows"},
+           "20 steps of 64 roundings, those of the converted constants included, each grown at most as a "
+           "disturbance of the start grows"},
           {{"growth", "1", std::vector<double>{grown}}},
           ""};
 }
@@ -98,7 +103,8 @@ Finding twice_finding(const Subject& subject) {
     const State first = run_in({1, 1, 1}, subject, std::string(integrator.name), 1.3e-3, 23);
     const State second = run_in({1, 1, 1}, subject, std::string(integrator.name), 1.3e-3, 23);
     names.emplace_back(integrator.name);
-    counts.push_back(double((first.x.array() != second.x.array()).count() + (first.v.array() != second.v.array()).count()));
+    counts.push_back(double((first.x.array() != second.x.array()).count() +
+                            (first.v.array() != second.v.array()).count()));
     differing += counts.back();
     if (!first.x.allFinite()) differing = NAN;
   }
@@ -110,7 +116,8 @@ Finding twice_finding(const Subject& subject) {
 Finding frame_finding(const Subject& subject, const std::string& integrator) {
   const double h = 1.1e-3;
   const int steps = 12;
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.9, Vector3(0.4, -0.8, 0.3).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(1.9, Vector3(0.4, -0.8, 0.3).normalized()).toRotationMatrix();
   const Vector3 shift(0.43, -0.29, 0.61), boost(1.7, -0.9, 2.3);
   Scene scene = free_sheet();
   scene.solver.tolerance = 1e-14;
@@ -127,7 +134,8 @@ Finding frame_finding(const Subject& subject, const std::string& integrator) {
   expected.v = (turn * plain.v).colwise() + boost;
   const double grown = growth(stepper, start, h, steps);
   return {{distance(moved, expected, size, steps * h), 64 * steps * grown, 0, "eps of the extent",
-           "12 steps of 64 roundings, each grown at most as a disturbance of the start grows; solves end at 1e-14 of the velocity, 45 epsilon"},
+           "12 steps of 64 roundings, each grown at most as a disturbance of the start grows; solves end at "
+           "1e-14 of the velocity, 45 epsilon"},
           {{"growth", "1", std::vector<double>{grown}}},
           ""};
 }
@@ -137,16 +145,26 @@ Finding frame_finding(const Subject& subject, const std::string& integrator) {
 std::vector<Check> symmetry_checks() {
   std::vector<Check> list;
   add_for_each_integrator(list,
-                          {"dynamics.scaling-laws-hold", "units changed by powers of two give the same bits.", "dimensional analysis", {}},
+                          {"dynamics.scaling-laws-hold",
+                           "units changed by powers of two give the same bits.",
+                           "dimensional analysis",
+                           {}},
                           powers_finding);
   add_for_each_integrator(list,
-                          {"dynamics.units-do-not-matter", "units changed by any factor give the same motion to rounding.", "dimensional analysis", {}},
+                          {"dynamics.units-do-not-matter",
+                           "units changed by any factor give the same motion to rounding.",
+                           "dimensional analysis",
+                           {}},
                           units_finding);
-  list.push_back({"dynamics.results-are-the-same-bits-twice", "Two runs from the same start end with the same bits.", "reproducibility", twice_finding});
-  add_for_each_integrator(list,
-                          {"dynamics.translation-rotation-invariance",
-                           "a turned, shifted and uniformly moving start gives the turned, shifted and moved result.", "Galilean invariance", {}},
-                          frame_finding);
+  list.push_back({"dynamics.results-are-the-same-bits-twice",
+                  "Two runs from the same start end with the same bits.", "reproducibility", twice_finding});
+  add_for_each_integrator(
+      list,
+      {"dynamics.translation-rotation-invariance",
+       "a turned, shifted and uniformly moving start gives the turned, shifted and moved result.",
+       "Galilean invariance",
+       {}},
+      frame_finding);
   return list;
 }
 

@@ -16,14 +16,15 @@ struct Integral {
 };
 
 void add(const Probe& probe, const Path& path, double parameter, double weight, Integral& sum) {
-  const PerParticle3 f = probe.elastic({0, path.x(parameter), {}}), slope = path.slope(parameter);
+  const PerParticle3 f = probe.elastic(still_at(path.x(parameter))), slope = path.slope(parameter);
   sum.work += weight * f.cwiseProduct(slope).sum();
   sum.scale += weight * f.colwise().norm().cwiseProduct(slope.colwise().norm()).sum();
 }
 
 /// Five points a panel: exact for polynomials of degree 9.
 Integral gauss(const Probe& probe, const Path& path, int panels) {
-  const double inner = std::sqrt(5 - 2 * std::sqrt(10.0 / 7)) / 3, outer = std::sqrt(5 + 2 * std::sqrt(10.0 / 7)) / 3;
+  const double inner = std::sqrt(5 - 2 * std::sqrt(10.0 / 7)) / 3,
+               outer = std::sqrt(5 + 2 * std::sqrt(10.0 / 7)) / 3;
   const double heavy = (322 + 13 * std::sqrt(70.0)) / 900, light = (322 - 13 * std::sqrt(70.0)) / 900;
   const std::array<double, 5> nodes = {-outer, -inner, 0, inner, outer};
   const std::array<double, 5> weights = {light, heavy, 128.0 / 225, heavy, light};
@@ -58,7 +59,7 @@ Path random_loop(const PerParticle3& x, double size, unsigned seed) {
 }
 
 oracles::Estimate energy_against_work(const Probe& probe, const Path& path) {
-  const double before = probe.energy({0, path.x(0), {}}), after = probe.energy({0, path.x(1), {}});
+  const double before = probe.energy(still_at(path.x(0))), after = probe.energy(still_at(path.x(1)));
   const Integral coarse = gauss(probe, path, 8), fine = gauss(probe, path, 16);
   const double unit = epsilon * (fine.scale + std::abs(before) + std::abs(after));
   return {std::abs(after - before + fine.work) / unit, std::abs(fine.work - coarse.work) / unit};
