@@ -44,8 +44,15 @@ Handle text_type() {
   return type;
 }
 
+/// '/' parts the names of groups in HDF5; in a name it becomes a division slash, which looks the same.
+std::string without_slash(const std::string& name) {
+  std::string result;
+  for (const char c : name) result += c == '/' ? std::string("\u2215") : std::string(1, c);
+  return result;
+}
+
 Handle group(hid_t parent, const std::string& name) {
-  return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name};
+  return {H5Gcreate2(parent, without_slash(name).c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name};
 }
 
 Handle space_of(std::vector<hsize_t> shape) {
@@ -78,7 +85,7 @@ void attribute(hid_t object, const std::string& name, const std::vector<std::str
 
 Handle write_dataset(hid_t parent, const std::string& name, hid_t type, const std::vector<hsize_t>& shape, const void* data) {
   const Handle space = space_of(shape);
-  Handle set(H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, name);
+  Handle set(H5Dcreate2(parent, without_slash(name).c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, name);
   if (data) succeed(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), name);
   return set;
 }

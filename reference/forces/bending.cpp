@@ -162,17 +162,41 @@ void Bending::prepare_damping(const State& s, DampingOperator& damping) const {
   }
 }
 
+namespace {
+
+/// Bounds on the rows of grad u, for each particle i the sum over j of |du_i/dx_j| [1/m^2]. With l_km the distance from x_k to
+/// x_m, e = |E|, and d(N/|N|^2) = dN/|N|^2 in size, u_k = |E| N_k/|N_k|^2 gives for k = 1, 2
+///   |du_k/dx_k| = |u_k|^2,   |du_k/dx_3| <= g_k4,   |du_k/dx_4| <= g_k3,   g_km = |u_k|^2 l_km/e + |u_k|/e,
+/// the same for du_3/dx_k and du_4/dx_k since grad u is symmetric, and, with |db_k/dx_3| = l_k4/e^2 and |db_k/dx_4| = l_k3/e^2, the rest
+/// from u_3 = -(b_1 u_1 + b_2 u_2) and u_4 = -((1 - b_1) u_1 + (1 - b_2) u_2).
+Eigen::Vector4d mode_gradient_rows(const HingeShape& shape, const std::array<int, 4>& particles, const PerParticle3& x) {
+  const Vector3 x3 = x.col(particles[2]), x4 = x.col(particles[3]);
+  const double e = shape.edge, size[2] = {shape.u1.norm(), shape.u2.norm()}, b[2] = {shape.b1, shape.b2};
+  Eigen::Vector4d rows = Eigen::Vector4d::Zero();
+  for (int k = 0; k < 2; ++k) {
+    const double to3 = (x.col(particles[size_t(k)]) - x3).norm(), to4 = (x.col(particles[size_t(k)]) - x4).norm();
+    const double g3 = size[k] * (size[k] * to3 + 1) / e, g4 = size[k] * (size[k] * to4 + 1) / e;
+    const double shift = size[k] * (to3 + to4) / (e * e), share3 = std::abs(b[k]), share4 = std::abs(1 - b[k]);
+    rows[k] = size[k] * size[k] + g3 + g4;
+    rows[2] += g4 + share3 * (g3 + g4) + shift;
+    rows[3] += g3 + share4 * (g3 + g4) + shift;
+  }
+  return rows;
+}
+
+}  // namespace
+
 void Bending::add_stiffness_bound(const State& s, PerParticle& rows) const {
-  // One hinge's stiffness matrix is ke c (magnitude' u u^T - magnitude grad u). A row of the first sums to |u_i| sum |u_j|; the
-  // second, which matters only for sharp folds, has the same scale: |grad u| is at most about twice |u|^2.
+  // One hinge's stiffness matrix is ke c (magnitude' u u^T - magnitude grad u). A row of the first sums to |u_i| sum |u_j|; the second
+  // counts where a hinge is far from its rest angle. With current weighting the change of c itself is left out.
   const BendingLaw& law = bending_law(material.law);
   for (const BendingHinge& hinge : hinges) {
     const HingeShape shape = checked_shape_of(hinge, s.x);
-    const double theta = angle_of(shape);
-    const double response = std::abs(law.slope(theta, hinge.rest_angle)) + 2 * std::abs(law.magnitude(theta, hinge.rest_angle));
-    const double stiffness = material.stiffness * weight_of(hinge, shape, material.weighting) * response;
+    const double theta = angle_of(shape), weight = material.stiffness * weight_of(hinge, shape, material.weighting);
+    const double slope = std::abs(law.slope(theta, hinge.rest_angle)), magnitude = std::abs(law.magnitude(theta, hinge.rest_angle));
     const Eigen::Vector4d norms = bending_mode(shape).colwise().norm();
-    for (int k = 0; k < 4; ++k) rows[hinge.particles[k]] += stiffness * norms[k] * norms.sum();
+    const Eigen::Vector4d sums = slope * norms.sum() * norms + magnitude * mode_gradient_rows(shape, hinge.particles, s.x);
+    for (int k = 0; k < 4; ++k) rows[hinge.particles[size_t(k)]] += weight * sums[k];
   }
 }
 

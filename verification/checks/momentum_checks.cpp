@@ -190,7 +190,7 @@ std::vector<Check> momentum_checks() {
        source,
        {}},
       damped_angular_finding);
-  // C moves x with one velocity and carries momentum with another: its drift is O(h^2), for a study to measure
+  // C moves x with one velocity and carries momentum with another: its drift is O(h^2); a study measures it
   std::erase_if(damped, [](const Check& check) { return check.name.ends_with(".C"); });
   list.insert(list.end(), damped.begin(), damped.end());
   list.push_back(

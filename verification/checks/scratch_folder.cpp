@@ -1,6 +1,6 @@
 #include "verification/checks/scratch_folder.h"
 
-#include <stdlib.h>
+#include <cstdlib>
 
 #include <cerrno>
 #include <system_error>
