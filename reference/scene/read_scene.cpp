@@ -30,6 +30,12 @@ double not_negative_or(const KeyTable& keys, const std::string& key, double othe
   return value;
 }
 
+long count_or(const KeyTable& keys, const std::string& key, long otherwise) {
+  const long value = keys.integer_or(key, otherwise);
+  if (!(value >= 1 && value <= 1'000'000'000)) throw InputError(keys.where(key) + ": '" + key + "' must lie in 1 .. 1,000,000,000");
+  return value;
+}
+
 template <class Choice>
 Choice choice(const KeyTable& keys, const std::string& key, std::vector<std::pair<std::string, Choice>> choices) {
   const std::string wanted = keys.text_or(key, choices.front().first);  // the first is the default
@@ -123,7 +129,11 @@ void read_hold(const KeyTable& keys, Scene& scene) {
                                                         : particles_at_top(keys, scene.x);
   if (chosen.empty()) throw InputError(keys.where() + ": [[hold]] names no particle");
   const Motion motion = read_motion(keys);
-  for (int i : chosen) scene.led.push_back({i, scene.x.col(i), motion});
+  for (int i : chosen) {
+    for (const PrescribedParticle& other : scene.led)
+      if (other.particle == i) throw InputError(keys.where() + ": particle " + std::to_string(i) + " is held twice");
+    scene.led.push_back({i, scene.x.col(i), motion});
+  }
 }
 
 void read_start(const KeyTable& keys, Scene& scene) {
@@ -152,7 +162,7 @@ void read_time(const KeyTable& keys, Scene& scene) {
   }
   scene.schedule.step.safety = positive_or(keys, "safety", scene.schedule.step.safety);
   scene.schedule.step.strain_per_step = positive_or(keys, "strain_per_step", scene.schedule.step.strain_per_step);
-  scene.schedule.max_steps = keys.integer_or("max_steps", scene.schedule.max_steps);
+  scene.schedule.max_steps = count_or(keys, "max_steps", scene.schedule.max_steps);
   scene.integrator = keys.text_or("integrator", scene.integrator);
   try {
     integrator_named(scene.integrator);
@@ -163,7 +173,7 @@ void read_time(const KeyTable& keys, Scene& scene) {
 
 void read_solver(const KeyTable& keys, SolverSettings& solver) {
   solver.tolerance = positive_or(keys, "tolerance", solver.tolerance);
-  solver.max_iterations = int(keys.integer_or("max_iterations", solver.max_iterations));
+  solver.max_iterations = int(count_or(keys, "max_iterations", solver.max_iterations));
   solver.scale = choice<ResidualScale>(
       keys, "relative_to", {{"momentum", ResidualScale::momentum}, {"initial_residual", ResidualScale::initial_residual}});
 }
@@ -188,7 +198,6 @@ Scene scene_from(const KeyTable& keys, const std::string& folder) {
   read_time(*time, scene);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
   keys.refuse_unused();
-  build_system(scene);  // a particle held twice and the like are found here, not in the middle of a run
   return scene;
 }
 

@@ -34,13 +34,19 @@ SheetPattern read_pattern(const KeyTable& keys) {
   throw InputError(keys.where("pattern") + ": unknown pattern '" + wanted + "'; known: " + known);
 }
 
+int count(const KeyTable& keys, const std::string& key) {
+  const long value = keys.integer(key);
+  if (!(value >= 1 && value <= 1'000'000)) throw InputError(keys.where(key) + ": '" + key + "' must lie in 1 .. 1,000,000");
+  return int(value);
+}
+
 TriangleMesh read_sheet(const KeyTable& keys) {
   Sheet sheet;
   sheet.pattern = read_pattern(keys);
   sheet.width = keys.number("width");
   sheet.height = keys.number("height");
-  sheet.columns = int(keys.integer("columns"));
-  sheet.rows = int(keys.integer("rows"));
+  sheet.columns = count(keys, "columns");
+  sheet.rows = count(keys, "rows");
   sheet.jitter = keys.number_or("jitter", 0);
   sheet.seed = unsigned(keys.integer_or("seed", 1));
   return make_sheet(sheet);
@@ -49,12 +55,12 @@ TriangleMesh read_sheet(const KeyTable& keys) {
 TriangleMesh make_shape(const KeyTable& keys) {
   const std::string shape = keys.text("shape");
   if (shape == "sheet") return read_sheet(keys);
-  if (shape == "disc") return make_disc(keys.number("radius"), int(keys.integer("rings")));
+  if (shape == "disc") return make_disc(keys.number("radius"), count(keys, "rings"));
   if (shape == "cylinder")
-    return make_cylinder(keys.number("radius"), keys.number("height"), int(keys.integer("around")),
-                         int(keys.integer("along")));
-  if (shape == "sphere") return make_icosphere(keys.number("radius"), int(keys.integer("subdivisions")));
-  if (shape == "statue") return make_statue(keys.number("height"), int(keys.integer("subdivisions")));
+    return make_cylinder(keys.number("radius"), keys.number("height"), count(keys, "around"),
+                         count(keys, "along"));
+  if (shape == "sphere") return make_icosphere(keys.number("radius"), count(keys, "subdivisions"));
+  if (shape == "statue") return make_statue(keys.number("height"), count(keys, "subdivisions"));
   if (shape == "hinge") return make_hinge(keys.number("length"), keys.number("angle") * radians_per_degree);
   throw InputError(keys.where("shape") + ": unknown shape '" + shape +
                    "'; known: sheet, disc, cylinder, sphere, statue, hinge");
@@ -67,6 +73,18 @@ TriangleMesh read_mesh_file(const KeyTable& keys, const std::string& folder) {
   if (file.is_relative() && where != "--set") file = folder / file;
   if (!std::filesystem::exists(file)) throw InputError(where + ": there is no mesh file '" + file.string() + "'");
   return read_obj(file.string());
+}
+
+/// What make() returns; a refusal that names no place gets this one.
+template <class Make>
+auto placed_refusal(const std::string& where, const Make& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    const std::string said = error.what(), file = where.substr(0, where.find(':'));
+    if (said.starts_with(file) || said.starts_with("--set")) throw;
+    throw InputError(where + ": " + said);
+  }
 }
 
 /// Scales, turns and moves the positions, in this order.
@@ -91,12 +109,16 @@ void place(const KeyTable& keys, PerParticle3& x) {
 PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder) {
   if (cloth.has("shape") == cloth.has("mesh"))
     throw InputError(cloth.where("mesh") + ": [cloth] needs either 'shape' or 'mesh' (an OBJ file), and not both");
-  PlacedMesh result{cloth.has("mesh") ? read_mesh_file(cloth, folder) : make_shape(cloth), {}};
+  PlacedMesh result{cloth.has("mesh") ? read_mesh_file(cloth, folder)
+                                      : placed_refusal(cloth.where("shape"), [&] { return make_shape(cloth); }),
+                    {}};
 
   const auto pleats = cloth.table("pleats");
   result.start = result.mesh.rest;
   if (pleats) {
-    result.mesh.rest = pleated(result.mesh, int(pleats->integer("columns")), pleats->number("angle") * radians_per_degree);
+    result.mesh.rest = placed_refusal(cloth.where("pleats"), [&] {
+      return pleated(result.mesh, count(*pleats, "columns"), pleats->number("angle") * radians_per_degree);
+    });
     if (!pleats->flag_or("start_flat", true)) result.start = result.mesh.rest;
   }
   place(cloth, result.start);
