@@ -180,7 +180,7 @@ std::vector<Figure> figures_of(const std::vector<Sweep>& measured) {
           {sweep.name,
            sweep.title,
            {sweep.label, sweep.unit, Scale::log},
-           {"iterations a solve", "1", Scale::log},
+           {"iterations a solve", "1", Scale::linear},
            nan,
            "Each curve says what its residual is compared with. The other things are as in the table.",
            {}});
