@@ -9,7 +9,8 @@ Reading never decides anything: outcomes are the strings that the program wrote.
 """
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import json
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -151,7 +152,7 @@ def load_run(path: str | Path) -> Run:
                    findings=[_finding(name, group) for name, group in _in_order(file, "findings")],
                    studies=[_study(name, group) for name, group in _in_order(file, "studies")],
                    cases=[_case_entry(name, group, path.parent) for name, group in _in_order(file, "cases")],
-                   faults=_faults(file))
+                   faults=_with_outcomes(_faults(file), path.parent / "faults.json"))
 
 
 def load_case(path: str | Path) -> Case:
@@ -220,6 +221,14 @@ def _case_entry(name: str, group: h5py.Group, folder: Path) -> CaseEntry:
     return CaseEntry(name=name, title=_text(said, "title") or name, about=_text(said, "about"),
                      seconds=_number(said, "seconds"), stopped=_text(said, "stopped"),
                      path=folder / (_text(said, "file") or f"{name}.h5"))
+
+
+def _with_outcomes(faults: list[Fault], file: Path) -> list[Fault]:
+    """Outcomes of `scripts/faults --out DIR/faults.json`, if that was run for this folder."""
+    if not file.is_file():
+        return faults
+    outcomes = {row["name"]: row["outcome"] for row in json.loads(file.read_text())["faults"]}
+    return [replace(fault, outcome=outcomes.get(fault.name, fault.outcome)) for fault in faults]
 
 
 def _faults(file: h5py.File) -> list[Fault]:
