@@ -1,6 +1,7 @@
 // The words everything else is written in: state, work, and the unit convention.
 //
-// Units are SI throughout: m, s, kg, N, J. Angles are in radians in code, in degrees in case files (each key says so).
+// Units are SI throughout: m, s, kg, N, J. Angles are in radians in code, in degrees in case files (each key
+// says so).
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +12,8 @@
 namespace foldproof {
 
 using Vector3 = Eigen::Vector3d;
-using PerParticle = Eigen::VectorXd;     // N
-using PerParticle3 = Eigen::Matrix3Xd;   // 3 x N; column i belongs to particle i
+using PerParticle = Eigen::VectorXd;    // N
+using PerParticle3 = Eigen::Matrix3Xd;  // 3 x N; column i belongs to particle i
 
 /// Positions and velocities at one time.
 struct State {
@@ -23,13 +24,13 @@ struct State {
 
 /// Counted work: what a method costs, whatever the machine. Returned or added to, never global.
 struct Work {
-  long elastic_evaluations = 0;    // evaluations of all elastic and external forces of the system
-  long damping_preparations = 0;   // times the position-dependent terms of the damping forces were computed
-  long damping_products = 0;       // products D(x) v
-  long solves = 0;                 // linear systems solved for a velocity
-  long cg_iterations = 0;          // over all solves
-  long unfinished_solves = 0;      // solves that hit the cap on iterations before they kept their promise
-  double worst_residual = 0;       // largest relative residual returned by a solve [1]
+  long elastic_evaluations = 0;   // evaluations of all elastic and external forces of the system
+  long damping_preparations = 0;  // times the position-dependent terms of the damping forces were computed
+  long damping_products = 0;      // products D(x) v
+  long solves = 0;                // linear systems solved for a velocity
+  long cg_iterations = 0;         // over all solves
+  long unfinished_solves = 0;     // solves that hit the cap on iterations before they kept their promise
+  double worst_residual = 0;      // largest relative residual returned by a solve [1]
 };
 
 /// Sets `worst` to `value` if that is larger or NaN; a NaN stays whatever comes after it.

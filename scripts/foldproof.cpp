@@ -52,24 +52,29 @@ void make_folder(const std::string& folder) {
 
 int list(const Options& options) {
   nlohmann::json json = {{"checks", nlohmann::json::array()}, {"studies", nlohmann::json::array()}};
-  for (const Check& check : all_checks()) json["checks"].push_back({{"name", check.name}, {"claim", check.claim}, {"source", check.source}});
-  for (const Study& study : all_studies()) json["studies"].push_back({{"name", study.name}, {"claim", study.claim}, {"source", study.source}});
+  for (const Check& check : all_checks())
+    json["checks"].push_back({{"name", check.name}, {"claim", check.claim}, {"source", check.source}});
+  for (const Study& study : all_studies())
+    json["studies"].push_back({{"name", study.name}, {"claim", study.claim}, {"source", study.source}});
   json["cases"] = built_in_cases();
   json["integrators"] = nlohmann::json::array();
   for (const Integrator& i : integrators())
-    json["integrators"].push_back({{"name", i.name}, {"title", i.title}, {"source", i.source}, {"order", i.order}});
+    json["integrators"].push_back(
+        {{"name", i.name}, {"title", i.title}, {"source", i.source}, {"order", i.order}});
   if (options.json) {
     fmt::print("{}\n", json.dump(1));
     return all_hold;
   }
   for (const char* kind : {"checks", "studies"}) {
     fmt::print("{}:\n", kind);
-    for (const auto& row : json[kind]) fmt::print("  {:<58} {}\n", row["name"].get<std::string>(), row["claim"].get<std::string>());
+    for (const auto& row : json[kind])
+      fmt::print("  {:<58} {}\n", row["name"].get<std::string>(), row["claim"].get<std::string>());
   }
   fmt::print("cases (cases/NAME.toml):\n");
   for (const std::string& name : built_in_cases()) fmt::print("  {}\n", name);
   fmt::print("integrators:\n");
-  for (const Integrator& i : integrators()) fmt::print("  {}  {} ({}), order {}\n", i.name, i.title, i.source, i.order);
+  for (const Integrator& i : integrators())
+    fmt::print("  {}  {} ({}), order {}\n", i.name, i.title, i.source, i.order);
   return all_hold;
 }
 
@@ -81,16 +86,25 @@ int simulate_case(const Options& options) {
   const CaseRun run = run_case(scene, options.out, provenance(options.command));
   const Work& work = run.outcome.work;
   if (options.json) {
-    const nlohmann::json json = {{"case", scene.name}, {"file", options.out + "/" + run.record.file}, {"stopped", run.record.stopped},
-                                 {"steps", run.outcome.steps}, {"time", run.outcome.last.time}, {"seconds", run.record.seconds},
-                                 {"cg_iterations", work.cg_iterations}, {"solves", work.solves},
-                                 {"elastic_evaluations", work.elastic_evaluations}, {"unfinished_solves", work.unfinished_solves}};
+    const nlohmann::json json = {{"case", scene.name},
+                                 {"file", options.out + "/" + run.record.file},
+                                 {"stopped", run.record.stopped},
+                                 {"steps", run.outcome.steps},
+                                 {"time", run.outcome.last.time},
+                                 {"seconds", run.record.seconds},
+                                 {"cg_iterations", work.cg_iterations},
+                                 {"solves", work.solves},
+                                 {"elastic_evaluations", work.elastic_evaluations},
+                                 {"unfinished_solves", work.unfinished_solves}};
     fmt::print("{}\n", json.dump(1));
   } else {
-    fmt::print("{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n", options.out, run.record.file,
-               run.outcome.last.time, run.outcome.steps, double(work.cg_iterations) / double(std::max(1L, work.solves)), run.record.seconds);
+    fmt::print("{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n", options.out,
+               run.record.file, run.outcome.last.time, run.outcome.steps,
+               double(work.cg_iterations) / double(std::max(1L, work.solves)), run.record.seconds);
   }
-  if (work.unfinished_solves > 0) say(fmt::format("warning: {} of {} solves hit the cap on iterations", work.unfinished_solves, work.solves));
+  if (work.unfinished_solves > 0)
+    say(fmt::format("warning: {} of {} solves hit the cap on iterations", work.unfinished_solves,
+                    work.solves));
   if (!run.record.stopped.empty()) say("stopped: " + run.record.stopped);
   return run.record.stopped.empty() ? all_hold : 1;
 }
@@ -104,8 +118,10 @@ int conclude(RunRecord& run, const Options& options, const std::string& file) {
     write_run(options.out + "/" + file, run);
     write_verdicts(options.out, run);
   }
-  if (options.json) fmt::print("{}", verdicts_json(run));
-  else fmt::print("{}{}\n", listing(run), summary(run));
+  if (options.json)
+    fmt::print("{}", verdicts_json(run));
+  else
+    fmt::print("{}{}\n", listing(run), summary(run));
   return exit_code(run);
 }
 
@@ -138,8 +154,10 @@ int run_bench(const Options& options) {
     make_folder(options.out);
     write_run(options.out + "/bench.h5", run);
   }
-  if (options.json) fmt::print("{}", verdicts_json(run));
-  else fmt::print("{}", listing(run));
+  if (options.json)
+    fmt::print("{}", verdicts_json(run));
+  else
+    fmt::print("{}", listing(run));
   return all_hold;
 }
 
@@ -149,7 +167,8 @@ int verify(Options options) {
   const auto start = std::chrono::steady_clock::now();
   run_selection(select({{}, {"check", "study"}}), reference_subject(), tier_of(options), run);
   for (const std::string& name : built_in_cases()) {
-    CaseRun done = run_case(read_scene(project_folder() + "/cases/" + name + ".toml"), options.out, run.provenance);
+    CaseRun done =
+        run_case(read_scene(project_folder() + "/cases/" + name + ".toml"), options.out, run.provenance);
     run.cases.push_back(done.record);
     for (Record& record : done.findings) run.records.push_back(std::move(record));
   }
@@ -163,8 +182,10 @@ int verify(Options options) {
   speeds.provenance = run.provenance;
   write_run(options.out + "/bench.h5", speeds);
   const int reported = options.no_report ? all_hold : make_report(options.out);
-  if (options.json) fmt::print("{}", verdicts_json(run));
-  else fmt::print("{} ({:.0f} s)\n", summary(run), run.seconds);
+  if (options.json)
+    fmt::print("{}", verdicts_json(run));
+  else
+    fmt::print("{} ({:.0f} s)\n", summary(run), run.seconds);
   return reported != all_hold ? reported : exit_code(run);
 }
 
@@ -199,7 +220,9 @@ CLI::Option* add_out(CLI::App* command, Options& options, const std::string& wha
 int run(int argc, char** argv) {
   Options options;
   options.command = typed(argc, argv);
-  CLI::App app("Verification suite and reference implementation for cloth simulation, after Bridson, Marino, Fedkiw (2003).");
+  CLI::App app(
+      "Verification suite and reference implementation for cloth simulation, after Bridson, Marino, Fedkiw "
+      "(2003).");
   app.footer(examples);
   app.require_subcommand(1);
   app.set_version_flag("--version", [] {
@@ -210,7 +233,8 @@ int run(int argc, char** argv) {
   auto* list_command = app.add_subcommand("list", "What there is: checks, studies, cases, integrators");
   auto* simulate_command = app.add_subcommand("simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf");
   simulate_command->add_option("CASE", options.file, "Case file, see cases/README.md")->required();
-  simulate_command->add_option("--set", options.overrides, "Override a key: table.key=value")->allow_extra_args(false);
+  simulate_command->add_option("--set", options.overrides, "Override a key: table.key=value")
+      ->allow_extra_args(false);
   auto* check_command = app.add_subcommand("check", "Run checks (all, or those named)");
   auto* study_command = app.add_subcommand("study", "Run studies (all, or those named)");
   auto* verify_command = app.add_subcommand("verify", "All checks, studies and cases, and the report");
@@ -219,10 +243,12 @@ int run(int argc, char** argv) {
   report_command->add_option("DIR", options.file, "Folder with run.h5 or case files")->required();
   auto* evaluate_command = app.add_subcommand("evaluate", "Evaluate a formula on your numbers");
   evaluate_command->require_subcommand(1);
-  auto* bending_command = evaluate_command->add_subcommand("bending", "Forces of single hinges from a CSV file");
+  auto* bending_command =
+      evaluate_command->add_subcommand("bending", "Forces of single hinges from a CSV file");
   bending_command->footer(evaluate_help);
   bending_command->add_option("FILE", options.file, "CSV, 27 columns")->required();
-  bending_command->add_option("--rest", options.rest_file, "CSV, 12 columns: rest positions, for rest weighting");
+  bending_command->add_option("--rest", options.rest_file,
+                              "CSV, 12 columns: rest positions, for rest weighting");
   auto* bench_command = app.add_subcommand("bench", "Measure speed and memory; writes bench.h5");
   bench_command->add_flag("--quick", options.quick, "Up to 100k particles instead of a million");
 
@@ -230,10 +256,14 @@ int run(int argc, char** argv) {
     command->add_option("NAME", options.names, "Names or groups, as `foldproof list` shows them");
     add_out(command, options, "Also write run.h5, verdicts.json and junit.xml into this folder");
   }
-  for (auto* command : {simulate_command, verify_command, bench_command}) add_out(command, options, "Folder for results")->capture_default_str();
+  for (auto* command : {simulate_command, verify_command, bench_command})
+    add_out(command, options, "Folder for results")->capture_default_str();
   for (auto* command : {check_command, study_command, verify_command})
-    command->add_option("--tier", options.tier, "quick or full")->check(CLI::IsMember({"quick", "full"}))->capture_default_str();
-  for (auto* command : {list_command, simulate_command, check_command, study_command, verify_command, bench_command})
+    command->add_option("--tier", options.tier, "quick or full")
+        ->check(CLI::IsMember({"quick", "full"}))
+        ->capture_default_str();
+  for (auto* command :
+       {list_command, simulate_command, check_command, study_command, verify_command, bench_command})
     command->add_flag("--json", options.json, "Print JSON on standard output");
 
   try {

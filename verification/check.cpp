@@ -47,16 +47,21 @@ Record judged(Record record, const Run& run) {
 
 std::string_view name_of(Ruling ruling) {
   switch (ruling) {
-    case Ruling::holds: return "holds";
-    case Ruling::fails: return "fails";
-    case Ruling::inconclusive: return "inconclusive";
-    case Ruling::not_applicable: return "not applicable";
+    case Ruling::holds:
+      return "holds";
+    case Ruling::fails:
+      return "fails";
+    case Ruling::inconclusive:
+      return "inconclusive";
+    case Ruling::not_applicable:
+      return "not applicable";
   }
   return "fails";
 }
 
 Ruling ruling(const Verdict& verdict) {
-  if (std::isnan(verdict.measured) || std::isnan(verdict.uncertainty) || std::isnan(verdict.bound)) return Ruling::fails;
+  if (std::isnan(verdict.measured) || std::isnan(verdict.uncertainty) || std::isnan(verdict.bound))
+    return Ruling::fails;
   if (verdict.measured + verdict.uncertainty <= verdict.bound) return Ruling::holds;
   if (verdict.measured - verdict.uncertainty > verdict.bound) return Ruling::fails;
   return Ruling::inconclusive;

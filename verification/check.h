@@ -1,4 +1,5 @@
-// What a verification says: verdicts, findings, the evidence behind them, and the checks and studies that make them.
+// What a verification says: verdicts, findings, the evidence behind them, and the checks and studies that
+// make them.
 #pragma once
 
 #include <cmath>
@@ -22,7 +23,8 @@ struct Verdict {
   std::string why_bound;                            // the bound's reason in words
 };
 
-/// holds iff measured + uncertainty <= bound, fails iff measured - uncertainty > bound or anything is NaN, else inconclusive.
+/// holds iff measured + uncertainty <= bound, fails iff measured - uncertainty > bound or anything is NaN,
+/// else inconclusive.
 Ruling ruling(const Verdict& verdict);
 
 /// One column of evidence; the columns of a finding have the same length.

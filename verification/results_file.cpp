@@ -52,7 +52,8 @@ std::string without_slash(const std::string& name) {
 }
 
 Handle group(hid_t parent, const std::string& name) {
-  return {H5Gcreate2(parent, without_slash(name).c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name};
+  return {H5Gcreate2(parent, without_slash(name).c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+          name};
 }
 
 Handle space_of(std::vector<hsize_t> shape) {
@@ -60,9 +61,11 @@ Handle space_of(std::vector<hsize_t> shape) {
   return {H5Screate_simple(int(shape.size()), shape.data(), nullptr), H5Sclose, "a space"};
 }
 
-void write_attribute(hid_t object, const std::string& name, hid_t type, const std::vector<hsize_t>& shape, const void* data) {
+void write_attribute(hid_t object, const std::string& name, hid_t type, const std::vector<hsize_t>& shape,
+                     const void* data) {
   const Handle space = space_of(shape);
-  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                         name);
   succeed(H5Awrite(attribute, type, data), name);
 }
 
@@ -83,15 +86,19 @@ void attribute(hid_t object, const std::string& name, const std::vector<std::str
   write_attribute(object, name, text_type(), {texts.size()}, texts.data());
 }
 
-Handle write_dataset(hid_t parent, const std::string& name, hid_t type, const std::vector<hsize_t>& shape, const void* data) {
+Handle write_dataset(hid_t parent, const std::string& name, hid_t type, const std::vector<hsize_t>& shape,
+                     const void* data) {
   const Handle space = space_of(shape);
-  Handle set(H5Dcreate2(parent, without_slash(name).c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, name);
+  Handle set(
+      H5Dcreate2(parent, without_slash(name).c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dclose, name);
   if (data) succeed(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), name);
   return set;
 }
 
 Handle dataset(hid_t parent, const std::string& name, const std::vector<double>& values) {
-  return write_dataset(parent, name, H5T_NATIVE_DOUBLE, {values.size()}, values.empty() ? nullptr : values.data());
+  return write_dataset(parent, name, H5T_NATIVE_DOUBLE, {values.size()},
+                       values.empty() ? nullptr : values.data());
 }
 Handle dataset(hid_t parent, const std::string& name, const std::vector<std::string>& values) {
   std::vector<const char*> texts;
@@ -119,7 +126,8 @@ void write_provenance(hid_t file, const Provenance& p) {
 void write_columns(hid_t parent, const std::vector<Column>& columns) {
   int order = 0;
   for (const Column& column : columns) {
-    const Handle set = std::visit([&](const auto& values) { return dataset(parent, column.name, values); }, column.values);
+    const Handle set =
+        std::visit([&](const auto& values) { return dataset(parent, column.name, values); }, column.values);
     attribute(set, "order", order++);
     attribute(set, "unit", column.unit);
   }
@@ -239,7 +247,8 @@ void rename_when_whole(const std::string& from, const std::string& to) {
   const int descriptor = open(from.c_str(), O_RDONLY);
   const bool synced = descriptor >= 0 && fsync(descriptor) == 0;
   if (descriptor >= 0) close(descriptor);
-  if (!synced || std::rename(from.c_str(), to.c_str()) != 0) throw std::runtime_error(to + ": cannot be written");
+  if (!synced || std::rename(from.c_str(), to.c_str()) != 0)
+    throw std::runtime_error(to + ": cannot be written");
 }
 
 void write_run(const std::string& path, const RunRecord& run) {
@@ -298,7 +307,8 @@ class Series {
     const Handle space(H5Screate_simple(int(start.size()), start.data(), most.data()), H5Sclose, name);
     const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
     H5Pset_chunk(layout, int(chunk.size()), chunk.data());
-    return {H5Dcreate2(parent, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, layout, H5P_DEFAULT), H5Dclose, name};
+    return {H5Dcreate2(parent, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, layout, H5P_DEFAULT),
+            H5Dclose, name};
   }
 
   std::vector<hsize_t> row_;
@@ -311,7 +321,8 @@ void write_mesh(hid_t file, const Scene& scene, const System& system) {
   const Handle mesh = group(file, "mesh");
   const hsize_t particles = hsize_t(scene.mesh.particles()), triangles = scene.mesh.triangles.size();
   write_dataset(mesh, "triangles", H5T_NATIVE_INT, {triangles, 3}, scene.mesh.triangles.data());
-  const Handle rest = write_dataset(mesh, "rest_positions", H5T_NATIVE_DOUBLE, {particles, 3}, scene.mesh.rest.data());
+  const Handle rest =
+      write_dataset(mesh, "rest_positions", H5T_NATIVE_DOUBLE, {particles, 3}, scene.mesh.rest.data());
   attribute(rest, "unit", std::string("m"));
   const Handle mass = write_dataset(mesh, "mass", H5T_NATIVE_DOUBLE, {particles}, system.mass.data());
   attribute(mass, "unit", std::string("kg"));
@@ -353,7 +364,7 @@ struct TrajectoryFile::Content {
   hsize_t particles, triangles;
   Handle file, frames, diagnostics;
   Series time, positions, velocities;
-  std::vector<Series> rows;         // scalars, in the order of `scalars` below
+  std::vector<Series> rows;  // scalars, in the order of `scalars` below
   Series linear, angular;
   std::vector<double> frame_times;
 
@@ -378,7 +389,8 @@ struct TrajectoryFile::Content {
     for (size_t k = 0; k < frame_times.size(); ++k)
       out << fmt::format(fmt::runtime(xdmf_frame), fmt::arg("frame", k), fmt::arg("time", frame_times[k]),
                          fmt::arg("triangles", triangles), fmt::arg("particles", particles),
-                         fmt::arg("frames", frame_times.size()), fmt::arg("file", target.filename().string()));
+                         fmt::arg("frames", frame_times.size()),
+                         fmt::arg("file", target.filename().string()));
     out << "    </Grid>\n  </Domain>\n</Xdmf>\n";
     out.close();
     if (!out) throw std::runtime_error(name + ": cannot be written");
@@ -409,7 +421,8 @@ constexpr Scalar scalars[] = {
 
 }  // namespace
 
-TrajectoryFile::TrajectoryFile(const std::string& path, const Scene& scene, const System& system, const Provenance& provenance)
+TrajectoryFile::TrajectoryFile(const std::string& path, const Scene& scene, const System& system,
+                               const Provenance& provenance)
     : content_(std::make_unique<Content>(path, scene)) {
   const hid_t file = content_->file;
   write_provenance(file, provenance);
@@ -419,9 +432,11 @@ TrajectoryFile::TrajectoryFile(const std::string& path, const Scene& scene, cons
   attribute(file, "case_text", scene.text);
   attribute(file, "integrator", scene.integrator);
   attribute(file, "built", built_parts(scene, system));
-  attribute(file, "frames_wanted", int(std::lround(std::ceil(scene.schedule.end / scene.schedule.frame_interval - 1e-9))) + 1);
+  attribute(file, "frames_wanted",
+            int(std::lround(std::ceil(scene.schedule.end / scene.schedule.frame_interval - 1e-9))) + 1);
   write_mesh(file, scene, system);
-  for (const Scalar& scalar : scalars) content_->rows.emplace_back(content_->diagnostics, scalar.name, scalar.unit, std::vector<hsize_t>{});
+  for (const Scalar& scalar : scalars)
+    content_->rows.emplace_back(content_->diagnostics, scalar.name, scalar.unit, std::vector<hsize_t>{});
 }
 
 TrajectoryFile::~TrajectoryFile() = default;

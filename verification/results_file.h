@@ -1,4 +1,5 @@
-// Results as HDF5: the runs' findings, studies and cases, and each case's trajectory. The only door to the HDF5 library.
+// Results as HDF5: the runs' findings, studies and cases, and each case's trajectory. The only door to the
+// HDF5 library.
 #pragma once
 
 #include <memory>
@@ -41,17 +42,21 @@ struct RunRecord {
   std::vector<Fault> faults;
 };
 
-/// Makes sure that the bytes of `from` are on the disk, then gives it the name `to`. Throws std::runtime_error naming the file.
+/// Makes sure that the bytes of `from` are on the disk, then gives it the name `to`. Throws
+/// std::runtime_error naming the file.
 void rename_when_whole(const std::string& from, const std::string& to);
 
-/// Writes the whole run to `path`, under a temporary name first and renamed when complete. Throws std::runtime_error naming the file.
+/// Writes the whole run to `path`, under a temporary name first and renamed when complete. Throws
+/// std::runtime_error naming the file.
 void write_run(const std::string& path, const RunRecord& run);
 
-/// Writes a simulation while it runs: to "<path>.partial", renamed to `path` by finish(), with an XDMF file beside it that
+/// Writes a simulation while it runs: to "<path>.partial", renamed to `path` by finish(), with an XDMF file
+/// beside it that
 /// ParaView opens. What was written before a stop or an interruption is kept in the partial file.
 class TrajectoryFile {
  public:
-  TrajectoryFile(const std::string& path, const Scene& scene, const System& system, const Provenance& provenance);
+  TrajectoryFile(const std::string& path, const Scene& scene, const System& system,
+                 const Provenance& provenance);
   ~TrajectoryFile();
   TrajectoryFile(const TrajectoryFile&) = delete;
   TrajectoryFile& operator=(const TrajectoryFile&) = delete;

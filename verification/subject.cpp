@@ -15,7 +15,9 @@ struct PreparedReference : Prepared {
       : system(build_system(scene)), integrator(integrator_named(scene.integrator)) {}
 };
 
-const PreparedReference& own(const Prepared& prepared) { return static_cast<const PreparedReference&>(prepared); }
+const PreparedReference& own(const Prepared& prepared) {
+  return static_cast<const PreparedReference&>(prepared);
+}
 
 }  // namespace
 

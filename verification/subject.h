@@ -20,7 +20,8 @@ struct Prepared {
 struct Subject {
   std::string name, version;
 
-  /// Builds the scene; the integrator and the solver's settings are the scene's. Throws NotOffered for what it does not have.
+  /// Builds the scene; the integrator and the solver's settings are the scene's. Throws NotOffered for what
+  /// it does not have.
   std::function<std::unique_ptr<Prepared>(const Scene&)> prepare;
 
   /// All elastic and external forces at s [N], 3 x N.

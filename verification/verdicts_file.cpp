@@ -11,7 +11,9 @@ namespace foldproof {
 
 namespace {
 
-nlohmann::json number(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
+nlohmann::json number(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
 
 nlohmann::json as_json(const Record& record) {
   const Verdict& verdict = record.finding.verdict;
@@ -34,11 +36,20 @@ nlohmann::json as_json(const Record& record) {
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += (static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t') ? ' ' : c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += (static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t') ? ' ' : c;
     }
   return out;
 }
@@ -47,11 +58,13 @@ std::string junit_case(const Record& record) {
   const Verdict& v = record.finding.verdict;
   std::string text = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", record.kind,
                                  escaped(record.name), record.seconds);
-  const std::string message = escaped(fmt::format("measured {:.6g}, uncertainty {:.3g}, bound {:.6g} [{}]. {} {}", v.measured,
-                                                  v.uncertainty, v.bound, v.unit, record.claim, record.finding.note));
+  const std::string message =
+      escaped(fmt::format("measured {:.6g}, uncertainty {:.3g}, bound {:.6g} [{}]. {} {}", v.measured,
+                          v.uncertainty, v.bound, v.unit, record.claim, record.finding.note));
   if (record.outcome == "holds" || record.outcome == "measured") return text + "/>\n";
   const char* kind = record.outcome == "not applicable" ? "skipped" : "failure";
-  return text + fmt::format(">\n    <{0} message=\"{1}: {2}\"/>\n  </testcase>\n", kind, record.outcome, message);
+  return text +
+         fmt::format(">\n    <{0} message=\"{1}: {2}\"/>\n  </testcase>\n", kind, record.outcome, message);
 }
 
 std::string junit_xml(const RunRecord& run) {
@@ -62,9 +75,11 @@ std::string junit_xml(const RunRecord& run) {
     skipped += record.outcome == "not applicable";
     cases += junit_case(record);
   }
-  return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"foldproof\" tests=\"{}\" failures=\"{}\" "
-                     "skipped=\"{}\" time=\"{:.3f}\" timestamp=\"{}\">\n{}</testsuite>\n",
-                     run.records.size(), failures, skipped, run.seconds, escaped(run.provenance.date), cases);
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"foldproof\" tests=\"{}\" "
+      "failures=\"{}\" "
+      "skipped=\"{}\" time=\"{:.3f}\" timestamp=\"{}\">\n{}</testsuite>\n",
+      run.records.size(), failures, skipped, run.seconds, escaped(run.provenance.date), cases);
 }
 
 }  // namespace
@@ -73,9 +88,17 @@ std::string verdicts_json(const RunRecord& run) {
   const Provenance& p = run.provenance;
   nlohmann::json json = {{"schema", 1},
                          {"program",
-                          {{"name", "foldproof"}, {"version", p.version}, {"commit", p.commit}, {"tree", p.tree},
-                           {"compiler", p.compiler}, {"flags", p.flags}, {"cpu", p.cpu}, {"date", p.date},
-                           {"command", p.command}, {"tier", run.tier}, {"subject", run.subject}}},
+                          {{"name", "foldproof"},
+                           {"version", p.version},
+                           {"commit", p.commit},
+                           {"tree", p.tree},
+                           {"compiler", p.compiler},
+                           {"flags", p.flags},
+                           {"cpu", p.cpu},
+                           {"date", p.date},
+                           {"command", p.command},
+                           {"tier", run.tier},
+                           {"subject", run.subject}}},
                          {"findings", nlohmann::json::array()}};
   for (const Record& record : run.records) json["findings"].push_back(as_json(record));
   return json.dump(1) + "\n";

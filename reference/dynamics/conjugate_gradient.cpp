@@ -38,15 +38,17 @@ Solve record(Solve solve, Work& work) {
 
 }  // namespace
 
-Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass, const PerParticle& inverse_mass,
-                     const SolverSettings& settings, PerParticle3& v, Work& work) {
+Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass,
+                     const PerParticle& inverse_mass, const SolverSettings& settings, PerParticle3& v,
+                     Work& work) {
   PerParticle3 q(3, v.cols());
 
   // the residual of the explicit guess: b - (M - s D) w0 = s D w0
   damping_product(damping, v, inverse_mass, q, work);
   PerParticle3 r = s * q;
   double rr = squared_norm(r, inverse_mass);
-  const double scale_squared = settings.scale == ResidualScale::momentum ? squared_momentum(v, mass, inverse_mass) : rr;
+  const double scale_squared =
+      settings.scale == ResidualScale::momentum ? squared_momentum(v, mass, inverse_mass) : rr;
   const double scale = scale_squared > 0 ? std::sqrt(scale_squared) : 1;
   double residual = std::sqrt(rr) / scale;
 

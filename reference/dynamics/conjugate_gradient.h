@@ -8,8 +8,8 @@ namespace foldproof {
 
 /// What the residual is compared with, both in the mass-weighted norm |r|^2 = sum_i |r_i|^2/m_i [kg m^2/s^2]:
 enum class ResidualScale {
-  momentum,         // the right-hand side's own norm, sqrt(sum m_i |b_i|^2): an error in velocity relative to the velocity
-  initial_residual  // the residual of the explicit guess: an error relative to what damping changes; the same in every inertial frame
+  momentum,         // the right-hand side, sqrt(sum m_i |b_i|^2): an error relative to the velocity
+  initial_residual  // of the explicit guess: an error relative to what damping changes, in every inertial frame
 };
 
 struct SolverSettings {
@@ -24,13 +24,16 @@ struct Solve {
   bool converged;   // residual <= tolerance
 };
 
-/// Solves (M - s D) w = M w0 for the velocity w of the free particles; prescribed ones (inverse mass 0) keep theirs.
+/// Solves (M - s D) w = M w0 for the velocity w of the free particles; prescribed ones (inverse mass 0) keep
+/// theirs.
 ///   v      on entry w0 = v + s M^{-1} F with the known velocities written in; on exit w. 3 x N [m/s]
 ///   s      half the step [s]
-/// In the variable M^{1/2} w the operator I - s M^{-1/2} D M^{-1/2} is symmetric positive definite; the iteration below is that one, written with
-/// masses. It starts from the explicit guess w0, so that every iterate differs from it by internal forces only, and keeps
-/// linear and angular momentum to rounding however early it stops.
-Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass, const PerParticle& inverse_mass,
-                     const SolverSettings& settings, PerParticle3& v, Work& work);
+/// In the variable M^{1/2} w the operator I - s M^{-1/2} D M^{-1/2} is symmetric positive definite; the
+/// iteration below is that one, written with masses. It starts from the explicit guess w0, so that every
+/// iterate differs from it by internal forces only, and keeps linear and angular momentum to rounding however
+/// early it stops.
+Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass,
+                     const PerParticle& inverse_mass, const SolverSettings& settings, PerParticle3& v,
+                     Work& work);
 
 }  // namespace foldproof

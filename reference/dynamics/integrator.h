@@ -1,4 +1,5 @@
-// The table of integrators. A study runs over it and compares the observed order with `order`: a wrong row is refuted.
+// The table of integrators. A study runs over it and compares the observed order with `order`: a wrong row is
+// refuted.
 #pragma once
 
 #include <span>

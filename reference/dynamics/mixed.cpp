@@ -4,7 +4,8 @@ namespace foldproof {
 
 namespace {
 
-/// All that a half step needs to know of one state: forces that do not depend on velocity, and the damping's cached terms.
+/// All that a half step needs to know of one state: forces that do not depend on velocity, and the damping's
+/// cached terms.
 struct Forces {
   PerParticle3 elastic;  // 3 x N [N], external forces included
   DampingOperator damping;
@@ -15,8 +16,8 @@ Forces forces_at(const System& system, const State& s, Work& work) {
 }
 
 /// v + h/2 M^{-1} (F_elastic + D v_damped); prescribed particles keep v.
-PerParticle3 explicit_half_step(const System& system, const Forces& at, const PerParticle3& v, const PerParticle3& v_damped,
-                                double h, Work& work) {
+PerParticle3 explicit_half_step(const System& system, const Forces& at, const PerParticle3& v,
+                                const PerParticle3& v_damped, double h, Work& work) {
   PerParticle3 force = at.elastic;
   at.damping.add_product(v_damped, force);
   ++work.damping_products;
@@ -59,7 +60,8 @@ State central_newmark(const System& system, std::span<const State> past, double 
   const Forces here = forces_at(system, now, work);
 
   // position: move with a velocity that is implicit in the damping
-  PerParticle3 v_half = implicit_half_step(system, here, now.v, mean_velocities(system.led, now.x, now.time, h), h, work);
+  PerParticle3 v_half =
+      implicit_half_step(system, here, now.v, mean_velocities(system.led, now.x, now.time, h), h, work);
   correct(system.filters, {now.time, end}, now, v_half);
   State next{end, now.x + h * v_half, v_half};
 
@@ -76,7 +78,8 @@ State variable_step_newmark(const System& system, std::span<const State> past, d
   const Forces here = forces_at(system, now, work);
 
   // position: move with a velocity that is implicit in the damping, as in scheme B
-  PerParticle3 v_move = implicit_half_step(system, here, now.v, mean_velocities(system.led, now.x, now.time, h), h, work);
+  PerParticle3 v_move =
+      implicit_half_step(system, here, now.v, mean_velocities(system.led, now.x, now.time, h), h, work);
   correct(system.filters, {now.time, end}, now, v_move);
   State next{end, now.x + h * v_move, v_move};
 

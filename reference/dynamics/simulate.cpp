@@ -37,9 +37,7 @@ double strain_limit(const System& system, const State& s, double fraction) {
   return fraction / fastest;
 }
 
-double size_of(const PerParticle3& x) {
-  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
-}
+double size_of(const PerParticle3& x) { return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm(); }
 
 /// What is wrong with `next`, if anything: values that are not finite, or a leap.
 std::optional<Stop> fault_in(const State& now, const State& next, double size, long step) {
@@ -55,7 +53,8 @@ std::optional<Stop> fault_in(const State& now, const State& next, double size, l
     }
   }
   if (worst < 0) return {};
-  return Stop{"divergence: a particle moved more than ten times the cloth's size in one step", now.time, step, worst};
+  return Stop{"divergence: a particle moved more than ten times the cloth's size in one step", now.time, step,
+              worst};
 }
 
 class Watch {
@@ -111,8 +110,8 @@ void add(Work& sum, const Work& part) {
 }
 
 /// Advances `outcome.last` to the time `target`, or sets outcome.stop.
-void run_to(double target, const System& system, const Integrator& integrator, const Schedule& schedule, double size,
-            Watch& watch, Outcome& outcome) {
+void run_to(double target, const System& system, const Integrator& integrator, const Schedule& schedule,
+            double size, Watch& watch, Outcome& outcome) {
   while (outcome.last.time < target && !outcome.stop) {
     const State& now = outcome.last;
     const long number = outcome.steps + 1;
@@ -151,8 +150,8 @@ double step_allowed(const System& system, const State& s, const StepRule& rule, 
   return parts <= 1 ? left : left / parts;
 }
 
-Outcome simulate(const System& system, const Integrator& integrator, const State& start, const Schedule& schedule,
-                 const Observer& observer) {
+Outcome simulate(const System& system, const Integrator& integrator, const State& start,
+                 const Schedule& schedule, const Observer& observer) {
   check(schedule, start);
   const double size = size_of(start.x);
   Outcome outcome;

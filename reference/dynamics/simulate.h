@@ -10,30 +10,32 @@
 
 namespace foldproof {
 
-/// How long a step is. Each frame interval (or what an automatic step sees left of it) is divided evenly, so frames are hit exactly.
+/// How long a step is. Each frame interval (or what an automatic step sees left of it) is divided evenly, so
+/// frames are hit exactly.
 struct StepRule {
-  double fixed = 0;               // the largest step allowed [s]; 0: chosen each step
-  double safety = 0.5;            // automatic: fraction of the elastic limit 2/omega [1]
-  double strain_per_step = 0.1;   // automatic: no edge's length changes by more than this fraction of its rest length [1]
+  double fixed = 0;     // the largest step allowed [s]; 0: chosen each step
+  double safety = 0.5;  // automatic: fraction of the elastic limit 2/omega [1]
+  double strain_per_step =
+      0.1;  // automatic: no edge's length changes by more than this fraction of its rest length [1]
 };
 
 struct Schedule {
-  double end = 1;               // s
-  double frame_interval = 1;    // s
+  double end = 1;             // s
+  double frame_interval = 1;  // s
   StepRule step;
   long max_steps = 100'000'000;  // a run that reaches it stops and says so
 };
 
 /// One row of diagnostics, taken after a step; the first row is the start.
 struct Diagnostics {
-  double time = 0, step = 0;                 // s
-  Energies energy;                           // J
-  double damping_work = 0;                   // work done by the damping forces so far, by the trapezoidal rule [J]
+  double time = 0, step = 0;  // s
+  Energies energy;            // J
+  double damping_work = 0;    // work done by the damping forces so far, by the trapezoidal rule [J]
   Vector3 linear_momentum, angular_momentum;  // kg m/s, kg m^2/s about the origin
-  long cg_iterations = 0;                    // in this step
-  double cg_residual = 0;                    // worst of this step's solves, relative
-  double step_over_elastic_limit = 0;        // 1
-  double seconds = 0;                        // since the start of the run, clock time
+  long cg_iterations = 0;                     // in this step
+  double cg_residual = 0;                     // worst of this step's solves, relative
+  double step_over_elastic_limit = 0;         // 1
+  double seconds = 0;                         // since the start of the run, clock time
 };
 
 struct Stop {
@@ -52,13 +54,13 @@ struct Outcome {
 
 /// Who watches. Empty functions are not called, and diagnostics that nobody watches are not computed.
 struct Observer {
-  std::function<void(const State&)> frame;             // at 0, every frame interval, and the end
+  std::function<void(const State&)> frame;  // at 0, every frame interval, and the end
   std::function<void(const Diagnostics&)> step;
 };
 
 /// Throws InputError for a schedule that cannot be kept (end < start, interval <= 0, safety <= 0, ...).
-Outcome simulate(const System& system, const Integrator& integrator, const State& start, const Schedule& schedule,
-                 const Observer& observer);
+Outcome simulate(const System& system, const Integrator& integrator, const State& start,
+                 const Schedule& schedule, const Observer& observer);
 
 /// The step [s] that the rule allows at s, as an even part of the time `left` [s] to the next frame.
 double step_allowed(const System& system, const State& s, const StepRule& rule, double left);

@@ -9,7 +9,8 @@ System make_system(PerParticle mass) {
   System system;
   for (Eigen::Index i = 0; i < mass.size(); ++i)
     if (!(mass[i] > 0) || !std::isfinite(mass[i]))
-      throw InputError("particle " + std::to_string(i) + " has mass " + std::to_string(mass[i]) + " kg; it must be > 0");
+      throw InputError("particle " + std::to_string(i) + " has mass " + std::to_string(mass[i]) +
+                       " kg; it must be > 0");
   system.inverse_mass = mass.cwiseInverse();
   system.mass = std::move(mass);
   return system;

@@ -26,7 +26,8 @@ System make_system(PerParticle mass);
 /// Prescribes the motion of a particle. Throws InputError if it is prescribed already or does not exist.
 void prescribe(System& system, const PrescribedParticle& particle);
 
-/// Largest stable step of the undamped motion by the bound on the elastic frequency: 2/omega [s]; infinite without stiffness.
+/// Largest stable step of the undamped motion by the bound on the elastic frequency: 2/omega [s]; infinite
+/// without stiffness.
 double elastic_limit(const System& system, const State& s);
 
 struct Energies {

@@ -1,4 +1,5 @@
-// The hook of BMF03 section 3, "modify the velocity in place": strain limits, collisions, sticking attach here.
+// The hook of BMF03 section 3, "modify the velocity in place": strain limits, collisions, sticking attach
+// here.
 #pragma once
 
 #include <functional>
@@ -9,21 +10,26 @@
 
 namespace foldproof {
 
-/// The times between which the corrected velocity moves the cloth; start == end for a velocity that only ends a step.
+/// The times between which the corrected velocity moves the cloth; start == end for a velocity that only ends
+/// a step.
 struct Span {
   double start, end;  // s
 };
 
 /// A filter written on the spot.
 struct CustomFilter {
-  std::function<void(Span span, const State& s, PerParticle3& v)> modify;  // v: 3 x N [m/s], corrected in place
+  std::function<void(Span span, const State& s, PerParticle3& v)>
+      modify;  // v: 3 x N [m/s], corrected in place
 
   void correct(Span span, const State& s, PerParticle3& v) const { modify(span, s, v); }
 };
 
-/// A filter corrects the velocity v that moves the cloth from s over the span. It must leave prescribed particles alone.
+/// A filter corrects the velocity v that moves the cloth from s over the span. It must leave prescribed
+/// particles alone.
 template <class F>
-concept MotionFilter = requires(const F filter, Span span, const State s, PerParticle3 v) { filter.correct(span, s, v); };
+concept MotionFilter = requires(const F filter, Span span, const State s, PerParticle3 v) {
+  filter.correct(span, s, v);
+};
 
 using Filter = std::variant<CustomFilter>;
 static_assert(MotionFilter<CustomFilter>);

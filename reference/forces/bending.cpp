@@ -12,7 +12,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// Squared height over edge below which a triangle counts as degenerate: at 1e-10 of the edge rounding has eaten the normal.
+// Squared height over edge below which a triangle counts as degenerate: at 1e-10 of the edge rounding has
+// eaten the normal.
 constexpr double smallest_height_squared = 1e-20;
 
 HingeShape shape_of(const BendingHinge& hinge, const PerParticle3& x) {
@@ -29,13 +30,16 @@ HingeShape checked_shape_of(const BendingHinge& hinge, const PerParticle3& x) {
   return shape;
 }
 
-double angle_of(const HingeShape& shape) { return 2 * std::asin(std::min(1.0, std::max(-1.0, shape.sin_half))); }
+double angle_of(const HingeShape& shape) {
+  return 2 * std::asin(std::min(1.0, std::max(-1.0, shape.sin_half)));
+}
 
 double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting) {
   return weighting == Weighting::rest ? hinge.rest_weight : shape.edge * shape.edge / shape.area_sum;
 }
 
-void add_forces(const std::array<int, 4>& particles, const HingeShape& shape, double magnitude, PerParticle3& f) {
+void add_forces(const std::array<int, 4>& particles, const HingeShape& shape, double magnitude,
+                PerParticle3& f) {
   const Vector3 f1 = magnitude * shape.u1, f2 = magnitude * shape.u2;
   const Vector3 f3 = -(shape.b1 * f1 + shape.b2 * f2);
   f.col(particles[0]) += f1;
@@ -44,7 +48,9 @@ void add_forces(const std::array<int, 4>& particles, const HingeShape& shape, do
   f.col(particles[3]) -= f1 + f2 + f3;
 }
 
-double sine_magnitude(double theta, double rest_angle) { return std::sin(theta / 2) - std::sin(rest_angle / 2); }
+double sine_magnitude(double theta, double rest_angle) {
+  return std::sin(theta / 2) - std::sin(rest_angle / 2);
+}
 
 double sine_slope(double theta, double) { return 0.5 * std::cos(theta / 2); }
 
@@ -102,13 +108,13 @@ HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, 
   const double smallest = smallest_height_squared * E_squared * E_squared;
   shape.degenerate = !(N1_squared > smallest && N2_squared > smallest);
 
-  // sin(theta) = (n1 x n2).e^ is the height of x2 below the first triangle's plane over its distance from the edge. Folded less
-  // than a right angle, sin(theta/2) = sin(theta)/(2 cos(theta/2)): exactly 0 when flat, no digit lost beside it. Beyond, the
-  // printed sqrt((1 - n1.n2)/2), which is accurate just there.
+  // sin(theta) = (n1 x n2).e^ is the height of x2 below the first triangle's plane over its distance from the
+  // edge. Folded less than a right angle, sin(theta/2) = sin(theta)/(2 cos(theta/2)): exactly 0 when flat, no
+  // digit lost beside it. Beyond, the printed sqrt((1 - n1.n2)/2), which is accurate just there.
   const double cosine = N1.dot(N2) * (per_length1 * per_length2);
   const double sine = N1.dot(x3 - x2) * (edge * per_length1 * per_length2);
-  shape.sin_half = cosine >= 0 ? sine / std::sqrt(2 + 2 * cosine)
-                               : std::copysign(std::sqrt(0.5 - 0.5 * cosine), sine);
+  shape.sin_half =
+      cosine >= 0 ? sine / std::sqrt(2 + 2 * cosine) : std::copysign(std::sqrt(0.5 - 0.5 * cosine), sine);
   return shape;
 }
 
@@ -133,7 +139,8 @@ void Bending::add_elastic(const State& s, PerParticle3& f) const {
     const HingeShape shape = checked_shape_of(hinge, s.x);
     const double magnitude =
         is_sine ? shape.sin_half - hinge.sin_half_rest : law.magnitude(angle_of(shape), hinge.rest_angle);
-    add_forces(hinge.particles, shape, material.stiffness * weight_of(hinge, shape, material.weighting) * magnitude, f);
+    add_forces(hinge.particles, shape,
+               material.stiffness * weight_of(hinge, shape, material.weighting) * magnitude, f);
   }
 }
 
@@ -164,19 +171,24 @@ void Bending::prepare_damping(const State& s, DampingOperator& damping) const {
 
 namespace {
 
-/// Bounds on the rows of grad u, for each particle i the sum over j of |du_i/dx_j| [1/m^2]. With l_km the distance from x_k to
-/// x_m, e = |E|, and d(N/|N|^2) = dN/|N|^2 in size, u_k = |E| N_k/|N_k|^2 gives for k = 1, 2
+/// Bounds on the rows of grad u, for each particle i the sum over j of |du_i/dx_j| [1/m^2]. With l_km the
+/// distance from x_k to x_m, e = |E|, and d(N/|N|^2) = dN/|N|^2 in size, u_k = |E| N_k/|N_k|^2 gives for k =
+/// 1, 2
 ///   |du_k/dx_k| = |u_k|^2,   |du_k/dx_3| <= g_k4,   |du_k/dx_4| <= g_k3,   g_km = |u_k|^2 l_km/e + |u_k|/e,
-/// the same for du_3/dx_k and du_4/dx_k since grad u is symmetric, and, with |db_k/dx_3| = l_k4/e^2 and |db_k/dx_4| = l_k3/e^2, the rest
-/// from u_3 = -(b_1 u_1 + b_2 u_2) and u_4 = -((1 - b_1) u_1 + (1 - b_2) u_2).
-Eigen::Vector4d mode_gradient_rows(const HingeShape& shape, const std::array<int, 4>& particles, const PerParticle3& x) {
+/// the same for du_3/dx_k and du_4/dx_k since grad u is symmetric, and, with |db_k/dx_3| = l_k4/e^2 and
+/// |db_k/dx_4| = l_k3/e^2, the rest from u_3 = -(b_1 u_1 + b_2 u_2) and u_4 = -((1 - b_1) u_1 + (1 - b_2)
+/// u_2).
+Eigen::Vector4d mode_gradient_rows(const HingeShape& shape, const std::array<int, 4>& particles,
+                                   const PerParticle3& x) {
   const Vector3 x3 = x.col(particles[2]), x4 = x.col(particles[3]);
   const double e = shape.edge, size[2] = {shape.u1.norm(), shape.u2.norm()}, b[2] = {shape.b1, shape.b2};
   Eigen::Vector4d rows = Eigen::Vector4d::Zero();
   for (int k = 0; k < 2; ++k) {
-    const double to3 = (x.col(particles[size_t(k)]) - x3).norm(), to4 = (x.col(particles[size_t(k)]) - x4).norm();
+    const double to3 = (x.col(particles[size_t(k)]) - x3).norm(),
+                 to4 = (x.col(particles[size_t(k)]) - x4).norm();
     const double g3 = size[k] * (size[k] * to3 + 1) / e, g4 = size[k] * (size[k] * to4 + 1) / e;
-    const double shift = size[k] * (to3 + to4) / (e * e), share3 = std::abs(b[k]), share4 = std::abs(1 - b[k]);
+    const double shift = size[k] * (to3 + to4) / (e * e), share3 = std::abs(b[k]),
+                 share4 = std::abs(1 - b[k]);
     rows[k] = size[k] * size[k] + g3 + g4;
     rows[2] += g4 + share3 * (g3 + g4) + shift;
     rows[3] += g3 + share4 * (g3 + g4) + shift;
@@ -187,15 +199,19 @@ Eigen::Vector4d mode_gradient_rows(const HingeShape& shape, const std::array<int
 }  // namespace
 
 void Bending::add_stiffness_bound(const State& s, PerParticle& rows) const {
-  // One hinge's stiffness matrix is ke c (magnitude' u u^T - magnitude grad u). A row of the first sums to |u_i| sum |u_j|; the second
-  // counts where a hinge is far from its rest angle. With current weighting the change of c itself is left out.
+  // One hinge's stiffness matrix is ke c (magnitude' u u^T - magnitude grad u). A row of the first sums to
+  // |u_i| sum |u_j|; the second counts where a hinge is far from its rest angle. With current weighting the
+  // change of c itself is left out.
   const BendingLaw& law = bending_law(material.law);
   for (const BendingHinge& hinge : hinges) {
     const HingeShape shape = checked_shape_of(hinge, s.x);
-    const double theta = angle_of(shape), weight = material.stiffness * weight_of(hinge, shape, material.weighting);
-    const double slope = std::abs(law.slope(theta, hinge.rest_angle)), magnitude = std::abs(law.magnitude(theta, hinge.rest_angle));
+    const double theta = angle_of(shape),
+                 weight = material.stiffness * weight_of(hinge, shape, material.weighting);
+    const double slope = std::abs(law.slope(theta, hinge.rest_angle)),
+                 magnitude = std::abs(law.magnitude(theta, hinge.rest_angle));
     const Eigen::Vector4d norms = bending_mode(shape).colwise().norm();
-    const Eigen::Vector4d sums = slope * norms.sum() * norms + magnitude * mode_gradient_rows(shape, hinge.particles, s.x);
+    const Eigen::Vector4d sums =
+        slope * norms.sum() * norms + magnitude * mode_gradient_rows(shape, hinge.particles, s.x);
     for (int k = 0; k < 4; ++k) rows[hinge.particles[size_t(k)]] += weight * sums[k];
   }
 }
@@ -210,7 +226,8 @@ std::vector<double> hinge_angles(const TriangleMesh& mesh, const PerParticle3& x
   return angles;
 }
 
-Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material, const std::vector<double>& rest_angles) {
+Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material,
+                     const std::vector<double>& rest_angles) {
   if (!(material.stiffness >= 0)) throw InputError("bending: stiffness must be a number >= 0 [J]");
   if (!(material.damping >= 0)) throw InputError("bending: damping must be a number >= 0 [N s]");
   if (rest_angles.size() != mesh.hinges.size())

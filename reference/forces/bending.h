@@ -1,4 +1,5 @@
-// Bending: forces on a pair of triangles along the one mode that changes their angle and nothing else (BMF03 section 4).
+// Bending: forces on a pair of triangles along the one mode that changes their angle and nothing else (BMF03
+// section 4).
 #pragma once
 
 #include <array>
@@ -14,25 +15,31 @@ namespace foldproof {
 //      x1
 //     /  \      E  = x4 - x3, e^ = E/|E|
 //   x3 -- x4    N1 = (x1 - x3) x (x1 - x4),  N2 = (x2 - x4) x (x2 - x3)      |N| = twice the area [m^2]
-//     \  /      theta = angle from n1 to n2, signed by (n1 x n2).e^; 0 when flat, -pi and pi when sharply folded
+//     \  /      theta = angle from n1 to n2, signed by (n1 x n2).e^; 0 when flat, -pi and pi when sharply
+//     folded
 //      x2
 //
 //   u1 = |E| N1/|N1|^2                      u3 = -(b1 u1 + b2 u2)                 b1 = (x4 - x1).E/|E|^2
 //   u2 = |E| N2/|N2|^2                      u4 = -((1 - b1) u1 + (1 - b2) u2)     b2 = (x4 - x2).E/|E|^2
 //
-//   F_elastic_i = ke c (sin(theta/2) - sin(theta0/2)) u_i          c = |E|^2/(|N1| + |N2|), at rest or at the current positions
+//   F_elastic_i = ke c (sin(theta/2) - sin(theta0/2)) u_i          c = |E|^2/(|N1| + |N2|), at rest or at the
+//   current positions
 //   F_damping_i = -kd s (u.v) u_i                                  s = |E| as printed, or |E|^2/(|N1| + |N2|)
 //
-// u = -grad theta: the printed line d(theta)/dt = u.v has the wrong sign, the forces as printed have the right one.
+// u = -grad theta: the printed line d(theta)/dt = u.v has the wrong sign, the forces as printed have the
+// right one.
 
-/// Where c is taken. Only at rest is the elastic force the gradient of an energy; the paper does not say which it means.
+/// Where c is taken. Only at rest is the elastic force the gradient of an energy; the paper does not say
+/// which it means.
 enum class Weighting { rest, current };
 
-/// The factor s of the damping force: the edge's length as printed (kd in N s), or |E|^2/(|N1| + |N2|) (kd in J s).
+/// The factor s of the damping force: the edge's length as printed (kd in N s), or |E|^2/(|N1| + |N2|) (kd in
+/// J s).
 enum class DampingFactor { edge, edge_squared_over_area };
 
-/// How strongly an angle is resisted: a magnitude that replaces sin(theta/2) - sin(theta0/2) and multiplies all four forces
-/// alike, as BMF03 section 4 demands of any such law. Slope 1/2 in theta at theta0 = 0, so that ke keeps its meaning.
+/// How strongly an angle is resisted: a magnitude that replaces sin(theta/2) - sin(theta0/2) and multiplies
+/// all four forces alike, as BMF03 section 4 demands of any such law. Slope 1/2 in theta at theta0 = 0, so
+/// that ke keeps its meaning.
 struct BendingLaw {
   std::string_view name;
   double (*magnitude)(double theta, double rest_angle);  // [1]
@@ -61,12 +68,12 @@ struct BendingHinge {
 
 /// What the positions of one hinge say. Throws nothing; callers check `degenerate`.
 struct HingeShape {
-  Vector3 u1, u2;         // the bending mode at the opposite vertices [1/m]
-  double b1, b2;          // their barycentric coordinates along the edge: 1 at x3, 0 at x4
-  double edge;            // |E| [m]
-  double area_sum;        // |N1| + |N2| [m^2]
-  double sin_half;        // sin(theta/2), to about one rounding of 1 for every theta in [-pi, pi]
-  bool degenerate;        // a triangle's height is below 1e-10 of the edge, or NaN
+  Vector3 u1, u2;   // the bending mode at the opposite vertices [1/m]
+  double b1, b2;    // their barycentric coordinates along the edge: 1 at x3, 0 at x4
+  double edge;      // |E| [m]
+  double area_sum;  // |N1| + |N2| [m^2]
+  double sin_half;  // sin(theta/2), to about one rounding of 1 for every theta in [-pi, pi]
+  bool degenerate;  // a triangle's height is below 1e-10 of the edge, or NaN
 };
 
 HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4);
@@ -84,7 +91,8 @@ struct Bending {
   /// Throws DegenerateElement naming the particles of a hinge one of whose triangles has lost its area.
   void add_elastic(const State& s, PerParticle3& f) const;
 
-  /// sum of ke c (potential of the law) [J]; with current weighting c is taken at s, and the force is not its gradient.
+  /// sum of ke c (potential of the law) [J]; with current weighting c is taken at s, and the force is not its
+  /// gradient.
   double energy(const State& s) const;
 
   void prepare_damping(const State& s, DampingOperator& damping) const;
@@ -96,8 +104,9 @@ struct Bending {
 /// The angle of every hinge of the mesh at positions x (3 x N [m]); H values [rad].
 std::vector<double> hinge_angles(const TriangleMesh& mesh, const PerParticle3& x);
 
-/// One element per hinge, with the given rest angles (H values [rad]). Throws InputError for a negative or NaN constant, an unknown
-/// law, or a wrong number of angles or one outside [-pi, pi].
-Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material, const std::vector<double>& rest_angles);
+/// One element per hinge, with the given rest angles (H values [rad]). Throws InputError for a negative or
+/// NaN constant, an unknown law, or a wrong number of angles or one outside [-pi, pi].
+Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material,
+                     const std::vector<double>& rest_angles);
 
 }  // namespace foldproof

@@ -1,7 +1,8 @@
-// The damping forces at one set of positions: F_damping = D v, linear in v, D symmetric negative semi-definite.
+// The damping forces at one set of positions: F_damping = D v, linear in v, D symmetric negative semi-
+// definite.
 //
-// Every damper of the paper resists one mode: F = -w (w.v), a matrix of rank one that is never assembled. All that depends
-// on positions is in w, computed once and used for every product of a solve (BMF03 section 3).
+// Every damper of the paper resists one mode: F = -w (w.v), a matrix of rank one that is never assembled. All
+// that depends on positions is in w, computed once and used for every product of a solve (BMF03 section 3).
 #pragma once
 
 #include <array>
@@ -18,7 +19,8 @@ struct PairDamper {
   Vector3 along;  // sqrt(coefficient [N s/m]) times the unit direction from a to b
 };
 
-/// Resists the folding of a hinge: w = sqrt(coefficient) u, of which two vectors and two weights say everything:
+/// Resists the folding of a hinge: w = sqrt(coefficient) u, of which two vectors and two weights say
+/// everything:
 ///   w3 = -(weight1 w1 + weight2 w2),   w4 = -((1 - weight1) w1 + (1 - weight2) w2)
 struct HingeDamper {
   std::array<int, 4> particles;

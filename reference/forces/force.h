@@ -16,9 +16,10 @@ namespace foldproof {
 
 /// A force written on the spot, for manufactured solutions and experiments. Empty functions add nothing.
 struct CustomForce {
-  std::function<void(const State& s, PerParticle3& f)> elastic;                           // may depend on s.time; not on s.v
-  std::function<void(const State& s, const PerParticle3& v, PerParticle3& f)> damping;     // linear in v, symmetric, dissipating
-  std::function<double(const State& s)> potential;                                        // [J]
+  std::function<void(const State& s, PerParticle3& f)> elastic;  // may depend on s.time; not on s.v
+  std::function<void(const State& s, const PerParticle3& v, PerParticle3& f)>
+      damping;                                      // linear in v, symmetric, dissipating
+  std::function<double(const State& s)> potential;  // [J]
 
   void add_elastic(const State& s, PerParticle3& f) const {
     if (elastic) elastic(s, f);
@@ -26,7 +27,8 @@ struct CustomForce {
   double energy(const State& s) const { return potential ? potential(s) : 0; }
 };
 
-/// One force, split as BMF03 section 3 needs it: an elastic or external part that depends on time and positions, an energy.
+/// One force, split as BMF03 section 3 needs it: an elastic or external part that depends on time and
+/// positions, an energy.
 template <class F>
 concept ForceModel = requires(const F force, const State s, PerParticle3 f) {
   force.add_elastic(s, f);  // f += F_e(t, x); adds and clears nothing
@@ -34,7 +36,8 @@ concept ForceModel = requires(const F force, const State s, PerParticle3 f) {
 };
 
 using Force = std::variant<Gravity, StretchSprings, Bending, CustomForce>;
-static_assert(ForceModel<Gravity> && ForceModel<StretchSprings> && ForceModel<Bending> && ForceModel<CustomForce>);
+static_assert(ForceModel<Gravity> && ForceModel<StretchSprings> && ForceModel<Bending> &&
+              ForceModel<CustomForce>);
 
 /// All elastic and external forces [N], 3 x N.
 PerParticle3 elastic_forces(const std::vector<Force>& forces, const State& s, Work& work);
@@ -44,7 +47,8 @@ DampingOperator damping_at(const std::vector<Force>& forces, const State& s, Wor
 
 /// An upper bound on the largest elastic angular frequency [rad/s] at s, from springs and hinges:
 ///   omega^2 <= max over particles i of (1/m_i) (sum over the stiffness matrices' rows at i)
-/// the maximum row sum, by Gershgorin after scaling with the masses. inverse_mass: N [1/kg], 0 for prescribed particles.
+/// the maximum row sum, by Gershgorin after scaling with the masses. inverse_mass: N [1/kg], 0 for prescribed
+/// particles.
 double frequency_bound(const std::vector<Force>& forces, const State& s, const PerParticle& inverse_mass);
 
 }  // namespace foldproof

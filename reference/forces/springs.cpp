@@ -47,7 +47,8 @@ void StretchSprings::prepare_damping(const State& s, DampingOperator& damping) c
 }
 
 void StretchSprings::add_stiffness_bound(const State& s, PerParticle& rows) const {
-  // One spring's stiffness matrix is k along d and tension/|d| across it; a row of it sums to at most twice the larger.
+  // One spring's stiffness matrix is k along d and tension/|d| across it; a row of it sums to at most twice
+  // the larger.
   for (const Spring& spring : springs) {
     const double length = checked_length(s.x.col(spring.b) - s.x.col(spring.a), spring);
     const double across = spring.stiffness * std::abs(length - spring.rest_length) / length;

@@ -1,4 +1,5 @@
-// Springs along the edges: stretch and shear of the sheet (BMF03 presumes them; the mesh-independent form is ours).
+// Springs along the edges: stretch and shear of the sheet (BMF03 presumes them; the mesh-independent form is
+// ours).
 #pragma once
 
 #include <vector>
@@ -9,11 +10,13 @@
 
 namespace foldproof {
 
-//   a ----- b     d = x_b - x_a, d^ = d/|d|, L0 rest length, A_e full rest areas of the edge's one or two triangles
+//   a ----- b     d = x_b - x_a, d^ = d/|d|, L0 rest length, A_e full rest areas of the edge's one or two
+//   triangles
 //
 //   F_a =  Y (A_e/L0) (|d|/L0 - 1) d^  +  kd_s (A_e/L0^2) ((v_b - v_a).d^) d^,     F_b = -F_a
 //
-// so that the spring's stiffness is Y A_e/L0^2 [N/m]. On an equilateral mesh the sheet has Young's modulus Y [N/m] and
+// so that the spring's stiffness is Y A_e/L0^2 [N/m]. On an equilateral mesh the sheet has Young's modulus Y
+// [N/m] and
 // Poisson ratio 1/3 exactly; elsewhere effective ones.
 struct Spring {
   int a, b;
@@ -43,7 +46,8 @@ struct StretchSprings {
   void add_stiffness_bound(const State& s, PerParticle& rows) const;
 };
 
-/// One spring per edge. Throws InputError when the material's values are not: stiffness >= 0, damping >= 0, scale > 0.
+/// One spring per edge. Throws InputError when the material's values are not: stiffness >= 0, damping >= 0,
+/// scale > 0.
 StretchSprings make_springs(const TriangleMesh& mesh, const StretchMaterial& material);
 
 }  // namespace foldproof

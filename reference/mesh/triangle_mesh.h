@@ -12,7 +12,7 @@ namespace foldproof {
 using Triangle = std::array<int, 3>;  // particles, counter-clockwise seen from the front
 
 struct Edge {
-  int a, b;                     // particles, a < b
+  int a, b;                      // particles, a < b
   std::array<int, 2> triangles;  // one or two triangles; the second is -1 on the boundary
 };
 
@@ -43,15 +43,18 @@ struct MeshOrigin {
 };
 
 /// Finds edges and hinges of the triangles over the N rest positions (3 x N [m]).
-/// Refuses (InputError naming origin's file and line, and the reason) what is no oriented manifold with boundary: no triangles, indices out of
-/// range, NaN or infinite coordinates, unused vertices, zero-area triangles, edges with three triangles or more, two neighbours
-/// of opposite orientation, a vertex whose triangles do not form one fan.
-TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangles, const MeshOrigin& origin = {});
+/// Refuses (InputError naming origin's file and line, and the reason) what is no oriented manifold with
+/// boundary: no triangles, indices out of range, NaN or infinite coordinates, unused vertices, zero-area
+/// triangles, edges with three triangles or more, two neighbours of opposite orientation, a vertex whose
+/// triangles do not form one fan.
+TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangles,
+                                const MeshOrigin& origin = {});
 
 /// Area of each triangle at the positions x (3 x N [m]); M values [m^2].
 Eigen::VectorXd triangle_areas(const std::vector<Triangle>& triangles, const PerParticle3& x);
 
-/// Lumped masses: a third of each adjacent triangle's rest area times the area density [kg/m^2]; N values [kg].
+/// Lumped masses: a third of each adjacent triangle's rest area times the area density [kg/m^2]; N values
+/// [kg].
 PerParticle lumped_masses(const TriangleMesh& mesh, double density);
 
 /// Rest length of each edge [m], and the sum of the full rest areas of its one or two triangles [m^2].

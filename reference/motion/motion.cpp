@@ -25,7 +25,8 @@ Vector3 position_at(const Motion& motion, const Vector3& start, double t) {
 Vector3 velocity_at(const Motion& motion, const Vector3& start, double t) {
   const double omega = two_pi * motion.frequency;
   const double swing_rate = omega * std::cos(omega * t + motion.phase);
-  return motion.angular_velocity.cross(turned(motion, start, t)) + motion.velocity + swing_rate * motion.amplitude;
+  return motion.angular_velocity.cross(turned(motion, start, t)) + motion.velocity +
+         swing_rate * motion.amplitude;
 }
 
 std::vector<KnownVelocity> velocities_at(const std::vector<PrescribedParticle>& led, double t) {
@@ -35,8 +36,8 @@ std::vector<KnownVelocity> velocities_at(const std::vector<PrescribedParticle>& 
   return known;
 }
 
-std::vector<KnownVelocity> mean_velocities(const std::vector<PrescribedParticle>& led, const PerParticle3& x, double t,
-                                           double h) {
+std::vector<KnownVelocity> mean_velocities(const std::vector<PrescribedParticle>& led, const PerParticle3& x,
+                                           double t, double h) {
   std::vector<KnownVelocity> known;
   known.reserve(led.size());
   for (const PrescribedParticle& p : led) {

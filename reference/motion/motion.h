@@ -7,8 +7,10 @@
 
 namespace foldproof {
 
-/// A smooth motion given in closed form: rotation about a fixed axis, then a shift that drifts and oscillates.
-///   X(t) = C + R(angular_velocity t) (X0 - C) + velocity t + amplitude (sin(2 pi frequency t + phase) - sin(phase))
+/// A smooth motion given in closed form: rotation about a fixed axis, then a shift that drifts and
+/// oscillates.
+///   X(t) = C + R(angular_velocity t) (X0 - C) + velocity t + amplitude (sin(2 pi frequency t + phase) -
+///   sin(phase))
 /// All zero: held at rest. X(0) = X0.
 struct Motion {
   Vector3 velocity = Vector3::Zero();          // m/s
@@ -40,8 +42,8 @@ struct KnownVelocity {
 std::vector<KnownVelocity> velocities_at(const std::vector<PrescribedParticle>& led, double t);
 
 /// The mean velocities over [t, t + h]: x + h v then ends exactly on the prescribed path.
-std::vector<KnownVelocity> mean_velocities(const std::vector<PrescribedParticle>& led, const PerParticle3& x, double t,
-                                           double h);
+std::vector<KnownVelocity> mean_velocities(const std::vector<PrescribedParticle>& led, const PerParticle3& x,
+                                           double t, double h);
 
 /// Writes the known velocities into v (3 x N [m/s]).
 void impose(const std::vector<KnownVelocity>& known, PerParticle3& v);

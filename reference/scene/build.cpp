@@ -45,11 +45,13 @@ std::vector<std::string> built_parts(const Scene& scene, const System& system) {
   for (const Force& force : system.forces) {
     if (std::holds_alternative<Gravity>(force)) parts.push_back("gravity");
     if (const auto* springs = std::get_if<StretchSprings>(&force))
-      parts.push_back(std::to_string(springs->springs.size()) + " springs" + (scene.stretch->damping > 0 ? ", damped" : ""));
+      parts.push_back(std::to_string(springs->springs.size()) + " springs" +
+                      (scene.stretch->damping > 0 ? ", damped" : ""));
     if (const auto* bending = std::get_if<Bending>(&force))
       parts.push_back(std::to_string(bending->hinges.size()) + " hinges, " + described(bending->material));
   }
-  if (!system.led.empty()) parts.push_back(std::to_string(system.led.size()) + " particles with prescribed motion");
+  if (!system.led.empty())
+    parts.push_back(std::to_string(system.led.size()) + " particles with prescribed motion");
   return parts;
 }
 

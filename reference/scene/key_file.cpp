@@ -11,10 +11,12 @@ namespace foldproof {
 namespace {
 
 std::string place(const std::string& file, const toml::source_region& source) {
-  return source.begin.line == 0 || file.starts_with("--") ? file : file + ":" + std::to_string(source.begin.line);
+  return source.begin.line == 0 || file.starts_with("--") ? file
+                                                          : file + ":" + std::to_string(source.begin.line);
 }
 
-std::shared_ptr<KeyTable> converted(const toml::table& table, const std::string& name, const std::string& file);
+std::shared_ptr<KeyTable> converted(const toml::table& table, const std::string& name,
+                                    const std::string& file);
 
 KeyValue converted(const toml::node& node, const std::string& name, const std::string& file) {
   const std::string where = place(file, node.source());
@@ -31,7 +33,8 @@ KeyValue converted(const toml::node& node, const std::string& name, const std::s
   throw InputError(where + ": '" + name + "' is a date or time, which no key takes");
 }
 
-std::shared_ptr<KeyTable> converted(const toml::table& table, const std::string& name, const std::string& file) {
+std::shared_ptr<KeyTable> converted(const toml::table& table, const std::string& name,
+                                    const std::string& file) {
   auto result = std::make_shared<KeyTable>(name, place(file, table.source()));
   for (const auto& [key, node] : table) {
     const std::string full = name.empty() ? std::string(key) : name + "." + std::string(key);
@@ -71,12 +74,15 @@ bool KeyTable::has(const std::string& key) const {
 }
 
 const KeyValue& KeyTable::required(const std::string& key) const {
-  if (!has(key)) throw InputError(where_ + ": " + (name_.empty() ? "the file" : "[" + name_ + "]") + " needs the key '" + key + "'");
+  if (!has(key))
+    throw InputError(where_ + ": " + (name_.empty() ? "the file" : "[" + name_ + "]") + " needs the key '" +
+                     key + "'");
   return entries.at(key);
 }
 
 void KeyTable::wrong_type(const std::string& key, const std::string& wanted) const {
-  throw InputError(where(key) + ": '" + key + "'" + (name_.empty() ? "" : " in [" + name_ + "]") + " must be " + wanted);
+  throw InputError(where(key) + ": '" + key + "'" + (name_.empty() ? "" : " in [" + name_ + "]") +
+                   " must be " + wanted);
 }
 
 std::string KeyTable::where(const std::string& key) const {
@@ -91,7 +97,9 @@ double KeyTable::number(const std::string& key) const {
   return *number;
 }
 
-double KeyTable::number_or(const std::string& key, double otherwise) const { return has(key) ? number(key) : otherwise; }
+double KeyTable::number_or(const std::string& key, double otherwise) const {
+  return has(key) ? number(key) : otherwise;
+}
 
 long KeyTable::integer(const std::string& key) const {
   const auto* value = std::get_if<long>(&required(key).data);
@@ -99,7 +107,9 @@ long KeyTable::integer(const std::string& key) const {
   return *value;
 }
 
-long KeyTable::integer_or(const std::string& key, long otherwise) const { return has(key) ? integer(key) : otherwise; }
+long KeyTable::integer_or(const std::string& key, long otherwise) const {
+  return has(key) ? integer(key) : otherwise;
+}
 
 bool KeyTable::flag_or(const std::string& key, bool otherwise) const {
   if (!has(key)) return otherwise;
@@ -190,12 +200,13 @@ void KeyTable::refuse_unused() const {
   for (const std::string& key : asked_) known += (known.empty() ? "" : ", ") + key;
   for (const auto& [key, value] : entries) {
     if (!asked_.contains(key))
-      throw InputError(value.where + ": unknown key '" + key + "' in " + (name_.empty() ? "the file" : "[" + name_ + "]") +
-                       "; known here: " + known);
+      throw InputError(value.where + ": unknown key '" + key + "' in " +
+                       (name_.empty() ? "the file" : "[" + name_ + "]") + "; known here: " + known);
     if (const auto* below = std::get_if<std::shared_ptr<KeyTable>>(&value.data)) (*below)->refuse_unused();
     if (const auto* list = std::get_if<std::vector<KeyValue>>(&value.data))
       for (const KeyValue& entry : *list)
-        if (const auto* below = std::get_if<std::shared_ptr<KeyTable>>(&entry.data)) (*below)->refuse_unused();
+        if (const auto* below = std::get_if<std::shared_ptr<KeyTable>>(&entry.data))
+          (*below)->refuse_unused();
   }
 }
 
@@ -218,17 +229,21 @@ KeyValue parsed_value(const std::string& text) {
 }
 
 KeyTable& table_below(KeyTable& table, const std::string& step, const std::string& assignment) {
-  auto [entry, is_new] = table.entries.try_emplace(step, KeyValue{std::make_shared<KeyTable>(step, "--set"), "--set"});
+  auto [entry, is_new] =
+      table.entries.try_emplace(step, KeyValue{std::make_shared<KeyTable>(step, "--set"), "--set"});
   auto* below = std::get_if<std::shared_ptr<KeyTable>>(&entry->second.data);
   if (!below) throw InputError("--set " + assignment + ": '" + step + "' is not a table");
   return **below;
 }
 
-KeyTable& list_entry(KeyTable& table, const std::string& step, const std::string& number, const std::string& assignment) {
+KeyTable& list_entry(KeyTable& table, const std::string& step, const std::string& number,
+                     const std::string& assignment) {
   const auto entry = table.entries.find(step);
-  auto* list = entry == table.entries.end() ? nullptr : std::get_if<std::vector<KeyValue>>(&entry->second.data);
+  auto* list =
+      entry == table.entries.end() ? nullptr : std::get_if<std::vector<KeyValue>>(&entry->second.data);
   const size_t index = std::stoul(number);
-  if (!list || index >= list->size()) throw InputError("--set " + assignment + ": there is no " + step + "." + number);
+  if (!list || index >= list->size())
+    throw InputError("--set " + assignment + ": there is no " + step + "." + number);
   auto* below = std::get_if<std::shared_ptr<KeyTable>>(&(*list)[index].data);
   if (!below) throw InputError("--set " + assignment + ": " + step + "." + number + " is not a table");
   return **below;
@@ -245,12 +260,14 @@ void set_key(KeyTable& root, const std::string& assignment) {
   std::vector<std::string> path;
   std::istringstream steps(assignment.substr(0, equals));
   for (std::string step; std::getline(steps, step, '.');) path.push_back(step);
-  if (equals == std::string::npos || path.empty()) throw InputError("--set " + assignment + ": write table.key=value");
+  if (equals == std::string::npos || path.empty())
+    throw InputError("--set " + assignment + ": write table.key=value");
 
   KeyTable* table = &root;
   for (size_t k = 0; k + 1 < path.size(); ++k) {
     const bool picks = k + 2 < path.size() && is_number(path[k + 1]);
-    table = picks ? &list_entry(*table, path[k], path[k + 1], assignment) : &table_below(*table, path[k], assignment);
+    table = picks ? &list_entry(*table, path[k], path[k + 1], assignment)
+                  : &table_below(*table, path[k], assignment);
     if (picks) ++k;
   }
   table->entries.insert_or_assign(path.back(), parsed_value(assignment.substr(equals + 1)));

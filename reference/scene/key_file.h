@@ -19,7 +19,8 @@ struct KeyValue {
   std::string where;  // "file:line", or "--set"
 };
 
-/// One table of keys. Every reader throws InputError "file:line: ..." for a missing key, a wrong type or a number that is not finite.
+/// One table of keys. Every reader throws InputError "file:line: ..." for a missing key, a wrong type or a
+/// number that is not finite.
 class KeyTable {
  public:
   KeyTable(std::string name, std::string where) : name_(std::move(name)), where_(std::move(where)) {}
@@ -64,8 +65,9 @@ class KeyTable {
 /// Parses TOML text; `file` names it in messages. Throws InputError "file:line: ..." for a syntax error.
 std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file);
 
-/// Overrides "a.b.c=value" (value as in TOML; what does not parse as such is taken for a string; a number in the path
-/// picks an entry of a list). Missing tables are made. Throws InputError for an override without '=' or a path through a value.
+/// Overrides "a.b.c=value" (value as in TOML; what does not parse as such is taken for a string; a number in
+/// the path picks an entry of a list). Missing tables are made. Throws InputError for an override without '='
+/// or a path through a value.
 void set_key(KeyTable& root, const std::string& assignment);
 
 /// The whole file. Throws InputError if it cannot be read.

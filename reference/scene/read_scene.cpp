@@ -32,12 +32,14 @@ double not_negative_or(const KeyTable& keys, const std::string& key, double othe
 
 long count_or(const KeyTable& keys, const std::string& key, long otherwise) {
   const long value = keys.integer_or(key, otherwise);
-  if (!(value >= 1 && value <= 1'000'000'000)) throw InputError(keys.where(key) + ": '" + key + "' must lie in 1 .. 1,000,000,000");
+  if (!(value >= 1 && value <= 1'000'000'000))
+    throw InputError(keys.where(key) + ": '" + key + "' must lie in 1 .. 1,000,000,000");
   return value;
 }
 
 template <class Choice>
-Choice choice(const KeyTable& keys, const std::string& key, std::vector<std::pair<std::string, Choice>> choices) {
+Choice choice(const KeyTable& keys, const std::string& key,
+              std::vector<std::pair<std::string, Choice>> choices) {
   const std::string wanted = keys.text_or(key, choices.front().first);  // the first is the default
   std::string known;
   for (const auto& [name, value] : choices) {
@@ -59,7 +61,8 @@ BendingMaterial read_bending(const KeyTable& keys) {
   BendingMaterial material;
   material.stiffness = not_negative_or(keys, "stiffness", keys.number("stiffness"));
   material.damping = not_negative_or(keys, "damping", 0);
-  material.weighting = choice<Weighting>(keys, "weighting", {{"rest", Weighting::rest}, {"current", Weighting::current}});
+  material.weighting =
+      choice<Weighting>(keys, "weighting", {{"rest", Weighting::rest}, {"current", Weighting::current}});
   material.damping_factor = choice<DampingFactor>(
       keys, "damping_factor",
       {{"edge", DampingFactor::edge}, {"edge_squared_over_area", DampingFactor::edge_squared_over_area}});
@@ -72,7 +75,8 @@ BendingMaterial read_bending(const KeyTable& keys) {
 std::vector<double> read_rest_angles(const KeyTable& keys, const TriangleMesh& mesh) {
   if (keys.has("rest_angle") && !keys.is_text("rest_angle")) {
     const double degrees = keys.number("rest_angle");
-    if (!(std::abs(degrees) <= 180)) throw InputError(keys.where("rest_angle") + ": 'rest_angle' must lie in [-180, 180] degrees");
+    if (!(std::abs(degrees) <= 180))
+      throw InputError(keys.where("rest_angle") + ": 'rest_angle' must lie in [-180, 180] degrees");
     return std::vector<double>(mesh.hinges.size(), degrees * radians_per_degree);
   }
   enum class Source { rest_shape, flat };
@@ -95,10 +99,13 @@ Motion read_motion(const KeyTable& keys) {
 
 std::vector<int> particles_in_box(const KeyTable& keys, const PerParticle3& x) {
   const std::vector<Vector3> box = keys.vectors("box");
-  if (box.size() != 2) throw InputError(keys.where("box") + ": 'box' must be two points [[x, y, z], [x, y, z]], lowest and highest");
+  if (box.size() != 2)
+    throw InputError(keys.where("box") +
+                     ": 'box' must be two points [[x, y, z], [x, y, z]], lowest and highest");
   std::vector<int> chosen;
   for (Eigen::Index i = 0; i < x.cols(); ++i)
-    if ((x.col(i).array() >= box[0].array()).all() && (x.col(i).array() <= box[1].array()).all()) chosen.push_back(int(i));
+    if ((x.col(i).array() >= box[0].array()).all() && (x.col(i).array() <= box[1].array()).all())
+      chosen.push_back(int(i));
   return chosen;
 }
 
@@ -115,7 +122,8 @@ std::vector<int> particles_named(const KeyTable& keys, Eigen::Index count) {
   std::vector<int> chosen;
   for (long i : keys.integers("particles")) {
     if (i < 0 || i >= count)
-      throw InputError(keys.where("particles") + ": particle " + std::to_string(i) + " does not exist; there are " + std::to_string(count));
+      throw InputError(keys.where("particles") + ": particle " + std::to_string(i) +
+                       " does not exist; there are " + std::to_string(count));
     chosen.push_back(int(i));
   }
   return chosen;
@@ -131,7 +139,8 @@ void read_hold(const KeyTable& keys, Scene& scene) {
   const Motion motion = read_motion(keys);
   for (int i : chosen) {
     for (const PrescribedParticle& other : scene.led)
-      if (other.particle == i) throw InputError(keys.where() + ": particle " + std::to_string(i) + " is held twice");
+      if (other.particle == i)
+        throw InputError(keys.where() + ": particle " + std::to_string(i) + " is held twice");
     scene.led.push_back({i, scene.x.col(i), motion});
   }
 }
@@ -156,12 +165,14 @@ void read_time(const KeyTable& keys, Scene& scene) {
   scene.schedule.end = positive(keys, "end");
   scene.schedule.frame_interval = 1 / positive_or(keys, "frames_per_second", 30);
   if (keys.is_text("step")) {
-    if (keys.text("step") != "automatic") throw InputError(keys.where("step") + ": 'step' must be a number [s] or \"automatic\"");
+    if (keys.text("step") != "automatic")
+      throw InputError(keys.where("step") + ": 'step' must be a number [s] or \"automatic\"");
   } else if (keys.has("step")) {
     scene.schedule.step.fixed = positive(keys, "step");
   }
   scene.schedule.step.safety = positive_or(keys, "safety", scene.schedule.step.safety);
-  scene.schedule.step.strain_per_step = positive_or(keys, "strain_per_step", scene.schedule.step.strain_per_step);
+  scene.schedule.step.strain_per_step =
+      positive_or(keys, "strain_per_step", scene.schedule.step.strain_per_step);
   scene.schedule.max_steps = count_or(keys, "max_steps", scene.schedule.max_steps);
   scene.integrator = keys.text_or("integrator", scene.integrator);
   try {
@@ -175,7 +186,8 @@ void read_solver(const KeyTable& keys, SolverSettings& solver) {
   solver.tolerance = positive_or(keys, "tolerance", solver.tolerance);
   solver.max_iterations = int(count_or(keys, "max_iterations", solver.max_iterations));
   solver.scale = choice<ResidualScale>(
-      keys, "relative_to", {{"momentum", ResidualScale::momentum}, {"initial_residual", ResidualScale::initial_residual}});
+      keys, "relative_to",
+      {{"momentum", ResidualScale::momentum}, {"initial_residual", ResidualScale::initial_residual}});
 }
 
 Scene scene_from(const KeyTable& keys, const std::string& folder) {
@@ -188,7 +200,8 @@ Scene scene_from(const KeyTable& keys, const std::string& folder) {
   scene.about = keys.text_or("about", "");
 
   if (const auto start = keys.table("start")) read_start(*start, scene);
-  if (const auto gravity = keys.table("gravity")) scene.gravity = gravity->vector_or("acceleration", {0, -9.80665, 0});
+  if (const auto gravity = keys.table("gravity"))
+    scene.gravity = gravity->vector_or("acceleration", {0, -9.80665, 0});
   if (const auto stretch = keys.table("stretch")) scene.stretch = read_stretch(*stretch);
   if (const auto bending = keys.table("bending")) {
     scene.bending = read_bending(*bending);
@@ -203,7 +216,8 @@ Scene scene_from(const KeyTable& keys, const std::string& folder) {
 
 }  // namespace
 
-Scene read_scene_text(const std::string& text, const std::string& path, const std::vector<std::string>& overrides) {
+Scene read_scene_text(const std::string& text, const std::string& path,
+                      const std::vector<std::string>& overrides) {
   const auto keys = parse_keys(text, path);
   for (const std::string& assignment : overrides) set_key(*keys, assignment);
   const std::filesystem::path file(path);

@@ -18,14 +18,14 @@ struct Scene {
   std::string name, title, about;
   std::string text;  // the case file with its overrides, empty for scenes made by code
 
-  TriangleMesh mesh;      // with the rest shape
-  PerParticle3 x, v;      // start, 3 x N [m], [m/s]
-  double density = 0;     // area density [kg/m^2]
+  TriangleMesh mesh;   // with the rest shape
+  PerParticle3 x, v;   // start, 3 x N [m], [m/s]
+  double density = 0;  // area density [kg/m^2]
 
-  std::optional<Vector3> gravity;          // m/s^2
+  std::optional<Vector3> gravity;  // m/s^2
   std::optional<StretchMaterial> stretch;
   std::optional<BendingMaterial> bending;
-  std::vector<double> rest_angles;         // one a hinge [rad], when there is bending
+  std::vector<double> rest_angles;  // one a hinge [rad], when there is bending
   std::vector<PrescribedParticle> led;
 
   std::string integrator = "C";
@@ -36,12 +36,14 @@ struct Scene {
 /// A scene of the mesh at rest in its rest shape, without any force.
 Scene scene_of(TriangleMesh mesh, double density);
 
-/// Reads a case file. Throws InputError "file:line: ..." for anything that it does not understand; see cases/README.md for the keys.
+/// Reads a case file. Throws InputError "file:line: ..." for anything that it does not understand; see
+/// cases/README.md for the keys.
 ///   overrides   "a.b=c", applied in order
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
 
 /// The same from text; `path` names it in messages, and relative mesh files are looked for beside it.
-Scene read_scene_text(const std::string& text, const std::string& path, const std::vector<std::string>& overrides = {});
+Scene read_scene_text(const std::string& text, const std::string& path,
+                      const std::vector<std::string>& overrides = {});
 
 /// Builds what the scene names, and nothing else.
 System build_system(const Scene& scene);

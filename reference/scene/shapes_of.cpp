@@ -18,9 +18,9 @@ struct PatternName {
 };
 
 constexpr PatternName patterns[] = {
-    {"one_diagonal", SheetPattern::one_diagonal}, {"alternating", SheetPattern::alternating},
-    {"union_jack", SheetPattern::union_jack},     {"criss_cross", SheetPattern::criss_cross},
-    {"equilateral", SheetPattern::equilateral},   {"jittered", SheetPattern::jittered},
+    {"one_diagonal", SheetPattern::one_diagonal},       {"alternating", SheetPattern::alternating},
+    {"union_jack", SheetPattern::union_jack},           {"criss_cross", SheetPattern::criss_cross},
+    {"equilateral", SheetPattern::equilateral},         {"jittered", SheetPattern::jittered},
     {"random_delaunay", SheetPattern::random_delaunay},
 };
 
@@ -36,7 +36,8 @@ SheetPattern read_pattern(const KeyTable& keys) {
 
 int count(const KeyTable& keys, const std::string& key) {
   const long value = keys.integer(key);
-  if (!(value >= 1 && value <= 1'000'000)) throw InputError(keys.where(key) + ": '" + key + "' must lie in 1 .. 1,000,000");
+  if (!(value >= 1 && value <= 1'000'000))
+    throw InputError(keys.where(key) + ": '" + key + "' must lie in 1 .. 1,000,000");
   return int(value);
 }
 
@@ -71,7 +72,8 @@ TriangleMesh read_mesh_file(const KeyTable& keys, const std::string& folder) {
   const std::string where = keys.where("mesh");
   if (file.empty()) throw InputError(where + ": this case takes a mesh of yours: --set cloth.mesh=FILE.obj");
   if (file.is_relative() && where != "--set") file = folder / file;
-  if (!std::filesystem::exists(file)) throw InputError(where + ": there is no mesh file '" + file.string() + "'");
+  if (!std::filesystem::exists(file))
+    throw InputError(where + ": there is no mesh file '" + file.string() + "'");
   return read_obj(file.string());
 }
 
@@ -90,7 +92,8 @@ auto placed_refusal(const std::string& where, const Make& make) {
 /// Scales, turns and moves the positions, in this order.
 void place(const KeyTable& keys, PerParticle3& x) {
   if (keys.has("fit")) {
-    const double size = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff(), wanted = keys.number("fit");
+    const double size = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff(),
+                 wanted = keys.number("fit");
     if (!(wanted > 0)) throw InputError(keys.where("fit") + ": 'fit' must be > 0 m");
     x *= wanted / size;
   }
@@ -98,7 +101,8 @@ void place(const KeyTable& keys, PerParticle3& x) {
     const Vector3 axis = turn->vector("axis");
     if (!(axis.norm() > 0)) throw InputError(turn->where("axis") + ": 'axis' must not be zero");
     const PerParticle3 turned =
-        Eigen::AngleAxisd(turn->number("angle") * radians_per_degree, axis.normalized()).toRotationMatrix() * x;
+        Eigen::AngleAxisd(turn->number("angle") * radians_per_degree, axis.normalized()).toRotationMatrix() *
+        x;
     x = turned;
   }
   x.colwise() += keys.vector_or("move", Vector3::Zero());
@@ -108,9 +112,11 @@ void place(const KeyTable& keys, PerParticle3& x) {
 
 PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder) {
   if (cloth.has("shape") == cloth.has("mesh"))
-    throw InputError(cloth.where("mesh") + ": [cloth] needs either 'shape' or 'mesh' (an OBJ file), and not both");
-  PlacedMesh result{cloth.has("mesh") ? read_mesh_file(cloth, folder)
-                                      : placed_refusal(cloth.where("shape"), [&] { return make_shape(cloth); }),
+    throw InputError(cloth.where("mesh") +
+                     ": [cloth] needs either 'shape' or 'mesh' (an OBJ file), and not both");
+  PlacedMesh result{cloth.has("mesh")
+                        ? read_mesh_file(cloth, folder)
+                        : placed_refusal(cloth.where("shape"), [&] { return make_shape(cloth); }),
                     {}};
 
   const auto pleats = cloth.table("pleats");

@@ -7,11 +7,12 @@
 namespace foldproof {
 
 struct PlacedMesh {
-  TriangleMesh mesh;  // with the rest shape
+  TriangleMesh mesh;   // with the rest shape
   PerParticle3 start;  // 3 x N [m]
 };
 
-/// Reads the keys of [cloth] that say shape and place. folder: where relative files of the case are looked for.
+/// Reads the keys of [cloth] that say shape and place. folder: where relative files of the case are looked
+/// for.
 PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder);
 
 }  // namespace foldproof

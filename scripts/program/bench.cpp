@@ -43,7 +43,8 @@ double peak_megabytes() {
   return double(usage.ru_maxrss) / 1024;  // ru_maxrss is in KiB
 }
 
-/// A square sheet of n x n cells, gently waved and moving, damping ratio 0.1 of springs and hinges at the bound on omega.
+/// A square sheet of n x n cells, gently waved and moving, damping ratio 0.1 of springs and hinges at the
+/// bound on omega.
 struct Load {
   Scene scene;
   System system;
@@ -62,11 +63,14 @@ Load make_load(int cells) {
   const double amplitude = 0.1 / cells;
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     scene.x(2, i) += amplitude * (std::sin(17 * scene.x(0, i)) + double(random() >> 11) * 0x1p-53);
-    scene.v.col(i) = Vector3(std::sin(5 * scene.x(1, i)), std::cos(3 * scene.x(0, i)), double(random() >> 11) * 0x1p-53);
+    scene.v.col(i) =
+        Vector3(std::sin(5 * scene.x(1, i)), std::cos(3 * scene.x(0, i)), double(random() >> 11) * 0x1p-53);
   }
-  const double time_scale = 2 * damping_ratio / (2 / elastic_limit(build_system(scene), start_state(scene)));  // 2 zeta/omega [s]
+  const double time_scale =
+      2 * damping_ratio / (2 / elastic_limit(build_system(scene), start_state(scene)));  // 2 zeta/omega [s]
   scene.stretch->damping = young * time_scale;
-  const double hinge_slope = bending_stiffness / 2 * cells;  // ke c/2 over |E|, with c near 1 and |E| near 1/cells
+  const double hinge_slope =
+      bending_stiffness / 2 * cells;  // ke c/2 over |E|, with c near 1 and |E| near 1/cells
   scene.bending->damping = hinge_slope * time_scale;
   scene.gravity = Vector3(0, -9.80665, 0);
   scene.solver.tolerance = 1e-6;
@@ -77,7 +81,8 @@ Load make_load(int cells) {
 }
 
 struct Speeds {
-  double particles, hinges, bending, springs, product, preparation, iteration, step, iterations;  // seconds of each, but counts first and last
+  double particles, hinges, bending, springs, product, preparation, iteration, step,
+      iterations;  // seconds of each, but counts first and last
 };
 
 Speeds measure(int cells) {
@@ -125,10 +130,18 @@ double exponent(const std::vector<double>& x, const std::vector<double>& y) {
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-Record rate(const std::string& name, const std::string& claim, double measured, double target, const std::string& unit,
-            const std::string& better) {
-  return {"bench." + name, "bench",    "",     claim, "", {{measured, target, 0, unit, "the target"}, {}, "one thread, least of repeats"},
-          "measured",      better, 0, {}};
+Record rate(const std::string& name, const std::string& claim, double measured, double target,
+            const std::string& unit, const std::string& better) {
+  return {"bench." + name,
+          "bench",
+          "",
+          claim,
+          "",
+          {{measured, target, 0, unit, "the target"}, {}, "one thread, least of repeats"},
+          "measured",
+          better,
+          0,
+          {}};
 }
 
 std::vector<double> column(const std::vector<Speeds>& all, double Speeds::*member, double factor = 1) {
@@ -139,9 +152,15 @@ std::vector<double> column(const std::vector<Speeds>& all, double Speeds::*membe
 
 Figure growth_figure(const std::vector<Speeds>& all) {
   const std::vector<double> particles = column(all, &Speeds::particles);
-  Figure figure{"seconds", "Time against particles", {"particles", "1", Scale::log}, {"time", "s", Scale::log}, 1,
-                "Least time of repeats on one thread; the slope triangle is linear growth. Where the data outgrow the caches, "
-                "each particle costs more.", {}};
+  Figure figure{"seconds",
+                "Time against particles",
+                {"particles", "1", Scale::log},
+                {"time", "s", Scale::log},
+                1,
+                "Least time of repeats on one thread; the slope triangle is linear growth. Where the data "
+                "outgrow the caches, "
+                "each particle costs more.",
+                {}};
   figure.curves = {{"bending, elastic", particles, column(all, &Speeds::bending), not_a_number, {}},
                    {"springs, elastic", particles, column(all, &Speeds::springs), not_a_number, {}},
                    {"damping, terms", particles, column(all, &Speeds::preparation), not_a_number, {}},
@@ -166,21 +185,27 @@ Table growth_table(const std::vector<Speeds>& all) {
 }
 
 std::vector<Record> rates(const std::vector<Speeds>& all, double megabytes) {
-  const Speeds& large = *std::find_if(all.begin(), all.end(), [](const Speeds& s) { return s.particles > 9e4; });
+  const Speeds& large =
+      *std::find_if(all.begin(), all.end(), [](const Speeds& s) { return s.particles > 9e4; });
   const std::vector<double> particles = column(all, &Speeds::particles);
   std::vector<double> evaluations;
   for (const Speeds& s : all) evaluations.push_back(s.bending + s.springs);
   return {
       rate("bending-elastic", fmt::format("Elastic bending forces a second, {:.0f} hinges.", large.hinges),
            large.hinges / large.bending / 1e6, 20, "million hinges/s", "higher"),
-      rate("step-C", fmt::format("One step of scheme C, {:.0f} particles, damping ratio 0.1, half the elastic limit, CG to 1e-6 "
-                                 "({:.1f} iterations a solve).", large.particles, large.iterations),
-           large.step, 0.3, "s", "lower"),
-      rate("memory", fmt::format("Peak memory of the process with {:.0f} particles.", large.particles), megabytes, 500, "MB", "lower"),
+      rate(
+          "step-C",
+          fmt::format(
+              "One step of scheme C, {:.0f} particles, damping ratio 0.1, half the elastic limit, CG to 1e-6 "
+              "({:.1f} iterations a solve).",
+              large.particles, large.iterations),
+          large.step, 0.3, "s", "lower"),
+      rate("memory", fmt::format("Peak memory of the process with {:.0f} particles.", large.particles),
+           megabytes, 500, "MB", "lower"),
       rate("growth-of-iteration", "Growth exponent of the time per CG iteration in the number of particles.",
            exponent(particles, column(all, &Speeds::iteration)), 1.1, "1", "lower"),
-      rate("growth-of-forces", "Growth exponent of the time per evaluation of the elastic forces.", exponent(particles, evaluations),
-           1.1, "1", "lower"),
+      rate("growth-of-forces", "Growth exponent of the time per evaluation of the elastic forces.",
+           exponent(particles, evaluations), 1.1, "1", "lower"),
   };
 }
 
@@ -201,10 +226,15 @@ RunRecord bench(int most_particles) {
   run.tier = "";
   run.subject = "foldproof reference";
   run.records = rates(all, megabytes);
-  run.studies.push_back({"bench", "Time grows in proportion to the number of particles.", "measured",
-                         "A square sheet of alternating diagonals, gently waved, springs and hinges damped at a ratio of 0.1. Times "
+  run.studies.push_back({"bench",
+                         "Time grows in proportion to the number of particles.",
+                         "measured",
+                         "A square sheet of alternating diagonals, gently waved, springs and hinges damped "
+                         "at a ratio of 0.1. Times "
                          "are of a shared machine: compare them as ratios.",
-                         0, {growth_figure(all)}, {growth_table(all)}});
+                         0,
+                         {growth_figure(all)},
+                         {growth_table(all)}});
   return run;
 }
 

@@ -31,7 +31,8 @@ double parsed(const std::string& field, const std::string& where) {
   return value;
 }
 
-/// Rows of `columns` comma-separated numbers; lines that start with '#' or a letter (a heading) are passed over.
+/// Rows of `columns` comma-separated numbers; lines that start with '#' or a letter (a heading) are passed
+/// over.
 std::vector<Row> read_rows(const std::string& file, size_t columns) {
   std::ifstream in(file);
   if (!in) throw InputError(file + ": cannot be read");
@@ -41,8 +42,9 @@ std::vector<Row> read_rows(const std::string& file, size_t columns) {
     ++number;
     const size_t first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos || line[first] == '#') continue;
-    if (rows.empty() && std::isalpha(static_cast<unsigned char>(line[first])) && line.find(',') != std::string::npos &&
-        !line.substr(first).starts_with("nan") && !line.substr(first).starts_with("inf"))
+    if (rows.empty() && std::isalpha(static_cast<unsigned char>(line[first])) &&
+        line.find(',') != std::string::npos && !line.substr(first).starts_with("nan") &&
+        !line.substr(first).starts_with("inf"))
       continue;  // a heading
     Row row{file + ":" + std::to_string(number), {}};
     std::istringstream fields(line);
@@ -62,7 +64,8 @@ PerParticle3 four_columns(const std::vector<double>& values, size_t from) {
 void print_row(const PerParticle3& elastic, const PerParticle3& damping) {
   std::string line;
   for (const PerParticle3* part : {&elastic, &damping})
-    for (Eigen::Index k = 0; k < 12; ++k) line += fmt::format("{}{:.17g}", line.empty() ? "" : ",", part->data()[k]);
+    for (Eigen::Index k = 0; k < 12; ++k)
+      line += fmt::format("{}{:.17g}", line.empty() ? "" : ",", part->data()[k]);
   fmt::print("{}\n", line);
 }
 
@@ -96,12 +99,14 @@ void evaluate_bending(const std::string& file, const std::string& rest_file) {
   if (!rest_file.empty()) {
     rest_rows = read_rows(rest_file, 12);
     if (rest_rows.size() != rows.size())
-      throw InputError(fmt::format("{}: {} rows, but {} has {}", rest_file, rest_rows.size(), file, rows.size()));
+      throw InputError(
+          fmt::format("{}: {} rows, but {} has {}", rest_file, rest_rows.size(), file, rows.size()));
   }
   std::string heading;
   for (const char* kind : {"elastic", "damping"})
     for (int particle = 1; particle <= 4; ++particle)
-      for (const char* axis : {"x", "y", "z"}) heading += fmt::format("{}{}_{}{}", heading.empty() ? "" : ",", kind, axis, particle);
+      for (const char* axis : {"x", "y", "z"})
+        heading += fmt::format("{}{}_{}{}", heading.empty() ? "" : ",", kind, axis, particle);
   fmt::print("{}\n", heading);
   for (size_t k = 0; k < rows.size(); ++k) {
     const PerParticle3 rest = four_columns(rest_rows.empty() ? rows[k].values : rest_rows[k].values, 0);

@@ -21,7 +21,10 @@ std::string time_left(double seconds, double fraction) {
 
 }  // namespace
 
-ProgressLine::ProgressLine(std::string label) : label_(std::move(label)), on_terminal_(isatty(STDERR_FILENO)) { show(0); }
+ProgressLine::ProgressLine(std::string label)
+    : label_(std::move(label)), on_terminal_(isatty(STDERR_FILENO)) {
+  show(0);
+}
 
 ProgressLine::~ProgressLine() {
   if (on_terminal_) std::fputs("\r\033[K", stderr);

@@ -12,7 +12,9 @@ namespace foldproof {
 
 namespace {
 
-bool chooses(const std::string& wanted, const std::string& name) { return name == wanted || name.starts_with(wanted + "."); }
+bool chooses(const std::string& wanted, const std::string& name) {
+  return name == wanted || name.starts_with(wanted + ".");
+}
 
 bool is_named(const std::vector<std::string>& kinds, const char* kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
@@ -25,16 +27,20 @@ size_t likeness(const std::string& a, const std::string& b) {
   return head + tail;
 }
 
-[[noreturn]] void refuse(const std::string& name, const std::vector<Check>& checks, const std::vector<Study>& studies) {
+[[noreturn]] void refuse(const std::string& name, const std::vector<Check>& checks,
+                         const std::vector<Study>& studies) {
   std::vector<std::string> known;
   for (const Check& check : checks) known.push_back(check.name);
   for (const Study& study : studies) known.push_back(study.name);
-  std::stable_sort(known.begin(), known.end(), [&](const auto& a, const auto& b) { return likeness(name, a) > likeness(name, b); });
+  std::stable_sort(known.begin(), known.end(),
+                   [&](const auto& a, const auto& b) { return likeness(name, a) > likeness(name, b); });
   known.resize(std::min<size_t>(known.size(), 3));
-  throw InputError(fmt::format("there is no check or study '{}'; near it: {}. `foldproof list` shows all", name, fmt::join(known, ", ")));
+  throw InputError(fmt::format("there is no check or study '{}'; near it: {}. `foldproof list` shows all",
+                               name, fmt::join(known, ", ")));
 }
 
-bool add_named(const std::string& name, const std::vector<Check>& checks, const std::vector<Study>& studies, Selection& selection) {
+bool add_named(const std::string& name, const std::vector<Check>& checks, const std::vector<Study>& studies,
+               Selection& selection) {
   bool found = false;
   for (const Check& check : checks)
     if (chooses(name, check.name)) {
@@ -46,7 +52,8 @@ bool add_named(const std::string& name, const std::vector<Check>& checks, const 
     if (!is_finding && !chooses(name, study.name)) continue;
     if (is_finding) selection.findings.push_back(name);
     const auto same = [&](const Study& other) { return other.name == study.name; };
-    if (std::none_of(selection.studies.begin(), selection.studies.end(), same)) selection.studies.push_back(study);
+    if (std::none_of(selection.studies.begin(), selection.studies.end(), same))
+      selection.studies.push_back(study);
     found = true;
   }
   return found;
@@ -55,7 +62,8 @@ bool add_named(const std::string& name, const std::vector<Check>& checks, const 
 void say_unless_it_holds(const Record& record) {
   if (record.outcome == "holds") return;
   const Verdict& v = record.finding.verdict;
-  say(fmt::format("  {}: {} (measured {:.4g}, bound {:.4g} {}) {}", record.outcome, record.name, v.measured, v.bound, v.unit, record.finding.note));
+  say(fmt::format("  {}: {} (measured {:.4g}, bound {:.4g} {}) {}", record.outcome, record.name, v.measured,
+                  v.bound, v.unit, record.finding.note));
 }
 
 }  // namespace
@@ -75,7 +83,8 @@ Selection select(const Wanted& wanted) {
 
 void run_selection(const Selection& selection, const Subject& subject, Tier tier, RunRecord& run) {
   ProgressLine progress(selection.studies.empty() ? "checks" : "checks and studies");
-  const double parts = double(selection.checks.size()) + 30 * double(selection.studies.size());  // a study is longer
+  const double parts =
+      double(selection.checks.size()) + 30 * double(selection.studies.size());  // a study is longer
   double done = 0;
   for (const Check& check : selection.checks) {
     run.records.push_back(run_check(check, subject));
@@ -83,12 +92,14 @@ void run_selection(const Selection& selection, const Subject& subject, Tier tier
     progress.show(++done / parts);
   }
   for (const Study& study : selection.studies) {
-    auto [records, whole] = run_study(study, subject, tier, [&](double part) { progress.show((done + 30 * part) / parts); });
+    auto [records, whole] =
+        run_study(study, subject, tier, [&](double part) { progress.show((done + 30 * part) / parts); });
     done += 30;
     for (Record& record : records) {
       const auto& wanted = selection.findings;
       const bool is_wanted = wanted.empty() || record.name == study.name ||
-                             std::any_of(wanted.begin(), wanted.end(), [&](const auto& name) { return chooses(name, record.name); });
+                             std::any_of(wanted.begin(), wanted.end(),
+                                         [&](const auto& name) { return chooses(name, record.name); });
       if (!is_wanted) continue;
       say_unless_it_holds(record);
       run.records.push_back(std::move(record));
@@ -96,16 +107,18 @@ void run_selection(const Selection& selection, const Subject& subject, Tier tier
     run.studies.push_back(std::move(whole));
   }
   for (const std::string& name : selection.findings)
-    if (std::none_of(run.records.begin(), run.records.end(), [&](const Record& r) { return chooses(name, r.name) || r.outcome == "fails"; }))
+    if (std::none_of(run.records.begin(), run.records.end(),
+                     [&](const Record& r) { return chooses(name, r.name) || r.outcome == "fails"; }))
       throw InputError("no study has a finding '" + name + "'");
 }
 
 std::string summary(const RunRecord& run) {
   const auto count = [&](const char* outcome) {
-    return std::count_if(run.records.begin(), run.records.end(), [&](const Record& r) { return r.outcome == outcome; });
+    return std::count_if(run.records.begin(), run.records.end(),
+                         [&](const Record& r) { return r.outcome == outcome; });
   };
-  return fmt::format("{} hold, {} fail, {} inconclusive, {} not applicable", count("holds"), count("fails"), count("inconclusive"),
-                     count("not applicable"));
+  return fmt::format("{} hold, {} fail, {} inconclusive, {} not applicable", count("holds"), count("fails"),
+                     count("inconclusive"), count("not applicable"));
 }
 
 int exit_code(const RunRecord& run) {

@@ -16,8 +16,10 @@ struct Selection {
   std::vector<std::string> findings;  // if not empty: only these of the studies' findings are wanted
 };
 
-/// What the names choose: checks, studies, single findings of studies, or groups ("bending" for all that begins with "bending."). No name:
-/// all checks (and all studies if with_studies). Throws InputError for a name that chooses nothing, with the nearest known ones.
+/// What the names choose: checks, studies, single findings of studies, or groups ("bending" for all that
+/// begins with "bending."). No name:
+/// all checks (and all studies if with_studies). Throws InputError for a name that chooses nothing, with the
+/// nearest known ones.
 struct Wanted {
   std::vector<std::string> names;
   std::vector<std::string> kinds;  // of "check", "study": what a missing name stands for

@@ -13,7 +13,9 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-Check check_that(std::function<Finding(const Subject&)> run) { return {"group.name", "A sentence.", "nowhere", std::move(run)}; }
+Check check_that(std::function<Finding(const Subject&)> run) {
+  return {"group.name", "A sentence.", "nowhere", std::move(run)};
+}
 
 }  // namespace
 
@@ -42,10 +44,12 @@ TEST_CASE("Worst keeps a NaN whatever comes after it") {
 
 TEST_CASE("a check that throws fails and says why; one that is not offered is not applicable") {
   const Subject subject = reference_subject();
-  const Record broken = run_check(check_that([](const Subject&) -> Finding { throw std::runtime_error("out of cloth"); }), subject);
+  const Record broken = run_check(
+      check_that([](const Subject&) -> Finding { throw std::runtime_error("out of cloth"); }), subject);
   CHECK(broken.outcome == "fails");
   CHECK(broken.finding.note.find("out of cloth") != std::string::npos);
-  const Record absent = run_check(check_that([](const Subject&) -> Finding { throw NotOffered{"step"}; }), subject);
+  const Record absent =
+      run_check(check_that([](const Subject&) -> Finding { throw NotOffered{"step"}; }), subject);
   CHECK(absent.outcome == "not applicable");
 }
 
