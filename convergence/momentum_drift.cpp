@@ -136,7 +136,7 @@ NamedFinding drift_is_real(const Drift& drift) {
   constexpr double rounding_bound = 16;
   Worst worst;
   for (double roundings : drift.roundings) worst.see(rounding_bound / roundings);
-  Finding finding{{worst.value(), 0.01, 0, "1", "a hundred times what counts as kept cannot be rounding"},
+  Finding finding{{worst.value(), 0.01, 0, "of the drift", "a hundred times what counts as kept cannot be rounding"},
                   {{"step", "s", drift.steps}, {"drift in roundings", "1", drift.roundings}},
                   "measured is the bound of a kept momentum over the drift"};
   return {"momentum-drift.damped.C.is-no-rounding", "The drift of scheme C on a damped sheet is no rounding.",

@@ -110,8 +110,8 @@ def label_axes(axes: Axes, x_label: str, x_unit: str, y_label: str, y_unit: str)
 
 
 def with_unit(label: str, unit: str) -> str:
-    """A label with its unit in brackets."""
-    return f"{label} [{unit_text(unit)}]"
+    """A label with its unit in brackets; the unit 1 is not written."""
+    return label if unit.strip() in ("", "1") else f"{label} [{unit_text(unit)}]"
 
 
 def scale_axis(axes: Axes, which: str, scale: str, values: np.ndarray) -> None:

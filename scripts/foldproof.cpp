@@ -208,7 +208,7 @@ Output: 12 elastic and 12 damping force components [N] in 17 digits. The weight 
 the rest positions: rows of 12 numbers.)";
 
 std::string typed(int argc, char** argv) {
-  std::string command = "foldproof";
+  std::string command = "build/foldproof";
   for (int k = 1; k < argc; ++k) command += std::string(" ") + argv[k];
   return command;
 }

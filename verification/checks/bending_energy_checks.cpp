@@ -105,7 +105,7 @@ Finding no_work_round_a_loop(const Subject& subject) {
 }
 
 Finding work_round_a_loop(const Subject& subject) {
-  Measured measured("uncertainty of the work over the work", "1");
+  Measured measured("uncertainty of the work over the work", "of the work");
   std::vector<double> works;
   for (const Loop& loop : loops(subject, Weighting::current)) {
     const double rounding = 64 * epsilon * loop.trip.scale;
