@@ -75,7 +75,7 @@ Record run_check(const Check& check, const Subject& subject) {
 std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const Subject& subject, Tier tier,
                                                       const Progress& progress) {
   const Clock clock;
-  StudyRecord whole{study.name, study.claim, study.source, study.about, 0, {}, {}};
+  StudyRecord whole{study.name, study.claim, study.source, study.about, 0, {}, {}, {}};
   std::vector<Record> records;
   const Record blank{study.name, "study", study.name, study.claim, study.source, {}, "", "", 0, {}};
   StudyResult result;
@@ -94,6 +94,7 @@ std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const 
     records.push_back(std::move(record));
   }
   whole.figures = std::move(result.figures);
+  whole.maps = std::move(result.maps);
   whole.tables = std::move(result.tables);
   whole.seconds = clock.seconds();
   return {records, whole};

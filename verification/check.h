@@ -87,6 +87,19 @@ struct Figure {
   std::vector<Curve> curves;
 };
 
+/// A quantity over two parameters.
+struct Map {
+  std::string name, title;
+  Axis x, y;
+  std::vector<double> x_values, y_values;  // ascending, in the axes' units
+  std::vector<double>
+      values;  // in `unit`, row by row: [iy * x_values.size() + ix]; NaN: no value, as the caption says
+  std::string quantity, unit;  // what the values are
+  Scale scale;                 // of the values
+  std::string caption;
+  std::vector<Curve> curves;  // drawn over the map, on its axes: limits known beforehand
+};
+
 struct Table {
   std::string name, title;
   std::vector<Column> columns;
@@ -106,6 +119,7 @@ struct NamedFinding {
 struct StudyResult {
   std::vector<NamedFinding> findings;
   std::vector<Figure> figures;
+  std::vector<Map> maps;
   std::vector<Table> tables;
 };
 
@@ -131,6 +145,7 @@ struct StudyRecord {
   std::string name, claim, source, about;
   double seconds = 0;
   std::vector<Figure> figures;
+  std::vector<Map> maps;
   std::vector<Table> tables;
 };
 

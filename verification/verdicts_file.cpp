@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
+
+#include "verification/whole_file.h"
 
 namespace foldproof {
 
@@ -102,15 +102,6 @@ std::string verdicts_json(const RunRecord& run) {
                          {"findings", nlohmann::json::array()}};
   for (const Record& record : run.records) json["findings"].push_back(as_json(record));
   return json.dump(1) + "\n";
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  const std::string partial = path + ".partial";
-  std::ofstream out(partial, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(path + ": cannot be written; is the folder there and writable?");
-  rename_when_whole(partial, path);
 }
 
 void write_verdicts(const std::string& folder, const RunRecord& run) {

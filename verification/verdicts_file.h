@@ -13,7 +13,4 @@ std::string verdicts_json(const RunRecord& run);
 /// Writes verdicts.json and junit.xml into the folder, each renamed when whole.
 void write_verdicts(const std::string& folder, const RunRecord& run);
 
-/// Writes a text file under a temporary name and renames it. Throws std::runtime_error naming the file.
-void write_text(const std::string& path, const std::string& text);
-
 }  // namespace foldproof

@@ -234,6 +234,7 @@ RunRecord bench(int most_particles) {
                          "are of a shared machine: compare them as ratios.",
                          0,
                          {growth_figure(all)},
+                         {},
                          {growth_table(all)}});
   return run;
 }

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "scripts/program/progress.h"
+#include "verification/trajectory_file.h"
 
 namespace foldproof {
 

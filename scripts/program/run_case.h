@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/dynamics/simulate.h"
 #include "reference/scene/scene.h"
 #include "verification/results_file.h"
 

@@ -1,5 +1,6 @@
 // Verdicts: what holds, what fails, and that nothing that is NaN or stopped ever passes.
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 
@@ -79,4 +80,30 @@ TEST_CASE("verdicts as JSON: NaN becomes null, names stay") {
   const std::string json = verdicts_json(run);
   CHECK(json.find("\"measured\": null") != std::string::npos);
   CHECK(json.find("odd \\\"name\\\" <b>") != std::string::npos);
+}
+
+TEST_CASE("a map is written with one value for each of its points, or refused") {
+  const Map whole{"map",
+                  "Title",
+                  {"x", "m", Scale::linear},
+                  {"y", "s", Scale::log},
+                  {1, 3, 7},
+                  {0.5, 4},
+                  {11, 12, 13, 21, 22, not_a_number},
+                  "quantity",
+                  "1",
+                  Scale::linear,
+                  "",
+                  {}};
+  Map short_of_one = whole;
+  short_of_one.values.pop_back();
+  RunRecord run;
+  run.studies.push_back({"study", "", "", "", 0, {}, {whole}, {}});
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const std::string path = (folder / "foldproof machinery map.h5").string();
+  CHECK_NOTHROW(write_run(path, run));
+  std::filesystem::remove(path);
+  run.studies[0].maps = {short_of_one};
+  CHECK_THROWS_WITH(write_run(path, run), Catch::Contains("5 values for 3 x 2 points"));
+  std::filesystem::remove(path + ".partial");
 }

@@ -1,0 +1,47 @@
+#include "verification/findings_file.h"
+
+#include "verification/hdf5_file.h"
+
+namespace foldproof {
+
+namespace {
+
+void write_record(const Hdf5& parent, const Record& record, int order) {
+  const Hdf5 here = parent.group(record.name);
+  const Verdict& verdict = record.finding.verdict;
+  here.attribute("order", order);
+  here.attribute("kind", record.kind);
+  here.attribute("study", record.study);
+  here.attribute("claim", record.claim);
+  here.attribute("source", record.source);
+  here.attribute("measured", verdict.measured);
+  here.attribute("bound", verdict.bound);
+  here.attribute("uncertainty", verdict.uncertainty);
+  here.attribute("unit", verdict.unit);
+  here.attribute("why_bound", verdict.why_bound);
+  here.attribute("outcome", record.outcome);
+  here.attribute("note", record.finding.note);
+  here.attribute("seconds", record.seconds);
+  here.attribute("faults", record.faults);
+  if (!record.better.empty()) here.attribute("better", record.better);
+  if (!record.finding.evidence.empty()) write_columns(here.group("evidence"), record.finding.evidence);
+}
+
+}  // namespace
+
+void write_columns(const Hdf5& parent, const std::vector<Column>& columns) {
+  int order = 0;
+  for (const Column& column : columns) {
+    const Hdf5 set =
+        std::visit([&](const auto& values) { return parent.dataset(column.name, values); }, column.values);
+    set.attribute("order", order++);
+    set.attribute("unit", column.unit);
+  }
+}
+
+void write_findings(const Hdf5& file, const std::vector<Record>& records) {
+  const Hdf5 findings = file.group("findings");
+  for (size_t k = 0; k < records.size(); ++k) write_record(findings, records[k], int(k));
+}
+
+}  // namespace foldproof

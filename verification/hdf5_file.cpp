@@ -1,0 +1,174 @@
+#include "verification/hdf5_file.h"
+
+#include <hdf5.h>
+
+#include <stdexcept>
+#include <type_traits>
+
+namespace foldproof {
+
+static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int>,
+              "the header names the library's types without including it");
+static_assert(std::is_same_v<hsize_t, Shape::value_type>);
+
+namespace {
+
+void succeed(herr_t result, const std::string& what) {
+  if (result < 0) throw std::runtime_error("HDF5: cannot write " + what);
+}
+
+/// '/' parts the names of groups in HDF5; in a name it becomes a division slash, which looks the same.
+std::string without_slash(const std::string& name) {
+  std::string result;
+  for (const char c : name) result += c == '/' ? std::string("\u2215") : std::string(1, c);
+  return result;
+}
+
+/// Owns an identifier that never leaves this file: a type, a space, a list of properties.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
+    succeed(id < 0 ? -1 : 0, "a description");
+  }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+Handle space_of(const Shape& shape) {
+  if (shape.empty()) return {H5Screate(H5S_SCALAR), H5Sclose};
+  return {H5Screate_simple(int(shape.size()), shape.data(), nullptr), H5Sclose};
+}
+
+void write_attribute(hid_t object, const std::string& name, hid_t type, const Shape& shape,
+                     const void* data) {
+  const Handle space = space_of(shape);
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  succeed(H5Awrite(attribute, type, data), name);
+}
+
+/// The identifier of a new dataset that holds these values.
+hid_t written(hid_t parent, const std::string& name, hid_t type, const Shape& shape, const void* data) {
+  const Handle space = space_of(shape);
+  const hid_t set =
+      H5Dcreate2(parent, without_slash(name).c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  if (set >= 0 && data) succeed(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), name);
+  return set;
+}
+
+std::vector<const char*> pointers(const std::vector<std::string>& texts) {
+  std::vector<const char*> result;
+  for (const std::string& text : texts) result.push_back(text.c_str());
+  return result;
+}
+
+/// The identifier of a new, empty dataset that can grow along its first dimension.
+hid_t growing(hid_t parent, const std::string& name, const Shape& row) {
+  Shape start = row, most = row, chunk = row;
+  start.insert(start.begin(), 0);
+  most.insert(most.begin(), H5S_UNLIMITED);
+  const bool is_small = row.empty() || (row.size() == 1 && row[0] == 3);
+  chunk.insert(chunk.begin(), is_small ? 1024 : 1);
+  const Handle space(H5Screate_simple(int(start.size()), start.data(), most.data()), H5Sclose);
+  const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_chunk(layout, int(chunk.size()), chunk.data());
+  return H5Dcreate2(parent, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+}
+
+}  // namespace
+
+Hdf5::Hdf5(std::int64_t id, int (*close)(std::int64_t), const std::string& what) : id_(id), close_(close) {
+  if (id < 0) throw std::runtime_error("HDF5: cannot make " + what);
+}
+
+Hdf5::~Hdf5() {
+  if (id_ >= 0) close_(id_);
+}
+
+Hdf5 Hdf5::create_file(const std::string& path) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
+  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  if (file < 0) throw std::runtime_error(path + ": cannot be written; is the folder there and writable?");
+  return {file, H5Fclose, path};
+}
+
+Hdf5 Hdf5::group(const std::string& name) const {
+  return {H5Gcreate2(id_, without_slash(name).c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+          name};
+}
+
+void Hdf5::attribute(const std::string& name, const std::string& value) const {
+  const char* text = value.c_str();
+  write_attribute(id_, name, text_type(), {}, &text);
+}
+
+void Hdf5::attribute(const std::string& name, double value) const {
+  write_attribute(id_, name, H5T_NATIVE_DOUBLE, {}, &value);
+}
+
+void Hdf5::attribute(const std::string& name, int value) const {
+  write_attribute(id_, name, H5T_NATIVE_INT, {}, &value);
+}
+
+void Hdf5::attribute(const std::string& name, const std::vector<std::string>& values) const {
+  if (values.empty()) return;  // HDF5 1.10 has no empty simple attribute of texts; absent means none
+  write_attribute(id_, name, text_type(), {values.size()}, pointers(values).data());
+}
+
+Hdf5 Hdf5::dataset(const std::string& name, const std::vector<double>& values) const {
+  return array(name, {values.size()}, values.empty() ? nullptr : values.data());
+}
+
+Hdf5 Hdf5::dataset(const std::string& name, const std::vector<std::string>& values) const {
+  const std::vector<const char*> texts = pointers(values);
+  return {written(id_, name, text_type(), {texts.size()}, texts.empty() ? nullptr : texts.data()), H5Dclose,
+          name};
+}
+
+Hdf5 Hdf5::array(const std::string& name, const Shape& shape, const double* values) const {
+  return {written(id_, name, H5T_NATIVE_DOUBLE, shape, values), H5Dclose, name};
+}
+
+Hdf5 Hdf5::array(const std::string& name, const Shape& shape, const int* values) const {
+  return {written(id_, name, H5T_NATIVE_INT, shape, values), H5Dclose, name};
+}
+
+Hdf5 Hdf5::array(const std::string& name, const Shape& shape, const unsigned char* values) const {
+  return {written(id_, name, H5T_NATIVE_UCHAR, shape, values), H5Dclose, name};
+}
+
+void Hdf5::flush() const { succeed(H5Fflush(id_, H5F_SCOPE_LOCAL), "what was buffered"); }
+
+GrowingDataset::GrowingDataset(const Hdf5& parent, const std::string& name, const std::string& unit,
+                               Shape row)
+    : row_(std::move(row)), set_(growing(parent.id_, name, row_), H5Dclose, name), name_(name) {
+  set_.attribute("unit", unit);
+}
+
+void GrowingDataset::add(const double* row) {
+  Shape size = row_, start(row_.size() + 1, 0), count = row_;
+  size.insert(size.begin(), length_ + 1);
+  count.insert(count.begin(), 1);
+  start[0] = length_++;
+  succeed(H5Dset_extent(set_.id_, size.data()), name_);
+  const Handle file_space(H5Dget_space(set_.id_), H5Sclose);
+  H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  const Handle memory = space_of(count);
+  succeed(H5Dwrite(set_.id_, H5T_NATIVE_DOUBLE, memory, file_space, H5P_DEFAULT, row), name_);
+}
+
+}  // namespace foldproof

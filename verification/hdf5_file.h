@@ -1,0 +1,62 @@
+// Writing HDF5. The only door to the library: everything else sees these two classes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace foldproof {
+
+using Shape =
+    std::vector<unsigned long long>;  // lengths of an array's dimensions, outermost first; {}: one number
+
+/// An open file, a group or a dataset; closed when it goes out of scope. Every call throws std::runtime_error
+/// naming what could not be made or written. A '/' in a name becomes U+2215, which looks the same.
+class Hdf5 {
+ public:
+  /// A new file, in place of any that has this path.
+  static Hdf5 create_file(const std::string& path);
+
+  Hdf5(Hdf5&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Hdf5& operator=(Hdf5&&) = delete;
+  ~Hdf5();
+
+  Hdf5 group(const std::string& name) const;
+  void attribute(const std::string& name, const std::string& value) const;
+  void attribute(const std::string& name, double value) const;
+  void attribute(const std::string& name, int value) const;
+  void attribute(const std::string& name, const std::vector<std::string>& values) const;  // none: left out
+  Hdf5 dataset(const std::string& name, const std::vector<double>& values) const;
+  Hdf5 dataset(const std::string& name, const std::vector<std::string>& values) const;
+
+  /// An array of as many values as the shape says, row by row.
+  Hdf5 array(const std::string& name, const Shape& shape, const double* values) const;
+  Hdf5 array(const std::string& name, const Shape& shape, const int* values) const;
+  Hdf5 array(const std::string& name, const Shape& shape, const unsigned char* values) const;
+
+  /// Hands what was written so far to the operating system.
+  void flush() const;
+
+ private:
+  friend class GrowingDataset;
+  Hdf5(std::int64_t id, int (*close)(std::int64_t), const std::string& what);
+
+  std::int64_t id_;
+  int (*close_)(std::int64_t);
+};
+
+/// A dataset of doubles that grows along its first dimension, a row of the given shape at a time.
+class GrowingDataset {
+ public:
+  GrowingDataset(const Hdf5& parent, const std::string& name, const std::string& unit, Shape row);
+  void add(const double* row);
+
+ private:
+  Shape row_;
+  Hdf5 set_;
+  std::string name_;
+  unsigned long long length_ = 0;
+};
+
+}  // namespace foldproof

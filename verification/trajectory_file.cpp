@@ -1,0 +1,163 @@
+#include "verification/trajectory_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "verification/hdf5_file.h"
+#include "verification/whole_file.h"
+
+namespace foldproof {
+
+namespace {
+
+void write_mesh(const Hdf5& file, const Scene& scene, const System& system) {
+  const Hdf5 mesh = file.group("mesh");
+  const Shape::value_type particles = scene.mesh.particles(), triangles = scene.mesh.triangles.size();
+  mesh.array("triangles", {triangles, 3}, scene.mesh.triangles.data()->data());
+  mesh.array("rest_positions", {particles, 3}, scene.mesh.rest.data()).attribute("unit", "m");
+  mesh.array("mass", {particles}, system.mass.data()).attribute("unit", "kg");
+  std::vector<unsigned char> held;
+  for (Eigen::Index i = 0; i < system.inverse_mass.size(); ++i) held.push_back(system.inverse_mass[i] == 0);
+  mesh.array("held", {particles}, held.data());
+}
+
+constexpr const char* xdmf_head = R"(<?xml version="1.0" ?>
+<Xdmf Version="3.0">
+  <Domain>
+    <Grid Name="cloth" GridType="Collection" CollectionType="Temporal">
+)";
+
+constexpr const char* xdmf_frame = R"(      <Grid Name="frame {frame}" GridType="Uniform">
+        <Time Value="{time:.17g}"/>
+        <Topology TopologyType="Triangle" NumberOfElements="{triangles}">
+          <DataItem Dimensions="{triangles} 3" NumberType="Int" Precision="4" Format="HDF">{file}:/mesh/triangles</DataItem>
+        </Topology>
+        <Geometry GeometryType="XYZ">
+          <DataItem ItemType="HyperSlab" Dimensions="{particles} 3">
+            <DataItem Dimensions="3 3" Format="XML">{frame} 0 0 1 1 1 1 {particles} 3</DataItem>
+            <DataItem Dimensions="{frames} {particles} 3" NumberType="Float" Precision="8" Format="HDF">{file}:/frames/positions</DataItem>
+          </DataItem>
+        </Geometry>
+        <Attribute Name="velocity" AttributeType="Vector" Center="Node">
+          <DataItem ItemType="HyperSlab" Dimensions="{particles} 3">
+            <DataItem Dimensions="3 3" Format="XML">{frame} 0 0 1 1 1 1 {particles} 3</DataItem>
+            <DataItem Dimensions="{frames} {particles} 3" NumberType="Float" Precision="8" Format="HDF">{file}:/frames/velocities</DataItem>
+          </DataItem>
+        </Attribute>
+      </Grid>
+)";
+
+}  // namespace
+
+struct TrajectoryFile::Content {
+  std::string path;
+  Shape::value_type particles, triangles;
+  Hdf5 file, frames, diagnostics;
+  GrowingDataset time, positions, velocities;
+  std::vector<GrowingDataset> rows;  // scalars, in the order of `scalars` below
+  GrowingDataset linear, angular;
+  std::vector<double> frame_times;
+
+  Content(const std::string& to, const Scene& scene)
+      : path(to),
+        particles(Shape::value_type(scene.mesh.particles())),
+        triangles(scene.mesh.triangles.size()),
+        file(Hdf5::create_file(to + ".partial")),
+        frames(file.group("frames")),
+        diagnostics(file.group("diagnostics")),
+        time(frames, "time", "s", {}),
+        positions(frames, "positions", "m", {particles, 3}),
+        velocities(frames, "velocities", "m/s", {particles, 3}),
+        linear(diagnostics, "linear_momentum", "kg m/s", {3}),
+        angular(diagnostics, "angular_momentum", "kg m^2/s", {3}) {}
+
+  void write_xdmf() const {
+    const std::filesystem::path target(path);
+    const std::string name = std::filesystem::path(target).replace_extension(".xdmf").string();
+    std::ofstream out(name + ".partial");
+    out << xdmf_head;
+    for (size_t k = 0; k < frame_times.size(); ++k)
+      out << fmt::format(fmt::runtime(xdmf_frame), fmt::arg("frame", k), fmt::arg("time", frame_times[k]),
+                         fmt::arg("triangles", triangles), fmt::arg("particles", particles),
+                         fmt::arg("frames", frame_times.size()),
+                         fmt::arg("file", target.filename().string()));
+    out << "    </Grid>\n  </Domain>\n</Xdmf>\n";
+    out.close();
+    if (!out) throw std::runtime_error(name + ": cannot be written");
+    rename_when_whole(name + ".partial", name);
+  }
+};
+
+namespace {
+
+struct Scalar {
+  const char *name, *unit;
+  double (*of)(const Diagnostics&);
+};
+
+constexpr Scalar scalars[] = {
+    {"time", "s", [](const Diagnostics& d) { return d.time; }},
+    {"step", "s", [](const Diagnostics& d) { return d.step; }},
+    {"kinetic_energy", "J", [](const Diagnostics& d) { return d.energy.kinetic; }},
+    {"stretch_energy", "J", [](const Diagnostics& d) { return d.energy.stretch; }},
+    {"bending_energy", "J", [](const Diagnostics& d) { return d.energy.bending; }},
+    {"gravity_energy", "J", [](const Diagnostics& d) { return d.energy.gravity; }},
+    {"damping_work", "J", [](const Diagnostics& d) { return d.damping_work; }},
+    {"cg_iterations", "1", [](const Diagnostics& d) { return double(d.cg_iterations); }},
+    {"cg_residual", "1", [](const Diagnostics& d) { return d.cg_residual; }},
+    {"step_over_elastic_limit", "1", [](const Diagnostics& d) { return d.step_over_elastic_limit; }},
+    {"seconds", "s", [](const Diagnostics& d) { return d.seconds; }},
+};
+
+}  // namespace
+
+TrajectoryFile::TrajectoryFile(const std::string& path, const Scene& scene, const System& system,
+                               const Provenance& provenance)
+    : content_(std::make_unique<Content>(path, scene)) {
+  const Hdf5& file = content_->file;
+  write_provenance(file, provenance);
+  file.attribute("case_name", scene.name);
+  file.attribute("title", scene.title);
+  file.attribute("about", scene.about);
+  file.attribute("case_text", scene.text);
+  file.attribute("integrator", scene.integrator);
+  file.attribute("built", built_parts(scene, system));
+  file.attribute("frames_wanted",
+                 int(std::lround(std::ceil(scene.schedule.end / scene.schedule.frame_interval - 1e-9))) + 1);
+  write_mesh(file, scene, system);
+  for (const Scalar& scalar : scalars)
+    content_->rows.emplace_back(content_->diagnostics, scalar.name, scalar.unit, Shape{});
+}
+
+TrajectoryFile::~TrajectoryFile() = default;
+
+void TrajectoryFile::add_frame(const State& s) {
+  content_->time.add(&s.time);
+  content_->positions.add(s.x.data());
+  content_->velocities.add(s.v.data());
+  content_->frame_times.push_back(s.time);
+  content_->file.flush();
+}
+
+void TrajectoryFile::add_diagnostics(const Diagnostics& row) {
+  for (size_t k = 0; k < std::size(scalars); ++k) {
+    const double value = scalars[k].of(row);
+    content_->rows[k].add(&value);
+  }
+  content_->linear.add(row.linear_momentum.data());
+  content_->angular.add(row.angular_momentum.data());
+}
+
+void TrajectoryFile::finish(const std::string& stopped, double seconds) {
+  content_->file.attribute("stopped", stopped);
+  content_->file.attribute("seconds", seconds);
+  const std::string path = content_->path;
+  content_->write_xdmf();
+  content_.reset();
+  rename_when_whole(path + ".partial", path);
+}
+
+}  // namespace foldproof
