@@ -50,6 +50,16 @@ void make_folder(const std::string& folder) {
   if (error) throw InputError(folder + ": cannot make this folder: " + error.message());
 }
 
+std::vector<std::string> names_of_case_findings() {
+  std::vector<std::string> names;
+  for (const std::string& name : built_in_cases()) {
+    const Case shown = built_in_case(name);
+    for (const Expectation& expectation : shown.expectations)
+      names.push_back(finding_name(shown.scene, expectation));
+  }
+  return names;
+}
+
 int list(const Options& options) {
   nlohmann::json json = {{"checks", nlohmann::json::array()}, {"studies", nlohmann::json::array()}};
   for (const Check& check : all_checks())
@@ -57,6 +67,7 @@ int list(const Options& options) {
   for (const Study& study : all_studies())
     json["studies"].push_back({{"name", study.name}, {"claim", study.claim}, {"source", study.source}});
   json["cases"] = built_in_cases();
+  json["case_findings"] = names_of_case_findings();
   json["integrators"] = nlohmann::json::array();
   for (const Integrator& i : integrators())
     json["integrators"].push_back(
@@ -78,35 +89,44 @@ int list(const Options& options) {
   return all_hold;
 }
 
+nlohmann::json told(const CaseRun& run, const Options& options) {
+  const Work& work = run.outcome.work;
+  nlohmann::json json = {{"case", run.record.name},
+                         {"file", options.out + "/" + run.record.file},
+                         {"stopped", run.record.stopped},
+                         {"steps", run.outcome.steps},
+                         {"time", run.outcome.last.time},
+                         {"seconds", run.record.seconds},
+                         {"cg_iterations", work.cg_iterations},
+                         {"solves", work.solves},
+                         {"elastic_evaluations", work.elastic_evaluations},
+                         {"unfinished_solves", work.unfinished_solves},
+                         {"findings", nlohmann::json::array()}};
+  for (const Record& record : run.findings)
+    json["findings"].push_back({{"name", record.name}, {"outcome", record.outcome}});
+  return json;
+}
+
 int simulate_case(const Options& options) {
   make_folder(options.out);
-  const Scene scene = read_scene(options.file, options.overrides);
-  const System system = build_system(scene);
-  say(fmt::format("{}: {}", scene.name, fmt::join(built_parts(scene, system), "; ")));
-  const CaseRun run = run_case(scene, options.out, provenance(options.command));
+  const Case shown = case_of_file(options.file, options.overrides);
+  const Scene& scene = shown.scene;
+  say(fmt::format("{}: {}", scene.name, fmt::join(built_parts(scene, build_system(scene)), "; ")));
+  const CaseRun run = run_case(shown, options.out, provenance(options.command));
   const Work& work = run.outcome.work;
-  if (options.json) {
-    const nlohmann::json json = {{"case", scene.name},
-                                 {"file", options.out + "/" + run.record.file},
-                                 {"stopped", run.record.stopped},
-                                 {"steps", run.outcome.steps},
-                                 {"time", run.outcome.last.time},
-                                 {"seconds", run.record.seconds},
-                                 {"cg_iterations", work.cg_iterations},
-                                 {"solves", work.solves},
-                                 {"elastic_evaluations", work.elastic_evaluations},
-                                 {"unfinished_solves", work.unfinished_solves}};
-    fmt::print("{}\n", json.dump(1));
-  } else {
-    fmt::print("{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n", options.out,
-               run.record.file, run.outcome.last.time, run.outcome.steps,
+  RunRecord expected;
+  expected.records = run.findings;
+  if (options.json)
+    fmt::print("{}\n", told(run, options).dump(1));
+  else
+    fmt::print("{}{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n",
+               listing(expected), options.out, run.record.file, run.outcome.last.time, run.outcome.steps,
                double(work.cg_iterations) / double(std::max(1L, work.solves)), run.record.seconds);
-  }
   if (work.unfinished_solves > 0)
     say(fmt::format("warning: {} of {} solves hit the cap on iterations", work.unfinished_solves,
                     work.solves));
   if (!run.record.stopped.empty()) say("stopped: " + run.record.stopped);
-  return run.record.stopped.empty() ? all_hold : 1;
+  return run.record.stopped.empty() ? exit_code(expected) : 1;
 }
 
 /// Names the faults, writes the files that were asked for, prints, and gives the exit code.
@@ -166,9 +186,10 @@ int verify(Options options) {
   RunRecord run = new_run(options);
   const auto start = std::chrono::steady_clock::now();
   run_selection(select({{}, {"check", "study"}}), reference_subject(), tier_of(options), run);
-  for (const std::string& name : built_in_cases()) {
-    CaseRun done =
-        run_case(read_scene(project_folder() + "/cases/" + name + ".toml"), options.out, run.provenance);
+  for (const std::string& name : hard_cases())
+    for (Record& record : judge_case(built_in_case(name))) run.records.push_back(std::move(record));
+  for (const std::string& name : shown_cases()) {
+    CaseRun done = run_case(built_in_case(name), options.out, run.provenance);
     run.cases.push_back(done.record);
     for (Record& record : done.findings) run.records.push_back(std::move(record));
   }

@@ -90,6 +90,23 @@ class ProgramTest(unittest.TestCase):
             self.assertTrue(np.isfinite(file["frames/positions"][:]).all())
             self.assertIn("step", file.attrs["stopped"])
 
+    def test_a_case_says_what_must_hold(self) -> None:
+        text = (ROOT / "cases/hinge.toml").read_text() + '[expect.takes_steps]\nat_least = 1e9\nwhy = "a trial"\n'
+        case = self.write("mine.toml", text)
+        done = self.simulate(case, "--set", "time.end=0.05")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertRegex(done.stdout, r"fails +case\.mine\.takes-steps")
+        done = self.simulate(case, "--set", "time.end=0.05", "--set", "expect.takes_steps.at_least=3", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["findings"],
+                         [{"name": "case.mine.takes-steps", "outcome": "holds"}])
+
+    def test_expectations_of_shipped_cases_are_asked_for_by_name(self) -> None:
+        done = run("check", "case.sharp_fold.folds-back-to")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"holds +case\.sharp_fold\.folds-back-to")
+        self.assertIn("case.sharp_fold.folds-back-to", json.loads(run("list", "--json").stdout)["case_findings"])
+
     def test_evaluate_bending(self) -> None:
         row = HINGE_ROW + [0.1, -0.2, 0.3, 0.2, 0.1, -0.1, 0, 0, 0.05, 0.02, 0, 0] + [2e-3, 3e-4, 0.4]
         done = run("evaluate", "bending", self.write("rows.csv", ",".join(map(str, row)) + "\n"))

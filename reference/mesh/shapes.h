@@ -25,6 +25,7 @@ struct Sheet {
   int columns = 0, rows = 0;  // cells along x and along y; at least 1
   double jitter = 0;          // jittered only: largest displacement over width/columns [1]; in [0, 0.5)
   unsigned seed = 0;          // jittered and random_delaunay only
+  double grading = 1;  // patterns of squares only: last cell's width over the first one's, along x and y [1]
 };
 
 /// Vertices are numbered row by row from y = 0 up, from x = 0 within a row; triangles follow their vertices.
@@ -33,6 +34,7 @@ struct Sheet {
 /// the border. With height 0 all edges are width/columns long but those of the half triangles (1/2 and
 /// sqrt(3)/2 of it); a given height scales y.
 /// jittered: displacements are uniform in a disc, which is scaled like y.
+/// grading: cells grow by the same factor from one to the next, along x and along y alike.
 /// random_delaunay: columns and rows fix the vertices on the border; no two vertices are closer than 0.8 of
 /// the shorter side of a cell, which fills the sheet with about 1.1 columns * rows vertices when cells are
 /// square (sides 1:4 at most).

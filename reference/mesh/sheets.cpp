@@ -36,6 +36,19 @@ void refuse_bad_arguments(const Sheet& sheet) {
     refuse("jitter", sheet.jitter, "give a fraction in [0, 0.5)");
 }
 
+void refuse_bad_grading(const Sheet& sheet) {
+  if (!(sheet.grading > 0) || !std::isfinite(sheet.grading))
+    refuse("grading", sheet.grading, "give a positive ratio of the last cell's width to the first one's");
+  const bool is_of_squares =
+      !has_offset_rows(sheet.pattern) && sheet.pattern != SheetPattern::random_delaunay;
+  if (sheet.grading == 1) return;
+  if (!is_of_squares)
+    refuse("grading", sheet.grading,
+           "leave it at 1, or choose one_diagonal, alternating, union_jack or criss_cross");
+  if (sheet.columns < 2 || sheet.rows < 2)
+    refuse("grading", sheet.grading, "leave it at 1, or give two columns and rows");
+}
+
 double row_height(const Sheet& sheet) {
   return sheet.height > 0 ? sheet.height / sheet.rows : row_ratio * sheet.width / sheet.columns;
 }
@@ -46,13 +59,24 @@ double uniform(std::mt19937_64& random) { return double(random() >> 11) * 0x1p-5
 
 // --- squares ---
 
+/// Where line `i` of `cells` cells lies, as a fraction of the side: i/cells, or with q = grading^(1/(cells - 1))
+/// (q^i - 1)/(q^cells - 1), so that each cell is q times as wide as the one before.
+double line_at(double i, int cells, double grading) {
+  if (grading == 1) return i / cells;
+  const double log_factor = std::log(grading) / (cells - 1);
+  return std::expm1(i * log_factor) / std::expm1(cells * log_factor);
+}
+
+/// The grid's point at column i and row j, whole or half.
+Vector3 grid_point(const Sheet& sheet, double i, double j) {
+  return {sheet.width * line_at(i, sheet.columns, sheet.grading),
+          sheet.height * line_at(j, sheet.rows, sheet.grading), 0};
+}
+
 /// Vertices of the grid, `stride` apart from row to row; those between are left to the caller.
 void place_grid(const Sheet& sheet, int stride, PerParticle3& x) {
   for (int j = 0; j <= sheet.rows; ++j) {
-    for (int i = 0; i <= sheet.columns; ++i) {
-      x.col(j * stride + i) =
-          Vector3(sheet.width * (double(i) / sheet.columns), sheet.height * (double(j) / sheet.rows), 0);
-    }
+    for (int i = 0; i <= sheet.columns; ++i) x.col(j * stride + i) = grid_point(sheet, i, j);
   }
 }
 
@@ -91,8 +115,7 @@ TriangleMesh cross_squares(const Sheet& sheet) {
   for (int j = 0; j < sheet.rows; ++j) {
     for (int i = 0; i < sheet.columns; ++i) {
       const int a = j * stride + i, b = a + 1, c = b + stride, d = a + stride, centre = a + sheet.columns + 1;
-      x.col(centre) =
-          Vector3(sheet.width * ((i + 0.5) / sheet.columns), sheet.height * ((j + 0.5) / sheet.rows), 0);
+      x.col(centre) = grid_point(sheet, i + 0.5, j + 0.5);
       for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, d}, std::pair{d, a}}) {
         triangles.push_back({from, to, centre});
       }
@@ -248,6 +271,7 @@ TriangleMesh scattered(const Sheet& sheet) {
 
 TriangleMesh make_sheet(const Sheet& sheet) {
   refuse_bad_arguments(sheet);
+  refuse_bad_grading(sheet);
   switch (sheet.pattern) {
     case SheetPattern::one_diagonal:
     case SheetPattern::alternating:

@@ -132,6 +132,10 @@ bool KeyTable::is_text(const std::string& key) const {
   return has(key) && std::holds_alternative<std::string>(entries.at(key).data);
 }
 
+bool KeyTable::is_list(const std::string& key) const {
+  return has(key) && std::holds_alternative<std::vector<KeyValue>>(entries.at(key).data);
+}
+
 Vector3 KeyTable::vector(const std::string& key) const {
   Vector3 result;
   if (!as_vector(required(key), result)) wrong_type(key, "three numbers [x, y, z]");
@@ -195,6 +199,11 @@ std::vector<std::shared_ptr<KeyTable>> KeyTable::tables(const std::string& key) 
   return result;
 }
 
+void KeyTable::leave(const std::string& key) const {
+  asked_.insert(key);
+  left_.insert(key);
+}
+
 void KeyTable::refuse_unused() const {
   std::string known;
   for (const std::string& key : asked_) known += (known.empty() ? "" : ", ") + key;
@@ -202,6 +211,7 @@ void KeyTable::refuse_unused() const {
     if (!asked_.contains(key))
       throw InputError(value.where + ": unknown key '" + key + "' in " +
                        (name_.empty() ? "the file" : "[" + name_ + "]") + "; known here: " + known);
+    if (left_.contains(key)) continue;
     if (const auto* below = std::get_if<std::shared_ptr<KeyTable>>(&value.data)) (*below)->refuse_unused();
     if (const auto* list = std::get_if<std::vector<KeyValue>>(&value.data))
       for (const KeyValue& entry : *list)

@@ -34,6 +34,7 @@ class KeyTable {
   std::string text(const std::string& key) const;
   std::string text_or(const std::string& key, const std::string& otherwise) const;
   bool is_text(const std::string& key) const;
+  bool is_list(const std::string& key) const;
   Vector3 vector(const std::string& key) const;
   Vector3 vector_or(const std::string& key, const Vector3& otherwise) const;
   std::vector<long> integers(const std::string& key) const;
@@ -44,6 +45,9 @@ class KeyTable {
   std::shared_ptr<KeyTable> table(const std::string& key) const;
   /// The tables of [[key]]; empty if there is none.
   std::vector<std::shared_ptr<KeyTable>> tables(const std::string& key) const;
+
+  /// Leaves the key to another reader: it is known, and neither read nor searched by refuse_unused here.
+  void leave(const std::string& key) const;
 
   /// "file:line" of the key, or of the table if it lacks the key.
   std::string where(const std::string& key) const;
@@ -59,7 +63,7 @@ class KeyTable {
   [[noreturn]] void wrong_type(const std::string& key, const std::string& wanted) const;
 
   std::string name_, where_;
-  mutable std::set<std::string> asked_;
+  mutable std::set<std::string> asked_, left_;
 };
 
 /// Parses TOML text; `file` names it in messages. Throws InputError "file:line: ..." for a syntax error.

@@ -145,10 +145,18 @@ void read_hold(const KeyTable& keys, Scene& scene) {
   }
 }
 
+/// One factor for all directions, or one for each of x, y, z.
+Vector3 read_start_stretch(const KeyTable& keys) {
+  if (!keys.is_list("stretch")) return Vector3::Constant(positive_or(keys, "stretch", 1));
+  const Vector3 stretch = keys.vector("stretch");
+  if (!(stretch.minCoeff() > 0)) throw InputError(keys.where("stretch") + ": 'stretch' must be > 0");
+  return stretch;
+}
+
 void read_start(const KeyTable& keys, Scene& scene) {
   const Vector3 center = scene.x.rowwise().mean();
-  const double stretch = positive_or(keys, "stretch", 1);
-  scene.x = (stretch * (scene.x.colwise() - center)).colwise() + center;
+  const Vector3 stretch = read_start_stretch(keys);
+  scene.x = (stretch.asDiagonal() * (scene.x.colwise() - center)).colwise() + center;
 
   const Vector3 spin = keys.vector_or("spin", Vector3::Zero()) * radians_per_degree;
   const Vector3 velocity = keys.vector_or("velocity", Vector3::Zero());
@@ -210,6 +218,7 @@ Scene scene_from(const KeyTable& keys, const std::string& folder) {
   for (const auto& hold : keys.tables("hold")) read_hold(*hold, scene);
   read_time(*time, scene);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
+  keys.leave("expect");  // what must hold of the run: whoever judges it reads that table
   keys.refuse_unused();
   return scene;
 }

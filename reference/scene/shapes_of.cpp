@@ -50,6 +50,7 @@ TriangleMesh read_sheet(const KeyTable& keys) {
   sheet.rows = count(keys, "rows");
   sheet.jitter = keys.number_or("jitter", 0);
   sheet.seed = unsigned(keys.integer_or("seed", 1));
+  sheet.grading = keys.number_or("grading", 1);
   return make_sheet(sheet);
 }
 

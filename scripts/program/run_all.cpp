@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "convergence/studies.h"
 #include "scripts/program/progress.h"
+#include "scripts/program/run_case.h"
 #include "verification/all_checks.h"
 
 namespace foldproof {
@@ -59,11 +61,39 @@ bool add_named(const std::string& name, const std::vector<Check>& checks, const 
   return found;
 }
 
+/// Adds the shipped cases that "case", "case.NAME" or "case.NAME.FINDING" chooses.
+bool add_cases(const std::string& name, Selection& selection) {
+  bool found = false;
+  for (const std::string& built_in : built_in_cases()) {
+    const std::string group = "case." + std::filesystem::path(built_in).filename().string();
+    const bool is_finding = name.starts_with(group + ".");
+    if (!is_finding && !chooses(name, group)) continue;
+    if (is_finding) selection.findings.push_back(name);
+    const auto same = [&](const Case& other) { return "case." + other.scene.name == group; };
+    if (std::none_of(selection.cases.begin(), selection.cases.end(), same))
+      selection.cases.push_back(built_in_case(built_in));
+    found = true;
+  }
+  return found;
+}
+
 void say_unless_it_holds(const Record& record) {
   if (record.outcome == "holds") return;
   const Verdict& v = record.finding.verdict;
   say(fmt::format("  {}: {} (measured {:.4g}, bound {:.4g} {}) {}", record.outcome, record.name, v.measured,
                   v.bound, v.unit, record.finding.note));
+}
+
+/// Adds to the run the records that are wanted: all, if none is named, and always that of `name` itself.
+void add_wanted(std::vector<Record> records, const std::vector<std::string>& wanted, const std::string& name,
+                RunRecord& run) {
+  for (Record& record : records) {
+    const auto chosen = [&](const std::string& one) { return chooses(one, record.name); };
+    if (!wanted.empty() && record.name != name && std::none_of(wanted.begin(), wanted.end(), chosen))
+      continue;
+    say_unless_it_holds(record);
+    run.records.push_back(std::move(record));
+  }
 }
 
 }  // namespace
@@ -77,7 +107,8 @@ Selection select(const Wanted& wanted) {
     if (is_named(wanted.kinds, "study")) selection.studies = studies;
   }
   for (const std::string& name : wanted.names)
-    if (!add_named(name, checks, studies, selection)) refuse(name, checks, studies);
+    if (!add_named(name, checks, studies, selection) && !add_cases(name, selection))
+      refuse(name, checks, studies);
   return selection;
 }
 
@@ -95,21 +126,14 @@ void run_selection(const Selection& selection, const Subject& subject, Tier tier
     auto [records, whole] =
         run_study(study, subject, tier, [&](double part) { progress.show((done + 30 * part) / parts); });
     done += 30;
-    for (Record& record : records) {
-      const auto& wanted = selection.findings;
-      const bool is_wanted = wanted.empty() || record.name == study.name ||
-                             std::any_of(wanted.begin(), wanted.end(),
-                                         [&](const auto& name) { return chooses(name, record.name); });
-      if (!is_wanted) continue;
-      say_unless_it_holds(record);
-      run.records.push_back(std::move(record));
-    }
+    add_wanted(std::move(records), selection.findings, study.name, run);
     run.studies.push_back(std::move(whole));
   }
+  for (const Case& shown : selection.cases) add_wanted(judge_case(shown), selection.findings, "", run);
   for (const std::string& name : selection.findings)
     if (std::none_of(run.records.begin(), run.records.end(),
                      [&](const Record& r) { return chooses(name, r.name) || r.outcome == "fails"; }))
-      throw InputError("no study has a finding '" + name + "'");
+      throw InputError("no study or case has a finding '" + name + "'");
 }
 
 std::string summary(const RunRecord& run) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "verification/cases/expectations.h"
 #include "verification/check.h"
 #include "verification/results_file.h"
 #include "verification/subject.h"
@@ -13,11 +14,13 @@ namespace foldproof {
 struct Selection {
   std::vector<Check> checks;
   std::vector<Study> studies;
-  std::vector<std::string> findings;  // if not empty: only these of the studies' findings are wanted
+  std::vector<Case> cases;
+  std::vector<std::string>
+      findings;  // if not empty: only these of the studies' and cases' findings are wanted
 };
 
 /// What the names choose: checks, studies, single findings of studies, or groups ("bending" for all that
-/// begins with "bending."). No name:
+/// begins with "bending."), and "case.NAME" for what is expected of a shipped case. No name:
 /// all checks (and all studies if with_studies). Throws InputError for a name that chooses nothing, with the
 /// nearest known ones.
 struct Wanted {

@@ -4,21 +4,32 @@
 #include <vector>
 
 #include "reference/dynamics/simulate.h"
-#include "reference/scene/scene.h"
+#include "verification/cases/expectations.h"
 #include "verification/results_file.h"
 
 namespace foldproof {
 
 struct CaseRun {
   CaseRecord record;
-  std::vector<Record> findings;  // that it reached its end, and that its energy is accounted for
+  std::vector<Record> findings;  // what was expected of it, judged
   Outcome outcome;
 };
 
-/// Simulates the scene with progress shown and writes <folder>/<name>.h5 and .xdmf.
-CaseRun run_case(const Scene& scene, const std::string& folder, const Provenance& provenance);
+/// Simulates the case with progress shown and writes <folder>/<name>.h5 and .xdmf.
+CaseRun run_case(const Case& shown, const std::string& folder, const Provenance& provenance);
 
-/// The cases that `verify` runs: cases/<name>.toml of the project.
+/// The same without files: what is expected, judged.
+std::vector<Record> judge_case(const Case& shown);
+
+/// The cases that `verify` runs, cases/<name>.toml of the project: those that it shows, and those at the edge
+/// of what the method takes, which it only judges.
+std::vector<std::string> shown_cases();
+std::vector<std::string> hard_cases();
+
+/// Both.
 std::vector<std::string> built_in_cases();
+
+/// Reads cases/<name>.toml of the project, and adds what is expected of every shipped case.
+Case built_in_case(const std::string& name);
 
 }  // namespace foldproof

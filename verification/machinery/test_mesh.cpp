@@ -204,6 +204,25 @@ TEST_CASE("mesh: sheets lie in z = 0, face +z, fill their rectangle and repeat b
   }
 }
 
+TEST_CASE("mesh: graded sheets grow by one factor from cell to cell, and refuse what cannot grow") {
+  const double growth = std::pow(1000.0, 1.0 / 7);
+  const TriangleMesh mesh = make_sheet({SheetPattern::union_jack, 1.3, 0.9, 8, 5, 0, 0, 1000});
+  const auto width = [&](int column) { return mesh.rest(0, column + 1) - mesh.rest(0, column); };
+  for (int column = 0; column < 7; ++column) CHECK(width(column + 1) / width(column) == Approx(growth));
+  CHECK(width(7) / width(0) == Approx(1000));
+  CHECK(mesh.rest.rowwise().maxCoeff() == Vector3(1.3, 0.9, 0));
+  CHECK(triangle_areas(mesh.triangles, mesh.rest).sum() == Approx(1.3 * 0.9));
+  const TriangleMesh crossed = make_sheet({SheetPattern::criss_cross, 1.3, 0.9, 8, 5, 0, 0, 30});
+  CHECK(triangle_areas(crossed.triangles, crossed.rest).minCoeff() > 0);
+
+  CHECK_THROWS_WITH(make_sheet({SheetPattern::one_diagonal, 1.3, 0.9, 8, 5, 0, 0, -2}),
+                    Catch::Matchers::Contains("grading is -2"));
+  CHECK_THROWS_WITH(make_sheet({SheetPattern::jittered, 1.3, 0.9, 8, 5, 0.1, 0, 3}),
+                    Catch::Matchers::Contains("union_jack"));
+  CHECK_THROWS_WITH(make_sheet({SheetPattern::one_diagonal, 1.3, 0.9, 8, 1, 0, 0, 3}),
+                    Catch::Matchers::Contains("two columns and rows"));
+}
+
 TEST_CASE("mesh: equilateral sheets of free height have equal edges, but for the halves on the border") {
   const TriangleMesh mesh = make_sheet({SheetPattern::equilateral, 1.3, 0, 13, 10, 0, 0});
   const Eigen::VectorXd lengths = rest_lengths(mesh);

@@ -1,0 +1,78 @@
+#include "verification/cases/expectations.h"
+
+#include <algorithm>
+
+#include "reference/scene/key_file.h"
+#include "verification/cases/quantities.h"
+
+namespace foldproof {
+
+namespace {
+
+[[noreturn]] void refuse_unknown(const std::string& where, const std::string& key) {
+  std::string known;
+  for (const Quantity& quantity : quantities())
+    known += (known.empty() ? "" : ", ") + std::string(quantity.key);
+  throw InputError(where + ": unknown quantity '" + key + "' in [expect]; known: " + known);
+}
+
+Expectation read_entry(const KeyTable& expect, const std::string& key, const Scene& scene) {
+  const std::string where = expect.where(key);
+  const Quantity* quantity = find_quantity(key);
+  if (!quantity) refuse_unknown(where, key);
+  const std::string refusal = quantity->refusal ? quantity->refusal(scene) : "";
+  if (!refusal.empty()) throw InputError(where + ": '" + key + "' cannot be expected: " + refusal);
+  const auto entry = expect.table(key);
+  const char* bound = quantity->sense == Sense::at_most ? "at_most" : "at_least";
+  Expectation expectation{key, entry->number(bound), entry->text("why")};
+  entry->refuse_unused();
+  if (expectation.why.empty())
+    throw InputError(entry->where("why") + ": 'why' is empty; a bound carries its reason in words");
+  return expectation;
+}
+
+bool is_driven(const Scene& scene) {
+  for (const PrescribedParticle& p : scene.led)
+    if (p.motion.velocity.norm() > 0 || p.motion.amplitude.norm() > 0 || p.motion.angular_velocity.norm() > 0)
+      return true;
+  return false;
+}
+
+void add_unless_stated(const Expectation& usual, std::vector<Expectation>& all) {
+  const auto is_it = [&](const Expectation& stated) { return stated.key == usual.key; };
+  if (std::none_of(all.begin(), all.end(), is_it)) all.push_back(usual);
+}
+
+}  // namespace
+
+Case case_of_file(const std::string& path, const std::vector<std::string>& overrides) {
+  Case result{read_scene(path, overrides), {}};
+  const auto keys = parse_keys(read_text(path), path);
+  for (const std::string& assignment : overrides) set_key(*keys, assignment);
+  if (const auto expect = keys->table("expect"))
+    for (const auto& [key, value] : expect->entries)
+      result.expectations.push_back(read_entry(*expect, key, result.scene));
+  return result;
+}
+
+Case with_usual_expectations(Case shown) {
+  const Scene& scene = shown.scene;
+  add_unless_stated({"runs_to_its_end", 0, "a shipped case must not stop early"}, shown.expectations);
+  const bool has_energy = !scene.bending || scene.bending->weighting == Weighting::rest;
+  if (has_energy && !is_driven(scene))
+    add_unless_stated(
+        {"energy_is_accounted_for", 0.01,
+         "schemes of second order at half the elastic limit: an oscillation of (omega h)^2/8 in "
+         "energy where the stiffest modes carry a small part of it; one percent leaves no room "
+         "for a force that is not the gradient of its energy"},
+        shown.expectations);
+  return shown;
+}
+
+std::string finding_name(const Scene& scene, const Expectation& expectation) {
+  std::string name = "case." + scene.name + "." + expectation.key;
+  std::replace(name.end() - std::ptrdiff_t(expectation.key.size()), name.end(), '_', '-');
+  return name;
+}
+
+}  // namespace foldproof

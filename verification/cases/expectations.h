@@ -1,0 +1,37 @@
+// What must hold of a case's run: the [expect] table of its file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/scene/scene.h"
+
+namespace foldproof {
+
+/// One entry of [expect]: `key = { at_most = bound, why = "..." }`, or at_least where the quantity is one to be
+/// reached. Keys, units and what is measured: verification/cases/quantities.h.
+struct Expectation {
+  std::string key;
+  double bound;     // in the quantity's unit
+  std::string why;  // the bound's reason in words
+};
+
+/// A scene with what must hold of it.
+struct Case {
+  Scene scene;
+  std::vector<Expectation> expectations;
+};
+
+/// Reads the case file's scene and its [expect] table. Throws InputError "file:line: ..." for what read_scene
+/// refuses, an unknown quantity, one that makes no sense for the scene, and an entry without bound or reason.
+///   overrides   "a.b=c", applied in order; expect.KEY.at_most=... is one, too
+Case case_of_file(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// Adds what is expected of every shipped case that does not say otherwise: that it runs to its end and, where
+/// the forces have an energy and nothing is driven, that the energy is accounted for.
+Case with_usual_expectations(Case shown);
+
+/// The name of the finding: "case.<scene>.<key>", with hyphens.
+std::string finding_name(const Scene& scene, const Expectation& expectation);
+
+}  // namespace foldproof

@@ -1,0 +1,59 @@
+#include "verification/cases/judge.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace foldproof {
+
+namespace {
+
+/// A quantity to be reached is judged by what it lacks.
+Verdict verdict_of(const Quantity& quantity, const Expectation& expectation, double seen) {
+  if (quantity.sense == Sense::at_most) return {seen, expectation.bound, 0, quantity.unit, expectation.why};
+  return {expectation.bound - seen, 0, 0, quantity.unit, expectation.why};
+}
+
+std::string note_of(const Quantity& quantity, const Expectation& expectation, double seen) {
+  if (quantity.sense == Sense::at_most) return "";
+  return fmt::format("reached {:.6g} {}; measured is what lacks of {:.6g}", seen, quantity.unit,
+                     expectation.bound);
+}
+
+}  // namespace
+
+void CaseJudge::enter(const State& frame) {
+  for (size_t k = 0; k < seen_.size(); ++k)
+    if (const auto of_frame = find_quantity(case_.expectations[k].key)->of_frame)
+      seen_[k].see(of_frame(case_.scene, frame));
+}
+
+std::vector<Record> CaseJudge::judged(const Outcome& outcome) const {
+  std::vector<Record> records;
+  const RunSeen run{case_.scene, book_, outcome};
+  for (size_t k = 0; k < seen_.size(); ++k) {
+    const Expectation& expectation = case_.expectations[k];
+    const Quantity& quantity = *find_quantity(expectation.key);
+    double seen = quantity.of_run ? quantity.of_run(run) : seen_[k].value();
+    std::string note = note_of(quantity, expectation, seen);
+    if (outcome.stop) note = "the run stopped: " + described(*outcome.stop);
+    const bool is_end = expectation.key == "runs_to_its_end";
+    if (outcome.stop && !is_end) seen = std::numeric_limits<double>::quiet_NaN();
+    Record record;
+    record.name = finding_name(case_.scene, expectation);
+    record.kind = "check";
+    record.claim = quantity.claim;
+    record.source = case_.scene.title;
+    record.finding = {verdict_of(quantity, expectation, seen), {}, note};
+    record.outcome = name_of(ruling(record.finding.verdict));
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+std::string described(const Stop& stop) {
+  const std::string who = stop.particle < 0 ? "" : fmt::format(", particle {}", stop.particle);
+  return fmt::format("{} (step {}, after t = {:.9g} s{})", stop.reason, stop.step, stop.time, who);
+}
+
+}  // namespace foldproof

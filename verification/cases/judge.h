@@ -1,0 +1,32 @@
+// Measures what is expected of a case while it runs, and says what came of it.
+#pragma once
+
+#include <vector>
+
+#include "verification/cases/expectations.h"
+#include "verification/cases/quantities.h"
+
+namespace foldproof {
+
+/// Give it every row of diagnostics and every frame of the run; then ask.
+class CaseJudge {
+ public:
+  explicit CaseJudge(const Case& of) : case_(of), seen_(of.expectations.size()) {}
+
+  void enter(const Diagnostics& row) { book_.enter(row, case_.scene.schedule.end); }
+  void enter(const State& frame);
+
+  /// One record for each expectation, named finding_name(...). Of a run that stopped, all but
+  /// runs_to_its_end fail: nothing is known of what was to come.
+  std::vector<Record> judged(const Outcome& outcome) const;
+
+ private:
+  const Case& case_;
+  RunBook book_;
+  std::vector<Worst> seen_;  // largest over the frames, one for each expectation
+};
+
+/// "reason (step n, after t = ... s, particle i)".
+std::string described(const Stop& stop);
+
+}  // namespace foldproof

@@ -1,0 +1,162 @@
+#include "verification/cases/quantities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace foldproof {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double degrees_per_radian = 180 / 3.14159265358979323846;
+
+// ---- of the whole run
+
+double stops(const RunSeen& run) { return run.outcome.stop ? 1 : 0; }
+
+double energy_unaccounted(const RunSeen& run) { return run.book.balance.value() / run.book.exchanged; }
+
+double energy_drift(const RunSeen& run) {
+  const RunBook& book = run.book;
+  return std::abs(book.late / book.late_time - book.early / book.early_time) / book.exchanged;
+}
+
+/// An upper bound on sum m |v| at any time, by Cauchy and Schwarz from the kinetic energy [kg m/s].
+double momentum_scale(const RunSeen& run) {
+  return std::sqrt(2 * lumped_masses(run.scene.mesh, run.scene.density).sum() * run.book.largest_kinetic);
+}
+
+double linear_change(const RunSeen& run) { return run.book.linear.value() / momentum_scale(run); }
+
+/// An upper bound on sum m |x| |v| while the cloth is no farther from the origin than at its start or end.
+double angular_change(const RunSeen& run) {
+  const double reach = std::sqrt(std::max(run.scene.x.colwise().squaredNorm().maxCoeff(),
+                                          run.outcome.last.x.colwise().squaredNorm().maxCoeff()));  // m
+  return run.book.angular.value() / (reach * momentum_scale(run));
+}
+
+double steps(const RunSeen& run) { return double(run.outcome.steps); }
+
+double unfinished(const RunSeen& run) { return double(run.outcome.work.unfinished_solves); }
+
+// ---- of one frame
+
+double distance_from_plane(const Scene& scene, const State& s) {
+  Worst worst;
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i) worst.see(std::abs(s.x(2, i) - scene.mesh.rest(2, 0)));
+  return worst.value();
+}
+
+double angle_change(const Scene& scene, const State& s) {
+  const std::vector<double> angles = hinge_angles(scene.mesh, s.x);
+  Worst worst;
+  for (size_t h = 0; h < angles.size(); ++h)
+    worst.see(std::abs(std::remainder(angles[h] - scene.rest_angles[h], 2 * M_PI)) * degrees_per_radian);
+  return worst.value();
+}
+
+double largest_angle(const Scene& scene, const State& s, double sign) {
+  double largest = -180;
+  for (const double angle : hinge_angles(scene.mesh, s.x)) {
+    if (std::isnan(angle)) return nan;
+    largest = std::max(largest, sign * angle * degrees_per_radian);
+  }
+  return largest;
+}
+
+double folded(const Scene& scene, const State& s) { return largest_angle(scene, s, 1); }
+double folded_back(const Scene& scene, const State& s) { return largest_angle(scene, s, -1); }
+
+double length_change(const Scene& scene, const State& s) {
+  const Eigen::VectorXd lengths = scene.stretch->rest_length_scale * rest_lengths(scene.mesh);
+  Worst worst;
+  for (size_t e = 0; e < scene.mesh.edges.size(); ++e) {
+    const Edge& edge = scene.mesh.edges[e];
+    worst.see(std::abs((s.x.col(edge.b) - s.x.col(edge.a)).norm() / lengths[Eigen::Index(e)] - 1));
+  }
+  return worst.value();
+}
+
+// ---- refusals
+
+std::string without_plane(const Scene& scene) {
+  if (distance_from_plane(scene, start_state(scene)) >
+      0.01 * (scene.x.rowwise().maxCoeff() - scene.x.rowwise().minCoeff()).maxCoeff())
+    return "the cloth does not start in a plane of constant z";
+  return "";
+}
+
+std::string without_bending(const Scene& scene) { return scene.bending ? "" : "the case has no [bending]"; }
+std::string without_springs(const Scene& scene) { return scene.stretch ? "" : "the case has no [stretch]"; }
+
+}  // namespace
+
+void RunBook::enter(const Diagnostics& row, double end) {
+  if (!is_begun_) start = row;
+  is_begun_ = true;
+  const auto balance_of = [](const Diagnostics& of) { return of.energy.total() - of.damping_work; };
+  balance.see(std::abs(balance_of(row) - balance_of(start)));
+  exchanged = std::max({exchanged, std::abs(row.energy.kinetic - start.energy.kinetic),
+                        std::abs(row.energy.stretch - start.energy.stretch),
+                        std::abs(row.energy.bending - start.energy.bending),
+                        std::abs(row.energy.gravity - start.energy.gravity)});
+  largest_kinetic = std::max(largest_kinetic, row.energy.kinetic);
+  linear.see((row.linear_momentum - start.linear_momentum).norm());
+  angular.see((row.angular_momentum - start.angular_momentum).norm());
+  if (row.time <= 0.1 * end) {
+    early += row.step * balance_of(row);
+    early_time += row.step;
+  }
+  if (row.time >= 0.9 * end) {
+    late += row.step * balance_of(row);
+    late_time += row.step;
+  }
+}
+
+const std::vector<Quantity>& quantities() {
+  static const std::vector<Quantity> table = {
+      {"runs_to_its_end", "stops", "The run reaches its end with finite values.", Sense::at_most, nullptr,
+       stops, nullptr},
+      {"takes_steps", "steps", "The run takes as many steps as it should.", Sense::at_least, nullptr, steps,
+       nullptr},
+      {"solves_finish", "solves", "The linear solves keep their tolerance before their cap on iterations.",
+       Sense::at_most, nullptr, unfinished, nullptr},
+      {"energy_is_accounted_for", "1",
+       "Kinetic, elastic and gravitational energy less the work of damping stays what it was, over the "
+       "energy "
+       "exchanged.",
+       Sense::at_most, nullptr, energy_unaccounted, nullptr},
+      {"energy_does_not_drift", "1",
+       "The mean of that energy over the last tenth of the run is that over the first tenth, over the energy "
+       "exchanged.",
+       Sense::at_most, nullptr, energy_drift, nullptr},
+      {"linear_momentum_is_kept", "1", "Linear momentum stays what it was, over sqrt(2 m E_kin).",
+       Sense::at_most, nullptr, linear_change, nullptr},
+      {"angular_momentum_is_kept", "1",
+       "Angular momentum about the origin stays what it was, over the cloth's reach times sqrt(2 m E_kin).",
+       Sense::at_most, nullptr, angular_change, nullptr},
+      {"stays_flat", "m", "No particle leaves the plane of constant z in which the cloth lies.",
+       Sense::at_most, distance_from_plane, nullptr, without_plane},
+      {"leaves_its_plane", "m", "Some particle leaves the plane of constant z in which the cloth lies.",
+       Sense::at_least, distance_from_plane, nullptr, without_plane},
+      {"keeps_its_angles", "degrees", "Every hinge stays near its rest angle.", Sense::at_most, angle_change,
+       nullptr, without_bending},
+      {"folds_to", "degrees", "Some hinge folds this far to the positive side.", Sense::at_least, folded,
+       nullptr, without_bending},
+      {"folds_back_to", "degrees", "Some hinge folds this far to the negative side.", Sense::at_least,
+       folded_back, nullptr, without_bending},
+      {"keeps_its_lengths", "1", "Every edge stays near its rest length.", Sense::at_most, length_change,
+       nullptr, without_springs},
+  };
+  return table;
+}
+
+const Quantity* find_quantity(std::string_view key) {
+  for (const Quantity& quantity : quantities())
+    if (key == quantity.key) return &quantity;
+  return nullptr;
+}
+
+}  // namespace foldproof

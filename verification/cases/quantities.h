@@ -1,0 +1,57 @@
+// What can be expected of a case: quantities measured while it runs, each with its unit and its claim.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reference/dynamics/simulate.h"
+#include "reference/scene/scene.h"
+#include "verification/check.h"
+
+namespace foldproof {
+
+/// What all rows of diagnostics say together.
+struct RunBook {
+  Diagnostics start;  // the first row
+  Worst balance;      // |kinetic + elastic + gravitational energy - work of damping - that at the start| [J]
+  double exchanged = 0;        // the largest change of one form of energy [J]
+  double largest_kinetic = 0;  // J
+  Worst linear, angular;       // change of momentum since the start [kg m/s], [kg m^2/s]
+  double early = 0, late = 0;  // energy balance over the first and the last tenth of the run [J s] ...
+  double early_time = 0, late_time = 0;  // ... and how long these are [s]
+
+  /// end: of the run [s].
+  void enter(const Diagnostics& row, double end);
+
+ private:
+  bool is_begun_ = false;
+};
+
+/// A run as its quantities see it.
+struct RunSeen {
+  const Scene& scene;
+  const RunBook& book;
+  const Outcome& outcome;
+};
+
+enum class Sense { at_most, at_least };
+
+struct Quantity {
+  const char *key, *unit;
+  const char* claim;  // one sentence, true when the expectation holds
+  Sense sense;
+  /// At one frame's state; the largest over all frames counts. nullptr: the quantity belongs to the whole run.
+  double (*of_frame)(const Scene& scene, const State& frame);
+  double (*of_run)(const RunSeen& run);  // nullptr: the quantity belongs to frames
+  std::string (*refusal)(
+      const Scene& scene);  // why it makes no sense for the scene, or ""; nullptr: always does
+};
+
+/// The table of quantities.
+const std::vector<Quantity>& quantities();
+
+/// The row of the key; nullptr if there is none.
+const Quantity* find_quantity(std::string_view key);
+
+}  // namespace foldproof

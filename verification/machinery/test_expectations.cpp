@@ -1,0 +1,97 @@
+// The [expect] table of a case: read with its place, judged as it says.
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "verification/cases/judge.h"
+#include "verification/checks/scratch_folder.h"
+
+using namespace foldproof;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr const char* sheet = R"([cloth]
+shape = "sheet"
+width = 0.3
+height = 0.2
+columns = 3
+rows = 2
+density = 0.2
+[stretch]
+stiffness = 40
+[gravity]
+[time]
+end = 0.05
+frames_per_second = 100
+)";
+
+/// The case of the sheet followed by `more`, read from a file trial.toml.
+Case trial(const std::string& more) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("trial.toml");
+  std::ofstream(path) << sheet << more;
+  return case_of_file(path);
+}
+
+std::vector<Record> judged(const Case& shown) {
+  CaseJudge judge(shown);
+  const Scene& scene = shown.scene;
+  const Outcome outcome =
+      simulate(build_system(scene), integrator_named(scene.integrator), start_state(scene), scene.schedule,
+               {[&](const State& s) { judge.enter(s); }, [&](const Diagnostics& row) { judge.enter(row); }});
+  return judge.judged(outcome);
+}
+
+}  // namespace
+
+TEST_CASE("expect: bounds and reasons are read, and named after the case") {
+  const Case shown = trial("[expect.stays_flat]\nat_most = 2.5e-7\nwhy = \"words\"\n");
+  REQUIRE(shown.expectations.size() == 1);
+  CHECK(shown.expectations[0].bound == 2.5e-7);
+  CHECK(shown.expectations[0].why == "words");
+  CHECK(finding_name(shown.scene, shown.expectations[0]) == "case.trial.stays-flat");
+}
+
+TEST_CASE("expect: what is wrong is refused with its line") {
+  CHECK_THROWS_WITH(trial("[expect.stays_flatt]\nat_most = 0\nwhy = \"w\"\n"),
+                    Contains("trial.toml:14") && Contains("stays_flatt") && Contains("stays_flat,"));
+  CHECK_THROWS_WITH(trial("[expect.stays_flat]\nat_least = 0\nwhy = \"w\"\n"),
+                    Contains("needs the key 'at_most'"));
+  CHECK_THROWS_WITH(trial("[expect.stays_flat]\nat_most = 0\n"),
+                    Contains("trial.toml:14") && Contains("'why'"));
+  CHECK_THROWS_WITH(trial("[expect.stays_flat]\nat_most = 0\nwhy = \"\"\n"), Contains("trial.toml:16"));
+  CHECK_THROWS_WITH(trial("[expect.stays_flat]\nat_most = 0\nwhy = \"w\"\nmore = 1\n"),
+                    Contains("trial.toml:17") && Contains("'more'"));
+  CHECK_THROWS_WITH(trial("[expect.folds_to]\nat_least = 3\nwhy = \"w\"\n"),
+                    Contains("trial.toml:14") && Contains("no [bending]"));
+}
+
+TEST_CASE("expect: shipped cases must end, and account for their energy unless they say otherwise") {
+  const Case usual = with_usual_expectations(trial(""));
+  REQUIRE(usual.expectations.size() == 2);
+  CHECK(usual.expectations[0].key == "runs_to_its_end");
+  CHECK(usual.expectations[1].key == "energy_is_accounted_for");
+  const Case own =
+      with_usual_expectations(trial("[expect.energy_is_accounted_for]\nat_most = 0.3\nwhy = \"w\"\n"));
+  REQUIRE(own.expectations.size() == 2);
+  CHECK(own.expectations[0].bound == 0.3);
+  const Case driven = with_usual_expectations(trial("[[hold]]\nparticles = [0]\nvelocity = [0, 0, 1]\n"));
+  CHECK(driven.expectations.size() == 1);
+}
+
+TEST_CASE("expect: a bound that is kept holds, one that is not fails, and a run that stops says nothing") {
+  const std::string flat = "[expect.stays_flat]\nat_most = 0\nwhy = \"w\"\n";
+  const std::string leaves = "[expect.leaves_its_plane]\nat_least = 1e-9\nwhy = \"w\"\n";
+  CHECK(judged(trial(flat))[0].outcome == "holds");
+  CHECK(judged(trial(leaves))[0].outcome == "fails");
+  const std::string thrown = "[start]\nvelocity = [0, 0, 0.5]\n";
+  CHECK(judged(trial(thrown + flat))[0].outcome == "fails");
+  const Record reached = judged(trial(thrown + leaves))[0];
+  CHECK(reached.outcome == "holds");
+  CHECK(reached.finding.verdict.measured == Approx(1e-9 - 0.025));
+  CHECK_THAT(reached.finding.note, Contains("reached 0.025 m"));
+  const std::string capped = "max_steps = 1\nsafety = 0.01\n";
+  const Record stopped = judged(trial(capped + flat))[0];
+  CHECK(stopped.outcome == "fails");
+  CHECK_THAT(stopped.finding.note, Contains("cap"));
+}
