@@ -18,6 +18,8 @@ sys.dont_write_bytecode = True
 
 from case_pictures import make_pictures  # noqa: E402
 from case_plots import plot_diagnostics  # noqa: E402
+from ledger import claim_views  # noqa: E402
+from map_plots import plot_study_map  # noqa: E402
 from page import CaseView, Page, StudyView, faults_of, findings_by_section, render  # noqa: E402
 from plot_style import use_style  # noqa: E402
 from results import CaseEntry, Run, Study, case_entry_of_file, load_case, load_run  # noqa: E402
@@ -83,7 +85,9 @@ def draw(run: Run, bench: Run | None, figures: Path) -> Page:
         view.findings = [finding for finding in everything
                          if finding.kind == "study" and finding.study == view.study.name]
     checks, others, rates = findings_by_section(run, bench)
-    return Page(provenance=run.provenance, checks=checks, studies=studies[:len(run.studies)],
+    for view in cases:
+        view.foreign = origin_differs(view, run)
+    return Page(provenance=run.provenance, claims=claim_views(run.claims, everything), checks=checks, studies=studies[:len(run.studies)],
                 other_findings=others, cases=cases, rates=rates, bench_studies=studies[len(run.studies):],
                 bench_provenance=bench.provenance if bench else {}, faults=faults_of(run))
 
@@ -104,7 +108,8 @@ def draw_study(study: Study, figures: Path) -> StudyView:
     name = file_name(study.name)
     plots = [plot_study_figure(figure, f"{name}-{file_name(figure.name)}", figures)
              for figure in study.figures]
-    return StudyView(study, f"study-{name}", plots, [])
+    maps = [plot_study_map(study_map, f"{name}-{file_name(study_map.name)}", figures) for study_map in study.maps]
+    return StudyView(study, f"study-{name}", plots, maps, [])
 
 
 def draw_case(entry: CaseEntry, figures: Path) -> CaseView:
@@ -119,6 +124,21 @@ def draw_case(entry: CaseEntry, figures: Path) -> CaseView:
     view.row = make_pictures(view.case, name, figures)
     view.plots = plot_diagnostics(view.case, name, figures)
     return view
+
+
+def origin_differs(view: CaseView, run: Run) -> str:
+    """Why the case's file is not the one that this run wrote, as when a later simulation wrote over it; "" if it
+    is, or if nothing is known."""
+    if view.case is None or run.path is None or not run.provenance.get("command"):
+        return ""
+    of_case, of_run = view.case.about_run, run.provenance
+    if all(of_case.get(key) == of_run.get(key) for key in ("command", "date", "commit")):
+        return ""
+    return (f"{view.entry.path.name} is not the file that this run wrote: it comes from "
+            f"\u201c{of_case.get('command', 'an unknown command')}\u201d of "
+            f"{of_case.get('date', 'an unknown date')}, the run from \u201c{of_run['command']}\u201d of "
+            f"{of_run.get('date', 'an unknown date')}. Pictures, plots and the case text below show the later file; "
+            f"the findings case.{view.entry.name}.* on this page are of the run's own.")
 
 
 def file_name(name: str) -> str:

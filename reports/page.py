@@ -13,16 +13,20 @@ import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
+import ledger
 import quantities
 from case_pictures import PictureRow, length_text
+from ledger import ClaimView
+from map_plots import map_notes
 from plot_style import Plot, level_text
 from results import Case, CaseEntry, Column, Fault, Finding, Run, Study, StudyFigure
 from study_plots import choose_pens, floors_below, key_svg, points_left_out
 
 FOLDER = Path(__file__).resolve().parent
 OUTCOMES = ("holds", "fails", "inconclusive", "not applicable")
-WHOLE_TABLE = 12                    # rows; longer tables show FIRST_ROWS and LAST_ROWS
+WHOLE_TABLE, WHOLE_STUDY_TABLE = 12, 60   # rows; longer tables show FIRST_ROWS and LAST_ROWS
 FIRST_ROWS, LAST_ROWS = 7, 3
+FIRST_STUDIES = ("work-precision", "stability-oscillator", "stability-sheet", "variable-step-stability")
 MARGIN_DECADES = (-4.0, 1.0)        # log10(measured / bound) at the ends of the margin bar
 
 
@@ -35,14 +39,16 @@ class CaseView:
     row: PictureRow | None = None
     plots: list[tuple[str, Plot]] = field(default_factory=list)
     problem: str = ""
+    foreign: str = ""               # why the file is not the one that the run wrote
 
 
 @dataclass
 class StudyView:
-    """A study with its plots, in the order of its figures, and its findings."""
+    """A study with its plots, in the order of its figures and of its maps, and its findings."""
     study: Study
     anchor: str
     plots: list[Plot]
+    maps: list[Plot]
     findings: list[Finding]
 
 
@@ -50,6 +56,7 @@ class StudyView:
 class Page:
     """All that the template shows."""
     provenance: dict[str, Any]
+    claims: list[ClaimView]
     checks: list[Finding]
     studies: list[StudyView]
     other_findings: list[Finding]   # of studies or kinds that have no section of their own
@@ -58,6 +65,15 @@ class Page:
     bench_studies: list[StudyView]
     bench_provenance: dict[str, Any]
     faults: list[Fault]
+
+    def first_studies(self) -> list[StudyView]:
+        """The studies that help to choose an integrator, in the order of FIRST_STUDIES."""
+        wanted = [view for view in self.studies if view.study.name in FIRST_STUDIES]
+        return sorted(wanted, key=lambda view: FIRST_STUDIES.index(view.study.name))
+
+    def other_studies(self) -> list[StudyView]:
+        """All other studies, as the run lists them."""
+        return [view for view in self.studies if view.study.name not in FIRST_STUDIES]
 
 
 def render(page: Page) -> str:
@@ -69,8 +85,9 @@ def render(page: Page) -> str:
     environment.globals.update(
         quantity=quantities.quantity_html, ratio=quantities.ratio_of, isnan=isnan, anchor=Anchors().of,
         outcome_class=outcome_class, counts=count_outcomes, groups=group_by_prefix, margin=margin_percent,
-        table=shown_rows, orders=order_table, keys=figure_keys, notes=figure_notes, style=Markup(_style()),
-        known_faults={fault.name: fault for fault in page.faults},
+        table=shown_rows, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE, orders=order_table, keys=figure_keys, notes=figure_notes, map_notes=map_notes,
+        rulings=ledger.ruling_counts, sections=ledger.by_section, style=Markup(_style()),
+        known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
         known_findings={finding.name for finding in _all_findings(page)})
     return environment.get_template("page.html.j2").render(page=page, said=page.provenance)
 
@@ -93,6 +110,18 @@ class Anchors:
         while self._taken.setdefault(wanted, name) != name:
             wanted += "-2"
         return wanted
+
+
+class CaughtCount:
+    """How many of a finding's seeded faults were caught; None where the run's folder has no outcomes."""
+
+    def __init__(self, faults: list[Fault]) -> None:
+        self._caught = {fault.name for fault in faults if fault.outcome == "caught"}
+        self.known = any(fault.outcome in ("caught", "SURVIVED") for fault in faults)
+
+    def of(self, finding: Finding) -> int:
+        """How many of the faults that name this finding were caught."""
+        return sum(name in self._caught for name in finding.faults)
 
 
 def outcome_class(outcome: str) -> str:
@@ -133,11 +162,11 @@ class ShownTable:
     last: list[tuple[Markup, ...]]
 
 
-def shown_rows(columns: list[Column]) -> ShownTable:
-    """What is shown of a table; vectors are set as one column for each component."""
+def shown_rows(columns: list[Column], most: int = WHOLE_TABLE) -> ShownTable:
+    """What is shown of a table, all of it up to `most` rows; vectors are set as one column for each component."""
     flat = [part for column in columns for part in _components(column)]
     count = max((len(column.values) for column in flat), default=0)
-    whole = count <= WHOLE_TABLE
+    whole = count <= most
     kept = [*range(count)] if whole else [*range(FIRST_ROWS), *range(count - LAST_ROWS, count)]
     cells = [quantities.cells_html(column.values[row] if row < len(column.values) else "" for row in kept)
              for column in flat]

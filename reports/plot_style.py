@@ -18,7 +18,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
-from quantities import MINUS, is_count, number_text, split_number, superscript, unit_text
+from quantities import MINUS, is_count, number_text, superscript, unit_text
 
 INK, MUTED, GRID, BAND, PAPER = "#24292e", "#68707a", "#e4e6e9", "#eceef1", "#fefefe"
 COLOURS = ("#1562a8", "#c4501b", "#0b8268", "#8b3f94", "#a8780a", "#3597bf", "#bf4a7b", "#5b6068")
@@ -160,21 +160,24 @@ def plain(value: float) -> str:
 
 
 def _power(value: float) -> str:
-    exponent = np.log10(value)
-    if abs(exponent - round(exponent)) > 1e-9:
-        return level_text(value)
-    return plain(value) if -2 <= round(exponent) <= 3 else "10" + superscript(str(int(round(exponent))))
+    """A tick of a logarithmic axis: plain from 0.01 to 1000, else as a power of ten."""
+    exponent = int(np.floor(np.log10(value) + 1e-9))
+    return plain(value) if -2 <= exponent <= 3 else _times_power(f"{value / 10.0 ** exponent:.6g}", exponent)
+
+
+def _times_power(mantissa: str, exponent: int) -> str:
+    power = f"10{superscript(str(exponent))}"
+    return power if mantissa == "1" else f"{mantissa}×{power}"
 
 
 def level_text(value: float) -> str:
     """A value that was run, as a tick: counts in full, else three digits without trailing zeros."""
-    if is_count(value):
+    if is_count(value) or not np.isfinite(value):
         return number_text(value)
-    if 1e-5 < abs(value) < 1e4:
+    if 1e-3 < abs(value) < 1e4:
         return plain(float(f"{value:.3g}"))
-    mantissa, exponent = split_number(value, 3)
-    mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
-    return mantissa if exponent is None else f"{mantissa}×10{superscript(str(exponent))}"
+    mantissa, exponent = f"{value:.2e}".split("e")
+    return _times_power(f"{float(mantissa):g}".replace("-", MINUS), int(exponent))
 
 
 def say_in_the_middle(axes: Axes, words: str) -> None:

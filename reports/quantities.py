@@ -113,7 +113,9 @@ def seconds_html(value: float) -> Markup:
     if value >= 120:
         minutes = _marked_up(value / 60, *rounded_number(value / 60))
         return Markup('{}\u2009<span class="unit">min</span>').format(minutes)
-    return quantity_html(value, "s") if value >= 0.1 or value == 0 else quantity_html(value * 1e3, "ms")
+    if value < 0.01:
+        return Markup('<span class="n">&lt;\u20090.01</span>\u2009<span class="unit">s</span>')
+    return quantity_html(value, "s") if value >= 0.1 else quantity_html(value * 1e3, "ms")
 
 
 def order_html(value: float) -> Markup:

@@ -17,13 +17,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-
-@dataclass
-class Column:
-    """One column of a table: numbers, or strings as an object array."""
-    name: str
-    unit: str
-    values: np.ndarray
+from hdf5_values import Column, attributes_of, columns_of, in_order, number_of, text_of, texts_of
 
 
 @dataclass
@@ -76,6 +70,27 @@ class StudyFigure:
 
 
 @dataclass
+class StudyMap:
+    """A quantity over two parameters, with limits known beforehand as curves over it."""
+    name: str
+    title: str
+    caption: str
+    x_label: str
+    x_unit: str
+    y_label: str
+    y_unit: str
+    x_scale: str       # "linear" | "log"
+    y_scale: str
+    quantity: str
+    unit: str          # of the values
+    scale: str         # of the values
+    x: np.ndarray      # n
+    y: np.ndarray      # m
+    values: np.ndarray  # m x n; NaN where there is none, as the caption says
+    curves: list[Curve]
+
+
+@dataclass
 class Table:
     """A titled table of columns of equal length."""
     title: str
@@ -92,6 +107,20 @@ class Study:
     seconds: float
     figures: list[StudyFigure]
     tables: list[Table]
+    maps: list[StudyMap] = field(default_factory=list)
+
+
+@dataclass
+class Claim:
+    """A sentence of the paper and what the run ruled of it."""
+    name: str          # "T1"
+    section: str       # of the paper
+    statement: str
+    ruling: str        # "confirmed" | "confirmed under a condition" | "refuted" | "undecided"
+    recorded: str      # the ruling that is expected
+    condition: str     # in words; "" if none
+    why: str           # a paragraph
+    decided_by: list[tuple[str, str]]   # name of a finding, its role
 
 
 @dataclass
@@ -142,17 +171,20 @@ class Run:
     studies: list[Study]
     cases: list[CaseEntry]
     faults: list[Fault]
+    claims: list[Claim] = field(default_factory=list)
+    path: Path | None = None           # run.h5; None where a run is made up of case files alone
 
 
 def load_run(path: str | Path) -> Run:
     """Reads run.h5 or bench.h5. Throws OSError if it cannot be opened."""
     path = Path(path)
     with h5py.File(path, "r") as file:
-        return Run(provenance=_attributes(file),
-                   findings=[_finding(name, group) for name, group in _in_order(file, "findings")],
-                   studies=[_study(name, group) for name, group in _in_order(file, "studies")],
-                   cases=[_case_entry(name, group, path.parent) for name, group in _in_order(file, "cases")],
-                   faults=_with_outcomes(_faults(file), path.parent / "faults.json"))
+        return Run(path=path, provenance=attributes_of(file),
+                   findings=[_finding(name, group) for name, group in in_order(file, "findings")],
+                   studies=[_study(name, group) for name, group in in_order(file, "studies")],
+                   cases=[_case_entry(name, group, path.parent) for name, group in in_order(file, "cases")],
+                   faults=_with_outcomes(_faults(file), path.parent / "faults.json"),
+                   claims=[_claim(name, group) for name, group in in_order(file, "claims")])
 
 
 def load_case(path: str | Path) -> Case:
@@ -161,10 +193,10 @@ def load_case(path: str | Path) -> Case:
     with h5py.File(path, "r") as file:
         particles = file["frames/positions"].shape[1]
         held = np.asarray(file["mesh/held"], dtype=bool) if "mesh/held" in file else np.zeros(particles, bool)
-        return Case(path=path, about_run=_attributes(file), held=held,
+        return Case(path=path, about_run=attributes_of(file), held=held,
                     triangles=np.asarray(file["mesh/triangles"], dtype=np.int64).reshape(-1, 3),
                     frame_times=np.asarray(file["frames/time"], dtype=float),
-                    diagnostics={column.name: column for column in _columns(file.get("diagnostics"))})
+                    diagnostics={column.name: column for column in columns_of(file.get("diagnostics"))})
 
 
 def case_entry_of_file(path: Path) -> CaseEntry | None:
@@ -173,54 +205,77 @@ def case_entry_of_file(path: Path) -> CaseEntry | None:
         with h5py.File(path, "r") as file:
             if "frames" not in file:
                 return None
-            said = _attributes(file)
+            said = attributes_of(file)
     except OSError:
         return None
-    return CaseEntry(name=_text(said, "case_name") or path.stem, title=_text(said, "title") or path.stem,
-                     about=_text(said, "about"), seconds=_number(said, "seconds"),
-                     stopped=_text(said, "stopped"),
+    return CaseEntry(name=text_of(said, "case_name") or path.stem, title=text_of(said, "title") or path.stem,
+                     about=text_of(said, "about"), seconds=number_of(said, "seconds"),
+                     stopped=text_of(said, "stopped"),
                      path=path)
 
 
 def _finding(name: str, group: h5py.Group) -> Finding:
-    said = _attributes(group)
-    texts = {key: _text(said, key) for key in
+    said = attributes_of(group)
+    texts = {key: text_of(said, key) for key in
              ("kind", "study", "claim", "source", "unit", "why_bound", "outcome", "note", "better")}
-    numbers = {key: _number(said, key) for key in ("measured", "bound", "uncertainty", "seconds")}
-    return Finding(name=name, **texts, **numbers, faults=_texts(said, "faults"),
-                   evidence=_columns(group.get("evidence")))
+    numbers = {key: number_of(said, key) for key in ("measured", "bound", "uncertainty", "seconds")}
+    return Finding(name=name, **texts, **numbers, faults=texts_of(said, "faults"),
+                   evidence=columns_of(group.get("evidence")))
 
 
 def _study(name: str, group: h5py.Group) -> Study:
-    said = _attributes(group)
-    return Study(name=name, claim=_text(said, "claim"), source=_text(said, "source"),
-                 about=_text(said, "about"),
-                 seconds=_number(said, "seconds"),
-                 figures=[_figure(key, figure) for key, figure in _in_order(group, "figures")],
-                 tables=[Table(_text(_attributes(table), "title") or key, _columns(table))
-                         for key, table in _in_order(group, "tables")])
+    said = attributes_of(group)
+    return Study(name=name, claim=text_of(said, "claim"), source=text_of(said, "source"),
+                 about=text_of(said, "about"),
+                 seconds=number_of(said, "seconds"),
+                 figures=[_figure(key, figure) for key, figure in in_order(group, "figures")],
+                 maps=[_map(key, group) for key, group in in_order(group, "maps")],
+                 tables=[Table(text_of(attributes_of(table), "title") or key, columns_of(table))
+                         for key, table in in_order(group, "tables")])
 
 
 def _figure(name: str, group: h5py.Group) -> StudyFigure:
-    said = _attributes(group)
-    texts = {key: _text(said, key) for key in ("title", "caption", "x_label", "x_unit", "y_label", "y_unit")}
-    scales = {key: _text(said, key) or "linear" for key in ("x_scale", "y_scale")}
-    return StudyFigure(name=name, **texts, **scales, slope=_number(said, "slope"),
-                       curves=[_curve(key, curve) for key, curve in _in_order(group, "curves")])
+    said = attributes_of(group)
+    return StudyFigure(name=name, **_axes(said), slope=number_of(said, "slope"), curves=_curves(group))
+
+
+def _map(name: str, group: h5py.Group) -> StudyMap:
+    said = attributes_of(group)
+    x, y = (np.asarray(group[key], dtype=float) for key in "xy")
+    return StudyMap(name=name, **_axes(said), quantity=text_of(said, "quantity"), unit=text_of(said, "unit"),
+                    scale=text_of(said, "scale") or "linear", x=x, y=y, curves=_curves(group),
+                    values=np.asarray(group["values"], dtype=float).reshape(len(y), len(x)))
+
+
+def _axes(said: dict[str, Any]) -> dict[str, str]:
+    texts = {key: text_of(said, key) for key in ("title", "caption", "x_label", "x_unit", "y_label", "y_unit")}
+    return texts | {key: text_of(said, key) or "linear" for key in ("x_scale", "y_scale")}
+
+
+def _curves(group: h5py.Group) -> list[Curve]:
+    return [_curve(key, curve) for key, curve in in_order(group, "curves")]
 
 
 def _curve(name: str, group: h5py.Group) -> Curve:
-    said = _attributes(group)
+    said = attributes_of(group)
     orders = np.asarray(group["pair_orders"], dtype=float) if "pair_orders" in group else None
-    return Curve(label=_text(said, "label") or name, floor=_number(said, "floor"), pair_orders=orders,
+    return Curve(label=text_of(said, "label") or name, floor=number_of(said, "floor"), pair_orders=orders,
                  x=np.asarray(group["x"], dtype=float), y=np.asarray(group["y"], dtype=float))
 
 
+def _claim(name: str, group: h5py.Group) -> Claim:
+    said = attributes_of(group)
+    texts = {key: text_of(said, key)
+             for key in ("section", "statement", "ruling", "recorded", "condition", "why")}
+    names, roles = texts_of(said, "decided_by"), texts_of(said, "roles")
+    return Claim(name=name, **texts, decided_by=list(zip(names, roles + [""] * len(names))))
+
+
 def _case_entry(name: str, group: h5py.Group, folder: Path) -> CaseEntry:
-    said = _attributes(group)
-    return CaseEntry(name=name, title=_text(said, "title") or name, about=_text(said, "about"),
-                     seconds=_number(said, "seconds"), stopped=_text(said, "stopped"),
-                     path=folder / (_text(said, "file") or f"{name}.h5"))
+    said = attributes_of(group)
+    return CaseEntry(name=name, title=text_of(said, "title") or name, about=text_of(said, "about"),
+                     seconds=number_of(said, "seconds"), stopped=text_of(said, "stopped"),
+                     path=folder / (text_of(said, "file") or f"{name}.h5"))
 
 
 def _with_outcomes(faults: list[Fault], file: Path) -> list[Fault]:
@@ -233,61 +288,9 @@ def _with_outcomes(faults: list[Fault], file: Path) -> list[Fault]:
 
 def _faults(file: h5py.File) -> list[Fault]:
     columns = {column.name: [str(value) for value in column.values]
-               for column in _columns(file.get("faults"))}
+               for column in columns_of(file.get("faults"))}
     keys = ("name", "file", "find", "replace", "law", "caught_by", "outcome")
     rows = zip(*(columns.get(key, [""] * len(columns.get("name", []))) for key in keys))
     return [Fault(name, where, find, replace, law,
                   [part.strip() for part in caught.split(",") if part.strip()], outcome)
             for name, where, find, replace, law, caught, outcome in rows]
-
-
-def _columns(group: h5py.Group | None) -> list[Column]:
-    if group is None:
-        return []
-    sets = [(key, item) for key, item in group.items() if isinstance(item, h5py.Dataset)]
-    sets.sort(key=lambda entry: (_number(_attributes(entry[1]), "order", 0), entry[0]))
-    return [Column(key, _text(_attributes(item), "unit"), _values(item)) for key, item in sets]
-
-
-def _values(data: h5py.Dataset) -> np.ndarray:
-    values = data[()]
-    if np.asarray(values).dtype.kind in "OSU":
-        return np.array([_decoded(value) for value in np.atleast_1d(values)], dtype=object)
-    return np.atleast_1d(np.asarray(values, dtype=float))
-
-
-def _in_order(group: h5py.Group, key: str) -> list[tuple[str, h5py.Group]]:
-    inner = [(name, item) for name, item in group.get(key, {}).items() if isinstance(item, h5py.Group)]
-    return sorted(inner, key=lambda entry: (_number(_attributes(entry[1]), "order", 0), entry[0]))
-
-
-def _attributes(item: h5py.Group | h5py.Dataset) -> dict[str, Any]:
-    return {key: _decoded(value) for key, value in item.attrs.items()}
-
-
-def _decoded(value: Any) -> Any:
-    if isinstance(value, bytes):
-        return value.decode("utf-8", "replace")
-    if isinstance(value, np.ndarray) and value.dtype.kind in "OSU":
-        return [_decoded(entry) for entry in value.ravel()]
-    return value
-
-
-def _text(said: dict[str, Any], key: str) -> str:
-    value = said.get(key, "")
-    return "" if isinstance(value, h5py.Empty) else str(value)
-
-
-def _texts(said: dict[str, Any], key: str) -> list[str]:
-    value = said.get(key, [])
-    if isinstance(value, str):
-        value = [value]
-    return [] if isinstance(value, h5py.Empty) else [str(entry) for entry in value if str(entry)]
-
-
-def _number(said: dict[str, Any], key: str, absent: float = float("nan")) -> float:
-    value = said.get(key, absent)
-    try:
-        return float(np.ravel(value)[0])
-    except (TypeError, ValueError, IndexError):
-        return absent

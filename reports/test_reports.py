@@ -8,7 +8,6 @@ import tempfile
 import unittest
 from html.parser import HTMLParser
 from pathlib import Path
-from typing import Any
 
 sys.dont_write_bytecode = True
 
@@ -17,90 +16,13 @@ import numpy as np  # noqa: E402
 
 from camera import choose_camera  # noqa: E402
 from cloth_picture import BACK, FRONT, picture_of  # noqa: E402
+from made_up_run import HOSTILE, NAMES, put, put_case, put_finding, put_run  # noqa: E402
 from make_report import make_report, read_folder  # noqa: E402
+from map_plots import edges_of, map_notes  # noqa: E402
 from page import Anchors, margin_percent, shown_rows  # noqa: E402
-from quantities import number_text, quantity_html, unit_text  # noqa: E402
+from quantities import number_text, quantity_html, seconds_html, unit_text  # noqa: E402
 from results import Column, load_case, load_run  # noqa: E402
 from study_plots import spread  # noqa: E402
-
-HOSTILE = '<script>alert("1")</script> & <img src=x onerror=alert(1)>'
-NAMES = ("bending.forces-sum-to-zero", "bending.damping-dissipates", "springs.limit", "time-order.hinge.C.x",
-         "bench.bending-elastic", "sticking.<img src=x onerror=alert(1)>")
-TEXT = h5py.string_dtype()
-
-
-def put(item: h5py.Group | h5py.Dataset, **said: Any) -> None:
-    """Sets attributes; lists become arrays of strings."""
-    for key, value in said.items():
-        item.attrs[key] = np.array(value, dtype=TEXT) if isinstance(value, list) and value else value
-
-
-def put_finding(file: h5py.File, order: int, name: str, kind: str, **said: Any) -> None:
-    """Adds one finding with a little evidence."""
-    group = file.create_group(f"findings/{name}")
-    usual = dict(order=order, kind=kind, study="", claim=f"Claim of {name}.", source="BMF03 section 4",
-                 measured=3.2e-15, bound=4.4e-14, uncertainty=0.0, unit="N", why_bound="200 roundings",
-                 outcome="holds", note="", seconds=0.1, faults=["flipped-sign"])
-    put(group, **(usual | said))
-    angles = group.create_dataset("evidence/angle", data=np.linspace(-3, 3, 40))
-    put(angles, order=0, unit="rad")
-    mesh = group.create_dataset("evidence/mesh", data=np.array([HOSTILE] * 40, dtype=object), dtype=TEXT)
-    put(mesh, order=1, unit="")
-
-
-def put_study(file: h5py.File) -> None:
-    """Adds a study with one figure of two curves, one of them partly NaN."""
-    study = file.create_group("studies/time-order")
-    put(study, order=1, claim="Second order.", source="BMF03", about=HOSTILE, seconds=1.0)
-    figure = file.create_group("studies/time-order/figures/x")
-    put(figure, order=1, title="Error of the position", x_label="step", x_unit="s", y_label="error $x$ <b>",
-        y_unit="m", x_scale="log", y_scale="log", slope=2.0, caption=HOSTILE)
-    h = 0.02 / 2.0 ** np.arange(5)
-    for k in range(2):
-        curve = figure.create_group(f"curves/{k}")
-        put(curve, order=k, label=f"scheme {k} {HOSTILE}", floor=1e-9)
-        curve["x"], curve["y"] = h, np.where((h > 0.01) & (k == 1), np.nan, h ** 2)
-        curve["pair_orders"] = np.full(4, 2.0)
-
-
-def put_case(folder: Path, name: str) -> None:
-    """Writes a case of two triangles that fold over a few frames."""
-    with h5py.File(folder / f"{name}.h5", "w") as file:
-        put(file, case_name=name, title=HOSTILE, about="", built=["4 particles", "gravity"],
-            case_text="[sheet]\n", stopped="", seconds=1.0, commit="abcdef",
-            command=f"build/foldproof run cases/{name}.toml")
-        rest = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], dtype=float)
-        file["mesh/triangles"] = np.array([[0, 1, 2], [1, 3, 2]], dtype=np.int32)
-        file["mesh/held"] = np.array([1, 0, 0, 0], dtype=np.uint8)
-        file["frames/time"] = np.arange(4.0)
-        file["frames/positions"] = np.array([rest + [0, 0, 0.1 * k] * rest[:, :1] for k in range(4)])
-        for key, values in dict(time=np.linspace(0, 3, 900), kinetic_energy=np.full(900, np.nan),
-                                gravity_energy=np.linspace(1, 0, 900), linear_momentum=np.ones((900, 3)),
-                                angular_momentum=np.zeros((900, 3)), cg_iterations=np.zeros(900),
-                                cg_residual=np.zeros(900)).items():
-            put(file.create_dataset(f"diagnostics/{key}", data=values), unit="1")
-
-
-def put_run(folder: Path) -> None:
-    """Writes a run with every kind of finding, a study, two cases (one missing) and faults."""
-    with h5py.File(folder / "run.h5", "w") as file:
-        put(file, schema=1, commit="abcdef", tree="dirty", cpu=HOSTILE, seconds=3.0,
-            command="build/foldproof verify")
-        put_finding(file, 1, NAMES[0], "check")
-        put_finding(file, 2, NAMES[1], "check", measured=np.nan, outcome="fails", note=HOSTILE)
-        put_finding(file, 3, NAMES[2], "check", outcome="inconclusive", why_bound=HOSTILE)
-        put_finding(file, 4, NAMES[3], "study", study="time-order")
-        put_finding(file, 5, NAMES[4], "bench", outcome="measured", better="higher", bound=1e7, measured=2e7)
-        put_finding(file, 6, NAMES[5], "study", study="one that was not run", outcome="not applicable")
-        put_study(file)
-        put_case(folder, "fold")
-        put(file.create_group("cases/fold"), order=1, file="fold.h5", title=HOSTILE, about=HOSTILE,
-            stopped="")
-        put(file.create_group("cases/gone"), order=2, file="gone.h5", title="gone", about="", stopped="")
-        row = dict(name="flipped-sign", file="forces/bending.cpp", find="a < b && c", replace="a > b",
-                   law="momentum", caught_by=f"{NAMES[0]}, {NAMES[2]}, gone.check", outcome="caught")
-        for key, value in row.items():
-            file.create_dataset(f"faults/{key}", data=np.array([value], dtype=object), dtype=TEXT)
 
 
 class Seen(HTMLParser):
@@ -170,11 +92,39 @@ class WholeReport(unittest.TestCase):
         self.assertIsNotNone(measured)
         self.assertIn("NaN", measured[1])
 
+    def test_claims_open_the_page_and_link_to_their_findings(self) -> None:
+        first = self.text.index('id="T1"')
+        self.assertLess(self.text.index("What of the paper is true?"), first)
+        for later in ('id="integrators"', 'id="checks"', 'id="studies"'):
+            self.assertLess(first, self.text.index(later), later)
+        row = self.text[first:self.text.index('id="T17"')]
+        self.assertIn(f'href="#{NAMES[0]}"', row)
+        self.assertIn("not in this run", row)
+        self.assertNotIn("rules otherwise", row)
+
+    def test_a_ruling_other_than_recorded_is_said(self) -> None:
+        self.assertIn("rules otherwise than recorded", self.text[self.text.index('id="T17"'):])
+
+    def test_studies_for_the_choice_of_an_integrator_come_first(self) -> None:
+        places = [self.text.index(text) for text in ('id="integrators"', 'id="study-stability-oscillator"',
+                                                     'id="studies"', 'id="study-time-order"')]
+        self.assertEqual(places, sorted(places))
+
+    def test_points_of_a_map_without_a_value_are_counted(self) -> None:
+        self.assertIn("Hatched: 3 of 20 points", self.text)
+
+    def test_epsilon_is_defined_once(self) -> None:
+        self.assertEqual(self.text.count("<dfn"), 1)
+
+    def test_faults_are_counted_as_listed_and_caught(self) -> None:
+        row = self.text[self.text.index(f'id="{NAMES[0]}"'):]
+        self.assertEqual(re.search(r'data-label="faults">(.*?)</span>', row)[1], "1 / 1")
+
     def test_missing_case_is_named(self) -> None:
         self.assertIn("gone.h5 could not be read", self.text)
 
     def test_figures_are_written(self) -> None:
-        for name in ("time-order-x", "fold-pictures", "fold-energies", "fold-momenta", "fold-solves"):
+        for name in ("time-order-x", "stability-oscillator-radius", "fold-pictures", "fold-energies", "fold-momenta", "fold-solves"):
             for kind in ("svg", "pdf", "png"):
                 self.assertGreater((self.figures / f"{name}.{kind}").stat().st_size, 500, name)
 
@@ -211,7 +161,25 @@ class PartsMissing(unittest.TestCase):
 
     def test_case_files_alone(self) -> None:
         put_case(self.root, "fold")
-        self.assertIn('id="case-fold"', self.made())
+        text = self.made()
+        self.assertIn('id="case-fold"', text)
+        self.assertNotIn("Not of this run", text)
+
+    def test_a_case_file_of_another_run_is_named(self) -> None:
+        put_run(self.root)
+        self.assertIn("Not of this run", self.made())
+        with h5py.File(self.root / "run.h5") as file, h5py.File(self.root / "fold.h5", "r+") as case:
+            put(case, command=file.attrs["command"], commit=file.attrs["commit"])
+        self.assertNotIn("Not of this run", self.made())
+
+    def test_faults_that_were_not_run_are_said_once(self) -> None:
+        put_run(self.root)
+        with h5py.File(self.root / "run.h5", "r+") as file:
+            file["faults/outcome"][0] = "not run"
+        text = self.made()
+        row = text[text.index(f'id="{NAMES[0]}"'):]
+        self.assertEqual(re.search(r'data-label="faults">(.*?)</span>', row)[1], "1")
+        self.assertEqual(len(re.findall(r"[Nn]ot run", text)), 1)
 
     def test_bench_alone(self) -> None:
         with h5py.File(self.root / "bench.h5", "w") as file:
@@ -240,6 +208,24 @@ class Pieces(unittest.TestCase):
             self.assertEqual(number_text(value), text)
         self.assertEqual(unit_text("kg m^2/s"), "kg m²/s")
         self.assertIn("<sup>−9</sup>", quantity_html(1e-9, "N"))
+
+    def test_short_durations_are_not_zero(self) -> None:
+        for value in (0.0, 0.004):
+            self.assertIn("&lt;", seconds_html(value))
+        self.assertNotIn("&lt;", seconds_html(0.05))
+
+    def test_cells_of_a_map_lie_around_their_points(self) -> None:
+        self.assertTrue(np.allclose(edges_of(np.array([1.0, 2.0, 4.0]), "linear"), [0.5, 1.5, 3.0, 5.0]))
+        self.assertTrue(np.allclose(edges_of(np.array([1.0, 100.0]), "log"), [0.1, 10.0, 1000.0]))
+
+    def test_a_map_with_all_its_values_needs_no_note(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            put_run(Path(folder))
+            studies = load_run(Path(folder) / "run.h5").studies
+        study_map = next(study for study in studies if study.maps).maps[0]
+        self.assertEqual(len(map_notes(study_map)), 1)
+        study_map.values = np.abs(np.nan_to_num(study_map.values, nan=1.0))
+        self.assertEqual(map_notes(study_map), [])
 
     def test_long_tables_say_what_they_leave_out(self) -> None:
         shown = shown_rows([Column("step", "1", np.arange(1001.0))])

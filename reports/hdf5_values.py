@@ -1,0 +1,75 @@
+"""Attributes, columns and ordered groups of an HDF5 file as plain Python values. An absent attribute becomes
+"" or NaN, an absent group an empty list."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import h5py
+import numpy as np
+
+
+@dataclass
+class Column:
+    """One column of a table: numbers, or strings as an object array."""
+    name: str
+    unit: str
+    values: np.ndarray
+
+
+def columns_of(group: h5py.Group | None) -> list[Column]:
+    """The datasets of a group, in the order that they give."""
+    if group is None:
+        return []
+    sets = [(key, item) for key, item in group.items() if isinstance(item, h5py.Dataset)]
+    sets.sort(key=lambda entry: (number_of(attributes_of(entry[1]), "order", 0), entry[0]))
+    return [Column(key, text_of(attributes_of(item), "unit"), _values(item)) for key, item in sets]
+
+
+def _values(data: h5py.Dataset) -> np.ndarray:
+    values = data[()]
+    if np.asarray(values).dtype.kind in "OSU":
+        return np.array([_decoded(value) for value in np.atleast_1d(values)], dtype=object)
+    return np.atleast_1d(np.asarray(values, dtype=float))
+
+
+def in_order(group: h5py.Group, key: str) -> list[tuple[str, h5py.Group]]:
+    """Names and groups inside group/key, in the order that they give."""
+    inner = [(name, item) for name, item in group.get(key, {}).items() if isinstance(item, h5py.Group)]
+    return sorted(inner, key=lambda entry: (number_of(attributes_of(entry[1]), "order", 0), entry[0]))
+
+
+def attributes_of(item: h5py.Group | h5py.Dataset) -> dict[str, Any]:
+    """All attributes, texts decoded."""
+    return {key: _decoded(value) for key, value in item.attrs.items()}
+
+
+def _decoded(value: Any) -> Any:
+    if isinstance(value, bytes):
+        return value.decode("utf-8", "replace")
+    if isinstance(value, np.ndarray) and value.dtype.kind in "OSU":
+        return [_decoded(entry) for entry in value.ravel()]
+    return value
+
+
+def text_of(said: dict[str, Any], key: str) -> str:
+    """A text, "" if absent."""
+    value = said.get(key, "")
+    return "" if isinstance(value, h5py.Empty) else str(value)
+
+
+def texts_of(said: dict[str, Any], key: str) -> list[str]:
+    """A list of texts that are not empty."""
+    value = said.get(key, [])
+    if isinstance(value, str):
+        value = [value]
+    return [] if isinstance(value, h5py.Empty) else [str(entry) for entry in value if str(entry)]
+
+
+def number_of(said: dict[str, Any], key: str, absent: float = float("nan")) -> float:
+    """A number, `absent` if there is none."""
+    value = said.get(key, absent)
+    try:
+        return float(np.ravel(value)[0])
+    except (TypeError, ValueError, IndexError):
+        return absent
