@@ -95,7 +95,7 @@ NamedFinding kept(const Drift& drift, const std::string& material) {
   Worst worst;
   for (double roundings : drift.roundings) worst.see(roundings);
   Finding finding{
-      {worst.value(), 16, 0, "eps * steps * sum m|x||v|",
+      {worst.value(), 16, 0, "epsilon, a step, of sum m|x||v|",
        "a step rounds x and v of each particle once, and the dozen or so forces on it, each at most about "
        "m|v|/h, in their last digits; sixteen is all of these erring to one side"},
       {{"step", "s", drift.steps},

@@ -15,8 +15,14 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int pairs_judged = 3;
 constexpr double bound = 0.1;
 constexpr const char* why_bound =
-    "a method of another order is off by 1; at these steps the next term of the error leaves less than a "
-    "tenth";
+    "design bound on |order - expected| over the last three pairs: another order is off by 1, and the "
+    "evidence "
+    "shows, pair by pair, what the error's next term leaves";
+
+std::string in_words(int order) {
+  const std::array<std::string, 5> words = {"zeroth", "first", "second", "third", "fourth"};
+  return words.at(size_t(order));
+}
 
 /// The errors of one integrator with one pattern over all levels.
 struct Run {
@@ -104,11 +110,12 @@ NamedFinding finding_of(const OrderProblem& problem, const Run& run, const Quant
                    {"steps", "1", run.counts},
                    {"error in " + quantity.name, quantity.unit, errors.errors},
                    {"order of the pair", "1", after_nan(pair_orders(errors))}},
-                  "measured is the largest |order - expected| over the last three pairs"};
+                  "measured is the largest |order - expected| over the last three pairs, where the table of "
+                  "integrators states what is expected"};
   const std::string name(run.integrator.name);
   return {problem.study + "." + name + "." + std::string(run.pattern.name) + "." + quantity.name,
-          "With " + std::string(run.pattern.words) + ", the " + quantity.words + " of " + problem.thing +
-              " under scheme " + name + " converge with the order that the table of integrators states.",
+          "Scheme " + name + " is " + in_words(run.integrator.order) + " order in the " + quantity.words +
+              " of " + problem.thing + " with " + std::string(run.pattern.words) + ".",
           std::move(finding)};
 }
 

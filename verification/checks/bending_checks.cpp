@@ -68,7 +68,8 @@ Finding other_laws_keep_momentum(const Subject& subject) {
   worst.see(forces.verdict.measured);
   worst.see(torques.verdict.measured);
   forces.verdict.measured = worst.value();
-  forces.verdict.unit = "epsilon sum |F_i|, or sum |x_i||F_i|";
+  forces.verdict.unit = "epsilon of the sum of sizes";
+  forces.note = "the sum of sizes is sum |F_i| for the net force, sum |x_i||F_i| for the net torque";
   return forces;
 }
 

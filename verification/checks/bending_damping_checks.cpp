@@ -77,18 +77,13 @@ Finding damping_is_as_defined(const Subject& subject) {
 }
 
 Finding damping_dissipates(const Subject& subject) {
-  Measured measured = roundings_of("sum |v_i||F_i|");
-  std::vector<double> powers;
+  std::vector<std::string> names;
+  std::vector<PowerOfDamping> powers;
   for (const Damped& damped : with_damping(sheets_and_hinges())) {
-    const Specimen& specimen = damped.specimen;
-    const PowerOfDamping power = power_of_damping(Probe(subject, specimen.scene), specimen.state);
-    measured.see(damped.name, power.gain_in_roundings);
-    powers.push_back(power.power);
+    names.push_back(damped.name);
+    powers.push_back(power_of_damping(Probe(subject, damped.specimen.scene), damped.specimen.state));
   }
-  Finding finding = measured.judged(
-      0, "kd s (u.v)^2 is taken out of the motion: far more than roundings, at random velocities");
-  finding.evidence.push_back({"power of the damping forces", "W", powers});
-  return finding;
+  return dissipation(names, powers);
 }
 
 /// The worst particle's force over epsilon times its scale.
@@ -158,16 +153,19 @@ Finding damping_is_symmetric(const Subject& subject) { return asymmetry(subject,
 Finding damping_is_negative(const Subject& subject) { return largest_eigenvalue(subject, dense_cases()); }
 
 Finding keeps_momentum(const Subject& subject) {
-  Measured measured = roundings_of("sum |F_i|, and sum |x_i||F_i|");
+  Measured measured = roundings_of("of the sum of sizes");
   for (const Damped& damped : with_damping(sheets_and_hinges())) {
     const Specimen& specimen = damped.specimen;
     const PerParticle3 f = Probe(subject, specimen.scene).damping(specimen.state, specimen.state.v);
     measured.see(damped.name + ", force", net_force(f));
     measured.see(damped.name + ", torque", net_torque(specimen.state.x, f));
   }
-  return measured.judged(32,
-                         "each hinge's forces cancel to a few roundings and about 20 hinge forces are added "
-                         "to a particle, a rounding each");
+  Finding finding = measured.judged(
+      32,
+      "each hinge's forces cancel to a few roundings and about 20 hinge forces are added to a particle, a "
+      "rounding each");
+  finding.note = "the sum of sizes is sum |F_i| for the net force, sum |x_i||F_i| for the net torque";
+  return finding;
 }
 
 }  // namespace

@@ -9,7 +9,20 @@ namespace foldproof {
 PowerOfDamping power_of_damping(const Probe& probe, const State& s) {
   const PerParticle3 f = probe.damping(s, s.v);
   const double power = f.cwiseProduct(s.v).sum();
-  return {power, power / (epsilon * f.colwise().norm().cwiseProduct(s.v.colwise().norm()).sum())};
+  return {power, power / f.colwise().norm().cwiseProduct(s.v.colwise().norm()).sum()};
+}
+
+Finding dissipation(const std::vector<std::string>& names, const std::vector<PowerOfDamping>& powers) {
+  std::vector<double> watts, shares;
+  for (const PowerOfDamping& power : powers) {
+    watts.push_back(power.power);
+    shares.push_back(power.share);
+  }
+  return {{signed_largest(shares), 0, 0, "sum |v_i||F_i|",
+           "each element takes a square out of the motion, at random velocities far more than roundings: the "
+           "power is negative, and the largest is that nearest to 0"},
+          {{"case", "", names}, {"power", "sum |v_i||F_i|", shares}, {"power in watts", "W", watts}},
+          "measured is the largest power of the damping forces with its sign"};
 }
 
 Finding asymmetry(const Subject& subject, const std::vector<DampedScene>& cases) {

@@ -16,12 +16,15 @@ struct DampedScene {
 };
 
 struct PowerOfDamping {
-  double power;              // sum of v_i.F_i [W]; negative when the motion loses energy
-  double gain_in_roundings;  // power over epsilon times sum |v_i||F_i|; NaN without any force
+  double power;  // sum of v_i.F_i [W]; negative when the motion loses energy
+  double share;  // power over sum |v_i||F_i| [1], from -1 to 1; NaN without any force
 };
 
 /// At the state's own velocities.
 PowerOfDamping power_of_damping(const Probe& probe, const State& s);
+
+/// The largest of the powers, with its sign: negative when every motion loses energy.
+Finding dissipation(const std::vector<std::string>& names, const std::vector<PowerOfDamping>& powers);
 
 /// Largest entry of D - D^T, over epsilon times the largest entry of D.
 Finding asymmetry(const Subject& subject, const std::vector<DampedScene>& cases);

@@ -138,11 +138,11 @@ Finding diagnostics_finding(const Subject&) {
     if (n > 0 && !(row.cg_iterations > 0 && row.cg_residual <= scene.solver.tolerance && row.seconds >= 0))
       worst.see(NAN);
   }
-  return {{worst.value(), 512, 0, "eps of the quantity",
+  return {{worst.value(), 512, 0, "epsilon of the quantity",
            "up to a hundred terms of ten roundings each, which cancel to a fifth of their size in the "
            "momenta; energies of springs near their "
            "rest length lose a factor of 1/strain, about ten"},
-          {{"time", "s", times}, {"error", "eps of the quantity", errors}},
+          {{"time", "s", times}, {"error", "epsilon of the quantity", errors}},
           "springs, hinges and dampers in 50 digits, masses and areas by a loop of our own"};
 }
 

@@ -39,7 +39,7 @@ Finding free_fall_finding(const Subject& subject, const std::string& integrator)
     worst.see((s.v.col(i) - exact.v).norm() / (epsilon * speed));
     uncertainty = std::max(uncertainty, 2 * exact.x_uncertainty / (epsilon * way));
   }
-  return {{worst.value(), 4.0 * steps, uncertainty, "eps of the way",
+  return {{worst.value(), 4.0 * steps, uncertainty, "epsilon of the way",
            "120 steps, each of which rounds the velocity three times, the position once and the time once"},
           {},
           ""};

@@ -39,6 +39,14 @@ Finding Measured::judged(double bound, const std::string& why_bound) const {
 
 Measured roundings_of(const std::string& scale) { return {"measured", "epsilon " + scale}; }
 
+double signed_largest(const std::vector<double>& values) {
+  if (values.empty()) return NAN;
+  double largest = values.front();
+  for (const double value : values)
+    if (!std::isnan(largest) && !(value <= largest)) largest = value;
+  return largest;
+}
+
 State still_at(PerParticle3 x) {
   PerParticle3 v = PerParticle3::Zero(3, x.cols());
   return {0, std::move(x), std::move(v)};

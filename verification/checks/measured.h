@@ -47,6 +47,9 @@ class Measured {
 /// A Measured in multiples of epsilon times a scale.
 Measured roundings_of(const std::string& scale);
 
+/// The largest value with its sign; NaN if any is, or if there is none.
+double signed_largest(const std::vector<double>& values);
+
 /// The positions x (3 x N [m]) without motion.
 State still_at(PerParticle3 x);
 

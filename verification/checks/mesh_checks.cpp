@@ -126,7 +126,7 @@ Finding every_inner_edge_is_one_hinge(const Subject&) {
 }
 
 Finding areas_and_masses_sum(const Subject&) {
-  Measured measured = roundings_of("exact area, mass, or three times the area");
+  Measured measured = roundings_of("of the exact value");
   const double density = 0.37;
   for (const Known& shape : known_shapes()) {
     const double sum = triangle_areas(shape.mesh.triangles, shape.mesh.rest).sum();
@@ -141,7 +141,8 @@ Finding areas_and_masses_sum(const Subject&) {
   Finding finding =
       measured.judged(64, "about ten roundings an area, with errors of either sign, added one by one");
   finding.note =
-      "Areas are those of plane geometry; for the round sphere and the statue the mesh's own area stands in, "
+      "The exact value is the area, the mass, or three times the area for the edges' areas. Areas are those "
+      "of plane geometry; for the round sphere and the statue the mesh's own area stands in, "
       "and only masses "
       "and edge areas are compared with it.";
   return finding;
@@ -168,7 +169,7 @@ Finding obj_round_trip_is_exact(const Subject&) {
 }
 
 Finding pleats_are_isometric(const Subject&) {
-  Measured measured = roundings_of("sheet's width, or of the angle pi");
+  Measured measured = roundings_of("of the size");
   for (const double angle : {0.7, -1.9, 2.9}) {
     for (const SheetPattern pattern : {SheetPattern::one_diagonal, SheetPattern::union_jack}) {
       Sheet sheet = sheet_of(pattern);
@@ -192,9 +193,12 @@ Finding pleats_are_isometric(const Subject&) {
       measured.see(name + " by " + std::to_string(angle) + " rad, angles", fold.value());
     }
   }
-  return measured.judged(64,
-                         "a vertex is placed by adding up to nine columns; angles divide such errors by a "
-                         "cell, a ninth of the width");
+  Finding finding = measured.judged(
+      64,
+      "a vertex is placed by adding up to nine columns; angles divide such errors by a cell, a ninth of the "
+      "width");
+  finding.note = "the size is the sheet's width for lengths, pi for angles";
+  return finding;
 }
 
 Finding hinge_folds_by_its_angle(const Subject&) {

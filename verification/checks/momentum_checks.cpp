@@ -31,7 +31,7 @@ Momenta momenta(const PerParticle& mass, const PerParticle3& x, const PerParticl
 
 enum class Momentum { linear, angular };
 
-/// Drift from the start, in epsilon of the sum of absolute values (the largest on the way) [eps].
+/// Drift from the start, in epsilon of the sum of absolute values (the largest on the way) [epsilon].
 double drift(const Momenta& now, const Momenta& start, Momentum which, double size) {
   const Vector3 change =
       which == Momentum::linear ? Vector3(now.linear - start.linear) : Vector3(now.angular - start.angular);
@@ -46,7 +46,8 @@ Finding kept(const Subject& subject, const std::string& integrator, const Scene&
   State s = stepper.start();
   const Momenta start = momenta(mass, s.x, s.v);
   Worst worst, size;
-  Column times{"time", "s", std::vector<double>{}}, drifts{"drift", "eps of the sum", std::vector<double>{}};
+  Column times{"time", "s", std::vector<double>{}},
+      drifts{"drift", "epsilon of the sum", std::vector<double>{}};
   for (int n = 1; n <= steps; ++n) {
     s = stepper.step(s, n % 2 == 0 ? 2.3e-3 : 0.7e-3);
     const Momenta now = momenta(mass, s.x, s.v);
@@ -57,12 +58,12 @@ Finding kept(const Subject& subject, const std::string& integrator, const Scene&
     std::get<0>(times.values).push_back(s.time);
     std::get<0>(drifts.values).push_back(drifted);
   }
-  return {{worst.value(), 16 * std::sqrt(double(steps)), 0, "eps of the sum",
+  const double bound = 16 * std::sqrt(double(steps));
+  return {{worst.value(), bound, 0, "epsilon of the sum",
            "a step rounds the momentum that a particle has or is given about 16 times, and 1,000 steps add "
-           "up like a random walk; a defect of the scheme shows at h^2 = "
-           "1e-6, ten million times as much"},
+           "up like a random walk; a defect of the scheme would show at the order of h^2"},
           {times, drifts},
-          ""};
+          smallest_defect(bound, "sum of the momenta's sizes, over all steps")};
 }
 
 Scene loosely_solved_sheet() {
@@ -101,11 +102,12 @@ Finding reversal_finding(const Subject& subject, const std::string& integrator) 
   Worst worst;
   worst.see(off_x);
   worst.see(off_v);
-  return {{worst.value(), 16 * std::sqrt(2.0 * steps) * grown, 0, "eps of the extent",
+  const double bound = 16 * std::sqrt(2.0 * steps) * grown;
+  return {{worst.value(), bound, 0, "epsilon of the extent",
            "16 roundings a step, 300 steps that add up like a random walk, each grown as much as a "
            "disturbance of the start grows at most (see the evidence)"},
           {{"growth", "1", std::vector<double>{grown}}, {"way there", "m", std::vector<double>{way}}},
-          ""};
+          smallest_defect(bound, "extent")};
 }
 
 struct Truncation {
@@ -141,8 +143,8 @@ Finding truncated_finding(const Subject&) {
                                         {"tolerance 1e-8", 1e-8, 1000}};
   Worst worst;
   Column names{"stopped after", "1", std::vector<std::string>{}}, steps{"step", "s", std::vector<double>{}};
-  Column linear{"linear", "eps of sum m |v|", std::vector<double>{}},
-      angular{"angular", "eps of sum m |x| |v|", std::vector<double>{}};
+  Column linear{"linear", "epsilon of sum m |v|", std::vector<double>{}},
+      angular{"angular", "epsilon of sum m |x| |v|", std::vector<double>{}};
   for (const Truncation& way : ways)
     for (double h : {3.7e-4, 5.9e-3, 0.11}) {
       const auto [p, l] = truncated(way, h, 77);
@@ -153,7 +155,7 @@ Finding truncated_finding(const Subject&) {
       std::get<0>(linear.values).push_back(p);
       std::get<0>(angular.values).push_back(l);
     }
-  return {{worst.value(), 64, 0, "eps of the sum",
+  return {{worst.value(), 64, 0, "epsilon of the sum",
            "an iteration rounds every velocity twice and every damping force about ten times; the tens of "
            "iterations of the tight "
            "solves add up at random and in falling size"},

@@ -101,7 +101,7 @@ Finding matrix_finding(const Subject&, const std::string& integrator) {
   Random random(12);
   Worst worst;
   Column as{"h c/2", "1", std::vector<double>{}}, bs{"h^2 k/2", "1", std::vector<double>{}};
-  Column errors{"error", "eps of the terms", std::vector<double>{}};
+  Column errors{"error", "epsilon of the terms", std::vector<double>{}};
   for (int n = 0; n < 300; ++n) {
     const double h = random.in_decades(1e-4, 0.7), a = random.in_decades(3e-3, 300),
                  b = random.in_decades(2e-3, 9);
@@ -116,7 +116,7 @@ Finding matrix_finding(const Subject&, const std::string& integrator) {
     std::get<0>(bs.values).push_back(b);
     std::get<0>(errors.values).push_back(here.value());
   }
-  return {{worst.value(), 16, 0.5, "eps of the terms",
+  return {{worst.value(), 16, 0.5, "epsilon of the terms",
            "about twenty roundings lie between the unit vector and an entry, half an epsilon each, and one "
            "correction of the solve"},
           {as, bs, errors},
@@ -179,7 +179,7 @@ Finding pure_damping_finding(const Subject&, const std::string& integrator) {
     std::get<0>(as.values).push_back(a);
     std::get<0>(totals.values).push_back(total);
   }
-  return {{worst.value(), 4, 0, "eps of the path, a step",
+  return {{worst.value(), 4, 0, "epsilon of the path, a step",
            "each step rounds the position once and the velocity about six times; (1 + h c/2) is how much "
            "larger the terms are than "
            "the velocity that they leave"},

@@ -29,19 +29,18 @@ Finding absent_finding(const Subject&) {
   const Scene nothing = read_case(""), falls = read_case("[gravity]\n");
   const Scene zeros = read_case("[gravity]\n[stretch]\nstiffness = 0\n[bending]\nstiffness = 0\n");
   const auto forces = [](const Scene& scene) { return double(build_system(scene).forces.size()); };
-  differences.see("forces of a case without any", forces(nothing));
-  differences.see("forces of a case with gravity, less 1", forces(falls) - 1);
-  differences.see("that force is gravity",
-                  std::holds_alternative<Gravity>(build_system(falls).forces[0]) ? 0 : 1);
-  differences.see("forces of a case with three, less 3", forces(zeros) - 3);
+  differences.see("forces of a case without any", forces(nothing), 1);
+  differences.see("forces of a case with gravity, less 1", forces(falls) - 1, 1);
+  differences.is("that force is gravity", std::holds_alternative<Gravity>(build_system(falls).forces[0]));
+  differences.see("forces of a case with three, less 3", forces(zeros) - 3, 1);
   differences.see("filters and led particles",
-                  double(build_system(zeros).filters.size() + build_system(zeros).led.size()));
-  differences.see("parts named, less 2", double(built_parts(falls, build_system(falls)).size()) - 2);
+                  double(build_system(zeros).filters.size() + build_system(zeros).led.size()), 1);
+  differences.see("parts named, less 2", double(built_parts(falls, build_system(falls)).size()) - 2, 1);
   differences.see("positions with gravity alone and with zero stiffnesses",
-                  largest_difference(end_of(falls), end_of(zeros)));
+                  largest_difference(end_of(falls), end_of(zeros)), extent(plain_positions()));
   differences.see("positions without force and at rest",
-                  largest_difference(end_of(nothing), plain_positions()));
-  differences.see("default gravity", (*falls.gravity - Vector3(0, -9.80665, 0)).norm());
+                  largest_difference(end_of(nothing), plain_positions()), extent(plain_positions()));
+  differences.see("default gravity", (*falls.gravity - Vector3(0, -9.80665, 0)).norm(), 9.80665);
   return differences.finding(
       0, "what is absent is not built; a stiffness of zero adds zeros, which change no digit");
 }
@@ -58,7 +57,7 @@ Finding numbers_finding(const Subject&) {
                                           "17\nrelative_to = \"initial_residual\"\n",
                                       "folder/trial.toml");
   Differences differences;
-  const auto is = [&](const std::string& what, bool right) { differences.see(what, right ? 0 : 1); };
+  const auto is = [&](const std::string& what, bool right) { differences.is(what, right); };
   is("name, title, about", scene.name == "trial" && scene.title == "Trial" && scene.about == "Words");
   is("density", scene.density == 0.23);
   is("gravity", *scene.gravity == Vector3(0.3, -0.7, 1.1));
@@ -89,7 +88,7 @@ Finding overrides_finding(const Subject&) {
       "[stretch]\nstiffness = 37.5\n[[hold]]\nparticles = [0]\n[[hold]]\nparticles = [3]\n";
   const auto with = [&](std::vector<std::string> overrides) { return read_case(tables, overrides); };
   Differences differences;
-  const auto is = [&](const std::string& what, bool right) { differences.see(what, right ? 0 : 1); };
+  const auto is = [&](const std::string& what, bool right) { differences.is(what, right); };
   const auto refused = [&](const std::string& assignment, const std::string& mention) {
     try {
       with({assignment});

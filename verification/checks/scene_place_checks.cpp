@@ -31,7 +31,7 @@ Finding hold_finding(const Subject&) {
     if (rest(1, i) >= 0.43 - 0.35 * 0.43) top.push_back(i);
   }
   Differences differences;
-  const auto is = [&](const std::string& what, bool right) { differences.see(what, right ? 0 : 1); };
+  const auto is = [&](const std::string& what, bool right) { differences.is(what, right); };
   is("particles", held_by("particles = [7, 2]") == std::vector<int>{7, 2});
   is("box", left.size() == 8 && held_by("box = [[-0.01, -0.01, -0.01], [0.16, 1.0, 0.01]]") == left);
   is("top", top.size() == 10 && held_by("top = 0.35") == top);
@@ -45,17 +45,20 @@ Finding hold_finding(const Subject&) {
                                         p.motion.amplitude == Vector3(0.3, 0.5, 0.7) &&
                                         p.motion.center == Vector3(0.6, 0.9, 1.1));
   is("frequency", p.motion.frequency == 1.7);
-  differences.see("phase in degrees [rad]", p.motion.phase - 33 * degree);
-  differences.see("angular velocity in degrees [rad/s]",
-                  (p.motion.angular_velocity - degree * Vector3(10, -20, 35)).norm());
-  differences.see("start position on the path", (start_state(scene).x.col(7) - rest.col(7)).norm());
+  differences.see("phase in degrees", p.motion.phase - 33 * degree, 33 * degree);
+  differences.see("angular velocity in degrees",
+                  (p.motion.angular_velocity - degree * Vector3(10, -20, 35)).norm(),
+                  degree * Vector3(10, -20, 35).norm());
   const Vector3 arm = Vector3(rest.col(7)) - Vector3(0.6, 0.9, 1.1), spin = degree * Vector3(10, -20, 35);
+  differences.see("start position on the path", (start_state(scene).x.col(7) - rest.col(7)).norm(),
+                  arm.norm() + Vector3(0.6, 0.9, 1.1).norm());
   const Vector3 speed = spin.cross(arm) + Vector3(0.1, 0.2, 0.4) +
                         2 * std::numbers::pi * 1.7 * std::cos(33 * degree) * Vector3(0.3, 0.5, 0.7);
-  differences.see("start velocity on the path", (start_state(scene).v.col(7) - speed).norm());
-  return differences.finding(
-      32 * epsilon,
-      "angles are converted to radians, and velocities of up to 10 m/s computed, with a few roundings");
+  differences.see("start velocity on the path", (start_state(scene).v.col(7) - speed).norm(),
+                  spin.norm() * arm.norm() + speed.norm());
+  return differences.finding(32,
+                             "angles are converted to radians, positions and velocities computed, with a few "
+                             "roundings of each term");
 }
 
 Finding start_finding(const Subject&) {
@@ -63,27 +66,29 @@ Finding start_finding(const Subject&) {
       read_case("[start]\nstretch = 1.07\nvelocity = [0.3, -0.5, 0.9]\nspin = [40, -70, 110]\n");
   const PerParticle3 rest = plain_positions();
   const Vector3 center = rest.rowwise().mean(), spin = degree * Vector3(40, -70, 110);
-  Worst x, v, noise, least;
+  Worst x, v, size, speed;
   for (Eigen::Index i = 0; i < rest.cols(); ++i) {
     const Vector3 arm = 1.07 * (rest.col(i) - center);
+    size.see(arm.norm() + center.norm());
+    speed.see(spin.norm() * arm.norm() + Vector3(0.3, -0.5, 0.9).norm());
     x.see((scene.x.col(i) - center - arm).norm());
     v.see((scene.v.col(i) - Vector3(0.3, -0.5, 0.9) - spin.cross(arm)).norm());
   }
   const PerParticle3 shaken = read_case("[start]\nnoise = 0.004\nseed = 5\n").x - rest;
   Differences differences;
-  differences.see("positions", x.value());
-  differences.see("velocities", v.value());
-  differences.see("rest shape", largest_difference(scene.mesh.rest, rest));
-  differences.see("noise is within its size and fills it",
-                  shaken.cwiseAbs().maxCoeff() <= 0.004 && shaken.cwiseAbs().maxCoeff() > 0.0036 ? 0 : 1);
-  differences.see("noise has both signs", shaken.minCoeff() < -0.0036 && shaken.maxCoeff() > 0.0036 ? 0 : 1);
+  differences.see("positions", x.value(), size.value());
+  differences.see("velocities", v.value(), speed.value());
+  differences.see("rest shape", largest_difference(scene.mesh.rest, rest), size.value());
+  differences.is("noise is within its size and fills it",
+                 shaken.cwiseAbs().maxCoeff() <= 0.004 && shaken.cwiseAbs().maxCoeff() > 0.0036);
+  differences.is("noise has both signs", shaken.minCoeff() < -0.0036 && shaken.maxCoeff() > 0.0036);
   differences.see("the seed fixes the noise",
-                  largest_difference(shaken, read_case("[start]\nnoise = 0.004\nseed = 5\n").x - rest));
-  differences.see(
-      "another seed gives other noise",
-      largest_difference(shaken, read_case("[start]\nnoise = 0.004\nseed = 6\n").x - rest) > 1e-3 ? 0 : 1);
-  return differences.finding(32 * epsilon,
-                             "a few roundings of lengths below 1 m and velocities of about 2 m/s");
+                  largest_difference(shaken, read_case("[start]\nnoise = 0.004\nseed = 5\n").x - rest),
+                  0.004);
+  differences.is("another seed gives other noise",
+                 largest_difference(shaken, read_case("[start]\nnoise = 0.004\nseed = 6\n").x - rest) > 1e-3);
+  return differences.finding(
+      32, "a few roundings of each of the terms that lengths and velocities are summed from");
 }
 
 Finding placed_finding(const Subject&) {
@@ -102,10 +107,11 @@ Finding placed_finding(const Subject&) {
     worst.see((scene.x.col(i) - turned - move).norm());
   }
   Differences differences;
-  differences.see("start", worst.value());
-  differences.see("rest shape is the placed one", largest_difference(scene.x, scene.mesh.rest));
-  return differences.finding(32 * epsilon,
-                             "scaled, turned and moved with some twenty roundings of lengths below 2 m");
+  differences.see("start", worst.value(), 1.3 + move.norm());
+  differences.see("rest shape is the placed one", largest_difference(scene.x, scene.mesh.rest),
+                  1.3 + move.norm());
+  return differences.finding(
+      32, "scaled, turned and moved with some twenty roundings of the cloth's length and of the way moved");
 }
 
 Finding rest_angle_finding(const Subject&) {
@@ -121,20 +127,18 @@ Finding rest_angle_finding(const Subject&) {
   const auto given = angles("rest_angle = -27.5\n"), flat = angles("rest_angle = \"flat\"\n"),
              shape = angles("rest_angle = \"rest_shape\"\n"), none = angles("");
   Differences differences;
-  differences.see("a number, in degrees, least", *extremes(given).first + 27.5 * degree);
-  differences.see("a number, in degrees, greatest", *extremes(given).second + 27.5 * degree);
-  differences.see("flat", std::max(-*extremes(flat).first, *extremes(flat).second));
+  differences.see("a number, in degrees, least", *extremes(given).first + 27.5 * degree, 27.5 * degree);
+  differences.see("a number, in degrees, greatest", *extremes(given).second + 27.5 * degree, 27.5 * degree);
+  differences.see("flat", std::max(-*extremes(flat).first, *extremes(flat).second), 1);
   // a cylinder of nine sides is folded by 40 degrees along its length and flat elsewhere
-  differences.see(
-      "rest shape, least",
-      std::abs(*extremes(shape).first) < 1e-9 || std::abs(*extremes(shape).second) < 1e-9 ? 0 : 1);
-  differences.see(
-      "rest shape, sharpest [rad]",
-      std::max(std::abs(*extremes(shape).first), std::abs(*extremes(shape).second)) - 40 * degree);
-  differences.see("the default is the rest shape", shape == none ? 0 : 1);
-  differences.see("one angle a hinge",
-                  double(given.size() + flat.size() + shape.size()) / 3 - double(shape.size()));
-  return differences.finding(64 * epsilon, "an angle is found from coordinates with some thirty roundings");
+  differences.is("rest shape, least",
+                 std::abs(*extremes(shape).first) < 1e-9 || std::abs(*extremes(shape).second) < 1e-9);
+  differences.see("rest shape, sharpest",
+                  std::max(std::abs(*extremes(shape).first), std::abs(*extremes(shape).second)) - 40 * degree,
+                  1);
+  differences.is("the default is the rest shape", shape == none);
+  differences.is("one angle a hinge", given.size() == shape.size() && flat.size() == shape.size());
+  return differences.finding(64, "an angle is found from coordinates with some thirty roundings of 1 rad");
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ Finding returned_finding(const Subject&) {
   Worst worst;
   for (size_t k = 0; k < table.step.size(); ++k)
     worst.see(std::abs(table.returned[k] - table.recomputed[k]) / epsilon);
-  return {{worst.value(), 256, 0, "eps of the scale",
+  return {{worst.value(), 256, 0, "epsilon of the scale",
            "each of up to a hundred iterations rounds r in proportion to the correction of that iteration, "
            "and the solve began with |r| "
            "of the scale's own size or a few times it"},
@@ -206,12 +206,12 @@ Finding operator_finding(const Subject& subject) {
   Worst worst;
   worst.see(asymmetry);
   worst.see(deficit);
-  return {{worst.value(), 64, 0, "eps of the largest",
+  return {{worst.value(), 64, 0, "epsilon of the largest",
            "an entry sums some twenty dampers of five roundings; the smallest eigenvalue, 1 but for "
            "rounding, is found to about the "
            "square root of the matrix' size, 10, in epsilon of the largest"},
-          {{"asymmetry", "eps of the largest entry", std::vector<double>{asymmetry}},
-           {"smallest eigenvalue below 1", "eps of the largest", std::vector<double>{deficit}},
+          {{"asymmetry", "epsilon of the largest entry", std::vector<double>{asymmetry}},
+           {"smallest eigenvalue below 1", "epsilon of the largest", std::vector<double>{deficit}},
            {"largest eigenvalue", "1", std::vector<double>{eigenvalues[n - 1]}}},
           "the operator is I - s M^{-1/2} D M^{-1/2}"};
 }

@@ -152,7 +152,7 @@ Finding rest_gives_no_force(const Subject& subject) {
 
 /// Y A_e/L0^2 is that of the rest shape, so a scale only moves the length at which a spring is at ease.
 Finding rest_length_scale_is_kept(const Subject& subject) {
-  Measured measured = roundings_of("sum |F| of the unscaled springs, or of the energy");
+  Measured measured = roundings_of("of the size");
   Specimen sheet = crumpled_sheets()[4];
   for (const double scale : {0.83, 0.97, 1.0, 1.21}) {
     sheet.scene.stretch = StretchMaterial{530.0, 0.29, scale};
@@ -169,21 +169,20 @@ Finding rest_length_scale_is_kept(const Subject& subject) {
         name + ", energy at the unscaled rest shape",
         std::abs(probe.energy(still_at(sheet.scene.mesh.rest)) - energy) / (epsilon * 530.0 * areas.sum()));
   }
-  return measured.judged(32, "two ways to a length differ by a few roundings; springs are added one by one");
+  Finding finding =
+      measured.judged(32, "two ways to a length differ by a few roundings; springs are added one by one");
+  finding.note = "the size of a force is the largest Y A_e/L0, that of an energy sum Y A_e";
+  return finding;
 }
 
 Finding damping_dissipates(const Subject& subject) {
-  Measured measured = roundings_of("sum |v_i||F_i|");
-  std::vector<double> powers;
+  std::vector<std::string> names;
+  std::vector<PowerOfDamping> powers;
   for (const Specimen& sheet : sprung_sheets()) {
-    const PowerOfDamping power = power_of_damping(Probe(subject, sheet.scene), sheet.state);
-    measured.see(sheet.name, power.gain_in_roundings);
-    powers.push_back(power.power);
+    names.push_back(sheet.name);
+    powers.push_back(power_of_damping(Probe(subject, sheet.scene), sheet.state));
   }
-  Finding finding = measured.judged(
-      0, "a square is taken out of the motion of each spring: far more than roundings, at random velocities");
-  finding.evidence.push_back({"power of the damping forces", "W", powers});
-  return finding;
+  return dissipation(names, powers);
 }
 
 Finding damping_leaves_rigid_motion_alone(const Subject& subject) {
@@ -216,7 +215,10 @@ Finding damping_is_symmetric_negative(const Subject& subject) {
   worst.see(finding.verdict.measured);
   worst.see(symmetry.verdict.measured);
   finding.verdict.measured = worst.value();
-  finding.verdict.unit = "epsilon 3N times the largest |eigenvalue|; epsilon times the largest |D_ij|";
+  finding.verdict.unit = "epsilon of the matrix's size";
+  finding.note =
+      "the size is 3N times the largest |eigenvalue| for an eigenvalue, the largest |D_ij| for the "
+      "asymmetry";
   finding.verdict.why_bound += "; an entry of D and its mirror are the same product in another order";
   return finding;
 }

@@ -78,19 +78,20 @@ Finding filter_finding(const Subject&, const std::string& integrator) {
   const double h = 1.7e-3;
   const FilteredStep step = filtered_step(integrator, h);
   const bool ends = integrator != "B";
-  if (step.calls.size() != (ends ? 2 : 1)) return {{NAN, 0, 0, "m", ""}, {}, "a wrong number of calls"};
+  if (step.calls.size() != (ends ? 2 : 1))
+    return {{NAN, 0, 0, "numbers that differ", "the filter is called once for each velocity that is used"},
+            {},
+            "a wrong number of calls"};
   const Call& move = step.calls.front();
   const PerParticle3 moved = step.now.x + h * move.left;
-  Worst worst;
-  worst.see(largest_difference(step.next.x, moved));
-  worst.see(std::abs(move.span.start - step.now.time) + std::abs(move.span.end - (step.now.time + h)));
+  double differing = numbers_that_differ(step.next.x, moved);
+  differing += (move.span.start != step.now.time) + (move.span.end != step.now.time + h);
   if (ends) {
-    worst.see(largest_difference(step.next.v, step.calls[1].left));
-    worst.see(std::abs(step.calls[1].span.start - step.next.time) +
-              std::abs(step.calls[1].span.end - step.next.time));
+    differing += numbers_that_differ(step.next.v, step.calls[1].left);
+    differing += (step.calls[1].span.start != step.next.time) + (step.calls[1].span.end != step.next.time);
   }
   return {
-      {worst.value(), 0, 0, "m, m/s or s",
+      {differing, 0, 0, "numbers that differ",
        "x + h v of the filtered velocity and the filtered end velocity are used as they are, bit for bit"},
       {},
       ends ? "The filter is called for the motion and for the end velocity."
@@ -135,9 +136,9 @@ Finding continues_finding(const std::string& integrator) {
     errors.push_back(std::abs(error) / (epsilon * size));
     worst.see(errors.back());
   }
-  return {{worst.value(), 16, 0, "eps of the terms",
+  return {{worst.value(), 16, 0, "epsilon of the terms",
            "some twenty roundings of half an epsilon each; the filter's change is 0.3 of the terms"},
-          {{"h c/2", "1", as}, {"error", "eps of the terms", errors}},
+          {{"h c/2", "1", as}, {"error", "epsilon of the terms", errors}},
           ""};
 }
 
@@ -150,26 +151,26 @@ Scene held_scene() {
 Finding held_finding(const Subject& subject) {
   Worst worst;
   std::vector<std::string> names;
-  std::vector<double> distances;
+  std::vector<double> counts;
   for (const Integrator& integrator : integrators()) {
     Stepper stepper(subject, held_scene(), std::string(integrator.name));
     State s = stepper.start();
-    Worst here;
+    double here = 0;
     for (int n = 0; n < 50; ++n) {
       s = stepper.step(s, n % 2 == 0 ? 1.9e-3 : 0.6e-3);
       for (const PrescribedParticle& p : stepper.scene().led) {
-        here.see((s.x.col(p.particle) - p.start).norm());
-        here.see(s.v.col(p.particle).norm());
+        here += numbers_that_differ(s.x.col(p.particle), p.start);
+        here += numbers_that_differ(s.v.col(p.particle), Vector3(Vector3::Zero()));
       }
     }
     names.emplace_back(integrator.name);
-    distances.push_back(here.value());
-    worst.see(here.value());
+    counts.push_back(here);
+    worst.see(here);
   }
-  return {
-      {worst.value(), 0, 0, "m or m/s", "what is held has the velocity 0 and keeps every bit of its place"},
-      {{"integrator", "1", names}, {"largest displacement or speed", "m or m/s", distances}},
-      ""};
+  return {{worst.value(), 0, 0, "numbers that differ",
+           "what is held has the velocity 0 and keeps every bit of its place"},
+          {{"integrator", "1", names}, {"numbers that differ", "1", counts}},
+          ""};
 }
 
 /// Where a led point is, straight from the definition of Motion, the rotation by Rodrigues' formula.
@@ -202,11 +203,10 @@ Finding led_finding(const Subject& subject, const std::string& integrator) {
       if (fastest > 0) worst.see((s.v.col(p.particle) - point.v).norm() / (epsilon * fastest));
     }
   }
-  return {{worst.value(), 16, 0, "eps of 1 m, of the top speed",
-           "two formulas of about ten roundings each for points within 1 m of the origin, whose phases reach "
-           "6 rad"},
+  return {{worst.value(), 16, 0, "epsilon of the size",
+           "two formulas of ten roundings each, for points within 1 m of the origin and phases up to 6 rad"},
           {},
-          "compared after each of 200 uneven steps"};
+          "Compared after each of 200 uneven steps; the size is 1 m, or the point's top speed."};
 }
 
 Finding counts_finding(const Subject& subject) {

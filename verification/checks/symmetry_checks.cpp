@@ -48,7 +48,7 @@ State run_in(const Units& u, const Subject& subject, const std::string& integrat
   return s;
 }
 
-/// How far the ends of two runs lie apart, in epsilon of the extent and of the extent over the time [eps].
+/// How far the ends of two runs lie apart, in epsilon of the extent and of the extent over the time [epsilon].
 double distance(const State& a, const State& b, double size, double duration) {
   Worst worst;
   worst.see(largest_difference(a.x, b.x) / (epsilon * size));
@@ -66,11 +66,11 @@ Finding powers_finding(const Subject& subject, const std::string& integrator) {
     lengths.push_back(u.length);
     masses.push_back(u.mass);
     times.push_back(u.time);
-    differing.push_back(
-        double((other.x.array() != plain.x.array()).count() + (other.v.array() != plain.v.array()).count()));
+    differing.push_back(numbers_that_differ(other.x, plain.x) + numbers_that_differ(other.v, plain.v));
     worst.see(differing.back());
   }
-  return {{worst.value(), 0, 0, "numbers", "a power of two changes no digit of any number on the way"},
+  return {{worst.value(), 0, 0, "numbers that differ",
+           "a power of two changes no digit of any number on the way"},
           {{"length", "1", lengths},
            {"mass", "1", masses},
            {"time", "1", times},
@@ -88,11 +88,12 @@ Finding units_finding(const Subject& subject, const std::string& integrator) {
   Worst worst;
   for (const Units& u : {Units{39.37, 1000, 1}, Units{0.3, 2.2046, 3600}, Units{1e3, 0.07, 0.011}})
     worst.see(distance(run_in(u, subject, integrator, h, steps), plain, size, steps * h));
-  return {{worst.value(), 64 * steps * grown, 0, "eps of the extent",
+  const double bound = 64 * steps * grown;
+  return {{worst.value(), bound, 0, "epsilon of the extent",
            "20 steps of 64 roundings, those of the converted constants included, each grown at most as a "
            "disturbance of the start grows"},
           {{"growth", "1", std::vector<double>{grown}}},
-          ""};
+          smallest_defect(bound, "extent")};
 }
 
 Finding twice_finding(const Subject& subject) {
@@ -103,12 +104,11 @@ Finding twice_finding(const Subject& subject) {
     const State first = run_in({1, 1, 1}, subject, std::string(integrator.name), 1.3e-3, 23);
     const State second = run_in({1, 1, 1}, subject, std::string(integrator.name), 1.3e-3, 23);
     names.emplace_back(integrator.name);
-    counts.push_back(double((first.x.array() != second.x.array()).count() +
-                            (first.v.array() != second.v.array()).count()));
+    counts.push_back(numbers_that_differ(first.x, second.x) + numbers_that_differ(first.v, second.v));
     differing += counts.back();
     if (!first.x.allFinite()) differing = NAN;
   }
-  return {{differing, 0, 0, "numbers", "a run is a function of its input"},
+  return {{differing, 0, 0, "numbers that differ", "a run is a function of its input"},
           {{"integrator", "1", names}, {"numbers that differ", "1", counts}},
           "the second run begins after all others have been made and forgotten"};
 }
@@ -132,12 +132,12 @@ Finding frame_finding(const Subject& subject, const std::string& integrator) {
   State expected = plain;
   expected.x = (turn * plain.x).colwise() + (shift + steps * h * boost);
   expected.v = (turn * plain.v).colwise() + boost;
-  const double grown = growth(stepper, start, h, steps);
-  return {{distance(moved, expected, size, steps * h), 64 * steps * grown, 0, "eps of the extent",
+  const double grown = growth(stepper, start, h, steps), bound = 64 * steps * grown;
+  return {{distance(moved, expected, size, steps * h), bound, 0, "epsilon of the extent",
            "12 steps of 64 roundings, each grown at most as a disturbance of the start grows; solves end at "
            "1e-14 of the velocity, 45 epsilon"},
           {{"growth", "1", std::vector<double>{grown}}},
-          ""};
+          smallest_defect(bound, "extent")};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "reference/scene/scene.h"
 #include "verification/check.h"
+#include "verification/checks/moving_scenes.h"
 
 namespace foldproof {
 
@@ -35,19 +36,23 @@ Scene read_case(const std::string& tables, const std::vector<std::string>& overr
 /// The positions of that sheet, 3 x N [m].
 PerParticle3 plain_positions();
 
-/// Differences between what was read and what was written, each in its own words.
+/// Differences between what was read and what was written, each in its own words and over its own size.
 class Differences {
  public:
-  void see(const std::string& what, double difference) {
+  /// size: the difference's scale, in the same unit.
+  void see(const std::string& what, double difference, double size) {
     names_.push_back(what);
-    values_.push_back(std::abs(difference));
-    worst_.see(std::abs(difference));
+    values_.push_back(std::abs(difference) / (epsilon * size));
+    worst_.see(values_.back());
   }
 
+  /// A statement without a size: 0 if it is right, else infinite.
+  void is(const std::string& what, bool right) { see(what, right ? 0 : INFINITY, 1); }
+
   Finding finding(double bound, const std::string& why) const {
-    return {{names_.empty() ? NAN : worst_.value(), bound, 0, "SI", why},
-            {{"what", "1", names_}, {"difference", "SI", values_}},
-            ""};
+    return {{names_.empty() ? NAN : worst_.value(), bound, 0, "epsilon of the size", why},
+            {{"what", "1", names_}, {"difference", "epsilon of the size", values_}},
+            "Each difference is over the size of what is compared; a wrong statement counts as infinite."};
   }
 
  private:
