@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "convergence/order.h"
+#include "convergence/stable_step.h"
 #include "convergence/studies.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
@@ -16,8 +16,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double side = 0.61;  // m
-constexpr double disturbance =
-    1e-7;  // of the flat sheet [m]: small enough to be linear, large enough for differences
 
 /// What resists: springs or hinges, and the exponent of the cells' width that follows for the step.
 struct Regime {
@@ -41,74 +39,6 @@ Scene flat_sheet(const Regime& regime, int cells) {
   return scene;
 }
 
-/// Numbers in [-1/2, 1/2), 3 x n, the same on every machine.
-PerParticle3 noise(Eigen::Index n) {
-  std::mt19937_64 generator(6021);
-  PerParticle3 values(3, n);
-  for (Eigen::Index i = 0; i < values.size(); ++i)
-    values.data()[i] = double(generator() >> 11) * 0x1p-53 - 0.5;
-  return values;
-}
-
-/// The largest angular frequency of the subject's elastic forces about the scene's start [rad/s]: power
-/// iteration on M^{-1/2} K M^{-1/2}, with products by central differences of the forces.
-double largest_frequency(const Subject& subject, const Scene& scene) {
-  constexpr int rounds = 400;
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
-  const auto& forces = offered(subject.elastic_forces, "elastic_forces");
-  const PerParticle root = lumped_masses(scene.mesh, scene.density).cwiseSqrt().cwiseInverse();
-  State s = start_state(scene);
-  PerParticle3 mode = noise(s.x.cols()).normalized();
-  double squared = 0;
-  for (int i = 0; i < rounds; ++i) {
-    PerParticle3 shift = mode * root.asDiagonal();
-    shift *= disturbance / shift.norm();
-    s.x = scene.x + shift;
-    const PerParticle3 ahead = forces(*prepared, s);
-    s.x = scene.x - shift;
-    const PerParticle3 behind = forces(*prepared, s);
-    const PerParticle3 unit = shift * root.cwiseInverse().asDiagonal();
-    const PerParticle3 product = (behind - ahead) / 2 * root.asDiagonal();
-    squared = product.cwiseProduct(unit).sum() / unit.squaredNorm();
-    mode = product.normalized();
-  }
-  return std::sqrt(squared);
-}
-
-/// Does a small disturbance stay small in steps of h [s]? Stable motion is bounded by the modes' amplitudes,
-/// unstable motion grows beyond every bound.
-enum class Fate { stays, grows };
-
-Fate fate_of(const Subject& subject, Prepared& prepared, const Scene& scene, double h) {
-  constexpr int steps = 600;
-  constexpr double growth = 1000;
-  State s = start_state(scene);
-  s.x += disturbance * noise(s.x.cols());
-  const double start = (s.x - scene.x).norm();
-  Work uncounted;
-  for (int i = 0; i < steps; ++i) {
-    s = subject.step(prepared, s, h, uncounted);
-    if (!((s.x - scene.x).norm() <= growth * start)) return Fate::grows;
-  }
-  return Fate::stays;
-}
-
-/// Bisects the step between 0.8 and 1.2 of 2/omega; returns it over 2/omega. NaN if the limit lies outside.
-double measured_limit(const Subject& subject, Scene scene, std::string_view scheme, double omega) {
-  constexpr int halvings = 8;
-  scene.integrator = std::string(scheme);
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
-  offered(subject.step, "step");
-  double below = 0.8, above = 1.2;
-  if (fate_of(subject, *prepared, scene, below * 2 / omega) == Fate::grows) return nan;
-  if (fate_of(subject, *prepared, scene, above * 2 / omega) == Fate::stays) return nan;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = (below + above) / 2;
-    (fate_of(subject, *prepared, scene, middle * 2 / omega) == Fate::stays ? below : above) = middle;
-  }
-  return (below + above) / 2;
-}
-
 /// Limits of one regime over all meshes.
 struct Limits {
   Convergence exact;           // 2/omega [s] over the width of a cell [m]
@@ -120,7 +50,7 @@ Limits limits_of(const Subject& subject, const Regime& regime, const std::vector
   for (int cells : meshes) {
     const Scene scene = flat_sheet(regime, cells);
     limits.exact.steps.push_back(side / cells);
-    limits.exact.errors.push_back(2 / largest_frequency(subject, scene));
+    limits.exact.errors.push_back(2 / fastest_mode(subject, scene).omega);
     limits.bounds.push_back(elastic_limit(build_system(scene), start_state(scene)));
   }
   return limits;
@@ -186,8 +116,10 @@ NamedFinding smaller_of_both(const std::vector<Limits>& alone, const Limits& bot
 }
 
 NamedFinding scheme_limit(const Subject& subject, const Regime& regime, const Integrator& integrator) {
-  const Scene scene = flat_sheet(regime, 6);
-  const double ratio = measured_limit(subject, scene, integrator.name, largest_frequency(subject, scene));
+  Scene scene = flat_sheet(regime, 6);
+  scene.integrator = std::string(integrator.name);
+  const double ratio =
+      largest_stable_step(subject, scene, fastest_mode(subject, scene).omega, {0.8, 1.2, 8, 600});
   const Verdict verdict{std::abs(ratio - 1), 0.01, 0, "1",
                         "the bisection ends at a width of a sixth of that, and a run this long tells growth "
                         "rates that much beyond the limit"};

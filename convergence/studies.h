@@ -13,6 +13,9 @@ Study momentum_drift();    // momentum-drift: angular momentum of a free sheet
 Study cg_iterations();     // cg-iterations: cost of the implicit solves
 Study bending_scaling();   // bending-scaling: bending damping under refinement
 Study elastic_limit_study();  // elastic-limit: the largest stable step under refinement
+Study hard_limits();          // hard-limits: largest stable steps of hard sheets, under damping, over jumps
+Study buckling();             // buckling: critical load and growth of a compressed strip
+Study mirror_symmetry();      // mirror-symmetry: how rounding breaks it
 
 /// All of them, in the order in which they are reported.
 std::vector<Study> all_studies();

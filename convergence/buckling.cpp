@@ -1,0 +1,252 @@
+// buckling: the load at which a compressed strip leaves its plane, and how fast it does so beyond.
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+#include "convergence/studies.h"
+#include "reference/mesh/shapes.h"
+#include "verification/subject.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double edge = 0.01;        // m
+constexpr double young = 100;        // Y [N/m]
+constexpr double bending = 1.37e-3;  // ke [J]
+constexpr double density = 0.2;      // kg/m^2
+constexpr int columns = 2;
+
+/// A strip of equilateral triangles between two clamps of two held rows each.
+struct Strip {
+  int rows;
+  double strain;  // by which it is shortened [1]
+
+  double row() const { return std::sqrt(0.75) * edge; }  // m
+  double length() const { return (rows - 1) * row(); }   // from half a row before each clamp's line [m]
+  double width() const { return columns * edge; }        // m
+};
+
+/// Shortened along y, and widened by Poisson's ratio 1/3 so that no force remains but along y.
+Scene scene_of_strip(const Strip& strip) {
+  Scene scene =
+      scene_of(make_sheet({SheetPattern::equilateral, strip.width(), 0, columns, strip.rows}), density);
+  scene.stretch = StretchMaterial{young, 0.01, 1};
+  scene.bending = BendingMaterial{bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  scene.x.row(0) *= 1 + strip.strain / 3;
+  scene.x.row(1) *= 1 - strip.strain;
+  for (int i = 0; i < scene.mesh.particles(); ++i) {
+    const double row = scene.mesh.rest(1, i) / strip.row();
+    if (row < 1.5 || row > strip.rows - 1.5) scene.led.push_back({i, scene.x.col(i), {}});
+  }
+  return scene;
+}
+
+/// A strip at rest in its plane under the compression, and what its forces say there.
+struct Compressed {
+  State rest;
+  double load;       // N/m
+  double stiffness;  // the least eigenvalue of M^{-1/2} K_zz M^{-1/2}, K_zz across the plane [1/s^2]
+  PerParticle mode;  // its displacement along z, N [m]; zero where held
+};
+
+/// Lets the motion in the plane die out: springs are damped, and nothing leaves the plane exactly.
+State settled(const Subject& subject, Prepared& prepared, const Scene& scene) {
+  constexpr double h = 1e-4;  // s: a third of the elastic limit
+  constexpr int steps = 800;
+  State s = start_state(scene);
+  Work uncounted;
+  for (int i = 0; i < steps; ++i) s = subject.step(prepared, s, h, uncounted);
+  s.v.setZero();
+  return s;
+}
+
+std::vector<int> free_particles(const Scene& scene) {
+  std::vector<char> held(size_t(scene.mesh.particles()), 0);
+  for (const PrescribedParticle& p : scene.led) held[size_t(p.particle)] = 1;
+  std::vector<int> free;
+  for (int i = 0; i < scene.mesh.particles(); ++i)
+    if (!held[size_t(i)]) free.push_back(i);
+  return free;
+}
+
+/// M^{-1/2} K_zz M^{-1/2} over the free particles, by central differences of the subject's forces [1/s^2].
+Eigen::MatrixXd stiffness_across(const Subject& subject, Prepared& prepared, const Scene& scene, State s) {
+  constexpr double shift = 1e-8;  // m
+  const std::vector<int> free = free_particles(scene);
+  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  Eigen::MatrixXd matrix(free.size(), free.size());
+  for (size_t j = 0; j < free.size(); ++j) {
+    s.x(2, free[j]) = shift;
+    const PerParticle3 ahead = subject.elastic_forces(prepared, s);
+    s.x(2, free[j]) = -shift;
+    const PerParticle3 behind = subject.elastic_forces(prepared, s);
+    s.x(2, free[j]) = 0;
+    for (size_t i = 0; i < free.size(); ++i)
+      matrix(Eigen::Index(i), Eigen::Index(j)) =
+          (behind(2, free[i]) - ahead(2, free[i])) / (2 * shift) / std::sqrt(mass[free[i]] * mass[free[j]]);
+  }
+  return (matrix + matrix.transpose()) / 2;
+}
+
+Compressed compressed(const Subject& subject, const Strip& strip) {
+  const Scene scene = scene_of_strip(strip);
+  const auto prepared = offered(subject.prepare, "prepare")(scene);
+  offered(subject.step, "step");
+  Compressed result{settled(subject, *prepared, scene), 0, 0, PerParticle::Zero(scene.mesh.particles())};
+  const PerParticle3 force = offered(subject.elastic_forces, "elastic_forces")(*prepared, result.rest);
+  for (int i = 0; i < scene.mesh.particles(); ++i)  // what the lower clamp holds back
+    if (scene.mesh.rest(1, i) < 1.5 * strip.row()) result.load -= force(1, i) / strip.width();
+
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+      stiffness_across(subject, *prepared, scene, result.rest));
+  result.stiffness = modes.eigenvalues()[0];
+  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  const std::vector<int> free = free_particles(scene);
+  for (size_t i = 0; i < free.size(); ++i)
+    result.mode[free[i]] = modes.eigenvectors()(Eigen::Index(i), 0) / std::sqrt(mass[free[i]]);
+  result.mode.normalize();
+  return result;
+}
+
+/// The strain at which the stiffness against the slowest mode vanishes, by the secant rule: it is nearly linear
+/// in the strain.
+Strip critical_strip(const Subject& subject, int rows) {
+  const double euler = M_PI * M_PI * bending / (std::pow(Strip{rows, 0}.length(), 2) * young);
+  Strip before{rows, 0.6 * euler}, strip{rows, 0.9 * euler};
+  double stiffness_before = compressed(subject, before).stiffness;
+  for (int i = 0; i < 4; ++i) {
+    const double stiffness = compressed(subject, strip).stiffness;
+    const double next =
+        strip.strain - stiffness * (strip.strain - before.strain) / (stiffness - stiffness_before);
+    if (!(std::abs(next - strip.strain) > 1e-9 * euler)) break;
+    before = strip;
+    stiffness_before = stiffness;
+    strip.strain = next;
+  }
+  return strip;
+}
+
+/// D/ke at the critical load N = 4 pi^2 D/L^2 of a strip clamped at both ends.
+struct Rigidities {
+  std::vector<double> rows, strains, loads, over_ke;
+};
+
+NamedFinding load_finding(const Rigidities& found) {
+  constexpr double narrow = 2.0 / 9,
+                   cylinder = 1.0 / 4;  // D/ke of equilateral triangles: free edges, cylinder
+  const double finest_rows = found.rows.back();
+  const double discrete = cylinder * std::pow(2 * M_PI / (finest_rows - 1), 2) / 12;
+  const double over = found.over_ke.back() - cylinder, under = narrow - found.over_ke.back();
+  Worst outside;
+  outside.see(over);
+  outside.see(under);
+  return {
+      "buckling.load-is-eulers",
+      "A strip of equilateral triangles between clamps buckles at Euler's load 4 pi^2 D/L^2, its rigidity D "
+      "between 2/9 ke (free edges) and 1/4 ke (bent to a cylinder).",
+      {{outside.value(), discrete, 0, "ke",
+        "outside of the two rigidities by no more than n rows miss of a cosine's curvature, (2 pi/(n - "
+        "1))^2/12 "
+        "of it, on the finest mesh"},
+       {{"rows", "1", found.rows},
+        {"critical strain", "1", found.strains},
+        {"critical load", "N/m", found.loads},
+        {"rigidity D", "ke", found.over_ke}},
+       "measured is the distance from the range, 0 within it"}};
+}
+
+/// ln(amplitude) of the mode over time beyond the critical load.
+struct Growth {
+  std::vector<double> times, amplitudes;  // s, m
+  double expected, measured;              // 1/s
+};
+
+Growth growth_beyond(const Subject& subject, const Strip& strip) {
+  const Compressed at = compressed(subject, strip);
+  const Scene scene = scene_of_strip(strip);
+  const auto prepared = offered(subject.prepare, "prepare")(scene);
+  Growth growth{{}, {}, std::sqrt(-at.stiffness), nan};
+  State s = at.rest;
+  s.x.row(2) += 1e-9 * at.mode.transpose();
+  s.v.row(2) += growth.expected * 1e-9 * at.mode.transpose();
+  const double h = 1e-4, duration = 5 / growth.expected;  // s
+  const int steps = int(duration / h);
+  Work uncounted;
+  for (int i = 0; i <= steps; ++i) {
+    if (i % (steps / 20) == 0) {
+      growth.times.push_back(i * h);
+      growth.amplitudes.push_back(s.x.row(2).dot(at.mode));
+    }
+    s = subject.step(*prepared, s, h, uncounted);
+  }
+  growth.measured = std::log(growth.amplitudes.back() / growth.amplitudes.front()) / growth.times.back();
+  return growth;
+}
+
+NamedFinding growth_finding(const Growth& growth) {
+  return {
+      "buckling.grows-at-its-rate",
+      "Beyond the critical load a disturbance grows as exp(sigma t), -sigma^2 the negative eigenvalue of the "
+      "linearised forces.",
+      {{std::abs(growth.measured / growth.expected - 1), 0.01, 0, "1",
+        "a wrong mass, load or rigidity shifts the rate by more; the schemes add (sigma h)^2/24, a "
+        "millionth"},
+       {{"time", "s", growth.times}, {"amplitude", "m", growth.amplitudes}},
+       "measured is the relative error of the rate"}};
+}
+
+StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+  std::vector<int> meshes = {10, 20};
+  if (tier == Tier::full) meshes.push_back(40);
+  StudyResult result;
+  Rigidities found;
+  Strip critical{0, 0};
+  for (const int rows : meshes) {
+    critical = critical_strip(subject, rows);
+    const Compressed at = compressed(subject, critical);
+    found.rows.push_back(rows);
+    found.strains.push_back(critical.strain);
+    found.loads.push_back(at.load);
+    found.over_ke.push_back(at.load * std::pow(critical.length(), 2) / (4 * M_PI * M_PI * bending));
+    progress(double(found.rows.size()) / double(meshes.size() + 1));
+  }
+  result.findings.push_back(load_finding(found));
+  const Growth growth = growth_beyond(subject, {critical.rows, 1.4 * critical.strain});
+  result.findings.push_back(growth_finding(growth));
+  Figure figure{
+      "growth",
+      "A strip leaves its plane at 1.4 times the critical strain",
+      {"time", "s", Scale::linear},
+      {"amplitude of the buckling mode", "m", Scale::log},
+      nan,
+      "A straight line is exponential growth; the expected one follows from the forces' eigenvalue.",
+      {{"simulated", growth.times, growth.amplitudes, nan, {}}}};
+  Curve expected{"expected", growth.times, {}, nan, {}};
+  for (const double t : growth.times)
+    expected.y.push_back(growth.amplitudes.front() * std::exp(growth.expected * t));
+  figure.curves.push_back(std::move(expected));
+  result.figures.push_back(std::move(figure));
+  progress(1);
+  return result;
+}
+
+}  // namespace
+
+Study buckling() {
+  return {"buckling",
+          "A compressed strip leaves its plane at Euler's load with the mesh's own rigidity, and grows "
+          "beyond it at "
+          "the rate of the linearised forces.",
+          "our test of BMF03 section 4",
+          "A strip of equilateral triangles between two clamps is shortened; motion in its plane is left to "
+          "die out, "
+          "none leaves it. Central differences of the forces across the plane give the stiffness against "
+          "buckling, "
+          "and the strain at which it vanishes; the clamp's force there is the critical load.",
+          run};
+}
+
+}  // namespace foldproof

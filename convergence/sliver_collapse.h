@@ -1,0 +1,11 @@
+// When a ribbon of slivers loses a triangle, and that the step does not decide it.
+#pragma once
+
+#include "verification/check.h"
+
+namespace foldproof {
+
+/// The finding hard-limits.slivers-collapse-whatever-the-step. It runs the reference.
+NamedFinding sliver_collapse();
+
+}  // namespace foldproof
