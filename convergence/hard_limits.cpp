@@ -197,6 +197,12 @@ Figure damping_figure(const std::vector<Damped>& runs, const std::vector<double>
     }
     figure.curves.push_back(std::move(curve));
   }
+  Curve derived{"zeta + sqrt(1 + zeta^2)", {}, {}, nan, {}};
+  for (double zeta = 0.5; zeta < 101; zeta *= std::pow(200, 0.125)) {
+    derived.x.push_back(zeta);
+    derived.y.push_back(zeta + std::sqrt(1 + zeta * zeta));
+  }
+  figure.curves.push_back(std::move(derived));
   return figure;
 }
 

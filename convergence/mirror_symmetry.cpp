@@ -113,7 +113,7 @@ NamedFinding finding_of(const History& rounding, const History& seeded) {
 }
 
 StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
-  const double end = tier == Tier::quick ? 0.6 : 1.5;  // s
+  const double end = tier == Tier::quick ? 1.2 : 2;  // s
   const Scene scene = falling_sheet();
   const History rounding = asymmetry_of_run(subject, scene, end);
   progress(0.5);
