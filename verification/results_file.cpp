@@ -45,6 +45,30 @@ void write_faults(const Hdf5& file, const std::vector<Fault>& faults) {
                                        {"outcome", "", outcome}});
 }
 
+/// `/claims/<id>`: the ruling and what it rests on; the claim's findings and their roles in the same order.
+void write_claims(const Hdf5& file, const std::vector<ClaimRecord>& claims) {
+  const Hdf5 parent = file.group("claims");
+  int order = 0;
+  for (const ClaimRecord& record : claims) {
+    const Hdf5 here = parent.group(record.claim.id);
+    std::vector<std::string> findings, roles;
+    for (const Decider& decider : record.claim.decided_by) {
+      findings.push_back(decider.finding);
+      roles.emplace_back(name_of(decider.role));
+    }
+    here.attribute("order", order++);
+    here.attribute("section", record.claim.section);
+    here.attribute("statement", record.claim.statement);
+    here.attribute("ruling", std::string(name_of(record.ruling)));
+    here.attribute("recorded", std::string(name_of(record.claim.recorded)));
+    here.attribute("condition", record.claim.condition);
+    here.attribute("why", record.claim.why);
+    here.attribute("decided_by", findings);
+    here.attribute("roles", roles);
+    here.attribute("outcomes", record.outcomes);
+  }
+}
+
 }  // namespace
 
 void write_run(const std::string& path, const RunRecord& run) {
@@ -60,6 +84,7 @@ void write_run(const std::string& path, const RunRecord& run) {
     write_findings(file, run.records);
     write_studies(file, run.studies);
     write_cases(file, run.cases);
+    write_claims(file, run.claims);
     if (!run.faults.empty()) write_faults(file, run.faults);
   }
   rename_when_whole(partial, path);

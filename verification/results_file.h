@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "verification/check.h"
+#include "verification/claims.h"
 #include "verification/provenance_file.h"
 
 namespace foldproof {
@@ -30,6 +31,7 @@ struct RunRecord {
   std::vector<StudyRecord> studies;
   std::vector<CaseRecord> cases;
   std::vector<Fault> faults;
+  std::vector<ClaimRecord> claims;
 };
 
 /// Writes the whole run to `path`, under a temporary name first and renamed when complete. Throws

@@ -33,6 +33,27 @@ nlohmann::json as_json(const Record& record) {
           {"faults", record.faults}};
 }
 
+nlohmann::json as_json(const ClaimRecord& record) {
+  const Claim& claim = record.claim;
+  nlohmann::json deciders = nlohmann::json::array();
+  for (size_t k = 0; k < claim.decided_by.size(); ++k)
+    deciders.push_back({{"finding", claim.decided_by[k].finding},
+                        {"role", name_of(claim.decided_by[k].role)},
+                        {"outcome", record.outcomes[k]}});
+  return {{"name", "claim." + claim.id},
+          {"kind", "claim"},
+          {"id", claim.id},
+          {"section", claim.section},
+          {"source", "BMF03 section " + claim.section},
+          {"statement", claim.statement},
+          {"ruling", name_of(record.ruling)},
+          {"recorded", name_of(claim.recorded)},
+          {"outcome", outcome_of(record)},
+          {"condition", claim.condition},
+          {"why", claim.why},
+          {"decided_by", deciders}};
+}
+
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) switch (c) {
@@ -67,6 +88,16 @@ std::string junit_case(const Record& record) {
          fmt::format(">\n    <{0} message=\"{1}: {2}\"/>\n  </testcase>\n", kind, record.outcome, message);
 }
 
+std::string junit_case(const ClaimRecord& record) {
+  const std::string outcome = outcome_of(record);
+  const std::string text =
+      fmt::format("  <testcase classname=\"claim\" name=\"{}\" time=\"0\"", record.claim.id);
+  if (outcome == name_of(Ruling::holds)) return text + "/>\n";
+  return text + fmt::format(">\n    <{} message=\"ruling: {}; recorded: {}. {}\"/>\n  </testcase>\n",
+                            outcome == name_of(Ruling::fails) ? "failure" : "skipped", name_of(record.ruling),
+                            name_of(record.claim.recorded), escaped(record.claim.statement));
+}
+
 std::string junit_xml(const RunRecord& run) {
   size_t failures = 0, skipped = 0;
   std::string cases;
@@ -75,11 +106,17 @@ std::string junit_xml(const RunRecord& run) {
     skipped += record.outcome == "not applicable";
     cases += junit_case(record);
   }
+  for (const ClaimRecord& claim : run.claims) {
+    failures += outcome_of(claim) == name_of(Ruling::fails);
+    skipped += outcome_of(claim) == name_of(Ruling::inconclusive);
+    cases += junit_case(claim);
+  }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"foldproof\" tests=\"{}\" "
       "failures=\"{}\" "
       "skipped=\"{}\" time=\"{:.3f}\" timestamp=\"{}\">\n{}</testsuite>\n",
-      run.records.size(), failures, skipped, run.seconds, escaped(run.provenance.date), cases);
+      run.records.size() + run.claims.size(), failures, skipped, run.seconds, escaped(run.provenance.date),
+      cases);
 }
 
 }  // namespace
@@ -101,6 +138,7 @@ std::string verdicts_json(const RunRecord& run) {
                            {"subject", run.subject}}},
                          {"findings", nlohmann::json::array()}};
   for (const Record& record : run.records) json["findings"].push_back(as_json(record));
+  for (const ClaimRecord& claim : run.claims) json["findings"].push_back(as_json(claim));
   return json.dump(1) + "\n";
 }
 

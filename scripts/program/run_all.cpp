@@ -141,13 +141,26 @@ std::string summary(const RunRecord& run) {
     return std::count_if(run.records.begin(), run.records.end(),
                          [&](const Record& r) { return r.outcome == outcome; });
   };
-  return fmt::format("{} hold, {} fail, {} inconclusive, {} not applicable", count("holds"), count("fails"),
-                     count("inconclusive"), count("not applicable"));
+  const auto claims = [&](const char* outcome) {
+    return std::count_if(run.claims.begin(), run.claims.end(),
+                         [&](const ClaimRecord& c) { return outcome_of(c) == outcome; });
+  };
+  const std::string findings =
+      fmt::format("{} hold, {} fail, {} inconclusive, {} not applicable", count("holds"), count("fails"),
+                  count("inconclusive"), count("not applicable"));
+  if (run.claims.empty()) return findings;
+  return findings + fmt::format("; {} claims ruled as recorded, {} otherwise, {} undecided", claims("holds"),
+                                claims("fails"), claims("inconclusive"));
 }
 
 int exit_code(const RunRecord& run) {
   const auto is_bad = [](const Record& r) { return r.outcome == "fails" || r.outcome == "inconclusive"; };
-  return std::any_of(run.records.begin(), run.records.end(), is_bad) ? 1 : 0;
+  const auto is_wrong = [&](const ClaimRecord& c) {
+    return outcome_of(c) == "fails" || (outcome_of(c) == "inconclusive" && run.tier == "full");
+  };
+  const bool passes = std::none_of(run.records.begin(), run.records.end(), is_bad) &&
+                      std::none_of(run.claims.begin(), run.claims.end(), is_wrong);
+  return passes ? 0 : 1;
 }
 
 std::string listing(const RunRecord& run) {

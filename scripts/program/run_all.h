@@ -32,10 +32,11 @@ Selection select(const Wanted& wanted);
 /// Runs the selection with progress, adds to the run, and says a line about each that does not hold.
 void run_selection(const Selection& selection, const Subject& subject, Tier tier, RunRecord& run);
 
-/// "121 hold, 0 fail, 0 inconclusive, 0 not applicable".
+/// "121 hold, 0 fail, 0 inconclusive, 0 not applicable", and the claims if any were ruled.
 std::string summary(const RunRecord& run);
 
-/// 0 if every finding holds (or is not applicable, or measured only), else 1.
+/// 0 if every finding holds (or is not applicable, or measured only) and every claim is ruled as recorded, else
+/// 1. A claim that is undecided, and recorded so, fails the full tier only.
 int exit_code(const RunRecord& run);
 
 /// A line for each finding: outcome, name, measured, bound, unit.

@@ -159,8 +159,8 @@ std::vector<Check> bending_checks() {
        "On crumpled sheets and on hinges of all angles, with rest angles, the elastic force is the printed "
        "one to rounding.",
        "BMF03 section 4, evaluated in 50 digits", force_is_as_defined}};
-  for (const auto& list :
-       {bending_mode_checks(), bending_angle_checks(), bending_energy_checks(), bending_damping_checks()}) {
+  for (const auto& list : {bending_mode_checks(), bending_alternative_checks(), bending_angle_checks(),
+                           bending_energy_checks(), bending_damping_checks(), bending_shape_checks()}) {
     checks.insert(checks.end(), list.begin(), list.end());
   }
   return checks;

@@ -14,6 +14,10 @@ std::vector<Check>
 bending_energy_checks();  // bending_energy_checks.cpp: energies and work round closed paths
 std::vector<Check> bending_damping_checks();  // bending_damping_checks.cpp: damping
 
+std::vector<Check>
+bending_alternative_checks();               // bending_alternative_checks.cpp: other models than the paper's
+std::vector<Check> bending_shape_checks();  // bending_shape_checks.cpp: nonlinear damping, sculpted shapes
+
 /// All of the above, and those of the forces as a whole.
 std::vector<Check> bending_checks();
 

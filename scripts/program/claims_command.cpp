@@ -1,0 +1,104 @@
+// foldproof claims: the ledger of a finished run, read from its verdicts.json.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "reference/types.h"
+#include "scripts/program/commands.h"
+
+namespace foldproof {
+
+namespace {
+
+using nlohmann::json;
+
+std::string text_of(const json& row, const char* key) { return row.value(key, std::string()); }
+
+/// The findings of a finished run. Throws InputError if there is none, or it is of no use.
+json findings_of(const std::string& folder) {
+  const std::string path = folder + "/verdicts.json";
+  std::ifstream file(path);
+  if (!file)
+    throw InputError(path + ": there is no finished run; make one with `build/foldproof verify --out " +
+                     folder + "`, or name its folder with --out");
+  const json whole = json::parse(file, nullptr, false);
+  if (!whole.is_object() || !whole.contains("findings"))
+    throw InputError(path + ": not the verdicts of a run; make them anew with `build/foldproof verify`");
+  return whole["findings"];
+}
+
+json claims_in(const json& findings, const std::string& folder) {
+  json claims = json::array();
+  for (const json& row : findings)
+    if (text_of(row, "kind") == "claim") claims.push_back(row);
+  if (claims.empty())
+    throw InputError(folder +
+                     "/verdicts.json: this run decided no claim; `build/foldproof verify` decides all");
+  return claims;
+}
+
+json chosen_of(const json& claims, const std::vector<std::string>& ids) {
+  if (ids.empty()) return claims;
+  json chosen = json::array();
+  for (const std::string& id : ids) {
+    const auto found =
+        std::find_if(claims.begin(), claims.end(), [&](const json& row) { return text_of(row, "id") == id; });
+    if (found == claims.end())
+      throw InputError("there is no claim '" + id + "' in this run; `foldproof claims` shows all");
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+void print_row(const json& claim) {
+  const bool differs = text_of(claim, "ruling") != text_of(claim, "recorded");
+  fmt::print("{:<4} {:<27} {}{}\n", text_of(claim, "id"), text_of(claim, "ruling"),
+             text_of(claim, "statement"), differs ? "  [recorded: " + text_of(claim, "recorded") + "]" : "");
+}
+
+/// One finding that decides a claim, with its numbers if the run has it.
+void print_decider(const json& decider, const json& findings) {
+  const std::string name = text_of(decider, "finding");
+  const auto found = std::find_if(findings.begin(), findings.end(),
+                                  [&](const json& row) { return text_of(row, "name") == name; });
+  const auto number = [&](const char* key) {
+    return found->value(key, json()).is_number() ? fmt::format("{:.4g}", (*found)[key].get<double>()) : "nan";
+  };
+  std::string numbers;
+  if (found != findings.end()) {
+    const std::string unit = text_of(*found, "unit");
+    numbers = fmt::format("{} <= {}{}", number("measured"), number("bound"), unit == "1" ? "" : " " + unit);
+  }
+  fmt::print("  {:<12} {:<14} {:<58} {}\n", text_of(decider, "role"), text_of(decider, "outcome"), name,
+             numbers);
+}
+
+void print_whole(const json& claim, const json& findings) {
+  print_row(claim);
+  if (!text_of(claim, "condition").empty()) fmt::print("\nCondition: {}.\n", text_of(claim, "condition"));
+  if (!text_of(claim, "why").empty()) fmt::print("\n{}\n", text_of(claim, "why"));
+  fmt::print("\n");
+  for (const json& decider : claim["decided_by"]) print_decider(decider, findings);
+}
+
+}  // namespace
+
+int show_claims(const Options& options) {
+  const json findings = findings_of(options.out);
+  const json claims = chosen_of(claims_in(findings, options.out), options.names);
+  if (options.json) {
+    fmt::print("{}\n", claims.dump(1));
+    return all_hold;
+  }
+  for (const json& claim : claims) {
+    if (options.names.empty())
+      print_row(claim);
+    else
+      print_whole(claim, findings);
+  }
+  return all_hold;
+}
+
+}  // namespace foldproof

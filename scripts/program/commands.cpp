@@ -1,0 +1,232 @@
+#include "scripts/program/commands.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "convergence/studies.h"
+#include "reference/dynamics/integrator.h"
+#include "scripts/program/bench.h"
+#include "scripts/program/evaluate.h"
+#include "scripts/program/ledger.h"
+#include "scripts/program/progress.h"
+#include "scripts/program/provenance.h"
+#include "scripts/program/run_all.h"
+#include "scripts/program/run_case.h"
+#include "verification/all_checks.h"
+#include "verification/faults_file.h"
+#include "verification/verdicts_file.h"
+
+namespace foldproof {
+
+namespace {
+
+std::string faults_path() { return project_folder() + "/verification/faults.toml"; }
+
+RunRecord new_run(const Options& options) {
+  RunRecord run;
+  run.provenance = provenance(options.command);
+  run.tier = options.tier;
+  const Subject subject = reference_subject();
+  run.subject = subject.name;
+  run.subject_version = subject.version;
+  return run;
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(folder + ": cannot make this folder: " + error.message());
+}
+
+/// Names the faults, writes the files that were asked for, prints, and gives the exit code.
+int conclude(RunRecord& run, const Options& options, const std::string& file) {
+  run.faults = read_faults(faults_path());
+  name_faults(run.faults, run.records);
+  if (!file.empty()) {
+    make_folder(options.out);
+    write_run(options.out + "/" + file, run);
+    write_verdicts(options.out, run);
+  }
+  if (options.json)
+    fmt::print("{}", verdicts_json(run));
+  else
+    fmt::print("{}{}\n", listing(run), summary(run));
+  return exit_code(run);
+}
+
+/// Runs the report generator on a folder of results.
+int report_on(const std::string& folder) {
+  const std::string script = project_folder() + "/reports/make_report.py";
+  const pid_t child = fork();
+  if (child == 0) {
+    execl("/usr/bin/python3", "python3", script.c_str(), folder.c_str(), static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  int status = 0;
+  if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    say("the report could not be made: " + script);
+    return bad_input;
+  }
+  return all_hold;
+}
+
+std::vector<std::string> names_of_case_findings() {
+  std::vector<std::string> names;
+  for (const std::string& name : built_in_cases()) {
+    const Case shown = built_in_case(name);
+    for (const Expectation& expectation : shown.expectations)
+      names.push_back(finding_name(shown.scene, expectation));
+  }
+  return names;
+}
+
+nlohmann::json told(const CaseRun& run, const Options& options) {
+  const Work& work = run.outcome.work;
+  nlohmann::json json = {{"case", run.record.name},
+                         {"file", options.out + "/" + run.record.file},
+                         {"stopped", run.record.stopped},
+                         {"steps", run.outcome.steps},
+                         {"time", run.outcome.last.time},
+                         {"seconds", run.record.seconds},
+                         {"cg_iterations", work.cg_iterations},
+                         {"solves", work.solves},
+                         {"elastic_evaluations", work.elastic_evaluations},
+                         {"unfinished_solves", work.unfinished_solves},
+                         {"findings", nlohmann::json::array()}};
+  for (const Record& record : run.findings)
+    json["findings"].push_back({{"name", record.name}, {"outcome", record.outcome}});
+  return json;
+}
+
+/// Judges all shipped cases; those that are shown leave their files in the folder.
+void run_built_in_cases(const std::string& folder, RunRecord& run) {
+  for (const std::string& name : hard_cases())
+    for (Record& record : judge_case(built_in_case(name))) run.records.push_back(std::move(record));
+  for (const std::string& name : shown_cases()) {
+    CaseRun done = run_case(built_in_case(name), folder, run.provenance);
+    run.cases.push_back(done.record);
+    for (Record& record : done.findings) run.records.push_back(std::move(record));
+  }
+}
+
+}  // namespace
+
+int list(const Options& options) {
+  nlohmann::json json = {{"checks", nlohmann::json::array()}, {"studies", nlohmann::json::array()}};
+  for (const Check& check : all_checks())
+    json["checks"].push_back({{"name", check.name}, {"claim", check.claim}, {"source", check.source}});
+  for (const Study& study : all_studies())
+    json["studies"].push_back({{"name", study.name}, {"claim", study.claim}, {"source", study.source}});
+  json["cases"] = built_in_cases();
+  json["case_findings"] = names_of_case_findings();
+  json["integrators"] = nlohmann::json::array();
+  for (const Integrator& i : integrators())
+    json["integrators"].push_back(
+        {{"name", i.name}, {"title", i.title}, {"source", i.source}, {"order", i.order}});
+  if (options.json) {
+    fmt::print("{}\n", json.dump(1));
+    return all_hold;
+  }
+  for (const char* kind : {"checks", "studies"}) {
+    fmt::print("{}:\n", kind);
+    for (const auto& row : json[kind])
+      fmt::print("  {:<58} {}\n", row["name"].get<std::string>(), row["claim"].get<std::string>());
+  }
+  fmt::print("cases (cases/NAME.toml):\n");
+  for (const std::string& name : built_in_cases()) fmt::print("  {}\n", name);
+  fmt::print("integrators:\n");
+  for (const Integrator& i : integrators())
+    fmt::print("  {}  {} ({}), order {}\n", i.name, i.title, i.source, i.order);
+  return all_hold;
+}
+
+int simulate_case(const Options& options) {
+  make_folder(options.out);
+  const Case shown = case_of_file(options.file, options.overrides);
+  const Scene& scene = shown.scene;
+  say(fmt::format("{}: {}", scene.name, fmt::join(built_parts(scene, build_system(scene)), "; ")));
+  const CaseRun run = run_case(shown, options.out, provenance(options.command));
+  const Work& work = run.outcome.work;
+  RunRecord expected;
+  expected.records = run.findings;
+  if (options.json)
+    fmt::print("{}\n", told(run, options).dump(1));
+  else
+    fmt::print("{}{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n",
+               listing(expected), options.out, run.record.file, run.outcome.last.time, run.outcome.steps,
+               double(work.cg_iterations) / double(std::max(1L, work.solves)), run.record.seconds);
+  if (work.unfinished_solves > 0)
+    say(fmt::format("warning: {} of {} solves hit the cap on iterations", work.unfinished_solves,
+                    work.solves));
+  if (!run.record.stopped.empty()) say("stopped: " + run.record.stopped);
+  return run.record.stopped.empty() ? exit_code(expected) : 1;
+}
+
+int run_checks(const Options& options) {
+  RunRecord run = new_run(options);
+  run_selection(select({options.names, {"check"}}), reference_subject(), tier_of(options), run);
+  rule_covered_claims(run);
+  return conclude(run, options, options.out.empty() ? "" : "run.h5");
+}
+
+int run_studies(const Options& options) {
+  RunRecord run = new_run(options);
+  run_selection(select({options.names, {"study"}}), reference_subject(), tier_of(options), run);
+  if (options.names.empty()) refuse_claims_of_lost_findings(run);
+  rule_covered_claims(run);
+  return conclude(run, options, options.out.empty() ? "" : "run.h5");
+}
+
+int make_report(const Options& options) { return report_on(options.file); }
+
+int evaluate_hinges(const Options& options) {
+  evaluate_bending(options.file, options.rest_file);
+  return all_hold;
+}
+
+int run_bench(const Options& options) {
+  RunRecord run = bench(options.quick ? 110'000 : 1'100'000);
+  const std::string command = run.tier;
+  run.provenance = provenance(options.command);
+  if (!options.out.empty()) {
+    make_folder(options.out);
+    write_run(options.out + "/bench.h5", run);
+  }
+  if (options.json)
+    fmt::print("{}", verdicts_json(run));
+  else
+    fmt::print("{}", listing(run));
+  return all_hold;
+}
+
+int verify(const Options& options) {
+  make_folder(options.out);
+  RunRecord run = new_run(options);
+  const auto start = std::chrono::steady_clock::now();
+  run_selection(select({{}, {"check", "study"}}), reference_subject(), tier_of(options), run);
+  run_built_in_cases(options.out, run);
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  rule_all_claims(run);
+  run.faults = read_faults(faults_path());
+  name_faults(run.faults, run.records);
+  write_run(options.out + "/run.h5", run);
+  write_verdicts(options.out, run);
+
+  RunRecord speeds = bench(tier_of(options) == Tier::full ? 1'100'000 : 110'000);
+  speeds.provenance = run.provenance;
+  write_run(options.out + "/bench.h5", speeds);
+  const int reported = options.no_report ? all_hold : report_on(options.out);
+  if (options.json)
+    fmt::print("{}", verdicts_json(run));
+  else
+    fmt::print("{} ({:.0f} s)\n", summary(run), run.seconds);
+  return reported != all_hold ? reported : exit_code(run);
+}
+
+}  // namespace foldproof

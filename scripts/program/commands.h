@@ -1,0 +1,18 @@
+// The commands of the program, one function each; all return the exit code.
+#pragma once
+
+#include "scripts/program/options.h"
+
+namespace foldproof {
+
+int list(const Options& options);
+int simulate_case(const Options& options);
+int run_checks(const Options& options);
+int run_studies(const Options& options);
+int verify(const Options& options);
+int make_report(const Options& options);
+int evaluate_hinges(const Options& options);
+int run_bench(const Options& options);
+int show_claims(const Options& options);  // claims_command.cpp
+
+}  // namespace foldproof

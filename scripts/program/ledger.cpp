@@ -1,0 +1,51 @@
+#include "scripts/program/ledger.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reference/types.h"
+#include "scripts/program/progress.h"
+
+namespace foldproof {
+
+namespace {
+
+void add_ruled(const Claim& claim, RunRecord& run) {
+  run.claims.push_back(ruled(claim, run.records));
+  const ClaimRecord& record = run.claims.back();
+  if (record.ruling != claim.recorded)
+    say(fmt::format("  claim {}: {}, where {} is recorded", claim.id, name_of(record.ruling),
+                    name_of(claim.recorded)));
+}
+
+bool is_made_by_a_study(const std::string& finding, const RunRecord& run) {
+  return std::any_of(run.studies.begin(), run.studies.end(),
+                     [&](const StudyRecord& study) { return finding.starts_with(study.name + "."); });
+}
+
+bool is_in(const std::string& finding, const RunRecord& run) {
+  return std::any_of(run.records.begin(), run.records.end(),
+                     [&](const Record& record) { return record.name == finding; });
+}
+
+}  // namespace
+
+void rule_all_claims(RunRecord& run) {
+  for (const Claim& claim : all_claims()) add_ruled(claim, run);
+}
+
+void rule_covered_claims(RunRecord& run) {
+  for (const Claim& claim : all_claims())
+    if (is_covered(claim, run.records)) add_ruled(claim, run);
+}
+
+void refuse_claims_of_lost_findings(const RunRecord& run) {
+  for (const Claim& claim : all_claims())
+    for (const std::string& finding : findings_named_in(claim))
+      if (claim.recorded != Standing::undecided && is_made_by_a_study(finding, run) && !is_in(finding, run))
+        throw InputError(
+            fmt::format("claim {} names the finding '{}', which its study does not make", claim.id, finding));
+}
+
+}  // namespace foldproof

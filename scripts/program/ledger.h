@@ -1,0 +1,18 @@
+// Ruling the paper's claims from a run.
+#pragma once
+
+#include "verification/results_file.h"
+
+namespace foldproof {
+
+/// Rules every claim. Throws std::runtime_error naming a claim whose text asks for a number that the run lacks.
+void rule_all_claims(RunRecord& run);
+
+/// Rules the claims all of whose findings are in the run.
+void rule_covered_claims(RunRecord& run);
+
+/// For a run of all studies: throws InputError if a decided claim names a finding of a study that the study
+/// does not make.
+void refuse_claims_of_lost_findings(const RunRecord& run);
+
+}  // namespace foldproof

@@ -1,0 +1,23 @@
+// What was typed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "verification/check.h"
+
+namespace foldproof {
+
+constexpr int all_hold = 0, some_fail = 1, bad_input = 2;  // exit codes
+
+struct Options {
+  std::string command;  // as typed
+  std::string out = "results", tier = "quick", file, rest_file;
+  std::vector<std::string> names, overrides;
+  bool json = false, quick = false, no_report = false;
+  int (*run)(const Options&) = nullptr;  // the command; returns the exit code
+};
+
+inline Tier tier_of(const Options& options) { return options.tier == "full" ? Tier::full : Tier::quick; }
+
+}  // namespace foldproof

@@ -1,0 +1,76 @@
+// The ledger: every claim of the paper that this suite decides, and how findings decide it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "verification/check.h"
+
+namespace foldproof {
+
+/// What a finding says about a claim when it holds.
+enum class Role {
+  supports,    // the claim needs it
+  limits,      // it shows a condition under which alone the claim stands
+  contradicts  // it refutes the sentence, as the paper has it
+};
+
+enum class Standing { confirmed, conditional, refuted, undecided };
+
+std::string_view name_of(Role role);  // "supports", "limits", "contradicts"
+std::string_view name_of(
+    Standing standing);  // "confirmed", "confirmed under a condition", "refuted", "undecided"
+
+/// A finding's name and what it says about the claim.
+struct Decider {
+  std::string finding;
+  Role role;
+};
+
+/// A sentence of the paper in our words.
+struct Claim {
+  std::string id, section;  // section: where the paper says it
+  std::string statement;
+  std::vector<Decider> decided_by;
+  Standing recorded;      // what the authors of this suite found; a run that finds otherwise fails
+  std::string condition;  // in words, if recorded as conditional; else empty
+  std::string why;        // a paragraph with placeholders for its numbers, see filled()
+};
+
+/// Ruling of a claim in one run.
+struct ClaimRecord {
+  Claim claim;                        // with the placeholders of condition and why filled
+  std::vector<std::string> outcomes;  // of the deciders, in their order; "missing" if the run has none
+  Standing ruling;
+};
+
+/// All claims, in the order of their ids.
+std::vector<Claim> all_claims();
+std::vector<Claim> time_claims();     // claims_time.cpp: BMF03 section 3
+std::vector<Claim> bending_claims();  // claims_bending.cpp: BMF03 section 4
+
+/// The ruling that these findings give; the table stands above its definition.
+Standing ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records);
+
+/// The text with each placeholder replaced by a number of the run, with three digits and its unit:
+///   {name}              what the finding measured
+///   {name|bound}        its bound
+///   {name|column|row}   evidence: a row counted from 1, "first", "last", "smallest", "largest", or the entry
+///                       that stands in that row of the finding's first column of texts
+/// Throws std::runtime_error naming the placeholder if the run has no such number.
+std::string filled(const std::string& text, const std::vector<Record>& records);
+
+/// The findings that a claim rests on or takes numbers from; some more than once.
+std::vector<std::string> findings_named_in(const Claim& claim);
+
+/// Are all findings that the claim names in the run?
+bool is_covered(const Claim& claim, const std::vector<Record>& records);
+
+/// Rules a claim. The text of a claim that stays undecided keeps a placeholder whose number is missing. Throws
+/// std::runtime_error naming the claim for a placeholder that cannot be filled otherwise.
+ClaimRecord ruled(const Claim& claim, const std::vector<Record>& records);
+
+/// "holds" if the ruling is the recorded one, "fails" if not; "inconclusive" if both are undecided.
+std::string outcome_of(const ClaimRecord& record);
+
+}  // namespace foldproof

@@ -1,0 +1,279 @@
+// Claims of BMF03 section 3: time integration and the linear solve.
+#include <fmt/format.h>
+
+#include "verification/claims.h"
+
+namespace foldproof {
+
+namespace {
+
+/// The findings time-order.<problem>.<scheme>.<steps>.<x or v> of both problems.
+std::vector<Decider> orders_of(const std::string& scheme, const std::vector<std::string>& step_patterns) {
+  std::vector<Decider> deciders;
+  for (const char* problem : {"hinge", "sheet"})
+    for (const std::string& pattern : step_patterns)
+      for (const char* quantity : {"x", "v"})
+        deciders.push_back(
+            {fmt::format("time-order.{}.{}.{}.{}", problem, scheme, pattern, quantity), Role::supports});
+  return deciders;
+}
+
+/// The same finding of several schemes, "<name>.<scheme>".
+std::vector<Decider> each(const std::vector<std::string>& schemes, const std::string& name) {
+  std::vector<Decider> deciders;
+  for (const std::string& scheme : schemes) deciders.push_back({name + "." + scheme, Role::supports});
+  return deciders;
+}
+
+std::vector<Decider> joined(std::vector<Decider> deciders, const std::vector<Decider>& more) {
+  deciders.insert(deciders.end(), more.begin(), more.end());
+  return deciders;
+}
+
+std::vector<Claim> orders_and_limits() {
+  return {
+      {"T1", "3",
+       "Scheme A joins leapfrog for the positions with the trapezoidal rule for the velocities, and is of "
+       "second "
+       "order as a whole.",
+       joined({{"dynamics.lines-one-and-four-are-the-trapezoidal-rule.A", Role::supports}},
+              orders_of("A", {"constant", "alternating", "random"})),
+       Standing::confirmed, "",
+       "Without a filter, A's velocities obey the trapezoidal rule to "
+       "{dynamics.lines-one-and-four-are-the-trapezoidal-rule.A} of the velocity, which is the tolerance of "
+       "the "
+       "solve. On a driven, damped hinge with large angles the observed order is within "
+       "{time-order.hinge.A.constant.x} of two in positions and {time-order.hinge.A.constant.v} in "
+       "velocities, on a "
+       "hanging sheet within {time-order.sheet.A.constant.x} and {time-order.sheet.A.constant.v}; steps that "
+       "alternate or vary at random change nothing of that."},
+      {"T2",
+       "3",
+       "Scheme A is stable for h below a constant times dx sqrt(rho/Y), however large the damping.",
+       {{"dynamics.stability-limit-is-as-derived.A", Role::supports},
+        {"elastic-limit.is-two-over-omega.springs.A", Role::supports},
+        {"elastic-limit.is-two-over-omega.bending.A", Role::supports},
+        {"elastic-limit.exponent.springs", Role::supports},
+        {"elastic-limit.exponent.bending", Role::limits},
+        {"stability-sheet", Role::supports}},
+       Standing::undecided,
+       "where springs, not hinges, decide the largest frequency: where bending dominates, the limit falls "
+       "with the "
+       "square of dx",
+       "On the oscillator A is stable up to h = 2/omega and not beyond, whatever the damping: "
+       "{dynamics.stability-limit-is-as-derived.A} of the tried steps were misjudged by that rule. On an "
+       "undamped "
+       "sheet the largest stable step is 2/omega too, to {elastic-limit.is-two-over-omega.springs.A}, and it "
+       "falls with the width of a cell to a power of {elastic-limit.exponent.springs|exponent|last} where "
+       "springs "
+       "resist, but of {elastic-limit.exponent.bending|exponent|last} where hinges do."},
+      {"T3",
+       "3",
+       "A fully explicit method needs h below a constant times dx^2 rho/kd.",
+       {{"stability-sheet", Role::supports}},
+       Standing::undecided,
+       "",
+       ""},
+      {"T4",
+       "3",
+       "The extra factor dx of the explicit limit costs an order of magnitude: at dx = 1/10, a hundred steps "
+       "in "
+       "place of ten.",
+       {{"stability-sheet", Role::supports}, {"work-precision", Role::supports}},
+       Standing::undecided,
+       "",
+       ""}};
+}
+
+std::vector<Claim> damping_of_modes() {
+  return {
+      {"T5",
+       "3",
+       "A fully implicit method damps elastic modes that no material damping acts on.",
+       {{"artificial-damping", Role::supports}},
+       Standing::undecided,
+       "",
+       ""},
+      {"T6", "3",
+       "A method that is implicit in the damping only adds artificial damping only where there is damping.",
+       joined(
+           each({"A", "B", "C"}, "dynamics.undamped-oscillator-is-verlet"),
+           joined(each({"A", "B", "C"}, "dynamics.time-reverses"), {{"artificial-damping", Role::supports}})),
+       Standing::undecided, "",
+       "Undamped, all three schemes are velocity Verlet: over a thousand steps they stay within "
+       "{dynamics.undamped-oscillator-is-verlet.A}, {dynamics.undamped-oscillator-is-verlet.B} and "
+       "{dynamics.undamped-oscillator-is-verlet.C} of its closed solution, which keeps its amplitude for "
+       "ever, and an "
+       "undamped sheet runs backwards to where it came from."}};
+}
+
+std::vector<Claim> linear_solve() {
+  return {
+      {"T7",
+       "3",
+       "Damping forces are linear in the velocity with a symmetric Jacobian, so conjugate gradients apply "
+       "without "
+       "approximation.",
+       {{"bending.damping-is-symmetric", Role::supports},
+        {"bending.damping-is-negative-semidefinite", Role::supports},
+        {"springs.damping-is-symmetric-negative-semidefinite", Role::supports},
+        {"solver.operator-is-symmetric-positive-definite", Role::supports},
+        {"solver.iterate-is-the-dense-cholesky-solution", Role::supports}},
+       Standing::confirmed,
+       "",
+       "Assembled column by column from products alone, the matrices of bending damping are symmetric to "
+       "{bending.damping-is-symmetric}, without a positive eigenvalue beyond rounding, and the solver's "
+       "operator is "
+       "symmetric and positive definite. What conjugate gradients return is what a dense factorisation "
+       "returns."},
+      {"T8",
+       "3",
+       "Conjugate gradients need fewer than ten iterations, typically, and sometimes one or two, without a "
+       "preconditioner.",
+       {{"cg-iterations.fewer-than-ten-in-the-typical-setting", Role::supports},
+        {"cg-iterations.do-not-grow-with-the-mesh", Role::supports},
+        {"cg-iterations.within-the-bound-of-theory", Role::supports},
+        {"cg-iterations.ten-or-more-in-harder-settings", Role::limits}},
+       Standing::conditional,
+       "for moderate damping, tolerance and steps: iterations grow with the square root of damping ratio "
+       "times step, and "
+       "with the logarithm of the tolerance",
+       "At a damping ratio of a tenth, half the elastic limit and a tolerance of a ten-thousandth, no solve "
+       "on a noisy "
+       "sheet took more than {cg-iterations.fewer-than-ten-in-the-typical-setting}; finer meshes need no "
+       "more (exponent "
+       "{cg-iterations.do-not-grow-with-the-mesh}). But the count is a matter of the setting: over all those "
+       "tried it "
+       "goes from {cg-iterations.within-the-bound-of-theory|mean iterations|smallest} to "
+       "{cg-iterations.within-the-bound-of-theory|mean iterations|largest} a solve, as the condition of the "
+       "matrix "
+       "allows."},
+      {"T9",
+       "3",
+       "No matrix needs to be assembled; position-dependent terms are computed once a solve and cached.",
+       {{"dynamics.position-terms-are-computed-once", Role::supports},
+        {"solver.cached-terms-save-time", Role::supports},
+        {"solver.cached-terms-take-less-memory-than-a-matrix", Role::supports}},
+       Standing::confirmed,
+       "",
+       "A step of C prepares the position-dependent terms "
+       "{dynamics.position-terms-are-computed-once|preparations a "
+       "step|C} times and multiplies with them {dynamics.position-terms-are-computed-once|products a step|C} "
+       "times. A "
+       "product with cached terms takes {solver.cached-terms-save-time} of the time of one that computes "
+       "them anew, and the "
+       "cache takes {solver.cached-terms-take-less-memory-than-a-matrix} of the memory that half of the "
+       "symmetric matrix "
+       "would need."},
+      {"T10", "3",
+       "With positions stepped explicitly, velocities can be modified at will for many kinds of constraints.",
+       each({"A", "B", "C"}, "dynamics.filters-act-on-the-moving-velocity"), Standing::confirmed, "",
+       "The velocity that a filter leaves is exactly the one that moves the cloth: x + h v differs from the "
+       "new positions by "
+       "{dynamics.filters-act-on-the-moving-velocity.A}, {dynamics.filters-act-on-the-moving-velocity.B} and "
+       "{dynamics.filters-act-on-the-moving-velocity.C} under A, B and C. What a filter promises of the "
+       "positions at the "
+       "end of the step therefore comes true to the bit."}};
+}
+
+std::vector<Claim> monotone_motion() {
+  return {{"T13",
+           "3",
+           "For highly damped material A is stable but not monotone: its explicit half step overshoots.",
+           {{"dynamics.stability-limit-is-as-derived.A", Role::supports},
+            {"dynamics.pure-damping-displacement.A", Role::supports}},
+           Standing::confirmed,
+           "",
+           "A particle that is only damped comes, under A, to a total displacement of 1 - (h c/2)^2 of the "
+           "exact one, to "
+           "{dynamics.pure-damping-displacement.A}: at h c/2 = "
+           "{dynamics.pure-damping-displacement.A|h c/2|5} that is "
+           "{dynamics.pure-damping-displacement.A|displacement over exact|5} times the way it should go, "
+           "backwards. It is "
+           "stable all the same: with damping ratios up to "
+           "{dynamics.stability-limit-is-as-derived.A|damping ratio|largest} the limit is 2/omega."},
+          {"T14",
+           "3",
+           "Fully implicit methods of second order, such as BDF2, oscillate too at large steps.",
+           {{"monotonicity", Role::supports}},
+           Standing::undecided,
+           "",
+           ""},
+          {"T15",
+           "3",
+           "Backward Euler is monotone for every step.",
+           {{"monotonicity", Role::supports}},
+           Standing::undecided,
+           "",
+           ""},
+          {"T16",
+           "3",
+           "B, with A's velocity steps in the other order, does not have A's trouble.",
+           {{"dynamics.pure-damping-displacement.B", Role::supports}, {"monotonicity", Role::supports}},
+           Standing::undecided,
+           "",
+           "Under B the total displacement of a particle that is only damped is the exact one, to "
+           "{dynamics.pure-damping-displacement.B}."}};
+}
+
+std::vector<Claim> variable_steps() {
+  return {
+      {"T17", "3", "B is second order and stable only while the step is constant.",
+       joined(orders_of("B", {"constant"}),
+              {{"time-order.hinge.observed-in-B-with-variable-steps", Role::contradicts},
+               {"time-order.sheet.observed-in-B-with-variable-steps", Role::contradicts}}),
+       Standing::refuted, "",
+       "With steps that alternate nine to one, and with random ones, B's observed order stays within "
+       "{time-order.hinge.observed-in-B-with-variable-steps} of two on a driven hinge and within "
+       "{time-order.sheet.observed-in-B-with-variable-steps} on a sheet. B is a one-step map whose local "
+       "error is of "
+       "third order in x and in v, so its order cannot depend on the steps before."},
+      {"T18", "3", "C is second order and monotone with variable steps.",
+       joined(orders_of("C", {"constant", "alternating", "random"}),
+              {{"dynamics.pure-damping-displacement.C", Role::supports},
+               {"variable-step-stability", Role::supports},
+               {"monotonicity", Role::supports}}),
+       Standing::undecided, "",
+       "With alternating steps the observed order of C is within {time-order.hinge.C.alternating.x} of two "
+       "in "
+       "positions and {time-order.hinge.C.alternating.v} in velocities, with random ones within "
+       "{time-order.hinge.C.random.x} and {time-order.hinge.C.random.v}."},
+      {"T19",
+       "3",
+       "C costs one more implicit solve a step than A and B.",
+       {{"dynamics.solve-counts", Role::supports}},
+       Standing::confirmed,
+       "",
+       "Counted on a sheet: {dynamics.solve-counts|solves a step|A} solve a step under A, "
+       "{dynamics.solve-counts|solves a step|B} under B, {dynamics.solve-counts|solves a step|C} under C."},
+      {"T20", "3", "Every scheme keeps the linear and the angular momentum of a free sheet (our reading).",
+       joined(each({"A", "B", "C"}, "dynamics.linear-momentum-is-kept"),
+              {{"momentum-drift.undamped.A", Role::supports},
+               {"momentum-drift.undamped.B", Role::supports},
+               {"momentum-drift.undamped.C", Role::supports},
+               {"momentum-drift.damped.A", Role::supports},
+               {"momentum-drift.damped.B", Role::supports},
+               {"momentum-drift.damped.C.order", Role::contradicts},
+               {"momentum-drift.damped.C.is-no-rounding", Role::contradicts}}),
+       Standing::refuted, "",
+       "Linear momentum is kept by all three. So is angular momentum without damping, and under A and B with "
+       "it. But C "
+       "moves the positions with one velocity and carries the momentum of another, and the two differ by "
+       "damping: the "
+       "angular momentum of a free, damped sheet drifts by "
+       "{momentum-drift.damped.C.order|relative drift|first} of itself at a step of "
+       "{momentum-drift.damped.C.order|step|first}, and by second order in the step (observed: "
+       "{momentum-drift.damped.C.order|order of the pair|last})."}};
+}
+
+}  // namespace
+
+std::vector<Claim> time_claims() {
+  std::vector<Claim> claims;
+  for (const auto& part :
+       {orders_and_limits(), damping_of_modes(), linear_solve(), monotone_motion(), variable_steps()})
+    claims.insert(claims.end(), part.begin(), part.end());
+  return claims;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,166 @@
+// The ledger: what follows from which outcomes, and that its texts name only what there is.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <limits>
+#include <regex>
+#include <set>
+
+#include "convergence/studies.h"
+#include "verification/all_checks.h"
+#include "verification/claims.h"
+
+using namespace foldproof;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+Record finding(const std::string& name, const std::string& outcome, double measured = 0.25) {
+  Record record;
+  record.name = name;
+  record.outcome = outcome;
+  record.finding.verdict = {measured, 0.5, 0, "kg", "a reason"};
+  return record;
+}
+
+const std::vector<Decider> all_roles = {{"support", Role::supports},
+                                        {"another", Role::supports},
+                                        {"limit", Role::limits},
+                                        {"contra", Role::contradicts}};
+
+Standing with(const std::string& support, const std::string& another, const std::string& limit,
+              const std::string& contra) {
+  return ruling(all_roles, {finding("support", support), finding("another", another), finding("limit", limit),
+                            finding("contra", contra)});
+}
+
+Claim small_claim(Standing recorded, const std::string& why) {
+  return {"X1", "3", "A sentence.", {{"support", Role::supports}}, recorded, "", why};
+}
+
+bool is_known(const std::string& name) {
+  static const std::set<std::string> checks = [] {
+    std::set<std::string> names;
+    for (const Check& check : all_checks()) names.insert(check.name);
+    return names;
+  }();
+  const std::vector<Study> studies = all_studies();
+  return checks.count(name) > 0 || name.starts_with("case.") ||
+         std::any_of(studies.begin(), studies.end(),
+                     [&](const Study& study) { return name.starts_with(study.name + "."); });
+}
+
+}  // namespace
+
+TEST_CASE("a claim is confirmed when all that it needs holds and nothing limits or contradicts it") {
+  CHECK(with("holds", "holds", "fails", "fails") == Standing::confirmed);
+}
+
+TEST_CASE("a limit that holds makes a confirmed claim conditional") {
+  CHECK(with("holds", "holds", "holds", "fails") == Standing::conditional);
+}
+
+TEST_CASE("a contradiction that holds refutes, whatever else holds or fails") {
+  for (const char* support : {"holds", "fails"})
+    for (const char* limit : {"holds", "fails"})
+      CHECK(with(support, "holds", limit, "holds") == Standing::refuted);
+}
+
+TEST_CASE("one failed support of several leaves a claim undecided, neither confirmed nor refuted") {
+  for (const char* limit : {"holds", "fails"}) {
+    CHECK(with("fails", "holds", limit, "fails") == Standing::undecided);
+    CHECK(with("holds", "fails", limit, "fails") == Standing::undecided);
+  }
+}
+
+TEST_CASE("a finding that says nothing, in any role, leaves a claim undecided") {
+  for (const char* silent : {"inconclusive", "not applicable", "measured", ""}) {
+    CHECK(with(silent, "holds", "holds", "fails") == Standing::undecided);
+    CHECK(with("holds", "holds", silent, "fails") == Standing::undecided);
+    CHECK(with("holds", "holds", "holds", silent) == Standing::undecided);
+    CHECK(with(silent, "holds", "holds", "holds") == Standing::undecided);
+  }
+  CHECK(ruling(all_roles, {finding("support", "holds"), finding("another", "holds"),
+                           finding("limit", "fails")}) == Standing::undecided);
+}
+
+TEST_CASE(
+    "a finding that failed without a number has said nothing: it cannot clear a claim of a contradiction") {
+  const std::vector<Decider> deciders = {{"support", Role::supports}, {"contra", Role::contradicts}};
+  CHECK(ruling(deciders, {finding("support", "holds"), finding("contra", "fails", not_a_number)}) ==
+        Standing::undecided);
+  CHECK(ruling(deciders, {finding("support", "holds"), finding("contra", "fails")}) == Standing::confirmed);
+}
+
+TEST_CASE("without support nothing is confirmed") {
+  CHECK(ruling({}, {}) == Standing::undecided);
+  CHECK(ruling({{"limit", Role::limits}}, {finding("limit", "holds")}) == Standing::undecided);
+  CHECK(ruling({{"contra", Role::contradicts}}, {finding("contra", "fails")}) == Standing::undecided);
+  CHECK(ruling({{"contra", Role::contradicts}}, {finding("contra", "holds")}) == Standing::refuted);
+}
+
+TEST_CASE("numbers in a text come from the findings, with unit, three digits and the row asked for") {
+  Record record = finding("mass", "holds", 0.123456);
+  record.finding.evidence = {{"case", "", std::vector<std::string>{"heavy", "light"}},
+                             {"|m|/2", "g", std::vector<double>{7, 3}},
+                             {"share", "1", std::vector<double>{0.5, not_a_number}}};
+  const std::vector<Record> records = {record};
+  CHECK(filled("{mass} of {mass|bound}", records) == "0.123 kg of 0.5 kg");
+  CHECK(filled("{mass||m|/2|light}, {mass||m|/2|1}, {mass||m|/2|last}", records) == "3 g, 7 g, 3 g");
+  CHECK(filled("{mass||m|/2|smallest} to {mass||m|/2|largest}", records) == "3 g to 7 g");
+  CHECK(filled("{mass|share|first}", records) == "0.5");
+  for (const char* wrong :
+       {"{mess}", "{mass|share|3}", "{mass|share|0}", "{mass|share|heavily}", "{mass|volume|1}",
+        "{mass|share|last}", "{mass|share|largest}", "{mass", "{mass|case|1}"})
+    CHECK_THROWS_WITH(filled(wrong, records),
+                      Catch::Contains("placeholder {mass") || Catch::Contains("placeholder {mess}"));
+}
+
+TEST_CASE("a ruled claim has its numbers; one that asks for a number that is not there is refused by name") {
+  const std::vector<Record> records = {finding("support", "holds")};
+  CHECK(ruled(small_claim(Standing::confirmed, "It is {support}."), records).claim.why == "It is 0.25 kg.");
+  CHECK_THROWS_WITH(ruled(small_claim(Standing::confirmed, "It is {other}."), records),
+                    Catch::Contains("claim X1"));
+}
+
+TEST_CASE("a ruling other than the recorded one fails; an open question stays open") {
+  const std::vector<Record> holds = {finding("support", "holds")}, fails = {finding("support", "fails")};
+  CHECK(outcome_of(ruled(small_claim(Standing::confirmed, ""), holds)) == "holds");
+  CHECK(outcome_of(ruled(small_claim(Standing::confirmed, ""), fails)) == "fails");
+  CHECK(outcome_of(ruled(small_claim(Standing::confirmed, ""), {})) == "fails");
+  CHECK(outcome_of(ruled(small_claim(Standing::refuted, ""), holds)) == "fails");
+  CHECK(outcome_of(ruled(small_claim(Standing::undecided, ""), holds)) == "fails");
+  CHECK(outcome_of(ruled(small_claim(Standing::undecided, ""), {})) == "inconclusive");
+}
+
+TEST_CASE("the ledger has every claim of sections 3 and 4 once") {
+  std::vector<std::string> ids, expected;
+  for (const Claim& claim : all_claims()) ids.push_back(claim.id);
+  for (int k = 1; k <= 20; ++k)
+    if (k != 11 && k != 12) expected.push_back("T" + std::to_string(k));  // strain limits: not built
+  for (int k = 1; k <= 13; ++k) expected.push_back("B" + std::to_string(k));
+  CHECK(ids == expected);
+}
+
+TEST_CASE("every decided claim names only findings that there are, and says why") {
+  for (const Claim& claim : all_claims()) {
+    INFO("claim " << claim.id);
+    CHECK(!claim.decided_by.empty());
+    CHECK(claim.statement.ends_with("."));
+    if (claim.recorded == Standing::undecided) continue;
+    for (const std::string& name : findings_named_in(claim)) {
+      INFO(name);
+      CHECK(is_known(name));
+    }
+    CHECK(!claim.why.empty());
+    CHECK(claim.condition.empty() == (claim.recorded != Standing::conditional));
+  }
+}
+
+TEST_CASE("no claim's text has a measured number typed into it") {
+  const std::regex placeholder("\\{[^}]*\\}"), number("[0-9][.,][0-9]|[0-9]e-?[0-9]|[0-9] ?%");
+  for (const Claim& claim : all_claims()) {
+    INFO("claim " << claim.id);
+    CHECK(!std::regex_search(std::regex_replace(claim.why + claim.condition, placeholder, ""), number));
+  }
+}
