@@ -107,6 +107,22 @@ class ProgramTest(unittest.TestCase):
         self.assertRegex(done.stdout, r"holds +case\.sharp_fold\.folds-back-to")
         self.assertIn("case.sharp_fold.folds-back-to", json.loads(run("list", "--json").stdout)["case_findings"])
 
+    def test_claims_are_ruled_by_the_findings_that_a_run_has(self) -> None:
+        out = str(self.path / "out")
+        self.assertEqual(run("claims", "--out", out).returncode, 2)
+        done = run("check", "dynamics.solve-counts", "bending.mode-is-minus-gradient-of-theta", "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        shown = run("claims", "--out", out)
+        self.assertEqual([line.split()[:2] for line in shown.stdout.splitlines()], [["T19", "confirmed"], ["B10", "refuted"]])
+        one = run("claims", "B10", "--out", out)
+        self.assertRegex(one.stdout, r"contradicts +holds +bending\.mode-is-minus-gradient-of-theta +\S+ <= 32")
+        self.assertNotIn("{", one.stdout)
+        self.assertEqual(json.loads(run("claims", "T19", "--json", "--out", out).stdout)[0]["ruling"], "confirmed")
+        self.assertIn("no claim 'T99'", run("claims", "T99", "--out", out).stderr)
+        with h5py.File(self.path / "out/run.h5") as file:
+            self.assertEqual(file["claims/B10"].attrs["ruling"], "refuted")
+            self.assertEqual(list(file["claims/B10"].attrs["roles"].astype(str)), ["contradicts"])
+
     def test_evaluate_bending(self) -> None:
         row = HINGE_ROW + [0.1, -0.2, 0.3, 0.2, 0.1, -0.1, 0, 0, 0.05, 0.02, 0, 0] + [2e-3, 3e-4, 0.4]
         done = run("evaluate", "bending", self.write("rows.csv", ",".join(map(str, row)) + "\n"))

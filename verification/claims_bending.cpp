@@ -8,83 +8,79 @@ namespace foldproof {
 namespace {
 
 std::vector<Claim> the_mode() {
-  return {
-      {"B1",
-       "4",
-       "Of the twelve motions of two triangles exactly one bends: it is orthogonal to the eleven others, "
-       "which are the "
-       "rigid motions and those in the planes of the triangles.",
-       {{"bending.mode-is-orthogonal-to-the-eleven-others", Role::supports},
-        {"bending.mode-is-the-only-one", Role::supports}},
-       Standing::confirmed,
-       "",
-       "On hinges of all angles and shapes u is orthogonal to each of the eleven, to "
-       "{bending.mode-is-orthogonal-to-the-eleven-others}. The eleven are independent (their smallest "
-       "singular value is "
-       "at least {bending.mode-is-the-only-one|smallest over largest singular value|smallest} of the "
-       "largest), and the one "
-       "direction that they leave is that of u."},
-      {"B2",
-       "4",
-       "Because u is orthogonal to rigid motions, the forces keep linear and angular momentum.",
-       {{"bending.forces-sum-to-zero", Role::supports},
-        {"bending.torques-sum-to-zero", Role::supports},
-        {"bending.damping-forces-keep-momentum", Role::supports},
-        {"bending.damping-leaves-rigid-motion-alone", Role::supports}},
-       Standing::confirmed,
-       "",
-       "On crumpled sheets of every pattern and on single hinges, elastic forces sum to zero to "
-       "{bending.forces-sum-to-zero} and their torques to {bending.torques-sum-to-zero}; damping forces do "
-       "the same, to "
-       "{bending.damping-forces-keep-momentum}. What a scheme makes of forces that keep momentum is another "
-       "matter: see "
-       "T20."},
-      {"B3",
-       "4",
-       "Every bending model of two triangles that does not use exactly these directions breaks a "
-       "conservation law or acts in "
-       "the planes of the triangles.",
-       {{"bending.mode-is-the-only-one", Role::supports},
-        {"bending.force-stays-out-of-plane", Role::supports},
-        {"bending.spring-across-the-hinge-acts-in-plane", Role::supports},
-        {"bending.constant-length-gradients-act-in-plane", Role::supports},
-        {"bending.quadratic-bending-acts-in-plane", Role::supports}},
-       Standing::confirmed,
-       "",
-       "The eleven motions of rigid bodies and in the planes leave one direction only, so any other force "
-       "does work on one "
-       "of them. Of the usual alternatives, all three keep momentum and act in plane: of its size, a spring "
-       "between the far "
-       "corners puts {bending.spring-across-the-hinge-acts-in-plane|in plane|largest} into in-plane motion, "
-       "bending with "
-       "gradients that take normals and edge as constant in length "
-       "{bending.constant-length-gradients-act-in-plane|in plane|largest}, quadratic bending "
-       "{bending.quadratic-bending-acts-in-plane|in plane|largest}, each at its worst of the hinges tried."},
-      {"B4",
-       "4",
-       "u1 and u2 fall off with the distance of their corner from the edge; u3 and u4 follow with "
-       "barycentric weights.",
-       {{"bending.mode-weights-are-barycentric", Role::supports}},
-       Standing::confirmed,
-       "",
-       "Forces times heights balance, and the forces on the edge's ends are the barycentric shares of those "
-       "on the far "
-       "corners, to {bending.mode-weights-are-barycentric}, with heights whose ratio goes from "
-       "{bending.mode-weights-are-barycentric|height of x1 over height of x2|smallest} to "
-       "{bending.mode-weights-are-barycentric|height of x1 over height of x2|largest}."},
-      {"B10",
-       "4",
-       "The angle changes at the rate d(theta)/dt = sum of u_i.v_i.",
-       {{"bending.mode-is-minus-gradient-of-theta", Role::contradicts}},
-       Standing::refuted,
-       "",
-       "With u and theta as printed, u is minus the gradient of theta, to "
-       "{bending.mode-is-minus-gradient-of-theta} "
-       "against exact differentiation: the rate is minus that sum. The first motion tried turns the angle by "
-       "{bending.mode-is-minus-gradient-of-theta|d(theta)/dt of a random motion|1}, where u.v is "
-       "{bending.mode-is-minus-gradient-of-theta|u.v of the same motion|1}. The forces as printed have the "
-       "right sign; only "
-       "this line, and the damping force read with it, do not."}};
+  return {{"B1",
+           "4",
+           "Of the twelve motions of two triangles exactly one bends: it is orthogonal to the eleven others, "
+           "which are the rigid motions and those in the planes of the triangles.",
+           {{"bending.mode-is-orthogonal-to-the-eleven-others", Role::supports},
+            {"bending.mode-is-the-only-one", Role::supports}},
+           Standing::confirmed,
+           "",
+           "On hinges of all angles and shapes u is orthogonal to each of the eleven, to "
+           "{bending.mode-is-orthogonal-to-the-eleven-others}. The eleven are independent (their smallest "
+           "singular value is at least {bending.mode-is-the-only-one|smallest over largest singular "
+           "value|smallest} of the largest), and the one direction that they leave is that of u."},
+          {"B2",
+           "4",
+           "Because u is orthogonal to rigid motions, the forces keep linear and angular momentum.",
+           {{"bending.forces-sum-to-zero", Role::supports},
+            {"bending.torques-sum-to-zero", Role::supports},
+            {"bending.damping-forces-keep-momentum", Role::supports},
+            {"bending.damping-leaves-rigid-motion-alone", Role::supports}},
+           Standing::confirmed,
+           "",
+           "On crumpled sheets of every pattern and on single hinges, elastic forces sum to zero to "
+           "{bending.forces-sum-to-zero} and their torques to {bending.torques-sum-to-zero}; damping forces "
+           "do the same, to {bending.damping-forces-keep-momentum}. What a scheme makes of forces that keep "
+           "momentum is another matter: see T20."}};
+}
+
+std::vector<Claim> its_directions() {
+  return {{"B3",
+           "4",
+           "Every bending model of two triangles that does not use exactly these directions breaks a "
+           "conservation law or acts in the planes of the triangles.",
+           {{"bending.mode-is-the-only-one", Role::supports},
+            {"bending.force-stays-out-of-plane", Role::supports},
+            {"bending.spring-across-the-hinge-acts-in-plane", Role::supports},
+            {"bending.constant-length-gradients-act-in-plane", Role::supports},
+            {"bending.quadratic-bending-acts-in-plane", Role::supports}},
+           Standing::confirmed,
+           "",
+           "The eleven motions of rigid bodies and in the planes leave one direction only, so any other "
+           "force does work on one of them. The usual alternatives keep momentum (torques, the worst of "
+           "them, sum to {bending.spring-across-the-hinge-acts-in-plane|net torque|largest}, "
+           "{bending.constant-length-gradients-act-in-plane|net torque|largest} and "
+           "{bending.quadratic-bending-acts-in-plane|net torque|largest} of their size) and act in plane. Of "
+           "a force's size, a spring between the far corners puts up to "
+           "{bending.spring-across-the-hinge-acts-in-plane|in plane|largest} into an in-plane motion, "
+           "gradients that take the lengths of normals and edge as constant up to "
+           "{bending.constant-length-gradients-act-in-plane|in plane|largest}, quadratic bending up to "
+           "{bending.quadratic-bending-acts-in-plane|in plane|largest}; the paper's element "
+           "{bending.quadratic-bending-acts-in-plane|in plane, the paper's element|largest}."},
+          {"B4",
+           "4",
+           "u1 and u2 fall off with the distance of their corner from the edge; u3 and u4 follow with "
+           "barycentric weights.",
+           {{"bending.mode-weights-are-barycentric", Role::supports}},
+           Standing::confirmed,
+           "",
+           "Forces times heights balance, and the forces on the edge's ends are the barycentric shares of "
+           "those on the far corners, to {bending.mode-weights-are-barycentric}, with heights whose ratio "
+           "goes from {bending.mode-weights-are-barycentric|height of x1 over height of x2|smallest} to "
+           "{bending.mode-weights-are-barycentric|height of x1 over height of x2|largest}."},
+          {"B10",
+           "4",
+           "The angle changes at the rate d(theta)/dt = sum of u_i.v_i.",
+           {{"bending.mode-is-minus-gradient-of-theta", Role::contradicts}},
+           Standing::refuted,
+           "",
+           "With u and theta as printed, u is minus the gradient of theta, to "
+           "{bending.mode-is-minus-gradient-of-theta} against exact differentiation: the rate is minus that "
+           "sum. The first motion tried turns the angle by "
+           "{bending.mode-is-minus-gradient-of-theta|d(theta)/dt of a random motion|1}, where u.v is "
+           "{bending.mode-is-minus-gradient-of-theta|u.v of the same motion|1}. The forces as printed have "
+           "the right sign; only this line, and the damping force read with it, do not."}};
 }
 
 std::vector<Claim> the_elastic_force() {
@@ -98,8 +94,7 @@ std::vector<Claim> the_elastic_force() {
            "",
            "Swept from fold to fold it never falls; near flat and near folded it agrees with fifty digits to "
            "{bending.sine-is-accurate-near-flat-and-near-folded}, in the form that we compute (the printed "
-           "root of a difference "
-           "would lose half the digits near flat)."},
+           "root of a difference would lose half the digits near flat)."},
           {"B6",
            "4",
            "The factor |E|^2/(|N1| + |N2|) makes the look independent of the mesh, so that ke is a property "
@@ -116,28 +111,31 @@ std::vector<Claim> the_elastic_force() {
            Standing::confirmed,
            "",
            "With other laws in the sine's place, forces and torques sum to zero to "
-           "{bending.other-laws-keep-momentum}, and the "
-           "forces derive from an energy, to {bending.force-is-minus-gradient-of-energy}."},
-          {"B8",
-           "4",
-           "Rest angles other than zero keep a sculpted shape and restore it.",
-           {{"bending.rest-angles-at-rest-give-no-force", Role::supports},
-            {"bending.force-is-minus-gradient-of-energy", Role::supports},
-            {"bending.damping-dissipates", Role::supports},
-            {"bending.unfolded-pleats-return", Role::supports}},
-           Standing::confirmed,
-           "",
-           "At its rest shape a curved surface feels no bending, to "
-           "{bending.rest-angles-at-rest-give-no-force}. A sheet with the "
-           "rest angles of pleats that was held flat folds back: of the unfolding, "
-           "{bending.unfolded-pleats-return|left of the unfolding|first} is left after "
-           "{bending.unfolded-pleats-return|time|first}, {bending.unfolded-pleats-return|left of the "
-           "unfolding|last} after "
-           "{bending.unfolded-pleats-return|time|last}; without rest angles it stays flat."},
-          {"B11",
-           "4",
-           "The model behaves well in the stiff limit (Figure 4) and in the soft one (Figure 3).",
-           {{"case.stiff_statue.runs-to-its-end", Role::supports},
+           "{bending.other-laws-keep-momentum}, and the forces derive from an energy, to "
+           "{bending.force-is-minus-gradient-of-energy}."}};
+}
+
+std::vector<Claim> rest_angles_and_limits() {
+  return {
+      {"B8",
+       "4",
+       "Rest angles other than zero keep a sculpted shape and restore it.",
+       {{"bending.rest-angles-at-rest-give-no-force", Role::supports},
+        {"bending.force-is-minus-gradient-of-energy", Role::supports},
+        {"bending.damping-dissipates", Role::supports},
+        {"bending.unfolded-pleats-return", Role::supports}},
+       Standing::confirmed,
+       "",
+       "At its rest shape a curved surface feels no bending, to {bending.rest-angles-at-rest-give-no-force}. "
+       "A sheet with the rest angles of pleats that was held flat folds back: of the unfolding, "
+       "{bending.unfolded-pleats-return|left of the unfolding|first} is left after "
+       "{bending.unfolded-pleats-return|time|first}, {bending.unfolded-pleats-return|left of the "
+       "unfolding|last} after {bending.unfolded-pleats-return|time|last}; without rest angles it stays "
+       "flat."},
+      {"B11",
+       "4",
+       "The model behaves well in the stiff limit (Figure 4) and in the soft one (Figure 3).",
+       {{"case.stiff_statue.runs-to-its-end", Role::supports},
         {"case.stiff_statue.energy-is-accounted-for", Role::supports},
         {"case.stiff_bending.runs-to-its-end", Role::supports},
         {"case.stiff_bending.energy-is-accounted-for", Role::supports},
@@ -145,10 +143,12 @@ std::vector<Claim> the_elastic_force() {
         {"case.soft_bending.energy-is-accounted-for", Role::supports}},
        Standing::confirmed,
        "",
-       "A statue's shell with stiff bending hangs by its head to the end of the run; of the energy that is exchanged, "
-       "{case.stiff_statue.energy-is-accounted-for} is not accounted for. Sheets whose bending is stiff beside their "
-       "stretching, and ones that it hardly resists at all, run to their end too, with "
-       "{case.stiff_bending.energy-is-accounted-for} and {case.soft_bending.energy-is-accounted-for} unaccounted for."}};
+       "A statue's shell with stiff bending hangs by its head to the end of the run; of the energy that is "
+       "exchanged, "
+       "{case.stiff_statue.energy-is-accounted-for} is not accounted for. Sheets whose bending is stiff "
+       "beside their stretching, and ones that it hardly resists at all, run to their end too, with "
+       "{case.stiff_bending.energy-is-accounted-for} and {case.soft_bending.energy-is-accounted-for} "
+       "unaccounted for."}};
 }
 
 std::vector<Claim> the_damping_force() {
@@ -164,8 +164,8 @@ std::vector<Claim> the_damping_force() {
            Standing::confirmed,
            "",
            "Motions in the planes of the triangles feel nothing beyond "
-           "{bending.damping-leaves-in-plane-motion-alone}, rigid "
-           "ones nothing beyond {bending.damping-leaves-rigid-motion-alone}; the matrix is symmetric to "
+           "{bending.damping-leaves-in-plane-motion-alone}, rigid ones nothing beyond "
+           "{bending.damping-leaves-rigid-motion-alone}; the matrix is symmetric to "
            "{bending.damping-is-symmetric} and its largest eigenvalue is "
            "{bending.damping-is-negative-semidefinite}."},
           {"B12",
@@ -176,14 +176,12 @@ std::vector<Claim> the_damping_force() {
            Standing::refuted,
            "",
            "A sheet rolled at a given rate dissipates in proportion to the width of a cell: the order of the "
-           "last pair of meshes "
-           "is {bending-scaling.edge|order of the pair|last}, where a property of the material has zero. "
-           "From the coarsest mesh "
-           "to the finest the dissipation falls from {bending-scaling.edge|dissipation per area and squared "
-           "rate|first} to "
+           "last pair of meshes is {bending-scaling.edge|order of the pair|last}, where a property of the "
+           "material has zero. From the coarsest mesh to the finest the dissipation falls from "
+           "{bending-scaling.edge|dissipation per area and squared rate|first} to "
            "{bending-scaling.edge|dissipation per area and squared rate|last}. The elastic force's factor "
-           "|E|^2/(|N1| + |N2|) "
-           "in its place leaves {bending-scaling.edge-squared-over-area|order of the pair|last}."},
+           "|E|^2/(|N1| + |N2|) in its place leaves {bending-scaling.edge-squared-over-area|order of the "
+           "pair|last}."},
           {"B13",
            "4",
            "A damping that is a nonlinear function of the angle's rate keeps the symmetry of its Jacobian.",
@@ -191,11 +189,9 @@ std::vector<Claim> the_damping_force() {
            Standing::confirmed,
            "",
            "A law that grows with the cube of the rate, multiplying all four forces alike, has a Jacobian "
-           "that is symmetric to "
-           "{bending.nonlinear-damping-stays-symmetric} on hinges of all angles; one that acts on each "
-           "corner's share by itself "
-           "misses symmetry by {bending.nonlinear-damping-stays-symmetric|corner by corner|smallest} of its "
-           "size at least."}};
+           "that is symmetric to {bending.nonlinear-damping-stays-symmetric} on hinges of all angles; one "
+           "that acts on each corner's share by itself misses symmetry by "
+           "{bending.nonlinear-damping-stays-symmetric|corner by corner|smallest} of its size at least."}};
 }
 
 /// B1, B2, ... in the order of their numbers.
@@ -207,7 +203,8 @@ bool is_before(const Claim& a, const Claim& b) {
 
 std::vector<Claim> bending_claims() {
   std::vector<Claim> claims;
-  for (const auto& part : {the_mode(), the_elastic_force(), the_damping_force()})
+  for (const auto& part :
+       {the_mode(), its_directions(), the_elastic_force(), rest_angles_and_limits(), the_damping_force()})
     claims.insert(claims.end(), part.begin(), part.end());
   std::sort(claims.begin(), claims.end(), is_before);
   return claims;

@@ -31,58 +31,51 @@ std::vector<Decider> joined(std::vector<Decider> deciders, const std::vector<Dec
 }
 
 std::vector<Claim> orders_and_limits() {
-  return {
-      {"T1", "3",
-       "Scheme A joins leapfrog for the positions with the trapezoidal rule for the velocities, and is of "
-       "second "
-       "order as a whole.",
-       joined({{"dynamics.lines-one-and-four-are-the-trapezoidal-rule.A", Role::supports}},
-              orders_of("A", {"constant", "alternating", "random"})),
-       Standing::confirmed, "",
-       "Without a filter, A's velocities obey the trapezoidal rule to "
-       "{dynamics.lines-one-and-four-are-the-trapezoidal-rule.A} of the velocity, which is the tolerance of "
-       "the "
-       "solve. On a driven, damped hinge with large angles the observed order is within "
-       "{time-order.hinge.A.constant.x} of two in positions and {time-order.hinge.A.constant.v} in "
-       "velocities, on a "
-       "hanging sheet within {time-order.sheet.A.constant.x} and {time-order.sheet.A.constant.v}; steps that "
-       "alternate or vary at random change nothing of that."},
-      {"T2",
-       "3",
-       "Scheme A is stable for h below a constant times dx sqrt(rho/Y), however large the damping.",
-       {{"dynamics.stability-limit-is-as-derived.A", Role::supports},
-        {"elastic-limit.is-two-over-omega.springs.A", Role::supports},
-        {"elastic-limit.is-two-over-omega.bending.A", Role::supports},
-        {"elastic-limit.exponent.springs", Role::supports},
-        {"elastic-limit.exponent.bending", Role::limits},
-        {"stability-sheet", Role::supports}},
-       Standing::undecided,
-       "where springs, not hinges, decide the largest frequency: where bending dominates, the limit falls "
-       "with the "
-       "square of dx",
-       "On the oscillator A is stable up to h = 2/omega and not beyond, whatever the damping: "
-       "{dynamics.stability-limit-is-as-derived.A} of the tried steps were misjudged by that rule. On an "
-       "undamped "
-       "sheet the largest stable step is 2/omega too, to {elastic-limit.is-two-over-omega.springs.A}, and it "
-       "falls with the width of a cell to a power of {elastic-limit.exponent.springs|exponent|last} where "
-       "springs "
-       "resist, but of {elastic-limit.exponent.bending|exponent|last} where hinges do."},
-      {"T3",
-       "3",
-       "A fully explicit method needs h below a constant times dx^2 rho/kd.",
-       {{"stability-sheet", Role::supports}},
-       Standing::undecided,
-       "",
-       ""},
-      {"T4",
-       "3",
-       "The extra factor dx of the explicit limit costs an order of magnitude: at dx = 1/10, a hundred steps "
-       "in "
-       "place of ten.",
-       {{"stability-sheet", Role::supports}, {"work-precision", Role::supports}},
-       Standing::undecided,
-       "",
-       ""}};
+  return {{"T1", "3",
+           "Scheme A joins leapfrog for the positions with the trapezoidal rule for the velocities, and is "
+           "of second order as a whole.",
+           joined({{"dynamics.lines-one-and-four-are-the-trapezoidal-rule.A", Role::supports}},
+                  orders_of("A", {"constant", "alternating", "random"})),
+           Standing::confirmed, "",
+           "Without a filter, A's velocities obey the trapezoidal rule to "
+           "{dynamics.lines-one-and-four-are-the-trapezoidal-rule.A} of the velocity, which is the tolerance "
+           "of the solve. On a driven, damped hinge with large angles the observed order is within "
+           "{time-order.hinge.A.constant.x} of two in positions and {time-order.hinge.A.constant.v} in "
+           "velocities, on a hanging sheet within {time-order.sheet.A.constant.x} and "
+           "{time-order.sheet.A.constant.v}; steps that alternate or vary at random change nothing of that."},
+          {"T2",
+           "3",
+           "Scheme A is stable for h below a constant times dx sqrt(rho/Y), however large the damping.",
+           {{"dynamics.stability-limit-is-as-derived.A", Role::supports},
+            {"elastic-limit.is-two-over-omega.springs.A", Role::supports},
+            {"elastic-limit.is-two-over-omega.bending.A", Role::supports},
+            {"elastic-limit.exponent.springs", Role::supports},
+            {"elastic-limit.exponent.bending", Role::limits},
+            {"stability-sheet", Role::supports}},
+           Standing::undecided,
+           "where springs, not hinges, decide the largest frequency: where bending dominates, the limit "
+           "falls with the square of dx",
+           "On the oscillator A is stable up to h = 2/omega and not beyond, whatever the damping: "
+           "{dynamics.stability-limit-is-as-derived.A} of the tried steps were misjudged by that rule. On an "
+           "undamped sheet the largest stable step is 2/omega too, to "
+           "{elastic-limit.is-two-over-omega.springs.A}, and it falls with the width of a cell to a power of "
+           "{elastic-limit.exponent.springs|exponent|last} where springs resist, but of "
+           "{elastic-limit.exponent.bending|exponent|last} where hinges do."},
+          {"T3",
+           "3",
+           "A fully explicit method needs h below a constant times dx^2 rho/kd.",
+           {{"stability-sheet", Role::supports}},
+           Standing::undecided,
+           "",
+           ""},
+          {"T4",
+           "3",
+           "The extra factor dx of the explicit limit costs an order of magnitude: at dx = 1/10, a hundred "
+           "steps in place of ten.",
+           {{"stability-sheet", Role::supports}, {"work-precision", Role::supports}},
+           Standing::undecided,
+           "",
+           ""}};
 }
 
 std::vector<Claim> damping_of_modes() {
@@ -103,8 +96,7 @@ std::vector<Claim> damping_of_modes() {
        "Undamped, all three schemes are velocity Verlet: over a thousand steps they stay within "
        "{dynamics.undamped-oscillator-is-verlet.A}, {dynamics.undamped-oscillator-is-verlet.B} and "
        "{dynamics.undamped-oscillator-is-verlet.C} of its closed solution, which keeps its amplitude for "
-       "ever, and an "
-       "undamped sheet runs backwards to where it came from."}};
+       "ever, and an undamped sheet runs backwards to where it came from."}};
 }
 
 std::vector<Claim> linear_solve() {
@@ -112,8 +104,7 @@ std::vector<Claim> linear_solve() {
       {"T7",
        "3",
        "Damping forces are linear in the velocity with a symmetric Jacobian, so conjugate gradients apply "
-       "without "
-       "approximation.",
+       "without approximation.",
        {{"bending.damping-is-symmetric", Role::supports},
         {"bending.damping-is-negative-semidefinite", Role::supports},
         {"springs.damping-is-symmetric-negative-semidefinite", Role::supports},
@@ -123,9 +114,8 @@ std::vector<Claim> linear_solve() {
        "",
        "Assembled column by column from products alone, the matrices of bending damping are symmetric to "
        "{bending.damping-is-symmetric}, without a positive eigenvalue beyond rounding, and the solver's "
-       "operator is "
-       "symmetric and positive definite. What conjugate gradients return is what a dense factorisation "
-       "returns."},
+       "operator is symmetric and positive definite. What conjugate gradients return is what a dense "
+       "factorisation returns."},
       {"T8",
        "3",
        "Conjugate gradients need fewer than ten iterations, typically, and sometimes one or two, without a "
@@ -136,18 +126,17 @@ std::vector<Claim> linear_solve() {
         {"cg-iterations.ten-or-more-in-harder-settings", Role::limits}},
        Standing::conditional,
        "for moderate damping, tolerance and steps: iterations grow with the square root of damping ratio "
-       "times step, and "
-       "with the logarithm of the tolerance",
+       "times step, and with the logarithm of the tolerance",
        "At a damping ratio of a tenth, half the elastic limit and a tolerance of a ten-thousandth, no solve "
-       "on a noisy "
-       "sheet took more than {cg-iterations.fewer-than-ten-in-the-typical-setting}; finer meshes need no "
-       "more (exponent "
-       "{cg-iterations.do-not-grow-with-the-mesh}). But the count is a matter of the setting: over all those "
-       "tried it "
-       "goes from {cg-iterations.within-the-bound-of-theory|mean iterations|smallest} to "
-       "{cg-iterations.within-the-bound-of-theory|mean iterations|largest} a solve, as the condition of the "
-       "matrix "
-       "allows."},
+       "on a noisy sheet took more than {cg-iterations.fewer-than-ten-in-the-typical-setting}; finer meshes "
+       "need no more (exponent {cg-iterations.do-not-grow-with-the-mesh}). But the count is a matter of the "
+       "setting: over all those tried it goes from {cg-iterations.within-the-bound-of-theory|mean "
+       "iterations|smallest} to {cg-iterations.within-the-bound-of-theory|mean iterations|largest} a solve, "
+       "as the condition of the matrix allows."}};
+}
+
+std::vector<Claim> cached_terms_and_filters() {
+  return {
       {"T9",
        "3",
        "No matrix needs to be assembled; position-dependent terms are computed once a solve and cached.",
@@ -157,23 +146,19 @@ std::vector<Claim> linear_solve() {
        Standing::confirmed,
        "",
        "A step of C prepares the position-dependent terms "
-       "{dynamics.position-terms-are-computed-once|preparations a "
-       "step|C} times and multiplies with them {dynamics.position-terms-are-computed-once|products a step|C} "
-       "times. A "
-       "product with cached terms takes {solver.cached-terms-save-time} of the time of one that computes "
-       "them anew, and the "
-       "cache takes {solver.cached-terms-take-less-memory-than-a-matrix} of the memory that half of the "
-       "symmetric matrix "
-       "would need."},
+       "{dynamics.position-terms-are-computed-once|preparations a step|C} times and multiplies with them "
+       "{dynamics.position-terms-are-computed-once|products a step|C} times. A product with cached terms "
+       "takes {solver.cached-terms-save-time} of the time of one that computes them anew, and the cache "
+       "takes {solver.cached-terms-take-less-memory-than-a-matrix} of the memory that half of the symmetric "
+       "matrix would need."},
       {"T10", "3",
        "With positions stepped explicitly, velocities can be modified at will for many kinds of constraints.",
        each({"A", "B", "C"}, "dynamics.filters-act-on-the-moving-velocity"), Standing::confirmed, "",
        "The velocity that a filter leaves is exactly the one that moves the cloth: x + h v differs from the "
-       "new positions by "
-       "{dynamics.filters-act-on-the-moving-velocity.A}, {dynamics.filters-act-on-the-moving-velocity.B} and "
-       "{dynamics.filters-act-on-the-moving-velocity.C} under A, B and C. What a filter promises of the "
-       "positions at the "
-       "end of the step therefore comes true to the bit."}};
+       "new positions by {dynamics.filters-act-on-the-moving-velocity.A}, "
+       "{dynamics.filters-act-on-the-moving-velocity.B} and {dynamics.filters-act-on-the-moving-velocity.C} "
+       "under A, B and C. What a filter promises of the positions at the end of the step therefore comes "
+       "true to the bit."}};
 }
 
 std::vector<Claim> monotone_motion() {
@@ -185,12 +170,10 @@ std::vector<Claim> monotone_motion() {
            Standing::confirmed,
            "",
            "A particle that is only damped comes, under A, to a total displacement of 1 - (h c/2)^2 of the "
-           "exact one, to "
-           "{dynamics.pure-damping-displacement.A}: at h c/2 = "
+           "exact one, to {dynamics.pure-damping-displacement.A}: at h c/2 = "
            "{dynamics.pure-damping-displacement.A|h c/2|5} that is "
            "{dynamics.pure-damping-displacement.A|displacement over exact|5} times the way it should go, "
-           "backwards. It is "
-           "stable all the same: with damping ratios up to "
+           "backwards. It is stable all the same: with damping ratios up to "
            "{dynamics.stability-limit-is-as-derived.A|damping ratio|largest} the limit is 2/omega."},
           {"T14",
            "3",
@@ -226,8 +209,7 @@ std::vector<Claim> variable_steps() {
        "With steps that alternate nine to one, and with random ones, B's observed order stays within "
        "{time-order.hinge.observed-in-B-with-variable-steps} of two on a driven hinge and within "
        "{time-order.sheet.observed-in-B-with-variable-steps} on a sheet. B is a one-step map whose local "
-       "error is of "
-       "third order in x and in v, so its order cannot depend on the steps before."},
+       "error is of third order in x and in v, so its order cannot depend on the steps before."},
       {"T18", "3", "C is second order and monotone with variable steps.",
        joined(orders_of("C", {"constant", "alternating", "random"}),
               {{"dynamics.pure-damping-displacement.C", Role::supports},
@@ -235,8 +217,7 @@ std::vector<Claim> variable_steps() {
                {"monotonicity", Role::supports}}),
        Standing::undecided, "",
        "With alternating steps the observed order of C is within {time-order.hinge.C.alternating.x} of two "
-       "in "
-       "positions and {time-order.hinge.C.alternating.v} in velocities, with random ones within "
+       "in positions and {time-order.hinge.C.alternating.v} in velocities, with random ones within "
        "{time-order.hinge.C.random.x} and {time-order.hinge.C.random.v}."},
       {"T19",
        "3",
@@ -257,10 +238,8 @@ std::vector<Claim> variable_steps() {
                {"momentum-drift.damped.C.is-no-rounding", Role::contradicts}}),
        Standing::refuted, "",
        "Linear momentum is kept by all three. So is angular momentum without damping, and under A and B with "
-       "it. But C "
-       "moves the positions with one velocity and carries the momentum of another, and the two differ by "
-       "damping: the "
-       "angular momentum of a free, damped sheet drifts by "
+       "it. But C moves the positions with one velocity and carries the momentum of another, and the two "
+       "differ by damping: the angular momentum of a free, damped sheet drifts by "
        "{momentum-drift.damped.C.order|relative drift|first} of itself at a step of "
        "{momentum-drift.damped.C.order|step|first}, and by second order in the step (observed: "
        "{momentum-drift.damped.C.order|order of the pair|last})."}};
@@ -270,8 +249,8 @@ std::vector<Claim> variable_steps() {
 
 std::vector<Claim> time_claims() {
   std::vector<Claim> claims;
-  for (const auto& part :
-       {orders_and_limits(), damping_of_modes(), linear_solve(), monotone_motion(), variable_steps()})
+  for (const auto& part : {orders_and_limits(), damping_of_modes(), linear_solve(),
+                           cached_terms_and_filters(), monotone_motion(), variable_steps()})
     claims.insert(claims.end(), part.begin(), part.end());
   return claims;
 }

@@ -92,8 +92,7 @@ Finding acts_in_plane(const Subject& subject, const BendingAlternative& model) {
            {"net force", "1", force},
            {"net torque", "1", torque}},
           "in plane: the largest work on an in-plane motion over the product of lengths, 1 if the force were "
-          "that "
-          "motion; measured is the paper's over the model's, at worst"};
+          "that motion; measured is the paper's over the model's, at worst"};
 }
 
 /// The paper's element under the same measures, and the shortcut that spoils nothing.
@@ -114,8 +113,7 @@ Finding paper_keeps_all(const Subject& subject) {
   finding.evidence.push_back({"in plane, normals alone taken as constant", "epsilon thinness", shortcuts});
   finding.note =
       "With the normals' lengths alone taken as constant nothing is lost: in d(theta) = cos d(sin) - sin "
-      "d(cos) their "
-      "changes cancel. It is the edge's length that must not be.";
+      "d(cos) their changes cancel. It is the edge's length that must not be.";
   return finding;
 }
 
@@ -129,8 +127,8 @@ std::vector<Check> bending_alternative_checks() {
   for (const BendingAlternative& model : bending_alternatives())
     checks.push_back(
         {model.name,
-         model.words + " pulls in the planes of the triangles, a million times beyond what the paper's "
-                       "element does.",
+         model.words +
+             " pulls in the planes of the triangles, a million times beyond what the paper's element does.",
          model.source, [model](const Subject& subject) { return acts_in_plane(subject, model); }});
   return checks;
 }

@@ -98,18 +98,16 @@ Finding nonlinear_damping_stays_symmetric(const Subject& subject) {
     one_by_one.push_back(
         relative_asymmetry(jacobian_of(stiffened_one_by_one(probe, hinge.state, gradient), v).matrix));
   }
-  Finding finding =
-      measured.judged(64,
-                      "an entry is a difference of forces of about forty roundings each, magnified by "
-                      "the triangles' thinness");
+  Finding finding = measured.judged(64,
+                                    "an entry is a difference of forces of about forty roundings each, "
+                                    "magnified by the triangles' thinness");
   finding.evidence.push_back({"cubic part over the linear one", "1", nonlinear});
   finding.evidence.push_back({"corner by corner", "1", one_by_one});
-  finding.note = "The law is the subject's damping times 1 + (rate/" + std::to_string(int(rate_scale)) +
-                 " rad/s)^2, the rate by exact differentiation: symmetric only if the forces point along its "
-                 "gradient. Corner by "
-                 "corner: asymmetry over the largest entry when each corner is stiffened by its own share of "
-                 "the rate. Positive "
-                 "eigenvalues, where there are any, count as asymmetry does.";
+  finding.note =
+      "The law is the subject's damping times 1 + (rate/" + std::to_string(int(rate_scale)) +
+      " rad/s)^2, the rate by exact differentiation: symmetric only if the forces point along its gradient. "
+      "Corner by corner: asymmetry over the largest entry when each corner is stiffened by its own share of "
+      "the rate. Positive eigenvalues, where there are any, count as asymmetry does.";
   return finding;
 }
 
@@ -154,14 +152,12 @@ Finding unfolded_pleats_return(const Subject& subject) {
   }
   return {{left.back(), 0.01, 0, "1",
            "what is left decays exponentially and would vanish; a hundredth tells a shape that returns from "
-           "one that "
-           "stays (all is left) or goes elsewhere"},
+           "one that stays (all is left) or goes elsewhere"},
           {{"time", "s", times},
            {"left of the unfolding", "1", left},
            {"left with rest angles of zero", "1", without}},
           "The sheet starts flat and free; its rest angles are those of pleats. Measured over all hinges, as "
-          "the root of "
-          "the sum of squares of theta - theta0, over that at the start."};
+          "the root of the sum of squares of theta - theta0, over that at the start."};
 }
 
 }  // namespace
@@ -169,8 +165,7 @@ Finding unfolded_pleats_return(const Subject& subject) {
 std::vector<Check> bending_shape_checks() {
   return {{"bending.nonlinear-damping-stays-symmetric",
            "A damping that grows with the cube of the angle's rate, alike for all four forces, has a "
-           "symmetric Jacobian "
-           "without a positive eigenvalue.",
+           "symmetric Jacobian without a positive eigenvalue.",
            "BMF03 section 4", nonlinear_damping_stays_symmetric},
           {"bending.unfolded-pleats-return",
            "A sheet with the rest angles of pleats, held flat and let go, folds back into them.",
