@@ -172,7 +172,7 @@ std::vector<Claim> monotone_motion() {
            "A particle that is only damped comes, under A, to a total displacement of 1 - (h c/2)^2 of the "
            "exact one, to {dynamics.pure-damping-displacement.A}: at h c/2 = "
            "{dynamics.pure-damping-displacement.A|h c/2|5} that is "
-           "{dynamics.pure-damping-displacement.A|displacement over exact|5} times the way it should go, "
+           "{dynamics.pure-damping-displacement.A|displacement over exact|5} times the way it should go: "
            "backwards. It is stable all the same: with damping ratios up to "
            "{dynamics.stability-limit-is-as-derived.A|damping ratio|largest} the limit is 2/omega."},
           {"T14",
