@@ -3,8 +3,11 @@
 namespace foldproof {
 
 std::vector<Study> all_studies() {
-  return {hinge_time_order(),    sheet_time_order(), momentum_drift(), cg_iterations(),  bending_scaling(),
-          elastic_limit_study(), hard_limits(),      buckling(),       mirror_symmetry()};
+  return {hinge_time_order(),       sheet_time_order(), momentum_drift(),
+          cg_iterations(),          bending_scaling(),  elastic_limit_study(),
+          bending_rigidity_study(), cantilever_study(), strip_vibration_study(),
+          shape_return_study(),     hard_limits(),      buckling(),
+          mirror_symmetry()};
 }
 
 }  // namespace foldproof

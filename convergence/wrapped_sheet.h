@@ -1,0 +1,69 @@
+// Regular sheets bent on purpose, and what a cell of them stores.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "reference/mesh/shapes.h"
+#include "verification/checks/measured.h"
+#include "verification/oracles/homogenised_bending.h"
+
+namespace foldproof {
+
+/// A regular way to cut a sheet into triangles, and the same in the oracle's words.
+struct RegularPattern {
+  std::string name, words;
+  SheetPattern pattern;
+  double cell_height;               // over a cell's width; 0: as equilateral triangles have it [1]
+  double longest_edge;              // over a cell's width [1]
+  oracles::PeriodicMesh (*cell)();  // with cells one metre wide
+  bool (*second_site)(double column, double row);  // whether a vertex is one of the cell's second kind
+};
+
+const std::vector<RegularPattern>& regular_patterns();
+
+/// How a flat sheet is laid on a cylinder: the sheet's plane touches it along the line through the origin.
+struct Wrap {
+  double direction = 0;  // of the curvature, from x [rad]
+  double curvature = 0;  // [1/m]
+  double offset = 0;     // of the vertices of the second kind, outward [m]
+};
+
+/// Sheets of one pattern in two widths and two heights, n and 2 n cells. On a cylinder, equal cells lie alike
+/// wherever they are; the energy is therefore a n_x n_y + b n_x + c n_y + d, and the mixed difference of four
+/// sheets is that of the cells in their inner parts, without any border.
+class FourSheets {
+ public:
+  /// n even, so that whole periods are added. width: of a cell [m]; ke [J].
+  FourSheets(const Subject& subject, const RegularPattern& pattern, int n, double width, double ke);
+
+  /// Energy per area of the inner cells when each vertex of the flat sheet goes where `bend` says [J/m^2].
+  /// bend: (rest position [m], of the second kind) -> position [m].
+  double energy_per_area(const std::function<Vector3(const Vector3&, bool)>& bend) const;
+
+  double energy_per_area(const Wrap& wrap) const;
+
+ private:
+  struct Specimen {
+    PerParticle3 rest;  // 3 x N [m]
+    Probe probe;
+    double sign;  // in the mixed difference
+  };
+  const RegularPattern& pattern_;
+  double width_, height_;  // of a cell [m]
+  double area_;            // of the inner cells [m^2]
+  std::vector<Specimen> specimens_;
+};
+
+/// Where the cylinder takes a vertex.
+Vector3 wrapped(const Wrap& wrap, const Vector3& rest, bool second);
+
+/// D/ke with all vertices on the cylinder [1]; wrap.offset is not used.
+double forced_rigidity_of(const FourSheets& sheets, Wrap wrap, double ke);
+
+/// D/ke with the vertices of the second kind at the offset of least energy, from three of them [1]; wrap.offset
+/// is the distance at which they are tried.
+double relaxed_rigidity_of(const FourSheets& sheets, Wrap wrap, double ke);
+
+}  // namespace foldproof
