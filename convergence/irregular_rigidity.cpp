@@ -136,7 +136,7 @@ NamedFinding excess_stays(const Row& row) {
     errors.push_back(sample.forced.standard_error());
   }
   const Verdict verdict{
-      change / excess, 0.5, uncertainty / excess, "1",
+      excess > 0 ? change / excess : nan, 0.5, uncertainty / excess, "1",
       "an excess that vanished in proportion to the width would change by its own size when "
       "the cells are halved; half of that tells the two apart"};
   return {"bending-rigidity.irregular.keeps-its-excess." + row.disorder.name,
