@@ -154,15 +154,9 @@ NamedFinding border_is_first_order(const Subject& subject, int levels, Figure& f
   Convergence whole;
   for (int level = 0; level < levels; ++level) {
     const int n = 6 << level;
-    Scene scene = scene_of(make_sheet({pattern.pattern, 0.31, 0.31, n, n}), 0.17);
-    scene.bending = BendingMaterial{ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
-    scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
-    const Wrap wrap{0, 0.3, 0};
-    for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
-      scene.x.col(i) = wrapped(wrap, scene.mesh.rest.col(i), false);
-    const double D = 2 * Probe(subject, scene).energy(still_at(scene.x)) / std::pow(0.31 * wrap.curvature, 2);
-    whole.steps.push_back(0.31 / n);
-    whole.errors.push_back(std::abs(D / ke / 0.25 - 1));
+    const double D = whole_sheet_rigidity(subject, pattern, n, ke);
+    whole.steps.push_back(whole_side / n);
+    whole.errors.push_back(std::abs(D / 0.25 - 1));
   }
   figure.curves.push_back({"a whole sheet with its border, " + pattern.words, whole.steps, whole.errors, nan,
                            pair_orders(whole)});
@@ -177,29 +171,10 @@ NamedFinding border_is_first_order(const Subject& subject, int levels, Figure& f
            "D/ke of this pattern and direction is 1/4, by the homogenised cell"}};
 }
 
-/// R from the energies of six small quadratic surfaces, then a strip's rigidity.
-Eigen::Matrix3d measured_tensor(const FourSheets& sheets, double curvature) {
-  const auto energy = [&](const Eigen::Vector3d& k) {
-    return sheets.energy_per_area([&k](const Vector3& rest, bool) {
-      const double x = rest.x(), y = rest.y();
-      return Vector3(x, y, 0.5 * (k[0] * x * x + k[1] * y * y + k[2] * x * y));
-    });
-  };
-  Eigen::Matrix3d R;
-  for (int i = 0; i < 3; ++i) R(i, i) = energy(curvature * Eigen::Vector3d::Unit(i));
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < i; ++j) {
-      const Eigen::Vector3d both = Eigen::Vector3d::Unit(i) + Eigen::Vector3d::Unit(j);
-      R(i, j) = R(j, i) = (energy(curvature * both) - R(i, i) - R(j, j)) / 2;
-    }
-  }
-  return 2 / (ke * curvature * curvature) * R;
-}
-
 NamedFinding free_strip(const Subject& subject, const RegularPattern& pattern) {
   constexpr double curvature = gentle / 10 / width;
   const FourSheets sheets(subject, pattern, cells, width, ke);
-  const double measured = oracles::strip_rigidity(measured_tensor(sheets, curvature), 0);
+  const double measured = oracles::strip_rigidity(measured_tensor(sheets, curvature, ke), 0);
   const double exact = oracles::strip_rigidity(oracles::relaxed_rigidity(pattern.cell()), 0);
   const Verdict verdict{std::abs(measured / exact - 1), std::pow(2 * cells * width * 3 * curvature, 2), 0,
                         "1",

@@ -143,10 +143,7 @@ NamedFinding angles_matter(const Shell& shell, const Return& own, const Return& 
 
 StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
   std::vector<Shell> shells = {bumpy_ball(1), bumpy_ball(2)};
-  if (tier == Tier::full) {
-    shells.push_back(bumpy_ball(3));
-    shells.push_back(statue());
-  }
+  if (tier == Tier::full) shells.push_back(statue());
   StudyResult result;
   Figure figure{"distance",
                 "Return of a shell to its shape",

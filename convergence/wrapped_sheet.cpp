@@ -101,4 +101,33 @@ double relaxed_rigidity_of(const FourSheets& sheets, Wrap wrap, double ke) {
   return bend > 0 ? middle - slope * slope / (2 * bend) : middle;  // all alike: nothing to relax
 }
 
+Eigen::Matrix3d measured_tensor(const FourSheets& sheets, double curvature, double ke) {
+  const auto energy = [&](const Eigen::Vector3d& k) {
+    return sheets.energy_per_area([&k](const Vector3& rest, bool) {
+      const double x = rest.x(), y = rest.y();
+      return Vector3(x, y, 0.5 * (k[0] * x * x + k[1] * y * y + k[2] * x * y));
+    });
+  };
+  Eigen::Matrix3d R;
+  for (int i = 0; i < 3; ++i) R(i, i) = energy(curvature * Eigen::Vector3d::Unit(i));
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const Eigen::Vector3d both = Eigen::Vector3d::Unit(i) + Eigen::Vector3d::Unit(j);
+      R(i, j) = R(j, i) = (energy(curvature * both) - R(i, i) - R(j, j)) / 2;
+    }
+  }
+  return 2 / (ke * curvature * curvature) * R;
+}
+
+double whole_sheet_rigidity(const Subject& subject, const RegularPattern& pattern, int n, double ke) {
+  Scene scene = scene_of(make_sheet({pattern.pattern, whole_side, whole_side, n, n}), 0.17);
+  scene.bending = BendingMaterial{ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  const Wrap wrap{0, 0.3, 0};
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
+    scene.x.col(i) = wrapped(wrap, scene.mesh.rest.col(i), false);
+  const double energy = Probe(subject, scene).energy(still_at(scene.x));
+  return 2 * energy / (ke * std::pow(whole_side * wrap.curvature, 2));
+}
+
 }  // namespace foldproof

@@ -66,4 +66,11 @@ double forced_rigidity_of(const FourSheets& sheets, Wrap wrap, double ke);
 /// is the distance at which they are tried.
 double relaxed_rigidity_of(const FourSheets& sheets, Wrap wrap, double ke);
 
+/// The oracle's R from the energies of six small quadratic surfaces, `curvature` [1/m] large [1].
+Eigen::Matrix3d measured_tensor(const FourSheets& sheets, double curvature, double ke);
+
+/// D/ke of a whole square sheet of n x n cells, its border included, curved along x by 0.3 1/m [1].
+constexpr double whole_side = 0.31;  // m
+double whole_sheet_rigidity(const Subject& subject, const RegularPattern& pattern, int n, double ke);
+
 }  // namespace foldproof
