@@ -99,10 +99,17 @@ std::vector<Claim> the_elastic_force() {
            "4",
            "The factor |E|^2/(|N1| + |N2|) makes the look independent of the mesh, so that ke is a property "
            "of the material.",
-           {{"bending-rigidity", Role::supports}},
-           Standing::undecided,
-           "",
-           ""},
+           {{"bending-rigidity.does-not-depend-on-size", Role::supports},
+            {"bending-rigidity.depends-on-direction", Role::limits},
+            {"bending-rigidity.depends-on-pattern", Role::limits}},
+           Standing::conditional,
+           "The pattern of the triangles and its direction stay as they are.",
+           "A pattern refined keeps its flexural rigidity D: the error of its cylinders has second order, to "
+           "{bending-rigidity.does-not-depend-on-size}. Another pattern has another D: curved along x, the "
+           "patterns tried differ by {bending-rigidity.depends-on-pattern|greatest difference of D/ke|first} "
+           "ke. Squares split along one diagonal differ by "
+           "{bending-rigidity.depends-on-direction|greatest difference of D/ke|first} ke between their own "
+           "directions, and refinement does not remove that."},
           {"B7",
            "4",
            "Other functions of the angle keep all of this, as long as they scale all four forces alike.",
@@ -123,7 +130,9 @@ std::vector<Claim> rest_angles_and_limits() {
        {{"bending.rest-angles-at-rest-give-no-force", Role::supports},
         {"bending.force-is-minus-gradient-of-energy", Role::supports},
         {"bending.damping-dissipates", Role::supports},
-        {"bending.unfolded-pleats-return", Role::supports}},
+        {"bending.unfolded-pleats-return", Role::supports},
+        {"shape-return.comes-back", Role::supports},
+        {"shape-return.needs-its-rest-angles", Role::supports}},
        Standing::confirmed,
        "",
        "At its rest shape a curved surface feels no bending, to {bending.rest-angles-at-rest-give-no-force}. "
@@ -131,7 +140,8 @@ std::vector<Claim> rest_angles_and_limits() {
        "{bending.unfolded-pleats-return|left of the unfolding|first} is left after "
        "{bending.unfolded-pleats-return|time|first}, {bending.unfolded-pleats-return|left of the "
        "unfolding|last} after {bending.unfolded-pleats-return|time|last}; without rest angles it stays "
-       "flat."},
+       "flat. A closed shell with bumps, pulled out of shape by about a tenth of its size, comes back: "
+       "{shape-return.comes-back} is left."},
       {"B11",
        "4",
        "The model behaves well in the stiff limit (Figure 4) and in the soft one (Figure 3).",
