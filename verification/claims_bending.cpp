@@ -103,7 +103,7 @@ std::vector<Claim> the_elastic_force() {
             {"bending-rigidity.depends-on-direction", Role::limits},
             {"bending-rigidity.depends-on-pattern", Role::limits}},
            Standing::conditional,
-           "The pattern of the triangles and its direction stay as they are.",
+           "The pattern of the triangles and its direction stay as they are",
            "A pattern refined keeps its flexural rigidity D: the error of its cylinders has second order, to "
            "{bending-rigidity.does-not-depend-on-size}. Another pattern has another D: curved along x, the "
            "patterns tried differ by {bending-rigidity.depends-on-pattern|greatest difference of D/ke|first} "
