@@ -58,7 +58,7 @@ State settled(const Subject& subject, Prepared& prepared, const Scene& scene) {
   constexpr int steps = 800;
   State s = start_state(scene);
   Work uncounted;
-  for (int i = 0; i < steps; ++i) s = subject.step(prepared, s, h, uncounted);
+  for (int i = 0; i < steps; ++i) s = subject.step(prepared, {&s, 1}, h, uncounted);
   s.v.setZero();
   return s;
 }
@@ -180,7 +180,7 @@ Growth growth_beyond(const Subject& subject, const Strip& strip) {
       growth.times.push_back(i * h);
       growth.amplitudes.push_back(s.x.row(2).dot(at.mode));
     }
-    s = subject.step(*prepared, s, h, uncounted);
+    s = subject.step(*prepared, {&s, 1}, h, uncounted);
   }
   growth.measured = std::log(growth.amplitudes.back() / growth.amplitudes.front()) / growth.times.back();
   return growth;

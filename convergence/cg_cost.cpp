@@ -76,7 +76,7 @@ Cost cost_of(const Subject& subject, const Setting& setting) {
     State s = start_state(scene);
     for (int i = 0; i < steps; ++i) {
       Work one;
-      s = offered(subject.step, "step")(*prepared, s, setting.step * limit, one);
+      s = offered(subject.step, "step")(*prepared, {&s, 1}, setting.step * limit, one);
       largest.see(double(one.cg_iterations) / double(one.solves));
       all.cg_iterations += one.cg_iterations;
       all.solves += one.solves;

@@ -142,7 +142,7 @@ StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
                 "The slope is that of springs; bending has twice that.",
                 {}};
   double done = 0;
-  const double parts = 1 + double(regimes().size() * (1 + integrators().size()));
+  const double parts = 1 + double(regimes().size() * (1 + paper_schemes().size()));
   std::vector<Limits> alone;
   for (const Regime& regime : regimes()) {
     const Limits limits = limits_of(subject, regime, meshes);
@@ -154,7 +154,7 @@ StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
         {regime.words + ", the solver's bound", limits.exact.steps, limits.bounds, nan, {}});
     alone.push_back(limits);
     progress(++done / parts);
-    for (const Integrator& integrator : integrators()) {
+    for (const Integrator& integrator : paper_schemes()) {
       result.findings.push_back(scheme_limit(subject, regime, integrator));
       progress(++done / parts);
     }

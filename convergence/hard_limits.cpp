@@ -60,7 +60,7 @@ struct SheetLimits {
 SheetLimits limits_of(const Subject& subject, Scene scene) {
   const double omega = fastest_mode(subject, scene).omega;
   SheetLimits limits{2 / omega, elastic_limit(build_system(scene), start_state(scene)) * omega / 2, {}};
-  for (const Integrator& integrator : integrators()) {
+  for (const Integrator& integrator : paper_schemes()) {
     scene.integrator = std::string(integrator.name);
     limits.schemes.push_back(largest_stable_step(subject, scene, omega, {0.9, 1.1, 7, 400}));
   }
@@ -70,7 +70,7 @@ SheetLimits limits_of(const Subject& subject, Scene scene) {
 NamedFinding undamped_finding(const HardSheet& sheet, const SheetLimits& limits) {
   Worst worst;
   std::vector<std::string> names;
-  for (const Integrator& integrator : integrators()) names.emplace_back(integrator.name);
+  for (const Integrator& integrator : paper_schemes()) names.emplace_back(integrator.name);
   for (const double ratio : limits.schemes) worst.see(std::abs(ratio - 1));
   const Verdict verdict{
       worst.value(), 0.01, 0, "1",
@@ -171,11 +171,11 @@ Table table_of(const std::vector<HardSheet>& sheets, const std::vector<SheetLimi
   Table table{"largest-steps",
               "Largest stable steps of hard, undamped sheets",
               {{"sheet", "1", words}, {"2/omega", "s", exact}, {"elastic limit over 2/omega", "1", bound}}};
-  for (size_t k = 0; k < integrators().size(); ++k) {
+  for (size_t k = 0; k < paper_schemes().size(); ++k) {
     std::vector<double> ratios;
     for (const SheetLimits& one : limits) ratios.push_back(one.schemes[k]);
     table.columns.push_back(
-        {"scheme " + std::string(integrators()[k].name) + " over 2/omega", "1", std::move(ratios)});
+        {"scheme " + std::string(paper_schemes()[k].name) + " over 2/omega", "1", std::move(ratios)});
   }
   return table;
 }
@@ -210,7 +210,7 @@ StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
   StudyResult result;
   const std::vector<HardSheet> sheets = hard_sheets();
   const std::vector<Damped> damped = damped_runs(tier);
-  const double parts = double(sheets.size() + damped.size() + integrators().size());
+  const double parts = double(sheets.size() + damped.size() + paper_schemes().size());
   double done = 0;
   std::vector<SheetLimits> limits;
   for (const HardSheet& sheet : sheets) {

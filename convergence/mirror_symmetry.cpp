@@ -62,7 +62,7 @@ History asymmetry_of_run(const Subject& subject, const Scene& scene, double end)
   History history;
   Work uncounted;
   for (int i = 1; i <= steps; ++i) {
-    s = offered(subject.step, "step")(*prepared, s, h, uncounted);
+    s = offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
     if (i % apart != 0) continue;
     history.times.push_back(i * h);
     history.steps.push_back(i);

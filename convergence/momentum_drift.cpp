@@ -73,7 +73,7 @@ void add_level(const Subject& subject, Prepared& prepared, const Scene& scene, i
   Work uncounted;
   for (int i = 0; i < count; ++i) {
     scale.see(momentum_scale(mass, s));
-    s = subject.step(prepared, s, end / count, uncounted);
+    s = subject.step(prepared, {&s, 1}, end / count, uncounted);
   }
   const double moved = (momentum_about_origin(mass, s) - before).norm();
   drift.steps.push_back(end / count);
@@ -136,9 +136,10 @@ NamedFinding drift_is_real(const Drift& drift) {
   constexpr double rounding_bound = 16;
   Worst worst;
   for (double roundings : drift.roundings) worst.see(rounding_bound / roundings);
-  Finding finding{{worst.value(), 0.01, 0, "of the drift", "a hundred times what counts as kept cannot be rounding"},
-                  {{"step", "s", drift.steps}, {"drift in roundings", "1", drift.roundings}},
-                  "measured is the bound of a kept momentum over the drift"};
+  Finding finding{
+      {worst.value(), 0.01, 0, "of the drift", "a hundred times what counts as kept cannot be rounding"},
+      {{"step", "s", drift.steps}, {"drift in roundings", "1", drift.roundings}},
+      "measured is the bound of a kept momentum over the drift"};
   return {"momentum-drift.damped.C.is-no-rounding", "The drift of scheme C on a damped sheet is no rounding.",
           std::move(finding)};
 }
@@ -164,8 +165,8 @@ Figure figure_of(const std::vector<Drift>& damped, const std::vector<Drift>& und
 StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
   const int levels = tier == Tier::quick ? 5 : 7;
   std::vector<Drift> undamped, damped;
-  const double runs = 2.0 * double(integrators().size());
-  for (const Integrator& integrator : integrators()) {
+  const double runs = 2.0 * double(paper_schemes().size());
+  for (const Integrator& integrator : paper_schemes()) {
     undamped.push_back(drift_of(subject, free_sheet(0, 0), integrator.name, levels));
     progress(double(undamped.size() + damped.size()) / runs);
     damped.push_back(drift_of(subject, free_sheet(0.031, 0.0004), integrator.name, levels));

@@ -51,10 +51,10 @@ StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
   const double tolerance = tier == Tier::quick ? 1e-10 : 1e-12;
   const ExactEnd exact = exact_end(scene, oracle_of(scene), end, tolerance);
   const int levels = tier == Tier::quick ? 6 : 8;
-  return time_order(
-      subject,
-      {"time-order.sheet", "the hanging sheet", scene, end, 24, levels, exact.state, exact.uncertainty},
-      progress);
+  return time_order(subject,
+                    {"time-order.sheet", "the hanging sheet", scene, end, paper_methods(24, levels),
+                     exact.state, exact.uncertainty},
+                    progress);
 }
 
 }  // namespace

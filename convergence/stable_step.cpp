@@ -26,7 +26,7 @@ Fate fate_of(const Trial& trial, double h) {
   const double start = (s.x - trial.scene.x).norm();
   Work uncounted;
   for (int i = 0; i < trial.steps; ++i) {
-    s = trial.subject.step(trial.prepared, s, h, uncounted);
+    s = trial.subject.step(trial.prepared, {&s, 1}, h, uncounted);
     if (!((s.x - trial.scene.x).norm() <= growth * start)) return Fate::grows;
   }
   return Fate::stays;

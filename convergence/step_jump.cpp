@@ -38,10 +38,10 @@ EnergyRange after_jump(const Vibration& of, double phase) {
   const double start = energy(of, s);
   Work uncounted;
   const long fine = std::lround(phase / of.mode.omega / (h / jump));
-  for (long i = 0; i < fine; ++i) s = of.subject.step(of.prepared, s, h / jump, uncounted);
+  for (long i = 0; i < fine; ++i) s = of.subject.step(of.prepared, {&s, 1}, h / jump, uncounted);
   EnergyRange range;
   for (int i = 0; i < 60; ++i) {
-    s = of.subject.step(of.prepared, s, h, uncounted);
+    s = of.subject.step(of.prepared, {&s, 1}, h, uncounted);
     range.largest.see(energy(of, s) / start);
     range.over_least.see(start / energy(of, s));
   }

@@ -1,5 +1,6 @@
 #include "convergence/time_order.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -42,10 +43,10 @@ double largest_difference(const PerParticle3& p, const PerParticle3& q) {
 
 State end_of(const Subject& subject, Prepared& prepared, const Scene& scene,
              const std::vector<double>& steps) {
-  State s = start_state(scene);
+  History history(start_state(scene), 2);
   Work uncounted;
-  for (double h : steps) s = subject.step(prepared, s, h, uncounted);
-  return s;
+  for (double h : steps) history.advance(subject.step(prepared, history.past(), h, uncounted));
+  return history.now();
 }
 
 /// Tells the progress of many runs by the steps taken.
@@ -59,12 +60,14 @@ struct Meter {
   }
 };
 
-Run errors_of(const Subject& subject, const OrderProblem& problem, Run run, Meter& meter) {
+Run errors_of(const Subject& subject, const OrderProblem& problem, const ObservedMethod& method,
+              const StepPattern& pattern, Meter& meter) {
+  Run run{method.integrator, pattern, {}, {}, {}};
   Scene scene = problem.scene;
   scene.integrator = std::string(run.integrator.name);
   const auto prepared = offered(subject.prepare, "prepare")(scene);
   run.x.floor = run.v.floor = problem.uncertainty;
-  for (int level = 0, count = problem.coarsest; level < problem.levels; ++level, count *= 2) {
+  for (int level = 0, count = method.coarsest; level < method.levels; ++level, count *= 2) {
     const State end = end_of(subject, *prepared, scene, steps_of(run.pattern, problem.end, count));
     run.counts.push_back(count);
     for (Convergence* c : {&run.x, &run.v}) c->steps.push_back(problem.end / count);
@@ -77,13 +80,14 @@ Run errors_of(const Subject& subject, const OrderProblem& problem, Run run, Mete
 
 std::vector<Run> all_runs(const Subject& subject, const OrderProblem& problem, const Progress& progress) {
   offered(subject.step, "step");
-  const std::vector<StepPattern> patterns = step_patterns();
-  const double runs = double(integrators().size() * patterns.size());
-  Meter meter{progress, runs * problem.coarsest * (std::pow(2, problem.levels) - 1)};
+  double steps = 0;
+  for (const ObservedMethod& method : problem.methods)
+    steps += double(method.patterns.size()) * method.coarsest * (std::pow(2, method.levels) - 1);
+  Meter meter{progress, steps};
   std::vector<Run> all;
-  for (const Integrator& integrator : integrators())
-    for (const StepPattern& pattern : patterns)
-      all.push_back(errors_of(subject, problem, {integrator, pattern, {}, {}, {}}, meter));
+  for (const ObservedMethod& method : problem.methods)
+    for (const StepPattern& pattern : method.patterns)
+      all.push_back(errors_of(subject, problem, method, pattern, meter));
   return all;
 }
 
@@ -102,19 +106,30 @@ std::array<Quantity, 2> quantities() {
   return {{{"x", "positions", "m", &Run::x}, {"v", "velocities", "m/s", &Run::v}}};
 }
 
+/// The levels whose errors the reference solution can tell from its own: at least four, that three pairs can be
+/// judged.
+Convergence above_floor(const Convergence& errors) {
+  constexpr int least = pairs_judged + 1;
+  const size_t levels = size_t(std::max(least, levels_above_floor(errors, 50)));
+  Convergence judged = errors;
+  judged.steps.resize(std::min(levels, errors.steps.size()));
+  judged.errors.resize(judged.steps.size());
+  return judged;
+}
+
 NamedFinding finding_of(const OrderProblem& problem, const Run& run, const Quantity& quantity) {
   const Convergence& errors = run.*quantity.errors;
-  const Estimate deviation = order_deviation(errors, run.integrator.order, pairs_judged);
+  const Estimate deviation = order_deviation(above_floor(errors), run.integrator.order, pairs_judged);
   Finding finding{{deviation.value, bound, deviation.uncertainty, "1", why_bound},
                   {{"mean step", "s", errors.steps},
                    {"steps", "1", run.counts},
                    {"error in " + quantity.name, quantity.unit, errors.errors},
                    {"order of the pair", "1", after_nan(pair_orders(errors))}},
-                  "measured is the largest |order - expected| over the last three pairs, where the table of "
-                  "integrators states what is expected"};
+                  "measured is the largest |order - expected| over the last three pairs of errors that exceed fifty "
+                  "times the reference's uncertainty, where the table of integrators states what is expected"};
   const std::string name(run.integrator.name);
   return {problem.study + "." + name + "." + std::string(run.pattern.name) + "." + quantity.name,
-          "Scheme " + name + " is " + in_words(run.integrator.order) + " order in the " + quantity.words +
+          name + " is " + in_words(run.integrator.order) + " order in the " + quantity.words +
               " of " + problem.thing + " with " + std::string(run.pattern.words) + ".",
           std::move(finding)};
 }
@@ -129,7 +144,7 @@ NamedFinding newmark_with_variable_steps(const OrderProblem& problem, const std:
     if (run.integrator.name != "B" || run.pattern.name == "constant") continue;
     for (const Quantity& quantity : quantities()) {
       const Convergence& errors = run.*quantity.errors;
-      const Estimate one = order_deviation(errors, second, pairs_judged);
+      const Estimate one = order_deviation(above_floor(errors), second, pairs_judged);
       deviation.see(one.value);
       uncertainty.see(one.uncertainty);
       patterns.emplace_back(run.pattern.name);
@@ -146,18 +161,37 @@ NamedFinding newmark_with_variable_steps(const OrderProblem& problem, const std:
           std::move(finding)};
 }
 
-Figure figure_of(const OrderProblem& problem, const std::vector<Run>& runs, const Quantity& quantity) {
-  Figure figure{"errors-in-" + quantity.name,
-                "Error in the " + quantity.words + " of " + problem.thing,
+/// Which methods a figure shows.
+struct Selection {
+  std::string prefix, words;
+  bool (*shows)(const Run& run);
+};
+
+std::vector<Selection> selections() {
+  const auto of_paper = [](const Run& run) { return run.integrator.family == Family::mixed; };
+  const auto other = [](const Run& run) {
+    return run.integrator.family != Family::mixed && run.pattern.name == "constant";
+  };
+  return {{"", "schemes A, B, C", of_paper},
+          {"compared-", "the methods compared with, constant steps", other}};
+}
+
+Figure figure_of(const OrderProblem& problem, const std::vector<Run>& runs, const Quantity& quantity,
+                 const Selection& selection) {
+  const bool of_paper = selection.prefix.empty();
+  Figure figure{selection.prefix + "errors-in-" + quantity.name,
+                "Error in the " + quantity.words + " of " + problem.thing + ": " + selection.words,
                 {"mean step", "s", Scale::log},
                 {"largest error in " + quantity.name, quantity.unit, Scale::log},
-                2,
+                of_paper ? 2 : nan,
                 "Largest error of any coordinate at the end of the motion. The floor is the uncertainty of "
                 "the reference solution.",
                 {}};
   for (const Run& run : runs) {
+    if (!selection.shows(run)) continue;
     const Convergence& errors = run.*quantity.errors;
-    figure.curves.push_back({run.label(), errors.steps, errors.errors, errors.floor, pair_orders(errors)});
+    const std::string label = of_paper ? run.label() : std::string(run.integrator.name);
+    figure.curves.push_back({label, errors.steps, errors.errors, errors.floor, pair_orders(errors)});
   }
   return figure;
 }
@@ -192,18 +226,43 @@ Table table_of(const std::vector<Run>& runs) {
 
 }  // namespace
 
-std::vector<StepPattern> step_patterns() {
+namespace {
+
+/// Eight steps, at most ratio:1, fixed once for all.
+std::vector<double> random_steps(double ratio) {
   constexpr int length = 8;
-  StepPattern random{"random", "random steps", {}};
+  std::vector<double> steps;
   std::mt19937_64 generator(20030726);
   double sum = 0;
   for (int i = 0; i < length; ++i) {
     const double uniform = double(generator() >> 11) * 0x1p-53;
-    random.relative.push_back(std::pow(9, uniform));
-    sum += random.relative.back();
+    steps.push_back(std::pow(ratio, uniform));
+    sum += steps.back();
   }
-  for (double& step : random.relative) step *= length / sum;
-  return {{"constant", "constant steps", {1}}, {"alternating", "steps alternating 9:1", {1.8, 0.2}}, random};
+  for (double& step : steps) step *= length / sum;
+  return steps;
+}
+
+}  // namespace
+
+std::vector<StepPattern> step_patterns() {
+  return {{"constant", "constant steps", {1}},
+          {"alternating", "steps alternating 9:1", {1.8, 0.2}},
+          {"random", "random steps", random_steps(9)}};
+}
+
+std::vector<StepPattern> gentle_step_patterns() {
+  return {{"constant", "constant steps", {1}},
+          {"gently-alternating", "steps alternating 2:1", {4. / 3, 2. / 3}},
+          {"gently-random", "random steps, at most 2:1", random_steps(2)}};
+}
+
+std::vector<ObservedMethod> paper_methods(int coarsest, int levels) {
+  std::vector<ObservedMethod> methods;
+  for (const Integrator& integrator : integrators())
+    if (integrator.family == Family::mixed)
+      methods.push_back({integrator, step_patterns(), coarsest, levels});
+  return methods;
 }
 
 std::vector<double> steps_of(const StepPattern& pattern, double end, int count) {
@@ -223,7 +282,11 @@ StudyResult time_order(const Subject& subject, const OrderProblem& problem, cons
     for (const Quantity& quantity : quantities())
       result.findings.push_back(finding_of(problem, run, quantity));
   result.findings.push_back(newmark_with_variable_steps(problem, runs));
-  for (const Quantity& quantity : quantities()) result.figures.push_back(figure_of(problem, runs, quantity));
+  for (const Selection& selection : selections()) {
+    if (std::none_of(runs.begin(), runs.end(), selection.shows)) continue;
+    for (const Quantity& quantity : quantities())
+      result.figures.push_back(figure_of(problem, runs, quantity, selection));
+  }
   result.tables.push_back(table_of(runs));
   return result;
 }

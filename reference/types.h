@@ -24,13 +24,16 @@ struct State {
 
 /// Counted work: what a method costs, whatever the machine. Returned or added to, never global.
 struct Work {
-  long elastic_evaluations = 0;   // evaluations of all elastic and external forces of the system
-  long damping_preparations = 0;  // times the position-dependent terms of the damping forces were computed
-  long damping_products = 0;      // products D(x) v
-  long solves = 0;                // linear systems solved for a velocity
-  long cg_iterations = 0;         // over all solves
-  long unfinished_solves = 0;     // solves that hit the cap on iterations before they kept their promise
-  double worst_residual = 0;      // largest relative residual returned by a solve [1]
+  long elastic_evaluations = 0;     // evaluations of all elastic and external forces of the system
+  long damping_preparations = 0;    // times the position-dependent terms of the damping forces were computed
+  long damping_products = 0;        // products D(x) v
+  long stiffness_preparations = 0;  // times the elastic forces' derivative was computed
+  long stiffness_products = 0;      // products K(x) dx
+  long newton_iterations = 0;       // over all nonlinear systems
+  long solves = 0;                  // linear systems solved for a velocity
+  long cg_iterations = 0;           // over all solves
+  long unfinished_solves = 0;       // solves, linear or not, that stopped before they kept their promise
+  double worst_residual = 0;        // largest relative residual returned by a solve [1]
 };
 
 /// Sets `worst` to `value` if that is larger or NaN; a NaN stays whatever comes after it.

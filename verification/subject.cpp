@@ -40,8 +40,8 @@ Subject reference_subject() {
     const Energies e = energies(own(prepared).system, s);
     return e.total() - e.kinetic;
   };
-  subject.step = [](Prepared& prepared, const State& s, double dt, Work& work) {
-    return own(prepared).integrator.step(own(prepared).system, {&s, 1}, dt, work);
+  subject.step = [](Prepared& prepared, std::span<const State> past, double dt, Work& work) {
+    return own(prepared).integrator.step(own(prepared).system, past, dt, work);
   };
   return subject;
 }

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "reference/scene/scene.h"
@@ -33,8 +34,9 @@ struct Subject {
   /// Elastic and potential energy [J].
   std::function<double(Prepared&, const State& s)> potential_energy;
 
-  /// One step of dt [s]; adds the work that it counted, if it counts.
-  std::function<State(Prepared&, const State& s, double dt, Work& work)> step;
+  /// One step of dt [s] from the latest of the states `past`, of which a method may use two; adds the work
+  /// that it counted, if it counts.
+  std::function<State(Prepared&, std::span<const State> past, double dt, Work& work)> step;
 };
 
 /// The plain solver of reference/.

@@ -1,6 +1,7 @@
 #include "reference/dynamics/conjugate_gradient.h"
 
 #include <cmath>
+#include <functional>
 
 namespace foldproof {
 
@@ -36,30 +37,25 @@ Solve record(Solve solve, Work& work) {
   return solve;
 }
 
-}  // namespace
+/// q = A p for a symmetric positive definite A on free particles; 0 at prescribed ones.
+using Product = std::function<void(const PerParticle3& p, PerParticle3& q)>;
 
-Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass,
-                     const PerParticle& inverse_mass, const SolverSettings& settings, PerParticle3& v,
-                     Work& work) {
-  PerParticle3 q(3, v.cols());
-
-  // the residual of the explicit guess: b - (M - s D) w0 = s D w0
-  damping_product(damping, v, inverse_mass, q, work);
-  PerParticle3 r = s * q;
+/// Adds to v the solution of A w = r by conjugate gradients, preconditioned with the masses: the plain iteration in the
+/// variable M^{1/2} w. scale: what the residual's norm is compared with [kg^1/2 m/s].
+Solve iterate(const Product& A, const PerParticle& inverse_mass, const SolverSettings& settings, double scale,
+              PerParticle3 r, PerParticle3& v) {
+  PerParticle3 q(3, r.cols());
   double rr = squared_norm(r, inverse_mass);
-  const double scale_squared =
-      settings.scale == ResidualScale::momentum ? squared_momentum(v, mass, inverse_mass) : rr;
-  const double scale = scale_squared > 0 ? std::sqrt(scale_squared) : 1;
   double residual = std::sqrt(rr) / scale;
 
   PerParticle3 p = r * inverse_mass.asDiagonal();
   int iterations = 0;
   while (residual > settings.tolerance && iterations < settings.max_iterations) {
-    // q = (M - s D) p
-    damping_product(damping, p, inverse_mass, q, work);
-    q = p * mass.asDiagonal() - s * q;
+    A(p, q);
+    const double curvature = p.cwiseProduct(q).sum();
+    if (curvature <= 0) return {iterations, residual, false, true};
 
-    const double alpha = rr / p.cwiseProduct(q).sum();
+    const double alpha = rr / curvature;
     v += alpha * p;
     r -= alpha * q;
 
@@ -69,7 +65,50 @@ Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle
     residual = std::sqrt(rr) / scale;
     ++iterations;
   }
-  return record({iterations, residual, residual <= settings.tolerance}, work);
+  return {iterations, residual, residual <= settings.tolerance, false};
+}
+
+double positive_or_one(double scale) { return scale > 0 ? scale : 1; }
+
+}  // namespace
+
+Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass,
+                     const PerParticle& inverse_mass, const SolverSettings& settings, PerParticle3& v,
+                     Work& work) {
+  const Product A = [&](const PerParticle3& p, PerParticle3& q) {  // (M - s D) p
+    damping_product(damping, p, inverse_mass, q, work);
+    q = p * mass.asDiagonal() - s * q;
+  };
+
+  // the residual of the explicit guess: b - (M - s D) w0 = s D w0
+  PerParticle3 q(3, v.cols());
+  damping_product(damping, v, inverse_mass, q, work);
+  const PerParticle3 r = s * q;
+  const double scale_squared = settings.scale == ResidualScale::momentum
+                                   ? squared_momentum(v, mass, inverse_mass)
+                                   : squared_norm(r, inverse_mass);
+  const double scale = positive_or_one(std::sqrt(scale_squared));
+  return record(iterate(A, inverse_mass, settings, scale, r, v), work);
+}
+
+Solve solve_newton_step(const NewtonMatrix& matrix, const SolverSettings& settings, const PerParticle3& r,
+                        PerParticle3& dw, Work& work) {
+  PerParticle3 Kp(3, r.cols());
+  const Product A = [&](const PerParticle3& p, PerParticle3& q) {  // (M - s D - s^2 K) p
+    damping_product(matrix.damping, p, matrix.inverse_mass, q, work);
+    Kp.setZero();
+    matrix.stiffness.add_product(p, Kp);
+    ++work.stiffness_products;
+    for (Eigen::Index i = 0; i < p.cols(); ++i)
+      if (matrix.inverse_mass[i] == 0) Kp.col(i).setZero();
+    q = p * matrix.mass.asDiagonal() - matrix.s * q - matrix.s * matrix.s * Kp;
+  };
+  dw.setZero(3, r.cols());
+  const double scale = positive_or_one(std::sqrt(squared_norm(r, matrix.inverse_mass)));
+  const Solve solve = iterate(A, matrix.inverse_mass, settings, scale, r, dw);
+  ++work.solves;
+  work.cg_iterations += solve.iterations;
+  return solve;
 }
 
 }  // namespace foldproof

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "reference/forces/damping.h"
+#include "reference/forces/elastic_differential.h"
 #include "reference/types.h"
 
 namespace foldproof {
@@ -22,6 +23,8 @@ struct Solve {
   int iterations;
   double residual;  // relative, as accumulated by the iteration [1]; NaN if the data were not finite
   bool converged;   // residual <= tolerance
+  bool
+      indefinite;  // stopped early: a direction of no or negative curvature, the matrix is not positive definite
 };
 
 /// Solves (M - s D) w = M w0 for the velocity w of the free particles; prescribed ones (inverse mass 0) keep
@@ -35,5 +38,20 @@ struct Solve {
 Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass,
                      const PerParticle& inverse_mass, const SolverSettings& settings, PerParticle3& v,
                      Work& work);
+
+/// M - s D - s^2 K, the matrix of a Newton step of the methods that are implicit in the elastic forces too.
+struct NewtonMatrix {
+  const PerParticle& mass;          // N [kg]
+  const PerParticle& inverse_mass;  // N [1/kg], 0 for prescribed particles
+  const DampingOperator& damping;
+  const ElasticDifferential& stiffness;
+  double s;  // the part of the step that multiplies the rate [s]
+};
+
+/// Solves A dw = r for the free particles from dw = 0; prescribed ones get 0. r: 3 x N momenta [kg m/s]; on exit
+/// dw: 3 x N [m/s]. The residual is relative to |r|. Stops at once, with `indefinite` set, when it meets a
+/// direction p with p.A p <= 0: dw is then what it had so far.
+Solve solve_newton_step(const NewtonMatrix& A, const SolverSettings& settings, const PerParticle3& r,
+                        PerParticle3& dw, Work& work);
 
 }  // namespace foldproof

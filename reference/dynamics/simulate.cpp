@@ -59,8 +59,10 @@ std::optional<Stop> fault_in(const State& now, const State& next, double size, l
 
 class Watch {
  public:
-  Watch(const System& system, const Observer& observer)
-      : system_(system), observer_(observer), start_(std::chrono::steady_clock::now()) {}
+  Watch(const System& system, const Observer& observer, double size)
+      : system_(system), observer_(observer), size_(size), start_(std::chrono::steady_clock::now()) {}
+
+  double size() const { return size_; }  // of the cloth at the start [m]
 
   void frame(const State& s) const {
     if (observer_.frame) observer_.frame(s);
@@ -95,6 +97,7 @@ class Watch {
 
   const System& system_;
   const Observer& observer_;
+  double size_;
   std::chrono::steady_clock::time_point start_;
   double damping_work_ = 0, power_before_ = 0;
 };
@@ -103,17 +106,20 @@ void add(Work& sum, const Work& part) {
   sum.elastic_evaluations += part.elastic_evaluations;
   sum.damping_preparations += part.damping_preparations;
   sum.damping_products += part.damping_products;
+  sum.stiffness_preparations += part.stiffness_preparations;
+  sum.stiffness_products += part.stiffness_products;
+  sum.newton_iterations += part.newton_iterations;
   sum.solves += part.solves;
   sum.cg_iterations += part.cg_iterations;
   sum.unfinished_solves += part.unfinished_solves;
   keep_worst(sum.worst_residual, part.worst_residual);
 }
 
-/// Advances `outcome.last` to the time `target`, or sets outcome.stop.
+/// Advances the history to the time `target`, or sets outcome.stop.
 void run_to(double target, const System& system, const Integrator& integrator, const Schedule& schedule,
-            double size, Watch& watch, Outcome& outcome) {
-  while (outcome.last.time < target && !outcome.stop) {
-    const State& now = outcome.last;
+            Watch& watch, History& history, Outcome& outcome) {
+  while (history.now().time < target && !outcome.stop) {
+    const State& now = history.now();
     const long number = outcome.steps + 1;
     if (number > schedule.max_steps) {
       outcome.stop = Stop{"the cap on the number of steps was reached", now.time, number, -1};
@@ -121,15 +127,15 @@ void run_to(double target, const System& system, const Integrator& integrator, c
     }
     try {
       const double left = target - now.time;
-      const double h = step_allowed(system, now, schedule.step, left);
+      const double h = step_allowed(system, integrator, history.past(), schedule.step, left);
       Work work;
-      State next = integrator.step(system, {&now, 1}, h, work);
+      State next = integrator.step(system, history.past(), h, work);
       if (h == left) next.time = target;  // no rounding between a frame's time and its state's
-      outcome.stop = fault_in(now, next, size, number);
+      outcome.stop = fault_in(now, next, watch.size(), number);
       if (outcome.stop) return;
       watch.step(next, h, work);
       add(outcome.work, work);
-      outcome.last = std::move(next);
+      history.advance(std::move(next));
       ++outcome.steps;
     } catch (const DegenerateElement& error) {
       outcome.stop = Stop{error.what(), now.time, number, error.particles.front()};
@@ -137,13 +143,28 @@ void run_to(double target, const System& system, const Integrator& integrator, c
   }
 }
 
+/// The automatic step before it is fitted to the frame [s].
+double limit_of(const System& system, const Integrator& integrator, const State& s, const StepRule& rule) {
+  double limit = elastic_limit(system, s);
+  if (integrator.family == Family::fully_explicit) {
+    Work uncounted;
+    const double rate = damping_rate_bound(damping_at(system.forces, s, uncounted), system.inverse_mass);
+    limit = std::min(limit, 2 / rate);
+    if (std::isnan(rate)) limit = rate;
+  }
+  const double wanted = std::min(rule.safety * limit, strain_limit(system, s, rule.strain_per_step));
+  if (std::isnan(wanted)) throw DegenerateElement("the elastic limit of the step is not a number", {-1});
+  return wanted;
+}
+
 }  // namespace
 
-double step_allowed(const System& system, const State& s, const StepRule& rule, double left) {
-  double wanted = rule.fixed;
-  if (wanted == 0) {
-    wanted = std::min(rule.safety * elastic_limit(system, s), strain_limit(system, s, rule.strain_per_step));
-    if (std::isnan(wanted)) throw DegenerateElement("the elastic limit of the step is not a number", {-1});
+double step_allowed(const System& system, const Integrator& integrator, std::span<const State> past,
+                    const StepRule& rule, double left) {
+  double wanted = rule.fixed > 0 ? rule.fixed : limit_of(system, integrator, past.back(), rule);
+  if (past.size() > 1) {
+    const double before = past.back().time - past[past.size() - 2].time;
+    wanted = std::min(wanted, integrator.largest_growth * before);
   }
   // an even part of what is left; a hair of tolerance so that 0.1 s in steps of 0.01 s are 10 steps, not 11
   const double parts = std::ceil(left / wanted * (1 - 1e-9));
@@ -153,10 +174,9 @@ double step_allowed(const System& system, const State& s, const StepRule& rule, 
 Outcome simulate(const System& system, const Integrator& integrator, const State& start,
                  const Schedule& schedule, const Observer& observer) {
   check(schedule, start);
-  const double size = size_of(start.x);
   Outcome outcome;
-  outcome.last = start;
-  Watch watch(system, observer);
+  History history(start, integrator.history);
+  Watch watch(system, observer, size_of(start.x));
   watch.frame(start);
   try {
     watch.step(start, 0, {});
@@ -164,11 +184,12 @@ Outcome simulate(const System& system, const Integrator& integrator, const State
     outcome.stop = Stop{error.what(), start.time, 0, error.particles.front()};
   }
 
-  for (long frame = 1; !outcome.stop && outcome.last.time < schedule.end; ++frame) {
+  for (long frame = 1; !outcome.stop && history.now().time < schedule.end; ++frame) {
     const double target = std::min(schedule.end, start.time + double(frame) * schedule.frame_interval);
-    run_to(target, system, integrator, schedule, size, watch, outcome);
-    if (!outcome.stop) watch.frame(outcome.last);
+    run_to(target, system, integrator, schedule, watch, history, outcome);
+    if (!outcome.stop) watch.frame(history.now());
   }
+  outcome.last = history.now();
   return outcome;
 }
 

@@ -13,8 +13,10 @@ namespace foldproof {
 /// How long a step is. Each frame interval (or what an automatic step sees left of it) is divided evenly, so
 /// frames are hit exactly.
 struct StepRule {
-  double fixed = 0;     // the largest step allowed [s]; 0: chosen each step
-  double safety = 0.5;  // automatic: fraction of the elastic limit 2/omega [1]
+  double fixed = 0;  // the largest step allowed [s]; 0: chosen each step
+  double safety =
+      0.5;  // automatic: fraction of the elastic limit 2/omega, and for fully explicit methods of the
+            // damping limit 2/c too, c the bound on the largest damping rate [1]
   double strain_per_step =
       0.1;  // automatic: no edge's length changes by more than this fraction of its rest length [1]
 };
@@ -62,7 +64,9 @@ struct Observer {
 Outcome simulate(const System& system, const Integrator& integrator, const State& start,
                  const Schedule& schedule, const Observer& observer);
 
-/// The step [s] that the rule allows at s, as an even part of the time `left` [s] to the next frame.
-double step_allowed(const System& system, const State& s, const StepRule& rule, double left);
+/// The step [s] that the rule allows after these states, as an even part of the time `left` [s] to the next
+/// frame. No step exceeds the one before by more than the integrator's largest_growth.
+double step_allowed(const System& system, const Integrator& integrator, std::span<const State> past,
+                    const StepRule& rule, double left);
 
 }  // namespace foldproof

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reference/forces/damping.h"
+#include "reference/forces/elastic_differential.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/types.h"
 
@@ -84,6 +85,10 @@ double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, cons
 /// u1, u2, u3, u4 as columns [1/m].
 Eigen::Matrix<double, 3, 4> bending_mode(const HingeShape& shape);
 
+/// grad u = -(second derivative of theta), exact: row 3 i + a, column 3 j + b is d(u_i)_a/d(x_j)_b [1/m^2].
+/// Symmetric. The hinge must not be degenerate.
+Matrix12 bending_mode_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4);
+
 struct Bending {
   BendingMaterial material;
   std::vector<BendingHinge> hinges;
@@ -96,6 +101,11 @@ struct Bending {
   double energy(const State& s) const;
 
   void prepare_damping(const State& s, DampingOperator& damping) const;
+
+  /// A hinge's block is ke c (-magnitude' u u^T + magnitude grad u); semidefinite by its eigenvalues. With
+  /// current weighting the change of c is left out: it would not be symmetric.
+  void add_elastic_differential(const State& s, Definiteness definiteness,
+                                ElasticDifferential& differential) const;
 
   /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see forces/force.h.
   void add_stiffness_bound(const State& s, PerParticle& rows) const;

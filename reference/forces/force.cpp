@@ -31,6 +31,46 @@ DampingOperator damping_at(const std::vector<Force>& forces, const State& s, Wor
   return damping;
 }
 
+namespace {
+
+void add_differential(const CustomForce& force, const State& s, ElasticDifferential& differential) {
+  if (!force.differential) return;
+  differential.custom.push_back(
+      [&force, s](const PerParticle3& dx, PerParticle3& df) { force.differential(s, dx, df); });
+}
+
+}  // namespace
+
+ElasticDifferential elastic_differential_at(const std::vector<Force>& forces, const State& s,
+                                            Definiteness definiteness, Work& work) {
+  ElasticDifferential differential;
+  for (const Force& force : forces) {
+    if (const auto* springs = std::get_if<StretchSprings>(&force))
+      springs->add_elastic_differential(s, definiteness, differential);
+    if (const auto* bending = std::get_if<Bending>(&force))
+      bending->add_elastic_differential(s, definiteness, differential);
+    if (const auto* custom = std::get_if<CustomForce>(&force)) add_differential(*custom, s, differential);
+  }
+  ++work.stiffness_preparations;
+  return differential;
+}
+
+double damping_rate_bound(const DampingOperator& damping, const PerParticle& inverse_mass) {
+  PerParticle rows = PerParticle::Zero(inverse_mass.size());
+  for (const PairDamper& p : damping.pairs) {
+    rows[p.a] += 2 * p.along.squaredNorm();
+    rows[p.b] += 2 * p.along.squaredNorm();
+  }
+  for (const HingeDamper& h : damping.hinges) {
+    const Vector3 w3 = -(h.weight1 * h.w1 + h.weight2 * h.w2), w4 = -(h.w1 + h.w2 + w3);
+    const Eigen::Vector4d norms(h.w1.norm(), h.w2.norm(), w3.norm(), w4.norm());
+    for (int k = 0; k < 4; ++k) rows[h.particles[size_t(k)]] += norms[k] * norms.sum();
+  }
+  double largest = 0;
+  for (Eigen::Index i = 0; i < rows.size(); ++i) keep_worst(largest, rows[i] * inverse_mass[i]);
+  return largest;
+}
+
 double frequency_bound(const std::vector<Force>& forces, const State& s, const PerParticle& inverse_mass) {
   PerParticle rows = PerParticle::Zero(s.x.cols());
   for (const Force& force : forces) {

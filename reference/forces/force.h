@@ -8,6 +8,7 @@
 
 #include "reference/forces/bending.h"
 #include "reference/forces/damping.h"
+#include "reference/forces/elastic_differential.h"
 #include "reference/forces/gravity.h"
 #include "reference/forces/springs.h"
 #include "reference/types.h"
@@ -18,7 +19,9 @@ namespace foldproof {
 struct CustomForce {
   std::function<void(const State& s, PerParticle3& f)> elastic;  // may depend on s.time; not on s.v
   std::function<void(const State& s, const PerParticle3& v, PerParticle3& f)>
-      damping;                                      // linear in v, symmetric, dissipating
+      damping;  // linear in v, symmetric, dissipating
+  std::function<void(const State& s, const PerParticle3& dx, PerParticle3& df)>
+      differential;                                 // of `elastic` by the positions: linear in dx, symmetric
   std::function<double(const State& s)> potential;  // [J]
 
   void add_elastic(const State& s, PerParticle3& f) const {
@@ -45,10 +48,18 @@ PerParticle3 elastic_forces(const std::vector<Force>& forces, const State& s, Wo
 /// The position-dependent terms of all damping forces at s: computed once, used for every product.
 DampingOperator damping_at(const std::vector<Force>& forces, const State& s, Work& work);
 
+/// The derivative of all elastic forces by the positions at s: computed once, used for every product.
+ElasticDifferential elastic_differential_at(const std::vector<Force>& forces, const State& s,
+                                            Definiteness definiteness, Work& work);
+
 /// An upper bound on the largest elastic angular frequency [rad/s] at s, from springs and hinges:
 ///   omega^2 <= max over particles i of (1/m_i) (sum over the stiffness matrices' rows at i)
 /// the maximum row sum, by Gershgorin after scaling with the masses. inverse_mass: N [1/kg], 0 for prescribed
 /// particles.
 double frequency_bound(const std::vector<Force>& forces, const State& s, const PerParticle& inverse_mass);
+
+/// An upper bound on the largest damping rate [1/s], the largest eigenvalue of -M^{-1} D, by the same row
+/// sums.
+double damping_rate_bound(const DampingOperator& damping, const PerParticle& inverse_mass);
 
 }  // namespace foldproof

@@ -46,6 +46,22 @@ void StretchSprings::prepare_damping(const State& s, DampingOperator& damping) c
   }
 }
 
+void StretchSprings::add_elastic_differential(const State& s, Definiteness definiteness,
+                                              ElasticDifferential& differential) const {
+  differential.pairs.reserve(differential.pairs.size() + springs.size());
+  for (const Spring& spring : springs) {
+    const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
+    const double length = checked_length(d, spring);
+    const Vector3 along = d / length;
+    double across = spring.stiffness * (length - spring.rest_length) / length;  // tension over length
+    if (definiteness == Definiteness::semidefinite) across = std::max(0.0, across);
+    const Eigen::Matrix3d projector = along * along.transpose();
+    differential.pairs.push_back(
+        {spring.a, spring.b,
+         -spring.stiffness * projector - across * (Eigen::Matrix3d::Identity() - projector)});
+  }
+}
+
 void StretchSprings::add_stiffness_bound(const State& s, PerParticle& rows) const {
   // One spring's stiffness matrix is k along d and tension/|d| across it; a row of it sums to at most twice
   // the larger.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reference/forces/damping.h"
+#include "reference/forces/elastic_differential.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/types.h"
 
@@ -41,6 +42,10 @@ struct StretchSprings {
   double energy(const State& s) const;
 
   void prepare_damping(const State& s, DampingOperator& damping) const;
+
+  /// A spring's block is k along d and tension/|d| across it; semidefinite drops the second where tension < 0.
+  void add_elastic_differential(const State& s, Definiteness definiteness,
+                                ElasticDifferential& differential) const;
 
   /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see forces/force.h.
   void add_stiffness_bound(const State& s, PerParticle& rows) const;

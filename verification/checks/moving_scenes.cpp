@@ -95,7 +95,11 @@ Stepper::Stepper(const Subject& subject, Scene scene, const std::string& integra
 }
 
 State Stepper::step(const State& s, double h) {
-  return offered(subject_.step, "step")(*prepared_, s, h, work_);
+  return offered(subject_.step, "step")(*prepared_, {&s, 1}, h, work_);
+}
+
+State Stepper::step_after(const std::vector<State>& past, double h) {
+  return offered(subject_.step, "step")(*prepared_, past, h, work_);
 }
 
 State Stepper::run(State s, double h, int steps) {
@@ -152,7 +156,7 @@ double largest_speed(const PerParticle3& v) { return largest_difference(v, PerPa
 void add_for_each_integrator(
     std::vector<Check>& list, const Check& pattern,
     const std::function<Finding(const Subject&, const std::string& integrator)>& run) {
-  for (const Integrator& integrator : integrators()) {
+  for (const Integrator& integrator : paper_schemes()) {
     const std::string name(integrator.name);
     Check check = pattern;
     check.name += "." + name;

@@ -47,7 +47,8 @@ class Stepper {
 
   const Scene& scene() const { return scene_; }
   State start() const { return start_state(scene_); }
-  State step(const State& s, double h);  // h [s]
+  State step(const State& s, double h);                        // h [s]
+  State step_after(const std::vector<State>& past, double h);  // the latest state last
   State run(State s, double h, int steps);
   PerParticle3 elastic_forces(const State& s) const;                         // 3 x N [N]
   PerParticle3 damping_forces(const State& s, const PerParticle3& v) const;  // 3 x N [N]

@@ -152,7 +152,7 @@ Finding held_finding(const Subject& subject) {
   Worst worst;
   std::vector<std::string> names;
   std::vector<double> counts;
-  for (const Integrator& integrator : integrators()) {
+  for (const Integrator& integrator : paper_schemes()) {
     Stepper stepper(subject, held_scene(), std::string(integrator.name));
     State s = stepper.start();
     double here = 0;
@@ -214,7 +214,7 @@ Finding counts_finding(const Subject& subject) {
   std::vector<std::string> names;
   std::vector<double> solves;
   const int steps = 7;
-  for (const Integrator& integrator : integrators()) {
+  for (const Integrator& integrator : paper_schemes()) {
     Stepper stepper(subject, led_sheet(), std::string(integrator.name));
     stepper.run(stepper.start(), 1.3e-3, steps);
     names.emplace_back(integrator.name);
@@ -232,7 +232,7 @@ Finding once_finding(const Subject& subject) {
   std::vector<std::string> names;
   std::vector<double> preparations, products, iterations;
   const int steps = 7;
-  for (const Integrator& integrator : integrators()) {
+  for (const Integrator& integrator : paper_schemes()) {
     Stepper stepper(subject, led_sheet(), std::string(integrator.name));
     stepper.run(stepper.start(), 1.3e-3, steps);
     const Work& work = stepper.work();

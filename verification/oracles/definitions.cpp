@@ -191,6 +191,59 @@ VectorsEstimate<4> energy_gradient_autodiff(const HingeInput& hinge) {
   return rounded_gradient<4>(bending_energy(lift_as_variables(hinge.x), ke, factor, theta0));
 }
 
+namespace {
+
+/// The elastic force with its factor at rest, smooth through flat.
+template <class Scalar>
+Quad<Scalar> smooth_elastic_force(const HingeInput& hinge, const Quad<Scalar>& x) {
+  using std::sin;
+  const Digits50 factor = anisotropy_factor(checked(hinge.rest, "HingeInput rest"));
+  const Scalar deflection = sin(hinge_angle(x) / Scalar(2)) - Scalar(sin(Digits50(hinge.theta0) / 2));
+  return bending_elastic_force(x, Scalar(Digits50(hinge.ke)), Scalar(factor), deflection);
+}
+
+/// Component a of a vector.
+template <class Scalar>
+Scalar& component(Triple<Scalar>& triple, int a) {
+  return a == 0 ? triple.x : a == 1 ? triple.y : triple.z;
+}
+
+}  // namespace
+
+MatrixEstimate bending_elastic_derivative_autodiff(const HingeInput& hinge) {
+  require_material(hinge);
+  checked(hinge.x, "HingeInput x");
+  Quad<Gradient<12>> force = smooth_elastic_force(hinge, lift_as_variables(hinge.x));
+  MatrixEstimate result;
+  for (int row = 0; row < 12; ++row)
+    for (int column = 0; column < 12; ++column) {
+      const Digits50 entry = component(force[size_t(row / 3)], row % 3).derivative[size_t(column)];
+      result.value(row, column) = rounded(entry).value;
+      result.uncertainty = std::max(result.uncertainty, rounded(entry).uncertainty);
+    }
+  return result;
+}
+
+MatrixEstimate bending_elastic_derivative_differences(const HingeInput& hinge) {
+  require_material(hinge);
+  const Quad<Digits50> x = checked(hinge.x, "HingeInput x");
+  const Digits50 step = Digits50("1e-16") * edge_length(x);
+  MatrixEstimate result;
+  for (int column = 0; column < 12; ++column) {
+    Quad<Digits50> ahead = x, behind = x;
+    component(ahead[size_t(column / 3)], column % 3) += step;
+    component(behind[size_t(column / 3)], column % 3) -= step;
+    Quad<Digits50> up = smooth_elastic_force(hinge, ahead), down = smooth_elastic_force(hinge, behind);
+    for (int row = 0; row < 12; ++row) {
+      const Digits50 entry =
+          (component(up[size_t(row / 3)], row % 3) - component(down[size_t(row / 3)], row % 3)) / (2 * step);
+      result.value(row, column) = rounded(entry).value;
+      result.uncertainty = std::max(result.uncertainty, rounded(entry).uncertainty);
+    }
+  }
+  return result;
+}
+
 VectorsEstimate<2> spring_elastic_50(const SpringInput& spring) {
   const SpringLaw<Digits50> law = checked<Digits50>(spring);
   const Triple<Digits50> on_a =

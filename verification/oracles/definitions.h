@@ -219,6 +219,19 @@ Estimate theta_rate_autodiff(const std::array<Vector3, 4>& x, const std::array<V
 /// force with its factor at rest is minus this.
 VectorsEstimate<4> energy_gradient_autodiff(const HingeInput& hinge);
 
+/// A 12 x 12 matrix, three rows and columns a corner, and how far any entry of the truth may lie from it.
+struct MatrixEstimate {
+  Eigen::Matrix<double, 12, 12> value;
+  double uncertainty = 0;
+};
+
+/// The derivative of the elastic force with its factor at rest by the corners [N/m], by automatic
+/// differentiation of the force as printed, with sin(theta/2) from the atan2 form.
+MatrixEstimate bending_elastic_derivative_autodiff(const HingeInput& hinge);
+
+/// The same by central differences of the force in 50 digits: shares no derivative rule with the former.
+MatrixEstimate bending_elastic_derivative_differences(const HingeInput& hinge);
+
 /// Forces on the two ends of a spring [N], its energy [J], and the gradient of that energy by autodiff [N].
 VectorsEstimate<2> spring_elastic_50(const SpringInput& spring);
 VectorsEstimate<2> spring_damping_50(const SpringInput& spring);

@@ -1,0 +1,44 @@
+// The elastic forces' derivative at one set of positions: dF = K dx, K symmetric, for the methods that are
+// implicit in the elastic forces too. The paper's own schemes never need it.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "reference/types.h"
+
+namespace foldproof {
+
+/// exact: the derivative itself, indefinite where an element is compressed or folded the wrong way.
+/// semidefinite: each element's matrix with its positive eigenvalues set to zero, so that -K can only resist
+/// (Teran et al. 2005, section 6). Exact wherever the element was so already.
+enum class Definiteness { exact, semidefinite };
+
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+
+/// A spring: dF_b = block (dx_b - dx_a), dF_a = -dF_b.
+struct PairStiffness {
+  int a, b;
+  Eigen::Matrix3d block;  // symmetric [N/m]
+};
+
+/// A hinge: its four particles' forces against their displacements, three rows and columns a particle.
+struct HingeStiffness {
+  std::array<int, 4> particles;
+  Matrix12 block;  // symmetric [N/m]
+};
+
+struct ElasticDifferential {
+  std::vector<PairStiffness> pairs;
+  std::vector<HingeStiffness> hinges;
+  std::vector<std::function<void(const PerParticle3& dx, PerParticle3& df)>> custom;
+
+  /// df += K dx; both 3 x N, dx in m, df in N.
+  void add_product(const PerParticle3& dx, PerParticle3& df) const;
+};
+
+/// The symmetric matrix with its positive eigenvalues set to zero.
+Matrix12 negative_part(const Matrix12& matrix);
+
+}  // namespace foldproof
