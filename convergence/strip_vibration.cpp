@@ -181,7 +181,7 @@ NamedFinding steps_keep_the_frequency(const Subject& subject) {
   Worst worst;
   std::vector<std::string> names;
   std::vector<double> modes, differences;
-  for (const Integrator& integrator : integrators()) {
+  for (const Integrator& integrator : paper_schemes()) {
     for (const int mode : {1, 2}) {
       names.emplace_back(integrator.name);
       modes.push_back(mode);
