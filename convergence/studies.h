@@ -20,6 +20,9 @@ Study shape_return_study();      // shape-return: a sculpted shell pulled out of
 Study hard_limits();      // hard-limits: largest stable steps of hard sheets, under damping, over jumps
 Study buckling();         // buckling: critical load and growth of a compressed strip
 Study mirror_symmetry();  // mirror-symmetry: how rounding breaks it
+Study work_precision();   // work-precision: error against work and seconds, all methods
+Study solve_tolerance();  // solve-tolerance: how loose a solve may be before the order suffers
+Study mesh_error();       // mesh-error: error of the mesh beside that of the step
 
 /// All of them, in the order in which they are reported.
 std::vector<Study> all_studies();

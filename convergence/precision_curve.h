@@ -1,0 +1,53 @@
+// Error against cost of one method on one motion, and what a wanted error costs on it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "convergence/precision_problem.h"
+#include "reference/dynamics/integrator.h"
+
+namespace foldproof {
+
+struct PrecisionRun {
+  int steps;
+  double error;  // largest component of the position error at the end over the motion [1]; NaN: diverged
+  double applications;  // of force operators [1]
+  double seconds;       // of the processor, the least of a few repeats
+  Work work;
+};
+
+struct PrecisionCurve {
+  Integrator integrator;
+  std::vector<PrecisionRun> runs;  // coarse to fine
+};
+
+/// A run whose error exceeds the motion itself counts as diverged.
+constexpr double lost = 1;
+
+/// The runs of one method: from an eighth of the steps at the elastic limit on, finer by problem.ratio, until
+/// the error is a third of `finest_error` [1] and the run before did not diverge, or until a run would exceed
+/// the problem's budget.
+PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& problem,
+                               const PrecisionTruth& truth, const Integrator& integrator,
+                               double finest_error);
+
+/// Why a step cannot be longer at a wanted error.
+enum class LimitedBy { accuracy, stability, not_tried, not_reached };
+
+std::string_view words_of(LimitedBy limit);
+
+/// What a wanted error costs. All NaN when it was not reached.
+struct Price {
+  LimitedBy limit;
+  double step;          // s
+  double applications;  // 1
+  double seconds;
+};
+
+/// From the coarsest run from which on all errors are at most `wanted` [1]; between it and the next coarser one
+/// the price is interpolated, linearly in the logarithms, unless that one diverged.
+Price price_at(const PrecisionCurve& curve, double end, double wanted);
+
+}  // namespace foldproof

@@ -1,0 +1,74 @@
+// Motions whose end is known well enough to tell which integrator reaches a wanted accuracy at which price.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/scene/scene.h"
+#include "verification/subject.h"
+
+namespace foldproof {
+
+/// Who says first where the motion ends. oracle: GSL, which shares no formula with the solver; runge_kutta:
+/// extrapolated RK4, for meshes on which the oracle would take minutes. Extrapolated scheme C is always second.
+enum class FirstOpinion { oracle, runge_kutta };
+
+struct PrecisionProblem {
+  std::string name;   // part of the findings' names
+  std::string thing;  // "the heavily damped sheet"
+  Scene scene;        // its integrator is replaced by each of the table
+  double end;         // s
+  FirstOpinion first;
+  double ratio;   // of the numbers of steps of neighbouring runs, > 1
+  int finest;     // steps of the reference runs over those at the elastic limit
+  double budget;  // largest work of one judged run [operator applications]
+};
+
+/// Where the motion ends, and the scales with which to speak of it.
+struct PrecisionTruth {
+  PerParticle3 x;         // at the end, 3 x N [m]
+  double motion;          // largest distance of any particle from its start over the whole run [m]
+  double uncertainty;     // of any component of x, over the motion [1]: the first opinion's own, and how far
+                          // the second is from it
+  double elastic_limit;   // at the start, the solver's bound [s]
+  double elastic_2_over;  // 2/omega of the fastest mode of the start, by power iteration [s]
+  double damping_2_over;  // 2/c of the fastest damping rate of the start, by power iteration [s]
+};
+
+/// One run with constant steps.
+struct RunPlan {
+  double end;       // s
+  int steps;        // >= 1
+  double farthest;  // a particle farther from its start than this ends the run as diverged [m]
+  double budget;    // work at which the run ends [operator applications]
+};
+
+enum class Ending { reached, diverged, over_budget };
+
+struct PlannedRun {
+  Ending ending;
+  State last;
+  Work work;
+  double farthest;  // that any particle got from its start [m]
+};
+
+/// Evaluations, preparations and products of all forces: one visit to every spring and hinge each.
+double operator_applications(const Work& work);
+
+/// Runs the scene with its integrator. NaN, a lost element or a particle beyond farthest is divergence.
+PlannedRun run_planned(const Subject& subject, const Scene& scene, const RunPlan& plan);
+
+/// Both opinions; may take seconds.
+PrecisionTruth truth_of(const Subject& subject, const PrecisionProblem& problem);
+
+/// Largest difference of two ends, of any component [m]; NaN stays NaN.
+double largest_distance(const PerParticle3& p, const PerParticle3& q);
+
+/// The damped hinge, the lightly and the heavily damped sheet, the stiff statue.
+std::vector<PrecisionProblem> precision_problems(Tier tier);
+
+/// A sheet that hangs by its upper corners, released from waves; every part of it has the relaxation time
+/// `relaxation` (damping over stiffness) [s].
+Scene hanging_sheet(int cells, double relaxation);
+
+}  // namespace foldproof

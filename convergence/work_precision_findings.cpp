@@ -1,0 +1,161 @@
+// What the runs of the work-precision study decide.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "convergence/work_precision.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A tenth of the finest error that prices are read off at.
+NamedFinding reference_is_known(const PrecisionScene& scene) {
+  const Verdict verdict{scene.truth.uncertainty, wanted_errors.back() / 10, 0, "1",
+                        "a tenth of the smallest error that a price is read off at, so that it shifts no "
+                        "price by more than a tenth of a run's error"};
+  return {"work-precision.reference-is-known." + scene.problem.name,
+          "Two opinions on where " + scene.problem.thing + " ends agree to a ten-thousandth of its motion.",
+          {verdict,
+           {{"largest motion", "m", std::vector<double>{scene.truth.motion}},
+            {"disagreement and own uncertainty", "1", std::vector<double>{scene.truth.uncertainty}}},
+           scene.problem.first == FirstOpinion::oracle ? "GSL and extrapolated scheme C"
+                                                       : "extrapolated RK4 and extrapolated scheme C"}};
+}
+
+/// By what an error shrinks when the step is halved, from a pair of runs.
+double shrinkage(const PrecisionRun& coarse, const PrecisionRun& fine) {
+  return std::pow(fine.error / coarse.error, std::log(2.) / std::log(double(fine.steps) / coarse.steps));
+}
+
+/// The two finest runs of every curve, where each method is closest to its asymptotic range.
+NamedFinding errors_fall(const PrecisionScene& scene) {
+  constexpr int least_judged = 8;  // of the eleven methods
+  Worst worst, uncertainty;
+  std::vector<std::string> methods;
+  std::vector<double> coarse, fine, shrinkages;
+  std::string left_out;
+  for (const PrecisionCurve& curve : scene.curves) {
+    if (curve.runs.size() < 2) {
+      left_out += " " + std::string(curve.integrator.name);
+      continue;
+    }
+    const PrecisionRun &last = curve.runs.back(), &before = curve.runs[curve.runs.size() - 2];
+    methods.emplace_back(curve.integrator.name);
+    coarse.push_back(before.error);
+    fine.push_back(last.error);
+    shrinkages.push_back(shrinkage(before, last));
+    worst.see(shrinkages.back());
+    uncertainty.see(shrinkages.back() * 2 * scene.truth.uncertainty / last.error);
+  }
+  if (int(methods.size()) < least_judged) worst.see(nan);
+  const Verdict verdict{
+      worst.value(), std::sqrt(0.5), uncertainty.value(), "1",
+      "an error of first order is halved with the step, one that does not fall stays 1; the "
+      "bound is half an order, midway between the two in the logarithm"};
+  return {"work-precision.errors-fall." + scene.problem.name,
+          "On " + scene.problem.thing +
+              ", the error of every method of the table falls with the step at the end of its range.",
+          {verdict,
+           {{"method", "1", methods},
+            {"error of the run before", "1", coarse},
+            {"error of the finest run", "1", fine},
+            {"error left when the step is halved", "1", shrinkages}},
+           "measured is the largest factor that a halved step leaves of the error, from the two finest runs" +
+               (left_out.empty() ? "" : "; too dear for two runs within the budget:" + left_out)}};
+}
+
+/// The largest step at a wanted error among the fully explicit methods [s]; NaN if none reaches it.
+double largest_explicit_step(const PrecisionScene& scene, double wanted) {
+  double largest = nan;
+  for (const PrecisionCurve& curve : scene.curves) {
+    if (curve.integrator.family != Family::fully_explicit) continue;
+    const double step = price_at(curve, scene.problem.end, wanted).step;
+    if (!(step <= largest) && !std::isnan(step)) largest = step;
+  }
+  return largest;
+}
+
+/// Damping limits explicit steps at best to 2.785/c (RK4), elasticity those of the mixed schemes to 2/omega.
+NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
+  constexpr double runge_kutta_reach = 2.785 / 2;  // of RK4 along the negative real axis, over that of Euler
+  const double predicted = scene.truth.elastic_2_over / (runge_kutta_reach * scene.truth.damping_2_over);
+  Worst worst;
+  std::vector<std::string> schemes;
+  std::vector<double> wanted, mixed, fully_explicit, ratios;
+  for (double error : wanted_errors) {
+    for (const PrecisionCurve& curve : scene.curves) {
+      if (curve.integrator.family != Family::mixed) continue;
+      schemes.emplace_back(curve.integrator.name);
+      wanted.push_back(error);
+      mixed.push_back(price_at(curve, scene.problem.end, error).step);
+      fully_explicit.push_back(largest_explicit_step(scene, error));
+      ratios.push_back(mixed.back() / fully_explicit.back());
+      if (error == wanted_errors.front()) worst.see(predicted / ratios.back());
+    }
+  }
+  const double runs_apart = scene.problem.ratio * scene.problem.ratio;
+  const Verdict verdict{
+      schemes.empty() ? nan : worst.value(), runs_apart, 0, "1",
+      "both steps are known to the ratio of neighbouring runs, and their quotient to its square"};
+  return {
+      "work-precision.mixed-steps-are-larger." + scene.problem.name,
+      "On " + scene.problem.thing +
+          ", schemes A, B and C reach one percent of error with steps larger than the best explicit "
+          "method's by the ratio of the elastic limit to the explicit damping limit.",
+      {verdict,
+       {{"scheme", "1", schemes},
+        {"error", "1", wanted},
+        {"its largest step", "s", mixed},
+        {"largest step of explicit methods", "s", fully_explicit},
+        {"their ratio", "1", ratios},
+        {"ratio of the limits", "1", std::vector<double>(wanted.size(), predicted)}},
+       "measured is the ratio of the limits over the least ratio of the steps at one percent; at a tenth of "
+       "it accuracy, not stability, decides on the steps of A, B and C"}};
+}
+
+/// C's solves over A's at equal numbers of steps.
+NamedFinding one_more_solve(const std::vector<PrecisionScene>& scenes) {
+  Worst worst;
+  std::vector<std::string> things;
+  std::vector<double> steps, solves, work;
+  for (const PrecisionScene& scene : scenes) {
+    for (const PrecisionRun& a : curve_of(scene, "A").runs) {
+      for (const PrecisionRun& c : curve_of(scene, "C").runs) {
+        if (a.steps != c.steps || std::isnan(a.error) || std::isnan(c.error)) continue;
+        things.push_back(scene.problem.thing);
+        steps.push_back(a.steps);
+        solves.push_back(double(c.work.solves) / double(a.work.solves));
+        work.push_back(c.applications / a.applications);
+        worst.see(std::abs(solves.back() - 2));
+      }
+    }
+  }
+  const Verdict verdict{solves.empty() ? nan : worst.value(), 0, 0, "1",
+                        "counted: two solves a step against one"};
+  return {"work-precision.C-solves-twice-as-often-as-A",
+          "At equal steps scheme C has two implicit solves where A has one.",
+          {verdict,
+           {{"scene", "1", things},
+            {"steps", "1", steps},
+            {"solves of C over those of A", "1", solves},
+            {"operator applications of C over those of A", "1", work}},
+           "measured is the largest |ratio of the solves - 2|"}};
+}
+
+}  // namespace
+
+std::vector<NamedFinding> precision_findings(const std::vector<PrecisionScene>& scenes) {
+  std::vector<NamedFinding> findings;
+  for (const PrecisionScene& scene : scenes) {
+    findings.push_back(reference_is_known(scene));
+    findings.push_back(errors_fall(scene));
+    if (scene.problem.name == "heavy-sheet") findings.push_back(mixed_steps_are_larger(scene));
+  }
+  findings.push_back(one_more_solve(scenes));
+  return findings;
+}
+
+}  // namespace foldproof
