@@ -75,15 +75,15 @@ std::vector<PrecisionProblem> precision_problems(Tier tier) {
   const bool quick = tier == Tier::quick;
   const double root = std::sqrt(2.), coarse = quick ? 2 : root;
   const int cells = quick ? 6 : 12;
-  const double hinge_budget = quick ? 3e4 : 6e4, light_budget = quick ? 5500 : 5e4;
-  const double heavy_budget = quick ? 9000 : 1e5, statue_budget = quick ? 1500 : 6000;
-  const double statue_end = quick ? 0.05 : 0.1;  // s
+  const double hinge_budget = quick ? 3e4 : 6e4, light_budget = quick ? 4500 : 5e4;
+  const double heavy_budget = quick ? 13'000 : 1e5, statue_budget = quick ? 900 : 6000;
+  const double statue_end = quick ? 0.03 : 0.1;  // s
   return {{"damped-hinge", "the damped hinge", swinging_hinge(), 0.4, FirstOpinion::oracle, root, 8,
            hinge_budget},
           {"light-sheet", "the lightly damped sheet", hanging_sheet(cells, 1e-4), 0.25,
            FirstOpinion::runge_kutta, root, 8, light_budget},
           {"heavy-sheet", "the heavily damped sheet", hanging_sheet(cells, 0.1), 0.25,
-           FirstOpinion::runge_kutta, root, 8, heavy_budget},
+           FirstOpinion::runge_kutta, root, 32, heavy_budget},
           {"stiff-statue", "the stiff statue", swinging_statue(), statue_end, FirstOpinion::runge_kutta,
            coarse, 2, statue_budget}};
 }
