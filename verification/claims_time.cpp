@@ -72,7 +72,8 @@ std::vector<Claim> orders_and_limits() {
            "3",
            "The extra factor dx of the explicit limit costs an order of magnitude: at dx = 1/10, a hundred "
            "steps in place of ten.",
-           {{"stability-sheet", Role::supports}, {"work-precision", Role::supports}},
+           {{"stability-sheet", Role::supports},
+            {"work-precision.mixed-steps-are-larger.heavy-sheet", Role::supports}},
            Standing::undecided,
            "",
            ""}};
@@ -222,11 +223,14 @@ std::vector<Claim> variable_steps() {
       {"T19",
        "3",
        "C costs one more implicit solve a step than A and B.",
-       {{"dynamics.solve-counts", Role::supports}},
+       {{"dynamics.solve-counts", Role::supports},
+        {"work-precision.C-solves-twice-as-often-as-A", Role::supports}},
        Standing::confirmed,
        "",
        "Counted on a sheet: {dynamics.solve-counts|solves a step|A} solve a step under A, "
-       "{dynamics.solve-counts|solves a step|B} under B, {dynamics.solve-counts|solves a step|C} under C."},
+       "{dynamics.solve-counts|solves a step|B} under B, {dynamics.solve-counts|solves a step|C} under C. At "
+       "equal "
+       "steps on a hinge, two sheets and a statue C's solves are twice A's, without exception."},
       {"T20", "3", "Every scheme keeps the linear and the angular momentum of a free sheet (our reading).",
        joined(each({"A", "B", "C"}, "dynamics.linear-momentum-is-kept"),
               {{"momentum-drift.undamped.A", Role::supports},
