@@ -11,37 +11,51 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double percent = 100;
 
-/// What a run is drawn against.
+/// What a run is drawn against, and what a figure says of runs that diverged.
 struct CostAxis {
   std::string name, words;
   Axis axis;
   double (*of)(const PrecisionScene& scene, const PrecisionRun& run);
+  enum class Diverged { at_the_top, left_out } diverged;  // a run that stopped early has no cost to speak of
 };
 
 std::vector<CostAxis> cost_axes() {
+  using enum CostAxis::Diverged;
   return {{"work",
            "work",
            {"applications of force operators", "1", Scale::log},
-           [](const PrecisionScene&, const PrecisionRun& run) { return run.applications; }},
+           [](const PrecisionScene&, const PrecisionRun& run) { return run.applications; },
+           left_out},
           {"seconds",
            "time",
            {"processor time", "s", Scale::log},
-           [](const PrecisionScene&, const PrecisionRun& run) { return run.seconds; }},
+           [](const PrecisionScene&, const PrecisionRun& run) { return run.seconds; },
+           left_out},
           {"step",
            "step",
            {"step over elastic limit", "1", Scale::log},
            [](const PrecisionScene& scene, const PrecisionRun& run) {
              return scene.problem.end / run.steps / scene.truth.elastic_limit;
-           }}};
+           },
+           at_the_top}};
 }
 
 Curve drawn(const PrecisionScene& scene, const PrecisionCurve& curve, const CostAxis& cost) {
   Curve points{std::string(curve.integrator.name), {}, {}, percent * scene.truth.uncertainty, {}};
   for (const PrecisionRun& run : curve.runs) {
+    if (std::isnan(run.error) && cost.diverged == CostAxis::Diverged::left_out) continue;
     points.x.push_back(cost.of(scene, run));
     points.y.push_back(percent * (std::isnan(run.error) ? lost : run.error));
   }
   return points;
+}
+
+std::string caption_of(const CostAxis& cost) {
+  return std::string("Largest position error at the end over the largest motion. ") +
+         (cost.diverged == CostAxis::Diverged::left_out
+              ? "Runs that diverged are left out; the figure against the step has them."
+              : "Points at 100 % are runs that diverged or whose error exceeds the motion.") +
+         " The floor is the uncertainty of the reference solution.";
 }
 
 /// A cost that two methods are compared by.
@@ -221,11 +235,15 @@ std::vector<Figure> precision_figures(const PrecisionScene& scene) {
                   cost.axis,
                   {"position error over the motion", "%", Scale::log},
                   nan,
-                  "Largest position error at the end over the largest motion. Points at 100 % are runs that "
-                  "diverged or whose error exceeds the motion. The floor is the uncertainty of the reference "
-                  "solution.",
+                  caption_of(cost),
                   {}};
-    for (const PrecisionCurve& curve : scene.curves) figure.curves.push_back(drawn(scene, curve, cost));
+    for (const PrecisionCurve& curve : scene.curves) {
+      Curve points = drawn(scene, curve, cost);
+      if (points.x.empty())
+        figure.caption += " No run of " + points.label + " ended within its budget.";
+      else
+        figure.curves.push_back(std::move(points));
+    }
     figures.push_back(std::move(figure));
   }
   return figures;
