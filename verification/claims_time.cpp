@@ -223,14 +223,11 @@ std::vector<Claim> variable_steps() {
       {"T19",
        "3",
        "C costs one more implicit solve a step than A and B.",
-       {{"dynamics.solve-counts", Role::supports},
-        {"work-precision.C-solves-twice-as-often-as-A", Role::supports}},
+       {{"dynamics.solve-counts", Role::supports}},
        Standing::confirmed,
        "",
        "Counted on a sheet: {dynamics.solve-counts|solves a step|A} solve a step under A, "
-       "{dynamics.solve-counts|solves a step|B} under B, {dynamics.solve-counts|solves a step|C} under C. At "
-       "equal "
-       "steps on a hinge, two sheets and a statue C's solves are twice A's, without exception."},
+       "{dynamics.solve-counts|solves a step|B} under B, {dynamics.solve-counts|solves a step|C} under C."},
       {"T20", "3", "Every scheme keeps the linear and the angular momentum of a free sheet (our reading).",
        joined(each({"A", "B", "C"}, "dynamics.linear-momentum-is-kept"),
               {{"momentum-drift.undamped.A", Role::supports},
