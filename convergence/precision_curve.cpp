@@ -54,7 +54,10 @@ PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& p
   for (bool again = true; again; count *= problem.ratio) {
     const RunPlan plan{problem.end, int(std::lround(count)), far_away * truth.motion, problem.budget};
     const auto [run, seconds] = timed(subject, scene, plan);
-    if (run.ending == Ending::over_budget) break;
+    if (run.ending == Ending::over_budget) {
+      if (plan.steps > problem.end / truth.elastic_limit) break;
+      continue;  // long steps can be dearer than short ones, for Newton's method
+    }
     const double error =
         run.ending == Ending::reached ? largest_distance(run.last.x, truth.x) / truth.motion : nan;
     curve.runs.push_back(
