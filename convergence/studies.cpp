@@ -3,11 +3,25 @@
 namespace foldproof {
 
 std::vector<Study> all_studies() {
-  return {hinge_time_order(),       sheet_time_order(), work_precision(),
-          solve_tolerance(),        mesh_error(),       momentum_drift(),
-          cg_iterations(),          bending_scaling(),  elastic_limit_study(),
-          bending_rigidity_study(), cantilever_study(), strip_vibration_study(),
-          shape_return_study(),     hard_limits(),      buckling(),
+  return {hinge_time_order(),
+          sheet_time_order(),
+          work_precision(),
+          solve_tolerance(),
+          mesh_error(),
+          momentum_drift(),
+          cg_iterations(),
+          bending_scaling(),
+          elastic_limit_study(),
+          stability_oscillator(),
+          stability_sheet(),
+          variable_step_stability(),
+          transient_growth_study(),
+          bending_rigidity_study(),
+          cantilever_study(),
+          strip_vibration_study(),
+          shape_return_study(),
+          hard_limits(),
+          buckling(),
           mirror_symmetry()};
 }
 

@@ -12,11 +12,15 @@ Study sheet_time_order();  // time-order.sheet: the same on a hanging sheet
 Study momentum_drift();    // momentum-drift: angular momentum of a free sheet
 Study cg_iterations();     // cg-iterations: cost of the implicit solves
 Study bending_scaling();   // bending-scaling: bending damping under refinement
-Study elastic_limit_study();     // elastic-limit: the largest stable step under refinement
-Study bending_rigidity_study();  // bending-rigidity: by pattern, direction and size of the triangles
-Study cantilever_study();        // cantilever: a clamped strip's tip against the elastica
-Study strip_vibration_study();   // strip-vibration: lowest frequencies of a clamped strip
-Study shape_return_study();      // shape-return: a sculpted shell pulled out of shape and let go
+Study elastic_limit_study();      // elastic-limit: the largest stable step under refinement
+Study stability_oscillator();     // stability-oscillator: every method's limit over the damping ratio
+Study stability_sheet();          // stability-sheet: limits of a sheet over damping and resolution
+Study variable_step_stability();  // variable-step-stability: stable steps in turn; BDF2's growing steps
+Study transient_growth_study();   // transient-growth: how far a stable scheme carries a disturbance
+Study bending_rigidity_study();   // bending-rigidity: by pattern, direction and size of the triangles
+Study cantilever_study();         // cantilever: a clamped strip's tip against the elastica
+Study strip_vibration_study();    // strip-vibration: lowest frequencies of a clamped strip
+Study shape_return_study();       // shape-return: a sculpted shell pulled out of shape and let go
 Study hard_limits();      // hard-limits: largest stable steps of hard sheets, under damping, over jumps
 Study buckling();         // buckling: critical load and growth of a compressed strip
 Study mirror_symmetry();  // mirror-symmetry: how rounding breaks it

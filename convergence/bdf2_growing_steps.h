@@ -1,0 +1,10 @@
+// How fast the steps of BDF2 may grow: a part of variable-step-stability.
+#pragma once
+
+#include "verification/subject.h"
+
+namespace foldproof {
+
+std::vector<NamedFinding> bdf2_growing_steps(const Subject& subject);
+
+}  // namespace foldproof

@@ -1,0 +1,23 @@
+// Rows of parameters.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+namespace foldproof {
+
+/// `count` >= 2 values from low to high, all in the same ratio to the next; 0 < low < high.
+inline std::vector<double> in_decades(double low, double high, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(low * std::pow(high / low, double(i) / (count - 1)));
+  return values;
+}
+
+/// `count` >= 2 values from low to high, all as far from the next.
+inline std::vector<double> evenly(double low, double high, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(low + (high - low) * i / (count - 1));
+  return values;
+}
+
+}  // namespace foldproof
