@@ -31,52 +31,69 @@ std::vector<Decider> joined(std::vector<Decider> deciders, const std::vector<Dec
 }
 
 std::vector<Claim> orders_and_limits() {
-  return {{"T1", "3",
-           "Scheme A joins leapfrog for the positions with the trapezoidal rule for the velocities, and is "
-           "of second order as a whole.",
-           joined({{"dynamics.lines-one-and-four-are-the-trapezoidal-rule.A", Role::supports}},
-                  orders_of("A", {"constant", "alternating", "random"})),
-           Standing::confirmed, "",
-           "Without a filter, A's velocities obey the trapezoidal rule to "
-           "{dynamics.lines-one-and-four-are-the-trapezoidal-rule.A} of the velocity, which is the tolerance "
-           "of the solve. On a driven, damped hinge with large angles the observed order is within "
-           "{time-order.hinge.A.constant.x} of two in positions and {time-order.hinge.A.constant.v} in "
-           "velocities, on a hanging sheet within {time-order.sheet.A.constant.x} and "
-           "{time-order.sheet.A.constant.v}; steps that alternate or vary at random change nothing of that."},
-          {"T2",
-           "3",
-           "Scheme A is stable for h below a constant times dx sqrt(rho/Y), however large the damping.",
-           {{"dynamics.stability-limit-is-as-derived.A", Role::supports},
-            {"elastic-limit.is-two-over-omega.springs.A", Role::supports},
-            {"elastic-limit.is-two-over-omega.bending.A", Role::supports},
-            {"elastic-limit.exponent.springs", Role::supports},
-            {"elastic-limit.exponent.bending", Role::limits},
-            {"stability-sheet", Role::supports}},
-           Standing::undecided,
-           "where springs, not hinges, decide the largest frequency: where bending dominates, the limit "
-           "falls with the square of dx",
-           "On the oscillator A is stable up to h = 2/omega and not beyond, whatever the damping: "
-           "{dynamics.stability-limit-is-as-derived.A} of the tried steps were misjudged by that rule. On an "
-           "undamped sheet the largest stable step is 2/omega too, to "
-           "{elastic-limit.is-two-over-omega.springs.A}, and it falls with the width of a cell to a power of "
-           "{elastic-limit.exponent.springs|exponent|last} where springs resist, but of "
-           "{elastic-limit.exponent.bending|exponent|last} where hinges do."},
-          {"T3",
-           "3",
-           "A fully explicit method needs h below a constant times dx^2 rho/kd.",
-           {{"stability-sheet", Role::supports}},
-           Standing::undecided,
-           "",
-           ""},
-          {"T4",
-           "3",
-           "The extra factor dx of the explicit limit costs an order of magnitude: at dx = 1/10, a hundred "
-           "steps in place of ten.",
-           {{"stability-sheet", Role::supports},
-            {"work-precision.mixed-steps-are-larger.heavy-sheet", Role::supports}},
-           Standing::undecided,
-           "",
-           ""}};
+  return {
+      {"T1", "3",
+       "Scheme A joins leapfrog for the positions with the trapezoidal rule for the velocities, and is "
+       "of second order as a whole.",
+       joined({{"dynamics.lines-one-and-four-are-the-trapezoidal-rule.A", Role::supports}},
+              orders_of("A", {"constant", "alternating", "random"})),
+       Standing::confirmed, "",
+       "Without a filter, A's velocities obey the trapezoidal rule to "
+       "{dynamics.lines-one-and-four-are-the-trapezoidal-rule.A} of the velocity, which is the tolerance "
+       "of the solve. On a driven, damped hinge with large angles the observed order is within "
+       "{time-order.hinge.A.constant.x} of two in positions and {time-order.hinge.A.constant.v} in "
+       "velocities, on a hanging sheet within {time-order.sheet.A.constant.x} and "
+       "{time-order.sheet.A.constant.v}; steps that alternate or vary at random change nothing of that."},
+      {"T2",
+       "3",
+       "Scheme A is stable for h below a constant times dx sqrt(rho/Y), however large the damping.",
+       {{"dynamics.stability-limit-is-as-derived.A", Role::supports},
+        {"elastic-limit.is-two-over-omega.springs.A", Role::supports},
+        {"elastic-limit.is-two-over-omega.bending.A", Role::supports},
+        {"elastic-limit.exponent.springs", Role::supports},
+        {"elastic-limit.exponent.bending", Role::limits},
+        {"stability-sheet.independent-of-damping.springs.A", Role::supports},
+        {"stability-sheet.independent-of-damping.bending.A", Role::supports},
+        {"stability-sheet.independent-of-damping.both.A", Role::supports}},
+       Standing::conditional,
+       "where springs, not hinges, decide the largest frequency: where bending dominates, the limit "
+       "falls with the square of dx",
+       "On the oscillator A is stable up to h = 2/omega and not beyond, whatever the damping: "
+       "{dynamics.stability-limit-is-as-derived.A} of the tried steps were misjudged by that rule. On an "
+       "undamped sheet the largest stable step is 2/omega too, to "
+       "{elastic-limit.is-two-over-omega.springs.A}, and it falls with the width of a cell to a power of "
+       "{elastic-limit.exponent.springs|exponent|last} where springs resist, but of "
+       "{elastic-limit.exponent.bending|exponent|last} where hinges do. While the damping of springs, of "
+       "hinges or of both rises "
+       "by ten thousand the limit of a clamped sheet stays at 2/omega, to "
+       "{stability-sheet.independent-of-damping.both.A}."},
+      {"T3", "3", "A fully explicit method needs h below a constant times dx^2 rho/kd.",
+       joined(each({"forward-euler", "RK2", "SSP-RK3", "RK4"}, "stability-sheet.limit.both"),
+              {{"stability-sheet.damping-exponent.springs", Role::supports},
+               {"stability-sheet.damping-exponent.bending", Role::limits}}),
+       Standing::conditional,
+       "where springs are damped: damped bending makes the limit fall with the cube of dx",
+       "The largest stable steps of forward Euler and of Runge-Kutta methods of second, third and fourth "
+       "order on a damped sheet are where their stability polynomials leave 1, to "
+       "{stability-sheet.limit.both.forward-euler}, {stability-sheet.limit.both.RK2}, "
+       "{stability-sheet.limit.both.SSP-RK3} and {stability-sheet.limit.both.RK4}. Where damping decides, "
+       "that is the inverse of its largest rate, which falls with the width of a cell to a power of "
+       "{stability-sheet.damping-exponent.springs|exponent|last} with damped springs, but of "
+       "{stability-sheet.damping-exponent.bending|exponent|last} with damped bending."},
+      {"T4",
+       "3",
+       "The extra factor dx of the explicit limit costs an order of magnitude: at dx = 1/10, a hundred "
+       "steps in place of ten.",
+       {{"stability-sheet.a-tenth.order-of-magnitude", Role::supports},
+        {"stability-sheet.a-tenth.factor-exponent", Role::supports},
+        {"work-precision.mixed-steps-are-larger.heavy-sheet", Role::supports}},
+       Standing::confirmed,
+       "",
+       "On a sheet whose side, modulus, damping and density are one, cells of a tenth need "
+       "{stability-sheet.a-tenth.order-of-magnitude|schemes A and B|2} steps in one unit of time under A "
+       "and {stability-sheet.a-tenth.order-of-magnitude|classical Runge-Kutta 4|2} under classical "
+       "Runge-Kutta: more than ten times as many, and the factor grows as one over the width, its exponent "
+       "within {stability-sheet.a-tenth.factor-exponent} of that."}};
 }
 
 std::vector<Claim> damping_of_modes() {
@@ -163,41 +180,48 @@ std::vector<Claim> cached_terms_and_filters() {
 }
 
 std::vector<Claim> monotone_motion() {
-  return {{"T13",
-           "3",
-           "For highly damped material A is stable but not monotone: its explicit half step overshoots.",
-           {{"dynamics.stability-limit-is-as-derived.A", Role::supports},
-            {"dynamics.pure-damping-displacement.A", Role::supports}},
-           Standing::confirmed,
-           "",
-           "A particle that is only damped comes, under A, to a total displacement of 1 - (h c/2)^2 of the "
-           "exact one, to {dynamics.pure-damping-displacement.A}: at h c/2 = "
-           "{dynamics.pure-damping-displacement.A|h c/2|5} that is "
-           "{dynamics.pure-damping-displacement.A|displacement over exact|5} times the way it should go: "
-           "backwards. It is stable all the same: with damping ratios up to "
-           "{dynamics.stability-limit-is-as-derived.A|damping ratio|largest} the limit is 2/omega."},
-          {"T14",
-           "3",
-           "Fully implicit methods of second order, such as BDF2, oscillate too at large steps.",
-           {{"monotonicity", Role::supports}},
-           Standing::undecided,
-           "",
-           ""},
-          {"T15",
-           "3",
-           "Backward Euler is monotone for every step.",
-           {{"monotonicity", Role::supports}},
-           Standing::undecided,
-           "",
-           ""},
-          {"T16",
-           "3",
-           "B, with A's velocity steps in the other order, does not have A's trouble.",
-           {{"dynamics.pure-damping-displacement.B", Role::supports}, {"monotonicity", Role::supports}},
-           Standing::undecided,
-           "",
-           "Under B the total displacement of a particle that is only damped is the exact one, to "
-           "{dynamics.pure-damping-displacement.B}."}};
+  return {
+      {"T13",
+       "3",
+       "For highly damped material A is stable but not monotone: its explicit half step overshoots.",
+       {{"dynamics.stability-limit-is-as-derived.A", Role::supports},
+        {"dynamics.pure-damping-displacement.A", Role::supports},
+        {"transient-growth.A.grows-with-damping", Role::supports},
+        {"transient-growth.A.exponent", Role::supports}},
+       Standing::confirmed,
+       "",
+       "A particle that is only damped comes, under A, to a total displacement of 1 - (h c/2)^2 of the "
+       "exact one, to {dynamics.pure-damping-displacement.A}: at h c/2 = "
+       "{dynamics.pure-damping-displacement.A|h c/2|5} that is "
+       "{dynamics.pure-damping-displacement.A|displacement over exact|5} times the way it should go: "
+       "backwards. It is stable all the same: with damping ratios up to "
+       "{dynamics.stability-limit-is-as-derived.A|damping ratio|largest} the limit is 2/omega. In the norm "
+       "of the energy, in which exact "
+       "motion never grows, A carries a disturbance of a damped oscillator to as much as "
+       "{transient-growth.A.grows-with-damping|growth|largest} times its size on the way, in proportion to "
+       "the damping."},
+      {"T14",
+       "3",
+       "Fully implicit methods of second order, such as BDF2, oscillate too at large steps.",
+       {{"monotonicity", Role::supports}},
+       Standing::undecided,
+       "",
+       ""},
+      {"T15",
+       "3",
+       "Backward Euler is monotone for every step.",
+       {{"monotonicity", Role::supports}},
+       Standing::undecided,
+       "",
+       ""},
+      {"T16",
+       "3",
+       "B, with A's velocity steps in the other order, does not have A's trouble.",
+       {{"dynamics.pure-damping-displacement.B", Role::supports}, {"monotonicity", Role::supports}},
+       Standing::undecided,
+       "",
+       "Under B the total displacement of a particle that is only damped is the exact one, to "
+       "{dynamics.pure-damping-displacement.B}."}};
 }
 
 std::vector<Claim> variable_steps() {
@@ -214,12 +238,17 @@ std::vector<Claim> variable_steps() {
       {"T18", "3", "C is second order and monotone with variable steps.",
        joined(orders_of("C", {"constant", "alternating", "random"}),
               {{"dynamics.pure-damping-displacement.C", Role::supports},
-               {"variable-step-stability", Role::supports},
+               {"variable-step-stability.resonance.C", Role::limits},
+               {"variable-step-stability.damping-cures.C", Role::supports},
                {"monotonicity", Role::supports}}),
        Standing::undecided, "",
        "With alternating steps the observed order of C is within {time-order.hinge.C.alternating.x} of two "
        "in positions and {time-order.hinge.C.alternating.v} in velocities, with random ones within "
-       "{time-order.hinge.C.random.x} and {time-order.hinge.C.random.v}."},
+       "{time-order.hinge.C.random.x} and {time-order.hinge.C.random.v}. But steps that are stable each by "
+       "itself need not be so in turn: undamped, a long and a short one multiply a disturbance by "
+       "{variable-step-stability.resonance.C|spectral radius of the pair|1} a pair under C, as under A and "
+       "B; a "
+       "damping ratio of a half cures it (radius {variable-step-stability.damping-cures.C})."},
       {"T19",
        "3",
        "C costs one more implicit solve a step than A and B.",
