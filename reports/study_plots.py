@@ -25,6 +25,11 @@ FLOOR_REACH = 1.3                   # decades below the lowest point within whic
 Points = tuple[np.ndarray, np.ndarray]   # x and y of the points of a curve that can be drawn
 
 
+# Methods look alike wherever they appear; other curves take their looks in turn.
+METHODS = ("A", "B", "C", "forward-euler", "RK2", "SSP-RK3", "RK4", "backward-euler", "linear-backward-euler", "BDF2",
+           "implicit-midpoint")
+
+
 @dataclass
 class Pen:
     """How one curve is drawn. Curves that lie on each other get nested markers and lines of falling width."""
@@ -82,7 +87,7 @@ def key_svg(pen: Pen) -> Markup:
 
 
 def choose_pens(curves: list[Curve]) -> list[Pen]:
-    """One pen for every curve; within a group of coincident curves the first is the widest."""
+    """One pen for every curve, a method's the same in all figures; within a group of coincident curves the first is the widest."""
     groups: list[list[int]] = []
     for index, curve in enumerate(curves):
         home = next((group for group in groups if _coincide(curves[group[0]], curve)), None)
@@ -91,7 +96,8 @@ def choose_pens(curves: list[Curve]) -> list[Pen]:
     for group in groups:
         for depth, index in enumerate(group):
             above = min(len(group) - 1 - depth, 4)
-            pens[index] = Pen(COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)],
+            look = METHODS.index(curves[index].label) if curves[index].label in METHODS else index
+            pens[index] = Pen(COLOURS[look % len(COLOURS)], MARKERS[look % len(MARKERS)],
                               1.2 + 1.9 * above, 4.6 + 3.6 * above)
     return [pens[index] for index in range(len(curves))]
 
