@@ -74,9 +74,9 @@ Scene hanging_sheet(int cells, double relaxation) {
 std::vector<PrecisionProblem> precision_problems(Tier tier) {
   const bool quick = tier == Tier::quick;
   const double root = std::sqrt(2.), coarse = quick ? 2 : root;
-  const int cells = quick ? 6 : 12;
-  const double hinge_budget = quick ? 3e4 : 6e4, light_budget = quick ? 4500 : 5e4;
-  const double heavy_budget = quick ? 10'000 : 1e5, statue_budget = quick ? 900 : 6000;
+  const int cells = quick ? 6 : 10;
+  const double hinge_budget = quick ? 3e4 : 6e4, light_budget = quick ? 4500 : 1.5e4;
+  const double heavy_budget = quick ? 10'000 : 3e4, statue_budget = quick ? 900 : 2500;
   const double statue_end = quick ? 0.03 : 0.1;  // s
   return {{"damped-hinge", "the damped hinge", swinging_hinge(), 0.4, FirstOpinion::oracle, root, 8,
            hinge_budget},
