@@ -22,7 +22,9 @@ std::vector<Study> all_studies() {
           shape_return_study(),
           hard_limits(),
           buckling(),
-          mirror_symmetry()};
+          mirror_symmetry(),
+          artificial_damping(),
+          monotonicity()};
 }
 
 }  // namespace foldproof

@@ -21,12 +21,14 @@ Study bending_rigidity_study();   // bending-rigidity: by pattern, direction and
 Study cantilever_study();         // cantilever: a clamped strip's tip against the elastica
 Study strip_vibration_study();    // strip-vibration: lowest frequencies of a clamped strip
 Study shape_return_study();       // shape-return: a sculpted shell pulled out of shape and let go
-Study hard_limits();      // hard-limits: largest stable steps of hard sheets, under damping, over jumps
-Study buckling();         // buckling: critical load and growth of a compressed strip
-Study mirror_symmetry();  // mirror-symmetry: how rounding breaks it
-Study work_precision();   // work-precision: error against work and seconds, all methods
-Study solve_tolerance();  // solve-tolerance: how loose a solve may be before the order suffers
-Study mesh_error();       // mesh-error: error of the mesh beside that of the step
+Study hard_limits();         // hard-limits: largest stable steps of hard sheets, under damping, over jumps
+Study buckling();            // buckling: critical load and growth of a compressed strip
+Study mirror_symmetry();     // mirror-symmetry: how rounding breaks it
+Study work_precision();      // work-precision: error against work and seconds, all methods
+Study solve_tolerance();     // solve-tolerance: how loose a solve may be before the order suffers
+Study mesh_error();          // mesh-error: error of the mesh beside that of the step
+Study artificial_damping();  // artificial-damping: what methods take from vibrations that nothing damps
+Study monotonicity();        // monotonicity: coming to rest in steps longer than the damping's time
 
 /// All of them, in the order in which they are reported.
 std::vector<Study> all_studies();

@@ -1,0 +1,75 @@
+// Motions that damping alone brings to rest, whose way is known: a triangle that expands, a hinge that folds, a sheet
+// in which every damped mode moves.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "verification/subject.h"
+
+namespace foldproof {
+
+/// A motion without stiffness. Its coordinates go from 0 to 1 without ever turning back.
+struct DampedMotion {
+  std::string name, words;
+  Scene scene;
+  double rate;                                                // c, of the fastest coordinate [1/s]
+  std::function<State(double t)> exact;                       // at t [s] > 0
+  std::function<std::vector<double>(const State&)> progress;  // of each coordinate over its whole way [1]
+  std::function<std::vector<double>(const State&)> speed;     // of each coordinate over that at the start [1]
+};
+
+/// An equilateral triangle of damped edges, expanding evenly: its directions never change, so that the motion is
+/// linear, with c = 9 kd/(density L^2).
+DampedMotion expanding_triangle();
+
+/// A hinge of damped angle and damped edges that folds by about 0.8 rad: not linear. Its way is GSL's; its exact
+/// motion passes its place of rest by 0.4 % and returns.
+DampedMotion folding_hinge();
+
+/// A flat sheet of damped springs; a coordinate is a mode of vibration that stiffness as large as the damping
+/// would have, and as such a mode of the damping.
+DampedMotion sheet_in_plane(int cells);
+
+struct DampedMotions {
+  DampedMotion triangle, hinge, sheet;
+};
+
+/// Progress and speed of all coordinates after each step, from the start: a row a step.
+struct DampedRun {
+  std::vector<std::vector<double>> progress, speed;
+  Work work;
+};
+
+/// Steps with h = 2 a/c. BDF2 gets the exact state after its first step, so that it is judged and not the method
+/// that starts it. A run ends early when a coordinate passes 1e9, or is NaN.
+DampedRun run_damped(const Subject& subject, const DampedMotion& motion, std::string_view method, double a,
+                     int steps);
+
+/// The largest progress of any coordinate: 1 when nothing overshoots (with signs; NaN if any is).
+double farthest(const DampedRun& run);
+
+/// How far any coordinate has turned back at most, over its whole way; 0 when its progress never falls.
+double backward(const DampedRun& run);
+
+/// Turning back or overshooting, whatever is worse, over the whole way.
+double misconduct(const DampedRun& run);
+
+/// What was measured of some motions at some steps, for a table of evidence.
+struct MotionRows {
+  Column motion{"motion", "1", std::vector<std::string>{}}, a{"h c/2", "1", std::vector<double>{}}, value;
+
+  MotionRows(const std::string& quantity, const std::string& unit)
+      : value{quantity, unit, std::vector<double>{}} {}
+
+  void add(const DampedMotion& of, double at, double measured) {
+    std::get<1>(motion.values).push_back(of.name);
+    std::get<0>(a.values).push_back(at);
+    std::get<0>(value.values).push_back(measured);
+  }
+  std::vector<Column> columns() const { return {motion, a, value}; }
+};
+
+}  // namespace foldproof
