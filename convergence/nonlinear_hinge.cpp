@@ -54,7 +54,10 @@ Table hinge_table(const Subject& subject, const DampedMotion& hinge) {
       std::get<0>(back.values).push_back(backward(run));
       std::get<0>(unfinished.values).push_back(double(run.work.unfinished_solves));
     }
-  return {"hinge", "A folding hinge: 1 is its exact way", {method, as, far, back, unfinished}};
+  return {"hinge",
+          "A folding hinge: 1 is its exact way; where solves are unfinished, Newton's method has not found "
+          "the step",
+          {method, as, far, back, unfinished}};
 }
 
 }  // namespace
