@@ -160,9 +160,12 @@ DampedRun run_damped(const Subject& subject, const DampedMotion& motion, std::st
   Stepper stepper(subject, motion.scene, std::string(method));
   std::vector<State> past = {stepper.start()};
   DampedRun run;
+  const PerParticle mass = lumped_masses(motion.scene.mesh, motion.scene.density);
+  const double start = motion.scene.v.colwise().squaredNorm().dot(mass.transpose());
   const auto record = [&] {
     run.progress.push_back(motion.progress(past.back()));
     run.speed.push_back(motion.speed(past.back()));
+    run.kinetic_energy.push_back(past.back().v.colwise().squaredNorm().dot(mass.transpose()) / start);
     return std::ranges::all_of(run.progress.back(), [](double p) { return std::abs(p) < runaway; });
   };
   record();

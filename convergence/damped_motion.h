@@ -37,9 +37,10 @@ struct DampedMotions {
   DampedMotion triangle, hinge, sheet;
 };
 
-/// Progress and speed of all coordinates after each step, from the start: a row a step.
+/// Progress and speed of all coordinates, and the energy, after each step from the start: a row a step.
 struct DampedRun {
   std::vector<std::vector<double>> progress, speed;
+  std::vector<double> kinetic_energy;  // over that at the start [1]
   Work work;
 };
 

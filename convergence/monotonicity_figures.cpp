@@ -84,7 +84,7 @@ Shown shown_of_hinge() {
   return {
       {"B", "C", "linear-backward-euler"},
       "Those methods all of whose solves succeed; the table has the others. The hinge's damping falls as it "
-      "unfolds: C, which takes the explicit part first, ends four ways off."};
+      "unfolds: C, which takes the explicit part first, does not come back."};
 }
 
 Figure history_figure(const Subject& subject, const DampedMotion& motion, const Shown& shown) {
