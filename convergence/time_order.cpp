@@ -120,17 +120,18 @@ Convergence above_floor(const Convergence& errors) {
 NamedFinding finding_of(const OrderProblem& problem, const Run& run, const Quantity& quantity) {
   const Convergence& errors = run.*quantity.errors;
   const Estimate deviation = order_deviation(above_floor(errors), run.integrator.order, pairs_judged);
-  Finding finding{{deviation.value, bound, deviation.uncertainty, "1", why_bound},
-                  {{"mean step", "s", errors.steps},
-                   {"steps", "1", run.counts},
-                   {"error in " + quantity.name, quantity.unit, errors.errors},
-                   {"order of the pair", "1", after_nan(pair_orders(errors))}},
-                  "measured is the largest |order - expected| over the last three pairs of errors that exceed fifty "
-                  "times the reference's uncertainty, where the table of integrators states what is expected"};
+  Finding finding{
+      {deviation.value, bound, deviation.uncertainty, "1", why_bound},
+      {{"mean step", "s", errors.steps},
+       {"steps", "1", run.counts},
+       {"error in " + quantity.name, quantity.unit, errors.errors},
+       {"order of the pair", "1", after_nan(pair_orders(errors))}},
+      "measured is the largest |order - expected| over the last three pairs of errors that exceed fifty "
+      "times the reference's uncertainty, where the table of integrators states what is expected"};
   const std::string name(run.integrator.name);
   return {problem.study + "." + name + "." + std::string(run.pattern.name) + "." + quantity.name,
-          name + " is " + in_words(run.integrator.order) + " order in the " + quantity.words +
-              " of " + problem.thing + " with " + std::string(run.pattern.words) + ".",
+          name + " is " + in_words(run.integrator.order) + " order in the " + quantity.words + " of " +
+              problem.thing + " with " + std::string(run.pattern.words) + ".",
           std::move(finding)};
 }
 

@@ -12,9 +12,8 @@ namespace foldproof {
 
 std::vector<Check> all_checks() {
   std::vector<Check> all;
-  for (const auto& part :
-       {mesh_checks(), force_checks(), bending_checks(), differential_checks(), solver_checks(),
-        cached_terms_checks(), dynamics_checks(), scene_checks()})
+  for (const auto& part : {mesh_checks(), force_checks(), bending_checks(), differential_checks(),
+                           solver_checks(), cached_terms_checks(), dynamics_checks(), scene_checks()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

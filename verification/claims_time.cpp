@@ -234,7 +234,7 @@ std::vector<Claim> monotone_motion() {
        "({monotonicity.monotone.backward-euler}) or linearised "
        "({monotonicity.monotone.linear-backward-euler}); on a nonlinear hinge the linearised method turns "
        "back by {monotonicity.monotone-on-a-hinge.linear-backward-euler}, no more than the exact motion "
-       "allows."},
+       "allows. Of the fully implicit one on nonlinear motions nothing is shown here."},
       {"T16",
        "3",
        "B, with A's velocity steps in the other order, does not have A's trouble.",
