@@ -173,7 +173,7 @@ StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
     } else {
       const LimitRow row = limit_row(subject, integrator, ratios);
       result.findings.push_back(limit_finding(integrator, row));
-      Curve curve{std::string(integrator.title), {}, {}, nan, {}};
+      Curve curve{std::string(integrator.name), {}, {}, nan, {}};
       for (size_t i = 0; i < row.zeta.size(); ++i)
         if (row.zeta[i] > 0) curve.x.push_back(row.zeta[i]), curve.y.push_back(row.measured[i]);
       figure.curves.push_back(std::move(curve));

@@ -140,7 +140,7 @@ void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progre
       else
         result.findings.push_back(as_known(integrator, damping, limits));
       if (integrator.name == "C") result.findings.push_back(never_narrower(damping, limits));
-      figure.curves.push_back({std::string(integrator.title), limits.times, limits.measured, nan, {}});
+      figure.curves.push_back({std::string(integrator.name), limits.times, limits.measured, nan, {}});
       progress(0.7 * ++done / 21);
     }
     result.figures.push_back(std::move(figure));

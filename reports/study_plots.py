@@ -87,7 +87,10 @@ def key_svg(pen: Pen) -> Markup:
 
 
 def choose_pens(curves: list[Curve]) -> list[Pen]:
-    """One pen for every curve, a method's the same in all figures; within a group of coincident curves the first is the widest."""
+    """One pen for every curve, a method's the same in all figures.
+
+    Within a group of coincident curves the first is the widest.
+    """
     groups: list[list[int]] = []
     for index, curve in enumerate(curves):
         home = next((group for group in groups if _coincide(curves[group[0]], curve)), None)
@@ -96,10 +99,18 @@ def choose_pens(curves: list[Curve]) -> list[Pen]:
     for group in groups:
         for depth, index in enumerate(group):
             above = min(len(group) - 1 - depth, 4)
-            look = METHODS.index(curves[index].label) if curves[index].label in METHODS else index
-            pens[index] = Pen(COLOURS[look % len(COLOURS)], MARKERS[look % len(MARKERS)],
-                              1.2 + 1.9 * above, 4.6 + 3.6 * above)
+            colour, marker = _look(curves, index)
+            pens[index] = Pen(colour, marker, 1.2 + 1.9 * above, 4.6 + 3.6 * above)
     return [pens[index] for index in range(len(curves))]
+
+
+def _look(curves: list[Curve], index: int) -> tuple[str, str]:
+    """Colour and marker: a method's own; ink for what is drawn beside methods; else in turn."""
+    label, methods_shown = curves[index].label, any(curve.label in METHODS for curve in curves)
+    if methods_shown and label not in METHODS:
+        return INK, MARKERS[-1]
+    turn = METHODS.index(label) if methods_shown else index
+    return COLOURS[turn % len(COLOURS)], MARKERS[turn % len(MARKERS)]
 
 
 def _drawable(curve: Curve, figure: StudyFigure) -> Points:
