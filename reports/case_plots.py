@@ -74,9 +74,9 @@ def _steps(columns: dict[str, Column]) -> tuple[list[Panel], str]:
 
 
 def _solves(columns: dict[str, Column]) -> tuple[list[Panel], str]:
-    panels = _single_panels(columns, (("cg_iterations", "iterations"),), "linear")
+    panels = _single_panels(columns, (("cg_iterations", "CG iterations a step"),), "linear")
     if "cg_residual" in columns and (columns["cg_residual"].values > 0).any():
-        panels += _single_panels(columns, (("cg_residual", "residual"),), "log")
+        panels += _single_panels(columns, (("cg_residual", "relative residual"),), "log")
     return panels, "Conjugate gradient iterations per step, and the residual that they left"
 
 
@@ -103,7 +103,7 @@ def _plot(time: np.ndarray, panels: list[Panel], name: str, folder: Path, captio
 
 def _width(lines: list[Line]) -> float:
     """Width of the axes, as a fraction of the figure's, that leaves room for the lines' labels."""
-    return 0.88 - 0.0125 * max(len(label) for label, *_ in lines)
+    return 0.855 - 0.0125 * max(len(label) for label, *_ in lines)
 
 
 def _draw_lines(axes: Axes, time: np.ndarray, lines: list[Line], scale: str, factor: float) -> None:

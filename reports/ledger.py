@@ -1,4 +1,4 @@
-"""The ledger of claims as the page shows it: sorted by section, one number for each. Rulings are the program's."""
+"""The ledger of claims as the page shows it: sorted by section. Rulings are the program's."""
 from __future__ import annotations
 
 from collections import Counter
@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from results import Claim, Finding
 
 RULINGS = ("confirmed", "confirmed under a condition", "refuted", "undecided")
-DECISIVE = {"confirmed": "supports", "confirmed under a condition": "limits", "refuted": "contradicts"}
 
 
 @dataclass
@@ -24,7 +23,6 @@ class ClaimView:
     """One row of the ledger."""
     claim: Claim
     deciding: list[Deciding]
-    key: Finding | None   # the finding whose number stands in the row
 
 
 def claim_views(claims: Iterable[Claim], findings: Iterable[Finding]) -> list[ClaimView]:
@@ -50,7 +48,4 @@ def by_section(views: Iterable[ClaimView]) -> list[tuple[str, list[ClaimView]]]:
 
 def _view(claim: Claim, known: dict[str, Finding]) -> ClaimView:
     deciding = [Deciding(name, role, known.get(name)) for name, role in claim.decided_by]
-    answered = [entry for entry in deciding if entry.finding is not None]
-    decisive = [entry for entry in answered if entry.role == DECISIVE.get(claim.ruling)]
-    chosen = (decisive or answered or [None])[0]
-    return ClaimView(claim, deciding, chosen.finding if chosen else None)
+    return ClaimView(claim, deciding)

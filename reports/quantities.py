@@ -101,9 +101,10 @@ def cells_html(values: Iterable[object]) -> list[Markup]:
     if any(isinstance(value, str) for value in values):
         return [escape(value) for value in values]
     numbers = [float(value) for value in values]  # type: ignore[arg-type]
+    dash = Markup('<span class="n">–</span>')  # what was not measured
     if all(is_count(value) or not math.isfinite(value) for value in numbers):
-        return [number_html(value) for value in numbers]
-    return [_marked_up(value, *rounded_number(value)) for value in numbers]
+        return [dash if math.isnan(value) else number_html(value) for value in numbers]
+    return [dash if math.isnan(value) else _marked_up(value, *rounded_number(value)) for value in numbers]
 
 
 def seconds_html(value: float) -> Markup:

@@ -80,7 +80,8 @@ std::vector<Claim> its_directions() {
            "sum. The first motion tried turns the angle by "
            "{bending.mode-is-minus-gradient-of-theta|d(theta)/dt of a random motion|1}, where u.v is "
            "{bending.mode-is-minus-gradient-of-theta|u.v of the same motion|1}. The forces as printed have "
-           "the right sign; only this line, and the damping force read with it, do not."}};
+           "the right sign; only this line has not. The damping force, written with d(theta)/dt, dissipates "
+           "only while that stands for u.v; with the true rate it would feed energy."}};
 }
 
 std::vector<Claim> the_elastic_force() {
@@ -149,6 +150,7 @@ std::vector<Claim> rest_angles_and_limits() {
         {"case.stiff_statue.energy-is-accounted-for", Role::supports},
         {"case.stiff_bending.runs-to-its-end", Role::supports},
         {"case.stiff_bending.energy-is-accounted-for", Role::supports},
+        {"case.stiff_bending.keeps-its-angles", Role::supports},
         {"case.soft_bending.runs-to-its-end", Role::supports},
         {"case.soft_bending.energy-is-accounted-for", Role::supports}},
        Standing::confirmed,
@@ -182,7 +184,7 @@ std::vector<Claim> the_damping_force() {
            "4",
            "With its factor |E|, kd is a property of the material under refinement, perhaps anisotropic.",
            {{"bending-scaling.edge", Role::contradicts},
-            {"bending-scaling.edge-squared-over-area", Role::supports}},
+            {"bending-scaling.edge-squared-over-area", Role::limits}},
            Standing::refuted,
            "",
            "A sheet rolled at a given rate dissipates in proportion to the width of a cell: the order of the "
