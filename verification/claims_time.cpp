@@ -67,7 +67,11 @@ std::vector<Claim> orders_and_limits() {
        "{elastic-limit.exponent.bending|exponent|last} where hinges do. While the damping of springs, of "
        "hinges or of both rises "
        "by ten thousand the limit of a clamped sheet stays at 2/omega, to "
-       "{stability-sheet.independent-of-damping.both.A}."},
+       "{stability-sheet.independent-of-damping.both.A}."}};
+}
+
+std::vector<Claim> limits_of_explicit_methods() {
+  return {
       {"T3", "3", "A fully explicit method needs h below a constant times dx^2 rho/kd.",
        joined(each({"forward-euler", "RK2", "SSP-RK3", "RK4"}, "stability-sheet.limit.both"),
               {{"stability-sheet.damping-exponent.springs", Role::supports},
@@ -288,7 +292,11 @@ std::vector<Claim> variable_steps() {
        "B; a "
        "damping ratio of a half cures it (radius {variable-step-stability.damping-cures.C}). A motion that "
        "is only damped comes no further than {monotonicity.bounded.C}, but swings about its end for h c/2 > "
-       "1."},
+       "1."}};
+}
+
+std::vector<Claim> cost_and_momentum() {
+  return {
       {"T19",
        "3",
        "C costs one more implicit solve a step than A and B.",
@@ -319,8 +327,9 @@ std::vector<Claim> variable_steps() {
 
 std::vector<Claim> time_claims() {
   std::vector<Claim> claims;
-  for (const auto& part : {orders_and_limits(), damping_of_modes(), linear_solve(),
-                           cached_terms_and_filters(), monotone_motion(), variable_steps()})
+  for (const auto& part :
+       {orders_and_limits(), limits_of_explicit_methods(), damping_of_modes(), linear_solve(),
+        cached_terms_and_filters(), monotone_motion(), variable_steps(), cost_and_momentum()})
     claims.insert(claims.end(), part.begin(), part.end());
   return claims;
 }
