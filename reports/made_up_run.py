@@ -45,6 +45,9 @@ def put_study(file: h5py.File) -> None:
         put(curve, order=k, label=f"scheme {k} {HOSTILE}", floor=1e-9)
         curve["x"], curve["y"] = h, np.where((h > 0.01) & (k == 1), np.nan, h ** 2)
         curve["pair_orders"] = np.full(4, 2.0)
+        if k == 1:
+            put(curve, slope=2.0)
+            curve["marks"] = np.array(["diverged"] * 1 + ["unfinished"] + ["measured"] * 3, dtype=TEXT)
 
 
 def put_map(file: h5py.File, study: str) -> None:

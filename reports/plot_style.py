@@ -46,6 +46,18 @@ class Plot:
     svg: Markup
 
 
+@dataclass
+class Pen:
+    """How one curve is drawn. Curves that lie on each other get nested markers and lines of falling width."""
+    colour: str
+    marker: str
+    width: float
+    size: float
+
+
+Points = tuple[np.ndarray, np.ndarray]   # x and y of the points of a curve that can be drawn
+
+
 def use_style() -> None:
     """Sets the style for every figure made from here on."""
     matplotlib.rcParams.update(_RC)

@@ -45,12 +45,14 @@ class Finding:
 @dataclass
 class Curve:
     """y against x; points below `floor` mean nothing (NaN: no floor). pair_orders has one entry less than x,
-    or is None."""
+    or is None. `slope` is the one expected in log-log axes (NaN: none). marks has one entry for each point."""
     label: str
     x: np.ndarray
     y: np.ndarray
     floor: float
     pair_orders: np.ndarray | None
+    slope: float
+    marks: np.ndarray  # "measured" | "unfinished" | "diverged"
 
 
 @dataclass
@@ -259,8 +261,10 @@ def _curves(group: h5py.Group) -> list[Curve]:
 def _curve(name: str, group: h5py.Group) -> Curve:
     said = attributes_of(group)
     orders = np.asarray(group["pair_orders"], dtype=float) if "pair_orders" in group else None
+    x, y = (np.asarray(group[key], dtype=float) for key in "xy")
+    marks = group["marks"].asstr()[:] if "marks" in group else np.full(len(x), "measured", dtype=object)
     return Curve(label=text_of(said, "label") or name, floor=number_of(said, "floor"), pair_orders=orders,
-                 x=np.asarray(group["x"], dtype=float), y=np.asarray(group["y"], dtype=float))
+                 slope=number_of(said, "slope"), x=x, y=y, marks=marks)
 
 
 def _claim(name: str, group: h5py.Group) -> Claim:

@@ -1,8 +1,7 @@
-"""Curves of a study: markers and lines, labels beside the curves, the noise floor, and the slope that theory
-expects."""
+"""Curves of a study: markers and lines, labels beside the curves, the noise floor; with slope_triangles.py the
+slopes that theory expects, with point_marks.py the runs that diverged."""
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from textwrap import fill
 
@@ -11,32 +10,22 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.markers import MarkerStyle
 
-from plot_style import (BAND, COLOURS, INK, MARKERS, MUTED, PAPER, Plot, finish, label_axes, new_figure,
-                        say_in_the_middle, scale_axis, variable_of)
-from quantities import number_text
+from plot_style import (BAND, COLOURS, INK, MARKERS, MUTED, PAPER, Pen, Plot, Points, finish, label_axes,
+                        new_figure, say_in_the_middle, scale_axis, variable_of)
+from point_marks import diverged_x, draw_strip, is_hollow, is_marked
 from results import Curve, StudyFigure
+from slope_triangles import draw_common_slope, draw_own_slopes
 
 WIDTH, HEIGHT = 7.6, 4.0            # [inch]
 LABEL_STEP = 0.055                  # least distance of two labels, as a fraction of the axes' height
 LABEL_WIDTH = 34                    # characters of a line of a label
 SAME = 0.03                         # curves whose values differ by less than this fraction lie on each other
+MOST_MARKERS = 60                   # points of a curve beyond which it is a line alone
 FLOOR_REACH = 1.3                   # decades below the lowest point within which a floor is drawn
-
-Points = tuple[np.ndarray, np.ndarray]   # x and y of the points of a curve that can be drawn
-
 
 # Methods look alike wherever they appear; other curves take their looks in turn.
 METHODS = ("A", "B", "C", "forward-euler", "RK2", "SSP-RK3", "RK4", "backward-euler", "linear-backward-euler", "BDF2",
            "implicit-midpoint")
-
-
-@dataclass
-class Pen:
-    """How one curve is drawn. Curves that lie on each other get nested markers and lines of falling width."""
-    colour: str
-    marker: str
-    width: float
-    size: float
 
 
 def plot_study_figure(figure: StudyFigure, name: str, folder: Path) -> Plot:
@@ -51,19 +40,22 @@ def plot_study_figure(figure: StudyFigure, name: str, folder: Path) -> Plot:
     pens = choose_pens(figure.curves)
     for axis, scale, values in (("x", figure.x_scale, 0), ("y", figure.y_scale, 1)):
         scale_axis(axes, axis, scale, np.concatenate([points[values] for points in shown]))
-    for layer, (curve, pen, (x, y)) in enumerate(zip(figure.curves, pens, shown)):
-        _draw_curve(axes, curve, pen, x, y, layer)
+    for layer, (curve, pen) in enumerate(zip(figure.curves, pens)):
+        _draw_curve(axes, figure, curve, pen, layer)
     _set_limits(axes, figure, shown)
-    if figure.x_scale == figure.y_scale == "log" and np.isfinite(figure.slope) and figure.slope != 0:
-        _draw_slope(axes, shown, pens, figure.slope)
+    if figure.x_scale == figure.y_scale == "log":
+        draw_common_slope(axes, shown, pens, figure.slope)
+        draw_own_slopes(axes, shown, pens, [curve.slope for curve in figure.curves])
     _draw_floors(axes, figure, pens)
+    draw_strip(axes, figure.curves, pens)
     _label_curves(axes, figure.curves, pens, shown)
     return finish(canvas, name, folder, figure.title)
 
 
 def points_left_out(figure: StudyFigure) -> int:
     """How many points cannot be drawn: NaN, infinite, or not positive on a logarithmic axis."""
-    return sum(len(curve.x) - len(_drawable(curve, figure)[0]) for curve in figure.curves)
+    return sum(int(((~_is_drawable(curve, figure)) & (curve.marks != "diverged")).sum())
+               for curve in figure.curves)
 
 
 def floors_below(figure: StudyFigure) -> list[float]:
@@ -113,12 +105,17 @@ def _look(curves: list[Curve], index: int) -> tuple[str, str]:
     return COLOURS[turn % len(COLOURS)], MARKERS[turn % len(MARKERS)]
 
 
-def _drawable(curve: Curve, figure: StudyFigure) -> Points:
+def _is_drawable(curve: Curve, figure: StudyFigure) -> np.ndarray:
     good = np.isfinite(curve.x) & np.isfinite(curve.y)
     if figure.x_scale == "log":
         good &= curve.x > 0
     if figure.y_scale == "log":
         good &= curve.y > 0
+    return good
+
+
+def _drawable(curve: Curve, figure: StudyFigure) -> Points:
+    good = _is_drawable(curve, figure)
     return curve.x[good], curve.y[good]
 
 
@@ -132,23 +129,27 @@ def _coincide(one: Curve, other: Curve) -> bool:
     return bool(np.mean(close) > 0.6)
 
 
-def _draw_curve(axes: Axes, curve: Curve, pen: Pen, x: np.ndarray, y: np.ndarray, layer: int) -> None:
-    order = np.argsort(x, kind="stable")
-    x, y = x[order], y[order]
+def _draw_curve(axes: Axes, figure: StudyFigure, curve: Curve, pen: Pen, layer: int) -> None:
+    """Line and markers. Where some runs of a figure are marked, hollow means that a solve did not finish."""
+    good = np.flatnonzero(_is_drawable(curve, figure))
+    order = good[np.argsort(curve.x[good], kind="stable")]
+    x, y = curve.x[order], curve.y[order]
     axes.plot(x, y, color=pen.colour, linewidth=pen.width, zorder=3 + 0.01 * layer)
-    if len(x) > 60:
+    if len(x) > MOST_MARKERS:
         return
-    above = ~(y <= curve.floor)
-    axes.plot(x[above], y[above], linestyle="none", marker=pen.marker, markersize=pen.size, color=pen.colour,
-              markerfacecolor=PAPER, markeredgewidth=1.1, zorder=4 + 0.01 * layer)
-    axes.plot(x[~above], y[~above], linestyle="none", marker=pen.marker, markersize=0.7 * pen.size,
-              color=pen.colour,
-              markerfacecolor=PAPER, markeredgewidth=0.6, alpha=0.5, zorder=4 + 0.01 * layer)
+    hollow = is_hollow(curve)[order] if is_marked(figure.curves) else np.ones(len(x), dtype=bool)
+    below = y <= curve.floor
+    for kind, face in ((hollow, PAPER), (~hollow, pen.colour)):
+        for part, size, edge, alpha in ((kind & ~below, 1.0, 1.1, 1.0), (kind & below, 0.7, 0.6, 0.5)):
+            axes.plot(x[part], y[part], linestyle="none", marker=pen.marker, markersize=size * pen.size,
+                      color=pen.colour, markerfacecolor=face, markeredgewidth=edge, alpha=alpha,
+                      zorder=4 + 0.01 * layer)
 
 
 def _set_limits(axes: Axes, figure: StudyFigure, shown: list[Points]) -> None:
     for part, scale, set_limits in ((0, figure.x_scale, axes.set_xlim), (1, figure.y_scale, axes.set_ylim)):
-        values = np.concatenate([points[part] for points in shown])
+        values = np.concatenate([points[part] for points in shown]
+                                + ([diverged_x(figure.curves)] if part == 0 else []))
         low, high = values.min(), values.max()
         if scale == "log":
             room = max(0.06 * np.log10(high / low), 0.06 if part == 0 else 0.15)
@@ -189,63 +190,6 @@ def _draw_floors(axes: Axes, figure: StudyFigure, pens: list[Pen]) -> None:
         if curve.floor > 1.01 * floors.min():
             axes.plot([curve.x.min(), curve.x.max()], [curve.floor] * 2, color=pen.colour, linewidth=0.8,
                       linestyle=(0, (1, 2.2)), zorder=2)
-
-
-def _draw_slope(axes: Axes, shown: list[Points], pens: list[Pen], slope: float) -> None:
-    """A triangle of the expected slope, where it needs the least extra room below or above the curves."""
-    (left, right), (bottom, top) = np.log10(axes.get_xlim()), np.log10(axes.get_ylim())
-    width = 0.15 * (right - left)
-    rise = slope * width
-    if abs(rise) > 0.35 * (top - bottom):
-        width, rise = width * 0.35 * (top - bottom) / abs(rise), np.sign(rise) * 0.35 * (top - bottom)
-    gap = (0.06 if max(pen.size for pen in pens) < 8 else 0.1) * (top - bottom)
-    places = []
-    first = left + (0.04 if slope > 0 else 0.08) * (right - left)
-    for start in np.linspace(first, right - width - 0.05 * (right - left), 12):
-        here = _envelope(shown, start, start + width, slope)
-        if here is None:
-            continue
-        low, high = here
-        places.append((max(0.0, bottom - (low - gap + min(rise, 0.0) - gap)), start, low - gap, 0))
-        places.append((max(0.0, high + gap + max(rise, 0.0) + gap - top), start, high + gap, 1))
-    if not places:
-        return
-    side = np.sign(slope)
-    _, start, base, above = min(places, key=lambda place: (round(place[0], 3), place[3], -place[1] * side))
-    axes.set_ylim(10 ** min(bottom, base + min(rise, 0) - 1.3 * gap),
-                  10 ** max(top, base + max(rise, 0) + 1.3 * gap))
-    _draw_triangle(axes, start, base, width, rise, slope, (slope > 0) != bool(above))
-
-
-def _envelope(shown: list[Points], start: float, stop: float,
-              slope: float) -> tuple[float, float] | None:
-    """Lowest and highest level (log10, at `start`) of lines of the given slope that touch the curves over the
-    span."""
-    levels = []
-    for x, y in shown:
-        order = np.argsort(x)
-        at, level = np.log10(x[order]), np.log10(y[order])
-        if len(at) > 1 and at[0] < stop and at[-1] > start:
-            here = np.linspace(max(start, at[0]), min(stop, at[-1]), 9)
-            levels.append(np.interp(here, at, level) - slope * (here - start))
-    return (min(map(np.min, levels)), max(map(np.max, levels))) if levels else None
-
-
-def _draw_triangle(axes: Axes, start: float, base: float, width: float, rise: float, slope: float,
-                   corner_right: bool) -> None:
-    x0, x1, y0, y1 = 10 ** start, 10 ** (start + width), 10 ** base, 10 ** (base + rise)
-    corner = (x1, y0) if corner_right else (x0, y1)
-    axes.fill([x0, x1, corner[0]], [y0, y1, corner[1]], facecolor="none", edgecolor=INK, linewidth=0.8,
-              zorder=5,
-              joinstyle="round")
-    beside = x1 if corner_right else x0
-    axes.annotate(number_text(slope), (beside, 10 ** (base + rise / 2)),
-                  xytext=(4 if corner_right else -4, 0),
-                  textcoords="offset points", ha="left" if corner_right else "right", va="center",
-                  fontsize=7.5)
-    below = (rise > 0) == corner_right
-    axes.annotate("1", (10 ** (start + width / 2), corner[1]), xytext=(0, -3 if below else 3),
-                  textcoords="offset points", ha="center", va="top" if below else "bottom", fontsize=7.5)
 
 
 def _label_curves(axes: Axes, curves: list[Curve], pens: list[Pen], shown: list[Points]) -> None:

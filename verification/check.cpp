@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <stdexcept>
 
 namespace foldproof {
 
@@ -44,6 +45,18 @@ Record judged(Record record, const Run& run) {
 }
 
 }  // namespace
+
+std::string_view name_of(Mark mark) {
+  switch (mark) {
+    case Mark::measured:
+      return "measured";
+    case Mark::unfinished:
+      return "unfinished";
+    case Mark::diverged:
+      return "diverged";
+  }
+  throw std::logic_error("name_of: a mark without a name");
+}
 
 std::string_view name_of(Ruling ruling) {
   switch (ruling) {

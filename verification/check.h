@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -64,12 +66,20 @@ struct NotOffered {
   std::string operation;
 };
 
+/// What a point of a curve stands for: measured, measured though a solve on the way did not finish, or a run that
+/// diverged, which has an x but no y.
+enum class Mark { measured, unfinished, diverged };
+
+std::string_view name_of(Mark mark);  // "measured", "unfinished", "diverged"
+
 /// A curve of a figure; floor is the level below which its y means nothing (NaN: none).
 struct Curve {
   std::string label;
   std::vector<double> x, y;
   double floor;
   std::vector<double> pair_orders;  // observed order of each neighbouring pair; empty if orders make no sense
+  double slope = std::numeric_limits<double>::quiet_NaN();  // expected of this curve in log-log, NaN: none
+  std::vector<Mark> marks = {};                             // one a point; empty: all measured
 };
 
 enum class Scale { linear, log };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "verification/findings_file.h"
@@ -13,6 +14,16 @@ namespace {
 
 std::string scale_name(Scale scale) { return scale == Scale::log ? "log" : "linear"; }
 
+/// The names of the marks, one a point.
+std::vector<std::string> names_of(const Curve& curve) {
+  if (curve.marks.size() != curve.x.size())
+    throw std::logic_error(fmt::format("curve '{}': {} marks for {} points; give one for each, or none",
+                                       curve.label, curve.marks.size(), curve.x.size()));
+  std::vector<std::string> names;
+  for (const Mark mark : curve.marks) names.emplace_back(name_of(mark));
+  return names;
+}
+
 void write_curve(const Hdf5& parent, const Curve& curve, int order) {
   const Hdf5 here = parent.group(fmt::format("curve-{:02}", order));
   here.attribute("order", order);
@@ -21,6 +32,8 @@ void write_curve(const Hdf5& parent, const Curve& curve, int order) {
   here.dataset("x", curve.x);
   here.dataset("y", curve.y);
   if (!curve.pair_orders.empty()) here.dataset("pair_orders", curve.pair_orders);
+  if (!std::isnan(curve.slope)) here.attribute("slope", curve.slope);
+  if (!curve.marks.empty()) here.dataset("marks", names_of(curve));
 }
 
 void write_curves(const Hdf5& parent, const std::vector<Curve>& curves) {
