@@ -2,15 +2,15 @@
 
 namespace foldproof {
 
-State end_of_step(const System& system, const State& now, double h, PerParticle3 v_move, PerParticle3 v_end) {
+State end_of_step(const System& system, const State& now, double h, StepVelocities v, Work& work) {
   const double end = now.time + h;
-  impose(mean_velocities(system.led, now.x, now.time, h), v_move);
-  const PerParticle3 unfiltered = v_move;
-  correct(system.filters, {now.time, end}, now, v_move);
-  v_end += v_move - unfiltered;
-  impose(velocities_at(system.led, end), v_end);
-  State next{end, now.x + h * v_move, v_end};
-  correct(system.filters, {end, end}, next, next.v);
+  impose(mean_velocities(system.led, now.x, now.time, h), v.move);
+  const PerParticle3 unfiltered = v.move;
+  correct(system.filters, {now.time, end, h}, now, v.move, work);
+  v.end += v.move - unfiltered;
+  impose(velocities_at(system.led, end), v.end);
+  State next{end, now.x + h * v.move, v.end};
+  correct(system.filters, {end, end, h}, next, next.v, work);
   return next;
 }
 

@@ -5,9 +5,14 @@
 
 namespace foldproof {
 
-/// The state after a step of h [s] that would move x by h v_move and end with v_end (3 x N [m/s]): prescribed
-/// particles are put on their paths, the filters correct the velocity that moves the cloth, v_end takes up the
-/// change that they made, and is then corrected itself.
-State end_of_step(const System& system, const State& now, double h, PerParticle3 v_move, PerParticle3 v_end);
+/// What a method has found: the velocity that moves x over the step, and the one that ends it (3 x N [m/s]).
+struct StepVelocities {
+  PerParticle3 move, end;
+};
+
+/// The state after a step of h [s]: prescribed particles are put on their paths, the filters correct the
+/// velocity that moves the cloth, the one that ends the step takes up the change that they made, and is then
+/// corrected itself.
+State end_of_step(const System& system, const State& now, double h, StepVelocities v, Work& work);
 
 }  // namespace foldproof

@@ -49,7 +49,7 @@ State runge_kutta(const Tableau& tableau, const System& system, const State& now
   PerParticle3 v_move = PerParticle3::Zero(3, now.x.cols());
   for (size_t i = 0; i < rates.size(); ++i) v_move += tableau.b[i] * rates[i].velocity;
   const State end = advanced(system, now, now.time + h, tableau.b, rates, h);
-  return end_of_step(system, now, h, std::move(v_move), end.v);
+  return end_of_step(system, now, h, {std::move(v_move), end.v}, work);
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ State backward_euler(const System& system, std::span<const State> past, double h
   const State& now = past.back();
   Stage stage{now.time + h, now.x, now.v, h};
   const PerParticle3 w = solve_stage(system, stage, now.v, work);
-  return end_of_step(system, now, h, w, w);
+  return end_of_step(system, now, h, {w, w}, work);
 }
 
 State linearised_backward_euler(const System& system, std::span<const State> past, double h, Work& work) {
@@ -143,14 +143,14 @@ State linearised_backward_euler(const System& system, std::span<const State> pas
   if (!solve.converged) ++work.unfinished_solves;
   keep_worst(work.worst_residual, solve.residual);
   w += dw;
-  return end_of_step(system, now, h, w, w);
+  return end_of_step(system, now, h, {w, w}, work);
 }
 
 State implicit_midpoint(const System& system, std::span<const State> past, double h, Work& work) {
   const State& now = past.back();
   Stage stage{now.time + h / 2, now.x, now.v, h / 2};
   const PerParticle3 w = solve_stage(system, stage, now.v, work);
-  return end_of_step(system, now, h, w, 2 * w - now.v);
+  return end_of_step(system, now, h, {w, 2 * w - now.v}, work);
 }
 
 State bdf2(const System& system, std::span<const State> past, double h, Work& work) {
@@ -163,7 +163,7 @@ State bdf2(const System& system, std::span<const State> past, double h, Work& wo
   const double p = r * r / (1 + 2 * r), s = h * (1 + r) / (1 + 2 * r);
   Stage stage{now.time + h, now.x + p * (now.x - before.x), now.v + p * (now.v - before.v), s};
   const PerParticle3 w = solve_stage(system, stage, now.v, work);
-  return end_of_step(system, now, h, (stage.X + stage.s * w - now.x) / h, w);
+  return end_of_step(system, now, h, {(stage.X + stage.s * w - now.x) / h, w}, work);
 }
 
 }  // namespace foldproof

@@ -2,9 +2,10 @@
 
 namespace foldproof {
 
-void correct(const std::vector<Filter>& filters, Span span, const State& s, PerParticle3& v) {
+void correct(const std::vector<Filter>& filters, const Span& span, const State& s, PerParticle3& v,
+             Work& work) {
   for (const Filter& filter : filters)
-    std::visit([&](const auto& part) { part.correct(span, s, v); }, filter);
+    std::visit([&](const auto& f) { f.correct(span, s, v, work); }, filter);
 }
 
 }  // namespace foldproof

@@ -60,7 +60,7 @@ FilteredStep filtered_step(const std::string& integrator, double h) {
   const Scene scene = free_sheet();
   System system = build_system(scene);
   CustomFilter filter;
-  filter.modify = [&result](Span span, const State&, PerParticle3& v) {
+  filter.modify = [&result](const Span& span, const State&, PerParticle3& v) {
     const PerParticle3 given = v;
     v *= 0.83;
     v.colwise() += Vector3(0.07, -0.11, 0.05);
@@ -107,7 +107,7 @@ double end_velocity(const std::string& integrator, double h, double c, double g,
   force.damping = [=](const State&, const PerParticle3& w, PerParticle3& f) { f -= m * c * w; };
   system.forces.push_back(force);
   CustomFilter filter;
-  filter.modify = [=](Span span, const State&, PerParticle3& w) {
+  filter.modify = [=](const Span& span, const State&, PerParticle3& w) {
     if (span.end > span.start) w(0, 0) += d;
   };
   system.filters.emplace_back(filter);

@@ -1,0 +1,57 @@
+// Signed distance to solids, and the solids for which it is known in closed form. Each stands in a frame of its
+// own; objects place and move them.
+#pragma once
+
+#include <concepts>
+#include <variant>
+
+#include "reference/types.h"
+
+namespace foldproof {
+
+/// What a solid says about a point.
+struct Distance {
+  double phi;      // signed distance to its surface, negative inside [m]
+  Vector3 normal;  // N = grad phi, outward, a unit vector; where phi has a kink, that of one of its sides
+};
+
+/// A solid is anything that answers with its signed distance.
+template <class S>
+concept SignedDistance = requires(const S solid, Vector3 p) {
+  { solid.at(p) } -> std::same_as<Distance>;
+};
+
+/// The half space z < 0.
+struct HalfSpace {
+  Distance at(const Vector3& p) const;
+};
+
+/// About the origin.
+struct Sphere {
+  double radius;  // m
+  Distance at(const Vector3& p) const;
+};
+
+/// About the origin, its edges along the axes.
+struct Box {
+  Vector3 half_extents;  // m
+  Distance at(const Vector3& p) const;
+};
+
+/// All points within `radius` of the segment of the z axis from -half_length to half_length.
+struct Capsule {
+  double radius, half_length;  // m
+  Distance at(const Vector3& p) const;
+};
+
+/// All points within `tube_radius` of the circle of radius `ring_radius` in the xy plane.
+struct Torus {
+  double ring_radius, tube_radius;  // m
+  Distance at(const Vector3& p) const;
+};
+
+using Solid = std::variant<HalfSpace, Sphere, Box, Capsule, Torus>;
+
+Distance distance_to(const Solid& solid, const Vector3& p);
+
+}  // namespace foldproof
