@@ -48,6 +48,7 @@ struct ClaimRecord {
 std::vector<Claim> all_claims();
 std::vector<Claim> time_claims();     // claims_time.cpp: BMF03 section 3
 std::vector<Claim> bending_claims();  // claims_bending.cpp: BMF03 section 4
+std::vector<Claim> object_claims();   // claims_objects.cpp: BMF03 section 5, objects
 
 /// The ruling that these findings give; the table stands above its definition.
 Standing ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records);
