@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "reference/level_set/signed_distance.h"
+#include "reference/level_set/solid.h"
 #include "reference/motion/pose.h"
 #include "reference/types.h"
 

@@ -46,8 +46,4 @@ Distance Torus::at(const Vector3& p) const {
   return rounded(p, ring_radius * outward, tube_radius, outward);
 }
 
-Distance distance_to(const Solid& solid, const Vector3& p) {
-  return std::visit([&](const auto& s) { return s.at(p); }, solid);
-}
-
 }  // namespace foldproof

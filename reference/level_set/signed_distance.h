@@ -3,7 +3,6 @@
 #pragma once
 
 #include <concepts>
-#include <variant>
 
 #include "reference/types.h"
 
@@ -49,9 +48,5 @@ struct Torus {
   double ring_radius, tube_radius;  // m
   Distance at(const Vector3& p) const;
 };
-
-using Solid = std::variant<HalfSpace, Sphere, Box, Capsule, Torus>;
-
-Distance distance_to(const Solid& solid, const Vector3& p);
 
 }  // namespace foldproof

@@ -1,0 +1,63 @@
+// Exact signed distance to a closed triangle mesh: the nearest vertex, edge or face, and the side of it.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "reference/level_set/signed_distance.h"
+#include "reference/mesh/box_tree.h"
+#include "reference/mesh/triangle_mesh.h"
+
+namespace foldproof {
+
+/// Vertices, edges and face of a triangle (a, b, c); edges are named by their ends.
+enum class Feature { a, b, c, ab, bc, ca, face };
+
+/// The point of a mesh that is nearest to another point.
+struct NearestFeature {
+  int triangle = -1;                // place in the order of the tree; -1: none within the bound
+  Feature feature = Feature::face;  // of that triangle
+  Vector3 point = Vector3::Zero();  // m
+  double squared_distance = std::numeric_limits<double>::infinity();  // m^2
+};
+
+using Corners3 = std::array<Vector3, 3>;  // a, b, c of a triangle [m]
+
+/// The point of the triangle nearest to p and the feature that it lies on; `triangle` is left at -1.
+NearestFeature nearest_on_triangle(const Corners3& corners, const Vector3& p);
+
+/// A mesh made ready for queries. The sign is that of (p - nearest point) . n with n the normal of the nearest
+/// feature: the face's, the sum of both faces' at an edge, the sum weighted by the angles of the corners at a
+/// vertex (Baerentzen and Aanaes 2005). On a closed, consistently oriented surface without self-intersections
+/// that sign is right everywhere; on others it is not, see closed_mesh.h.
+///
+/// Accuracy: |phi| to a few roundings of |p| and of the mesh's extent. Closer than that the sign is open.
+struct MeshDistance {
+  PerParticle3 x;                               // 3 x N [m]
+  std::vector<Triangle> triangles;              // M
+  BoxTree tree;                                 // over the triangles
+  std::vector<Corners3> corners;                // M, in the order of the tree
+  std::vector<std::array<Vector3, 7>> normals;  // M, in the order of the tree: of each Feature, units 1
+  double resolution = 0;                        // distances at which directions are only rounding [m]
+
+  Distance at(const Vector3& p) const;
+};
+
+/// x: 3 x N [m]; triangles without area are never nearest by their face, and weigh nothing in normals.
+MeshDistance make_mesh_distance(PerParticle3 x, std::vector<Triangle> triangles);
+
+/// The nearest feature closer than `bound` [m]; of several at one distance, the one found first in the tree.
+NearestFeature nearest_feature(const MeshDistance& mesh, const Vector3& p, double bound);
+
+/// The signed distance to a nearest feature that was found.
+Distance signed_distance(const MeshDistance& mesh, const NearestFeature& nearest, const Vector3& p);
+
+/// A solid bounded by a mesh; copies share it.
+struct MeshSolid {
+  std::shared_ptr<const MeshDistance> mesh;
+  Distance at(const Vector3& p) const { return mesh->at(p); }
+};
+
+}  // namespace foldproof
