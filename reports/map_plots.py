@@ -13,14 +13,15 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from plot_style import (INK, MUTED, PAPER, Plot, finish, label_axes, new_figure, say_in_the_middle, scale_axis,
-                        with_unit)
+from plot_style import (INK, MUTED, PAPER, Plot, finish, label_axes, level_text, new_figure, say_in_the_middle,
+                        scale_axis, with_unit)
 from quantities import number_text
 from results import Curve, StudyMap
 
 WIDTH, HEIGHT = 7.6, 4.3            # [inch]
 COLOURS_OF_VALUES = "viridis"       # perceptually uniform, readable without colour vision, and in grey
 DASHES = ("solid", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)))
+MOST_ROWS = 8                       # of a map whose rows are all named
 LABEL_WIDTH = 30                    # characters of a line of a label
 
 
@@ -36,6 +37,8 @@ def plot_study_map(study_map: StudyMap, name: str, folder: Path) -> Plot:
         return finish(canvas, name, folder, study_map.title)
     for which, scale, places in (("x", study_map.x_scale, study_map.x), ("y", study_map.y_scale, study_map.y)):
         scale_axis(axes, which, scale, places)
+    if len(study_map.y) <= MOST_ROWS:
+        axes.set_yticks(study_map.y, [level_text(value) for value in study_map.y])
     colours = _draw_values(axes, study_map, drawable)
     _draw_colour_bar(canvas, study_map, colours)
     _draw_curves(axes, study_map.curves)

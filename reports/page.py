@@ -19,6 +19,7 @@ from case_pictures import PictureRow, length_text
 from ledger import ClaimView
 from map_plots import map_notes
 from plot_style import Plot, level_text
+from point_marks import has_mark
 from results import Case, CaseEntry, Column, Fault, Finding, Run, Study, StudyFigure
 from study_plots import choose_pens, floors_below, key_svg, points_left_out
 
@@ -223,7 +224,7 @@ def figure_notes(figure: StudyFigure) -> list[str]:
         logarithmic = "log" in (figure.x_scale, figure.y_scale)
         what = "NaN, infinite, or not positive on a logarithmic axis" if logarithmic else "NaN or infinite"
         notes.append(f"{left_out} point{'s' if left_out > 1 else ''} not drawn ({what}).")
-    if any((curve.marks == "unfinished").any() for curve in figure.curves):
+    if any(has_mark(curve, "unfinished").any() for curve in figure.curves):
         notes.append("Hollow: a solve on the way of that run did not finish.")
     if floors:
         plural = "s" if len(floors) > 1 else ""

@@ -5,32 +5,39 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
+from matplotlib.ticker import FuncFormatter
 
 from plot_style import BAND, MUTED, Pen
 from results import Curve
 
 ROW = 0.034                          # height of one curve's row in the strip, as a fraction of the axes' height
+CLIP = 0.45                          # of the floor, where runs below it stand
 
 
-def is_hollow(curve: Curve) -> np.ndarray:
-    """Of each point: did a solve on its way not finish?"""
-    return curve.marks == "unfinished"
+def has_mark(curve: Curve, mark: str) -> np.ndarray:
+    """Of each point: does it have this mark?"""
+    return np.zeros(len(curve.x), dtype=bool) if curve.marks is None else curve.marks == mark
 
 
 def is_marked(curves: list[Curve]) -> bool:
-    """Do some points stand for other than measured runs?"""
-    return any((curve.marks != "measured").any() for curve in curves)
+    """Does a figure with these curves say of its points what they stand for?"""
+    return any(curve.marks is not None for curve in curves)
 
 
 def diverged_x(curves: list[Curve]) -> np.ndarray:
     """Where the diverged runs of all curves stand."""
-    return np.concatenate([curve.x[curve.marks == "diverged"] for curve in curves])
+    return np.concatenate([curve.x[has_mark(curve, "diverged")] for curve in curves])
+
+
+def clipped(curve: Curve, y: np.ndarray) -> np.ndarray:
+    """Levels to draw: of marked runs, those that err less than the reference stand just below its floor."""
+    return y if curve.marks is None or not curve.floor > 0 else np.maximum(y, CLIP * curve.floor)
 
 
 def draw_strip(axes: Axes, curves: list[Curve], pens: list[Pen]) -> None:
     """A strip at the top of the axes with a row for every curve that has diverged runs, each at its x."""
-    rows = [(curve.x[curve.marks == "diverged"], pen) for curve, pen in zip(curves, pens)
-            if (curve.marks == "diverged").any()]
+    rows = [(curve.x[has_mark(curve, "diverged")], pen) for curve, pen in zip(curves, pens)
+            if has_mark(curve, "diverged").any()]
     if not rows:
         return
     height = ROW * (len(rows) + 1)
@@ -47,9 +54,12 @@ def draw_strip(axes: Axes, curves: list[Curve], pens: list[Pen]) -> None:
 
 
 def _make_room(axes: Axes, height: float) -> None:
-    """Raises the upper limit of y, so that what was shown fills the axes but for `height` of them."""
+    """Raises the upper limit of y, so that what was shown fills the axes but for `height` of them, where no tick is
+    named."""
     bottom, top = axes.get_ylim()
     if axes.get_yscale() == "log":
         axes.set_ylim(bottom, bottom * (top / bottom) ** (1 / (1 - height)))
     else:
         axes.set_ylim(bottom, bottom + (top - bottom) / (1 - height))
+    name = axes.yaxis.get_major_formatter()
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, place: name(value, place) if value < top else ""))

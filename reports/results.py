@@ -45,19 +45,20 @@ class Finding:
 @dataclass
 class Curve:
     """y against x; points below `floor` mean nothing (NaN: no floor). pair_orders has one entry less than x,
-    or is None. `slope` is the one expected in log-log axes (NaN: none). marks has one entry for each point."""
+    or is None. `slope` is the one expected in log-log axes (NaN: none). marks has one entry for each point,
+    or is None."""
     label: str
     x: np.ndarray
     y: np.ndarray
     floor: float
     pair_orders: np.ndarray | None
     slope: float
-    marks: np.ndarray  # "measured" | "unfinished" | "diverged"
+    marks: np.ndarray | None    # "measured" | "unfinished" | "diverged"
 
 
 @dataclass
-class StudyFigure:
-    """One set of axes. `slope` is the expected slope in log-log axes (NaN: none)."""
+class OnAxes:
+    """What a figure and a map have in common."""
     name: str
     title: str
     caption: str
@@ -67,29 +68,24 @@ class StudyFigure:
     y_unit: str
     x_scale: str       # "linear" | "log"
     y_scale: str
-    slope: float
     curves: list[Curve]
 
 
 @dataclass
-class StudyMap:
+class StudyFigure(OnAxes):
+    """One set of axes. `slope` is the expected slope in log-log axes (NaN: none)."""
+    slope: float
+
+
+@dataclass
+class StudyMap(OnAxes):
     """A quantity over two parameters, with limits known beforehand as curves over it."""
-    name: str
-    title: str
-    caption: str
-    x_label: str
-    x_unit: str
-    y_label: str
-    y_unit: str
-    x_scale: str       # "linear" | "log"
-    y_scale: str
     quantity: str
     unit: str          # of the values
     scale: str         # of the values
     x: np.ndarray      # n
     y: np.ndarray      # m
     values: np.ndarray  # m x n; NaN where there is none, as the caption says
-    curves: list[Curve]
 
 
 @dataclass
@@ -262,7 +258,7 @@ def _curve(name: str, group: h5py.Group) -> Curve:
     said = attributes_of(group)
     orders = np.asarray(group["pair_orders"], dtype=float) if "pair_orders" in group else None
     x, y = (np.asarray(group[key], dtype=float) for key in "xy")
-    marks = group["marks"].asstr()[:] if "marks" in group else np.full(len(x), "measured", dtype=object)
+    marks = group["marks"].asstr()[:] if "marks" in group else None
     return Curve(label=text_of(said, "label") or name, floor=number_of(said, "floor"), pair_orders=orders,
                  slope=number_of(said, "slope"), x=x, y=y, marks=marks)
 

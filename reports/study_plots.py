@@ -12,7 +12,7 @@ from matplotlib.markers import MarkerStyle
 
 from plot_style import (BAND, COLOURS, INK, MARKERS, MUTED, PAPER, Pen, Plot, Points, finish, label_axes,
                         new_figure, say_in_the_middle, scale_axis, variable_of)
-from point_marks import diverged_x, draw_strip, is_hollow, is_marked
+from point_marks import clipped, diverged_x, draw_strip, has_mark, is_marked
 from results import Curve, StudyFigure
 from slope_triangles import draw_common_slope, draw_own_slopes
 
@@ -54,7 +54,7 @@ def plot_study_figure(figure: StudyFigure, name: str, folder: Path) -> Plot:
 
 def points_left_out(figure: StudyFigure) -> int:
     """How many points cannot be drawn: NaN, infinite, or not positive on a logarithmic axis."""
-    return sum(int(((~_is_drawable(curve, figure)) & (curve.marks != "diverged")).sum())
+    return sum(int(((~_is_drawable(curve, figure)) & ~has_mark(curve, "diverged")).sum())
                for curve in figure.curves)
 
 
@@ -97,7 +97,13 @@ def choose_pens(curves: list[Curve]) -> list[Pen]:
 
 
 def _look(curves: list[Curve], index: int) -> tuple[str, str]:
-    """Colour and marker: a method's own; ink for what is drawn beside methods; else in turn."""
+    """Colour and marker: a method's own; ink for what is drawn beside methods; else in turn. Long curves have no
+    marker."""
+    colour, marker = _look_in_turn(curves, index)
+    return colour, marker if len(curves[index].x) <= MOST_MARKERS else ""
+
+
+def _look_in_turn(curves: list[Curve], index: int) -> tuple[str, str]:
     label, methods_shown = curves[index].label, any(curve.label in METHODS for curve in curves)
     if methods_shown and label not in METHODS:
         return INK, MARKERS[-1]
@@ -116,7 +122,7 @@ def _is_drawable(curve: Curve, figure: StudyFigure) -> np.ndarray:
 
 def _drawable(curve: Curve, figure: StudyFigure) -> Points:
     good = _is_drawable(curve, figure)
-    return curve.x[good], curve.y[good]
+    return curve.x[good], clipped(curve, curve.y[good])
 
 
 def _coincide(one: Curve, other: Curve) -> bool:
@@ -133,12 +139,12 @@ def _draw_curve(axes: Axes, figure: StudyFigure, curve: Curve, pen: Pen, layer: 
     """Line and markers. Where some runs of a figure are marked, hollow means that a solve did not finish."""
     good = np.flatnonzero(_is_drawable(curve, figure))
     order = good[np.argsort(curve.x[good], kind="stable")]
-    x, y = curve.x[order], curve.y[order]
+    x, y = curve.x[order], clipped(curve, curve.y[order])
     axes.plot(x, y, color=pen.colour, linewidth=pen.width, zorder=3 + 0.01 * layer)
-    if len(x) > MOST_MARKERS:
+    if not pen.marker:
         return
-    hollow = is_hollow(curve)[order] if is_marked(figure.curves) else np.ones(len(x), dtype=bool)
-    below = y <= curve.floor
+    hollow = has_mark(curve, "unfinished")[order] if is_marked(figure.curves) else np.ones(len(x), dtype=bool)
+    below = curve.y[order] <= curve.floor
     for kind, face in ((hollow, PAPER), (~hollow, pen.colour)):
         for part, size, edge, alpha in ((kind & ~below, 1.0, 1.1, 1.0), (kind & below, 0.7, 0.6, 0.5)):
             axes.plot(x[part], y[part], linestyle="none", marker=pen.marker, markersize=size * pen.size,
@@ -202,9 +208,10 @@ def _label_curves(axes: Axes, curves: list[Curve], pens: list[Pen], shown: list[
     heights = spread([end[1] for end in ends], step)
     size = 7.6 if step >= LABEL_STEP else 6.4
     for label, pen, end, height in zip(labels, pens, ends, heights):
-        axes.plot([1.075], [height], transform=axes.transAxes, clip_on=False, color=pen.colour,
-                  marker=pen.marker,
-                  markersize=4.6, markerfacecolor=PAPER, markeredgewidth=1.1)
+        key = [1.075] if pen.marker else [1.062, 1.088]
+        axes.plot(key, [height] * len(key), transform=axes.transAxes, clip_on=False, color=pen.colour,
+                  marker=pen.marker, markersize=4.6, markeredgewidth=1.1,
+                  markerfacecolor=pen.colour if is_marked(curves) else PAPER)
         axes.text(1.10, height, label, transform=axes.transAxes, ha="left", va="center", fontsize=size,
                   color=INK)
         if end[0] > 0.85 and 0 <= end[1] <= 1:

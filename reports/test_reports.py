@@ -113,6 +113,11 @@ class WholeReport(unittest.TestCase):
     def test_points_of_a_map_without_a_value_are_counted(self) -> None:
         self.assertIn("Hatched: 3 of 20 points", self.text)
 
+    def test_diverged_runs_have_their_strip_and_hollow_markers_are_explained(self) -> None:
+        self.assertRegex(self.text, r">\s*diverged\s*<")
+        self.assertIn("Hollow: a solve on the way of that run did not finish.", self.text)
+        self.assertNotIn("point not drawn", self.text[self.text.index('id="study-time-order"'):])
+
     def test_epsilon_is_defined_once(self) -> None:
         self.assertEqual(self.text.count("<dfn"), 1)
 
