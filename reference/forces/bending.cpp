@@ -16,17 +16,40 @@ constexpr double pi = 3.14159265358979323846;
 // eaten the normal.
 constexpr double smallest_height_squared = 1e-20;
 
-HingeShape shape_of(const BendingHinge& hinge, const PerParticle3& x) {
-  const auto [i1, i2, i3, i4] = hinge.particles;
-  return hinge_shape(x.col(i1), x.col(i2), x.col(i3), x.col(i4));
+/// hinge_shape, compiled into the loops over hinges: as a call, its result would pass through memory.
+[[gnu::always_inline]] inline HingeShape shape_at(const Vector3& x1, const Vector3& x2, const Vector3& x3,
+                                                  const Vector3& x4) {
+  const Vector3 E = x4 - x3, to1 = x1 - x4, to2 = x2 - x4;
+  const Vector3 N1 = (x1 - x3).cross(to1), N2 = to2.cross(x2 - x3);
+  const double E_squared = E.squaredNorm(), N1_squared = N1.squaredNorm(), N2_squared = N2.squaredNorm();
+  const Eigen::Array2d length = Eigen::Array2d(N1_squared, N2_squared).sqrt(), per_length = 1 / length;
+  const double edge = std::sqrt(E_squared), per_edge_squared = 1 / E_squared;
+  const double per_length1 = per_length[0], per_length2 = per_length[1];
+
+  HingeShape shape;
+  shape.u1 = (edge * per_length1 * per_length1) * N1;
+  shape.u2 = (edge * per_length2 * per_length2) * N2;
+  shape.b1 = -to1.dot(E) * per_edge_squared;
+  shape.b2 = -to2.dot(E) * per_edge_squared;
+  shape.edge = edge;
+  shape.area_sum = length[0] + length[1];
+  const double smallest = smallest_height_squared * E_squared * E_squared;
+  shape.degenerate = !(N1_squared > smallest && N2_squared > smallest);
+
+  // sin(theta) = (n1 x n2).e^ is the height of x2 below the first triangle's plane over its distance from the
+  // edge. Folded less than a right angle, sin(theta/2) = sin(theta)/(2 cos(theta/2)): exactly 0 when flat, no
+  // digit lost beside it. Beyond, the printed sqrt((1 - n1.n2)/2), which is accurate just there.
+  const double cosine = N1.dot(N2) * (per_length1 * per_length2);
+  const double sine = N1.dot(x3 - x2) * (edge * per_length1 * per_length2);
+  shape.sin_half =
+      cosine >= 0 ? sine / std::sqrt(2 + 2 * cosine) : std::copysign(std::sqrt(0.5 - 0.5 * cosine), sine);
+  return shape;
 }
 
-HingeShape checked_shape_of(const BendingHinge& hinge, const PerParticle3& x) {
-  HingeShape shape = shape_of(hinge, x);
-  if (shape.degenerate) {
-    const auto& p = hinge.particles;
-    throw DegenerateElement("a triangle of a hinge has lost its area", {p[0], p[1], p[2], p[3]});
-  }
+[[gnu::always_inline]] inline HingeShape checked_shape_of(const BendingHinge& hinge, const PerParticle3& x) {
+  const auto [i1, i2, i3, i4] = hinge.particles;
+  const HingeShape shape = shape_at(x.col(i1), x.col(i2), x.col(i3), x.col(i4));
+  if (shape.degenerate) throw DegenerateElement("a triangle of a hinge has lost its area", {i1, i2, i3, i4});
   return shape;
 }
 
@@ -92,30 +115,7 @@ const BendingLaw& bending_law(std::string_view name) {
 }
 
 HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4) {
-  const Vector3 E = x4 - x3, to1 = x1 - x4, to2 = x2 - x4;
-  const Vector3 N1 = (x1 - x3).cross(to1), N2 = to2.cross(x2 - x3);
-  const double E_squared = E.squaredNorm(), N1_squared = N1.squaredNorm(), N2_squared = N2.squaredNorm();
-  const double edge = std::sqrt(E_squared), length1 = std::sqrt(N1_squared), length2 = std::sqrt(N2_squared);
-  const double per_edge_squared = 1 / E_squared, per_length1 = 1 / length1, per_length2 = 1 / length2;
-
-  HingeShape shape;
-  shape.u1 = (edge * per_length1 * per_length1) * N1;
-  shape.u2 = (edge * per_length2 * per_length2) * N2;
-  shape.b1 = -to1.dot(E) * per_edge_squared;
-  shape.b2 = -to2.dot(E) * per_edge_squared;
-  shape.edge = edge;
-  shape.area_sum = length1 + length2;
-  const double smallest = smallest_height_squared * E_squared * E_squared;
-  shape.degenerate = !(N1_squared > smallest && N2_squared > smallest);
-
-  // sin(theta) = (n1 x n2).e^ is the height of x2 below the first triangle's plane over its distance from the
-  // edge. Folded less than a right angle, sin(theta/2) = sin(theta)/(2 cos(theta/2)): exactly 0 when flat, no
-  // digit lost beside it. Beyond, the printed sqrt((1 - n1.n2)/2), which is accurate just there.
-  const double cosine = N1.dot(N2) * (per_length1 * per_length2);
-  const double sine = N1.dot(x3 - x2) * (edge * per_length1 * per_length2);
-  shape.sin_half =
-      cosine >= 0 ? sine / std::sqrt(2 + 2 * cosine) : std::copysign(std::sqrt(0.5 - 0.5 * cosine), sine);
-  return shape;
+  return shape_at(x1, x2, x3, x4);
 }
 
 double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4) {
