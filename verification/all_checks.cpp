@@ -5,6 +5,7 @@
 #include "verification/checks/dynamics_checks.h"
 #include "verification/checks/force_checks.h"
 #include "verification/checks/mesh_checks.h"
+#include "verification/checks/projection_checks.h"
 #include "verification/checks/scene_checks.h"
 #include "verification/checks/solver_checks.h"
 
@@ -12,8 +13,9 @@ namespace foldproof {
 
 std::vector<Check> all_checks() {
   std::vector<Check> all;
-  for (const auto& part : {mesh_checks(), force_checks(), bending_checks(), differential_checks(),
-                           solver_checks(), cached_terms_checks(), dynamics_checks(), scene_checks()})
+  for (const auto& part :
+       {mesh_checks(), force_checks(), bending_checks(), differential_checks(), solver_checks(),
+        cached_terms_checks(), dynamics_checks(), scene_checks(), projection_checks()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

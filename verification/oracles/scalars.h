@@ -2,6 +2,7 @@
 
 #include <array>
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <compare>
 #include <concepts>
@@ -15,6 +16,10 @@ namespace foldproof::oracles {
 /// Fifty decimal digits: a formula that loses half of them to cancellation still leaves a correctly rounded
 /// double. This header is the project's only door to Boost.
 using Digits50 = boost::multiprecision::cpp_bin_float_50;
+
+/// Whole numbers of any length. A double is a whole number times a power of two, so that sums and products of doubles
+/// over a common power are exact.
+using Whole = boost::multiprecision::cpp_int;
 
 /// The error of rounding a number near value to double: half a unit in the last place, and the smallest
 /// normal number in its stead at zero.

@@ -1,0 +1,80 @@
+#include "reference/post/fold_projection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace foldproof {
+
+namespace {
+
+/// Where a point has come to.
+struct Place {
+  Vector3 x;   // m
+  double phi;  // there [m]
+  Fate fate;
+};
+
+/// The union of the objects at one time.
+struct Union {
+  std::span<const Object> objects;
+  Span now;
+  long queries = 0;
+
+  Nearest at(const Vector3& p) {
+    ++queries;
+    return nearest_objects(objects, p, now);
+  }
+};
+
+/// Moves p, where the objects say `here`, until phi is f or a little more.
+Place moved(Union& solids, const FoldProjection& projection, Vector3 p, ObjectPoint here, double f) {
+  const double aim = f + projection.tolerance / 2;
+  Place best{p, here.phi, Fate::unfinished};
+  for (int move = 0; move < projection.max_moves; ++move) {
+    p += (aim - here.phi) * here.normal;
+    here = solids.at(p).first;
+    if (f <= here.phi && here.phi <= f + projection.tolerance) return {p, here.phi, Fate::moved};
+    if (std::abs(here.phi - aim) < std::abs(best.phi - aim)) best = {p, here.phi, Fate::unfinished};
+  }
+  return best;
+}
+
+/// What becomes of p, of which the objects say `nearest`.
+Place projected(Union& solids, const FoldProjection& projection, const DepthMap& map, const Vector3& p,
+                const Nearest& nearest) {
+  const double phi = nearest.first.phi, f = map.at(projection.band, phi);
+  if (nearest.pinched() && projection.pinched == PinchedPoints::left_alone) return {p, phi, Fate::pinched};
+  if (!(f > phi)) return {p, phi, Fate::untouched};
+  return moved(solids, projection, p, nearest.first, f);
+}
+
+void check_projection(const FoldProjection& projection) {
+  check_band(projection.band);
+  if (projection.tolerance > 0 && std::isfinite(projection.tolerance) && projection.max_moves > 0) return;
+  throw InputError("a projection needs a tolerance above 0 and a move or more for a point, but has " +
+                   std::to_string(projection.tolerance) + " m and " + std::to_string(projection.max_moves));
+}
+
+}  // namespace
+
+int ProjectedCloth::count(Fate fate) const { return int(std::count(fates.begin(), fates.end(), fate)); }
+
+ProjectedCloth project_folds(std::span<const Object> objects, const PerParticle3& x, double time,
+                             const FoldProjection& projection) {
+  check_projection(projection);
+  const DepthMap& map = depth_map_named(projection.map);
+  Union solids{objects, {time, time, 0}};
+  ProjectedCloth cloth{x, PerParticle(x.cols()), PerParticle(x.cols()), {}};
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    const Nearest nearest = solids.at(x.col(i));
+    const Place place = projected(solids, projection, map, x.col(i), nearest);
+    cloth.before[i] = nearest.first.phi;
+    cloth.x.col(i) = place.x;
+    cloth.after[i] = place.phi;
+    cloth.fates.push_back(place.fate);
+  }
+  cloth.object_queries = solids.queries;
+  return cloth;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,17 @@
+// Checks of the fold-preserving projection. One function a file, and their sum.
+#pragma once
+
+#include <vector>
+
+#include "verification/check.h"
+
+namespace foldproof {
+
+std::vector<Check> depth_map_checks();  // depth_map_checks.cpp
+std::vector<Check>
+projection_exact_checks();  // projection_exact_checks.cpp: triangles against objects, without rounding
+
+/// Maps, moves of points, triangles.
+std::vector<Check> projection_checks();
+
+}  // namespace foldproof

@@ -1,0 +1,37 @@
+// Cloth and objects to try the projection on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/mesh/triangle_mesh.h"
+#include "reference/post/fold_projection.h"
+
+namespace foldproof {
+
+struct ProjectionCase {
+  std::string name;
+  std::vector<Object> objects;
+  double time;     // s
+  PerParticle3 x;  // 3 x N points in and around the objects [m]
+};
+
+/// Every solid in closed form, placed, turned and in motion, each with points around its surface, from 0.13 m inside
+/// to 0.08 m outside.
+std::vector<ProjectionCase> solids_with_points();
+
+/// Two balls apart: with points around both of them.
+ProjectionCase two_balls();
+
+/// Two balls that overlap, with points around the lens that is inside both.
+ProjectionCase overlapping_balls();
+
+/// eps .004, tau .03, t^ .1 [m]; arrived within 1e-12 m.
+FoldProjection projection_by(const std::string& map);
+
+ProjectedCloth projected(const ProjectionCase& specimen, const FoldProjection& projection);
+
+/// Signed distance of each point to the union of the objects [m].
+PerParticle distances(const ProjectionCase& specimen, const PerParticle3& x);
+
+}  // namespace foldproof

@@ -1,0 +1,20 @@
+// The depth maps of the fold-preserving projection as their conditions define them, in 50 digits.
+#pragma once
+
+#include "verification/oracles/estimate.h"
+
+namespace foldproof::oracles {
+
+/// The band of a map [m]: eps, tau and t^.
+struct Band {
+  double nearest, reach, deepest;
+};
+
+/// f(phi) = eps + (tau - eps) u^p with the exponent found from f'(tau) = 1. Right for -t^ <= phi <= tau [m].
+Estimate power_map(const Band& band, double phi);
+
+/// The map whose slope is m from -t^ on and rises from m to 1 over the last w = (tau - eps)/2, m such that f climbs
+/// from eps to tau: found by integrating the slope from -t^. Right for -t^ <= phi <= tau [m].
+Estimate blend_map(const Band& band, double phi);
+
+}  // namespace foldproof::oracles
