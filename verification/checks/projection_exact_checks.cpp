@@ -94,7 +94,7 @@ PerParticle3 brought_out(const Target& target, const Sunk& sunk, const std::stri
   PerParticle3 x = sunk.x;
   for (int k = 0; k < 4; ++k) {
     FoldProjection projection = projection_by(map);
-    projection.band = {eps, 2 * eps + 0.03, 0.1};
+    projection.band = {eps, 2 * eps + 0.03, 0.04};  // the deepest points all go to eps
     x = projected(specimen, projection).x;
     if (!has_room || eps >= target.enough(longest_edge(sunk.mesh, x))) break;
     eps = 1.01 * target.enough(longest_edge(sunk.mesh, x));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -33,8 +34,9 @@ int common_exponent(std::initializer_list<Vector3> points) {
 Whole whole(double value, int exponent) {
   int own;
   const double mantissa = std::frexp(value, &own);
-  if (mantissa == 0) return 0;
-  return Whole(std::int64_t(std::ldexp(mantissa, 53))) << (own - 53 - exponent);
+  Whole result = std::int64_t(std::ldexp(mantissa, 53));
+  if (mantissa != 0) result <<= unsigned(own - 53 - exponent);
+  return result;
 }
 
 Exact exact(const Vector3& p, int exponent) {

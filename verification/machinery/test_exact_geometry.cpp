@@ -1,0 +1,121 @@
+// The exact decisions against separating directions, cubes and dense sampling. Small whole numbers as coordinates, so
+// that planes, edges and corners coincide often.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <limits>
+#include <random>
+
+#include "verification/oracles/exact_geometry.h"
+
+using namespace foldproof;
+using namespace foldproof::oracles;
+
+namespace {
+
+Vector3 normal_of(const Corners3& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
+
+Corners3 small_triangle(std::mt19937& bits) {
+  std::uniform_int_distribution<int> coordinate(-2, 2);
+  Corners3 t;
+  do
+    for (Vector3& corner : t) corner = Vector3(coordinate(bits), coordinate(bits), coordinate(bits));
+  while (normal_of(t).isZero(0));
+  return t;
+}
+
+/// Do the two lie on different sides of a plane across d? Exact for small whole numbers.
+bool parted_along(const Vector3& d, const Corners3& s, const Corners3& t) {
+  const auto [s_least, s_most] = std::minmax({d.dot(s[0]), d.dot(s[1]), d.dot(s[2])});
+  const auto [t_least, t_most] = std::minmax({d.dot(t[0]), d.dot(t[1]), d.dot(t[2])});
+  return s_most < t_least || t_most < s_least;
+}
+
+/// Two triangles are apart if and only if one of these directions parts them.
+bool are_parted(const Corners3& s, const Corners3& t) {
+  const Vector3 m = normal_of(s), n = normal_of(t);
+  bool parted = parted_along(m, s, t) || parted_along(n, s, t);
+  for (size_t i = 0; i < 3; ++i) {
+    const Vector3 edge = s[(i + 1) % 3] - s[i], other = t[(i + 1) % 3] - t[i];
+    parted |= parted_along(m.cross(edge), s, t) || parted_along(n.cross(other), s, t);
+    for (size_t j = 0; j < 3; ++j) parted |= parted_along(edge.cross(t[(j + 1) % 3] - t[j]), s, t);
+  }
+  return parted;
+}
+
+TriangleSoup cube(double side) {
+  TriangleSoup soup{PerParticle3(3, 8),
+                    {{0, 2, 3},
+                     {0, 3, 1},
+                     {4, 5, 7},
+                     {4, 7, 6},
+                     {0, 1, 5},
+                     {0, 5, 4},
+                     {2, 6, 7},
+                     {2, 7, 3},
+                     {0, 4, 6},
+                     {0, 6, 2},
+                     {1, 3, 7},
+                     {1, 7, 5}}};
+  for (int k = 0; k < 8; ++k) soup.x.col(k) = side * Vector3(k & 1, k >> 1 & 1, k >> 2 & 1);
+  return soup;
+}
+
+}  // namespace
+
+TEST_CASE("triangles meet just where no direction parts them") {
+  std::mt19937 bits(19);
+  int meetings = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const Corners3 s = small_triangle(bits), t = small_triangle(bits);
+    const bool meet = triangles_meet(s, t);
+    meetings += meet;
+    REQUIRE(meet == !are_parted(s, t));
+    REQUIRE(meet == triangles_meet(t, s));
+  }
+  CHECK(meetings > 5000);
+}
+
+TEST_CASE("a last bit decides on which side of a plane a point is") {
+  const Vector3 a(0.1, 0.2, 0.3), b(1.1, 0.2, 0.3), c(0.1, 1.2, 0.3);
+  const double above = std::nextafter(0.3, 1);
+  CHECK(orientation(a, b, c, {0.7, 0.4, above}) == 1);
+  CHECK(orientation(a, b, c, {0.7, 0.4, 0.3}) == 0);
+  CHECK(orientation(a, c, b, {0.7, 0.4, above}) == -1);
+  const Vector3 far(0, 0, std::numeric_limits<double>::denorm_min());
+  CHECK(orientation({0, 0, 0}, {1e-200, 0, 0}, {0, 1e-200, 0}, far) ==
+        1);  // the product underflows in double
+}
+
+TEST_CASE("points are inside a cube, on it or outside") {
+  const double side = 0.3;
+  const TriangleSoup surface = cube(side);
+  std::mt19937 bits(23);
+  std::uniform_int_distribution<int> coordinate(-1, 3);
+  for (int k = 0; k < 2000; ++k) {
+    const Vector3 p = side / 2 * Vector3(coordinate(bits), coordinate(bits), coordinate(bits));
+    const bool outside = (p.array() < 0).any() || (p.array() > side).any();
+    const bool inside = (p.array() > 0).all() && (p.array() < side).all();
+    const Side expected = outside ? Side::outside : inside ? Side::inside : Side::on_surface;
+    REQUIRE(side_of(surface, p) == expected);
+  }
+}
+
+TEST_CASE("a triangle is clear of a ball just where its nearest point is") {
+  const Corners3 face = {Vector3(-1, -1, 0.5), Vector3(2, -1, 0.5), Vector3(-1, 2, 0.5)};
+  CHECK(clears_ball(face, Vector3::Zero(), std::nextafter(0.5, 0)));
+  CHECK_FALSE(clears_ball(face, Vector3::Zero(), 0.5));
+  const Corners3 edge = {Vector3(-1, 0.25, 0), Vector3(1, 0.25, 0), Vector3(0.3, 2, 1)};
+  CHECK(clears_ball(edge, Vector3::Zero(), std::nextafter(0.25, 0)));
+  CHECK_FALSE(clears_ball(edge, Vector3::Zero(), 0.25));
+  const Corners3 corner = {Vector3(3, 4, 0), Vector3(5, 4, 0), Vector3(3, 9, 1)};
+  CHECK(clears_ball(corner, Vector3::Zero(), std::nextafter(5, 0)));
+  CHECK_FALSE(clears_ball(corner, Vector3::Zero(), 5));
+}
+
+TEST_CASE("triangles within a body are found, though they meet no triangle of it") {
+  TriangleSoup cloth{PerParticle3(3, 9), {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}};
+  cloth.x.leftCols(3) << 0.1, 0.2, 0.1, 0.1, 0.1, 0.2, 0.15, 0.15, 0.15;       // inside
+  cloth.x.middleCols(3, 3) << 0.1, 0.2, 0.1, 0.1, 0.1, 0.2, 0.35, 0.36, 0.37;  // outside
+  cloth.x.rightCols(3) << 0.1, 0.2, 0.1, 0.1, 0.1, 0.2, 0.25, 0.3, 0.36;       // through the top
+  CHECK(triangles_in_body(cloth, cube(0.3)) == std::vector<int>{0, 2});
+}
