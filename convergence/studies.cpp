@@ -24,7 +24,9 @@ std::vector<Study> all_studies() {
           buckling(),
           mirror_symmetry(),
           artificial_damping(),
-          monotonicity()};
+          monotonicity(),
+          wrinkles_kept(),
+          eps_needed()};
 }
 
 }  // namespace foldproof

@@ -29,6 +29,8 @@ Study solve_tolerance();     // solve-tolerance: how loose a solve may be before
 Study mesh_error();          // mesh-error: error of the mesh beside that of the step
 Study artificial_damping();  // artificial-damping: what methods take from vibrations that nothing damps
 Study monotonicity();        // monotonicity: coming to rest in steps longer than the damping's time
+Study wrinkles_kept();       // wrinkles-kept: what each map of depth leaves of wrinkles inside an object
+Study eps_needed();          // eps-needed: how far out the deepest points must go
 
 /// All of them, in the order in which they are reported.
 std::vector<Study> all_studies();

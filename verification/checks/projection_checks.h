@@ -11,6 +11,8 @@ std::vector<Check> depth_map_checks();  // depth_map_checks.cpp
 std::vector<Check>
 projection_exact_checks();  // projection_exact_checks.cpp: triangles against objects, without rounding
 
+std::vector<Check> projection_cloth_checks();  // projection_cloth_checks.cpp: pinched and subdivided cloth
+
 /// Maps, moves of points, triangles.
 std::vector<Check> projection_checks();
 
