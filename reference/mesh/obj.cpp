@@ -182,9 +182,8 @@ void refuse_missing_vertices(const Contents& contents) {
   }
 }
 
-}  // namespace
-
-TriangleMesh read_obj(const std::string& path) {
+/// All records of a file, and no more.
+TriangleSoup soup_of(const std::string& path) {
   const std::string text = read_text(path);
   if (text.empty()) refuse(path, 1, "the file is empty; give v and f records");
   Contents contents;
@@ -203,7 +202,23 @@ TriangleMesh read_obj(const std::string& path) {
 
   PerParticle3 rest(3, contents.vertices.size());
   for (size_t v = 0; v < contents.vertices.size(); ++v) rest.col(v) = contents.vertices[v];
-  return make_triangle_mesh(std::move(rest), std::move(contents.triangles), contents.origin);
+  return {std::move(rest), std::move(contents.triangles), std::move(contents.origin)};
+}
+
+}  // namespace
+
+TriangleMesh read_obj(const std::string& path) {
+  TriangleSoup soup = soup_of(path);
+  return make_triangle_mesh(std::move(soup.rest), std::move(soup.triangles), soup.origin);
+}
+
+TriangleSoup read_obj_soup(const std::string& path) {
+  TriangleSoup soup = soup_of(path);
+  for (Eigen::Index v = 0; v < soup.rest.cols(); ++v) {
+    if (!soup.rest.col(v).allFinite())
+      refuse(path, soup.origin.vertex_lines[v], "a coordinate is not finite; give numbers in m");
+  }
+  return soup;
 }
 
 void write_obj(const std::string& path, const PerParticle3& positions,

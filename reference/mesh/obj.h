@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reference/mesh/triangle_mesh.h"
+#include "reference/mesh/triangle_soup.h"
 
 namespace foldproof {
 
@@ -17,6 +18,10 @@ namespace foldproof {
 /// malformed number or index, a face with fewer than three vertices, an index that is 0 or out of range, and
 /// all that make_triangle_mesh refuses.
 TriangleMesh read_obj(const std::string& path);
+
+/// The same file, its triangles as they come: nothing of what make_triangle_mesh refuses is looked at but
+/// coordinates that are not finite.
+TriangleSoup read_obj_soup(const std::string& path);
 
 /// Writes positions (3 x N [m]) and triangles. With 17 significant digits read_obj gets every bit back.
 /// Throws InputError: a file that cannot be written, a triangle with an index outside 0 .. N - 1.

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "reference/mesh/mesh_places.h"
+
 namespace foldproof {
 namespace {
 
@@ -29,36 +31,6 @@ struct SideLists {
 int tail(const std::vector<Triangle>& triangles, int half) { return triangles[half / 3][half % 3]; }
 int tip(const std::vector<Triangle>& triangles, int half) { return triangles[half / 3][(half + 1) % 3]; }
 int opposite(const std::vector<Triangle>& triangles, int half) { return triangles[half / 3][(half + 2) % 3]; }
-
-// --- where a refusal points to: FILE:LINE for a mesh that was read, counted from 0 for a mesh made by code
-// ---
-
-std::string at_triangle(const MeshOrigin& origin, int t) {
-  if (origin.file.empty()) return "mesh: triangle " + std::to_string(t) + ": ";
-  return origin.file + ":" + std::to_string(origin.triangle_lines[t]) + ": ";
-}
-
-std::string at_vertex(const MeshOrigin& origin, int v) {
-  if (origin.file.empty()) return "mesh: vertex " + std::to_string(v) + ": ";
-  return origin.file + ":" + std::to_string(origin.vertex_lines[v]) + ": ";
-}
-
-std::string at_mesh(const MeshOrigin& origin) { return (origin.file.empty() ? "mesh" : origin.file) + ": "; }
-
-/// A vertex inside a sentence; files count from 1, as OBJ does.
-std::string vertex_name(const MeshOrigin& origin, int v) {
-  if (origin.file.empty()) return "vertex " + std::to_string(v);
-  return "vertex " + std::to_string(v + 1) + " (line " + std::to_string(origin.vertex_lines[v]) + ")";
-}
-
-std::string triangle_name(const MeshOrigin& origin, int t) {
-  if (origin.file.empty()) return "triangle " + std::to_string(t);
-  return "the face of line " + std::to_string(origin.triangle_lines[t]);
-}
-
-std::string edge_name(const MeshOrigin& origin, int a, int b) {
-  return "the edge between " + vertex_name(origin, a) + " and " + vertex_name(origin, b);
-}
 
 // --- refusals that need no edges ---
 

@@ -1,0 +1,119 @@
+#include "reference/level_set/repair.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "reference/level_set/winding.h"
+#include "reference/mesh/mesh_places.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double far = 2;  // radii from which a patch of triangles counts as one
+
+double area_of(const PerParticle3& x, const Triangle& t) {
+  return 0.5 * (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0])).norm();
+}
+
+/// The limit is that of make_triangle_mesh: below it the normal is rounding.
+bool has_area(const PerParticle3& x, const Triangle& t) {
+  double longest = 0;
+  for (int k = 0; k < 3; ++k)
+    longest = std::max(longest, (x.col(t[(k + 1) % 3]) - x.col(t[k])).squaredNorm());
+  return area_of(x, t) > 1e-12 * longest;
+}
+
+/// A neighbour across an edge, and whether the two run along the edge the same way.
+struct Neighbour {
+  int triangle;
+  bool opposed;
+};
+
+std::vector<std::vector<Neighbour>> neighbours_of(const std::vector<Triangle>& triangles) {
+  struct Side {
+    int triangle;
+    bool rising;  // from the smaller number to the larger
+  };
+  std::map<std::pair<int, int>, std::vector<Side>> sides;
+  for (int t = 0; t < int(triangles.size()); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+      sides[std::minmax(a, b)].push_back({t, a < b});
+    }
+  }
+  std::vector<std::vector<Neighbour>> neighbours(triangles.size());
+  for (const auto& [edge, both] : sides) {
+    if (both.size() != 2) continue;
+    const bool opposed = both[0].rising == both[1].rising;
+    neighbours[both[0].triangle].push_back({both[1].triangle, opposed});
+    neighbours[both[1].triangle].push_back({both[0].triangle, opposed});
+  }
+  return neighbours;
+}
+
+/// Walks over the patch of `first`: whether each of its triangles is turned against the first (1) or not (0).
+std::vector<int> walk(int first, const std::vector<std::vector<Neighbour>>& neighbours,
+                      std::vector<int>& turned) {
+  std::vector<int> patch{first};
+  turned[first] = 0;
+  for (size_t i = 0; i < patch.size(); ++i) {
+    for (const Neighbour& next : neighbours[patch[i]]) {
+      if (turned[next.triangle] >= 0) continue;
+      turned[next.triangle] = next.opposed ? 1 - turned[patch[i]] : turned[patch[i]];
+      patch.push_back(next.triangle);
+    }
+  }
+  return patch;
+}
+
+/// Winding number minus a half, the other way round: negative inside.
+std::vector<float> sides_of(const MeshDistance& mesh, const Lattice& lattice) {
+  const std::vector<Dipole> dipoles = make_dipoles(mesh);
+  std::vector<float> side(lattice.size());
+  for (long index = 0; index < lattice.size(); ++index)
+    side[index] = float(0.5 - winding_number(mesh, dipoles, lattice.position(lattice.node(index)), far));
+  return side;
+}
+
+}  // namespace
+
+std::vector<Triangle> oriented(const TriangleSoup& soup) {
+  std::vector<Triangle> triangles;
+  std::copy_if(soup.triangles.begin(), soup.triangles.end(), std::back_inserter(triangles),
+               [&](const Triangle& t) { return has_area(soup.rest, t); });
+  const std::vector<std::vector<Neighbour>> neighbours = neighbours_of(triangles);
+  std::vector<int> turned(triangles.size(), -1);
+  for (int first = 0; first < int(triangles.size()); ++first) {
+    if (turned[first] >= 0) continue;
+    const std::vector<int> patch = walk(first, neighbours, turned);
+    double area[2] = {0, 0};
+    for (const int t : patch) area[turned[t]] += area_of(soup.rest, triangles[t]);
+    const int minority = area[1] > area[0] ? 0 : 1;
+    for (const int t : patch)
+      if (turned[t] == minority) std::swap(triangles[t][1], triangles[t][2]);
+  }
+  return triangles;
+}
+
+std::shared_ptr<const Grid> make_repaired_grid(const TriangleSoup& soup, const GridMethod& method) {
+  const MeshDistance mesh = make_mesh_distance(soup.rest, oriented(soup));
+  const Lattice lattice = lattice_about(mesh.tree.nodes[0].bounds, method.cells, method.margin);
+  Seeds seeds = seeds_from_sides(lattice, sides_of(mesh, lattice));
+  if (seeds.nodes.empty())
+    throw InputError(at_mesh(soup.origin) + "repair finds no inside: the winding number of its " +
+                     std::to_string(soup.triangles.size()) +
+                     " triangles is below 1/2 at every node; turn them outward, or give a finer grid");
+  for (size_t i = 0; i < seeds.nodes.size(); ++i) {
+    const Vector3 p = lattice.position(lattice.node(seeds.nodes[i]));
+    const NearestFeature nearest = nearest_feature(mesh, p, lattice.spacing);
+    if (nearest.triangle >= 0)
+      seeds.phi[i] = std::copysign(std::sqrt(nearest.squared_distance), seeds.phi[i]);
+  }
+  return std::make_shared<const Grid>(march(lattice, seeds, method.order));
+}
+
+}  // namespace foldproof

@@ -1,0 +1,40 @@
+#include "reference/mesh/mesh_places.h"
+
+#include <sstream>
+
+namespace foldproof {
+
+std::string at_triangle(const MeshOrigin& origin, int t) {
+  if (origin.file.empty()) return "mesh: triangle " + std::to_string(t) + ": ";
+  return origin.file + ":" + std::to_string(origin.triangle_lines[t]) + ": ";
+}
+
+std::string at_vertex(const MeshOrigin& origin, int v) {
+  if (origin.file.empty()) return "mesh: vertex " + std::to_string(v) + ": ";
+  return origin.file + ":" + std::to_string(origin.vertex_lines[v]) + ": ";
+}
+
+std::string at_mesh(const MeshOrigin& origin) { return (origin.file.empty() ? "mesh" : origin.file) + ": "; }
+
+std::string vertex_name(const MeshOrigin& origin, int v) {
+  if (origin.file.empty()) return "vertex " + std::to_string(v);
+  return "vertex " + std::to_string(v + 1) + " (line " + std::to_string(origin.vertex_lines[v]) + ")";
+}
+
+std::string triangle_name(const MeshOrigin& origin, int t) {
+  if (origin.file.empty()) return "triangle " + std::to_string(t);
+  return "the face of line " + std::to_string(origin.triangle_lines[t]);
+}
+
+std::string edge_name(const MeshOrigin& origin, int a, int b) {
+  return "the edge between " + vertex_name(origin, a) + " and " + vertex_name(origin, b);
+}
+
+std::string position_name(const Vector3& x) {
+  std::ostringstream text;
+  text.precision(4);
+  text << "(" << x.x() << ", " << x.y() << ", " << x.z() << ")";
+  return text.str();
+}
+
+}  // namespace foldproof

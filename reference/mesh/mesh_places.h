@@ -1,0 +1,23 @@
+// How refusals name the parts of a mesh: FILE:LINE for one that was read, counted from 0 for one made by code.
+#pragma once
+
+#include <string>
+
+#include "reference/mesh/triangle_mesh.h"
+
+namespace foldproof {
+
+// To begin a message: "body.obj:17: ", or "mesh: triangle 4: ", "mesh: vertex 3: ", "mesh: ".
+std::string at_triangle(const MeshOrigin& origin, int t);
+std::string at_vertex(const MeshOrigin& origin, int v);
+std::string at_mesh(const MeshOrigin& origin);
+
+// Inside a sentence: "vertex 4 (line 4)", "the face of line 17"; files count vertices from 1, as OBJ does.
+std::string vertex_name(const MeshOrigin& origin, int v);
+std::string triangle_name(const MeshOrigin& origin, int t);
+std::string edge_name(const MeshOrigin& origin, int a, int b);
+
+/// "(x, y, z)" in four digits [m].
+std::string position_name(const Vector3& x);
+
+}  // namespace foldproof
