@@ -4,6 +4,7 @@
 #include "verification/checks/differential_checks.h"
 #include "verification/checks/dynamics_checks.h"
 #include "verification/checks/force_checks.h"
+#include "verification/checks/level_set_checks.h"
 #include "verification/checks/mesh_checks.h"
 #include "verification/checks/projection_checks.h"
 #include "verification/checks/scene_checks.h"
@@ -15,7 +16,8 @@ std::vector<Check> all_checks() {
   std::vector<Check> all;
   for (const auto& part :
        {mesh_checks(), force_checks(), bending_checks(), differential_checks(), solver_checks(),
-        cached_terms_checks(), dynamics_checks(), scene_checks(), projection_checks()})
+        cached_terms_checks(), dynamics_checks(), scene_checks(), level_set_checks(),
+        projection_checks()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

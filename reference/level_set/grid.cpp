@@ -8,6 +8,8 @@ namespace foldproof {
 
 namespace {
 
+constexpr int rounds = 6;  // of the search for what is nearest to a point beyond the lattice
+
 /// The cell that holds a point, and where in it the point is.
 struct Place {
   Node cell;       // its lowest node
@@ -46,6 +48,16 @@ Vector3 nodal_gradient(const Grid& grid, const Node& node, const std::array<long
     gradient[axis] = (phi[ahead] - phi[-behind]) / (steps * grid.lattice.spacing);
   }
   return gradient;
+}
+
+/// The part of the way that leads to p which lies outside of the bounds; it begins inside.
+double share_outside(const Bounds& bounds, const Vector3& p, const Vector3& way) {
+  double share = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double beyond = std::max(p[axis] - bounds.max()[axis], bounds.min()[axis] - p[axis]);
+    if (beyond > 0) share = std::max(share, beyond / std::abs(way[axis]));
+  }
+  return std::min(share, 1.0);
 }
 
 Distance blended(const Grid& grid, const Vector3& p) {
@@ -94,14 +106,19 @@ Lattice lattice_about(const Bounds& bounds, int cells, int margin) {
   return lattice;
 }
 
+// Beyond the lattice: q on its border names the surface point s = q - phi N. Where the way from s to p leaves the
+// lattice is a better q: |p - s| never grows, and stands still where s is a nearest point of p.
 Distance Grid::at(const Vector3& p) const {
   const Bounds bounds = lattice.bounds();
   if (bounds.contains(p)) return blended(*this, p);
-  const Vector3 edge = p.cwiseMax(bounds.min()).cwiseMin(bounds.max());
-  const Distance there = blended(*this, edge);
-  const Vector3 away = p - (edge - there.phi * there.normal);
-  const double distance = away.norm();
-  return {distance, away / distance};
+  Vector3 q = p.cwiseMax(bounds.min()).cwiseMin(bounds.max()), way;
+  for (int round = 0; round < rounds; ++round) {
+    const Distance there = blended(*this, q);
+    way = p - (q - there.phi * there.normal);
+    q = p - share_outside(bounds, p, way) * way;
+  }
+  const double distance = way.norm();
+  return {distance, way / distance};
 }
 
 Distance Grid::in_cell(const Vector3& p) const {

@@ -1,0 +1,19 @@
+// Checks of level sets: of triangle meshes, on grids. One function a file, and their sum.
+#pragma once
+
+#include <vector>
+
+#include "verification/check.h"
+
+namespace foldproof {
+
+std::vector<Check> mesh_distance_checks();  // mesh_distance_checks.cpp
+std::vector<Check> grid_checks();           // grid_checks.cpp
+std::vector<Check> marching_checks();       // marching_checks.cpp
+std::vector<Check> closed_mesh_checks();    // closed_mesh_checks.cpp
+std::vector<Check> repair_checks();         // repair_checks.cpp: ray parity, winding numbers, repair
+
+/// All of them.
+std::vector<Check> level_set_checks();
+
+}  // namespace foldproof
