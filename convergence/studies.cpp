@@ -25,6 +25,7 @@ std::vector<Study> all_studies() {
           mirror_symmetry(),
           artificial_damping(),
           monotonicity(),
+          level_set_resolution(),
           wrinkles_kept(),
           eps_needed()};
 }

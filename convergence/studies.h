@@ -29,6 +29,7 @@ Study solve_tolerance();     // solve-tolerance: how loose a solve may be before
 Study mesh_error();          // mesh-error: error of the mesh beside that of the step
 Study artificial_damping();  // artificial-damping: what methods take from vibrations that nothing damps
 Study monotonicity();        // monotonicity: coming to rest in steps longer than the damping's time
+Study level_set_resolution();  // level-set-resolution: distance and normals of grids against their spacing
 Study wrinkles_kept();       // wrinkles-kept: what each map of depth leaves of wrinkles inside an object
 Study eps_needed();          // eps-needed: how far out the deepest points must go
 

@@ -168,13 +168,13 @@ Six touching(Random& random) {
   return x;
 }
 
-/// The same, the second a hair away: one unit along an axis in place of exact contact.
-Six apart(Random& random) {
+/// The same, the second moved away by `gap` along an axis. The smallest gap that these numbers have room for is 2^-41.
+Six apart(Random& random, double gap) {
   Six x = touching(random);
   const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
   Eigen::Index axis;
   normal.cwiseAbs().maxCoeff(&axis);
-  for (int k = 3; k < 6; ++k) x[k][axis] += std::copysign(1, normal[axis]);
+  for (int k = 3; k < 6; ++k) x[k][axis] += std::copysign(gap, normal[axis]);
   return x;
 }
 
@@ -195,7 +195,8 @@ struct Family {
 std::vector<Family> families() {
   return {{"common point", crossing, true},
           {"vertex on face", touching, true},
-          {"vertex just off face", apart, false},
+          {"vertex off face", [](Random& random) { return apart(random, 1); }, false},
+          {"vertex a hair off face", [](Random& random) { return apart(random, 0x1p-41); }, false},
           {"in one plane, one in the other", [](Random& random) { return in_plane(random, true); }, true},
           {"in one plane, side by side", [](Random& random) { return in_plane(random, false); }, false}};
 }
