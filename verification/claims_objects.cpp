@@ -7,6 +7,36 @@ namespace foldproof {
 
 namespace {
 
+std::vector<Claim> what_marching_gives() {
+  return {{"C1",
+           "5.1",
+           "Fast marching from small positive values outside and small negative ones inside gives a signed "
+           "distance.",
+           {{"level-set-resolution.crude-start.distance", Role::supports},
+            {"level-set-resolution.crude-start.contour", Role::supports},
+            {"level-set.marching-solves-its-equation", Role::supports},
+            {"level-set.marching-keeps-sides", Role::supports},
+            {"level-set-resolution.crude-start.normals-stay-wrong", Role::limits}},
+           Standing::conditional,
+           "Only to a part of a cell: the surface is off by up to "
+           "{level-set-resolution.crude-start.contour}, and normals "
+           "next to it by {level-set-resolution.crude-start.normals-stay-wrong|error|last} in the mean, on "
+           "whatever grid. "
+           "Exact values next to the surface cure both.",
+           "Marching itself solves its equation to {level-set.marching-solves-its-equation}. From such a "
+           "start the mean error "
+           "about a ball falls from {level-set-resolution.crude-start.distance|error|first} to "
+           "{level-set-resolution.crude-start.distance|error|last} as the spacing is quartered, while the "
+           "mean angle between "
+           "the grid's normals and the ball's stays at "
+           "{level-set-resolution.crude-start.normals-stay-wrong|error|smallest} to "
+           "{level-set-resolution.crude-start.normals-stay-wrong|error|largest}. With exact values next to "
+           "the surface the "
+           "largest angle falls to {level-set-resolution.exact-start.normals|error|last}, and second-order "
+           "marching errs by "
+           "{level-set-resolution.second-order.ball|error|last} in the mean."}};
+}
+
 std::vector<Claim> what_projection_keeps() {
   return {
       {"C11",
@@ -89,7 +119,8 @@ std::vector<Claim> where_projection_applies() {
 
 /// In the order of their ids; each part of the section has a function of its own.
 std::vector<Claim> object_claims() {
-  std::vector<Claim> claims = what_projection_keeps();
+  std::vector<Claim> claims = what_marching_gives();
+  for (Claim& claim : what_projection_keeps()) claims.push_back(std::move(claim));
   for (Claim& claim : where_projection_applies()) claims.push_back(std::move(claim));
   return claims;
 }
