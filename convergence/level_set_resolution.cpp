@@ -37,13 +37,19 @@ std::vector<Column> columns_of(const Convergence& convergence, const std::string
   return {{"h", "m", convergence.steps}, {"error", unit, convergence.errors}, {"order", "1", orders}};
 }
 
-NamedFinding order_finding(const std::string& name, const std::string& claim, const Convergence& convergence,
-                           double expected, const std::string& why) {
-  const Estimate deviation = order_deviation(convergence, expected, 1);
-  return {"level-set-resolution." + name,
-          claim,
-          {{deviation.value, 0.2, deviation.uncertainty, "1", why},
-           columns_of(convergence, "m"),
+/// An order that is expected, and why.
+struct ExpectedOrder {
+  std::string name, claim, unit;  // unit: of the errors
+  double order;
+  std::string why;
+};
+
+NamedFinding order_finding(const ExpectedOrder& expected, const Convergence& convergence) {
+  const Estimate deviation = order_deviation(convergence, expected.order, 1);
+  return {"level-set-resolution." + expected.name,
+          expected.claim,
+          {{deviation.value, 0.2, deviation.uncertainty, "1", expected.why},
+           columns_of(convergence, expected.unit),
            "measured is how far the order between the two finest grids is from the one expected"}};
 }
 
@@ -72,10 +78,10 @@ NamedFinding unit_gradient(const KnownBody& body, const std::vector<NodeErrors>&
 }
 
 NamedFinding first_order(const KnownBody& body, const std::vector<NodeErrors>& levels) {
-  return order_finding("first-order." + body.name,
-                       "First-order marching errs by O(h) about a " + body.name + ", in the mean.",
-                       against_h(levels, &NodeErrors::mean), 1,
-                       "one-cell upwind differences; log h enters where characteristics spread");
+  return order_finding({"first-order." + body.name,
+                        "First-order marching errs by O(h) about a " + body.name + ", in the mean.", "m", 1,
+                        "one-cell upwind differences; log h enters where characteristics spread"},
+                       against_h(levels, &NodeErrors::mean));
 }
 
 void add_marching(const KnownBody& body, const std::vector<int>& cells, StudyResult& result) {
@@ -83,11 +89,12 @@ void add_marching(const KnownBody& body, const std::vector<int>& cells, StudyRes
   const auto second = march_all(body, cells, Start::layer, MarchingOrder::second);
   const auto banded = march_all(body, cells, Start::band, MarchingOrder::second);
   result.findings.push_back(order_finding(
-      "second-order." + body.name,
-      "Second-order marching errs by O(h^2) about a " + body.name + ", in the mean away from its kinks.",
-      against_h(second, &NodeErrors::mean_away), 2,
-      "two-cell upwind differences; only next to kinks, and where a difference changes sign, is one cell "
-      "upwind"));
+      {"second-order." + body.name,
+       "Second-order marching errs by O(h^2) about a " + body.name + ", in the mean away from its kinks.",
+       "m", 2,
+       "two-cell upwind differences; only next to kinks, and where a difference changes sign, is one cell "
+       "upwind"},
+      against_h(second, &NodeErrors::mean_away)));
   if (body.name == "ball")
     result.findings.push_back(first_order(body, first));  // the torus's needs finer grids
   result.findings.push_back(unit_gradient(body, second));
@@ -130,11 +137,13 @@ void add_interpolation(const std::vector<int>& cells, StudyResult& result) {
          "along each axis h^2/8 times the second derivative; the three add up to 2/|p|"},
         columns_of(value, "m"),
         "measured is the largest error over h^2/(4 |p|) of the innermost cells touched"}});
-  result.findings.push_back(order_finding("cell-gradient", "The gradient of the cell errs by O(h).", cell, 1,
-                                          "it is right in the cell's middle and constant along each axis"));
+  result.findings.push_back(order_finding({"cell-gradient", "The gradient of the cell errs by O(h).", "1", 1,
+                                           "it is right in the cell's middle and constant along each axis"},
+                                          cell));
   result.findings.push_back(
-      order_finding("nodal-gradient", "The blend of the nodes' central differences errs by O(h^2).", nodal, 2,
-                    "central differences and their blend are both exact for quadratics"));
+      order_finding({"nodal-gradient", "The blend of the nodes' central differences errs by O(h^2).", "1", 2,
+                     "central differences and their blend are both exact for quadratics"},
+                    nodal));
   Figure figure =
       empty_figure("interpolation", "Error between exact nodes, within a tenth of a metre of a ball",
                    {"largest error", "m, or 1 for directions", Scale::log}, "Random points.");
@@ -169,10 +178,10 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
     exact.push_back(contour_errors(body, marched(body, n, Start::band, MarchingOrder::second)));
   }
   result.findings.push_back(
-      order_finding("crude-start.distance",
-                    "From small positive and small negative values marching gives the distance, to O(h).",
-                    against_h(nodes, &NodeErrors::mean), 1,
-                    "the surface is known to a part of a cell, which marching carries everywhere"));
+      order_finding({"crude-start.distance",
+                     "From small positive and small negative values marching gives the distance, to O(h).",
+                     "m", 1, "the surface is known to a part of a cell, which marching carries everywhere"},
+                    against_h(nodes, &NodeErrors::mean)));
   const Convergence offset = against_h(crude, &ContourErrors::worst_offset);
   Worst farthest;
   for (const double cells_off : offset.errors) farthest.see(cells_off);
