@@ -27,7 +27,8 @@ std::vector<Study> all_studies() {
           monotonicity(),
           level_set_resolution(),
           wrinkles_kept(),
-          eps_needed()};
+          eps_needed(),
+          forecast_time_study()};
 }
 
 }  // namespace foldproof

@@ -32,6 +32,7 @@ Study monotonicity();        // monotonicity: coming to rest in steps longer tha
 Study level_set_resolution();  // level-set-resolution: distance and normals of grids against their spacing
 Study wrinkles_kept();       // wrinkles-kept: what each map of depth leaves of wrinkles inside an object
 Study eps_needed();          // eps-needed: how far out the deepest points must go
+Study forecast_time_study();  // forecast-time: where a point is after its forecast, and what tau does
 
 /// All of them, in the order in which they are reported.
 std::vector<Study> all_studies();

@@ -33,6 +33,7 @@ struct Work {
   long solves = 0;                  // linear systems solved for a velocity
   long cg_iterations = 0;           // over all solves
   long object_queries = 0;          // points that were asked where they are to the collision objects
+  long object_contacts = 0;         // of those that were to be moved, how many had their velocity corrected
   long unfinished_solves = 0;       // solves, linear or not, that stopped before they kept their promise
   double worst_residual = 0;        // largest relative residual returned by a solve [1]
 };

@@ -43,16 +43,17 @@ class Camera:
         return np.stack([across, down], axis=1), x @ self.toward
 
 
-def choose_camera(frames: list[np.ndarray], triangles: np.ndarray) -> Camera:
-    """A camera that holds all frames (each N x 3 [m]), a little to the side of where most of the cloth faces
-    the viewer."""
+def choose_camera(frames: list[np.ndarray], triangles: np.ndarray, landmarks: np.ndarray | None = None) -> Camera:
+    """A camera that holds all frames (each N x 3 [m]) and landmarks (M x 3 [m]), a little to the side of where
+    most of the cloth faces the viewer."""
     frames = _frames_that_set_the_scale(frames)
     normals = np.concatenate([area_normals(x, triangles[:: max(1, len(triangles) // 4000)]) for x in frames])
     normals = normals[np.isfinite(normals).all(axis=1)]
     elevation = _elevation(normals)
     azimuth = _azimuth(normals, elevation)
     right, up, toward = _axes(azimuth, elevation)
-    return _fit(np.concatenate(frames), right, up, toward)
+    points = frames if landmarks is None else [*frames, landmarks]
+    return _fit(np.concatenate(points), right, up, toward)
 
 
 def area_normals(x: np.ndarray, triangles: np.ndarray) -> np.ndarray:

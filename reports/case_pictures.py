@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from camera import Camera, choose_camera
-from cloth_picture import picture_of, png_bytes
+from cloth_picture import Scenery, picture_of, png_bytes
 from plot_style import INK, finish, new_figure
 from quantities import number_text
 from results import Case
@@ -17,6 +17,7 @@ from results import Case
 USUAL, WIDE = 5, 6                  # pictures in a row; wide ones are set in two lines of three
 WIDE_ASPECT = 1.9                   # width over height
 PICTURE_WIDTH = 2.2                 # of one picture in the strip [inch]
+NEAR = 0.35                         # of the cloth's size: parts of objects this near to it are in the picture
 TEXT_HEIGHT = 0.34                  # below each picture of the strip [inch]
 
 
@@ -47,7 +48,8 @@ def make_pictures(case: Case, name: str, folder: Path) -> PictureRow | None:
     if not len(case.frame_times) or not len(case.triangles):
         return None
     chosen, frames, camera = _frames_and_camera(case)
-    drawn = [picture_of(x, case.triangles, case.held, camera) for x in frames]
+    drawn = [picture_of(x, case.triangles, case.held, camera, scenery_of(case, frame))
+             for x, frame in zip(frames, chosen)]
     times = [float(case.frame_times[frame]) for frame in chosen]
     bar = nice_length(0.3 * camera.metres[0])
     _write_strip(drawn, times, bar, camera, f"{name}-pictures", folder)
@@ -58,6 +60,15 @@ def make_pictures(case: Case, name: str, folder: Path) -> PictureRow | None:
                       size=camera.pixels, columns=3 if len(drawn) == WIDE else USUAL, bar_metres=bar,
                       bar_fraction=bar / camera.metres[0], held=int(case.held.sum()),
                       portrait=_uri(portrait), portrait_size=(portrait.shape[1], portrait.shape[0]))
+
+
+def scenery_of(case: Case, frame: int) -> Scenery | None:
+    """All objects of a case in one frame; None if it has none."""
+    if not case.objects:
+        return None
+    starts = np.cumsum([0] + [len(part.vertices) for part in case.objects])
+    return Scenery(np.concatenate([part.positions(frame) for part in case.objects]),
+                   np.concatenate([part.triangles + start for part, start in zip(case.objects, starts)]))
 
 
 def evenly_spaced(times: np.ndarray, count: int) -> list[int]:
@@ -83,12 +94,25 @@ def length_text(metres: float) -> str:
 def _frames_and_camera(case: Case) -> tuple[list[int], list[np.ndarray], Camera]:
     chosen = evenly_spaced(case.frame_times, USUAL)
     frames = [case.positions(frame) for frame in chosen]
-    camera = choose_camera(frames, case.triangles)
+    camera = choose_camera(frames, case.triangles, _landmarks(case, chosen))
     if camera.metres[0] < WIDE_ASPECT * camera.metres[1] or len(case.frame_times) < WIDE:
         return chosen, frames, camera
     chosen = evenly_spaced(case.frame_times, WIDE)
     frames = [case.positions(frame) for frame in chosen]
-    return chosen, frames, choose_camera(frames, case.triangles)
+    return chosen, frames, choose_camera(frames, case.triangles, _landmarks(case, chosen))
+
+
+def _landmarks(case: Case, chosen: list[int]) -> np.ndarray:
+    """Points of the objects that the picture has to hold, M x 3 [m]: those near the cloth, for a floor has no
+    end."""
+    if not case.objects:
+        return np.zeros((0, 3))
+    cloth = np.concatenate([case.positions(frame) for frame in chosen])
+    cloth = cloth[np.isfinite(cloth).all(axis=1)]
+    low, high = cloth.min(axis=0), cloth.max(axis=0)
+    reach = NEAR * (high - low).max()
+    points = np.concatenate([scenery_of(case, frame).x for frame in chosen])
+    return points[((points >= low - reach) & (points <= high + reach)).all(axis=1)]
 
 
 def _is_whole(x: np.ndarray, camera: Camera) -> bool:

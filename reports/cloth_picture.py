@@ -18,10 +18,19 @@ SUPERSAMPLING = 2                           # samples per pixel along each axis;
 COARSE = 64                                 # triangles; up to here every triangle is shaded flat
 FRONT = np.array([0.56, 0.175, 0.085])      # linear RGB of the side that the triangles' normals point to
 BACK = np.array([0.085, 0.20, 0.30])
+OBJECT = np.array([0.30, 0.30, 0.29])       # what the cloth can hit, both sides
 MARK = np.array([0.012, 0.014, 0.018])      # held particles
 KEY_LIGHT = np.array([-0.50, 0.62, 0.60])   # in camera axes: right, up, toward the viewer
 FILL_LIGHT = np.array([0.85, -0.05, 0.50])
+SET_BACK = 0.008                            # of the picture's size: cloth that lies on an object stays visible
 PAIRS_AT_ONCE = 1_500_000                   # rows of triangles treated together, to bound memory
+
+
+@dataclass
+class Scenery:
+    """Objects in one frame: positions V x 3 [m] and triangles F x 3."""
+    x: np.ndarray
+    triangles: np.ndarray
 
 
 @dataclass
@@ -31,18 +40,24 @@ class Samples:
     nearness: np.ndarray
 
 
-def picture_of(x: np.ndarray, triangles: np.ndarray, held: np.ndarray, camera: Camera) -> np.ndarray:
-    """The cloth at positions x (N x 3 [m]), RGBA, height x width x 4, uint8. Triangles that are not finite
-    are left out."""
+def picture_of(x: np.ndarray, triangles: np.ndarray, held: np.ndarray, camera: Camera,
+               scenery: Scenery | None = None) -> np.ndarray:
+    """The cloth at positions x (N x 3 [m]) and the objects, RGBA, height x width x 4, uint8. Triangles that
+    are not finite are left out."""
     width, height = (SUPERSAMPLING * size for size in camera.pixels)
     if len(triangles) <= COARSE:
         x, triangles, held = _taken_apart(x, triangles, held)
+    particles = len(x)
+    if scenery is not None:
+        x, triangles = np.concatenate([x, scenery.x]), np.concatenate([triangles, scenery.triangles + len(x)])
+        held = np.concatenate([held, np.zeros(len(scenery.x), dtype=bool)])
     normals = vertex_normals(x, triangles)
     points, nearness = camera.project(x, SUPERSAMPLING)
+    nearness[particles:] -= SET_BACK * max(camera.metres)
     triangles = _drawable(points, triangles, (width, height))
     planes = _barycentric_planes(points, triangles)
     samples = _visible(points, nearness, triangles, planes, (height, width))
-    light = _shaded(samples, triangles, planes, normals, camera)
+    light = _shaded(samples, triangles, planes, normals, camera, triangles[:, 0] >= particles)
     colour = np.zeros((height, width, 4), dtype=np.float32)
     seen = samples.triangle >= 0
     for channel in range(3):
@@ -160,8 +175,8 @@ def _keep_nearest(samples: Samples, pixel: np.ndarray, near: np.ndarray, owner: 
 
 
 def _shaded(samples: Samples, triangles: np.ndarray, planes: np.ndarray, normals: np.ndarray,
-            camera: Camera) -> np.ndarray:
-    """Linear RGB of every sample that sees a triangle, 3 x S in raster order."""
+            camera: Camera, of_object: np.ndarray) -> np.ndarray:
+    """Linear RGB of every sample that sees a triangle, 3 x S in raster order. of_object: M."""
     seen = np.flatnonzero(samples.triangle.ravel() >= 0)
     owner = samples.triangle.ravel()[seen]
     column = (seen % samples.triangle.shape[1] + 0.5).astype(np.float32)
@@ -169,9 +184,11 @@ def _shaded(samples: Samples, triangles: np.ndarray, planes: np.ndarray, normals
     weights = [_affine(planes[:, corner], owner, column, line) for corner in range(3)]
     front = _faces_viewer(planes)[owner]
     normal = _normals_of_samples(weights, triangles, owner, normals, front, camera)
-    colour = _lit(normal, np.where(front, FRONT[:, None], BACK[:, None]).astype(np.float32))
+    cloth = np.where(front, FRONT[:, None], BACK[:, None])
+    colour = _lit(normal, np.where(of_object[owner], OBJECT[:, None], cloth).astype(np.float32))
     colour *= 1.0 - 0.42 * _sunken(samples, camera).ravel()[seen]
-    return colour * (1.0 - 0.34 * _edge_lines(planes, owner, weights))
+    lines = np.where(of_object[owner], 0.0, _edge_lines(planes, owner, weights))
+    return colour * (1.0 - 0.34 * lines)
 
 
 def _affine(plane: np.ndarray, owner: np.ndarray, column: np.ndarray, line: np.ndarray) -> np.ndarray:

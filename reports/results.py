@@ -145,6 +145,22 @@ class CaseEntry:
 
 
 @dataclass
+class CaseObject:
+    """An object that the cloth can hit: a surface that moves as a whole."""
+    name: str
+    vertices: np.ndarray     # V x 3 [m], before its motion
+    triangles: np.ndarray    # F x 3
+    rotation: np.ndarray     # T x 4: quaternions w, x, y, z
+    translation: np.ndarray  # T x 3 [m]
+
+    def positions(self, frame: int) -> np.ndarray:
+        """Its vertices in one frame, V x 3 [m]: v + 2 w (q x v) + 2 q x (q x v), then moved."""
+        w, q = self.rotation[frame, 0], self.rotation[frame, 1:]
+        twice = 2.0 * np.cross(q, self.vertices)
+        return self.vertices + w * twice + np.cross(q, twice) + self.translation[frame]
+
+
+@dataclass
 class Case:
     """One simulation. Frames stay in the file until `positions` asks for one."""
     path: Path
@@ -153,6 +169,7 @@ class Case:
     held: np.ndarray                   # N, true where the motion is prescribed
     frame_times: np.ndarray            # T [s]
     diagnostics: dict[str, Column] = field(default_factory=dict)
+    objects: list[CaseObject] = field(default_factory=list)
 
     def positions(self, frame: int) -> np.ndarray:
         """Positions of all particles in one frame, N x 3 [m]; negative counts from the end."""
@@ -194,7 +211,14 @@ def load_case(path: str | Path) -> Case:
         return Case(path=path, about_run=attributes_of(file), held=held,
                     triangles=np.asarray(file["mesh/triangles"], dtype=np.int64).reshape(-1, 3),
                     frame_times=np.asarray(file["frames/time"], dtype=float),
+                    objects=[_object(group) for group in file.get("objects", {}).values()],
                     diagnostics={column.name: column for column in columns_of(file.get("diagnostics"))})
+
+
+def _object(group: h5py.Group) -> CaseObject:
+    arrays = {key: np.asarray(group[key], dtype=float) for key in ("vertices", "rotation", "translation")}
+    return CaseObject(name=text_of(attributes_of(group), "name"), **arrays,
+                      triangles=np.asarray(group["triangles"], dtype=np.int64).reshape(-1, 3))
 
 
 def case_entry_of_file(path: Path) -> CaseEntry | None:

@@ -1,6 +1,7 @@
 #include "verification/all_checks.h"
 
 #include "verification/checks/bending_checks.h"
+#include "verification/checks/contact_checks.h"
 #include "verification/checks/differential_checks.h"
 #include "verification/checks/dynamics_checks.h"
 #include "verification/checks/force_checks.h"
@@ -14,10 +15,9 @@ namespace foldproof {
 
 std::vector<Check> all_checks() {
   std::vector<Check> all;
-  for (const auto& part :
-       {mesh_checks(), force_checks(), bending_checks(), differential_checks(), solver_checks(),
-        cached_terms_checks(), dynamics_checks(), scene_checks(), level_set_checks(),
-        projection_checks()})
+  for (const auto& part : {mesh_checks(), force_checks(), bending_checks(), differential_checks(),
+                           solver_checks(), cached_terms_checks(), dynamics_checks(), contact_checks(),
+                           scene_checks(), level_set_checks(), projection_checks()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

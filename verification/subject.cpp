@@ -40,6 +40,14 @@ Subject reference_subject() {
     const Energies e = energies(own(prepared).system, s);
     return e.total() - e.kinetic;
   };
+  subject.avoid_objects = [](Prepared& prepared, const Span& span, const State& s, const PerParticle3& v) {
+    Work uncounted;
+    PerParticle3 corrected = v;
+    for (const Filter& filter : own(prepared).system.filters)
+      if (const auto* objects = std::get_if<ObjectCollision>(&filter))
+        objects->correct(span, s, corrected, uncounted);
+    return corrected;
+  };
   subject.step = [](Prepared& prepared, std::span<const State> past, double dt, Work& work) {
     return own(prepared).integrator.step(own(prepared).system, past, dt, work);
   };

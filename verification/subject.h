@@ -34,6 +34,9 @@ struct Subject {
   /// Elastic and potential energy [J].
   std::function<double(Prepared&, const State& s)> potential_energy;
 
+  /// The velocities (3 x N [m/s]) that the scene's objects make of v, when v moves the cloth from s over the span.
+  std::function<PerParticle3(Prepared&, const Span& span, const State& s, const PerParticle3& v)> avoid_objects;
+
   /// One step of dt [s] from the latest of the states `past`, of which a method may use two; adds the work
   /// that it counted, if it counts.
   std::function<State(Prepared&, std::span<const State> past, double dt, Work& work)> step;

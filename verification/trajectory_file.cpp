@@ -24,6 +24,38 @@ void write_mesh(const Hdf5& file, const Scene& scene, const System& system) {
   mesh.array("held", {particles}, held.data());
 }
 
+/// Groups /objects/<k>: the surface at rest, and its pose in every frame.
+struct ObjectRows {
+  const SceneObject* part;
+  GrowingDataset rotation, translation;
+};
+
+std::vector<ObjectRows> write_objects(const Hdf5& file, const Scene& scene) {
+  std::vector<ObjectRows> rows;
+  if (scene.objects.empty()) return rows;
+  const Hdf5 objects = file.group("objects");
+  for (const SceneObject& part : scene.objects) {
+    const Hdf5 group = objects.group(std::to_string(rows.size()));
+    group.attribute("name", part.object.name);
+    group.attribute("shape", part.shape);
+    group.attribute("friction", part.object.friction);
+    group.array("triangles", {part.triangles.size(), 3}, part.triangles.data()->data());
+    group.array("vertices", {Shape::value_type(part.vertices.cols()), 3}, part.vertices.data())
+        .attribute("unit", "m");
+    rows.push_back(
+        {&part, GrowingDataset(group, "rotation", "1", {4}), GrowingDataset(group, "translation", "m", {3})});
+  }
+  return rows;
+}
+
+/// rotation: w, x, y, z of the quaternion that turns the vertices before they are moved.
+void add_pose(const Pose& pose, ObjectRows& rows) {
+  const Eigen::Quaterniond& q = pose.rotation;
+  const double rotation[] = {q.w(), q.x(), q.y(), q.z()};
+  rows.rotation.add(rotation);
+  rows.translation.add(pose.translation.data());
+}
+
 constexpr const char* xdmf_head = R"(<?xml version="1.0" ?>
 <Xdmf Version="3.0">
   <Domain>
@@ -59,6 +91,7 @@ struct TrajectoryFile::Content {
   GrowingDataset time, positions, velocities;
   std::vector<GrowingDataset> rows;  // scalars, in the order of `scalars` below
   GrowingDataset linear, angular;
+  std::vector<ObjectRows> objects;
   std::vector<double> frame_times;
 
   Content(const std::string& to, const Scene& scene)
@@ -72,7 +105,8 @@ struct TrajectoryFile::Content {
         positions(frames, "positions", "m", {particles, 3}),
         velocities(frames, "velocities", "m/s", {particles, 3}),
         linear(diagnostics, "linear_momentum", "kg m/s", {3}),
-        angular(diagnostics, "angular_momentum", "kg m^2/s", {3}) {}
+        angular(diagnostics, "angular_momentum", "kg m^2/s", {3}),
+        objects(write_objects(file, scene)) {}
 
   void write_xdmf() const {
     const std::filesystem::path target(path);
@@ -109,6 +143,7 @@ constexpr Scalar scalars[] = {
     {"cg_iterations", "1", [](const Diagnostics& d) { return double(d.cg_iterations); }},
     {"cg_residual", "1", [](const Diagnostics& d) { return d.cg_residual; }},
     {"step_over_elastic_limit", "1", [](const Diagnostics& d) { return d.step_over_elastic_limit; }},
+    {"object_contacts", "1", [](const Diagnostics& d) { return double(d.object_contacts); }},
     {"seconds", "s", [](const Diagnostics& d) { return d.seconds; }},
 };
 
@@ -138,6 +173,8 @@ void TrajectoryFile::add_frame(const State& s) {
   content_->time.add(&s.time);
   content_->positions.add(s.x.data());
   content_->velocities.add(s.v.data());
+  for (ObjectRows& rows : content_->objects)
+    add_pose(pose_at(std::get<RigidObject>(rows.part->object.body).motion, s.time), rows);
   content_->frame_times.push_back(s.time);
   content_->file.flush();
 }

@@ -14,6 +14,7 @@ namespace foldproof {
 /// beside it that ParaView opens. What was written before a stop or an interruption is kept in the partial file.
 class TrajectoryFile {
  public:
+  /// scene: must outlive the file.
   TrajectoryFile(const std::string& path, const Scene& scene, const System& system,
                  const Provenance& provenance);
   ~TrajectoryFile();

@@ -83,6 +83,7 @@ class Watch {
     row.cg_iterations = work.cg_iterations;
     row.cg_residual = work.worst_residual;
     row.step_over_elastic_limit = h / elastic_limit(system_, s);
+    row.object_contacts = work.object_contacts;
     row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     observer_.step(row);
   }
@@ -111,6 +112,8 @@ void add(Work& sum, const Work& part) {
   sum.newton_iterations += part.newton_iterations;
   sum.solves += part.solves;
   sum.cg_iterations += part.cg_iterations;
+  sum.object_queries += part.object_queries;
+  sum.object_contacts += part.object_contacts;
   sum.unfinished_solves += part.unfinished_solves;
   keep_worst(sum.worst_residual, part.worst_residual);
 }

@@ -37,6 +37,7 @@ struct Diagnostics {
   long cg_iterations = 0;                     // in this step
   double cg_residual = 0;                     // worst of this step's solves, relative
   double step_over_elastic_limit = 0;         // 1
+  long object_contacts = 0;                   // points whose motion in this step an object corrected
   double seconds = 0;                         // since the start of the run, clock time
 };
 

@@ -16,14 +16,28 @@ ObjectPoint RigidObject::at(const Vector3& p, const Span& span) const {
   return point;
 }
 
+namespace {
+
+void enter(ObjectPoint point, Nearest& nearest) {
+  if (point.phi < 0) ++nearest.inside;
+  if (point.phi < nearest.first.phi) std::swap(point, nearest.first);
+  if (point.phi < nearest.second.phi) std::swap(point, nearest.second);
+}
+
+}  // namespace
+
+Nearest nearest_of(std::span<const ObjectPoint> points) {
+  Nearest nearest;
+  for (const ObjectPoint& point : points) enter(point, nearest);
+  return nearest;
+}
+
 Nearest nearest_objects(std::span<const Object> objects, const Vector3& p, const Span& span) {
   Nearest nearest;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     ObjectPoint point = std::visit([&](const auto& body) { return body.at(p, span); }, objects[i].body);
     point.part = int(i);
-    if (point.phi < 0) ++nearest.inside;
-    if (point.phi < nearest.first.phi) std::swap(point, nearest.first);
-    if (point.phi < nearest.second.phi) std::swap(point, nearest.second);
+    enter(point, nearest);
   }
   return nearest;
 }

@@ -54,6 +54,9 @@ struct Nearest {
   bool pinched() const { return inside >= 2; }
 };
 
+/// What the objects say about one point, in any order.
+Nearest nearest_of(std::span<const ObjectPoint> points);
+
 Nearest nearest_objects(std::span<const Object> objects, const Vector3& p, const Span& span);
 
 }  // namespace foldproof

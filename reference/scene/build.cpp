@@ -1,5 +1,7 @@
 #include "reference/scene/scene.h"
 
+#include <cstdio>
+
 namespace foldproof {
 
 Scene scene_of(TriangleMesh mesh, double density) {
@@ -11,12 +13,26 @@ Scene scene_of(TriangleMesh mesh, double density) {
   return scene;
 }
 
+namespace {
+
+ObjectCollision object_collision(const Scene& scene, const PerParticle& inverse_mass) {
+  ObjectCollision filter;
+  for (const SceneObject& part : scene.objects) filter.objects.push_back(part.object);
+  filter.points = collision_points(scene.mesh, inverse_mass, scene.collision.points);
+  filter.response = response_named(scene.collision.response);
+  filter.forecast_time = scene.collision.forecast_time;
+  return filter;
+}
+
+}  // namespace
+
 System build_system(const Scene& scene) {
   System system = make_system(lumped_masses(scene.mesh, scene.density));
   if (scene.gravity) system.forces.push_back(Gravity{*scene.gravity, system.mass});
   if (scene.stretch) system.forces.push_back(make_springs(scene.mesh, *scene.stretch));
   if (scene.bending) system.forces.push_back(make_bending(scene.mesh, *scene.bending, scene.rest_angles));
   for (const PrescribedParticle& particle : scene.led) prescribe(system, particle);
+  if (!scene.objects.empty()) system.filters.push_back(object_collision(scene, system.inverse_mass));
   system.solver = scene.solver;
   return system;
 }
@@ -37,6 +53,17 @@ std::string described(const BendingMaterial& material) {
          std::string(material.law) + "'" + (material.damping > 0 ? ", damped" : "");
 }
 
+std::string described(const SceneObject& part) {
+  char friction[40];
+  std::snprintf(friction, sizeof friction, "%.6g", part.object.friction);
+  return "object '" + part.object.name + "' (" + part.shape + ", friction " + friction + ")";
+}
+
+std::string described(const ObjectCollision& collision) {
+  return std::to_string(collision.points.size()) + " points held out of objects, response '" +
+         std::string(collision.response.name) + "'";
+}
+
 }  // namespace
 
 std::vector<std::string> built_parts(const Scene& scene, const System& system) {
@@ -52,6 +79,9 @@ std::vector<std::string> built_parts(const Scene& scene, const System& system) {
   }
   if (!system.led.empty())
     parts.push_back(std::to_string(system.led.size()) + " particles with prescribed motion");
+  for (const SceneObject& part : scene.objects) parts.push_back(described(part));
+  for (const Filter& filter : system.filters)
+    if (const auto* collision = std::get_if<ObjectCollision>(&filter)) parts.push_back(described(*collision));
   return parts;
 }
 

@@ -241,7 +241,10 @@ KeyValue parsed_value(const std::string& text) {
 KeyTable& table_below(KeyTable& table, const std::string& step, const std::string& assignment) {
   auto [entry, is_new] =
       table.entries.try_emplace(step, KeyValue{std::make_shared<KeyTable>(step, "--set"), "--set"});
-  auto* below = std::get_if<std::shared_ptr<KeyTable>>(&entry->second.data);
+  KeyValue* value = &entry->second;
+  if (auto* list = std::get_if<std::vector<KeyValue>>(&value->data); list && list->size() == 1)
+    value = &list->front();  // the only entry of a list needs no number
+  auto* below = std::get_if<std::shared_ptr<KeyTable>>(&value->data);
   if (!below) throw InputError("--set " + assignment + ": '" + step + "' is not a table");
   return **below;
 }

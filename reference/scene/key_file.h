@@ -70,7 +70,7 @@ class KeyTable {
 std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file);
 
 /// Overrides "a.b.c=value" (value as in TOML; what does not parse as such is taken for a string; a number in
-/// the path picks an entry of a list). Missing tables are made. Throws InputError for an override without '='
+/// the path picks an entry of a list, and the only entry needs none). Missing tables are made. Throws InputError for an override without '='
 /// or a path through a value.
 void set_key(KeyTable& root, const std::string& assignment);
 

@@ -4,50 +4,14 @@
 #include <limits>
 #include <random>
 
-#include "reference/scene/key_file.h"
+#include "reference/scene/key_values.h"
+#include "reference/scene/read_objects.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/shapes_of.h"
 
 namespace foldproof {
 
 namespace {
-
-constexpr double radians_per_degree = 3.14159265358979323846 / 180;
-
-double positive(const KeyTable& keys, const std::string& key) {
-  const double value = keys.number(key);
-  if (!(value > 0)) throw InputError(keys.where(key) + ": '" + key + "' must be > 0");
-  return value;
-}
-
-double positive_or(const KeyTable& keys, const std::string& key, double otherwise) {
-  return keys.has(key) ? positive(keys, key) : otherwise;
-}
-
-double not_negative_or(const KeyTable& keys, const std::string& key, double otherwise) {
-  const double value = keys.number_or(key, otherwise);
-  if (!(value >= 0)) throw InputError(keys.where(key) + ": '" + key + "' must not be negative");
-  return value;
-}
-
-long count_or(const KeyTable& keys, const std::string& key, long otherwise) {
-  const long value = keys.integer_or(key, otherwise);
-  if (!(value >= 1 && value <= 1'000'000'000))
-    throw InputError(keys.where(key) + ": '" + key + "' must lie in 1 .. 1,000,000,000");
-  return value;
-}
-
-template <class Choice>
-Choice choice(const KeyTable& keys, const std::string& key,
-              std::vector<std::pair<std::string, Choice>> choices) {
-  const std::string wanted = keys.text_or(key, choices.front().first);  // the first is the default
-  std::string known;
-  for (const auto& [name, value] : choices) {
-    if (name == wanted) return value;
-    known += (known.empty() ? "" : ", ") + name;
-  }
-  throw InputError(keys.where(key) + ": unknown " + key + " '" + wanted + "'; known: " + known);
-}
 
 StretchMaterial read_stretch(const KeyTable& keys) {
   StretchMaterial material;
@@ -84,17 +48,6 @@ std::vector<double> read_rest_angles(const KeyTable& keys, const TriangleMesh& m
       choice<Source>(keys, "rest_angle", {{"rest_shape", Source::rest_shape}, {"flat", Source::flat}});
   if (source == Source::flat) return std::vector<double>(mesh.hinges.size(), 0.0);
   return hinge_angles(mesh, mesh.rest);
-}
-
-Motion read_motion(const KeyTable& keys) {
-  Motion motion;
-  motion.velocity = keys.vector_or("velocity", Vector3::Zero());
-  motion.amplitude = keys.vector_or("amplitude", Vector3::Zero());
-  motion.frequency = keys.number_or("frequency", 0);
-  motion.phase = keys.number_or("phase", 0) * radians_per_degree;
-  motion.center = keys.vector_or("center", Vector3::Zero());
-  motion.angular_velocity = keys.vector_or("angular_velocity", Vector3::Zero()) * radians_per_degree;
-  return motion;
 }
 
 std::vector<int> particles_in_box(const KeyTable& keys, const PerParticle3& x) {
@@ -216,6 +169,7 @@ Scene scene_from(const KeyTable& keys, const std::string& folder) {
     scene.rest_angles = read_rest_angles(*bending, scene.mesh);
   }
   for (const auto& hold : keys.tables("hold")) read_hold(*hold, scene);
+  read_objects(keys, folder, scene);
   read_time(*time, scene);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
   keys.leave("expect");  // what must hold of the run: whoever judges it reads that table

@@ -6,12 +6,28 @@
 #include <vector>
 
 #include "reference/dynamics/simulate.h"
+#include "reference/filters/object_collision.h"
 #include "reference/forces/force.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/motion/motion.h"
 #include "reference/types.h"
 
 namespace foldproof {
+
+/// An object, and its surface as triangles: for pictures, not for the collisions.
+struct SceneObject {
+  Object object;
+  std::string shape;                // in words
+  PerParticle3 vertices;            // 3 x V, before its motion [m]
+  std::vector<Triangle> triangles;  // outward
+};
+
+/// How cloth meets the objects.
+struct CollisionSettings {
+  double forecast_time = 0;  // tau [s]; 0: the step
+  PointKind points = PointKind::particles;
+  std::string response = "forecast";
+};
 
 /// A scene names its parts; what it does not name is absent, is not built and costs nothing.
 struct Scene {
@@ -27,6 +43,8 @@ struct Scene {
   std::optional<BendingMaterial> bending;
   std::vector<double> rest_angles;  // one a hinge [rad], when there is bending
   std::vector<PrescribedParticle> led;
+  std::vector<SceneObject> objects;
+  CollisionSettings collision;
 
   std::string integrator = "C";
   Schedule schedule;

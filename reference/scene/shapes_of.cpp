@@ -1,16 +1,14 @@
 #include "reference/scene/shapes_of.h"
 
-#include <Eigen/Geometry>
 #include <filesystem>
 
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
+#include "reference/scene/key_values.h"
 
 namespace foldproof {
 
 namespace {
-
-constexpr double radians_per_degree = 3.14159265358979323846 / 180;
 
 struct PatternName {
   const char* name;
@@ -68,16 +66,6 @@ TriangleMesh make_shape(const KeyTable& keys) {
                    "'; known: sheet, disc, cylinder, sphere, statue, hinge");
 }
 
-TriangleMesh read_mesh_file(const KeyTable& keys, const std::string& folder) {
-  std::filesystem::path file = keys.text("mesh");
-  const std::string where = keys.where("mesh");
-  if (file.empty()) throw InputError(where + ": this case takes a mesh of yours: --set cloth.mesh=FILE.obj");
-  if (file.is_relative() && where != "--set") file = folder / file;
-  if (!std::filesystem::exists(file))
-    throw InputError(where + ": there is no mesh file '" + file.string() + "'");
-  return read_obj(file.string());
-}
-
 /// What make() returns; a refusal that names no place gets this one.
 template <class Make>
 auto placed_refusal(const std::string& where, const Make& make) {
@@ -92,18 +80,9 @@ auto placed_refusal(const std::string& where, const Make& make) {
 
 /// Scales, turns and moves the positions, in this order.
 void place(const KeyTable& keys, PerParticle3& x) {
-  if (keys.has("fit")) {
-    const double size = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff(),
-                 wanted = keys.number("fit");
-    if (!(wanted > 0)) throw InputError(keys.where("fit") + ": 'fit' must be > 0 m");
-    x *= wanted / size;
-  }
-  if (const auto turn = keys.table("turn")) {
-    const Vector3 axis = turn->vector("axis");
-    if (!(axis.norm() > 0)) throw InputError(turn->where("axis") + ": 'axis' must not be zero");
-    const PerParticle3 turned =
-        Eigen::AngleAxisd(turn->number("angle") * radians_per_degree, axis.normalized()).toRotationMatrix() *
-        x;
+  fit(keys, x);
+  if (keys.has("turn")) {
+    const PerParticle3 turned = read_turn(keys).toRotationMatrix() * x;
     x = turned;
   }
   x.colwise() += keys.vector_or("move", Vector3::Zero());
@@ -111,12 +90,31 @@ void place(const KeyTable& keys, PerParticle3& x) {
 
 }  // namespace
 
+TriangleMesh read_mesh_file(const KeyTable& keys, const std::string& folder, const std::string& table) {
+  std::filesystem::path file = keys.text("mesh");
+  const std::string where = keys.where("mesh");
+  if (file.empty())
+    throw InputError(where + ": this case takes a mesh of yours: --set " + table + ".mesh=FILE.obj");
+  if (file.is_relative() && where != "--set") file = folder / file;
+  if (!std::filesystem::exists(file))
+    throw InputError(where + ": there is no mesh file '" + file.string() + "'");
+  return read_obj(file.string());
+}
+
+void fit(const KeyTable& keys, PerParticle3& x) {
+  if (!keys.has("fit")) return;
+  const double size = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
+  const double wanted = keys.number("fit");
+  if (!(wanted > 0)) throw InputError(keys.where("fit") + ": 'fit' must be > 0 m");
+  x *= wanted / size;
+}
+
 PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder) {
   if (cloth.has("shape") == cloth.has("mesh"))
     throw InputError(cloth.where("mesh") +
                      ": [cloth] needs either 'shape' or 'mesh' (an OBJ file), and not both");
   PlacedMesh result{cloth.has("mesh")
-                        ? read_mesh_file(cloth, folder)
+                        ? read_mesh_file(cloth, folder, "cloth")
                         : placed_refusal(cloth.where("shape"), [&] { return make_shape(cloth); }),
                     {}};
 

@@ -1,6 +1,8 @@
 // The cloth of a case: its mesh, made or read, placed in the world.
 #pragma once
 
+#include <string>
+
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/scene/key_file.h"
 
@@ -14,5 +16,11 @@ struct PlacedMesh {
 /// Reads the keys of [cloth] that say shape and place. folder: where relative files of the case are looked
 /// for.
 PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder);
+
+/// The OBJ file that the key 'mesh' names. table: its name in messages, "cloth" or "object".
+TriangleMesh read_mesh_file(const KeyTable& keys, const std::string& folder, const std::string& table);
+
+/// Scales the positions x (3 x N [m]) so that their largest extent is 'fit', if that is given.
+void fit(const KeyTable& keys, PerParticle3& x);
 
 }  // namespace foldproof

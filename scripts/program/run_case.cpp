@@ -57,7 +57,19 @@ std::vector<Record> judge_case(const Case& shown) {
 }
 
 std::vector<std::string> shown_cases() {
-  return {"hinge", "hanging_sheet", "flag_drop", "rest_fold", "stiff_statue"};
+  return {"hinge",
+          "hanging_sheet",
+          "flag_drop",
+          "rest_fold",
+          "stiff_statue",
+          "drape_sphere",
+          "spinning_sphere",
+          "incline",
+          "incline_slides",
+          "pinch",
+          "armpit",
+          "half_inside",
+          "stretched_body"};
 }
 
 std::vector<std::string> hard_cases() {

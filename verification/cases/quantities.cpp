@@ -39,6 +39,10 @@ double angular_change(const RunSeen& run) {
 
 double steps(const RunSeen& run) { return double(run.outcome.steps); }
 
+double contacts(const RunSeen& run) { return double(run.book.contacts); }
+
+double kinetic_at_end(const RunSeen& run) { return run.book.last_kinetic / run.book.largest_kinetic; }
+
 double unfinished(const RunSeen& run) { return double(run.outcome.work.unfinished_solves); }
 
 // ---- of one frame
@@ -79,6 +83,66 @@ double length_change(const Scene& scene, const State& s) {
   return worst.value();
 }
 
+/// What the scene's objects say about a particle in a frame.
+Nearest nearest_at(const Scene& scene, const State& s, Eigen::Index particle) {
+  std::vector<ObjectPoint> points;
+  for (const SceneObject& part : scene.objects) {
+    const Span now{s.time, s.time, 0};
+    points.push_back(
+        std::visit([&](const auto& body) { return body.at(s.x.col(particle), now); }, part.object.body));
+    points.back().part = int(points.size()) - 1;
+  }
+  return nearest_of(points);
+}
+
+/// Pinched particles are inside by what pinches them, and not counted.
+double penetration(const Scene& scene, const State& s) {
+  Worst worst;
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i)
+    if (const Nearest nearest = nearest_at(scene, s, i); !nearest.pinched()) worst.see(-nearest.first.phi);
+  return worst.value();
+}
+
+/// How far a pinched particle is from the surface where its two objects are equally deep, at most.
+double off_centre(const Scene& scene, const State& s) {
+  Worst worst;
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
+    const Nearest nearest = nearest_at(scene, s, i);
+    if (!nearest.pinched()) continue;
+    const double slope = (nearest.first.normal - nearest.second.normal).norm();
+    worst.see(std::abs(nearest.first.phi - nearest.second.phi) / slope);
+  }
+  return worst.value();
+}
+
+double pinched_particles(const Scene& scene, const State& s) {
+  double count = 0;
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i) count += nearest_at(scene, s, i).pinched() ? 1 : 0;
+  return count;
+}
+
+double fastest(const Scene&, const State& s) {
+  Worst worst;
+  for (Eigen::Index i = 0; i < s.v.cols(); ++i) worst.see(s.v.col(i).norm());
+  return worst.value();
+}
+
+/// The rate of the rigid turn about the vertical axis through the origin that has the cloth's angular momentum.
+double turning_rate(const Scene& scene, const State& s) {
+  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  double momentum = 0, inertia = 0;  // kg m^2/s, kg m^2
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
+    momentum += mass[i] * (s.x(2, i) * s.v(0, i) - s.x(0, i) * s.v(2, i));
+    inertia += mass[i] * (s.x(0, i) * s.x(0, i) + s.x(2, i) * s.x(2, i));
+  }
+  return std::abs(momentum / inertia) * degrees_per_radian;
+}
+
+/// Of the mean of all particles, since the start.
+double shift(const Scene& scene, const State& s) {
+  return (s.x.rowwise().mean() - scene.x.rowwise().mean()).norm();
+}
+
 // ---- refusals
 
 std::string without_plane(const Scene& scene) {
@@ -89,6 +153,9 @@ std::string without_plane(const Scene& scene) {
 }
 
 std::string without_bending(const Scene& scene) { return scene.bending ? "" : "the case has no [bending]"; }
+std::string without_objects(const Scene& scene) {
+  return scene.objects.empty() ? "the case has no [[object]]" : "";
+}
 std::string without_springs(const Scene& scene) { return scene.stretch ? "" : "the case has no [stretch]"; }
 
 }  // namespace
@@ -104,6 +171,8 @@ void RunBook::enter(const Diagnostics& row, double end) {
                         std::abs(row.energy.gravity - start.energy.gravity)});
   largest_kinetic = std::max(largest_kinetic, row.energy.kinetic);
   linear.see((row.linear_momentum - start.linear_momentum).norm());
+  contacts = std::max(contacts, row.object_contacts);
+  last_kinetic = row.energy.kinetic;
   angular.see((row.angular_momentum - start.angular_momentum).norm());
   if (row.time <= 0.1 * end) {
     early += row.step * balance_of(row);
@@ -149,6 +218,25 @@ const std::vector<Quantity>& quantities() {
        folded_back, nullptr, without_bending},
       {"keeps_its_lengths", "1", "Every edge stays near its rest length.", Sense::at_most, length_change,
        nullptr, without_springs},
+      {"stays_outside", "m", "No particle is deeper inside an object than this, those between two apart.",
+       Sense::at_most, penetration, nullptr, without_objects},
+      {"lies_inside", "m", "Some particle is this deep inside an object, those between two apart.",
+       Sense::at_least, penetration, nullptr, without_objects},
+      {"makes_contact", "points", "Objects correct the motion of some points in some step.", Sense::at_least,
+       nullptr, contacts, without_objects},
+      {"pinches", "particles", "Particles are inside two objects at once.", Sense::at_least,
+       pinched_particles, nullptr, without_objects},
+      {"stays_between", "m", "Particles inside two objects stay where they are equally deep in both.",
+       Sense::at_most, off_centre, nullptr, without_objects},
+      {"keeps_its_place", "m", "The mean of all particles stays where it was.", Sense::at_most, shift,
+       nullptr, nullptr},
+      {"is_carried", "m", "The mean of all particles is carried away from where it was.", Sense::at_least,
+       shift, nullptr, nullptr},
+      {"slower_than", "m/s", "No particle is faster than this.", Sense::at_most, fastest, nullptr, nullptr},
+      {"turns_at", "degrees/s", "The cloth comes to turn about the vertical axis at this rate.",
+       Sense::at_least, turning_rate, nullptr, nullptr},
+      {"comes_to_rest", "1", "At the end the kinetic energy is small, over its largest value.",
+       Sense::at_most, nullptr, kinetic_at_end, nullptr},
   };
   return table;
 }

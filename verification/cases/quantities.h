@@ -15,9 +15,10 @@ namespace foldproof {
 struct RunBook {
   Diagnostics start;  // the first row
   Worst balance;      // |kinetic + elastic + gravitational energy - work of damping - that at the start| [J]
-  double exchanged = 0;        // the largest change of one form of energy [J]
-  double largest_kinetic = 0;  // J
-  Worst linear, angular;       // change of momentum since the start [kg m/s], [kg m^2/s]
+  double exchanged = 0;                          // the largest change of one form of energy [J]
+  double largest_kinetic = 0, last_kinetic = 0;  // J
+  Worst linear, angular;                         // change of momentum since the start [kg m/s], [kg m^2/s]
+  long contacts = 0;           // largest number of points whose motion objects corrected in one step
   double early = 0, late = 0;  // energy balance over the first and the last tenth of the run [J s] ...
   double early_time = 0, late_time = 0;  // ... and how long these are [s]
 

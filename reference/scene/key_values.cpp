@@ -1,0 +1,47 @@
+#include "reference/scene/key_values.h"
+
+namespace foldproof {
+
+double positive(const KeyTable& keys, const std::string& key) {
+  const double value = keys.number(key);
+  if (!(value > 0)) throw InputError(keys.where(key) + ": '" + key + "' must be > 0");
+  return value;
+}
+
+double positive_or(const KeyTable& keys, const std::string& key, double otherwise) {
+  return keys.has(key) ? positive(keys, key) : otherwise;
+}
+
+double not_negative_or(const KeyTable& keys, const std::string& key, double otherwise) {
+  const double value = keys.number_or(key, otherwise);
+  if (!(value >= 0)) throw InputError(keys.where(key) + ": '" + key + "' must not be negative");
+  return value;
+}
+
+long count_or(const KeyTable& keys, const std::string& key, long otherwise) {
+  const long value = keys.integer_or(key, otherwise);
+  if (!(value >= 1 && value <= 1'000'000'000))
+    throw InputError(keys.where(key) + ": '" + key + "' must lie in 1 .. 1,000,000,000");
+  return value;
+}
+
+Motion read_motion(const KeyTable& keys) {
+  Motion motion;
+  motion.velocity = keys.vector_or("velocity", Vector3::Zero());
+  motion.amplitude = keys.vector_or("amplitude", Vector3::Zero());
+  motion.frequency = keys.number_or("frequency", 0);
+  motion.phase = keys.number_or("phase", 0) * radians_per_degree;
+  motion.center = keys.vector_or("center", Vector3::Zero());
+  motion.angular_velocity = keys.vector_or("angular_velocity", Vector3::Zero()) * radians_per_degree;
+  return motion;
+}
+
+Eigen::AngleAxisd read_turn(const KeyTable& keys) {
+  const auto turn = keys.table("turn");
+  if (!turn) return Eigen::AngleAxisd::Identity();
+  const Vector3 axis = turn->vector("axis");
+  if (!(axis.norm() > 0)) throw InputError(turn->where("axis") + ": 'axis' must not be zero");
+  return {turn->number("angle") * radians_per_degree, axis.normalized()};
+}
+
+}  // namespace foldproof

@@ -1,0 +1,42 @@
+// Values that several tables of a case file share, read and checked.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reference/motion/motion.h"
+#include "reference/scene/key_file.h"
+
+namespace foldproof {
+
+constexpr double radians_per_degree = 3.14159265358979323846 / 180;
+
+// Each throws InputError "file:line: ..." for a value out of its range.
+double positive(const KeyTable& keys, const std::string& key);
+double positive_or(const KeyTable& keys, const std::string& key, double otherwise);
+double not_negative_or(const KeyTable& keys, const std::string& key, double otherwise);
+long count_or(const KeyTable& keys, const std::string& key, long otherwise);  // 1 .. 1,000,000,000
+
+/// The value of the choice that the key names; the first is the default.
+template <class Choice>
+Choice choice(const KeyTable& keys, const std::string& key,
+              std::vector<std::pair<std::string, Choice>> choices) {
+  const std::string wanted = keys.text_or(key, choices.front().first);
+  std::string known;
+  for (const auto& [name, value] : choices) {
+    if (name == wanted) return value;
+    known += (known.empty() ? "" : ", ") + name;
+  }
+  throw InputError(keys.where(key) + ": unknown " + key + " '" + wanted + "'; known: " + known);
+}
+
+/// The closed-form motion of [[hold]] and [[object]]: velocity, amplitude, frequency, phase, center,
+/// angular_velocity. At rest if none is given.
+Motion read_motion(const KeyTable& keys);
+
+/// turn = { axis, angle }, in degrees; no rotation if there is none.
+Eigen::AngleAxisd read_turn(const KeyTable& keys);
+
+}  // namespace foldproof

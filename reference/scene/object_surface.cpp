@@ -1,0 +1,95 @@
+#include "reference/scene/object_surface.h"
+
+#include <cmath>
+
+#include "reference/mesh/shapes.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr int around = 64;       // vertices of a circle about the axis
+constexpr int along_arc = 16;    // edges of a quarter of a circle in the profile
+constexpr int subdivisions = 4;  // of the sphere: 5120 triangles
+
+struct ProfilePoint {
+  double r, z;  // m
+};
+
+/// The profile turned about the z axis; it runs upwards (counter-clockwise if it closes), so that triangles
+/// point away from the axis. Points on the axis must not be in it.
+ObjectSurface revolved(const std::vector<ProfilePoint>& profile, bool closes) {
+  const int rings = int(profile.size());
+  ObjectSurface surface;
+  surface.vertices.resize(3, rings * around);
+  for (int k = 0; k < rings; ++k)
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2 * pi * i / around;
+      surface.vertices.col(k * around + i) << profile[size_t(k)].r * std::cos(angle),
+          profile[size_t(k)].r * std::sin(angle), profile[size_t(k)].z;
+    }
+  for (int k = 0; k + (closes ? 0 : 1) < rings; ++k)
+    for (int i = 0; i < around; ++i) {
+      const int a = k * around + i, b = k * around + (i + 1) % around;
+      const int c = (k + 1) % rings * around + i, d = (k + 1) % rings * around + (i + 1) % around;
+      surface.triangles.push_back({a, b, d});
+      surface.triangles.push_back({a, d, c});
+    }
+  return surface;
+}
+
+}  // namespace
+
+ObjectSurface square_surface(double side) {
+  ObjectSurface surface;
+  surface.vertices.resize(3, 4);
+  surface.vertices << -1, 1, 1, -1, -1, -1, 1, 1, 0, 0, 0, 0;
+  surface.vertices *= side / 2;
+  surface.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return surface;
+}
+
+//   6 --- 7
+//  /|    /|    corner k has the sign of x in bit 0, of y in bit 1, of z in bit 2
+// 4 --- 5 |
+// | 2 --|-3
+// |/    |/
+// 0 --- 1
+ObjectSurface box_surface(const Vector3& half_extents) {
+  ObjectSurface surface;
+  surface.vertices.resize(3, 8);
+  for (int k = 0; k < 8; ++k)
+    surface.vertices.col(k) =
+        half_extents.cwiseProduct(Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
+  surface.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                       {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return surface;
+}
+
+ObjectSurface sphere_surface(double radius) {
+  TriangleMesh mesh = make_icosphere(radius, subdivisions);
+  return {std::move(mesh.rest), std::move(mesh.triangles)};
+}
+
+ObjectSurface capsule_surface(double radius, double half_length) {
+  std::vector<ProfilePoint> profile;
+  for (const double end : {-half_length, half_length})
+    for (int k = 0; k <= along_arc; ++k) {
+      const double latitude = pi / 2 * (end < 0 ? double(k) / along_arc - 1 : double(k) / along_arc);
+      const double r = radius * std::max(std::cos(latitude), 1e-3);  // a pinhole at the poles
+      profile.push_back({r, end + radius * std::sin(latitude)});
+    }
+  return revolved(profile, false);
+}
+
+ObjectSurface torus_surface(double ring_radius, double tube_radius) {
+  std::vector<ProfilePoint> profile;
+  for (int k = 0; k < 4 * along_arc; ++k) {
+    const double angle = pi / 2 * k / along_arc;
+    profile.push_back({ring_radius + tube_radius * std::cos(angle), tube_radius * std::sin(angle)});
+  }
+  return revolved(profile, true);
+}
+
+}  // namespace foldproof

@@ -1,0 +1,61 @@
+// Free particles about objects whose distance, normal and velocity are known by formulas of their own.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reference/scene/scene.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/subject.h"
+
+namespace foldproof {
+
+/// What there is to know of an object at a point over a span.
+struct Known {
+  double phi;        // at the span's start [m]
+  Vector3 normal;    // outward, at the span's start
+  Vector3 velocity;  // mean over the span, at the span's time if it is one [m/s]
+};
+
+/// One moving object, and particles on both sides of its surface that move at random.
+struct Contact {
+  std::string name;
+  Scene scene;  // nothing but particles and the object
+  State state;
+  Span span;
+  double tau;  // forecast time [s]
+  double friction;
+  std::function<Known(const Vector3& p, const Span& span)> known;
+};
+
+/// A ball on a bent path that turns as it goes, and a slope that rises and turns; each with forecast times of
+/// the step, shorter and longer. A twentieth of the particles has no velocity along the surface but the object's,
+/// and as many rest on it.
+std::vector<Contact> known_contacts();
+
+/// Two balls that overlap, both moving, and particles inside both.
+struct Pinch {
+  Scene scene;
+  State state;
+  Span span;
+  double tau;
+  std::function<Known(const Vector3&p, const Span&span)> first, second;
+  double friction_first, friction_second;
+};
+Pinch known_pinch();
+
+/// What the subject makes of the velocities of `state`, 3 x N [m/s].
+PerParticle3 avoided(const Subject& subject, const Scene& scene, const Span& span, const State& state);
+
+/// Free particles, at rest in a plane sheet of n x n; nothing holds them together.
+Scene loose_particles(int n);
+
+/// The object at rest at the pose, ready to be put in a scene.
+SceneObject object_at(const std::string& name, const Solid& solid, const Pose& pose);
+
+/// A rotation about an axis [rad], in the way of Rodrigues.
+Vector3 rotated(const Vector3& x, const Vector3& turn);
+
+}  // namespace foldproof
