@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "reference/level_set/closed_mesh.h"
 #include "reference/level_set/winding.h"
 #include "reference/mesh/mesh_places.h"
 
@@ -114,6 +115,13 @@ std::shared_ptr<const Grid> make_repaired_grid(const TriangleSoup& soup, const G
       seeds.phi[i] = std::copysign(std::sqrt(nearest.squared_distance), seeds.phi[i]);
   }
   return std::make_shared<const Grid>(march(lattice, seeds, method.order));
+}
+
+std::shared_ptr<const Grid> make_level_set(const TriangleSoup& soup, const GridMethod& method,
+                                           Repair repair) {
+  if (repair == Repair::winding) return make_repaired_grid(soup, method);
+  const TriangleMesh mesh = make_closed_mesh(soup);
+  return make_grid(make_mesh_distance(mesh.rest, mesh.triangles), method);
 }
 
 }  // namespace foldproof

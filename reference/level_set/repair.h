@@ -20,4 +20,11 @@ std::vector<Triangle> oriented(const TriangleSoup& soup);
 /// Throws InputError where no node is inside.
 std::shared_ptr<const Grid> make_repaired_grid(const TriangleSoup& soup, const GridMethod& method);
 
+/// What to do with a mesh that does not part inside from outside.
+enum class Repair { refuse, winding };
+
+/// The level set of a body: refuse: of a closed mesh, with the refusals of make_closed_mesh; winding: of any triangles,
+/// as make_repaired_grid makes it.
+std::shared_ptr<const Grid> make_level_set(const TriangleSoup& soup, const GridMethod& method, Repair repair);
+
 }  // namespace foldproof

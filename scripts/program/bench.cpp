@@ -4,14 +4,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <random>
 
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
+#include "scripts/program/bench_parts.h"
 #include "scripts/program/progress.h"
 
 namespace foldproof {
@@ -19,23 +18,6 @@ namespace foldproof {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-double seconds_of(const std::function<void()>& run) {
-  const auto start = std::chrono::steady_clock::now();
-  run();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// The least time of enough repeats to fill a fifth of a second, at least three [s].
-double least_seconds(const std::function<void()>& run) {
-  double least = seconds_of(run), total = least;
-  for (int k = 1; k < 3 || total < 0.2; ++k) {
-    const double seconds = seconds_of(run);
-    least = std::min(least, seconds);
-    total += seconds;
-  }
-  return least;
-}
 
 double peak_megabytes() {
   rusage usage;
@@ -128,18 +110,6 @@ double exponent(const std::vector<double>& x, const std::vector<double>& y) {
     sx += a, sy += b, sxx += a * a, sxy += a * b;
   }
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
-}
-
-struct Target {
-  double value;
-  std::string unit, better;  // "higher" or "lower"
-  std::string why;
-};
-
-Record rate(const std::string& name, const std::string& claim, double measured, const Target& target) {
-  const Verdict verdict{measured, target.value, 0, target.unit, target.why};
-  return {"bench." + name, "bench",       "", claim, "", {verdict, {}, "one thread, least of repeats"},
-          "measured",      target.better, 0,  {}};
 }
 
 std::vector<double> column(const std::vector<Speeds>& all, double Speeds::*member, double factor = 1) {
@@ -241,6 +211,7 @@ RunRecord bench(int most_particles) {
   run.tier = "";
   run.subject = "foldproof reference";
   run.records = rates(all, megabytes);
+  for (Record& record : level_set_rates()) run.records.push_back(std::move(record));
   run.studies.push_back({"bench",
                          "Time grows in proportion to the number of particles.",
                          "measured",

@@ -1,0 +1,28 @@
+// What all benches are put together from: times, targets, records.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "verification/check.h"
+
+namespace foldproof {
+
+double seconds_of(const std::function<void()>& run);
+
+/// The least time of enough repeats to fill a fifth of a second, at least three [s].
+double least_seconds(const std::function<void()>& run);
+
+struct Target {
+  double value;
+  std::string unit, better;  // "higher" or "lower"
+  std::string why;
+};
+
+/// A measured number beside its target.
+Record rate(const std::string& name, const std::string& claim, double measured, const Target& target);
+
+std::vector<Record> level_set_rates();  // bench_level_set.cpp: grids about a mesh, queries
+
+}  // namespace foldproof
