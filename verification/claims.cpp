@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 
@@ -100,21 +102,73 @@ namespace {
   throw std::runtime_error(fmt::format("placeholder {{{}}}: {}", placeholder, why));
 }
 
+/// One number that a text asks for.
+struct Place {
+  std::string finding, column, row;  // column: "" for the measured number, "bound", or of the evidence
+};
+
 struct Placeholder {
-  std::string text, finding, column, row;  // column: "" for the measured number, "bound", or of the evidence
+  std::string text;
+  bool bare;                  // without the unit
+  std::vector<Place> places;  // the largest of them is meant
 };
 
 /// A column's name may hold '|' itself: the finding ends at the first, the row begins after the last.
-Placeholder parsed(const std::string& text) {
+Place place_of(const std::string& text) {
   const size_t first = text.find('|'), last = text.rfind('|');
-  if (first == std::string::npos) return {text, text, "", ""};
-  if (first == last) return {text, text.substr(0, first), text.substr(first + 1), ""};
-  return {text, text.substr(0, first), text.substr(first + 1, last - first - 1), text.substr(last + 1)};
+  if (first == std::string::npos) return {text, "", ""};
+  if (first == last) return {text.substr(0, first), text.substr(first + 1), ""};
+  return {text.substr(0, first), text.substr(first + 1, last - first - 1), text.substr(last + 1)};
 }
 
-std::string with_unit(const Placeholder& wanted, double value, const std::string& unit) {
-  if (std::isnan(value)) refuse(wanted.text, "it is not a number");
-  return fmt::format("{:.3g}{}{}", value, unit == "1" || unit.empty() ? "" : " ", unit == "1" ? "" : unit);
+/// Does the text begin with these words? They are then cut off.
+bool cut_off(std::string& text, const std::string& words) {
+  if (!text.starts_with(words)) return false;
+  text.erase(0, words.size());
+  return true;
+}
+
+Placeholder parsed(const std::string& text) {
+  std::string rest = text;
+  Placeholder result{text, cut_off(rest, "bare: "), {}};
+  if (!cut_off(rest, "largest of: ")) return {text, result.bare, {place_of(rest)}};
+  for (size_t comma = rest.find(", "); comma != std::string::npos; comma = rest.find(", ")) {
+    result.places.push_back(place_of(rest.substr(0, comma)));
+    rest.erase(0, comma + 2);
+  }
+  result.places.push_back(place_of(rest));
+  return result;
+}
+
+/// A number of the run.
+struct Quantity {
+  double value;
+  std::string unit;
+};
+
+/// The exponent of ten as the report writes it.
+std::string superscript(int exponent) {
+  static const std::array<const char*, 10> digits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "⁻" : "";
+  for (const char digit : std::to_string(std::abs(exponent))) text += digits[size_t(digit - '0')];
+  return text;
+}
+
+/// Three digits, without zeros at the end.
+std::string number_text(double value) {
+  if (value == 0 || !std::isfinite(value)) return fmt::format("{:g}", value);
+  const std::string scientific = fmt::format("{:.2e}", value);
+  const size_t e = scientific.find('e');
+  const int exponent = std::stoi(scientific.substr(e + 1));
+  if (exponent >= -3 && exponent < 6)
+    return fmt::format("{:.{}g}", std::stod(scientific), std::max(3, exponent + 1));
+  return fmt::format("{:g}×10{}", std::stod(scientific.substr(0, e)), superscript(exponent));
+}
+
+std::string text_of(const Placeholder& wanted, const Quantity& quantity) {
+  if (std::isnan(quantity.value)) refuse(wanted.text, "it is not a number");
+  const bool without = wanted.bare || quantity.unit == "1" || quantity.unit.empty();
+  return number_text(quantity.value) + (without ? "" : " " + quantity.unit);
 }
 
 /// The row whose entry in the first column of texts is `key`; the number of rows if there is none.
@@ -127,42 +181,52 @@ size_t row_of_text(const std::vector<Column>& columns, const std::string& key) {
 }
 
 /// NaN if any value is.
-double extreme(const Placeholder& wanted, const std::vector<double>& values) {
+double extreme(const std::string& row, const std::vector<double>& values) {
   double result = values.front();
   for (double value : values) {
-    const bool is_beyond = wanted.row == "smallest" ? value < result : value > result;
+    const bool is_beyond = row == "smallest" ? value < result : value > result;
     if (is_beyond || std::isnan(value)) result = value;
     if (std::isnan(result)) break;
   }
   return result;
 }
 
-double entry_of(const Placeholder& wanted, const std::vector<Column>& columns,
+double entry_of(const Placeholder& wanted, const std::string& row, const std::vector<Column>& columns,
                 const std::vector<double>& values) {
   if (values.empty()) refuse(wanted.text, "the column is empty");
-  if (wanted.row == "smallest" || wanted.row == "largest") return extreme(wanted, values);
-  if (wanted.row == "first") return values.front();
-  if (wanted.row == "last") return values.back();
-  const bool is_number =
-      !wanted.row.empty() && wanted.row.find_first_not_of("0123456789") == std::string::npos;
-  const size_t row = is_number ? std::stoul(wanted.row) - 1 : row_of_text(columns, wanted.row);
-  if (!(row < values.size())) refuse(wanted.text, "there is no such row");
-  return values[row];
+  if (row == "smallest" || row == "largest") return extreme(row, values);
+  if (row == "first") return values.front();
+  if (row == "last") return values.back();
+  const bool is_number = !row.empty() && row.find_first_not_of("0123456789") == std::string::npos;
+  const size_t index = is_number ? std::stoul(row) - 1 : row_of_text(columns, row);
+  if (!(index < values.size())) refuse(wanted.text, "there is no such row");
+  return values[index];
 }
 
-std::string value_of(const Placeholder& wanted, const std::vector<Record>& records) {
-  const Record* record = record_named(wanted.finding, records);
+Quantity quantity_at(const Placeholder& wanted, const Place& place, const std::vector<Record>& records) {
+  const Record* record = record_named(place.finding, records);
   if (!record) refuse(wanted.text, "the run has no such finding");
   const Verdict& verdict = record->finding.verdict;
-  if (wanted.column.empty()) return with_unit(wanted, verdict.measured, verdict.unit);
-  if (wanted.row.empty() && wanted.column == "bound") return with_unit(wanted, verdict.bound, verdict.unit);
+  if (place.column.empty()) return {verdict.measured, verdict.unit};
+  if (place.row.empty() && place.column == "bound") return {verdict.bound, verdict.unit};
   const std::vector<Column>& columns = record->finding.evidence;
   for (const Column& column : columns) {
     const auto* values = std::get_if<std::vector<double>>(&column.values);
-    if (values && column.name == wanted.column)
-      return with_unit(wanted, entry_of(wanted, columns, *values), column.unit);
+    if (values && column.name == place.column)
+      return {entry_of(wanted, place.row, columns, *values), column.unit};
   }
   refuse(wanted.text, "the finding's evidence has no such column of numbers");
+}
+
+std::string value_of(const Placeholder& wanted, const std::vector<Record>& records) {
+  Quantity largest = quantity_at(wanted, wanted.places.front(), records);
+  for (const Place& place : wanted.places) {
+    const Quantity one = quantity_at(wanted, place, records);
+    if (one.unit != largest.unit) refuse(wanted.text, "its numbers have different units");
+    if (!(one.value <= largest.value)) largest = one;
+    if (std::isnan(largest.value)) break;
+  }
+  return text_of(wanted, largest);
 }
 
 /// Calls visit(placeholder) at each and joins what it returns with the text between.
@@ -189,7 +253,7 @@ std::vector<std::string> findings_named_in(const Claim& claim) {
   std::vector<std::string> names;
   for (const Decider& decider : claim.decided_by) names.push_back(decider.finding);
   with_placeholders(claim.why + claim.condition, [&](const Placeholder& wanted) {
-    names.push_back(wanted.finding);
+    for (const Place& place : wanted.places) names.push_back(place.finding);
     return std::string();
   });
   return names;

@@ -116,6 +116,25 @@ TEST_CASE("numbers in a text come from the findings, with unit, three digits and
                       Catch::Contains("placeholder {mass") || Catch::Contains("placeholder {mess}"));
 }
 
+TEST_CASE(
+    "a number may stand without its unit, and for the largest of several; powers of ten are written as "
+    "such") {
+  const std::vector<Record> records = {
+      finding("small", "holds", 5.9217e-5), finding("large", "holds", 1.9949e7),
+      finding("plain", "holds", 123456),    finding("unknown", "fails", not_a_number),
+      finding("none", "holds", 0),          finding("below", "holds", -0.00123456)};
+  CHECK(filled("{small}, {large}, {plain}, {none}", records) == "5.92×10⁻⁵ kg, 1.99×10⁷ kg, 123000 kg, 0 kg");
+  CHECK(filled("{bare: small} and {bare: below}", records) == "5.92×10⁻⁵ and -0.00123");
+  CHECK(filled("{largest of: small, plain, none}", records) == "123000 kg");
+  CHECK(filled("{bare: largest of: small, none|bound}", records) == "0.5");
+  CHECK_THROWS_WITH(filled("{largest of: small, unknown}", records),
+                    Catch::Contains("largest of: small, unknown"));
+  CHECK_THROWS_WITH(filled("{largest of: unknown, small}", records), Catch::Contains("not a number"));
+  std::vector<Record> mixed = records;
+  mixed.front().finding.verdict.unit = "m";
+  CHECK_THROWS_WITH(filled("{largest of: small, plain}", mixed), Catch::Contains("different units"));
+}
+
 TEST_CASE("a ruled claim has its numbers; one that asks for a number that is not there is refused by name") {
   const std::vector<Record> records = {finding("support", "holds")};
   CHECK(ruled(small_claim(Standing::confirmed, "It is {support}."), records).claim.why == "It is 0.25 kg.");
