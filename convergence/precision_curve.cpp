@@ -42,7 +42,17 @@ double log_between(double from, double to, double part) {
   return std::exp((1 - part) * std::log(from) + part * std::log(to));
 }
 
+int measured_runs(const PrecisionCurve& curve) {
+  return int(
+      std::ranges::count_if(curve.runs, [](const PrecisionRun& run) { return !std::isnan(run.error); }));
+}
+
 }  // namespace
+
+Mark mark_of(const PrecisionRun& run) {
+  if (std::isnan(run.error)) return Mark::diverged;
+  return run.work.unfinished_solves > 0 ? Mark::unfinished : Mark::measured;
+}
 
 PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& problem,
                                const PrecisionTruth& truth, const Integrator& integrator,
@@ -60,9 +70,9 @@ PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& p
     }
     const double error =
         run.ending == Ending::reached ? largest_distance(run.last.x, truth.x) / truth.motion : nan;
-    curve.runs.push_back(
-        {plan.steps, error <= lost ? error : nan, operator_applications(run.work), seconds, run.work});
-    if (error <= finest_error / 3) again = curve.runs.size() < 2 || std::isnan(curve.runs.end()[-2].error);
+    curve.runs.push_back({plan.steps, error <= lost ? error : nan, operator_applications(run.work), seconds,
+                          double(run.steps) / plan.steps, run.work});
+    again = !(error <= finest_error / 3) || measured_runs(curve) < problem.least_points;
   }
   return curve;
 }
@@ -85,16 +95,17 @@ Price price_at(const PrecisionCurve& curve, double end, double wanted) {
   const std::vector<PrecisionRun>& runs = curve.runs;
   size_t first = runs.size();
   while (first > 0 && runs[first - 1].error <= wanted) --first;
-  if (first == runs.size()) return {LimitedBy::not_reached, nan, nan, nan};
+  if (first == runs.size()) return {LimitedBy::not_reached, nan, nan, nan, nan};
   const PrecisionRun& fine = runs[first];
-  const double step = end / fine.steps;
-  if (first == 0) return {LimitedBy::not_tried, step, fine.applications, fine.seconds};
+  const double step = end / fine.steps, unfinished = double(fine.work.unfinished_solves);
+  if (first == 0) return {LimitedBy::not_tried, step, fine.applications, fine.seconds, unfinished};
   const PrecisionRun& coarse = runs[first - 1];
-  if (std::isnan(coarse.error)) return {LimitedBy::stability, step, fine.applications, fine.seconds};
+  if (std::isnan(coarse.error))
+    return {LimitedBy::stability, step, fine.applications, fine.seconds, unfinished};
   const double part = std::log(coarse.error / wanted) / std::log(coarse.error / fine.error);
   return {LimitedBy::accuracy, log_between(end / coarse.steps, step, part),
           log_between(coarse.applications, fine.applications, part),
-          log_between(coarse.seconds, fine.seconds, part)};
+          log_between(coarse.seconds, fine.seconds, part), unfinished};
 }
 
 }  // namespace foldproof

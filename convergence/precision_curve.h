@@ -15,8 +15,12 @@ struct PrecisionRun {
   double error;  // largest component of the position error at the end over the motion [1]; NaN: diverged
   double applications;  // of force operators [1]
   double seconds;       // of the processor, the least of a few repeats
+  double part;          // of its steps that it took: 1 unless it diverged on the way [1]
   Work work;
 };
+
+/// How a run is marked in figures; diverged: no error.
+Mark mark_of(const PrecisionRun& run);
 
 struct PrecisionCurve {
   Integrator integrator;
@@ -27,7 +31,7 @@ struct PrecisionCurve {
 constexpr double lost = 1;
 
 /// The runs of one method: from an eighth of the steps at the elastic limit on, finer by problem.ratio, until
-/// the error is a third of `finest_error` [1] and the run before did not diverge, or until a run with a step
+/// the error is a third of `finest_error` [1] and problem.least_points runs were measured, or until a run with a step
 /// below the elastic limit would exceed the problem's budget. Runs with longer steps that exceed it are left
 /// out.
 PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& problem,
@@ -45,6 +49,7 @@ struct Price {
   double step;          // s
   double applications;  // 1
   double seconds;
+  double unfinished;  // solves in the run that reaches it [1]
 };
 
 /// From the coarsest run from which on all errors are at most `wanted` [1]; between it and the next coarser one

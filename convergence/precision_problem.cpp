@@ -1,11 +1,10 @@
 #include "convergence/precision_problem.h"
 
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <random>
 
 #include "convergence/oracle_problem.h"
+#include "convergence/stable_step.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/forces/degenerate.h"
 
@@ -42,51 +41,10 @@ Extrapolated extrapolated(const Subject& subject, Scene scene, const Integrator&
   return {x, largest_distance(x, second.last.x), second.farthest};
 }
 
-/// Numbers in [-1/2, 1/2), 3 x n, the same on every machine.
-PerParticle3 noise(Eigen::Index n) {
-  std::mt19937_64 generator(41023);
-  PerParticle3 values(3, n);
-  for (Eigen::Index i = 0; i < values.size(); ++i)
-    values.data()[i] = double(generator() >> 11) * 0x1p-53 - 0.5;
-  return values;
-}
-
-/// A symmetric operator on displacements or velocities: 3 x N -> 3 x N forces.
-using ForceOperator = std::function<PerParticle3(const PerParticle3&)>;
-
-/// The largest eigenvalue of -M^{-1/2} F M^{-1/2} over the free particles, by power iteration (from below).
-double largest_eigenvalue(const Scene& scene, const ForceOperator& F) {
-  constexpr int rounds = 200;
-  PerParticle root = lumped_masses(scene.mesh, scene.density).cwiseSqrt().cwiseInverse();
-  for (const PrescribedParticle& led : scene.led) root[led.particle] = 0;
-  PerParticle3 mode = (noise(scene.x.cols()) * root.asDiagonal()).normalized();
-  double value = 0;
-  for (int i = 0; i < rounds; ++i) {
-    const PerParticle3 product = -F(mode * root.asDiagonal()) * root.asDiagonal();
-    value = product.cwiseProduct(mode).sum();
-    mode = product.normalized();
-  }
-  return value;
-}
-
 void measure_limits(const Subject& subject, const Scene& scene, PrecisionTruth& truth) {
-  constexpr double small = 1e-6;  // displacement for differences [m]
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
-  const State start = start_state(scene);
-  const auto stiffness = [&](const PerParticle3& dx) {
-    const double scale = small / dx.norm();
-    State ahead = start, behind = start;
-    ahead.x += scale * dx;
-    behind.x -= scale * dx;
-    const auto& forces = offered(subject.elastic_forces, "elastic_forces");
-    return PerParticle3((forces(*prepared, ahead) - forces(*prepared, behind)) / (2 * scale));
-  };
-  const auto damping = [&](const PerParticle3& v) {
-    return offered(subject.damping_forces, "damping_forces")(*prepared, start, v);
-  };
-  truth.elastic_limit = elastic_limit(build_system(scene), start);
-  truth.elastic_2_over = 2 / std::sqrt(largest_eigenvalue(scene, stiffness));
-  truth.damping_2_over = 2 / largest_eigenvalue(scene, damping);
+  truth.elastic_limit = elastic_limit(build_system(scene), start_state(scene));
+  truth.elastic_2_over = 2 / fastest_mode(subject, scene).omega;
+  truth.damping_2_over = 2 / largest_eigenvalue(scene, damping_operator(subject, scene)).value;
 }
 
 }  // namespace
@@ -106,10 +64,11 @@ PlannedRun run_planned(const Subject& subject, const Scene& scene, const RunPlan
   const auto prepared = offered(subject.prepare, "prepare")(scene);
   const auto& step = offered(subject.step, "step");
   History history(start_state(scene), 2);
-  PlannedRun run{Ending::reached, history.now(), {}, 0};
+  PlannedRun run{Ending::reached, 0, history.now(), {}, 0};
   Worst farthest;
   try {
-    for (int i = 0; i < plan.steps && run.ending == Ending::reached; ++i) {
+    while (run.steps < plan.steps && run.ending == Ending::reached) {
+      ++run.steps;
       history.advance(step(*prepared, history.past(), plan.end / plan.steps, run.work));
       farthest.see(largest_distance_from(scene.x, history.now().x));
       if (!(farthest.value() <= plan.farthest)) run.ending = Ending::diverged;

@@ -19,9 +19,10 @@ struct PrecisionProblem {
   Scene scene;        // its integrator is replaced by each of the table
   double end;         // s
   FirstOpinion first;
-  double ratio;   // of the numbers of steps of neighbouring runs, > 1
-  int finest;     // steps of the reference runs over those at the elastic limit
-  double budget;  // largest work of one judged run [operator applications]
+  double ratio;      // of the numbers of steps of neighbouring runs, > 1
+  int least_points;  // measured runs of a curve before it may end
+  int finest;        // steps of the reference runs over those at the elastic limit
+  double budget;     // largest work of one judged run [operator applications]
 };
 
 /// Where the motion ends, and the scales with which to speak of it.
@@ -47,6 +48,7 @@ enum class Ending { reached, diverged, over_budget };
 
 struct PlannedRun {
   Ending ending;
+  int steps;  // taken, fewer than planned unless the end was reached
   State last;
   Work work;
   double farthest;  // that any particle got from its start [m]

@@ -22,9 +22,15 @@ constexpr double order_kept = 0.1, error_kept = 0.1;
 PrecisionProblem damped_sheet(Tier tier) {
   constexpr double relaxation = 0.02;  // s
   const int cells = tier == Tier::quick ? 6 : 12;
-  return {
-      "sheet", "the damped sheet", hanging_sheet(cells, relaxation), 0.25, FirstOpinion::runge_kutta, 2, 16,
-      infinite};
+  return {"sheet",
+          "the damped sheet",
+          hanging_sheet(cells, relaxation),
+          0.25,
+          FirstOpinion::runge_kutta,
+          2,
+          2,
+          16,
+          infinite};
 }
 
 std::vector<double> tolerances(Tier tier) {

@@ -6,6 +6,7 @@
 #include "convergence/order.h"
 #include "convergence/explicit_limits.h"
 #include "convergence/ranges.h"
+#include "convergence/stability_map.h"
 #include "convergence/step_matrix.h"
 #include "convergence/studies.h"
 #include "reference/dynamics/integrator.h"
@@ -153,6 +154,8 @@ StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
   add_refinement(subject, tier, result);
   progress(0.85);
   add_tenth(subject, tier, result);
+  progress(0.9);
+  add_stability_maps(subject, tier, result);
   progress(1);
   return result;
 }

@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
+
+#include "reference/mesh/shapes.h"
 
 namespace foldproof {
 
@@ -42,28 +45,51 @@ PerParticle3 disturbance_shape(Eigen::Index n) {
   return values;
 }
 
-FastestMode fastest_mode(const Subject& subject, const Scene& scene) {
-  constexpr int rounds = 400;
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
+Scene flat_sheet(int cells) {
+  Scene scene = scene_of(make_sheet({SheetPattern::union_jack, flat_side, flat_side, cells, cells}), 0.23);
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  return scene;
+}
+
+ForceOperator elastic_operator(const Subject& subject, const Scene& scene) {
+  const std::shared_ptr<Prepared> prepared = offered(subject.prepare, "prepare")(scene);
   const auto& forces = offered(subject.elastic_forces, "elastic_forces");
-  const PerParticle root = lumped_masses(scene.mesh, scene.density).cwiseSqrt().cwiseInverse();
-  State s = start_state(scene);
-  FastestMode fastest{0, {}};
-  PerParticle3 mode = disturbance_shape(s.x.cols()).normalized();
+  return [&forces, prepared, start = start_state(scene)](const PerParticle3& displacement) {
+    const double scale = small_disturbance / displacement.norm();
+    State ahead = start, behind = start;
+    ahead.x += scale * displacement;
+    behind.x -= scale * displacement;
+    return PerParticle3((forces(*prepared, ahead) - forces(*prepared, behind)) / (2 * scale));
+  };
+}
+
+ForceOperator damping_operator(const Subject& subject, const Scene& scene) {
+  const std::shared_ptr<Prepared> prepared = offered(subject.prepare, "prepare")(scene);
+  const auto& forces = offered(subject.damping_forces, "damping_forces");
+  return [&forces, prepared, start = start_state(scene)](const PerParticle3& v) {
+    return forces(*prepared, start, v);
+  };
+}
+
+LargestEigenvalue largest_eigenvalue(const Scene& scene, const ForceOperator& F) {
+  constexpr int rounds = 400;
+  PerParticle root = lumped_masses(scene.mesh, scene.density).cwiseSqrt().cwiseInverse();
+  for (const PrescribedParticle& led : scene.led) root[led.particle] = 0;
+  PerParticle3 mode = (disturbance_shape(scene.x.cols()) * root.asDiagonal()).normalized();
+  LargestEigenvalue largest{0, {}};
   for (int i = 0; i < rounds; ++i) {
-    PerParticle3 shift = mode * root.asDiagonal();
-    shift *= small_disturbance / shift.norm();
-    s.x = scene.x + shift;
-    const PerParticle3 ahead = forces(*prepared, s);
-    s.x = scene.x - shift;
-    const PerParticle3 behind = forces(*prepared, s);
-    const PerParticle3 unit = shift * root.cwiseInverse().asDiagonal();
-    const PerParticle3 product = (behind - ahead) / 2 * root.asDiagonal();
-    fastest.omega = std::sqrt(product.cwiseProduct(unit).sum() / unit.squaredNorm());
-    fastest.shape = shift.normalized();
+    const PerParticle3 displacement = mode * root.asDiagonal();
+    const PerParticle3 product = -F(displacement) * root.asDiagonal();
+    largest.value = product.cwiseProduct(mode).sum();
+    largest.shape = displacement.normalized();
     mode = product.normalized();
   }
-  return fastest;
+  return largest;
+}
+
+FastestMode fastest_mode(const Subject& subject, const Scene& scene) {
+  const LargestEigenvalue largest = largest_eigenvalue(scene, elastic_operator(subject, scene));
+  return {std::sqrt(largest.value), largest.shape};
 }
 
 double largest_stable_step(const Subject& subject, const Scene& scene, double omega,

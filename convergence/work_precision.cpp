@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "convergence/slow_motion.h"
 #include "convergence/studies.h"
 
 namespace foldproof {
@@ -29,6 +30,7 @@ StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
   for (const PrecisionScene& scene : scenes)
     for (Figure& figure : precision_figures(scene)) result.figures.push_back(std::move(figure));
   result.tables = precision_tables(scenes);
+  add_slow_motion(subject, result);
   return result;
 }
 
@@ -43,8 +45,8 @@ const PrecisionCurve& curve_of(const PrecisionScene& scene, std::string_view met
 Study work_precision() {
   return {
       "work-precision",
-      "On heavily damped cloth the paper's schemes take steps larger than explicit ones by the ratio of the "
-      "elastic to the damping limit, at one percent of error.",
+      "On heavily damped cloth schemes A and B take steps larger than explicit ones by the ratio of the "
+      "elastic to the damping limit, at one percent of error; C's accuracy asks for shorter ones.",
       "BMF03 section 3",
       "Which integrator should I use for my scene, at which step, and what does it cost? Every method of "
       "the table runs four motions over a range of constant steps. The error is the largest position error "

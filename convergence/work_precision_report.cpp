@@ -11,52 +11,47 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double percent = 100;
 
-/// What a run is drawn against, and what a figure says of runs that diverged.
+/// What a run is drawn against. A run that diverged on the way stands where all of its steps would have cost as much
+/// as those that it took.
 struct CostAxis {
   std::string name, words;
   Axis axis;
   double (*of)(const PrecisionScene& scene, const PrecisionRun& run);
-  enum class Diverged { at_the_top, left_out } diverged;  // a run that stopped early has no cost to speak of
 };
 
 std::vector<CostAxis> cost_axes() {
-  using enum CostAxis::Diverged;
   return {{"work",
            "work",
            {"applications of force operators", "1", Scale::log},
-           [](const PrecisionScene&, const PrecisionRun& run) { return run.applications; },
-           left_out},
+           [](const PrecisionScene&, const PrecisionRun& run) { return run.applications / run.part; }},
           {"seconds",
            "time",
            {"processor time", "s", Scale::log},
-           [](const PrecisionScene&, const PrecisionRun& run) { return run.seconds; },
-           left_out},
+           [](const PrecisionScene&, const PrecisionRun& run) { return run.seconds / run.part; }},
           {"step",
            "step",
            {"step over elastic limit", "1", Scale::log},
            [](const PrecisionScene& scene, const PrecisionRun& run) {
              return scene.problem.end / run.steps / scene.truth.elastic_limit;
-           },
-           at_the_top}};
+           }}};
 }
 
 Curve drawn(const PrecisionScene& scene, const PrecisionCurve& curve, const CostAxis& cost) {
   Curve points{std::string(curve.integrator.name), {}, {}, percent * scene.truth.uncertainty, {}};
   for (const PrecisionRun& run : curve.runs) {
-    if (std::isnan(run.error) && cost.diverged == CostAxis::Diverged::left_out) continue;
     points.x.push_back(cost.of(scene, run));
-    points.y.push_back(percent * (std::isnan(run.error) ? lost : run.error));
+    points.y.push_back(percent * run.error);
+    points.marks.push_back(mark_of(run));
   }
   return points;
 }
 
-std::string caption_of(const CostAxis& cost) {
-  return std::string("Largest position error at the end over the largest motion. ") +
-         (cost.diverged == CostAxis::Diverged::left_out
-              ? "Runs that diverged are left out; the figure against the step has them."
-              : "Points at 100 % are runs that diverged or whose error exceeds the motion.") +
-         " The floor is the uncertainty of the reference solution.";
-}
+const char* const caption =
+    "Largest position error at the end over the largest motion. In the strip at the top: runs that diverged "
+    "or err by "
+    "more than the motion, where all of their steps would have cost as much as those that they took. The "
+    "floor is the "
+    "uncertainty of the reference solution; runs below it are faint.";
 
 /// A cost that two methods are compared by.
 struct Currency {
@@ -69,7 +64,7 @@ const std::array<Currency, 2> currencies = {{{"work", &Price::applications}, {"s
 /// The two best of a scene.
 struct Podium {
   std::string first = "none", second = "none";
-  Price best{LimitedBy::not_reached, nan, nan, nan}, next = best, scheme_C = best;
+  Price best{LimitedBy::not_reached, nan, nan, nan, nan}, next = best, scheme_C = best;
 };
 
 Podium podium(const PrecisionScene& scene, double wanted, const Currency& currency) {
@@ -133,7 +128,7 @@ Table cheapest(const std::vector<PrecisionScene>& scenes) {
 
 Table prices(const std::vector<PrecisionScene>& scenes) {
   std::vector<std::string> things, methods, limits;
-  std::vector<double> errors, steps, relative, work, seconds;
+  std::vector<double> errors, steps, relative, work, seconds, unfinished;
   for (const PrecisionScene& scene : scenes) {
     for (double wanted : wanted_errors) {
       for (const PrecisionCurve& curve : scene.curves) {
@@ -146,6 +141,7 @@ Table prices(const std::vector<PrecisionScene>& scenes) {
         limits.emplace_back(words_of(price.limit));
         work.push_back(price.applications);
         seconds.push_back(price.seconds);
+        unfinished.push_back(price.unfinished);
       }
     }
   }
@@ -158,7 +154,8 @@ Table prices(const std::vector<PrecisionScene>& scenes) {
            {"step over elastic limit", "1", relative},
            {"step limited by", "1", limits},
            {"operator applications", "1", work},
-           {"processor time", "s", seconds}}};
+           {"processor time", "s", seconds},
+           {"unfinished solves", "1", unfinished}}};
 }
 
 Table scales(const std::vector<PrecisionScene>& scenes) {
@@ -184,6 +181,35 @@ Table scales(const std::vector<PrecisionScene>& scenes) {
            {"elastic limit, the solver's bound", "s", limits},
            {"2/omega, fastest mode", "s", elastic},
            {"2/c, fastest damping rate", "s", damping}}};
+}
+
+/// How much of every curve there is to see.
+Table coverage(const std::vector<PrecisionScene>& scenes) {
+  std::vector<std::string> things, methods;
+  std::array<std::vector<double>, 5> numbers;
+  for (const PrecisionScene& scene : scenes) {
+    for (const PrecisionCurve& curve : scene.curves) {
+      things.push_back(scene.problem.thing);
+      methods.emplace_back(curve.integrator.name);
+      std::array<double, 5> row = {};
+      for (const PrecisionRun& run : curve.runs) {
+        const bool is_measured = !std::isnan(run.error);
+        const std::array<bool, 5> counts = {true, is_measured, run.error > scene.truth.uncertainty,
+                                            mark_of(run) == Mark::unfinished, !is_measured};
+        for (size_t k = 0; k < row.size(); ++k) row[k] += counts[k];
+      }
+      for (size_t k = 0; k < row.size(); ++k) numbers[k].push_back(row[k]);
+    }
+  }
+  return {"coverage",
+          "How many runs each curve has",
+          {{"scene", "1", things},
+           {"method", "1", methods},
+           {"runs", "1", numbers[0]},
+           {"measured", "1", numbers[1]},
+           {"that err more than the reference", "1", numbers[2]},
+           {"with unfinished solves", "1", numbers[3]},
+           {"diverged", "1", numbers[4]}}};
 }
 
 Table all_runs(const std::vector<PrecisionScene>& scenes) {
@@ -235,7 +261,7 @@ std::vector<Figure> precision_figures(const PrecisionScene& scene) {
                   cost.axis,
                   {"position error over the motion", "%", Scale::log},
                   nan,
-                  caption_of(cost),
+                  caption,
                   {}};
     for (const PrecisionCurve& curve : scene.curves) {
       Curve points = drawn(scene, curve, cost);
@@ -250,7 +276,7 @@ std::vector<Figure> precision_figures(const PrecisionScene& scene) {
 }
 
 std::vector<Table> precision_tables(const std::vector<PrecisionScene>& scenes) {
-  return {cheapest(scenes), prices(scenes), scales(scenes), all_runs(scenes)};
+  return {cheapest(scenes), prices(scenes), scales(scenes), coverage(scenes), all_runs(scenes)};
 }
 
 }  // namespace foldproof
