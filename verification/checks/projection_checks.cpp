@@ -251,7 +251,7 @@ std::vector<Check> projection_checks() {
        "A point between objects closer than the map asks is reported and not made worse.", source,
        gaps_without_room_are_reported}};
   checks.insert(checks.end(), own.begin(), own.end());
-  for (const auto& part : {projection_exact_checks(), projection_cloth_checks()})
+  for (const auto& part : {projection_exact_checks(), projection_cloth_checks(), projection_mesh_checks()})
     checks.insert(checks.end(), part.begin(), part.end());
   return checks;
 }
