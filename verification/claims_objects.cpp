@@ -71,6 +71,7 @@ std::vector<Claim> what_projection_keeps() {
        "5.3",
        "Projecting into [eps, tau] with a small eps leaves no triangle of the cloth that meets the object.",
        {{"projection.no-triangle-is-left-inside", Role::supports},
+        {"projection.no-triangle-is-left-in-a-mesh", Role::supports},
         {"eps-needed.ball-bound", Role::supports},
         {"eps-needed.large-ball-bound", Role::supports},
         {"eps-needed.box-bound", Role::supports},
