@@ -1,11 +1,12 @@
 #include "reference/scene/read_objects.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <memory>
 #include <utility>
 
-#include "reference/level_set/mesh_grid.h"
+#include "reference/level_set/closed_mesh.h"
+#include "reference/level_set/repair.h"
+#include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/key_values.h"
 #include "reference/scene/object_surface.h"
@@ -48,28 +49,28 @@ Shape read_torus(const KeyTable& keys) {
   return {Torus{ring, tube}, torus_surface(ring, tube)};
 }
 
-bool is_closed(const TriangleMesh& mesh) {
-  return std::none_of(mesh.edges.begin(), mesh.edges.end(),
-                      [](const Edge& edge) { return edge.triangles[1] < 0; });
-}
-
-/// A closed mesh as a solid: its exact distance, or a grid of it.
-Shape solid_of(const KeyTable& keys, TriangleMesh mesh) {
+/// A mesh as a solid: its exact distance, or a grid of it.
+Shape solid_of(const KeyTable& keys, TriangleSoup soup) {
   enum class Field { exact, grid };
-  fit(keys, mesh.rest);
-  if (!is_closed(mesh))
-    throw InputError(keys.where() + ": the object's mesh has a border; a body must be closed");
-  const MeshDistance distance = make_mesh_distance(mesh.rest, mesh.triangles);
-  ObjectSurface surface{std::move(mesh.rest), std::move(mesh.triangles)};
-  if (choice<Field>(keys, "field", {{"grid", Field::grid}, {"exact", Field::exact}}) == Field::exact)
-    return {MeshSolid{std::make_shared<const MeshDistance>(distance)}, std::move(surface)};
-  const GridMethod method{int(count_or(keys, "cells", 64)), 4, 3, MarchingOrder::second};
-  return {GridSolid{make_grid(distance, method)}, std::move(surface)};
+  fit(keys, soup.rest);
+  const auto field = choice<Field>(keys, "field", {{"grid", Field::grid}, {"exact", Field::exact}});
+  const auto repair =
+      choice<Repair>(keys, "repair", {{"refuse", Repair::refuse}, {"winding", Repair::winding}});
+  ObjectSurface surface{soup.rest, soup.triangles};
+  if (field == Field::grid) {
+    const GridMethod method{int(count_or(keys, "cells", 64)), 4, 3, MarchingOrder::second};
+    return {GridSolid{make_level_set(soup, method, repair)}, std::move(surface)};
+  }
+  if (repair != Repair::refuse) throw InputError(keys.where("repair") + ": 'repair' needs field = \"grid\"");
+  const TriangleMesh mesh = make_closed_mesh(std::move(soup));
+  return {MeshSolid{std::make_shared<const MeshDistance>(make_mesh_distance(mesh.rest, mesh.triangles))},
+          std::move(surface)};
 }
 
 Shape read_statue(const KeyTable& keys) {
   const double height = positive(keys, "height");
-  return solid_of(keys, make_statue(height, int(count_or(keys, "subdivisions", 4))));
+  TriangleMesh statue = make_statue(height, int(count_or(keys, "subdivisions", 4)));
+  return solid_of(keys, {std::move(statue.rest), std::move(statue.triangles), {}});
 }
 
 Shape read_shape(const KeyTable& keys) {
@@ -104,7 +105,8 @@ SceneObject read_object(const KeyTable& keys, const std::string& folder, size_t 
                      ": [[object]] needs either 'shape' or 'mesh' (an OBJ file), and not both");
   SceneObject part;
   part.shape = keys.has("shape") ? keys.text("shape") : "mesh";
-  Shape shape = keys.has("shape") ? read_shape(keys) : solid_of(keys, read_mesh_file(keys, folder, "object"));
+  Shape shape =
+      keys.has("shape") ? read_shape(keys) : solid_of(keys, read_obj_soup(mesh_file(keys, folder, "object")));
   const Pose place = read_pose(keys);
   part.object.name = keys.text_or("name", part.shape + " " + std::to_string(number + 1));
   part.object.friction = not_negative_or(keys, "friction", 0);

@@ -90,7 +90,7 @@ void place(const KeyTable& keys, PerParticle3& x) {
 
 }  // namespace
 
-TriangleMesh read_mesh_file(const KeyTable& keys, const std::string& folder, const std::string& table) {
+std::string mesh_file(const KeyTable& keys, const std::string& folder, const std::string& table) {
   std::filesystem::path file = keys.text("mesh");
   const std::string where = keys.where("mesh");
   if (file.empty())
@@ -98,7 +98,7 @@ TriangleMesh read_mesh_file(const KeyTable& keys, const std::string& folder, con
   if (file.is_relative() && where != "--set") file = folder / file;
   if (!std::filesystem::exists(file))
     throw InputError(where + ": there is no mesh file '" + file.string() + "'");
-  return read_obj(file.string());
+  return file.string();
 }
 
 void fit(const KeyTable& keys, PerParticle3& x) {
@@ -114,7 +114,7 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder) {
     throw InputError(cloth.where("mesh") +
                      ": [cloth] needs either 'shape' or 'mesh' (an OBJ file), and not both");
   PlacedMesh result{cloth.has("mesh")
-                        ? read_mesh_file(cloth, folder, "cloth")
+                        ? read_obj(mesh_file(cloth, folder, "cloth"))
                         : placed_refusal(cloth.where("shape"), [&] { return make_shape(cloth); }),
                     {}};
 

@@ -17,8 +17,8 @@ struct PlacedMesh {
 /// for.
 PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder);
 
-/// The OBJ file that the key 'mesh' names. table: its name in messages, "cloth" or "object".
-TriangleMesh read_mesh_file(const KeyTable& keys, const std::string& folder, const std::string& table);
+/// Where the OBJ file is that the key 'mesh' names. table: its name in messages, "cloth" or "object".
+std::string mesh_file(const KeyTable& keys, const std::string& folder, const std::string& table);
 
 /// Scales the positions x (3 x N [m]) so that their largest extent is 'fit', if that is given.
 void fit(const KeyTable& keys, PerParticle3& x);
