@@ -13,6 +13,7 @@ constexpr const char* examples = R"(Examples:
   foldproof verify                                    everything of the quick tier, and the report results/report.html
   foldproof simulate cases/hanging_sheet.toml --set bending.stiffness=1e-3 --out results
   foldproof simulate cases/any_mesh.toml --set cloth.mesh=body.obj
+  foldproof project results/half_inside.h5 --map blend --tau 0.01
   foldproof check bending                             all checks of bending
   foldproof check bending.forces-sum-to-zero --json   one of them, for another program
   foldproof study time-order.hinge                    one study
@@ -26,6 +27,11 @@ constexpr const char* evaluate_help =
   x1 x2 x3 x4 (12 position components [m]), v1 v2 v3 v4 (12 velocity components [m/s]), ke [J], kd [N s], theta0 [rad].
 Output: 12 elastic and 12 damping force components [N] in 17 digits. The weight |E|^2/(|N1|+|N2|) is taken at the current positions, or, with --rest, at
 the rest positions: rows of 12 numbers.)";
+
+constexpr const char* project_help =
+    R"(Prints how many points were moved, and of the last frame how much of the wrinkles is left: the standard deviation of the depths of points that were
+inside, and where the spectrum of the depth along a section of the cloth is largest, before, after plain projection, and after the map. Points between two
+objects are left alone. Points end at most tau/10^6 farther out than the map says. Exit code 1: some points found no room between objects.)";
 
 std::string typed(int argc, char** argv) {
   std::string command = "build/foldproof";
@@ -90,6 +96,28 @@ void add_runs(CLI::App& app, Options& options) {
   }
 }
 
+void add_project(CLI::App& app, Options& options) {
+  CLI::App* project = add_command(app, options, "project",
+                                  "Bring the cloth of a stored run out of its objects; writes NAME_projected.h5",
+                                  project_run);
+  project->footer(project_help);
+  project->add_option("RUN.h5", options.file, "What `foldproof simulate` wrote")->required();
+  project->add_option("--map", options.map, "Map of depth: plain, power or blend")
+      ->check(CLI::IsMember({"plain", "power", "blend"}))
+      ->required();
+  project->add_option("--tau", options.reach, "Points up to so far outside are moved [m]")->required();
+  project->add_option("--eps", options.eps, "How far out the deepest points come to lie [m]")->capture_default_str();
+  project->add_option("--deepest", options.deepest,
+                      "Deepest penetration that is told from deeper ones [m] (default: the deepest in the run)");
+  project->add_option("--subdivide", options.levels, "Levels of subdivision before the projection, 0 to 8")
+      ->capture_default_str();
+  project->add_option("--rule", options.rule, "Rule of subdivision: loop or midpoint")
+      ->check(CLI::IsMember({"loop", "midpoint"}))
+      ->capture_default_str();
+  add_folder(project, options, "Folder for the projected run");
+  add_json(project, options);
+}
+
 void add_readers(CLI::App& app, Options& options) {
   add_json(add_command(app, options, "list", "What there is: checks, studies, cases, integrators", list),
            options);
@@ -124,6 +152,7 @@ int run(int argc, char** argv) {
   });
   add_readers(app, options);
   add_runs(app, options);
+  add_project(app, options);
   add_selections(app, options);
   try {
     app.parse(argc, argv);

@@ -48,6 +48,43 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(names[:3], ["A", "B", "C"])
         self.assertIn("BDF2", names)
 
+    def test_project_brings_a_stored_run_out_of_its_objects(self) -> None:
+        case = self.write("sunk.toml", """
+[cloth]
+shape = "sheet"
+pattern = "one_diagonal"
+width = 0.4
+height = 0.4
+columns = 12
+rows = 12
+density = 0.2
+move = [-0.2, -0.2, 0.23]
+[start]
+noise = 0.01
+[[object]]
+shape = "sphere"
+radius = 0.25
+[time]
+end = 0.001
+step = 0.001
+""")
+        self.assertEqual(self.simulate(case).returncode, 0)
+        stored = str(self.path / "out/sunk.h5")
+        done = run("project", stored, "--map", "blend", "--tau", "0.02", "--subdivide", "1", "--out",
+                   str(self.path / "out"), "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = json.loads(done.stdout)
+        before, plain, blend = (row["deviation"] for row in told["wrinkles"])
+        self.assertLess(plain, 1e-9)
+        self.assertGreater(blend, 0.1 * before)
+        with h5py.File(self.path / "out/sunk_projected.h5") as file:
+            x = file["frames/positions"][-1]
+            self.assertEqual(len(x), 25 * 25)
+            self.assertGreaterEqual(np.linalg.norm(x, axis=1).min(), 0.25)
+        refused = run("project", stored, "--map", "blend", "--tau", "-1", "--out", str(self.path / "out"))
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("0 <= eps < tau", refused.stderr)
+
     def test_simulate_writes_frames_at_their_times(self) -> None:
         done = self.simulate(str(ROOT / "cases/hinge.toml"), "--set", "time.end=0.25", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)

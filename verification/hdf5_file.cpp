@@ -17,6 +17,10 @@ void succeed(herr_t result, const std::string& what) {
   if (result < 0) throw std::runtime_error("HDF5: cannot write " + what);
 }
 
+void found(bool is_good, const std::string& what) {
+  if (!is_good) throw std::runtime_error("HDF5: cannot read " + what);
+}
+
 /// '/' parts the names of groups in HDF5; in a name it becomes a division slash, which looks the same.
 std::string without_slash(const std::string& name) {
   std::string result;
@@ -89,6 +93,33 @@ hid_t growing(hid_t parent, const std::string& name, const Shape& row) {
   return H5Dcreate2(parent, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, layout, H5P_DEFAULT);
 }
 
+Handle opened(hid_t parent, const std::string& name) {
+  const hid_t set = H5Dopen2(parent, name.c_str(), H5P_DEFAULT);
+  found(set >= 0, name);
+  return {set, H5Dclose};
+}
+
+Shape shape_of_space(hid_t space) {
+  const int rank = H5Sget_simple_extent_ndims(space);
+  found(rank >= 0, "the shape of a dataset");
+  Shape shape(std::size_t(rank), 0);
+  if (rank > 0) H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+  return shape;
+}
+
+/// All values of a dataset of this very type, row by row.
+template <class T>
+std::vector<T> read_values(hid_t parent, const std::string& name, hid_t type) {
+  const Handle set = opened(parent, name);
+  const Handle stored(H5Dget_type(set), H5Tclose);
+  found(H5Tequal(stored, type) > 0, name + ": it has another type");
+  unsigned long long count = 1;
+  for (const auto length : shape_of_space(Handle(H5Dget_space(set), H5Sclose))) count *= length;
+  std::vector<T> values(count);
+  if (count > 0) found(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
+  return values;
+}
+
 }  // namespace
 
 Hdf5::Hdf5(std::int64_t id, int (*close)(std::int64_t), const std::string& what) : id_(id), close_(close) {
@@ -149,6 +180,43 @@ Hdf5 Hdf5::array(const std::string& name, const Shape& shape, const int* values)
 
 Hdf5 Hdf5::array(const std::string& name, const Shape& shape, const unsigned char* values) const {
   return {written(id_, name, H5T_NATIVE_UCHAR, shape, values), H5Dclose, name};
+}
+
+Hdf5 Hdf5::open_file(const std::string& path) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  found(file >= 0, path + "; is it there, and a whole HDF5 file?");
+  return {file, H5Fclose, path};
+}
+
+Hdf5 Hdf5::open_group(const std::string& name) const {
+  const hid_t group = H5Gopen2(id_, without_slash(name).c_str(), H5P_DEFAULT);
+  found(group >= 0, name);
+  return {group, H5Gclose, name};
+}
+
+std::string Hdf5::read_text(const std::string& attribute) const {
+  const hid_t id = H5Aopen(id_, attribute.c_str(), H5P_DEFAULT);
+  found(id >= 0, attribute);
+  const Handle open(id, H5Aclose);
+  char* text = nullptr;
+  found(H5Aread(open, text_type(), &text) >= 0 && text, attribute);
+  const std::string result = text;
+  H5free_memory(text);
+  return result;
+}
+
+std::vector<double> Hdf5::read_doubles(const std::string& dataset) const {
+  return read_values<double>(id_, without_slash(dataset), H5T_NATIVE_DOUBLE);
+}
+
+std::vector<int> Hdf5::read_ints(const std::string& dataset) const {
+  return read_values<int>(id_, without_slash(dataset), H5T_NATIVE_INT);
+}
+
+Shape Hdf5::shape_of(const std::string& dataset) const {
+  const Handle set = opened(id_, without_slash(dataset));
+  return shape_of_space(Handle(H5Dget_space(set), H5Sclose));
 }
 
 void Hdf5::flush() const { succeed(H5Fflush(id_, H5F_SCOPE_LOCAL), "what was buffered"); }

@@ -1,4 +1,4 @@
-// Writing HDF5. The only door to the library: everything else sees these two classes.
+// Writing and reading HDF5. The only door to the library: everything else sees these two classes.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,14 @@ using Shape =
     std::vector<unsigned long long>;  // lengths of an array's dimensions, outermost first; {}: one number
 
 /// An open file, a group or a dataset; closed when it goes out of scope. Every call throws std::runtime_error
-/// naming what could not be made or written. A '/' in a name becomes U+2215, which looks the same.
+/// naming what could not be made, written or read. A '/' in a name becomes U+2215, which looks the same.
 class Hdf5 {
  public:
   /// A new file, in place of any that has this path.
   static Hdf5 create_file(const std::string& path);
+
+  /// An existing file, to be read only.
+  static Hdf5 open_file(const std::string& path);
 
   Hdf5(Hdf5&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Hdf5& operator=(Hdf5&&) = delete;
@@ -34,6 +37,13 @@ class Hdf5 {
   Hdf5 array(const std::string& name, const Shape& shape, const double* values) const;
   Hdf5 array(const std::string& name, const Shape& shape, const int* values) const;
   Hdf5 array(const std::string& name, const Shape& shape, const unsigned char* values) const;
+
+  /// What is there to be read, of any length; what has another type than asked for is refused.
+  Hdf5 open_group(const std::string& name) const;
+  std::string read_text(const std::string& attribute) const;
+  std::vector<double> read_doubles(const std::string& dataset) const;
+  std::vector<int> read_ints(const std::string& dataset) const;
+  Shape shape_of(const std::string& dataset) const;
 
   /// Hands what was written so far to the operating system.
   void flush() const;

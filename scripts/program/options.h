@@ -1,6 +1,7 @@
 // What was typed.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ struct Options {
   std::string command;  // as typed
   std::string out = "results", tier = "quick", file, rest_file;
   std::vector<std::string> names, overrides;
+  std::string map, rule = "loop";  // of project: a depth map, a rule of subdivision
+  double reach = 0, eps = 0;       // of project [m]
+  double deepest = std::numeric_limits<double>::quiet_NaN();  // of project [m]; NaN: the deepest in the run
+  int levels = 0;                                             // of project: of subdivision
   bool json = false, quick = false, no_report = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code
 };

@@ -1,0 +1,201 @@
+// foldproof project: a stored run with its cloth brought out of the objects, and what that leaves of its wrinkles.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "convergence/section_profile.h"
+#include "convergence/wrinkle_measure.h"
+#include "reference/mesh/subdivision.h"
+#include "reference/post/fold_projection.h"
+#include "scripts/program/commands.h"
+#include "scripts/program/progress.h"
+#include "scripts/program/provenance.h"
+#include "verification/stored_run_file.h"
+#include "verification/trajectory_file.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr int samples_along = 256;  // of a section
+
+/// A stored run as it is to be projected: its objects, and its cloth, subdivided or not.
+struct Source {
+  StoredRun run;
+  std::vector<Object> objects;
+  Subdivision finer;
+  Scene scene;  // of the finer cloth
+
+  State frame(std::size_t k) const {
+    const State s = run.frame(k);
+    return {s.time, finer.of(s.x), finer.of(s.v)};
+  }
+};
+
+Source source_of(const Options& options) {
+  Source source;
+  source.run = read_stored_run(options.file, project_folder() + "/cases");
+  const Scene& scene = source.run.scene;
+  for (const SceneObject& part : scene.objects) source.objects.push_back(part.object);
+  if (source.objects.empty()) throw InputError(options.file + ": its case names no object to project out of");
+  const SubdivisionRule rule = options.rule == "loop" ? SubdivisionRule::loop : SubdivisionRule::midpoint;
+  source.finer = subdivision(scene.mesh, rule, options.levels);
+  source.scene = scene;
+  source.scene.mesh = make_triangle_mesh(source.finer.of(scene.mesh.rest), source.finer.triangles);
+  source.scene.name += "_projected";
+  source.scene.title += ", projected";
+  source.scene.led.clear();
+  return source;
+}
+
+/// The largest depth below the surface of a point that is not pinched, over all frames [m].
+double deepest_in(const Source& source) {
+  double deepest = 0;
+  for (std::size_t k = 0; k < source.run.times.size(); ++k) {
+    const State s = source.frame(k);
+    for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
+      const Nearest nearest = nearest_objects(source.objects, s.x.col(i), {s.time, s.time, 0});
+      if (!nearest.pinched()) deepest = std::max(deepest, -nearest.first.phi);
+    }
+  }
+  return deepest;
+}
+
+FoldProjection projection_of(const Options& options, const Source& source) {
+  const double deepest = std::isnan(options.deepest) ? deepest_in(source) : options.deepest;
+  return {options.map,
+          {options.eps, options.reach, deepest},
+          PinchedPoints::left_alone,
+          1e-6 * options.reach,
+          100};
+}
+
+/// How high the wrinkles are that were inside [m], and how long, along sections across x, y and z [m].
+struct Wrinkles {
+  std::string of;
+  double deviation;
+  std::array<double, 3> wavelength;  // NaN where there is no section
+};
+
+Wrinkles wrinkles_of(const std::string& of, const Source& source, const PerParticle& before,
+                     const PerParticle& phi) {
+  Wrinkles wrinkles{of, deviation_where(phi, [&](Eigen::Index i) { return before[i] < 0; }), {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Section section = section_of(source.scene.mesh, axis);
+    const double length = section.length.empty() ? 0 : section.length.back();
+    wrinkles.wavelength[std::size_t(axis)] =
+        dominant_wavelength(along(section, phi, samples_along), length / (samples_along - 1));
+  }
+  return wrinkles;
+}
+
+/// What there is to say.
+struct Report {
+  FoldProjection projection;
+  std::string file;
+  long frames = 0, moved = 0, pinched = 0, unfinished = 0;  // points, over all frames
+  std::size_t inside = 0;                                   // points of the last frame
+  double longest_edge = 0;                                  // of the last frame [m]
+  std::vector<Wrinkles> wrinkles;                           // of the last frame
+};
+
+void count(const ProjectedCloth& cloth, Report& report) {
+  ++report.frames;
+  report.moved += cloth.count(Fate::moved);
+  report.pinched += cloth.count(Fate::pinched);
+  report.unfinished += cloth.count(Fate::unfinished);
+}
+
+void compare_last_frame(const Source& source, Report& report) {
+  const State s = source.frame(source.run.times.size() - 1);
+  FoldProjection plainly = report.projection;
+  plainly.map = "plain";
+  const ProjectedCloth plain = project_folds(source.objects, s.x, s.time, plainly);
+  const ProjectedCloth mapped = project_folds(source.objects, s.x, s.time, report.projection);
+  report.inside = std::size_t((mapped.before.array() < 0).count());
+  for (const Edge& edge : source.scene.mesh.edges)
+    report.longest_edge = std::max(report.longest_edge, (mapped.x.col(edge.a) - mapped.x.col(edge.b)).norm());
+  report.wrinkles = {wrinkles_of("before", source, mapped.before, mapped.before),
+                     wrinkles_of("plain", source, mapped.before, plain.after),
+                     wrinkles_of(report.projection.map, source, mapped.before, mapped.after)};
+}
+
+Report project_all(const Source& source, const Options& options) {
+  Report report;
+  report.projection = projection_of(options, source);
+  report.file = source.scene.name + ".h5";
+  const System system = make_system(lumped_masses(source.scene.mesh, source.scene.density));
+  TrajectoryFile file((std::filesystem::path(options.out) / report.file).string(), source.scene, system,
+                      provenance(options.command));
+  ProgressLine progress("project " + source.run.scene.name);
+  for (std::size_t k = 0; k < source.run.times.size(); ++k) {
+    State s = source.frame(k);
+    const ProjectedCloth cloth = project_folds(source.objects, s.x, s.time, report.projection);
+    s.x = cloth.x;
+    count(cloth, report);
+    file.add_frame(s);
+    progress.show(double(k + 1) / double(source.run.times.size()));
+  }
+  file.finish("", std::numeric_limits<double>::quiet_NaN());
+  compare_last_frame(source, report);
+  return report;
+}
+
+std::string length_text(double length) { return std::isnan(length) ? "-" : fmt::format("{:.3g}", length); }
+
+void print(const Report& report, const std::string& folder) {
+  const DepthBand& band = report.projection.band;
+  fmt::print("map '{}': eps {:.3g} m, tau {:.3g} m, deepest {:.3g} m; {} frames\n", report.projection.map,
+             band.nearest, band.reach, band.deepest, report.frames);
+  fmt::print("points over all frames: {} moved, {} pinched and left alone, {} without room\n", report.moved,
+             report.pinched, report.unfinished);
+  fmt::print("last frame, {} points that were inside:\n", report.inside);
+  fmt::print("  {:<8} {:>22} {:>40}\n", "", "deviation of depths [m]",
+             "dominant wavelength across x, y, z [m]");
+  for (const Wrinkles& row : report.wrinkles)
+    fmt::print("  {:<8} {:>22} {:>16} {:>11} {:>11}\n", row.of, length_text(row.deviation),
+               length_text(row.wavelength[0]), length_text(row.wavelength[1]),
+               length_text(row.wavelength[2]));
+  fmt::print("edges up to {:.3g} m: whatever the objects, eps = {:.3g} m would keep every triangle out\n",
+             report.longest_edge, report.longest_edge / std::sqrt(3.0));
+  fmt::print("{}/{}\n", folder, report.file);
+}
+
+nlohmann::json told(const Report& report, const std::string& folder) {
+  const DepthBand& band = report.projection.band;
+  nlohmann::json json = {{"file", folder + "/" + report.file},
+                         {"map", report.projection.map},
+                         {"eps", band.nearest},
+                         {"tau", band.reach},
+                         {"deepest", band.deepest},
+                         {"frames", report.frames},
+                         {"moved", report.moved},
+                         {"pinched", report.pinched},
+                         {"unfinished", report.unfinished},
+                         {"inside", report.inside},
+                         {"longest_edge", report.longest_edge},
+                         {"wrinkles", nlohmann::json::array()}};
+  for (const Wrinkles& row : report.wrinkles)
+    json["wrinkles"].push_back(
+        {{"of", row.of}, {"deviation", row.deviation}, {"wavelength", row.wavelength}});
+  return json;
+}
+
+}  // namespace
+
+int project_run(const Options& options) {
+  std::filesystem::create_directories(options.out);
+  const Report report = project_all(source_of(options), options);
+  if (options.json)
+    fmt::print("{}\n", told(report, options.out).dump(1));
+  else
+    print(report, options.out);
+  return report.unfinished == 0 ? all_hold : some_fail;
+}
+
+}  // namespace foldproof
