@@ -67,7 +67,8 @@ Section section_along(const TriangleMesh& mesh, const Cut& cut, const std::vecto
 
 Section section_of(const TriangleMesh& mesh, int axis) {
   const double low = mesh.rest.row(axis).minCoeff(), high = mesh.rest.row(axis).maxCoeff();
-  if (!(high > low)) return {};
+  const double size = (mesh.rest.rowwise().maxCoeff() - mesh.rest.rowwise().minCoeff()).maxCoeff();
+  if (!(high - low > 1e-6 * size)) return {};  // flat along this axis
   const Cut cut = cut_by(mesh, axis, (low + high) / 2 + 1e-9 * (high - low));
   Section longest;
   std::vector<bool> passed(mesh.edges.size(), false);

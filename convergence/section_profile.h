@@ -20,7 +20,7 @@ struct Section {
 };
 
 /// The longest line in which the plane through the middle of the rest shape, normal to the axis (0 x, 1 y, 2 z), cuts
-/// it; empty if it does not. A plane that meets a particle is moved aside by a billionth of the extent.
+/// it; empty where the shape is flat along the axis. A plane that meets a particle is moved aside by a billionth of the extent.
 Section section_of(const TriangleMesh& mesh, int axis);
 
 /// The values (N) along the section, at `count` >= 2 places equally far from the next; empty for an empty section.
