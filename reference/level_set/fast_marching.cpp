@@ -101,7 +101,8 @@ void update(March& march, const Node& node, double sign) {
 void update_neighbours(March& march, long index) {
   const Lattice& lattice = march.grid.lattice;
   const Node node = lattice.node(index);
-  const double sign = march.grid.phi[index] < 0 ? -1 : 1;
+  // -0 is on the surface, counted as inside
+  const double sign = std::signbit(march.grid.phi[index]) ? -1 : 1;
   for (int axis = 0; axis < 3; ++axis) {
     for (const int way : {-1, 1}) {
       Node next = node;

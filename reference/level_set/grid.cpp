@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace foldproof {
@@ -111,6 +112,7 @@ Lattice lattice_about(const Bounds& bounds, int cells, int margin) {
 Distance Grid::at(const Vector3& p) const {
   const Bounds bounds = lattice.bounds();
   if (bounds.contains(p)) return blended(*this, p);
+  if (!p.allFinite()) return {std::numeric_limits<double>::quiet_NaN(), Vector3::Zero()};
   Vector3 q = p.cwiseMax(bounds.min()).cwiseMin(bounds.max()), way;
   for (int round = 0; round < rounds; ++round) {
     const Distance there = blended(*this, q);

@@ -47,12 +47,14 @@ void add_block(const MeshDistance& mesh, const Lattice& lattice, const Node& fir
 
 Seeds narrow_band(const MeshDistance& mesh, const Lattice& lattice, double cells) {
   if (!(cells >= 1)) throw InputError("narrow_band: " + std::to_string(cells) + " cells; give at least 1");
+  // a little more than asked for, so that neighbours of a node on the surface are in a band of one cell
+  const double width = (1 + 1e-12) * cells * lattice.spacing;
   Seeds seeds;
   Node first;
   for (first[2] = 0; first[2] < lattice.nodes[2]; first[2] += block)
     for (first[1] = 0; first[1] < lattice.nodes[1]; first[1] += block)
       for (first[0] = 0; first[0] < lattice.nodes[0]; first[0] += block)
-        add_block(mesh, lattice, first, cells * lattice.spacing, seeds);
+        add_block(mesh, lattice, first, width, seeds);
   return seeds;
 }
 

@@ -113,6 +113,7 @@ Finding beyond_is_distance(const Subject&) {
   measured.see("phi above the distance", above.value());
   measured.see("direction", normal.value());
   measured.see("jump at the border", jump.value());
+  measured.see("no number where there is no point", std::isnan(grid.at({0.1, NAN, 0.2}).phi) ? 0 : 2);
   return measured.judged(
       1,
       "below: h^2/(4 R) of trilinear values is a hundredth of a cell, one-sided differences add as "

@@ -11,6 +11,7 @@ std::vector<Check> mesh_distance_checks();  // mesh_distance_checks.cpp
 std::vector<Check> grid_checks();           // grid_checks.cpp
 std::vector<Check> marching_checks();       // marching_checks.cpp
 std::vector<Check> closed_mesh_checks();    // closed_mesh_checks.cpp
+std::vector<Check> mesh_body_checks();      // mesh_body_checks.cpp: bodies of case files
 std::vector<Check> repair_checks();         // repair_checks.cpp: ray parity, winding numbers, repair
 
 /// All of them.

@@ -116,6 +116,26 @@ Finding equation_is_solved(const Subject&) {
       "are divided by h");
 }
 
+/// Nodes on the wrong side of a plane through nodes that count as inside; the seeds are those and the layer above.
+int wrong_below_the_plane() {
+  const Lattice& lattice = lattice_of_planes;
+  constexpr int level = 14;
+  Seeds seeds;
+  for (long i = 0; i < lattice.size(); ++i) {
+    const int above = lattice.node(i)[2] - level;
+    if (above != 0 && above != 1) continue;
+    seeds.nodes.push_back(i);
+    seeds.phi.push_back(above == 0 ? -0.0 : lattice.spacing);
+  }
+  const Grid grid = march(lattice, seeds, MarchingOrder::first);
+  int wrong = 0;
+  for (long i = 0; i < lattice.size(); ++i) {
+    const int above = lattice.node(i)[2] - level;
+    if (above < 0 ? !(grid.phi[i] < 0) : above > 0 && !(grid.phi[i] > 0)) ++wrong;
+  }
+  return wrong;
+}
+
 Finding sides_are_kept(const Subject&) {
   const Lattice lattice = about_unit_ball();
   Measured measured("nodes of the wrong sign, not finite, or seeds with another value", "1");
@@ -134,6 +154,7 @@ Finding sides_are_kept(const Subject&) {
       measured.see(name_of(order) + (torus ? ", torus" : ", sphere"), wrong);
     }
   }
+  measured.see("plane through nodes that count as inside", wrong_below_the_plane());
   return measured.judged(0, "sides spread from the seeds only, and seeds are never computed again");
 }
 
