@@ -1,13 +1,11 @@
 // level-set-resolution: errors of distance and direction on grids against their spacing; what the crude start costs.
-#include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "convergence/grid_cost.h"
 #include "convergence/grid_errors.h"
 #include "convergence/order.h"
 #include "convergence/studies.h"
-#include "reference/level_set/narrow_band.h"
-#include "reference/mesh/shapes.h"
 
 namespace foldproof {
 
@@ -219,38 +217,6 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
   result.tables.push_back(contour_table(crude, exact));
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// A grid of a mesh: what it holds, how long it took.
-void add_cost(const std::vector<int>& cells, StudyResult& result) {
-  const TriangleMesh statue = make_statue(1, 4);
-  const MeshDistance mesh = make_mesh_distance(statue.rest, statue.triangles);
-  std::vector<std::vector<double>> columns(6);
-  for (const int n : cells) {
-    const Lattice lattice = lattice_about(mesh.tree.nodes[0].bounds, n, 3);
-    const auto start = std::chrono::steady_clock::now();
-    const Seeds seeds = narrow_band(mesh, lattice, 3);
-    const double band = seconds_since(start);
-    const auto middle = std::chrono::steady_clock::now();
-    march(lattice, seeds, MarchingOrder::second);
-    const double row[] = {
-        double(n), double(lattice.size()), 8e-6 * double(lattice.size()), double(seeds.nodes.size()),
-        band,      seconds_since(middle)};
-    for (size_t k = 0; k < columns.size(); ++k) columns[k].push_back(row[k]);
-  }
-  result.tables.push_back(
-      {"cost",
-       "Grids about a statue of " + std::to_string(statue.triangles.size()) + " triangles",
-       {{"cells along the longest side", "1", columns[0]},
-        {"nodes", "1", columns[1]},
-        {"grid", "MB", columns[2]},
-        {"nodes in a band of three cells", "1", columns[3]},
-        {"band", "s", columns[4]},
-        {"second-order marching", "s", columns[5]}}});
-}
-
 StudyResult run(const Subject&, Tier tier, const Progress& progress) {
   const std::vector<int> cells =
       tier == Tier::quick ? std::vector<int>{16, 32, 64} : std::vector<int>{16, 32, 64, 128};
@@ -262,7 +228,7 @@ StudyResult run(const Subject&, Tier tier, const Progress& progress) {
   add_interpolation(cells, result);
   add_crude_start(cells, result);
   progress(0.9);
-  add_cost(cells, result);
+  add_grid_costs(cells, result);
   progress(1);
   return result;
 }
