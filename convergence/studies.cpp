@@ -28,7 +28,9 @@ std::vector<Study> all_studies() {
           level_set_resolution(),
           wrinkles_kept(),
           eps_needed(),
-          forecast_time_study()};
+          forecast_time_study(),
+          resting_contact(),
+          pointwise_contact()};
 }
 
 }  // namespace foldproof

@@ -33,6 +33,8 @@ Study level_set_resolution();  // level-set-resolution: distance and normals of 
 Study wrinkles_kept();       // wrinkles-kept: what each map of depth leaves of wrinkles inside an object
 Study eps_needed();          // eps-needed: how far out the deepest points must go
 Study forecast_time_study();  // forecast-time: where a point is after its forecast, and what tau does
+Study resting_contact();     // resting-contact: what keeps moving under each response
+Study pointwise_contact();   // pointwise-contact: what lies between particles that are held out
 
 /// All of them, in the order in which they are reported.
 std::vector<Study> all_studies();

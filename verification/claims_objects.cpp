@@ -37,6 +37,96 @@ std::vector<Claim> what_marching_gives() {
            "{level-set-resolution.second-order.ball|error|last} in the mean."}};
 }
 
+std::vector<Claim> where_contact_is_found() {
+  return {
+      {"C5",
+       "5.2",
+       "Looking at the cloth's particles is enough, since cloth is densely sampled.",
+       {{"pointwise-contact.edges-cut-in-by-the-square", Role::supports},
+        {"pointwise-contact.edges-stay-within-the-chord", Role::supports},
+        {"pointwise-contact.a-pin-comes-through", Role::limits}},
+       Standing::conditional,
+       "Where the object's features are larger than the cloth's edges: a pin thinner than an edge comes "
+       "through.",
+       "On a ball, what lies between particles cuts in by the square of the edge: midpoints by "
+       "{pointwise-contact.edges-cut-in-by-the-square|depth of midpoints|first} to "
+       "{pointwise-contact.edges-cut-in-by-the-square|depth of midpoints|last} for edges of "
+       "{pointwise-contact.edges-cut-in-by-the-square|edge|first} to "
+       "{pointwise-contact.edges-cut-in-by-the-square|edge|last}. Midpoints and centres as points of their "
+       "own help "
+       "coarse cloth: see pointwise-contact."},
+      {"C6",
+       "5.2",
+       "The forecast is that the point lies exactly on the object's surface after the forecast time.",
+       {{"contact.forecast-ends-on-the-surface", Role::supports},
+        {"forecast-time.lands-on-a-plane", Role::supports},
+        {"forecast-time.order-on-a-resting-ball", Role::limits},
+        {"forecast-time.order-on-a-turning-ball", Role::limits}},
+       Standing::conditional,
+       "As a forecast it is exact; as a place only on planes. On curved and on turning objects the point is "
+       "off by "
+       "the square of the step.",
+       "phi + tau (v_p - v).N is zero to rounding. After the step a point that slides on a ball is off by "
+       "{forecast-time.order-on-a-resting-ball|miss|first} for a step of "
+       "{forecast-time.order-on-a-resting-ball|step|first} and "
+       "{forecast-time.order-on-a-resting-ball|miss|last} for one of "
+       "{forecast-time.order-on-a-resting-ball|step|last}."},
+      {"C7",
+       "5.2",
+       "Forecasting is more stable and smoother than pushing points out of objects.",
+       {{"resting-contact.quieter-than-push-out", Role::supports},
+        {"resting-contact.projection-is-as-quiet", Role::limits}},
+       Standing::conditional,
+       "Against velocities that take points out once they are inside. Points that are put on the surface, "
+       "and lose "
+       "their velocity into it, rest as quietly.",
+       "Cloth at rest on a ball shakes by "
+       "{resting-contact.quieter-than-push-out|shaking at rest|forecast} under forecasting, by "
+       "{resting-contact.quieter-than-push-out|shaking at rest|push_out} if points are pushed out, which "
+       "also lets them "
+       "in by {resting-contact.quieter-than-push-out|largest depth|push_out}, and by "
+       "{resting-contact.projection-is-as-quiet|shaking at rest|projection} under projection."},
+      {"C8",
+       "5.2",
+       "Forecasting is not the same as using the object at the next step.",
+       {{"forecast-time.is-not-the-next-step", Role::supports},
+        {"forecast-time.decay-is-as-derived", Role::supports}},
+       Standing::confirmed,
+       "",
+       "The forecast time is free: a distance to a plane shrinks by the factor of one less the step over the "
+       "forecast "
+       "time, so that cloth comes down softly. With a forecast time of five steps a point is at "
+       "{forecast-time.is-not-the-next-step|height after a step|forecast} where the object at the next step "
+       "would have "
+       "stopped it. With the step itself, and on a resting plane, the two agree."}};
+}
+
+std::vector<Claim> what_contact_does() {
+  return {{"C9",
+           "5.2",
+           "The friction formula handles static and kinetic friction.",
+           {{"contact.friction-is-coulombs", Role::supports},
+            {"contact.impulse-stays-in-the-cone", Role::supports},
+            {"contact.sliding-is-never-reversed", Role::supports},
+            {"contact.a-slope-holds-or-lets-go.C", Role::supports},
+            {"contact.a-moving-slope-holds-or-lets-go.C", Role::supports},
+            {"contact.a-belt-takes-along.C", Role::supports},
+            {"contact.a-turntable-carries-without-drift.C", Role::supports},
+            {"contact.a-drum-holds-by-the-capstan-law", Role::supports}},
+           Standing::confirmed,
+           "",
+           "On slopes at rest and moving, a block holds where the tangent of the slope is below the "
+           "friction, a thousandth "
+           "below it included, and else slides as derived, to {contact.a-slope-holds-or-lets-go.C} in a "
+           "second; on a turntable it "
+           "stays in its place to {contact.a-turntable-carries-without-drift.C} in "
+           "{contact.a-turntable-carries-without-drift.C|radius|largest} "
+           "from the axis. A strip that slides round a drum keeps the capstan's law to "
+           "{contact.a-drum-holds-by-the-capstan-law}. For this the velocity that moves the cloth must be "
+           "corrected too, and "
+           "the object's velocity be that of the chord."}};
+}
+
 std::vector<Claim> what_projection_keeps() {
   return {
       {"C11",
@@ -100,7 +190,11 @@ std::vector<Claim> where_projection_applies() {
        "Cloth between two balls that overlap, rippled by millimetres, is stretched up to "
        "{projection.pinched-points-would-tear|stretch when projected|largest} times when each point leaves "
        "the ball "
-       "in which it is deepest; left alone it keeps every bit."},
+       "in which it is deepest; left alone it keeps every bit."}};
+}
+
+std::vector<Claim> what_is_drawn() {
+  return {
       {"C17",
        "5.3",
        "The projection serves the cloth as it is drawn, subdivided, as well.",
@@ -116,13 +210,39 @@ std::vector<Claim> where_projection_applies() {
        "{projection.subdividing-afterwards-spoils-it|triangles left inside|largest} triangles cut in."}};
 }
 
+std::vector<Claim> what_is_pinched() {
+  return {{"C14",
+           "5.1",
+           "Cloth that is pinched between two bodies stays on the surface between them.",
+           {{"contact.pinched-points-end-equally-deep", Role::supports},
+            {"contact.pinched-points-slide-by-coulomb", Role::supports},
+            {"case.pinch.pinches", Role::supports},
+            {"case.pinch.stays-between", Role::supports},
+            {"case.pinch.slower-than", Role::supports},
+            {"case.armpit.pinches", Role::supports},
+            {"case.armpit.slower-than", Role::supports}},
+           Standing::confirmed,
+           "",
+           "Where two balls close on cloth until they overlap, pinched particles stay within "
+           "{case.pinch.stays-between} of "
+           "where they are equally deep in both, and nothing is faster than {case.pinch.slower-than}. The "
+           "paper asks for the "
+           "place; the formula is ours: the difference of the two depths is forecast to be zero. Held so, "
+           "points that are "
+           "about to enter both objects count as pinched, not only those that are inside both."}};
+}
+
 }  // namespace
 
 /// In the order of their ids; each part of the section has a function of its own.
 std::vector<Claim> object_claims() {
   std::vector<Claim> claims = what_marching_gives();
+  for (Claim& claim : where_contact_is_found()) claims.push_back(std::move(claim));
+  for (Claim& claim : what_contact_does()) claims.push_back(std::move(claim));
   for (Claim& claim : what_projection_keeps()) claims.push_back(std::move(claim));
   for (Claim& claim : where_projection_applies()) claims.push_back(std::move(claim));
+  for (Claim& claim : what_is_pinched()) claims.push_back(std::move(claim));
+  for (Claim& claim : what_is_drawn()) claims.push_back(std::move(claim));
   return claims;
 }
 

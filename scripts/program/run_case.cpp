@@ -63,6 +63,7 @@ std::vector<std::string> shown_cases() {
           "rest_fold",
           "stiff_statue",
           "drape_sphere",
+          "drape_statue",
           "spinning_sphere",
           "incline",
           "incline_slides",

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace foldproof {
 
@@ -95,13 +96,19 @@ Nearest nearest_at(const Scene& scene, const State& s, Eigen::Index particle) {
   return nearest_of(points);
 }
 
-/// Pinched particles are inside by what pinches them, and not counted.
+/// Of free particles. Pinched ones are inside by what pinches them, and not counted.
 double penetration(const Scene& scene, const State& s) {
+  std::vector<char> free(size_t(s.x.cols()), 1);
+  for (const PrescribedParticle& p : scene.led) free[size_t(p.particle)] = 0;
   Worst worst;
-  for (Eigen::Index i = 0; i < s.x.cols(); ++i)
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
+    if (!free[size_t(i)]) continue;
     if (const Nearest nearest = nearest_at(scene, s, i); !nearest.pinched()) worst.see(-nearest.first.phi);
+  }
   return worst.value();
 }
+
+double depth_at_end(const RunSeen& run) { return penetration(run.scene, run.outcome.last); }
 
 /// How far a pinched particle is from the surface where its two objects are equally deep, at most.
 double off_centre(const Scene& scene, const State& s) {
@@ -218,10 +225,12 @@ const std::vector<Quantity>& quantities() {
        folded_back, nullptr, without_bending},
       {"keeps_its_lengths", "1", "Every edge stays near its rest length.", Sense::at_most, length_change,
        nullptr, without_springs},
-      {"stays_outside", "m", "No particle is deeper inside an object than this, those between two apart.",
-       Sense::at_most, penetration, nullptr, without_objects},
-      {"lies_inside", "m", "Some particle is this deep inside an object, those between two apart.",
-       Sense::at_least, penetration, nullptr, without_objects},
+      {"stays_outside", "m",
+       "No free particle is deeper inside an object than this, those between two apart.", Sense::at_most,
+       penetration, nullptr, without_objects},
+      {"lies_inside", "m",
+       "At the end some free particle is this deep inside an object, those between two apart.",
+       Sense::at_least, nullptr, depth_at_end, without_objects},
       {"makes_contact", "points", "Objects correct the motion of some points in some step.", Sense::at_least,
        nullptr, contacts, without_objects},
       {"pinches", "particles", "Particles are inside two objects at once.", Sense::at_least,
