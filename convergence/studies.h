@@ -21,20 +21,23 @@ Study bending_rigidity_study();   // bending-rigidity: by pattern, direction and
 Study cantilever_study();         // cantilever: a clamped strip's tip against the elastica
 Study strip_vibration_study();    // strip-vibration: lowest frequencies of a clamped strip
 Study shape_return_study();       // shape-return: a sculpted shell pulled out of shape and let go
-Study hard_limits();         // hard-limits: largest stable steps of hard sheets, under damping, over jumps
-Study buckling();            // buckling: critical load and growth of a compressed strip
-Study mirror_symmetry();     // mirror-symmetry: how rounding breaks it
-Study work_precision();      // work-precision: error against work and seconds, all methods
-Study solve_tolerance();     // solve-tolerance: how loose a solve may be before the order suffers
-Study mesh_error();          // mesh-error: error of the mesh beside that of the step
-Study artificial_damping();  // artificial-damping: what methods take from vibrations that nothing damps
-Study monotonicity();        // monotonicity: coming to rest in steps longer than the damping's time
+Study hard_limits();           // hard-limits: largest stable steps of hard sheets, under damping, over jumps
+Study buckling();              // buckling: critical load and growth of a compressed strip
+Study mirror_symmetry();       // mirror-symmetry: how rounding breaks it
+Study work_precision();        // work-precision: error against work and seconds, all methods
+Study solve_tolerance();       // solve-tolerance: how loose a solve may be before the order suffers
+Study octree_memory();         // octree-memory: an octree against a grid of the same error
+Study level_sets_in_time();    // level-sets-in-time: between two frames of a body that deforms
+Study level_set_cache();       // level-set-cache: level sets computed once for many runs
+Study mesh_error();            // mesh-error: error of the mesh beside that of the step
+Study artificial_damping();    // artificial-damping: what methods take from vibrations that nothing damps
+Study monotonicity();          // monotonicity: coming to rest in steps longer than the damping's time
 Study level_set_resolution();  // level-set-resolution: distance and normals of grids against their spacing
-Study wrinkles_kept();       // wrinkles-kept: what each map of depth leaves of wrinkles inside an object
-Study eps_needed();          // eps-needed: how far out the deepest points must go
-Study forecast_time_study();  // forecast-time: where a point is after its forecast, and what tau does
-Study resting_contact();     // resting-contact: what keeps moving under each response
-Study pointwise_contact();   // pointwise-contact: what lies between particles that are held out
+Study wrinkles_kept();         // wrinkles-kept: what each map of depth leaves of wrinkles inside an object
+Study eps_needed();            // eps-needed: how far out the deepest points must go
+Study forecast_time_study();   // forecast-time: where a point is after its forecast, and what tau does
+Study resting_contact();       // resting-contact: what keeps moving under each response
+Study pointwise_contact();     // pointwise-contact: what lies between particles that are held out
 
 /// All of them, in the order in which they are reported.
 std::vector<Study> all_studies();

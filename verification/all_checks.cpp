@@ -2,12 +2,14 @@
 
 #include "verification/checks/bending_checks.h"
 #include "verification/checks/contact_checks.h"
+#include "verification/checks/deforming_checks.h"
 #include "verification/checks/differential_checks.h"
 #include "verification/checks/dynamics_checks.h"
 #include "verification/checks/force_checks.h"
 #include "verification/checks/level_set_checks.h"
 #include "verification/checks/mesh_checks.h"
 #include "verification/checks/projection_checks.h"
+#include "verification/checks/octree_checks.h"
 #include "verification/checks/scene_checks.h"
 #include "verification/checks/solver_checks.h"
 
@@ -15,9 +17,10 @@ namespace foldproof {
 
 std::vector<Check> all_checks() {
   std::vector<Check> all;
-  for (const auto& part : {mesh_checks(), force_checks(), bending_checks(), differential_checks(),
-                           solver_checks(), cached_terms_checks(), dynamics_checks(), contact_checks(),
-                           scene_checks(), level_set_checks(), projection_checks()})
+  for (const auto& part :
+       {mesh_checks(), force_checks(), bending_checks(), differential_checks(), solver_checks(),
+        cached_terms_checks(), dynamics_checks(), contact_checks(), scene_checks(), level_set_checks(),
+        projection_checks(), octree_checks(), octree_union_checks(), deforming_checks()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -1,4 +1,6 @@
 // Claims of BMF03 section 5: cloth against objects.
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "verification/claims.h"
@@ -243,6 +245,10 @@ std::vector<Claim> object_claims() {
   for (Claim& claim : where_projection_applies()) claims.push_back(std::move(claim));
   for (Claim& claim : what_is_pinched()) claims.push_back(std::move(claim));
   for (Claim& claim : what_is_drawn()) claims.push_back(std::move(claim));
+  for (Claim& claim : level_set_claims()) claims.push_back(std::move(claim));
+  std::sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) {
+    return std::stoi(a.id.substr(1)) < std::stoi(b.id.substr(1));
+  });
   return claims;
 }
 

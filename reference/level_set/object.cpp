@@ -26,6 +26,14 @@ void enter(ObjectPoint point, Nearest& nearest) {
 
 }  // namespace
 
+ObjectPoint DeformingObject::at(const Vector3& p, const Span& span) const {
+  const DeformingPoint now = deforming_at(*body, p, span.start);
+  ObjectPoint point{now.phi, now.normal, now.velocity};
+  if (span.end > span.start)
+    point.velocity = (carried_along(*body, p, span.start, span.end) - p) / (span.end - span.start);
+  return point;
+}
+
 Nearest nearest_of(std::span<const ObjectPoint> points) {
   Nearest nearest;
   for (const ObjectPoint& point : points) enter(point, nearest);

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "reference/level_set/deforming.h"
 #include "reference/level_set/solid.h"
 #include "reference/motion/pose.h"
 #include "reference/types.h"
@@ -37,7 +39,14 @@ struct RigidObject {
   ObjectPoint at(const Vector3& p, const Span& span) const;
 };
 
-using Body = std::variant<RigidObject>;
+/// A body that deforms as its animation says; copies share it.
+struct DeformingObject {
+  std::shared_ptr<const DeformingBody> body;
+
+  ObjectPoint at(const Vector3& p, const Span& span) const;
+};
+
+using Body = std::variant<RigidObject, DeformingObject>;
 
 struct Object {
   std::string name;

@@ -5,11 +5,12 @@
 
 #include "reference/level_set/grid.h"
 #include "reference/level_set/mesh_distance.h"
+#include "reference/level_set/octree.h"
 #include "reference/level_set/signed_distance.h"
 
 namespace foldproof {
 
-using Solid = std::variant<HalfSpace, Sphere, Box, Capsule, Torus, MeshSolid, GridSolid>;
+using Solid = std::variant<HalfSpace, Sphere, Box, Capsule, Torus, MeshSolid, GridSolid, OctreeSolid, OctreePart>;
 
 /// The solid's answer at p, in its own frame.
 inline Distance distance_to(const Solid& solid, const Vector3& p) {

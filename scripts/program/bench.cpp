@@ -212,6 +212,7 @@ RunRecord bench(int most_particles) {
   run.subject = "foldproof reference";
   run.records = rates(all, megabytes);
   for (Record& record : level_set_rates()) run.records.push_back(std::move(record));
+  for (Record& record : octree_rates()) run.records.push_back(std::move(record));
   run.studies.push_back({"bench",
                          "Time grows in proportion to the number of particles.",
                          "measured",

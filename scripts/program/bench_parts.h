@@ -23,6 +23,7 @@ struct Target {
 /// A measured number beside its target.
 Record rate(const std::string& name, const std::string& claim, double measured, const Target& target);
 
+std::vector<Record> octree_rates();     // bench_octree.cpp: an octree of a mesh, queries
 std::vector<Record> level_set_rates();  // bench_level_set.cpp: grids about a mesh, queries
 
 }  // namespace foldproof

@@ -1,0 +1,198 @@
+// level-set-cache: level sets computed once, for many runs; and files that must not be trusted.
+#include <cmath>
+#include <cstdint>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+
+#include "convergence/studies.h"
+#include "reference/level_set/deforming_content.h"
+#include "reference/mesh/shapes.h"
+#include "verification/checks/scratch_folder.h"
+#include "verification/hdf5_file.h"
+#include "verification/level_set_cache_file.h"
+
+namespace foldproof {
+
+namespace {
+
+/// A ball that bends, in three frames.
+MeshSequence animation(int subdivisions) {
+  const auto bent = [](const Vector3& X, double t) -> Vector3 {
+    return X + t * Vector3(0.3 * X.y() * X.y(), 1.1 * X.x() * X.x(), 0.4 * X.z());
+  };
+  return deformed_mesh(make_icosphere(0.21, subdivisions), bent, {0, 0.3, 0.7});
+}
+
+OctreeSettings settings(int depth) {
+  return {Vector3::Constant(-0.5), 1, depth, 3, 1e-3, 0.04, 0.3, 0, HangingNodes::constrained};
+}
+
+CachedBody cached(const std::string& path, const MeshSequence& sequence, const OctreeSettings& how) {
+  return cached_deforming_body(path, sequence, how, BetweenFrames::carried);
+}
+
+/// Answers that differ in a bit, at points and times of all kinds.
+double different_answers(const DeformingBody& a, const DeformingBody& b) {
+  double different = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vector3 p(std::sin(1.3 * i), std::sin(2.9 * i + 1), std::sin(4.7 * i + 2));
+    const double t = 0.8 * std::abs(std::sin(0.7 * i)) - 0.05;
+    const DeformingPoint x = deforming_at(a, 0.6 * p, t), y = deforming_at(b, 0.6 * p, t);
+    different += !(x.phi == y.phi && x.normal == y.normal && x.velocity == y.velocity);
+  }
+  return different;
+}
+
+struct Costs {
+  double build, load;  // processor time [s]
+  double megabytes;    // of the file
+};
+
+double seconds_since(std::clock_t start) { return double(std::clock() - start) / CLOCKS_PER_SEC; }
+
+NamedFinding loaded_is_the_same(Costs& costs) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("ball.h5");
+  std::clock_t start = std::clock();
+  const CachedBody built = cached(path, animation(3), settings(6));
+  costs.build = seconds_since(start);
+  costs.megabytes = double(std::filesystem::file_size(path)) / 1e6;
+  start = std::clock();
+  const CachedBody loaded = cached(path, animation(3), settings(6));
+  costs.load = seconds_since(start);
+  const double wrong =
+      (built.was_loaded ? 1 : 0) + (loaded.was_loaded ? 0 : 1) + different_answers(built.body, loaded.body);
+  return {
+      "level-set-cache.loaded-is-the-same",
+      "Level sets that were computed before are loaded, and answer bit for bit as those that were computed.",
+      {{wrong, 0, 0, "1", "values are stored in full"}, {}, "measured is the number of answers that differ"}};
+}
+
+NamedFinding loading_is_cheap(const Costs& costs) {
+  return {"level-set-cache.loading-is-cheap",
+          "Loading takes a tenth of the time of computing, or less.",
+          {{costs.load / costs.build, 0.1, 0, "1",
+            "a tenth: with it ten runs cost about one computation more than the first; measured in processor "
+            "time, "
+            "which other programs on the machine do not lengthen much"},
+           {{"computing", "s", std::vector<double>{costs.build}},
+            {"loading", "s", std::vector<double>{costs.load}},
+            {"file", "MB", std::vector<double>{costs.megabytes}}},
+           ""}};
+}
+
+/// Something that makes a good file unfit for what is asked next.
+struct Spoiling {
+  std::string name, reason;  // the reason that must be given
+  std::function<void(const std::string& path)> file;
+  std::function<void(MeshSequence&, OctreeSettings&)> request;
+};
+
+void keep_file(const std::string&) {}
+void keep_request(MeshSequence&, OctreeSettings&) {}
+
+void cut_to(const std::string& path, double share) {
+  std::filesystem::resize_file(path, std::uintmax_t(share * double(std::filesystem::file_size(path))));
+}
+
+/// Turns a bit in a value of a file.
+void turn_bit(const std::string& path, std::uintmax_t from_end) {
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  const auto place = std::streamoff(std::filesystem::file_size(path) - from_end);
+  file.seekg(place);
+  const char byte = char(file.get());
+  file.seekp(place);
+  file.put(char(byte ^ 4));
+}
+
+/// A body without sense, written with the keys that belong to it.
+void write_unsound(const std::string& path) {
+  DeformingBody body = make_deforming_body(animation(2), settings(4), BetweenFrames::carried);
+  body.frames[1].field.branches[3].children += 1;
+  write_level_sets(path, body, origin_key(animation(2), settings(4)));
+}
+
+std::vector<Spoiling> spoilings() {
+  return {
+      {"not there", "is it there", [](const std::string& path) { std::filesystem::remove(path); },
+       keep_request},
+      {"cut at half", "whole HDF5 file", [](const std::string& path) { cut_to(path, 0.5); }, keep_request},
+      {"cut at its last byte", "whole HDF5 file", [](const std::string& path) { cut_to(path, 1 - 1e-7); },
+       keep_request},
+      {"empty", "whole HDF5 file", [](const std::string& path) { cut_to(path, 0); }, keep_request},
+      {"a text", "whole HDF5 file", [](const std::string& path) { std::ofstream(path) << "level sets\n"; },
+       keep_request},
+      {"another HDF5 file", "cannot read",
+       [](const std::string& path) { Hdf5::create_file(path).attribute("version", 1); }, keep_request},
+      {"a bit turned", "",
+       [](const std::string& path) { turn_bit(path, std::filesystem::file_size(path) / 3); }, keep_request},
+      {"branches that do not fit", "branches", write_unsound, keep_request},
+      {"a vertex moved by a rounding", "computed from another", keep_file,
+       [](MeshSequence& s, OctreeSettings&) {
+         s.positions[1](2, 7) = std::nextafter(s.positions[1](2, 7), 1.0);
+       }},
+      {"a triangle turned", "computed from another", keep_file,
+       [](MeshSequence& s, OctreeSettings&) {
+         s.triangles[5] = {s.triangles[5][1], s.triangles[5][2], s.triangles[5][0]};
+       }},
+      {"another time", "computed from another", keep_file,
+       [](MeshSequence& s, OctreeSettings&) { s.times[1] = 0.31; }},
+      {"another tolerance", "computed from another", keep_file,
+       [](MeshSequence&, OctreeSettings& how) { how.tolerance = 1.01e-3; }}};
+}
+
+NamedFinding unfit_files_are_refused() {
+  const ScratchFolder folder;
+  const std::string good = folder.file("good.h5"), path = folder.file("spoilt.h5");
+  cached(good, animation(2), settings(4));
+  std::vector<std::string> names, reasons;
+  std::vector<double> wrong;
+  Worst worst;
+  for (const Spoiling& spoiling : spoilings()) {
+    std::filesystem::copy_file(good, path, std::filesystem::copy_options::overwrite_existing);
+    spoiling.file(path);
+    MeshSequence sequence = animation(2);
+    OctreeSettings how = settings(4);
+    spoiling.request(sequence, how);
+    const CachedBody rebuilt = cached(path, sequence, how);
+    const CachedBody again = cached(path, sequence, how);
+    const bool is_refused =
+        !rebuilt.was_loaded && rebuilt.why_built.find(spoiling.reason) != std::string::npos;
+    names.push_back(spoiling.name);
+    reasons.push_back(rebuilt.why_built.substr(
+        rebuilt.why_built.find("spoilt.h5") == std::string::npos ? 0 : rebuilt.why_built.find("spoilt.h5")));
+    wrong.push_back((is_refused ? 0 : 1) + (again.was_loaded ? 0 : 1));
+    worst.see(wrong.back());
+  }
+  return {"level-set-cache.unfit-files-are-refused",
+          "A file that is cut, damaged, foreign or computed from something else is refused with the reason, "
+          "and replaced.",
+          {{worst.value(), 0, 0, "1", "each must be refused, and the new file be good"},
+           {{"file", "", names}, {"refused or replaced wrongly", "1", wrong}, {"reason", "", reasons}},
+           ""}};
+}
+
+StudyResult run(const Subject&, Tier, const Progress& progress) {
+  Costs costs{};
+  StudyResult result;
+  result.findings.push_back(loaded_is_the_same(costs));
+  result.findings.push_back(loading_is_cheap(costs));
+  progress(0.2);
+  result.findings.push_back(unfit_files_are_refused());
+  return result;
+}
+
+}  // namespace
+
+Study level_set_cache() {
+  return {"level-set-cache", "Level sets computed beforehand serve many runs.", "BMF03 section 5.1",
+          "A whole animation's level sets are stored in a file with the key of what they were computed from. "
+          "What does "
+          "a second run pay, and can it be fooled?",
+          run};
+}
+
+}  // namespace foldproof

@@ -1,0 +1,141 @@
+#include "reference/level_set/deforming_content.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+namespace foldproof {
+
+namespace {
+
+/// To be raised whenever the same input gives other level sets.
+constexpr int method_version = 1;
+
+/// Fowler, Noll and Vo's hash FNV-1a of 64 bits, of values in the order in which they are added.
+class Key {
+ public:
+  template <class T>
+  void add(const T* values, std::size_t count) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(values);
+    for (std::size_t i = 0; i < count * sizeof(T); ++i) hash_ = (hash_ ^ bytes[i]) * 0x100000001b3;
+  }
+  template <class T>
+  void add(const std::vector<T>& values) {
+    add(std::uint64_t(values.size()));
+    add(values.data(), values.size());
+  }
+  void add(double value) { add(&value, 1); }
+  void add(int value) { add(&value, 1); }
+  void add(std::uint64_t value) { add(&value, 1); }
+
+  std::string text() const {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));
+    return digits;
+  }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325;
+};
+
+void add_settings(Key& key, const OctreeSettings& settings) {
+  key.add(settings.corner.data(), 3);
+  key.add(settings.width);
+  key.add(settings.depth);
+  key.add(settings.surface_depth);
+  key.add(settings.tolerance);
+  key.add(settings.band);
+  key.add(settings.beyond);
+  key.add(settings.reach);
+  key.add(int(settings.hanging));
+}
+
+void require(bool is_met, std::size_t frame, const char* what) {
+  if (!is_met) throw InputError("deforming body, frame " + std::to_string(frame) + ": " + what);
+}
+
+/// Children follow their branches, one after the other, and channels likewise: nothing is shared or out of range.
+bool has_sound_branches(const Octree& tree) {
+  std::size_t branches = 1, channels = 0;
+  for (std::size_t b = 0; b < tree.branches.size(); ++b) {
+    const OctreeBranch& branch = tree.branches[b];
+    if (b >= branches || branch.children != int(branches) || branch.channels != int(channels)) return false;
+    if (branch.parts < 1) return false;
+    branches += std::size_t(std::popcount(unsigned(branch.inner)));
+    channels += branch.parts;
+  }
+  return branches == tree.branches.size() && channels == tree.phi.size() && channels == tree.part.size();
+}
+
+/// Levels of branches, which children follow breadth first: none is deeper than the settings say.
+bool is_deep_enough(const Octree& tree) {
+  std::vector<int> level(tree.branches.size(), 0);
+  for (std::size_t b = 0; b < level.size(); ++b) {
+    if (level[b] >= tree.settings.depth) return false;
+    for (int k = 0; k < std::popcount(unsigned(tree.branches[b].inner)); ++k)
+      level[std::size_t(tree.branches[b].children + k)] = level[b] + 1;
+  }
+  return true;
+}
+
+bool is_finite(const DeformingFrame& frame) {
+  bool finite = std::isfinite(frame.time);
+  for (const auto& nodes : frame.field.phi)
+    for (double phi : nodes) finite = finite && std::isfinite(phi);
+  for (const auto* displacements : {&frame.to_next, &frame.from_previous})
+    for (const auto& nodes : *displacements)
+      for (const Vector3& u : nodes) finite = finite && u.allFinite();
+  return finite;
+}
+
+}  // namespace
+
+std::string origin_key(const MeshSequence& sequence, const OctreeSettings& settings) {
+  Key key;
+  key.add(method_version);
+  key.add(sequence.triangles);
+  key.add(sequence.times);
+  for (const PerParticle3& x : sequence.positions) {
+    key.add(std::uint64_t(x.cols()));
+    key.add(x.data(), std::size_t(x.size()));
+  }
+  add_settings(key, settings);
+  return key.text();
+}
+
+std::string content_key(const DeformingBody& body) {
+  Key key;
+  for (const DeformingFrame& frame : body.frames) {
+    key.add(frame.time);
+    add_settings(key, frame.field.settings);
+    for (const OctreeBranch& branch : frame.field.branches)
+      for (int value : {branch.children, branch.channels, int(branch.inner), int(branch.parts)})
+        key.add(value);
+    key.add(frame.field.part);
+    key.add(frame.field.phi);
+    key.add(frame.to_next);
+    key.add(frame.from_previous);
+  }
+  return key.text();
+}
+
+void require_sound(const DeformingBody& body) {
+  const std::size_t count = body.frames.size();
+  if (count == 0) throw InputError("deforming body: no frame");
+  for (std::size_t k = 0; k < count; ++k) {
+    const DeformingFrame& frame = body.frames[k];
+    const std::size_t channels = frame.field.phi.size();
+    require(k == 0 || frame.time > body.frames[k - 1].time, k, "its time is not later than that before");
+    require(!frame.field.branches.empty() && has_sound_branches(frame.field), k,
+            "its branches do not fit together");
+    require(is_deep_enough(frame.field), k, "its branches are deeper than its depth");
+    require(frame.to_next.size() == (k + 1 < count ? channels : 0), k,
+            "displacements to the next frame do not fit");
+    require(frame.from_previous.size() == (k > 0 ? channels : 0), k,
+            "displacements from the frame before do not fit");
+    require(is_finite(frame), k, "a value is not finite");
+  }
+}
+
+}  // namespace foldproof

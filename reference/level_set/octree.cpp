@@ -1,0 +1,150 @@
+#include "reference/level_set/octree.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "reference/level_set/octree_nodes.h"
+
+namespace foldproof {
+
+namespace {
+
+/// The index of a branch's child c among all branches; c must be a branch.
+int inner_child(const OctreeBranch& branch, int c) {
+  return branch.children + std::popcount(unsigned(branch.inner) & ((1u << c) - 1));
+}
+
+Vector3 clamped_to_cube(const OctreeSettings& cube, const Vector3& p) {
+  return p.cwiseMax(cube.corner).cwiseMin(cube.corner + Vector3::Constant(cube.width));
+}
+
+/// phi and N of the channel in the leaf.
+Distance distance_in(const Octree& tree, int channel, const OctreeLeaf& leaf) {
+  const Trilinear at = trilinear(tree.phi[channel], leaf.child, leaf.local);
+  const double length = at.slope.norm();
+  return {at.value, length > 0 ? Vector3(at.slope / length) : Vector3::UnitZ()};
+}
+
+/// A distance at q, the cube's nearest point to p, carried on to p: that of the surface point that it tells of.
+Distance beyond_cube(const Distance& at_q, const Vector3& q, const Vector3& p) {
+  const Vector3 away = p - (q - at_q.phi * at_q.normal);
+  const double phi = away.norm();
+  return {phi, phi > 0 ? Vector3(away / phi) : at_q.normal};
+}
+
+void see_part(PartsAt& at, const Distance& distance, int part) {
+  if (distance.phi < 0) ++at.inside;
+  if (at.first_part < 0 || distance.phi < at.first.phi) {
+    at.second = at.first;
+    at.second_part = at.first_part;
+    at.first = distance;
+    at.first_part = part;
+  } else if (distance.phi < at.second.phi) {
+    at.second = distance;
+    at.second_part = part;
+  }
+}
+
+}  // namespace
+
+OctreeLeaf leaf_at(const Octree& tree, const Vector3& p) {
+  const OctreeSettings& cube = tree.settings;
+  const int cells = 1 << cube.depth;
+  const Vector3 scaled = (p - cube.corner) * (1 / cube.width);
+  std::array<int, 3> finest;
+  for (int axis = 0; axis < 3; ++axis) finest[axis] = std::clamp(int(scaled[axis] * cells), 0, cells - 1);
+  for (int b = 0, shift = cube.depth - 1;; --shift) {
+    const int c = (finest[0] >> shift & 1) | (finest[1] >> shift & 1) << 1 | (finest[2] >> shift & 1) << 2;
+    const OctreeBranch& branch = tree.branches[b];
+    if (branch.inner >> c & 1) {
+      b = inner_child(branch, c);
+      continue;
+    }
+    const Vector3 cell(finest[0] >> shift, finest[1] >> shift, finest[2] >> shift);
+    return {b, c, cube.depth - shift, scaled * double(cells >> shift) - cell};
+  }
+}
+
+Distance Octree::at(const Vector3& p) const {
+  const Vector3 q = clamped_to_cube(settings, p);
+  const OctreeLeaf leaf = leaf_at(*this, q);
+  const OctreeBranch& branch = branches[leaf.branch];
+  Distance nearest = distance_in(*this, branch.channels, leaf);
+  for (int k = 1; k < branch.parts; ++k) {
+    const Distance other = distance_in(*this, branch.channels + k, leaf);
+    if (other.phi < nearest.phi) nearest = other;
+  }
+  return q == p ? nearest : beyond_cube(nearest, q, p);
+}
+
+PartsAt parts_at(const Octree& tree, const Vector3& p) {
+  const Vector3 q = clamped_to_cube(tree.settings, p);
+  const OctreeLeaf leaf = leaf_at(tree, q);
+  const OctreeBranch& branch = tree.branches[leaf.branch];
+  PartsAt at;
+  for (int k = branch.channels; k < branch.channels + branch.parts; ++k) {
+    const Distance distance = distance_in(tree, k, leaf);
+    see_part(at, q == p ? distance : beyond_cube(distance, q, p), tree.part[k]);
+  }
+  return at;
+}
+
+Distance OctreePart::at(const Vector3& p) const {
+  const Vector3 q = clamped_to_cube(tree->settings, p);
+  const OctreeLeaf leaf = leaf_at(*tree, q);
+  const OctreeBranch& branch = tree->branches[leaf.branch];
+  for (int k = branch.channels; k < branch.channels + branch.parts; ++k) {
+    if (tree->part[k] != part) continue;
+    const Distance distance = distance_in(*tree, k, leaf);
+    return q == p ? distance : beyond_cube(distance, q, p);
+  }
+  return nowhere;
+}
+
+BranchNodes<NodeFlags> node_flags(const Octree& tree, int b) {
+  const OctreeBranch& branch = tree.branches[b];
+  BranchNodes<NodeFlags> flags;
+  for (int n = 0; n < 27; ++n) {
+    int nearest = branch.channels, inside = 0;
+    for (int k = branch.channels; k < branch.channels + branch.parts; ++k) {
+      if (tree.phi[k][n] < tree.phi[nearest][n]) nearest = k;
+      if (tree.phi[k][n] < 0) ++inside;
+    }
+    flags[n] = {tree.part[nearest], inside >= 2};
+  }
+  return flags;
+}
+
+std::size_t leaves(const Octree& tree) { return 7 * tree.branches.size() + 1; }
+
+std::size_t bytes(const Octree& tree) {
+  return sizeof(Octree) + tree.branches.size() * sizeof(OctreeBranch) + tree.part.size() * sizeof(int) +
+         tree.phi.size() * sizeof(BranchNodes<double>);
+}
+
+Vector3 lattice_position(const OctreeSettings& settings, int level, const std::array<int, 3>& index) {
+  const Vector3 node(index[0], index[1], index[2]);
+  return settings.corner + settings.width * (node / double(1 << level));
+}
+
+Vector3 node_position(const OctreeSettings& settings, const OctreePlace& place, int n) {
+  const auto& [x, y, z] = place.cell;
+  return lattice_position(settings, place.level + 1, {2 * x + n % 3, 2 * y + n / 3 % 3, 2 * z + n / 9});
+}
+
+OctreePlace child_place(const OctreePlace& place, int c) {
+  return {place.level + 1,
+          {2 * place.cell[0] + (c & 1), 2 * place.cell[1] + (c >> 1 & 1), 2 * place.cell[2] + (c >> 2)}};
+}
+
+std::vector<OctreePlace> branch_places(const Octree& tree) {
+  std::vector<OctreePlace> places(tree.branches.size(), {0, {0, 0, 0}});
+  for (std::size_t b = 0; b < places.size(); ++b)
+    for (int c = 0; c < 8; ++c)
+      if (tree.branches[b].inner >> c & 1)
+        places[inner_child(tree.branches[b], c)] = child_place(places[b], c);
+  return places;
+}
+
+}  // namespace foldproof

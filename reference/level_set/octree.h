@@ -1,0 +1,117 @@
+// Adaptively sampled distance: an octree of trilinear cells, fine where the distance is curved and near, coarse
+// elsewhere (BMF03 section 5.1, after Frisken et al. 2000); continuous where cells of two sizes meet.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "reference/level_set/signed_distance.h"
+#include "reference/types.h"
+
+namespace foldproof {
+
+using DistanceFunction = std::function<Distance(const Vector3&)>;
+
+/// What becomes of a node in the middle of a coarser neighbour's edge or face.
+enum class HangingNodes {
+  constrained,  // it takes the neighbour's interpolant: phi is continuous
+  free          // it keeps its own value: phi jumps there
+};
+
+/// How finely to sample.
+struct OctreeSettings {
+  Vector3 corner;     // of the cube that is covered, its least coordinates [m]
+  double width;       // of the cube [m]
+  int depth;          // the finest cells are width / 2^depth wide
+  int surface_depth;  // cells that may hold the surface are no wider than width / 2^surface_depth
+  double tolerance;   // cells are split where the trilinear interpolant misses by more, within `band` [m]
+  double band;        // of |phi| [m]
+  double beyond;      // what it may miss more per distance from the band [1]
+  double reach;       // of a union: parts nearer than this are kept beside the nearest one [m]
+  HangingNodes hanging;
+};
+
+/// Values at the 3 x 3 x 3 nodes of a branch, x fastest: its children's corners.
+template <class T>
+using BranchNodes = std::array<T, 27>;
+
+/// A cell that is split in eight. Child c is at the upper half along x, y, z if its bits 0, 1, 2 are set.
+struct OctreeBranch {
+  int children;         // the first of its children that are branches; the others follow in the order of c
+  int channels;         // the first of its channels
+  unsigned char inner;  // bit c: child c is a branch, else it is a leaf
+  unsigned char parts;  // how many channels it has, at least one
+};
+
+/// Of a union each branch holds a channel for every part that is nearest at one of its nodes, or nearer than the
+/// reach. Each channel is smooth where the part is, so that the crease of the union lies between nodes where it
+/// belongs.
+struct Octree {
+  OctreeSettings settings;
+  std::vector<OctreeBranch> branches;    // level by level; the first is the whole cube
+  std::vector<int> part;                 // of each channel: which body
+  std::vector<BranchNodes<double>> phi;  // of each channel [m]
+  long evaluations = 0;                  // distances asked for while it was built
+
+  /// The union of all parts: the distance to the part that is nearest or entered deepest.
+  Distance at(const Vector3& p) const;
+};
+
+/// Covers the union of bodies, which must lie inside the cube. The interpolant misses by the tolerance at most at
+/// the edge, face and cell midpoints where it was compared; a constrained node adds what its coarse neighbour
+/// misses. Neighbours, also across edges and corners, differ by one level at most.
+/// Throws InputError: no bodies, a setting out of range, a body that reaches the cube's boundary.
+Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings);
+
+/// The leaf that holds p, which lies in the cube.
+struct OctreeLeaf {
+  int branch, child;
+  int level;      // its width is the cube's over 2^level
+  Vector3 local;  // p in the leaf, 0 to 1 along each axis
+};
+
+OctreeLeaf leaf_at(const Octree& tree, const Vector3& p);
+
+inline const Distance nowhere{std::numeric_limits<double>::infinity(), Vector3::Zero()};
+
+/// What a union says about a point: the two parts it is deepest in or nearest to.
+struct PartsAt {
+  Distance first = nowhere, second = nowhere;
+  int first_part = -1, second_part = -1;  // -1: no second part is within reach
+  int inside = 0;                         // parts that the point is inside of: two or more, and it is pinched
+};
+
+/// p anywhere; outside of the cube distances are measured from the surface point below the cube's nearest point.
+PartsAt parts_at(const Octree& tree, const Vector3& p);
+
+/// What a node of the union is: the part nearest to it, and whether two or more parts hold it.
+struct NodeFlags {
+  int part;
+  bool pinched;
+};
+
+/// Of the 27 nodes of a branch.
+BranchNodes<NodeFlags> node_flags(const Octree& tree, int branch);
+
+std::size_t leaves(const Octree& tree);
+std::size_t bytes(const Octree& tree);  // that the tree occupies
+
+/// A solid sampled by an octree; copies share it.
+struct OctreeSolid {
+  std::shared_ptr<const Octree> tree;
+  Distance at(const Vector3& p) const { return tree->at(p); }
+};
+
+/// One part of a union on one octree: objects made of its parts find out by themselves who is pinched. `nowhere`,
+/// infinitely far, where the part is neither nearest nor within reach.
+struct OctreePart {
+  std::shared_ptr<const Octree> tree;
+  int part;
+  Distance at(const Vector3& p) const;
+};
+
+}  // namespace foldproof

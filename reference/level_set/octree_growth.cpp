@@ -1,0 +1,187 @@
+#include "reference/level_set/octree_growth.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace foldproof {
+
+namespace {
+
+constexpr int centre = 13;  // of the nodes of a branch
+
+double cell_width(const OctreeSettings& settings, int level) { return std::ldexp(settings.width, -level); }
+
+double half_diagonal(const OctreeSettings& settings, int level) {
+  return 0.5 * std::sqrt(3.0) * cell_width(settings, level);
+}
+
+double sample(OctreeGrowth& growth, int part, const Vector3& p) {
+  ++growth.evaluations;
+  return growth.bodies[part](p).phi;
+}
+
+/// Some bodies and their values at the nodes of one cell.
+struct Samples {
+  std::vector<int> part;
+  std::vector<BranchNodes<double>> phi;
+};
+
+Samples sampled(OctreeGrowth& growth, const std::vector<int>& parts, const OctreePlace& place) {
+  Samples samples{parts, std::vector<BranchNodes<double>>(parts.size())};
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (int n = 0; n < 27; ++n)
+      samples.phi[k][n] = sample(growth, parts[k], node_position(growth.settings, place, n));
+  return samples;
+}
+
+int add_branch(OctreeGrowth& growth, const OctreePlace& place, const Samples& samples) {
+  const int channels = int(growth.part.size());
+  growth.part.insert(growth.part.end(), samples.part.begin(), samples.part.end());
+  growth.phi.insert(growth.phi.end(), samples.phi.begin(), samples.phi.end());
+  growth.branches.push_back({place, {}, channels, int(samples.part.size())});
+  growth.branches.back().child.fill(-1);
+  return int(growth.branches.size()) - 1;
+}
+
+/// Values at the 5 x 5 x 5 corners of the children of a branch's children, x fastest.
+using FineNodes = std::array<double, 125>;
+
+/// Those at the branch's own nodes are known; the others are asked for.
+FineNodes fine_nodes(OctreeGrowth& growth, const OctreePlace& place, int channel) {
+  FineNodes fine;
+  const auto& [cx, cy, cz] = place.cell;
+  const int part = growth.part[channel];
+  for (int m = 0; m < 125; ++m) {
+    const int x = m % 5, y = m / 5 % 5, z = m / 25;
+    const bool is_known = x % 2 == 0 && y % 2 == 0 && z % 2 == 0;
+    if (is_known) {
+      fine[m] = growth.phi[channel][x / 2 + 3 * (y / 2) + 9 * (z / 2)];
+      continue;
+    }
+    const std::array<int, 3> index = {4 * cx + x, 4 * cy + y, 4 * cz + z};
+    fine[m] = sample(growth, part, lattice_position(growth.settings, place.level + 2, index));
+  }
+  return fine;
+}
+
+/// The part of the fine nodes that child c would have as a branch.
+BranchNodes<double> nodes_of_child(const FineNodes& fine, int c) {
+  BranchNodes<double> nodes;
+  const int first = 2 * (c & 1) + 10 * (c >> 1 & 1) + 50 * (c >> 2);
+  for (int n = 0; n < 27; ++n) nodes[n] = fine[first + n % 3 + 5 * (n / 3 % 3) + 25 * (n / 9)];
+  return nodes;
+}
+
+/// Which bodies may be nearest, or within reach, somewhere in the cell: a distance changes by no more than the way.
+Samples near_parts(const Samples& samples, const OctreeSettings& settings, int level) {
+  const double way = half_diagonal(settings, level);
+  double nearest = samples.phi[0][centre];
+  for (const auto& phi : samples.phi) nearest = std::min(nearest, phi[centre]);
+  Samples near;
+  for (std::size_t k = 0; k < samples.part.size(); ++k)
+    if (samples.phi[k][centre] - way <= std::max(nearest + way, settings.reach)) {
+      near.part.push_back(samples.part[k]);
+      near.phi.push_back(samples.phi[k]);
+    }
+  return near;
+}
+
+/// Does the interpolant of a leaf with these corners miss the other nodes by more than is allowed?
+bool is_missed(const BranchNodes<double>& phi, const OctreeSettings& settings) {
+  for (int n = 0; n < 27; ++n) {
+    const double allowed =
+        settings.tolerance + settings.beyond * std::max(0.0, std::abs(phi[n]) - settings.band);
+    if (!(std::abs(corner_mean(phi, n) - phi[n]) <= allowed)) return true;
+  }
+  return false;
+}
+
+bool wants_split(const Samples& samples, const OctreeSettings& settings, int level) {
+  for (std::size_t k = 0; k < samples.phi.size(); ++k) {
+    const bool may_hold_surface = std::abs(samples.phi[k][centre]) <= half_diagonal(settings, level);
+    if (level < settings.surface_depth && may_hold_surface) return true;
+    if (is_kept(samples.phi, k, settings.reach) && is_missed(samples.phi[k], settings)) return true;
+  }
+  return false;
+}
+
+void split_children(OctreeGrowth& growth, int b) {
+  const GrowingBranch branch = growth.branches[b];
+  const int level = branch.place.level + 1;
+  if (level >= growth.settings.depth) return;
+  std::vector<FineNodes> fine;
+  for (int k = branch.channels; k < branch.channels + branch.parts; ++k)
+    fine.push_back(fine_nodes(growth, branch.place, k));
+  for (int c = 0; c < 8; ++c) {
+    Samples samples;
+    for (int k = 0; k < branch.parts; ++k) {
+      samples.part.push_back(growth.part[branch.channels + k]);
+      samples.phi.push_back(nodes_of_child(fine[k], c));
+    }
+    samples = near_parts(samples, growth.settings, level);
+    if (wants_split(samples, growth.settings, level))
+      growth.branches[b].child[c] = add_branch(growth, child_place(branch.place, c), samples);
+  }
+}
+
+int child_towards(const OctreePlace& place, int shift) {
+  return (place.cell[0] >> shift & 1) | (place.cell[1] >> shift & 1) << 1 | (place.cell[2] >> shift & 1) << 2;
+}
+
+/// Splits leaves until there is a cell at this place.
+void make_cell(OctreeGrowth& growth, const OctreePlace& place) {
+  int b = 0;
+  for (int shift = place.level - 1; shift > 0; --shift) {
+    const int c = child_towards(place, shift);
+    if (growth.branches[b].child[c] < 0) {
+      const GrowingBranch branch = growth.branches[b];
+      const auto first = growth.part.begin() + branch.channels;
+      const std::vector<int> parts(first, first + branch.parts);
+      const OctreePlace child = child_place(branch.place, c);
+      const Samples samples = near_parts(sampled(growth, parts, child), growth.settings, child.level);
+      growth.branches[b].child[c] = add_branch(growth, child, samples);
+    }
+    b = growth.branches[b].child[c];
+  }
+}
+
+/// The 26 cells about a branch have its width, or are split.
+void make_neighbours(OctreeGrowth& growth, const OctreePlace& place) {
+  for (int d = 0; d < 27; ++d) {
+    OctreePlace next = place;
+    next.cell[0] += d % 3 - 1;
+    next.cell[1] += d / 3 % 3 - 1;
+    next.cell[2] += d / 9 - 1;
+    const auto is_inside = [&](int i) { return i >= 0 && i < 1 << next.level; };
+    if (std::all_of(next.cell.begin(), next.cell.end(), is_inside)) make_cell(growth, next);
+  }
+}
+
+}  // namespace
+
+bool is_kept(const std::vector<BranchNodes<double>>& phi, std::size_t part, double reach) {
+  for (int n = 0; n < 27; ++n) {
+    double nearest = phi[part][n];
+    for (const auto& other : phi) nearest = std::min(nearest, other[n]);
+    if (phi[part][n] <= std::max(nearest, reach)) return true;
+  }
+  return false;
+}
+
+OctreeGrowth grown_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings) {
+  OctreeGrowth growth{bodies, settings, {}, {}, {}, 0};
+  std::vector<int> all(bodies.size());
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = int(k);
+  const OctreePlace cube{0, {0, 0, 0}};
+  add_branch(growth, cube, near_parts(sampled(growth, all, cube), settings, 0));
+  for (std::size_t b = 0; b < growth.branches.size(); ++b) split_children(growth, int(b));
+  return growth;
+}
+
+void balance(OctreeGrowth& growth) {
+  for (int level = growth.settings.depth - 1; level > 0; --level)
+    for (std::size_t b = 0; b < growth.branches.size(); ++b)
+      if (growth.branches[b].place.level == level) make_neighbours(growth, growth.branches[b].place);
+}
+
+}  // namespace foldproof

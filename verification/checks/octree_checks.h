@@ -1,0 +1,23 @@
+// Checks of the adaptively sampled distance, and the trees that they look at.
+#pragma once
+
+#include <vector>
+
+#include "reference/level_set/octree.h"
+#include "verification/check.h"
+
+namespace foldproof {
+
+std::vector<Check> octree_checks();        // octree_checks.cpp: one body
+std::vector<Check> octree_union_checks();  // octree_union_checks.cpp: several bodies on one tree
+
+/// A torus of radii 0.29 m and 0.11 m, turned and shifted so that nothing of it lies along an axis.
+Distance tilted_torus(const Vector3& p);
+
+/// A cube of 1 m about the origin, sampled to `tolerance` [m] in a band of 0.06 m, with cells down to 1/2^depth m.
+OctreeSettings sampling(int depth, double tolerance, HangingNodes hanging);
+
+/// The largest jump [m] of phi over `count` random places where two cells meet, at least one of them fine.
+double largest_jump(const Octree& tree, int count);
+
+}  // namespace foldproof

@@ -1,0 +1,28 @@
+// Level sets of a whole animation in a file, computed once for many runs (BMF03 section 5.1).
+#pragma once
+
+#include <string>
+
+#include "reference/level_set/deforming.h"
+
+namespace foldproof {
+
+/// Writes the frames with the key of what they were computed from, under a temporary name until they are whole.
+void write_level_sets(const std::string& path, const DeformingBody& body, const std::string& origin);
+
+/// Reads them. Throws std::runtime_error saying why the file is refused: not there, no HDF5 file or not whole, not
+/// a file of level sets, computed from something else than `origin` names (stale), not what was written, unsound.
+DeformingBody read_level_sets(const std::string& path, const std::string& origin,
+                              const OctreeSettings& settings, BetweenFrames between);
+
+struct CachedBody {
+  DeformingBody body;
+  bool was_loaded;
+  std::string why_built;  // why there was nothing to load, or why it was refused; empty if loaded
+};
+
+/// The body from the file if that holds it; else it is built, and the file written anew.
+CachedBody cached_deforming_body(const std::string& path, const MeshSequence& sequence,
+                                 const OctreeSettings& settings, BetweenFrames between);
+
+}  // namespace foldproof
