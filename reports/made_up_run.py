@@ -71,6 +71,17 @@ def put_claim(file: h5py.File, order: int, name: str, ruling: str, decided_by: l
         roles=["supports"] * len(decided_by))
 
 
+def put_object(file: h5py.File, frames: int) -> None:
+    """Adds a tetrahedron that turns by 90 degrees about z and rises by 0.1 m a frame."""
+    group = file.create_group("objects/0")
+    put(group, name=HOSTILE, shape="mesh", friction=0.3)
+    group["vertices"] = np.array([[0, 0, 0], [0.5, 0, 0], [0, 0.5, 0], [0, 0, 0.5]])
+    group["triangles"] = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], dtype=np.int32)
+    angles = np.pi / 4 * np.arange(frames)
+    group["rotation"] = np.stack([np.cos(angles), 0 * angles, 0 * angles, np.sin(angles)], axis=1)
+    group["translation"] = np.outer(np.arange(frames), [0, 0, 0.1])
+
+
 def put_case(folder: Path, name: str) -> None:
     """Writes a case of two triangles that fold over a few frames."""
     with h5py.File(folder / f"{name}.h5", "w") as file:
@@ -82,6 +93,7 @@ def put_case(folder: Path, name: str) -> None:
         file["mesh/held"] = np.array([1, 0, 0, 0], dtype=np.uint8)
         file["frames/time"] = np.arange(4.0)
         file["frames/positions"] = np.array([rest + [0, 0, 0.1 * k] * rest[:, :1] for k in range(4)])
+        put_object(file, frames=4)
         for key, values in dict(time=np.linspace(0, 3, 900), kinetic_energy=np.full(900, np.nan),
                                 gravity_energy=np.linspace(1, 0, 900), linear_momentum=np.ones((900, 3)),
                                 angular_momentum=np.zeros((900, 3)), cg_iterations=np.zeros(900),

@@ -15,7 +15,8 @@ import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
 from camera import choose_camera  # noqa: E402
-from cloth_picture import BACK, FRONT, picture_of  # noqa: E402
+from case_pictures import scenery_of  # noqa: E402
+from cloth_picture import BACK, FRONT, Scenery, picture_of  # noqa: E402
 from made_up_run import HOSTILE, NAMES, put, put_case, put_finding, put_run  # noqa: E402
 from make_report import make_report, read_folder  # noqa: E402
 from map_plots import edges_of, map_notes  # noqa: E402
@@ -260,6 +261,25 @@ class Pieces(unittest.TestCase):
         both, far_alone = (picture[int(point[1]), int(point[0]), :3].astype(int) for point in points)
         self.assertEqual(both[0] > both[2], FRONT[0] > FRONT[2])
         self.assertEqual(far_alone[0] > far_alone[2], BACK[0] > BACK[2])
+
+    def test_an_object_turns_and_moves_by_its_pose(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            put_case(Path(folder), "fold")
+            case = load_case(Path(folder) / "fold.h5")
+        corner = case.objects[0].positions(1)[1]
+        np.testing.assert_allclose(corner, [0.0, 0.5, 0.1], atol=1e-15)
+        self.assertEqual(scenery_of(case, 3).x.shape, (4, 3))
+
+    def test_cloth_that_lies_on_an_object_hides_it(self) -> None:
+        square = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], dtype=float)
+        triangles = np.array([[0, 1, 2], [1, 3, 2]])
+        table = Scenery(2.0 * square - [0.5, 0.5, 0.0], triangles)
+        camera = choose_camera([square], triangles, table.x)
+        picture = picture_of(square, triangles, np.zeros(4, dtype=bool), camera, table)
+        points, _ = camera.project(np.array([[0.5, 0.4, 0.0], [1.4, 1.3, 0.0]]), 1)
+        cloth, object_alone = (picture[int(point[1]), int(point[0]), :3].astype(int) for point in points)
+        self.assertGreater(cloth[0] - cloth[2], 30)
+        self.assertLess(abs(object_alone[0] - object_alone[2]), 30)
 
     def test_particles_that_are_not_finite_leave_the_rest_drawn(self) -> None:
         x = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [np.nan, 1, 0]], dtype=float)

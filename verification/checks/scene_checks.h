@@ -10,6 +10,7 @@ std::vector<Check> scene_refusal_checks();  // scene_refusal_checks.cpp: what a 
 std::vector<Check> scene_meaning_checks();  // scene_checks.cpp: what is built of what it says
 std::vector<Check>
 scene_place_checks();  // scene_place_checks.cpp: where the cloth is, how it starts and is held
+std::vector<Check> scene_object_checks();  // scene_object_checks.cpp: objects and how cloth meets them
 
 /// All of the above.
 std::vector<Check> scene_checks();
