@@ -236,6 +236,47 @@ Figure shares(const std::vector<std::pair<std::string, AllKept>>& by_map) {
   return figure;
 }
 
+/// A circle in the plane y = 0 about (x, 0) [m].
+Curve circle(const std::string& label, double x, double radius) {
+  Curve curve{label, {}, {}, nan, {}};
+  for (int k = 0; k <= 96; ++k) {
+    curve.x.push_back(x + radius * std::cos(2 * pi * k / 96));
+    curve.y.push_back(radius * std::sin(2 * pi * k / 96));
+  }
+  return curve;
+}
+
+/// The signed distance that the projection follows where two balls overlap: inside, too shallow; between them, highest
+/// on the surface that is as deep in both.
+Map slice_of_union() {
+  constexpr int across = 121, up = 81;
+  const auto ball = [](double x, double radius) {
+    return Object{"ball", RigidObject{Sphere{radius}, {Eigen::Quaterniond::Identity(), {x, 0, 0}}, Motion{}},
+                  0};
+  };
+  const std::vector<Object> balls = {ball(-0.15, 0.24), ball(0.17, 0.2)};
+  Map map{"slice-of-phi",
+          "Signed distance to two balls that overlap",
+          {"x", "m", Scale::linear},
+          {"z", "m", Scale::linear},
+          {},
+          {},
+          {},
+          "phi",
+          "m",
+          Scale::linear,
+          "A slice through the centres. Points inside both balls are pinched: N points out of the one in "
+          "which they are "
+          "deeper, and turns round across the surface between; the projection leaves them alone.",
+          {circle("first ball", -0.15, 0.24), circle("second ball", 0.17, 0.2)}};
+  for (int i = 0; i < across; ++i) map.x_values.push_back(-0.45 + 0.9 * i / (across - 1));
+  for (int k = 0; k < up; ++k) map.y_values.push_back(-0.3 + 0.6 * k / (up - 1));
+  for (const double z : map.y_values)
+    for (const double x : map.x_values)
+      map.values.push_back(nearest_objects(balls, {x, 0, z}, {0, 0, 0}).first.phi);
+  return map;
+}
+
 StudyResult run(const Subject&, Tier tier, const Progress& progress) {
   const TriangleMesh sheet = make_sheet({SheetPattern::one_diagonal, width, height, columns, rows});
   const std::vector<Sunk> sheets = sunk_sheets(sheet);
@@ -258,6 +299,7 @@ StudyResult run(const Subject&, Tier tier, const Progress& progress) {
   result.findings.push_back(blend_keeps_its_share(by_map[2].second));
   result.findings.push_back(power_crushes_the_deep(sheets));
   result.figures.push_back(shares(by_map));
+  result.maps.push_back(slice_of_union());
   return result;
 }
 

@@ -18,6 +18,7 @@ sys.dont_write_bytecode = True
 
 from case_pictures import make_pictures  # noqa: E402
 from case_plots import plot_diagnostics  # noqa: E402
+from contact_maps import plot_contacts  # noqa: E402
 from ledger import claim_views  # noqa: E402
 from map_plots import plot_study_map  # noqa: E402
 from page import CaseView, Page, StudyView, faults_of, findings_by_section, render  # noqa: E402
@@ -122,7 +123,7 @@ def draw_case(entry: CaseEntry, figures: Path) -> CaseView:
         view.problem = f"{entry.path.name} could not be read: {error}"
         return view
     view.row = make_pictures(view.case, name, figures)
-    view.plots = plot_diagnostics(view.case, name, figures)
+    view.plots = plot_contacts(view.case, name, figures) + plot_diagnostics(view.case, name, figures)
     return view
 
 

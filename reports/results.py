@@ -177,6 +177,17 @@ class Case:
             data = file["frames/positions"]
             return np.asarray(data[frame % data.shape[0]], dtype=float)
 
+    def object_distances(self, frame: int) -> np.ndarray | None:
+        """Signed distance of all particles to the objects in one frame, N [m]; None if the file has none."""
+        with h5py.File(self.path, "r") as file:
+            data = file.get("frames/object_distance")
+            return None if data is None else np.asarray(data[frame % data.shape[0]], dtype=float)
+
+    def rest_positions(self) -> np.ndarray | None:
+        """Rest positions of all particles, N x 3 [m]; None if the file has none."""
+        with h5py.File(self.path, "r") as file:
+            return np.asarray(file["mesh/rest_positions"], dtype=float) if "mesh/rest_positions" in file else None
+
 
 @dataclass
 class Run:

@@ -17,6 +17,7 @@ import numpy as np  # noqa: E402
 from camera import choose_camera  # noqa: E402
 from case_pictures import scenery_of  # noqa: E402
 from cloth_picture import BACK, FRONT, Scenery, picture_of  # noqa: E402
+from contact_maps import laid_flat  # noqa: E402
 from made_up_run import HOSTILE, NAMES, put, put_case, put_finding, put_run  # noqa: E402
 from make_report import make_report, read_folder  # noqa: E402
 from map_plots import edges_of, map_notes  # noqa: E402
@@ -286,6 +287,19 @@ class Pieces(unittest.TestCase):
         triangles = np.array([[0, 1, 2], [1, 3, 2]])
         picture = picture_of(x, triangles, np.ones(4, bool), choose_camera([np.nan_to_num(x)], triangles))
         self.assertGreater((picture[:, :, 3] > 0).mean(), 0.1)
+
+
+class ContactMaps(unittest.TestCase):
+    def test_a_tube_is_unrolled_and_a_flat_sheet_keeps_its_shape(self) -> None:
+        angles, heights = np.meshgrid(np.linspace(-np.pi, np.pi, 25)[:-1], np.linspace(0.0, 0.5, 5))
+        tube = np.column_stack([0.2 * np.cos(angles.ravel()), heights.ravel(), 0.2 * np.sin(angles.ravel())])
+        flat = laid_flat(tube)
+        np.testing.assert_allclose(np.ptp(flat, axis=0), [0.2 * 2 * np.pi * 23 / 24, 0.5])
+        sheet = np.column_stack([angles.ravel(), heights.ravel(), np.full(angles.size, 0.3)])
+        np.testing.assert_array_equal(laid_flat(sheet), sheet[:, :2])
+
+    def test_a_shape_that_cannot_be_laid_flat_has_no_map(self) -> None:
+        self.assertIsNone(laid_flat(np.random.default_rng(5).normal(size=(50, 3))))
 
 
 if __name__ == "__main__":

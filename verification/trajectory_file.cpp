@@ -92,6 +92,8 @@ struct TrajectoryFile::Content {
   std::vector<GrowingDataset> rows;  // scalars, in the order of `scalars` below
   GrowingDataset linear, angular;
   std::vector<ObjectRows> objects;
+  std::vector<Object> solids;
+  std::vector<GrowingDataset> distances;  // one if there are objects
   std::vector<double> frame_times;
 
   Content(const std::string& to, const Scene& scene)
@@ -106,7 +108,18 @@ struct TrajectoryFile::Content {
         velocities(frames, "velocities", "m/s", {particles, 3}),
         linear(diagnostics, "linear_momentum", "kg m/s", {3}),
         angular(diagnostics, "angular_momentum", "kg m^2/s", {3}),
-        objects(write_objects(file, scene)) {}
+        objects(write_objects(file, scene)) {
+    for (const SceneObject& part : scene.objects) solids.push_back(part.object);
+    if (!solids.empty()) distances.emplace_back(frames, "object_distance", "m", Shape{particles});
+  }
+
+  /// Signed distance of each particle to the union of the objects.
+  void add_distances(const State& s) {
+    PerParticle phi(s.x.cols());
+    for (Eigen::Index i = 0; i < s.x.cols(); ++i)
+      phi[i] = nearest_objects(solids, s.x.col(i), {s.time, s.time, 0}).first.phi;
+    for (GrowingDataset& rows : distances) rows.add(phi.data());
+  }
 
   void write_xdmf() const {
     const std::filesystem::path target(path);
@@ -173,6 +186,7 @@ void TrajectoryFile::add_frame(const State& s) {
   content_->time.add(&s.time);
   content_->positions.add(s.x.data());
   content_->velocities.add(s.v.data());
+  if (!content_->solids.empty()) content_->add_distances(s);
   for (ObjectRows& rows : content_->objects)
     add_pose(pose_at(std::get<RigidObject>(rows.part->object.body).motion, s.time), rows);
   content_->frame_times.push_back(s.time);
