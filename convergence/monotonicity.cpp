@@ -5,6 +5,7 @@
 #include "convergence/damped_motion.h"
 #include "convergence/monotonicity_figures.h"
 #include "convergence/nonlinear_hinge.h"
+#include "convergence/overdamped.h"
 #include "convergence/studies.h"
 #include "reference/dynamics/integrator.h"
 
@@ -231,6 +232,8 @@ StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
   add_nonlinear_hinge(subject, motions.hinge, result);
   progress(0.6);
   result.figures = monotonicity_figures(subject, motions, tier);
+  progress(0.8);
+  add_overdamped(subject, tier, result);
   progress(1);
   return result;
 }

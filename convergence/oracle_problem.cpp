@@ -62,6 +62,9 @@ void set_material(const Scene& scene, oracles::ClothMaterial& material) {
 
 oracles::Motion oracle_motion(const PrescribedParticle& led) {
   const Motion& motion = led.motion;
+  if (motion.from != 0 || std::isfinite(motion.until))
+    throw InputError("oracle_motion: particle " + std::to_string(led.particle) +
+                     " starts or stops on the way");
   if (!motion.velocity.isZero(0) || !motion.angular_velocity.isZero(0))
     throw InputError("oracle_motion: particle " + std::to_string(led.particle) +
                      " turns or drifts; only oscillation is known");

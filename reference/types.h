@@ -27,11 +27,11 @@ struct Work {
   long elastic_evaluations = 0;     // evaluations of all elastic and external forces of the system
   long damping_preparations = 0;    // times the position-dependent terms of the damping forces were computed
   long damping_products = 0;        // products D(x) v
-  long stiffness_preparations = 0;  // times the elastic forces' derivative was computed
-  long stiffness_products = 0;      // products K(x) dx
+  long stiffness_preparations = 0;  // times the forces' derivative by the positions was computed
+  long stiffness_products = 0;      // products of it with a displacement
   long newton_iterations = 0;       // over all nonlinear systems
   long solves = 0;                  // linear systems solved for a velocity
-  long cg_iterations = 0;           // over all solves
+  long cg_iterations = 0;           // over all solves; an unsymmetric system's count two, as their products do
   long object_queries = 0;          // points that were asked where they are to the collision objects
   long object_contacts = 0;         // of those that were to be moved, how many had their velocity corrected
   long unfinished_solves = 0;       // solves, linear or not, that stopped before they kept their promise

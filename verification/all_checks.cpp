@@ -18,9 +18,10 @@ namespace foldproof {
 std::vector<Check> all_checks() {
   std::vector<Check> all;
   for (const auto& part :
-       {mesh_checks(), force_checks(), bending_checks(), differential_checks(), solver_checks(),
-        cached_terms_checks(), dynamics_checks(), contact_checks(), scene_checks(), level_set_checks(),
-        projection_checks(), octree_checks(), octree_union_checks(), deforming_checks()})
+       {mesh_checks(), force_checks(), bending_checks(), differential_checks(), force_differential_checks(),
+        solver_checks(), unsymmetric_solver_checks(), cached_terms_checks(), dynamics_checks(),
+        contact_checks(), scene_checks(), level_set_checks(), projection_checks(), octree_checks(),
+        octree_union_checks(), deforming_checks()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -221,6 +221,7 @@ std::vector<Claim> monotone_motion() {
        "For highly damped material A is stable but not monotone: its explicit half step overshoots.",
        {{"dynamics.stability-limit-is-as-derived.A", Role::supports},
         {"dynamics.pure-damping-displacement.A", Role::supports},
+        {"monotonicity.overdamped-sheet.overshoots.A", Role::supports},
         {"transient-growth.A.grows-with-damping", Role::supports},
         {"transient-growth.A.exponent", Role::supports}},
        Standing::confirmed,
@@ -230,7 +231,11 @@ std::vector<Claim> monotone_motion() {
        "{dynamics.pure-damping-displacement.A|h c/2|5} that is "
        "{dynamics.pure-damping-displacement.A|displacement over exact|5} times the way it should go: "
        "backwards. It is stable all the same: with damping ratios up to "
-       "{dynamics.stability-limit-is-as-derived.A|damping ratio|largest} the limit is 2/omega. In the norm "
+       "{dynamics.stability-limit-is-as-derived.A|damping ratio|largest} the limit is 2/omega. On an "
+       "overdamped sheet "
+       "with stiffness it throws a mode back by "
+       "{monotonicity.overdamped-sheet.overshoots.A|positions|first} times its way at h c/2 = 10. In the "
+       "norm "
        "of the energy, in which exact "
        "motion never grows, A carries a disturbance of a damped oscillator to as much as "
        "{transient-growth.A.grows-with-damping|growth|largest} times its size on the way, in proportion to "
@@ -238,38 +243,62 @@ std::vector<Claim> monotone_motion() {
       {"T14",
        "3",
        "Fully implicit methods of second order, such as BDF2, oscillate too at large steps.",
-       {{"monotonicity.overshoots.BDF2", Role::supports}, {"monotonicity.way.BDF2", Role::supports}},
+       {{"monotonicity.overshoots.BDF2", Role::supports},
+        {"monotonicity.way.BDF2", Role::supports},
+        {"monotonicity.overdamped-sheet.swings.implicit-midpoint", Role::supports}},
        Standing::confirmed,
        "",
        "A motion that is only damped overshoots its way and turns back under BDF2 once h c is large, as its "
        "recurrence says, to {monotonicity.way.BDF2}: by a tenth of the way at most, where A goes wrong by (h "
-       "c/2)^2 ways."},
+       "c/2)^2 ways. Under the implicit midpoint rule velocities on an overdamped sheet with stiffness swing "
+       "by "
+       "up to {monotonicity.overdamped-sheet.swings.implicit-midpoint|velocities|last} of those at the "
+       "start."},
       {"T15",
        "3",
        "Backward Euler is monotone for every step.",
        {{"monotonicity.monotone.backward-euler", Role::supports},
         {"monotonicity.monotone.linear-backward-euler", Role::supports},
-        {"monotonicity.monotone-on-a-hinge.linear-backward-euler", Role::supports}},
-       Standing::confirmed,
-       "",
+        {"monotonicity.overdamped-sheet.monotone.backward-euler", Role::supports},
+        {"monotonicity.overdamped-sheet.monotone.linear-backward-euler", Role::supports},
+        {"monotonicity.closing-hinge.backward-euler", Role::supports},
+        {"monotonicity.monotone-on-a-hinge.linear-backward-euler", Role::supports},
+        {"monotonicity.passes-its-place.backward-euler", Role::limits}},
+       Standing::conditional,
+       "on linear motions, and on nonlinear ones that stiffness brings to rest: where damping alone does, "
+       "and "
+       "changes with the shape, the fully implicit method goes too far",
        "At no step tried does a linear motion overshoot or turn back, fully implicit "
        "({monotonicity.monotone.backward-euler}) or linearised "
-       "({monotonicity.monotone.linear-backward-euler}); on a nonlinear hinge the linearised method turns "
-       "back by {monotonicity.monotone-on-a-hinge.linear-backward-euler}, no more than the exact motion "
-       "allows. Of the fully implicit one on nonlinear motions nothing is shown here."},
+       "({monotonicity.monotone.linear-backward-euler}), nor on a sheet whose stiffness damping outweighs "
+       "({monotonicity.overdamped-sheet.monotone.backward-euler}). An overdamped hinge that closes by nearly "
+       "two "
+       "radians comes to its rest angle without passing it, to {monotonicity.closing-hinge.backward-euler}. "
+       "On a "
+       "hinge without stiffness the linearised method turns back by "
+       "{monotonicity.monotone-on-a-hinge.linear-backward-euler}, no more than the exact motion allows; the "
+       "fully implicit one, which takes the damping at the step's end, "
+       "goes {monotonicity.passes-its-place.backward-euler|farthest|largest} times the exact way, and stays "
+       "there."},
       {"T16",
        "3",
        "B, with A's velocity steps in the other order, does not have A's trouble.",
        {{"dynamics.pure-damping-displacement.B", Role::supports},
         {"monotonicity.bounded.B", Role::supports},
         {"monotonicity.below-one.B", Role::supports},
+        {"monotonicity.overdamped-sheet.bounded.B", Role::supports},
+        {"monotonicity.overdamped-sheet.swings.B", Role::limits},
         {"monotonicity.alternates.B", Role::limits}},
        Standing::conditional,
        "in a bounded sense: no linear motion overshoots by more than the way itself, but for h c/2 > 1 the "
        "velocity changes its sign in every step",
        "Under B the total displacement of a particle that is only damped is the exact one, to "
        "{dynamics.pure-damping-displacement.B}, and no linear motion tried came further than "
-       "{monotonicity.bounded.B}, however large the damping. For h c/2 below one it is monotone."}};
+       "{monotonicity.bounded.B}, however large the damping. For h c/2 below one it is monotone. On an "
+       "overdamped "
+       "sheet with stiffness positions overshoot by up to "
+       "{monotonicity.overdamped-sheet.bounded.B|positions|largest} of their way and velocities by "
+       "{monotonicity.overdamped-sheet.bounded.B|velocities|largest} of those at the start."}};
 }
 
 std::vector<Claim> variable_steps() {
@@ -293,6 +322,8 @@ std::vector<Claim> variable_steps() {
                {"variable-step-stability.damping-cures.C", Role::supports},
                {"monotonicity.bounded.C", Role::supports},
                {"monotonicity.below-one.C", Role::supports},
+               {"monotonicity.overdamped-sheet.bounded.C", Role::supports},
+               {"monotonicity.overdamped-sheet.swings.C", Role::limits},
                {"monotonicity.alternates.C", Role::limits},
                {"monotonicity.beyond-the-bound.C", Role::limits}}),
        Standing::conditional,

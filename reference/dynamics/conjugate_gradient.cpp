@@ -93,16 +93,7 @@ Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle
 
 Solve solve_newton_step(const NewtonMatrix& matrix, const SolverSettings& settings, const PerParticle3& r,
                         PerParticle3& dw, Work& work) {
-  PerParticle3 Kp(3, r.cols());
-  const Product A = [&](const PerParticle3& p, PerParticle3& q) {  // (M - s D - s^2 K) p
-    damping_product(matrix.damping, p, matrix.inverse_mass, q, work);
-    Kp.setZero();
-    matrix.stiffness.add_product(p, Kp);
-    ++work.stiffness_products;
-    for (Eigen::Index i = 0; i < p.cols(); ++i)
-      if (matrix.inverse_mass[i] == 0) Kp.col(i).setZero();
-    q = p * matrix.mass.asDiagonal() - matrix.s * q - matrix.s * matrix.s * Kp;
-  };
+  const Product A = [&](const PerParticle3& p, PerParticle3& q) { multiply(matrix, p, q, work); };
   dw.setZero(3, r.cols());
   const double scale = positive_or_one(std::sqrt(squared_norm(r, matrix.inverse_mass)));
   const Solve solve = iterate(A, matrix.inverse_mass, settings, scale, r, dw);

@@ -1,8 +1,7 @@
 // Conjugate gradients for the implicit velocity, matrix-free and without preconditioner (BMF03 section 3).
 #pragma once
 
-#include "reference/forces/damping.h"
-#include "reference/forces/elastic_differential.h"
+#include "reference/dynamics/newton_matrix.h"
 #include "reference/types.h"
 
 namespace foldproof {
@@ -39,16 +38,7 @@ Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle
                      const PerParticle& inverse_mass, const SolverSettings& settings, PerParticle3& v,
                      Work& work);
 
-/// M - s D - s^2 K, the matrix of a Newton step of the methods that are implicit in the elastic forces too.
-struct NewtonMatrix {
-  const PerParticle& mass;          // N [kg]
-  const PerParticle& inverse_mass;  // N [1/kg], 0 for prescribed particles
-  const DampingOperator& damping;
-  const ElasticDifferential& stiffness;
-  double s;  // the part of the step that multiplies the rate [s]
-};
-
-/// Solves A dw = r for the free particles from dw = 0; prescribed ones get 0. r: 3 x N momenta [kg m/s]; on exit
+/// Solves A dw = r, A symmetric, for the free particles from dw = 0; prescribed ones get 0. r: 3 x N momenta [kg m/s]; on exit
 /// dw: 3 x N [m/s]. The residual is relative to |r|. Stops at once, with `indefinite` set, when it meets a
 /// direction p with p.A p <= 0: dw is then what it had so far.
 Solve solve_newton_step(const NewtonMatrix& A, const SolverSettings& settings, const PerParticle3& r,

@@ -1,7 +1,12 @@
 #include "reference/dynamics/implicit.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <variant>
 
+#include "reference/dynamics/biconjugate_gradient.h"
 #include "reference/dynamics/end_of_step.h"
 #include "reference/forces/degenerate.h"
 
@@ -38,23 +43,6 @@ PerParticle3 residual_of(const System& system, const Stage& stage, const PerPart
   return residual;
 }
 
-/// A Newton step from w: the exact derivative, or where that is indefinite the semidefinite one. The change of
-/// D with the positions is left out, since it is not symmetric. That costs iterations, not accuracy, for the
-/// residual is the true one: convergence is linear, the slower the more the cloth turns within a damped step.
-PerParticle3 newton_step(const System& system, const Stage& stage, const PerParticle3& w,
-                         const PerParticle3& residual, Work& work) {
-  const State at = state_of(stage, w);
-  const DampingOperator damping = damping_at(system.forces, at, work);
-  const SolverSettings settings{forcing, system.solver.max_iterations, ResidualScale::momentum};
-  PerParticle3 dw;
-  for (const Definiteness definiteness : {Definiteness::exact, Definiteness::semidefinite}) {
-    const ElasticDifferential stiffness = elastic_differential_at(system.forces, at, definiteness, work);
-    const NewtonMatrix A{system.mass, system.inverse_mass, damping, stiffness, stage.s};
-    if (!solve_newton_step(A, settings, residual, dw, work).indefinite) break;
-  }
-  return dw;
-}
-
 /// Where a line search ended.
 struct Trial {
   PerParticle3 w, residual;
@@ -85,30 +73,133 @@ Trial search(const System& system, const Stage& stage, const Trial& from, const 
   return {from.w, from.residual, from.norm, false};
 }
 
-/// Solves the stage equation from the guess w by Newton's method with a line search, until the residual is the
-/// solver's tolerance times the momentum of the guess and the impulse at it. Prescribed particles are where
-/// they are at the stage's time, and as fast.
-PerParticle3 solve_stage(const System& system, Stage& stage, PerParticle3 w, Work& work) {
+/// The Newton step by conjugate gradients, from the elastic derivative alone: exact where it is definite, else
+/// semidefinite element by element.
+PerParticle3 symmetric_step(const System& system, const Stage& stage, const Trial& from, Work& work) {
+  const State at = state_of(stage, from.w);
+  const DampingOperator damping = damping_at(system.forces, at, work);
+  const SolverSettings settings{forcing, system.solver.max_iterations, ResidualScale::momentum};
+  PerParticle3 dw;
+  for (const Definiteness definiteness : {Definiteness::exact, Definiteness::semidefinite}) {
+    const ForceDifferential stiffness = elastic_differential_at(system.forces, at, definiteness, work);
+    const NewtonMatrix A{system.mass, system.inverse_mass, damping, stiffness, stage.s};
+    if (!solve_newton_step(A, settings, from.residual, dw, work).indefinite) break;
+  }
+  return dw;
+}
+
+/// The Newton step with the exact derivative of all forces, which no longer is symmetric. Empty if the solve did not
+/// finish or if the step leads uphill.
+std::optional<PerParticle3> exact_step(const System& system, const Stage& stage, const Trial& from,
+                                       Work& work) {
+  const State at = state_of(stage, from.w);
+  const ForceDifferential derivative = force_differential_at(system.forces, at, work);
+  if (derivative.symmetric) return {};
+  const DampingOperator damping = damping_at(system.forces, at, work);
+  const SolverSettings settings{forcing, system.solver.max_iterations, ResidualScale::momentum};
+  PerParticle3 dw;
+  const NewtonMatrix A{system.mass, system.inverse_mass, damping, derivative, stage.s};
+  const Solve solve = solve_unsymmetric_step(A, settings, from.residual, dw, work);
+  if (!solve.converged || !(product(from.residual, dw) > 0)) return {};
+  return dw;
+}
+
+/// One iteration of Newton's method. Where damping or current weighting makes the derivative unsymmetric, the exact
+/// step is tried first; the symmetric one takes over where that fails, far from the solution.
+Trial improved(const System& system, const Stage& stage, const Trial& from, Work& work) {
+  if (const std::optional<PerParticle3> dw = exact_step(system, stage, from, work)) {
+    const Trial to = search(system, stage, from, *dw, work);
+    if (to.better) return to;
+  }
+  return search(system, stage, from, symmetric_step(system, stage, from, work), work);
+}
+
+/// The stage equation with the forces linearised about the state `now`, the elastic derivative semidefinite:
+///   (M - s D - s^2 K) dw = s (F + D w + K (X + s w - x)),   less the impulse that prescribed particles ask for
+/// w: on entry the velocity to start from with the known velocities written in, on exit w + dw.
+Solve solve_linearised(const System& system, const State& now, const Stage& stage,
+                       const SolverSettings& settings, PerParticle3& w, Work& work) {
+  const DampingOperator damping = damping_at(system.forces, now, work);
+  const ForceDifferential stiffness =
+      elastic_differential_at(system.forces, now, Definiteness::semidefinite, work);
+  PerParticle3 force = elastic_forces(system.forces, now, work);
+  damping.add_product(w, force);
+  PerParticle3 moved = stage.X - now.x + stage.s * w;
+  stiffness.add_product(moved, force);
+  ++work.damping_products, ++work.stiffness_products;
+  PerParticle3 impulse = stage.s * force;
+  for (const PrescribedParticle& p : system.led) impulse.col(p.particle).setZero();
+
+  PerParticle3 dw;
+  const NewtonMatrix of_the_start{system.mass, system.inverse_mass, damping, stiffness, stage.s};
+  const Solve solve = solve_newton_step(of_the_start, settings, impulse, dw, work);
+  w += dw;
+  return solve;
+}
+
+/// What rounding the positions alone may do to the residual [kg^1/2 m/s]: forces change by a bound on the stiffness
+/// times a rounding of the largest coordinate.
+double rounding_at(const System& system, const Stage& stage, const PerParticle3& w) {
+  const State at = state_of(stage, w);
+  PerParticle rows = PerParticle::Zero(w.cols());  // N/m
+  for (const Force& force : system.forces) {
+    if (const auto* springs = std::get_if<StretchSprings>(&force)) springs->add_stiffness_bound(at, rows);
+    if (const auto* bending = std::get_if<Bending>(&force)) bending->add_stiffness_bound(at, rows);
+  }
+  const double rounding = std::numeric_limits<double>::epsilon() * at.x.cwiseAbs().maxCoeff();
+  return stage.s * rounding * std::sqrt(rows.cwiseAbs2().dot(system.inverse_mass));
+}
+
+/// Newton's method from a trial, until its residual is `enough` [kg^1/2 m/s] or nothing improves it.
+Trial iterated(const System& system, const Stage& stage, Trial at, double enough, Work& work) {
+  for (int i = 0; at.norm > enough && at.better && i < most_newton_iterations; ++i) {
+    at = improved(system, stage, at, work);
+    ++work.newton_iterations;
+  }
+  return at;
+}
+
+Trial trial_at(const System& system, const Stage& stage, const PerParticle3& w, Work& work) {
+  const PerParticle3 residual = residual_of(system, stage, w, work);
+  return {w, residual, norm_of(residual, system.inverse_mass), true};
+}
+
+/// Where the linearised stage equation leads from the start's velocity, to the accuracy of a Newton step; back to the
+/// start, without hope, if a triangle loses its area there.
+Trial linearised_trial(const System& system, const State& now, const Stage& stage, const Trial& start,
+                       Work& work) {
+  PerParticle3 w = start.w;
+  solve_linearised(system, now, stage, {forcing, system.solver.max_iterations, ResidualScale::momentum}, w,
+                   work);
+  try {
+    return trial_at(system, stage, w, work);
+  } catch (const DegenerateElement&) {
+    return {start.w, start.residual, start.norm, false};
+  }
+}
+
+/// Solves the stage equation by Newton's method with a line search, until the residual is the solver's tolerance times
+/// the momentum of the velocity now and the impulse at it, or what rounding makes of cloth at rest. From that velocity it starts, and a second time, if it does
+/// not arrive, from the linearised step: in a long step the velocity now leads to another place altogether. Prescribed
+/// particles are where they are at the stage's time, and as fast.
+PerParticle3 solve_stage(const System& system, const State& now, Stage& stage, Work& work) {
+  PerParticle3 w = now.v;
   impose(velocities_at(system.led, stage.time), w);
   for (const PrescribedParticle& p : system.led)
     stage.X.col(p.particle) = position_at(p.motion, p.start, stage.time) - stage.s * w.col(p.particle);
 
-  Trial at{w, residual_of(system, stage, w, work), 0, true};
-  at.norm = norm_of(at.residual, system.inverse_mass);
-  const PerParticle3 momentum = w * system.mass.asDiagonal();
-  const double scale = at.norm + norm_of(momentum, system.inverse_mass);
-  const double enough = system.solver.tolerance * scale;
-
-  int iterations = 0;
-  while (at.norm > enough && at.better && iterations < most_newton_iterations) {
-    const PerParticle3 dw = newton_step(system, stage, at.w, at.residual, work);
-    at = search(system, stage, at, dw, work);
-    ++iterations;
+  const Trial start = trial_at(system, stage, w, work);
+  const double size = start.norm + norm_of(w * system.mass.asDiagonal(), system.inverse_mass);
+  const double enough = std::max(system.solver.tolerance * size, rounding_at(system, stage, w));
+  Trial end = iterated(system, stage, start, enough, work);
+  if (!(end.norm <= enough)) {
+    const Trial again =
+        iterated(system, stage, linearised_trial(system, now, stage, start, work), enough, work);
+    if (again.norm < end.norm) end = again;
   }
-  work.newton_iterations += iterations;
-  if (!(at.norm <= enough)) ++work.unfinished_solves;
-  keep_worst(work.worst_residual, scale > 0 ? at.norm / scale : at.norm);
-  return at.w;
+  if (!(end.norm <= enough)) ++work.unfinished_solves;
+  keep_worst(work.worst_residual, enough > 0 ? system.solver.tolerance * end.norm / enough : end.norm);
+  return end.w;
 }
 
 }  // namespace
@@ -116,7 +207,7 @@ PerParticle3 solve_stage(const System& system, Stage& stage, PerParticle3 w, Wor
 State backward_euler(const System& system, std::span<const State> past, double h, Work& work) {
   const State& now = past.back();
   Stage stage{now.time + h, now.x, now.v, h};
-  const PerParticle3 w = solve_stage(system, stage, now.v, work);
+  const PerParticle3 w = solve_stage(system, now, stage, work);
   return end_of_step(system, now, h, {w, w}, work);
 }
 
@@ -124,32 +215,17 @@ State linearised_backward_euler(const System& system, std::span<const State> pas
   const State& now = past.back();
   PerParticle3 w = now.v;
   impose(mean_velocities(system.led, now.x, now.time, h), w);
-
-  // (M - h D - h^2 K) dw = h (F(x_n) + D w + h K w), less the impulse that prescribed particles ask for
-  const DampingOperator damping = damping_at(system.forces, now, work);
-  const ElasticDifferential stiffness =
-      elastic_differential_at(system.forces, now, Definiteness::semidefinite, work);
-  PerParticle3 force = elastic_forces(system.forces, now, work);
-  damping.add_product(w, force);
-  PerParticle3 moved = h * w;
-  stiffness.add_product(moved, force);
-  ++work.damping_products, ++work.stiffness_products;
-  PerParticle3 impulse = h * force;
-  for (const PrescribedParticle& p : system.led) impulse.col(p.particle).setZero();
-
-  PerParticle3 dw;
-  const NewtonMatrix A{system.mass, system.inverse_mass, damping, stiffness, h};
-  const Solve solve = solve_newton_step(A, system.solver, impulse, dw, work);
+  const Stage stage{now.time + h, now.x, now.v, h};
+  const Solve solve = solve_linearised(system, now, stage, system.solver, w, work);
   if (!solve.converged) ++work.unfinished_solves;
   keep_worst(work.worst_residual, solve.residual);
-  w += dw;
   return end_of_step(system, now, h, {w, w}, work);
 }
 
 State implicit_midpoint(const System& system, std::span<const State> past, double h, Work& work) {
   const State& now = past.back();
   Stage stage{now.time + h / 2, now.x, now.v, h / 2};
-  const PerParticle3 w = solve_stage(system, stage, now.v, work);
+  const PerParticle3 w = solve_stage(system, now, stage, work);
   return end_of_step(system, now, h, {w, 2 * w - now.v}, work);
 }
 
@@ -162,7 +238,7 @@ State bdf2(const System& system, std::span<const State> past, double h, Work& wo
   const double r = h / (now.time - before.time);
   const double p = r * r / (1 + 2 * r), s = h * (1 + r) / (1 + 2 * r);
   Stage stage{now.time + h, now.x + p * (now.x - before.x), now.v + p * (now.v - before.v), s};
-  const PerParticle3 w = solve_stage(system, stage, now.v, work);
+  const PerParticle3 w = solve_stage(system, now, stage, work);
   return end_of_step(system, now, h, {(stage.X + stage.s * w - now.x) / h, w}, work);
 }
 

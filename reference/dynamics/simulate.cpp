@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/dynamics/events.h"
 #include "reference/forces/degenerate.h"
 
 namespace foldproof {
@@ -13,6 +14,9 @@ namespace {
 
 // A particle that crosses ten times the cloth's own size in one step is taken for divergence.
 constexpr double sizes_per_step = 10;
+
+// Of a frame's interval: an event as close to a frame as this happens at it, lest a step be as short as a rounding.
+constexpr double closest_event = 1e-9;
 
 void check(const Schedule& schedule, const State& start) {
   if (!(schedule.end >= start.time)) throw InputError("time: the end must not lie before the start");
@@ -118,9 +122,20 @@ void add(Work& sum, const Work& part) {
   keep_worst(sum.worst_residual, part.worst_residual);
 }
 
-/// Advances the history to the time `target`, or sets outcome.stop.
-void run_to(double target, const System& system, const Integrator& integrator, const Schedule& schedule,
-            Watch& watch, History& history, Outcome& outcome) {
+/// What a run is made of.
+struct Run {
+  const Integrator& integrator;
+  const Schedule& schedule;
+  Watch& watch;
+  Events events;
+  History history;
+  Outcome outcome;
+};
+
+/// Advances the history to the time `target` without an event, or sets outcome.stop.
+void run_to(double target, Run& run) {
+  auto& [integrator, schedule, watch, events, history, outcome] = run;
+  const System& system = events.system();
   while (history.now().time < target && !outcome.stop) {
     const State& now = history.now();
     const long number = outcome.steps + 1;
@@ -143,6 +158,17 @@ void run_to(double target, const System& system, const Integrator& integrator, c
     } catch (const DegenerateElement& error) {
       outcome.stop = Stop{error.what(), now.time, number, error.particles.front()};
     }
+  }
+}
+
+/// Advances the history to the time `target` and across all events until then, after each of which it starts anew.
+void run_across_events(double target, Run& run) {
+  const double close = closest_event * run.schedule.frame_interval;
+  while (!run.outcome.stop && run.history.now().time < target) {
+    const double due = run.events.next();
+    run_to(due < target - close ? due : target, run);
+    if (!run.outcome.stop && due <= run.history.now().time + close)
+      run.history = History(run.events.passed(run.history.now()), run.integrator.history);
   }
 }
 
@@ -177,23 +203,27 @@ double step_allowed(const System& system, const Integrator& integrator, std::spa
 Outcome simulate(const System& system, const Integrator& integrator, const State& start,
                  const Schedule& schedule, const Observer& observer) {
   check(schedule, start);
-  Outcome outcome;
-  History history(start, integrator.history);
   Watch watch(system, observer, size_of(start.x));
+  Run run{integrator,
+          schedule,
+          watch,
+          {system, start.time, closest_event * schedule.frame_interval},
+          History(start, integrator.history),
+          {}};
   watch.frame(start);
   try {
     watch.step(start, 0, {});
   } catch (const DegenerateElement& error) {
-    outcome.stop = Stop{error.what(), start.time, 0, error.particles.front()};
+    run.outcome.stop = Stop{error.what(), start.time, 0, error.particles.front()};
   }
 
-  for (long frame = 1; !outcome.stop && history.now().time < schedule.end; ++frame) {
+  for (long frame = 1; !run.outcome.stop && run.history.now().time < schedule.end; ++frame) {
     const double target = std::min(schedule.end, start.time + double(frame) * schedule.frame_interval);
-    run_to(target, system, integrator, schedule, watch, history, outcome);
-    if (!outcome.stop) watch.frame(history.now());
+    run_across_events(target, run);
+    if (!run.outcome.stop) watch.frame(run.history.now());
   }
-  outcome.last = history.now();
-  return outcome;
+  run.outcome.last = run.history.now();
+  return run.outcome;
 }
 
 }  // namespace foldproof

@@ -46,19 +46,11 @@ constexpr double smallest_height_squared = 1e-20;
   return shape;
 }
 
-[[gnu::always_inline]] inline HingeShape checked_shape_of(const BendingHinge& hinge, const PerParticle3& x) {
+[[gnu::always_inline]] inline HingeShape checked_shape_at(const BendingHinge& hinge, const PerParticle3& x) {
   const auto [i1, i2, i3, i4] = hinge.particles;
   const HingeShape shape = shape_at(x.col(i1), x.col(i2), x.col(i3), x.col(i4));
   if (shape.degenerate) throw DegenerateElement("a triangle of a hinge has lost its area", {i1, i2, i3, i4});
   return shape;
-}
-
-double angle_of(const HingeShape& shape) {
-  return 2 * std::asin(std::min(1.0, std::max(-1.0, shape.sin_half)));
-}
-
-double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting) {
-  return weighting == Weighting::rest ? hinge.rest_weight : shape.edge * shape.edge / shape.area_sum;
 }
 
 void add_forces(const std::array<int, 4>& particles, const HingeShape& shape, double magnitude,
@@ -123,6 +115,18 @@ double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, cons
   return std::atan2(N1.dot(x3 - x2) * E.norm(), N1.dot(N2));
 }
 
+HingeShape checked_shape_of(const BendingHinge& hinge, const PerParticle3& x) {
+  return checked_shape_at(hinge, x);
+}
+
+double angle_of(const HingeShape& shape) {
+  return 2 * std::asin(std::min(1.0, std::max(-1.0, shape.sin_half)));
+}
+
+double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting) {
+  return weighting == Weighting::rest ? hinge.rest_weight : shape.edge * shape.edge / shape.area_sum;
+}
+
 Eigen::Matrix<double, 3, 4> bending_mode(const HingeShape& shape) {
   Eigen::Matrix<double, 3, 4> u;
   u.col(0) = shape.u1;
@@ -136,7 +140,7 @@ void Bending::add_elastic(const State& s, PerParticle3& f) const {
   const BendingLaw& law = bending_law(material.law);
   const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
   for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_shape_of(hinge, s.x);
+    const HingeShape shape = checked_shape_at(hinge, s.x);
     const double magnitude =
         is_sine ? shape.sin_half - hinge.sin_half_rest : law.magnitude(angle_of(shape), hinge.rest_angle);
     add_forces(hinge.particles, shape,
@@ -148,7 +152,7 @@ double Bending::energy(const State& s) const {
   const BendingLaw& law = bending_law(material.law);
   double sum = 0;
   for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_shape_of(hinge, s.x);
+    const HingeShape shape = checked_shape_at(hinge, s.x);
     const auto [i1, i2, i3, i4] = hinge.particles;
     const double theta = hinge_angle(s.x.col(i1), s.x.col(i2), s.x.col(i3), s.x.col(i4));
     sum += weight_of(hinge, shape, material.weighting) * law.potential(theta, hinge.rest_angle);
@@ -156,30 +160,11 @@ double Bending::energy(const State& s) const {
   return material.stiffness * sum;
 }
 
-void Bending::add_elastic_differential(const State& s, Definiteness definiteness,
-                                       ElasticDifferential& differential) const {
-  const BendingLaw& law = bending_law(material.law);
-  differential.hinges.reserve(differential.hinges.size() + hinges.size());
-  for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_shape_of(hinge, s.x);
-    const double theta = angle_of(shape),
-                 weight = material.stiffness * weight_of(hinge, shape, material.weighting);
-    const auto [i1, i2, i3, i4] = hinge.particles;
-    const Eigen::Matrix<double, 3, 4> mode = bending_mode(shape);
-    const Eigen::Map<const Eigen::Matrix<double, 12, 1>> u(mode.data());
-    const Matrix12 gradient = bending_mode_gradient(s.x.col(i1), s.x.col(i2), s.x.col(i3), s.x.col(i4));
-    const Matrix12 block = weight * (law.magnitude(theta, hinge.rest_angle) * gradient -
-                                     law.slope(theta, hinge.rest_angle) * (u * u.transpose()));
-    differential.hinges.push_back(
-        {hinge.particles, definiteness == Definiteness::exact ? block : negative_part(block)});
-  }
-}
-
 void Bending::prepare_damping(const State& s, DampingOperator& damping) const {
   if (material.damping == 0) return;
   damping.hinges.reserve(damping.hinges.size() + hinges.size());
   for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_shape_of(hinge, s.x);
+    const HingeShape shape = checked_shape_at(hinge, s.x);
     const double factor = material.damping_factor == DampingFactor::edge
                               ? shape.edge
                               : shape.edge * shape.edge / shape.area_sum;
@@ -223,7 +208,7 @@ void Bending::add_stiffness_bound(const State& s, PerParticle& rows) const {
   // change of c itself is left out.
   const BendingLaw& law = bending_law(material.law);
   for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_shape_of(hinge, s.x);
+    const HingeShape shape = checked_shape_at(hinge, s.x);
     const double theta = angle_of(shape),
                  weight = material.stiffness * weight_of(hinge, shape, material.weighting);
     const double slope = std::abs(law.slope(theta, hinge.rest_angle)),
@@ -260,7 +245,7 @@ Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material,
     const double theta0 = rest_angles[h];
     if (!(std::abs(theta0) <= pi)) throw InputError("bending: rest angles must lie in [-pi, pi] rad");
     BendingHinge hinge{mesh.hinges[h].particles, 0, theta0, std::sin(theta0 / 2)};
-    const HingeShape shape = checked_shape_of(hinge, mesh.rest);
+    const HingeShape shape = checked_shape_at(hinge, mesh.rest);
     hinge.rest_weight = shape.edge * shape.edge / shape.area_sum;
     bending.hinges.push_back(hinge);
   }

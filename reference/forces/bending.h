@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reference/forces/damping.h"
-#include "reference/forces/elastic_differential.h"
+#include "reference/forces/force_differential.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/types.h"
 
@@ -82,12 +82,24 @@ HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, 
 /// theta in [-pi, pi] [rad]; 0 and pi count as positive.
 double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4);
 
+/// The same of the hinge's particles at x (3 x N [m]). Throws DegenerateElement naming them if a triangle has lost
+/// its area.
+HingeShape checked_shape_of(const BendingHinge& hinge, const PerParticle3& x);
+
+double angle_of(const HingeShape& shape);                                                   // theta [rad]
+double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting);  // c [1]
+
 /// u1, u2, u3, u4 as columns [1/m].
 Eigen::Matrix<double, 3, 4> bending_mode(const HingeShape& shape);
 
 /// grad u = -(second derivative of theta), exact: row 3 i + a, column 3 j + b is d(u_i)_a/d(x_j)_b [1/m^2].
 /// Symmetric. The hinge must not be degenerate.
 Matrix12 bending_mode_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4);
+
+/// How the factors of a hinge's forces change with x1, x2, x3, x4, three entries a corner: |E| [1], and
+/// |E|^2/(|N1| + |N2|) [1/m].
+Vector12 edge_gradient(const Vector3& x3, const Vector3& x4);
+Vector12 weight_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4);
 
 struct Bending {
   BendingMaterial material;
@@ -105,7 +117,11 @@ struct Bending {
   /// A hinge's block is ke c (-magnitude' u u^T + magnitude grad u); semidefinite by its eigenvalues. With
   /// current weighting the change of c is left out: it would not be symmetric.
   void add_elastic_differential(const State& s, Definiteness definiteness,
-                                ElasticDifferential& differential) const;
+                                ForceDifferential& differential) const;
+
+  /// The same, exact, with the change of c, and with it how the damping forces change with the positions at the
+  /// velocities of s: a hinge's block gets -kd (rate u (grad s)^T + s u (grad u v)^T + s rate grad u), rate = u.v.
+  void add_force_differential(const State& s, ForceDifferential& differential) const;
 
   /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see forces/force.h.
   void add_stiffness_bound(const State& s, PerParticle& rows) const;

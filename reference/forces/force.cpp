@@ -33,7 +33,7 @@ DampingOperator damping_at(const std::vector<Force>& forces, const State& s, Wor
 
 namespace {
 
-void add_differential(const CustomForce& force, const State& s, ElasticDifferential& differential) {
+void add_differential(const CustomForce& force, const State& s, ForceDifferential& differential) {
   if (!force.differential) return;
   differential.custom.push_back(
       [&force, s](const PerParticle3& dx, PerParticle3& df) { force.differential(s, dx, df); });
@@ -41,14 +41,26 @@ void add_differential(const CustomForce& force, const State& s, ElasticDifferent
 
 }  // namespace
 
-ElasticDifferential elastic_differential_at(const std::vector<Force>& forces, const State& s,
-                                            Definiteness definiteness, Work& work) {
-  ElasticDifferential differential;
+ForceDifferential elastic_differential_at(const std::vector<Force>& forces, const State& s,
+                                          Definiteness definiteness, Work& work) {
+  ForceDifferential differential;
   for (const Force& force : forces) {
     if (const auto* springs = std::get_if<StretchSprings>(&force))
       springs->add_elastic_differential(s, definiteness, differential);
     if (const auto* bending = std::get_if<Bending>(&force))
       bending->add_elastic_differential(s, definiteness, differential);
+    if (const auto* custom = std::get_if<CustomForce>(&force)) add_differential(*custom, s, differential);
+  }
+  ++work.stiffness_preparations;
+  return differential;
+}
+
+ForceDifferential force_differential_at(const std::vector<Force>& forces, const State& s, Work& work) {
+  ForceDifferential differential;
+  for (const Force& force : forces) {
+    if (const auto* springs = std::get_if<StretchSprings>(&force))
+      springs->add_force_differential(s, differential);
+    if (const auto* bending = std::get_if<Bending>(&force)) bending->add_force_differential(s, differential);
     if (const auto* custom = std::get_if<CustomForce>(&force)) add_differential(*custom, s, differential);
   }
   ++work.stiffness_preparations;

@@ -8,7 +8,7 @@
 
 #include "reference/forces/bending.h"
 #include "reference/forces/damping.h"
-#include "reference/forces/elastic_differential.h"
+#include "reference/forces/force_differential.h"
 #include "reference/forces/gravity.h"
 #include "reference/forces/springs.h"
 #include "reference/types.h"
@@ -49,8 +49,12 @@ PerParticle3 elastic_forces(const std::vector<Force>& forces, const State& s, Wo
 DampingOperator damping_at(const std::vector<Force>& forces, const State& s, Work& work);
 
 /// The derivative of all elastic forces by the positions at s: computed once, used for every product.
-ElasticDifferential elastic_differential_at(const std::vector<Force>& forces, const State& s,
-                                            Definiteness definiteness, Work& work);
+ForceDifferential elastic_differential_at(const std::vector<Force>& forces, const State& s,
+                                          Definiteness definiteness, Work& work);
+
+/// The exact derivative of all forces, damping forces at the velocities of s included, by the positions. Custom
+/// forces give that of their elastic part alone.
+ForceDifferential force_differential_at(const std::vector<Force>& forces, const State& s, Work& work);
 
 /// An upper bound on the largest elastic angular frequency [rad/s] at s, from springs and hinges:
 ///   omega^2 <= max over particles i of (1/m_i) (sum over the stiffness matrices' rows at i)

@@ -47,7 +47,7 @@ void StretchSprings::prepare_damping(const State& s, DampingOperator& damping) c
 }
 
 void StretchSprings::add_elastic_differential(const State& s, Definiteness definiteness,
-                                              ElasticDifferential& differential) const {
+                                              ForceDifferential& differential) const {
   differential.pairs.reserve(differential.pairs.size() + springs.size());
   for (const Spring& spring : springs) {
     const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
@@ -59,6 +59,21 @@ void StretchSprings::add_elastic_differential(const State& s, Definiteness defin
     differential.pairs.push_back(
         {spring.a, spring.b,
          -spring.stiffness * projector - across * (Eigen::Matrix3d::Identity() - projector)});
+  }
+}
+
+void StretchSprings::add_force_differential(const State& s, ForceDifferential& differential) const {
+  const size_t first = differential.pairs.size();
+  add_elastic_differential(s, Definiteness::exact, differential);
+  for (size_t k = 0; k < springs.size(); ++k) {
+    const Spring& spring = springs[k];
+    if (spring.damping == 0) continue;
+    const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a), dv = s.v.col(spring.b) - s.v.col(spring.a);
+    const double length = checked_length(d, spring);
+    const Vector3 n = d / length;
+    const Eigen::Matrix3d turn = (Eigen::Matrix3d::Identity() - n * n.transpose()) / length;  // dn = turn dd
+    differential.pairs[first + k].block -= spring.damping * (n * (dv.transpose() * turn) + n.dot(dv) * turn);
+    differential.symmetric = false;
   }
 }
 

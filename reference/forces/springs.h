@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "reference/forces/damping.h"
-#include "reference/forces/elastic_differential.h"
+#include "reference/forces/force_differential.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/types.h"
 
@@ -45,7 +45,11 @@ struct StretchSprings {
 
   /// A spring's block is k along d and tension/|d| across it; semidefinite drops the second where tension < 0.
   void add_elastic_differential(const State& s, Definiteness definiteness,
-                                ElasticDifferential& differential) const;
+                                ForceDifferential& differential) const;
+
+  /// The same, exact, and with it how the damping forces change with the positions at the velocities of s: for
+  /// the unit direction n and dv = v_b - v_a, block = -damping (n dv^T + (n.dv) I)(I - n n^T)/|d|.
+  void add_force_differential(const State& s, ForceDifferential& differential) const;
 
   /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see forces/force.h.
   void add_stiffness_bound(const State& s, PerParticle& rows) const;

@@ -1,6 +1,7 @@
 #include "reference/motion/motion.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace foldproof {
@@ -15,18 +16,46 @@ Vector3 turned(const Motion& motion, const Vector3& start, double t) {
   return Eigen::AngleAxisd(rate * t, motion.angular_velocity / rate) * (start - motion.center);
 }
 
+/// How long the motion has acted by the time t [s].
+double acted(const Motion& motion, double t) {
+  return std::clamp(t, motion.from, motion.until) - motion.from;
+}
+
 }  // namespace
 
-Vector3 position_at(const Motion& motion, const Vector3& start, double t) {
+Vector3 position_at(const Motion& motion, const Vector3& start, double time) {
+  const double t = acted(motion, time);
   const double swing = std::sin(two_pi * motion.frequency * t + motion.phase) - std::sin(motion.phase);
   return motion.center + turned(motion, start, t) + t * motion.velocity + swing * motion.amplitude;
 }
 
-Vector3 velocity_at(const Motion& motion, const Vector3& start, double t) {
+Vector3 velocity_at(const Motion& motion, const Vector3& start, double time) {
+  if (time < motion.from || time >= motion.until) return Vector3::Zero();
+  const double t = acted(motion, time);
   const double omega = two_pi * motion.frequency;
   const double swing_rate = omega * std::cos(omega * t + motion.phase);
   return motion.angular_velocity.cross(turned(motion, start, t)) + motion.velocity +
          swing_rate * motion.amplitude;
+}
+
+std::vector<double> event_times(const std::vector<PrescribedParticle>& led, double start) {
+  std::vector<double> times;
+  for (const PrescribedParticle& p : led)
+    for (const double time : {p.motion.from, p.motion.until})
+      if (time > start && std::isfinite(time)) times.push_back(time);
+  std::ranges::sort(times);
+  times.erase(std::ranges::unique(times).begin(), times.end());
+  return times;
+}
+
+PrescribedParticle as_after(const PrescribedParticle& led, double t, double tolerance) {
+  const Motion& motion = led.motion;
+  if (t + tolerance < motion.from) return {led.particle, led.start, {}};
+  if (t + tolerance >= motion.until) return {led.particle, position_at(motion, led.start, motion.until), {}};
+  PrescribedParticle moving = led;
+  moving.motion.from = std::min(motion.from, t);
+  moving.motion.until = std::numeric_limits<double>::infinity();
+  return moving;
 }
 
 std::vector<KnownVelocity> velocities_at(const std::vector<PrescribedParticle>& led, double t) {

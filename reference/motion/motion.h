@@ -1,36 +1,46 @@
 // Prescribed motion: where a point that is led, not simulated, is at any time, and how fast.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "reference/types.h"
 
 namespace foldproof {
 
-/// A smooth motion given in closed form: rotation about a fixed axis, then a shift that drifts and
-/// oscillates.
+/// A motion given in closed form: rotation about a fixed axis, then a shift that drifts and oscillates. It acts
+/// from one time until another, at rest before and after, and is smooth between. With t counted from its start:
 ///   X(t) = C + R(angular_velocity t) (X0 - C) + velocity t + amplitude (sin(2 pi frequency t + phase) -
 ///   sin(phase))
-/// All zero: held at rest. X(0) = X0.
+/// All zero: held at rest. X0 is its place until it starts.
 struct Motion {
-  Vector3 velocity = Vector3::Zero();          // m/s
-  Vector3 amplitude = Vector3::Zero();         // m
-  double frequency = 0;                        // Hz
-  double phase = 0;                            // rad
-  Vector3 center = Vector3::Zero();            // C, a point of the axis [m]
-  Vector3 angular_velocity = Vector3::Zero();  // along the axis [rad/s]
+  Vector3 velocity = Vector3::Zero();                                // m/s
+  Vector3 amplitude = Vector3::Zero();                               // m
+  double frequency = 0;                                              // Hz
+  double phase = 0;                                                  // rad
+  Vector3 center = Vector3::Zero();                                  // C, a point of the axis [m]
+  Vector3 angular_velocity = Vector3::Zero();                        // along the axis [rad/s]
+  double from = 0, until = std::numeric_limits<double>::infinity();  // when it acts [s]
 };
 
-/// Position [m] and velocity [m/s] at time t [s] of the point that is at `start` [m] at time 0.
+/// Position [m] and velocity [m/s] at time t [s] of the point that is at `start` [m] until the motion starts. Where
+/// the velocity jumps it is the later one.
 Vector3 position_at(const Motion& motion, const Vector3& start, double t);
 Vector3 velocity_at(const Motion& motion, const Vector3& start, double t);
 
 /// A particle whose motion is prescribed.
 struct PrescribedParticle {
   int particle;
-  Vector3 start;  // position at time 0 [m]
+  Vector3 start;  // position until its motion starts [m]
   Motion motion;
 };
+
+/// The times after `start` at which a motion starts or stops, ascending, each once [s].
+std::vector<double> event_times(const std::vector<PrescribedParticle>& led, double start);
+
+/// The same particle with a motion that goes on smoothly for ever as it does just after `t` [s], and that is the given
+/// one until the next event. Events as little as `tolerance` [s] after t count as passed.
+PrescribedParticle as_after(const PrescribedParticle& led, double t, double tolerance);
 
 /// Velocities that a solve has to take as known.
 struct KnownVelocity {

@@ -34,7 +34,8 @@ Pose pose_of(const Motion& motion, double t) {
   const Vector3 origin = position_at(motion, Vector3::Zero(), t);
   const double rate = motion.angular_velocity.norm();
   if (rate == 0) return {Eigen::Quaterniond::Identity(), origin};
-  return {Eigen::Quaterniond(Eigen::AngleAxisd(rate * t, motion.angular_velocity / rate)), origin};
+  const double acted = std::clamp(t, motion.from, motion.until) - motion.from;
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(rate * acted, motion.angular_velocity / rate)), origin};
 }
 
 Pose pose_of(const Keyframes& motion, double t) {

@@ -33,6 +33,11 @@ Motion read_motion(const KeyTable& keys) {
   motion.phase = keys.number_or("phase", 0) * radians_per_degree;
   motion.center = keys.vector_or("center", Vector3::Zero());
   motion.angular_velocity = keys.vector_or("angular_velocity", Vector3::Zero()) * radians_per_degree;
+  motion.from = keys.number_or("from", 0);
+  motion.until = keys.number_or("until", motion.until);
+  if (!(motion.from >= 0)) throw InputError(keys.where("from") + ": 'from' must be a time >= 0 s");
+  if (!(motion.until > motion.from))
+    throw InputError(keys.where("until") + ": 'until' must be later than 'from', in s");
   return motion;
 }
 

@@ -16,7 +16,7 @@ using Matrix = Eigen::MatrixXd;
 Matrix stiffness_of(const Specimen& specimen, Definiteness definiteness) {
   const System system = build_system(specimen.scene);
   Work uncounted;
-  const ElasticDifferential differential =
+  const ForceDifferential differential =
       elastic_differential_at(system.forces, specimen.state, definiteness, uncounted);
   const Eigen::Index size = specimen.state.x.size();
   Matrix K(size, size);
@@ -157,7 +157,7 @@ double spring_error(double stretch) {
   StretchSprings springs{{{0, 1, 0.31, 23.0, 0}}};
   State s = still_at(PerParticle3::Zero(3, 2));
   s.x.col(1) = stretch * 0.31 * Vector3(2, -1, 2) / 3;
-  ElasticDifferential exact, projected;
+  ForceDifferential exact, projected;
   springs.add_elastic_differential(s, Definiteness::exact, exact);
   springs.add_elastic_differential(s, Definiteness::semidefinite, projected);
   return projection_error(exact.pairs[0].block, projected.pairs[0].block);

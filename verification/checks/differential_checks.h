@@ -9,4 +9,7 @@ namespace foldproof {
 
 std::vector<Check> differential_checks();
 
+/// Of the derivative of all forces, damping included, at given velocities.
+std::vector<Check> force_differential_checks();
+
 }  // namespace foldproof

@@ -39,12 +39,15 @@ Finding hold_finding(const Subject&) {
       "[[hold]]\nparticles = [7]\nvelocity = [0.1, 0.2, 0.4]\namplitude = [0.3, 0.5, 0.7]\nfrequency = "
       "1.7\nphase = 33\n"
       "center = [0.6, 0.9, 1.1]\nangular_velocity = [10, -20, 35]\n");
+  const Motion timed = read_case("[[hold]]\nparticles = [7]\nfrom = 0.13\nuntil = 0.29\n").led.at(0).motion;
+  is("from, until", timed.from == 0.13 && timed.until == 0.29);
   const PrescribedParticle& p = scene.led.at(0);
   is("start", p.start == Vector3(rest.col(7)));
   is("velocity, amplitude, center", p.motion.velocity == Vector3(0.1, 0.2, 0.4) &&
                                         p.motion.amplitude == Vector3(0.3, 0.5, 0.7) &&
                                         p.motion.center == Vector3(0.6, 0.9, 1.1));
   is("frequency", p.motion.frequency == 1.7);
+  is("acts all the time", p.motion.from == 0 && std::isinf(p.motion.until));
   differences.see("phase in degrees", p.motion.phase - 33 * degree, 33 * degree);
   differences.see("angular velocity in degrees",
                   (p.motion.angular_velocity - degree * Vector3(10, -20, 35)).norm(),

@@ -150,6 +150,8 @@ Finding values_finding(const Subject&) {
        "mesh = \"nowhere.obj\"",
        {"nowhere.obj", "no mesh file"}},
       {"axis = [1, 2, 3]", "axis = [0, 0, 0]", {"'axis'", "zero"}},
+      {"particles = [0, 4]", "particles = [0, 4]\nfrom = -0.1", {"'from'", ">= 0"}},
+      {"particles = [0, 4]", "particles = [0, 4]\nfrom = 0.2\nuntil = 0.2", {"'until'", "later than 'from'"}},
       {"stretch = 1.02", "stretch = 0", {"'stretch'", "> 0"}},
       {"stretch = 1.02", "noise = -0.01", {"'noise'", "negative"}},
       {"stiffness = 37.0", "stiffness = -37.0", {"'stiffness'", "negative"}},

@@ -1,5 +1,6 @@
-// The elastic forces' derivative at one set of positions: dF = K dx, K symmetric, for the methods that are
-// implicit in the elastic forces too. The paper's own schemes never need it.
+// The forces' derivative by the positions at one state: dF = K dx, for the methods that are implicit in the
+// elastic forces too. The paper's own schemes never need it. K is symmetric where the forces have an energy: not
+// that of damping forces at given velocities, nor that of bending with current weighting.
 #pragma once
 
 #include <array>
@@ -15,24 +16,26 @@ namespace foldproof {
 /// (Teran et al. 2005, section 6). Exact wherever the element was so already.
 enum class Definiteness { exact, semidefinite };
 
+using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
 /// A spring: dF_b = block (dx_b - dx_a), dF_a = -dF_b.
 struct PairStiffness {
   int a, b;
-  Eigen::Matrix3d block;  // symmetric [N/m]
+  Eigen::Matrix3d block;  // [N/m]
 };
 
 /// A hinge: its four particles' forces against their displacements, three rows and columns a particle.
 struct HingeStiffness {
   std::array<int, 4> particles;
-  Matrix12 block;  // symmetric [N/m]
+  Matrix12 block;  // [N/m]
 };
 
-struct ElasticDifferential {
+struct ForceDifferential {
   std::vector<PairStiffness> pairs;
   std::vector<HingeStiffness> hinges;
   std::vector<std::function<void(const PerParticle3& dx, PerParticle3& df)>> custom;
+  bool symmetric = true;  // false once a block is not
 
   /// df += K dx; both 3 x N, dx in m, df in N.
   void add_product(const PerParticle3& dx, PerParticle3& df) const;

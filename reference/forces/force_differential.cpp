@@ -1,12 +1,10 @@
-#include "reference/forces/elastic_differential.h"
+#include "reference/forces/force_differential.h"
 
 #include <Eigen/Eigenvalues>
 
 namespace foldproof {
 
 namespace {
-
-using Vector12 = Eigen::Matrix<double, 12, 1>;
 
 void add_pairs(const std::vector<PairStiffness>& pairs, const PerParticle3& dx, PerParticle3& df) {
   for (const PairStiffness& p : pairs) {
@@ -27,7 +25,7 @@ void add_hinges(const std::vector<HingeStiffness>& hinges, const PerParticle3& d
 
 }  // namespace
 
-void ElasticDifferential::add_product(const PerParticle3& dx, PerParticle3& df) const {
+void ForceDifferential::add_product(const PerParticle3& dx, PerParticle3& df) const {
   add_pairs(pairs, dx, df);
   add_hinges(hinges, dx, df);
   for (const auto& add : custom) add(dx, df);

@@ -1,0 +1,36 @@
+// Events: times at which a prescribed motion starts or stops, and with it the velocity of what is led jumps.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "reference/dynamics/system.h"
+
+namespace foldproof {
+
+/// The system of a run from event to event. Between two of them every prescribed motion is smooth, and goes on
+/// smoothly beyond either, so that no step has to ask on which side of an event it is.
+class Events {
+ public:
+  /// Of a run from `start` [s]. Events closer together than `tolerance` [s] are taken as one.
+  Events(const System& system, double start, double tolerance);
+
+  /// When the next event is due [s]; infinite if there is none.
+  double next() const;
+
+  /// The system until then. It stays where it is; `passed` changes it.
+  const System& system() const { return own_ ? *own_ : given_; }
+
+  /// The state s after all events due by its time: prescribed particles have the velocities of their new motions.
+  State passed(State s);
+
+ private:
+  void lead(double t);
+
+  const System& given_;
+  std::unique_ptr<System> own_;  // a copy, if there is any event
+  std::vector<double> times_;    // still to come, ascending [s]
+  double tolerance_;
+};
+
+}  // namespace foldproof

@@ -1,0 +1,22 @@
+// The matrix of a Newton step of the methods that are implicit in the elastic forces too, as a function call.
+#pragma once
+
+#include "reference/forces/damping.h"
+#include "reference/forces/force_differential.h"
+#include "reference/types.h"
+
+namespace foldproof {
+
+/// M - s D - s^2 K, K the forces' derivative by the positions. Symmetric if K is.
+struct NewtonMatrix {
+  const PerParticle& mass;          // N [kg]
+  const PerParticle& inverse_mass;  // N [1/kg], 0 for prescribed particles
+  const DampingOperator& damping;
+  const ForceDifferential& stiffness;
+  double s;  // the part of the step that multiplies the rate [s]
+};
+
+/// q = A p at free particles, 0 at prescribed ones; both 3 x N. Counts one product with D and one with K.
+void multiply(const NewtonMatrix& A, const PerParticle3& p, PerParticle3& q, Work& work);
+
+}  // namespace foldproof
