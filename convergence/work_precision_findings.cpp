@@ -41,7 +41,7 @@ size_t finest_judged(const PrecisionCurve& curve, double uncertainty) {
 /// The two finest runs of every curve, where each method is closest to its asymptotic range.
 NamedFinding errors_fall(const PrecisionScene& scene) {
   constexpr int least_judged = 6;  // of the eleven methods
-  Worst worst, uncertainty;
+  Worst worst, worst_with_uncertainty;
   std::vector<std::string> methods;
   std::vector<double> coarse, fine, shrinkages;
   std::string left_out;
@@ -56,11 +56,11 @@ NamedFinding errors_fall(const PrecisionScene& scene) {
     fine.push_back(curve.runs[i].error);
     shrinkages.push_back(shrinkage(curve.runs[i - 1], curve.runs[i]));
     worst.see(shrinkages.back());
-    uncertainty.see(shrinkages.back() * 2 * scene.truth.uncertainty / fine.back());
+    worst_with_uncertainty.see(shrinkages.back() * (1 + 2 * scene.truth.uncertainty / fine.back()));
   }
   if (int(methods.size()) < least_judged) worst.see(nan);
   const Verdict verdict{
-      worst.value(), std::sqrt(0.5), uncertainty.value(), "1",
+      worst.value(), std::sqrt(0.5), worst_with_uncertainty.value() - worst.value(), "1",
       "an error of first order is halved with the step, one that does not fall stays 1; the "
       "bound is half an order, midway between the two in the logarithm"};
   return {

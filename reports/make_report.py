@@ -36,10 +36,12 @@ def main() -> int:
     parser.add_argument("--out", metavar="FILE", type=Path, help="the page (default: DIR/report.html)")
     parser.add_argument("--figures", metavar="DIR", type=Path,
                         help="folder for the figures (default: DIR/figures)")
+    parser.add_argument("--svg-only", action="store_true",
+                        help="figures as SVG files only, not as PDF and PNG too: half the time")
     said = parser.parse_args()
     try:
         out = make_report(said.dir, said.out or said.dir / "report.html",
-                          said.figures or said.dir / "figures")
+                          said.figures or said.dir / "figures", for_papers=not said.svg_only)
     except (OSError, KeyError) as error:
         print(f"make_report: {error}", file=sys.stderr)
         return 2
@@ -47,13 +49,13 @@ def main() -> int:
     return 0
 
 
-def make_report(folder: Path, out: Path, figures: Path) -> Path:
+def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = True) -> Path:
     """Reads the folder, draws, and writes the page. Throws FileNotFoundError if the folder holds no
     results."""
     run, bench = read_folder(folder)
     figures.mkdir(parents=True, exist_ok=True)
     out.parent.mkdir(parents=True, exist_ok=True)
-    page = draw(run, bench, figures)
+    page = draw(run, bench, figures, for_papers)
     unfinished = out.with_name(out.name + ".unfinished")
     unfinished.write_text(render(page), encoding="utf-8")
     os.replace(unfinished, out)
@@ -74,12 +76,12 @@ def read_folder(folder: Path) -> tuple[Run, Run | None]:
     return Run(provenance=provenance, findings=[], studies=[], cases=cases, faults=[]), bench
 
 
-def draw(run: Run, bench: Run | None, figures: Path) -> Page:
+def draw(run: Run, bench: Run | None, figures: Path, for_papers: bool) -> Page:
     """Draws everything, on all cores, and gathers it for the page."""
     bench_studies = bench.studies if bench else []
     jobs: list[Job] = [(draw_case, (entry, figures)) for entry in run.cases]
     jobs += [(draw_study, (study, figures)) for study in run.studies + bench_studies]
-    drawn = run_jobs(jobs)
+    drawn = run_jobs(jobs, for_papers)
     cases, studies = drawn[:len(run.cases)], drawn[len(run.cases):]
     everything = run.findings + (bench.findings if bench else [])
     for view in studies:
@@ -93,13 +95,13 @@ def draw(run: Run, bench: Run | None, figures: Path) -> Page:
                 bench_provenance=bench.provenance if bench else {}, faults=faults_of(run))
 
 
-def run_jobs(jobs: list[Job]) -> list[Any]:
+def run_jobs(jobs: list[Job], for_papers: bool) -> list[Any]:
     """The results of the jobs, in their order; one process per core."""
     workers = min(os.cpu_count() or 1, len(jobs))
     if workers < 2:
-        use_style()
+        use_style(for_papers)
         return [make(*arguments) for make, arguments in jobs]
-    with ProcessPoolExecutor(workers, initializer=use_style) as pool:
+    with ProcessPoolExecutor(workers, initializer=use_style, initargs=(for_papers,)) as pool:
         waiting = [pool.submit(make, *arguments) for make, arguments in jobs]
         return [job.result() for job in waiting]
 

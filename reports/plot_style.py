@@ -58,8 +58,13 @@ class Pen:
 Points = tuple[np.ndarray, np.ndarray]   # x and y of the points of a curve that can be drawn
 
 
-def use_style() -> None:
-    """Sets the style for every figure made from here on."""
+_for_papers = True
+
+
+def use_style(for_papers: bool = True) -> None:
+    """Sets the style for every figure made from here on, and whether it is written as PDF and PNG too."""
+    global _for_papers
+    _for_papers = for_papers
     matplotlib.rcParams.update(_RC)
 
 
@@ -71,14 +76,14 @@ def new_figure(width: float, height: float) -> Figure:
 
 
 def finish(figure: Figure, name: str, folder: Path, description: str) -> Plot:
-    """Writes name.svg, name.pdf and name.png (200 dpi, white) into the folder and returns the SVG for the
-    page."""
+    """Writes name.svg, for papers name.pdf and name.png (200 dpi, white) too, into the folder and returns the SVG
+    for the page."""
     text = svg_text(figure)
     (folder / f"{name}.svg").write_text(text, encoding="utf-8")
-    figure.savefig(folder / f"{name}.pdf", metadata={"CreationDate": None, "Creator": None, "Producer": None})
-    figure.savefig(folder / f"{name}.png", dpi=200, transparent=False, facecolor="white",
-                   metadata={"Software": None},
-                   pil_kwargs={"compress_level": 3})
+    if _for_papers:
+        figure.savefig(folder / f"{name}.pdf", metadata={"CreationDate": None, "Creator": None, "Producer": None})
+        figure.savefig(folder / f"{name}.png", dpi=200, transparent=False, facecolor="white",
+                       metadata={"Software": None}, pil_kwargs={"compress_level": 3})
     return Plot(name, page_svg(text, name, description))
 
 

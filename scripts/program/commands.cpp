@@ -60,12 +60,13 @@ int conclude(RunRecord& run, const Options& options, const std::string& file) {
   return exit_code(run);
 }
 
-/// Runs the report generator on a folder of results.
-int report_on(const std::string& folder) {
+/// Runs the report generator on a folder of results; with "--svg-only", or for papers with nullptr.
+int report_on(const std::string& folder, const char* figures) {
   const std::string script = project_folder() + "/reports/make_report.py";
   const pid_t child = fork();
   if (child == 0) {
-    execl("/usr/bin/python3", "python3", script.c_str(), folder.c_str(), static_cast<char*>(nullptr));
+    execl("/usr/bin/python3", "python3", script.c_str(), folder.c_str(), figures,
+          static_cast<char*>(nullptr));
     _exit(127);
   }
   int status = 0;
@@ -183,7 +184,7 @@ int run_studies(const Options& options) {
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
 }
 
-int make_report(const Options& options) { return report_on(options.file); }
+int make_report(const Options& options) { return report_on(options.file, nullptr); }
 
 int evaluate_hinges(const Options& options) {
   evaluate_bending(options.file, options.rest_file);
@@ -221,7 +222,7 @@ int verify(const Options& options) {
   RunRecord speeds = bench(tier_of(options) == Tier::full ? 1'100'000 : 110'000);
   speeds.provenance = run.provenance;
   write_run(options.out + "/bench.h5", speeds);
-  const int reported = options.no_report ? all_hold : report_on(options.out);
+  const int reported = options.no_report ? all_hold : report_on(options.out, "--svg-only");
   if (options.json)
     fmt::print("{}", verdicts_json(run));
   else
