@@ -82,6 +82,17 @@ def put_object(file: h5py.File, frames: int) -> None:
     group["translation"] = np.outer(np.arange(frames), [0, 0, 0.1])
 
 
+def put_deforming_object(file: h5py.File, frames: int) -> None:
+    """Adds a triangle one of whose corners rises by 0.2 m a frame."""
+    group = file.create_group("objects/1")
+    put(group, name="flap", shape="animation", friction=0.0)
+    group["vertices"] = np.array([[0, 0, 0], [0.5, 0, 0], [0, 0.5, 0]])
+    group["triangles"] = np.array([[0, 1, 2]], dtype=np.int32)
+    rise = np.zeros((frames, 3, 3))
+    rise[:, 2, 2] = 0.2 * np.arange(frames)
+    group["positions"] = group["vertices"][:] + rise
+
+
 def put_case(folder: Path, name: str) -> None:
     """Writes a case of two triangles that fold over a few frames."""
     with h5py.File(folder / f"{name}.h5", "w") as file:
@@ -94,6 +105,7 @@ def put_case(folder: Path, name: str) -> None:
         file["frames/time"] = np.arange(4.0)
         file["frames/positions"] = np.array([rest + [0, 0, 0.1 * k] * rest[:, :1] for k in range(4)])
         put_object(file, frames=4)
+        put_deforming_object(file, frames=4)
         for key, values in dict(time=np.linspace(0, 3, 900), kinetic_energy=np.full(900, np.nan),
                                 gravity_energy=np.linspace(1, 0, 900), linear_momentum=np.ones((900, 3)),
                                 angular_momentum=np.zeros((900, 3)), cg_iterations=np.zeros(900),

@@ -146,15 +146,18 @@ class CaseEntry:
 
 @dataclass
 class CaseObject:
-    """An object that the cloth can hit: a surface that moves as a whole."""
+    """An object that the cloth can hit: a surface that moves as a whole, or deforms."""
     name: str
     vertices: np.ndarray     # V x 3 [m], before its motion
     triangles: np.ndarray    # F x 3
-    rotation: np.ndarray     # T x 4: quaternions w, x, y, z
-    translation: np.ndarray  # T x 3 [m]
+    rotation: np.ndarray | None = None     # T x 4: quaternions w, x, y, z; None: it deforms
+    translation: np.ndarray | None = None  # T x 3 [m]; None: it deforms
+    deformed: np.ndarray | None = None     # T x V x 3 [m]; None: it moves as a whole
 
     def positions(self, frame: int) -> np.ndarray:
-        """Its vertices in one frame, V x 3 [m]: v + 2 w (q x v) + 2 q x (q x v), then moved."""
+        """Its vertices in one frame, V x 3 [m]: v + 2 w (q x v) + 2 q x (q x v), then moved; or as stored."""
+        if self.deformed is not None:
+            return self.deformed[frame]
         w, q = self.rotation[frame, 0], self.rotation[frame, 1:]
         twice = 2.0 * np.cross(q, self.vertices)
         return self.vertices + w * twice + np.cross(q, twice) + self.translation[frame]
@@ -227,7 +230,8 @@ def load_case(path: str | Path) -> Case:
 
 
 def _object(group: h5py.Group) -> CaseObject:
-    arrays = {key: np.asarray(group[key], dtype=float) for key in ("vertices", "rotation", "translation")}
+    names = {"vertices": "vertices", "rotation": "rotation", "translation": "translation", "positions": "deformed"}
+    arrays = {field: np.asarray(group[key], dtype=float) for key, field in names.items() if key in group}
     return CaseObject(name=text_of(attributes_of(group), "name"), **arrays,
                       triangles=np.asarray(group["triangles"], dtype=np.int64).reshape(-1, 3))
 

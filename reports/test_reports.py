@@ -263,13 +263,14 @@ class Pieces(unittest.TestCase):
         self.assertEqual(both[0] > both[2], FRONT[0] > FRONT[2])
         self.assertEqual(far_alone[0] > far_alone[2], BACK[0] > BACK[2])
 
-    def test_an_object_turns_and_moves_by_its_pose(self) -> None:
+    def test_an_object_turns_and_moves_by_its_pose_or_deforms(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             put_case(Path(folder), "fold")
             case = load_case(Path(folder) / "fold.h5")
         corner = case.objects[0].positions(1)[1]
         np.testing.assert_allclose(corner, [0.0, 0.5, 0.1], atol=1e-15)
-        self.assertEqual(scenery_of(case, 3).x.shape, (4, 3))
+        np.testing.assert_allclose(case.objects[1].positions(3)[2], [0.0, 0.5, 0.6], atol=1e-15)
+        self.assertEqual(scenery_of(case, 3).x.shape, (7, 3))
 
     def test_cloth_that_lies_on_an_object_hides_it(self) -> None:
         square = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], dtype=float)

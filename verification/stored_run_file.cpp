@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "reference/level_set/makers.h"
 #include "verification/hdf5_file.h"
 
 namespace foldproof {
@@ -10,7 +11,7 @@ namespace foldproof {
 namespace {
 
 /// A case text as it is stored: that of the file, and a line "# --set KEY=VALUE" for each override.
-Scene scene_of_text(const std::string& text, const std::string& path) {
+Scene scene_of_text(const std::string& text, const std::string& path, const LevelSetMakers& makers) {
   const std::string mark = "\n# --set ";
   std::vector<std::string> overrides;
   std::size_t end = text.size(), at = text.rfind(mark);
@@ -19,7 +20,7 @@ Scene scene_of_text(const std::string& text, const std::string& path) {
     end = at;
     at = at == 0 ? std::string::npos : text.rfind(mark, at - 1);
   }
-  return read_scene_text(text.substr(0, end), path, overrides);
+  return read_scene_text(text.substr(0, end), path, overrides, makers);
 }
 
 }  // namespace
@@ -33,12 +34,12 @@ State StoredRun::frame(std::size_t k) const {
   return {times[k], of(positions), of(velocities)};
 }
 
-StoredRun read_stored_run(const std::string& path, const std::string& folder) {
+StoredRun read_stored_run(const std::string& path, const LevelSetMakers& makers) {
   StoredRun run;
   try {
     const Hdf5 file = Hdf5::open_file(path);
-    run.scene =
-        scene_of_text(file.read_text("case_text"), folder + "/" + file.read_text("case_name") + ".toml");
+    const std::string case_file = file.read_text("case_folder") + "/" + file.read_text("case_name") + ".toml";
+    run.scene = scene_of_text(file.read_text("case_text"), case_file, makers);
     run.scene.title = file.read_text("title");
     const Hdf5 frames = file.open_group("frames");
     run.times = frames.read_doubles("time");

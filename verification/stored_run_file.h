@@ -16,8 +16,9 @@ struct StoredRun {
   State frame(std::size_t k) const;
 };
 
-/// Reads a stored simulation. `folder`: where meshes that the case names by a relative path are looked for. Throws
-/// InputError naming the file if it holds no simulation, or one of another cloth than its case text says.
-StoredRun read_stored_run(const std::string& path, const std::string& folder);
+/// Reads a stored simulation; meshes that its case names by a relative path are looked for beside the case file
+/// that was simulated, those of --set from the working folder. Throws InputError naming the file if it holds no
+/// simulation, or one of another cloth than its case text says.
+StoredRun read_stored_run(const std::string& path, const LevelSetMakers& makers);
 
 }  // namespace foldproof

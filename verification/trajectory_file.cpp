@@ -24,10 +24,10 @@ void write_mesh(const Hdf5& file, const Scene& scene, const System& system) {
   mesh.array("held", {particles}, held.data());
 }
 
-/// Groups /objects/<k>: the surface at rest, and its pose in every frame.
+/// Groups /objects/<k>: the surface at rest, and in every frame its pose, or its vertices if it deforms.
 struct ObjectRows {
   const SceneObject* part;
-  GrowingDataset rotation, translation;
+  std::vector<GrowingDataset> rows;  // rotation and translation, or positions
 };
 
 std::vector<ObjectRows> write_objects(const Hdf5& file, const Scene& scene) {
@@ -42,18 +42,29 @@ std::vector<ObjectRows> write_objects(const Hdf5& file, const Scene& scene) {
     group.array("triangles", {part.triangles.size(), 3}, part.triangles.data()->data());
     group.array("vertices", {Shape::value_type(part.vertices.cols()), 3}, part.vertices.data())
         .attribute("unit", "m");
-    rows.push_back(
-        {&part, GrowingDataset(group, "rotation", "1", {4}), GrowingDataset(group, "translation", "m", {3})});
+    rows.push_back({&part, {}});
+    if (part.animation) {
+      rows.back().rows.emplace_back(group, "positions", "m",
+                                    Shape{Shape::value_type(part.vertices.cols()), 3});
+    } else {
+      rows.back().rows.emplace_back(group, "rotation", "1", Shape{4});
+      rows.back().rows.emplace_back(group, "translation", "m", Shape{3});
+    }
   }
   return rows;
 }
 
 /// rotation: w, x, y, z of the quaternion that turns the vertices before they are moved.
-void add_pose(const Pose& pose, ObjectRows& rows) {
+void add_place(double t, ObjectRows& object) {
+  if (object.part->animation) {
+    object.rows[0].add(surface_at(*object.part, t).data());
+    return;
+  }
+  const Pose pose = pose_at(std::get<RigidObject>(object.part->object.body).motion, t);
   const Eigen::Quaterniond& q = pose.rotation;
   const double rotation[] = {q.w(), q.x(), q.y(), q.z()};
-  rows.rotation.add(rotation);
-  rows.translation.add(pose.translation.data());
+  object.rows[0].add(rotation);
+  object.rows[1].add(pose.translation.data());
 }
 
 constexpr const char* xdmf_head = R"(<?xml version="1.0" ?>
@@ -171,6 +182,8 @@ TrajectoryFile::TrajectoryFile(const std::string& path, const Scene& scene, cons
   file.attribute("title", scene.title);
   file.attribute("about", scene.about);
   file.attribute("case_text", scene.text);
+  const std::filesystem::path here = std::filesystem::current_path();
+  file.attribute("case_folder", scene.text.empty() ? "" : (here / scene.folder).string());
   file.attribute("integrator", scene.integrator);
   file.attribute("built", built_parts(scene, system));
   file.attribute("frames_wanted",
@@ -187,8 +200,7 @@ void TrajectoryFile::add_frame(const State& s) {
   content_->positions.add(s.x.data());
   content_->velocities.add(s.v.data());
   if (!content_->solids.empty()) content_->add_distances(s);
-  for (ObjectRows& rows : content_->objects)
-    add_pose(pose_at(std::get<RigidObject>(rows.part->object.body).motion, s.time), rows);
+  for (ObjectRows& object : content_->objects) add_place(s.time, object);
   content_->frame_times.push_back(s.time);
   content_->file.flush();
 }

@@ -28,6 +28,9 @@ using Deformation = std::function<Vector3(const Vector3& X, double t)>;
 MeshSequence deformed_mesh(const TriangleMesh& mesh, const Deformation& deformation,
                            std::vector<double> times);
 
+/// The vertices at time t [s], 3 x N [m].
+PerParticle3 positions_at(const MeshSequence& sequence, double t);
+
 /// All files *.obj of a folder in the order of their names, `interval` [s] apart from time 0 on.
 /// Throws InputError naming the file: none, one whose triangles differ from the first's, what read_obj refuses.
 MeshSequence read_obj_sequence(const std::string& folder, double interval);

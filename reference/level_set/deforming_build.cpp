@@ -1,5 +1,9 @@
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <filesystem>
+#include <unordered_map>
 
 #include "reference/level_set/deforming.h"
 #include "reference/level_set/mesh_distance.h"
@@ -21,10 +25,36 @@ Vector3 barycentric(const Corners3& corners, const Vector3& p) {
   return {1 - b - c, b, c};
 }
 
-/// What the surface point nearest to p is displaced by, its vertices moving from `from` to `to`.
+/// What is nearest to the nodes of an octree, each looked for once: every cell about a node asks for it anew, and so
+/// do the displacements once the octree stands.
+class NodeFeatures {
+ public:
+  explicit NodeFeatures(const MeshDistance& mesh) : mesh_(mesh) {}
+
+  const NearestFeature& at(const Vector3& p) {
+    const auto [place, is_new] = known_.try_emplace({p.x(), p.y(), p.z()});
+    if (is_new) place->second = nearest_feature(mesh_, p, std::numeric_limits<double>::infinity());
+    return place->second;
+  }
+
+ private:
+  using Position = std::array<double, 3>;  // m
+
+  struct Hash {
+    std::size_t operator()(const Position& p) const {
+      std::uint64_t hash = 0;
+      for (const double x : p) hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15;
+      return std::size_t(hash ^ hash >> 32);
+    }
+  };
+
+  const MeshDistance& mesh_;
+  std::unordered_map<Position, NearestFeature, Hash> known_;
+};
+
+/// What the surface point that is nearest to a node is displaced by, its vertices moving from `from` to `to`.
 Vector3 displacement_near(const MeshDistance& mesh, const PerParticle3& from, const PerParticle3& to,
-                          const Vector3& p) {
-  const NearestFeature nearest = nearest_feature(mesh, p, std::numeric_limits<double>::infinity());
+                          const NearestFeature& nearest) {
   const Triangle& t = mesh.triangles[mesh.tree.order[nearest.triangle]];
   const Vector3 weight = barycentric(mesh.corners[nearest.triangle], nearest.point);
   Vector3 u = Vector3::Zero();
@@ -32,13 +62,21 @@ Vector3 displacement_near(const MeshDistance& mesh, const PerParticle3& from, co
   return u;
 }
 
-std::vector<BranchNodes<Vector3>> node_displacements(const Octree& tree, const MeshDistance& mesh,
-                                                     const PerParticle3& from, const PerParticle3& to) {
+/// What the vertices move by, and the mesh and its nearest features at the one end that belongs to the octree.
+struct Displaced {
+  const MeshDistance& mesh;
+  NodeFeatures& features;
+  const PerParticle3 &from, &to;  // 3 x N [m]
+};
+
+std::vector<BranchNodes<Vector3>> node_displacements(const Octree& tree, const Displaced& displaced) {
   const std::vector<OctreePlace> places = branch_places(tree);
   std::vector<BranchNodes<Vector3>> all(places.size());
   for (std::size_t b = 0; b < places.size(); ++b) {
-    for (int n = 0; n < 27; ++n)
-      all[b][n] = displacement_near(mesh, from, to, node_position(tree.settings, places[b], n));
+    for (int n = 0; n < 27; ++n) {
+      const NearestFeature& nearest = displaced.features.at(node_position(tree.settings, places[b], n));
+      all[b][n] = displacement_near(displaced.mesh, displaced.from, displaced.to, nearest);
+    }
     if (tree.settings.hanging == HangingNodes::constrained) constrain(hanging_nodes(tree, places[b]), all[b]);
   }
   return all;
@@ -47,11 +85,15 @@ std::vector<BranchNodes<Vector3>> node_displacements(const Octree& tree, const M
 DeformingFrame make_frame(const MeshSequence& sequence, std::size_t k, const OctreeSettings& settings) {
   const PerParticle3& x = sequence.positions[k];
   const MeshDistance mesh = make_mesh_distance(x, sequence.triangles);
-  DeformingFrame frame{
-      sequence.times[k], make_octree({[&](const Vector3& p) { return mesh.at(p); }}, settings), {}, {}};
+  NodeFeatures features(mesh);
+  const DistanceFunction distance = [&](const Vector3& p) {
+    return signed_distance(mesh, features.at(p), p);
+  };
+  DeformingFrame frame{sequence.times[k], make_octree({distance}, settings), {}, {}};
   if (k + 1 < sequence.times.size())
-    frame.to_next = node_displacements(frame.field, mesh, x, sequence.positions[k + 1]);
-  if (k > 0) frame.from_previous = node_displacements(frame.field, mesh, sequence.positions[k - 1], x);
+    frame.to_next = node_displacements(frame.field, {mesh, features, x, sequence.positions[k + 1]});
+  if (k > 0)
+    frame.from_previous = node_displacements(frame.field, {mesh, features, sequence.positions[k - 1], x});
   return frame;
 }
 
@@ -78,6 +120,16 @@ MeshSequence deformed_mesh(const TriangleMesh& mesh, const Deformation& deformat
     sequence.positions.push_back(std::move(x));
   }
   return sequence;
+}
+
+PerParticle3 positions_at(const MeshSequence& sequence, double t) {
+  const std::vector<double>& times = sequence.times;
+  const auto next = std::upper_bound(times.begin(), times.end(), t);
+  if (next == times.begin()) return sequence.positions.front();
+  if (next == times.end()) return sequence.positions.back();
+  const std::size_t k = std::size_t(next - times.begin());
+  const double part = (t - times[k - 1]) / (times[k] - times[k - 1]);
+  return (1 - part) * sequence.positions[k - 1] + part * sequence.positions[k];
 }
 
 MeshSequence read_obj_sequence(const std::string& folder, double interval) {

@@ -37,6 +37,14 @@ System build_system(const Scene& scene) {
   return system;
 }
 
+PerParticle3 surface_at(const SceneObject& part, double t) {
+  if (part.animation) return positions_at(*part.animation, t);
+  const Pose pose = pose_at(std::get<RigidObject>(part.object.body).motion, t);
+  PerParticle3 x(3, part.vertices.cols());
+  for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) = placed(pose, part.vertices.col(i));
+  return x;
+}
+
 State start_state(const Scene& scene) {
   State s{0, scene.x, scene.v};
   for (const PrescribedParticle& p : scene.led) {
@@ -56,7 +64,9 @@ std::string described(const BendingMaterial& material) {
 std::string described(const SceneObject& part) {
   char friction[40];
   std::snprintf(friction, sizeof friction, "%.6g", part.object.friction);
-  return "object '" + part.object.name + "' (" + part.shape + ", friction " + friction + ")";
+  const std::string frames =
+      part.animation ? ", " + std::to_string(part.animation->times.size()) + " level sets" : "";
+  return "object '" + part.object.name + "' (" + part.shape + frames + ", friction " + friction + ")";
 }
 
 std::string described(const ObjectCollision& collision) {

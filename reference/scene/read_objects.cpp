@@ -4,83 +4,48 @@
 #include <memory>
 #include <utility>
 
-#include "reference/level_set/closed_mesh.h"
-#include "reference/level_set/repair.h"
-#include "reference/mesh/obj.h"
-#include "reference/mesh/shapes.h"
 #include "reference/scene/key_values.h"
-#include "reference/scene/object_surface.h"
-#include "reference/scene/shapes_of.h"
 
 namespace foldproof {
 
 namespace {
 
-/// A solid in its own frame, with its surface.
-struct Shape {
-  Solid solid;
-  ObjectSurface surface;
-};
-
-Shape read_half_space(const KeyTable& keys) {
+BodyShape read_half_space(const KeyTable& keys) {
   return {HalfSpace{}, square_surface(positive_or(keys, "drawn_width", 2))};
 }
 
-Shape read_sphere(const KeyTable& keys) {
+BodyShape read_sphere(const KeyTable& keys) {
   const double radius = positive(keys, "radius");
   return {Sphere{radius}, sphere_surface(radius)};
 }
 
-Shape read_box(const KeyTable& keys) {
+BodyShape read_box(const KeyTable& keys) {
   const Vector3 size = keys.vector("size");
   if (!(size.minCoeff() > 0)) throw InputError(keys.where("size") + ": 'size' must be > 0 along each axis");
   return {Box{size / 2}, box_surface(size / 2)};
 }
 
-Shape read_capsule(const KeyTable& keys) {
+BodyShape read_capsule(const KeyTable& keys) {
   const double radius = positive(keys, "radius"), length = positive(keys, "length");
   return {Capsule{radius, length / 2}, capsule_surface(radius, length / 2)};
 }
 
-Shape read_torus(const KeyTable& keys) {
+BodyShape read_torus(const KeyTable& keys) {
   const double ring = positive(keys, "ring_radius"), tube = positive(keys, "tube_radius");
   if (!(tube < ring))
     throw InputError(keys.where("tube_radius") + ": 'tube_radius' must be smaller than 'ring_radius'");
   return {Torus{ring, tube}, torus_surface(ring, tube)};
 }
 
-/// A mesh as a solid: its exact distance, or a grid of it.
-Shape solid_of(const KeyTable& keys, TriangleSoup soup) {
-  enum class Field { exact, grid };
-  fit(keys, soup.rest);
-  const auto field = choice<Field>(keys, "field", {{"grid", Field::grid}, {"exact", Field::exact}});
-  const auto repair =
-      choice<Repair>(keys, "repair", {{"refuse", Repair::refuse}, {"winding", Repair::winding}});
-  ObjectSurface surface{soup.rest, soup.triangles};
-  if (field == Field::grid) {
-    const GridMethod method{int(count_or(keys, "cells", 64)), 4, 3, MarchingOrder::second};
-    return {GridSolid{make_level_set(soup, method, repair)}, std::move(surface)};
-  }
-  if (repair != Repair::refuse) throw InputError(keys.where("repair") + ": 'repair' needs field = \"grid\"");
-  const TriangleMesh mesh = make_closed_mesh(std::move(soup));
-  return {MeshSolid{std::make_shared<const MeshDistance>(make_mesh_distance(mesh.rest, mesh.triangles))},
-          std::move(surface)};
-}
-
-Shape read_statue(const KeyTable& keys) {
-  const double height = positive(keys, "height");
-  TriangleMesh statue = make_statue(height, int(count_or(keys, "subdivisions", 4)));
-  return solid_of(keys, {std::move(statue.rest), std::move(statue.triangles), {}});
-}
-
-Shape read_shape(const KeyTable& keys) {
-  return choice<Shape (*)(const KeyTable&)>(keys, "shape",
-                                            {{"sphere", read_sphere},
-                                             {"half_space", read_half_space},
-                                             {"box", read_box},
-                                             {"capsule", read_capsule},
-                                             {"torus", read_torus},
-                                             {"statue", read_statue}})(keys);
+BodyShape read_shape(const KeyTable& keys, const CaseAround& around) {
+  const auto read = choice<BodyShape (*)(const KeyTable&)>(keys, "shape",
+                                                           {{"sphere", read_sphere},
+                                                            {"half_space", read_half_space},
+                                                            {"box", read_box},
+                                                            {"capsule", read_capsule},
+                                                            {"torus", read_torus},
+                                                            {"statue", nullptr}});
+  return read ? read(keys) : read_mesh_body(keys, around);
 }
 
 Pose read_pose(const KeyTable& keys) {
@@ -99,22 +64,35 @@ RigidMotion read_rigid_motion(const KeyTable& keys) {
   }
 }
 
-SceneObject read_object(const KeyTable& keys, const std::string& folder, size_t number) {
-  if (keys.has("shape") == keys.has("mesh"))
-    throw InputError(keys.where("mesh") +
-                     ": [[object]] needs either 'shape' or 'mesh' (an OBJ file), and not both");
-  SceneObject part;
-  part.shape = keys.has("shape") ? keys.text("shape") : "mesh";
-  Shape shape =
-      keys.has("shape") ? read_shape(keys) : solid_of(keys, read_obj_soup(mesh_file(keys, folder, "object")));
-  const Pose place = read_pose(keys);
-  part.object.name = keys.text_or("name", part.shape + " " + std::to_string(number + 1));
-  part.object.friction = not_negative_or(keys, "friction", 0);
+void read_rigid(const KeyTable& keys, const Pose& place, const CaseAround& around, SceneObject& part) {
+  BodyShape shape = keys.has("mesh") ? read_mesh_body(keys, around) : read_shape(keys, around);
   part.vertices.resize(3, shape.surface.vertices.cols());
   for (Eigen::Index i = 0; i < part.vertices.cols(); ++i)
     part.vertices.col(i) = placed(place, shape.surface.vertices.col(i));
   part.triangles = std::move(shape.surface.triangles);
   part.object.body = RigidObject{std::move(shape.solid), place, read_rigid_motion(keys)};
+}
+
+void read_deforming(const KeyTable& keys, const Pose& place, const CaseAround& around, SceneObject& part) {
+  DeformingShape shape = read_deforming_body(keys, place, around);
+  part.vertices = shape.animation->positions.front();
+  part.triangles = shape.animation->triangles;
+  part.animation = std::move(shape.animation);
+  part.object.body = DeformingObject{std::move(shape.body)};
+}
+
+SceneObject read_object(const KeyTable& keys, const CaseAround& around, size_t number) {
+  const bool is_shape = keys.has("shape"), is_mesh = keys.has("mesh"), is_animation = keys.has("frames");
+  if (int(is_shape) + int(is_mesh) + int(is_animation) != 1)
+    throw InputError(
+        keys.where("mesh") +
+        ": [[object]] needs either 'shape' or 'mesh' (an OBJ file) or 'frames' (a folder of such "
+        "files), and not both");
+  SceneObject part;
+  part.shape = is_shape ? keys.text("shape") : is_mesh ? "mesh" : "animation";
+  part.object.name = keys.text_or("name", part.shape + " " + std::to_string(number + 1));
+  part.object.friction = not_negative_or(keys, "friction", 0);
+  (is_deforming(keys) ? read_deforming : read_rigid)(keys, read_pose(keys), around, part);
   return part;
 }
 
@@ -130,9 +108,9 @@ void read_collision(const KeyTable& keys, CollisionSettings& collision) {
 
 }  // namespace
 
-void read_objects(const KeyTable& keys, const std::string& folder, Scene& scene) {
+void read_objects(const KeyTable& keys, const CaseAround& around, Scene& scene) {
   for (const auto& object : keys.tables("object"))
-    scene.objects.push_back(read_object(*object, folder, scene.objects.size()));
+    scene.objects.push_back(read_object(*object, around, scene.objects.size()));
   const auto collision = keys.table("collision");
   if (!collision) return;
   if (scene.objects.empty()) throw InputError(collision->where() + ": [collision] needs an [[object]]");

@@ -151,7 +151,7 @@ void read_solver(const KeyTable& keys, SolverSettings& solver) {
       {{"momentum", ResidualScale::momentum}, {"initial_residual", ResidualScale::initial_residual}});
 }
 
-Scene scene_from(const KeyTable& keys, const std::string& folder) {
+Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSetMakers& makers) {
   const auto cloth = keys.table("cloth"), time = keys.table("time");
   if (!cloth || !time) throw InputError(keys.where() + ": a case needs the tables [cloth] and [time]");
   PlacedMesh placed = read_cloth_mesh(*cloth, folder);
@@ -169,8 +169,8 @@ Scene scene_from(const KeyTable& keys, const std::string& folder) {
     scene.rest_angles = read_rest_angles(*bending, scene.mesh);
   }
   for (const auto& hold : keys.tables("hold")) read_hold(*hold, scene);
-  read_objects(keys, folder, scene);
   read_time(*time, scene);
+  read_objects(keys, {folder, scene.schedule.end, makers}, scene);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
   keys.leave("expect");  // what must hold of the run: whoever judges it reads that table
   keys.refuse_unused();
@@ -180,20 +180,31 @@ Scene scene_from(const KeyTable& keys, const std::string& folder) {
 }  // namespace
 
 Scene read_scene_text(const std::string& text, const std::string& path,
-                      const std::vector<std::string>& overrides) {
+                      const std::vector<std::string>& overrides, const LevelSetMakers& makers) {
   const auto keys = parse_keys(text, path);
   for (const std::string& assignment : overrides) set_key(*keys, assignment);
   const std::filesystem::path file(path);
-  Scene scene = scene_from(*keys, file.parent_path().string());
+  Scene scene = scene_from(*keys, file.parent_path().string(), makers);
   scene.name = file.stem().string();
+  scene.folder = file.parent_path().string();
   scene.text = text;
   for (const std::string& assignment : overrides) scene.text += "\n# --set " + assignment;
   return scene;
 }
 
-Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+Scene read_scene_text(const std::string& text, const std::string& path,
+                      const std::vector<std::string>& overrides) {
+  return read_scene_text(text, path, overrides, computing_makers());
+}
+
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides,
+                 const LevelSetMakers& makers) {
   if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": there is no such case file");
-  return read_scene_text(read_text(path), path, overrides);
+  return read_scene_text(read_text(path), path, overrides, makers);
+}
+
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  return read_scene(path, overrides, computing_makers());
 }
 
 }  // namespace foldproof

@@ -1,6 +1,7 @@
 // What a case says, read and checked, before anything is built of it.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,13 +15,19 @@
 
 namespace foldproof {
 
+struct LevelSetMakers;  // level_set/makers.h
+
 /// An object, and its surface as triangles: for pictures, not for the collisions.
 struct SceneObject {
   Object object;
   std::string shape;                // in words
-  PerParticle3 vertices;            // 3 x V, before its motion [m]
+  PerParticle3 vertices;            // 3 x V, before its motion, or in its first frame if it deforms [m]
   std::vector<Triangle> triangles;  // outward
+  std::shared_ptr<const MeshSequence> animation;  // of a body that deforms, else none
 };
+
+/// The surface's vertices at time t [s], 3 x V [m].
+PerParticle3 surface_at(const SceneObject& part, double t);
 
 /// How cloth meets the objects.
 struct CollisionSettings {
@@ -33,6 +40,8 @@ struct CollisionSettings {
 struct Scene {
   std::string name, title, about;
   std::string text;  // the case file with its overrides, empty for scenes made by code
+  std::string
+      folder;  // of the case file, where its relative files are looked for; empty for scenes made by code
 
   TriangleMesh mesh;   // with the rest shape
   PerParticle3 x, v;   // start, 3 x N [m], [m/s]
@@ -57,11 +66,16 @@ Scene scene_of(TriangleMesh mesh, double density);
 /// Reads a case file. Throws InputError "file:line: ..." for anything that it does not understand; see
 /// cases/README.md for the keys.
 ///   overrides   "a.b=c", applied in order
+///   makers      of the level sets of its bodies; without them these are computed
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides,
+                 const LevelSetMakers& makers);
 
 /// The same from text; `path` names it in messages, and relative mesh files are looked for beside it.
 Scene read_scene_text(const std::string& text, const std::string& path,
                       const std::vector<std::string>& overrides = {});
+Scene read_scene_text(const std::string& text, const std::string& path,
+                      const std::vector<std::string>& overrides, const LevelSetMakers& makers);
 
 /// Builds what the scene names, and nothing else.
 System build_system(const Scene& scene);

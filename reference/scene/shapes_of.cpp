@@ -101,13 +101,15 @@ std::string mesh_file(const KeyTable& keys, const std::string& folder, const std
   return file.string();
 }
 
-void fit(const KeyTable& keys, PerParticle3& x) {
-  if (!keys.has("fit")) return;
+double fit_factor(const KeyTable& keys, const PerParticle3& x) {
+  if (!keys.has("fit")) return 1;
   const double size = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
   const double wanted = keys.number("fit");
   if (!(wanted > 0)) throw InputError(keys.where("fit") + ": 'fit' must be > 0 m");
-  x *= wanted / size;
+  return wanted / size;
 }
+
+void fit(const KeyTable& keys, PerParticle3& x) { x *= fit_factor(keys, x); }
 
 PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder) {
   if (cloth.has("shape") == cloth.has("mesh"))

@@ -10,6 +10,7 @@
 
 #include "convergence/section_profile.h"
 #include "convergence/wrinkle_measure.h"
+#include "reference/level_set/makers.h"
 #include "reference/mesh/subdivision.h"
 #include "reference/post/fold_projection.h"
 #include "scripts/program/commands.h"
@@ -39,7 +40,7 @@ struct Source {
 
 Source source_of(const Options& options) {
   Source source;
-  source.run = read_stored_run(options.file, project_folder() + "/cases");
+  source.run = read_stored_run(options.file, computing_makers());
   const Scene& scene = source.run.scene;
   for (const SceneObject& part : scene.objects) source.objects.push_back(part.object);
   if (source.objects.empty()) throw InputError(options.file + ": its case names no object to project out of");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reference/level_set/makers.h"
 #include "reference/scene/key_file.h"
 #include "verification/cases/quantities.h"
 
@@ -46,7 +47,12 @@ void add_unless_stated(const Expectation& usual, std::vector<Expectation>& all) 
 }  // namespace
 
 Case case_of_file(const std::string& path, const std::vector<std::string>& overrides) {
-  Case result{read_scene(path, overrides), {}};
+  return case_of_file(path, overrides, computing_makers());
+}
+
+Case case_of_file(const std::string& path, const std::vector<std::string>& overrides,
+                  const LevelSetMakers& makers) {
+  Case result{read_scene(path, overrides, makers), {}};
   const auto keys = parse_keys(read_text(path), path);
   for (const std::string& assignment : overrides) set_key(*keys, assignment);
   if (const auto expect = keys->table("expect"))

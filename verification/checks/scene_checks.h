@@ -11,6 +11,7 @@ std::vector<Check> scene_meaning_checks();  // scene_checks.cpp: what is built o
 std::vector<Check>
 scene_place_checks();  // scene_place_checks.cpp: where the cloth is, how it starts and is held
 std::vector<Check> scene_object_checks();  // scene_object_checks.cpp: objects and how cloth meets them
+std::vector<Check> scene_body_checks();  // scene_body_checks.cpp: bodies of triangles, sampled and deforming
 
 /// All of the above.
 std::vector<Check> scene_checks();

@@ -5,6 +5,7 @@
 
 #include "convergence/section_profile.h"
 #include "convergence/wrinkle_measure.h"
+#include "reference/level_set/makers.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/scratch_folder.h"
 #include "verification/hdf5_file.h"
@@ -81,7 +82,7 @@ TEST_CASE("a stored simulation is read back bit for bit, overrides and all") {
     file.add_frame(s);
     file.finish("", 0);
   }
-  const StoredRun run = read_stored_run(folder.file("small.h5"), ".");
+  const StoredRun run = read_stored_run(folder.file("small.h5"), computing_makers());
   CHECK(run.scene.mesh.rest == scene.mesh.rest);
   CHECK(run.scene.text == scene.text);
   REQUIRE(run.scene.objects.size() == 1);
@@ -93,7 +94,8 @@ TEST_CASE("a stored simulation is read back bit for bit, overrides and all") {
 TEST_CASE("what is no stored simulation is refused with the file's name") {
   const ScratchFolder folder;
   { Hdf5::create_file(folder.file("other.h5")).attribute("title", std::string("something else")); }
-  CHECK_THROWS_WITH(read_stored_run(folder.file("other.h5"), "."),
+  CHECK_THROWS_WITH(read_stored_run(folder.file("other.h5"), computing_makers()),
                     Catch::Contains("other.h5: is no stored simulation"));
-  CHECK_THROWS_WITH(read_stored_run(folder.file("missing.h5"), "."), Catch::Contains("missing.h5"));
+  CHECK_THROWS_WITH(read_stored_run(folder.file("missing.h5"), computing_makers()),
+                    Catch::Contains("missing.h5"));
 }

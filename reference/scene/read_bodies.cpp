@@ -1,0 +1,168 @@
+#include "reference/scene/read_bodies.h"
+
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "reference/level_set/body_deformation.h"
+#include "reference/level_set/closed_mesh.h"
+#include "reference/mesh/obj.h"
+#include "reference/mesh/shapes.h"
+#include "reference/scene/key_values.h"
+#include "reference/scene/shapes_of.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr long most_frames = 1000;
+
+TriangleSoup read_soup(const KeyTable& keys, const CaseAround& around) {
+  TriangleSoup soup;
+  if (keys.has("shape") && keys.text("shape") != "statue")
+    throw InputError(keys.where("shape") +
+                     ": a body that deforms needs a mesh: shape = \"statue\", 'mesh' or 'frames'");
+  if (keys.has("mesh")) {
+    soup = read_obj_soup(mesh_file(keys, around.folder, "object"));
+  } else {
+    TriangleMesh statue = make_statue(positive(keys, "height"), int(count_or(keys, "subdivisions", 4)));
+    soup = {std::move(statue.rest), std::move(statue.triangles), {}};
+  }
+  fit(keys, soup.rest);
+  return soup;
+}
+
+/// The finest cells: as wide as the key `cells` says of the longest side of the body at rest [m].
+double read_cell(const KeyTable& keys, const PerParticle3& x) {
+  return bounds_of(x).sizes().maxCoeff() / double(count_or(keys, "cells", 64));
+}
+
+/// An octree about the bounds, its finest cells `cell` [m] wide and the bounds four of them away from its sides.
+/// By default it may miss a tenth of a cell: what a finest cell misses of a surface of 2.5 cells' radius r, cell^2/(4 r).
+/// Cells that may hold the surface are no wider than four finest ones, and the band is three to either side.
+OctreeSettings read_octree(const KeyTable& keys, const Bounds& bounds, double cell) {
+  const double least = bounds.sizes().maxCoeff() / cell + 8;
+  const int depth = std::max(2, int(std::ceil(std::log2(least))));
+  if (depth > 20) throw InputError(keys.where("cells") + ": 'cells' must be below 2^20 for an octree");
+  const double width = std::ldexp(cell, depth);
+  const Vector3 corner = bounds.center() - Vector3::Constant(width / 2);
+  const double tolerance = positive_or(keys, "tolerance", cell / 10);
+  return {corner, width, depth, depth - 2, tolerance, 3 * cell, 0.25, 0, HangingNodes::constrained};
+}
+
+/// The refusal of make_closed_mesh with what the frame is called, and another remedy: no repair is offered here.
+void refuse_open_frame(const MeshSequence& animation, size_t k, const std::string& where) {
+  try {
+    make_closed_mesh({animation.positions[k], animation.triangles, {}});
+  } catch (const InputError& error) {
+    const std::string said = error.what();
+    throw InputError(where + ": frame " + std::to_string(k) + " (" + std::to_string(animation.times[k]) +
+                     " s): " + said.substr(0, said.rfind(';')) + "; mend it, or give a smaller amplitude");
+  }
+}
+
+MeshSequence read_frames(const KeyTable& keys, const CaseAround& around) {
+  const std::string where = keys.where("frames");
+  std::filesystem::path folder = keys.text("frames");
+  if (folder.is_relative() && where != "--set") folder = around.folder / folder;
+  MeshSequence animation;
+  try {
+    animation = read_obj_sequence(folder.string(), positive_or(keys, "interval", 1.0 / 30));
+  } catch (const InputError& error) {
+    throw InputError(where + ": " + error.what());
+  }
+  const double scale = fit_factor(keys, animation.positions.front());
+  for (PerParticle3& x : animation.positions) x *= scale;
+  return animation;
+}
+
+BodyDeformation read_deformation(const KeyTable& keys) {
+  const auto kind = choice<DeformationKind>(keys, "kind",
+                                            {{"bend", DeformationKind::bend},
+                                             {"twist", DeformationKind::twist},
+                                             {"breathe", DeformationKind::breathe}});
+  const double unit = kind == DeformationKind::breathe ? 1 : radians_per_degree;
+  return {kind, unit * keys.number("amplitude"), positive(keys, "period")};
+}
+
+/// Times 0, interval, ... until the last one that the case asks for.
+std::vector<double> read_times(const KeyTable& keys, const CaseAround& around) {
+  const double interval = positive_or(keys, "interval", 1.0 / 30);
+  const double until = positive_or(keys, "until", around.end);
+  const double count = std::ceil(until / interval * (1 - 1e-9));
+  if (!(count < double(most_frames)))
+    throw InputError(keys.where("interval") + ": more than " + std::to_string(most_frames) +
+                     " level sets; a longer 'interval' or an earlier 'until' gives fewer");
+  std::vector<double> times;
+  for (long k = 0; k <= long(count); ++k) times.push_back(double(k) * interval);
+  return times;
+}
+
+void put(const Pose& place, PerParticle3& x) {
+  for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) = placed(place, x.col(i));
+}
+
+/// The body in its place, carried through its deformations.
+MeshSequence read_deformed(const KeyTable& keys, const Pose& place, const CaseAround& around) {
+  TriangleMesh mesh = make_closed_mesh(read_soup(keys, around));
+  put(place, mesh.rest);
+  std::vector<BodyDeformation> parts;
+  for (const auto& part : keys.tables("deform")) parts.push_back(read_deformation(*part));
+  return deformed_mesh(mesh, deformation_of(std::move(parts), bounds_of(mesh.rest)),
+                       read_times(keys, around));
+}
+
+}  // namespace
+
+bool is_deforming(const KeyTable& keys) { return keys.has("frames") || keys.has("deform"); }
+
+BodyShape read_mesh_body(const KeyTable& keys, const CaseAround& around) {
+  enum class Field { grid, octree, exact };
+  TriangleSoup soup = read_soup(keys, around);
+  const auto field = choice<Field>(
+      keys, "field", {{"grid", Field::grid}, {"octree", Field::octree}, {"exact", Field::exact}});
+  const auto repair =
+      choice<Repair>(keys, "repair", {{"refuse", Repair::refuse}, {"winding", Repair::winding}});
+  const int cells =
+      int(count_or(keys, "cells", 64));  // known to all fields, so that one --set changes between them
+  ObjectSurface surface{soup.rest, soup.triangles};
+  if (field == Field::grid) {
+    const GridMethod method{cells, 4, 3, MarchingOrder::second};
+    return {GridSolid{around.makers.make_level_set(soup, method, repair)}, std::move(surface)};
+  }
+  if (repair != Repair::refuse)
+    throw InputError(
+        keys.where("repair") +
+        ": 'repair' needs field = \"grid\": over holes the distance is marched from node to node");
+  const TriangleMesh mesh = make_closed_mesh(std::move(soup));
+  if (field == Field::octree) {
+    const OctreeSettings settings = read_octree(keys, bounds_of(mesh.rest), read_cell(keys, mesh.rest));
+    return {OctreeSolid{make_octree(around.makers, mesh.rest, mesh.triangles, settings)}, std::move(surface)};
+  }
+  return {MeshSolid{std::make_shared<const MeshDistance>(make_mesh_distance(mesh.rest, mesh.triangles))},
+          std::move(surface)};
+}
+
+DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, const CaseAround& around) {
+  enum class Field { octree };
+  choice<Field>(keys, "field", {{"octree", Field::octree}});
+  const auto between = choice<BetweenFrames>(
+      keys, "between", {{"carried", BetweenFrames::carried}, {"blended", BetweenFrames::blended}});
+  const bool is_read = keys.has("frames");
+  if (is_read && keys.has("deform"))
+    throw InputError(keys.where("deform") +
+                     ": 'frames' are an animation; they do not go with [[object.deform]]");
+  auto animation = is_read ? read_frames(keys, around) : read_deformed(keys, place, around);
+  if (is_read)
+    for (PerParticle3& x : animation.positions) put(place, x);
+  Bounds bounds;
+  for (size_t k = 0; k < animation.times.size(); ++k) {
+    refuse_open_frame(animation, k, keys.where(is_read ? "frames" : "deform"));
+    bounds.extend(bounds_of(animation.positions[k]));
+  }
+  const OctreeSettings settings = read_octree(keys, bounds, read_cell(keys, animation.positions.front()));
+  return {std::make_shared<const MeshSequence>(animation),
+          around.makers.make_deforming_body(animation, settings, between)};
+}
+
+}  // namespace foldproof

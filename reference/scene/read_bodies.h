@@ -1,0 +1,43 @@
+// Bodies of triangles in [[object]]: rigid ones in a frame of their own, deforming ones in the world's.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "reference/level_set/makers.h"
+#include "reference/level_set/solid.h"
+#include "reference/motion/pose.h"
+#include "reference/scene/key_file.h"
+#include "reference/scene/object_surface.h"
+
+namespace foldproof {
+
+/// What a body's keys do not say.
+struct CaseAround {
+  std::string folder;  // where relative files of the case are looked for
+  double end;          // of the run [s]
+  const LevelSetMakers& makers;
+};
+
+/// A solid in its own frame, with its surface.
+struct BodyShape {
+  Solid solid;
+  ObjectSurface surface;
+};
+
+/// Do the keys say that the body deforms: `frames` or [[object.deform]]?
+bool is_deforming(const KeyTable& keys);
+
+/// `shape = "statue"` or `mesh`, as the exact distance, a grid or an octree of it: `field`, `cells`, `tolerance`.
+BodyShape read_mesh_body(const KeyTable& keys, const CaseAround& around);
+
+struct DeformingShape {
+  std::shared_ptr<const MeshSequence> animation;
+  std::shared_ptr<const DeformingBody> body;
+};
+
+/// `frames` or [[object.deform]] of a body of triangles, in its place before it deforms. Throws InputError
+/// "file:line: frame ..." for a frame that is no closed mesh.
+DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, const CaseAround& around);
+
+}  // namespace foldproof
