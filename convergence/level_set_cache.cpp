@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "convergence/kept_level_sets.h"
 #include "convergence/studies.h"
 #include "reference/level_set/deforming_content.h"
 #include "reference/mesh/shapes.h"
@@ -182,6 +183,9 @@ StudyResult run(const Subject&, Tier, const Progress& progress) {
   result.findings.push_back(loading_is_cheap(costs));
   progress(0.2);
   result.findings.push_back(unfit_files_are_refused());
+  progress(0.7);
+  result.findings.push_back(runs_with_kept_level_sets_are_the_same());
+  result.findings.push_back(unfit_grids_are_refused());
   return result;
 }
 

@@ -13,6 +13,8 @@ constexpr const char* examples = R"(Examples:
   foldproof verify                                    everything of the quick tier, and the report results/report.html
   foldproof simulate cases/hanging_sheet.toml --set bending.stiffness=1e-3 --out results
   foldproof simulate cases/any_mesh.toml --set cloth.mesh=body.obj
+  foldproof inspect body.obj                          is it closed, oriented, without intersections?
+  foldproof simulate cases/drape_statue.toml --set object.mesh=body.obj --cache cache
   foldproof project results/half_inside.h5 --map blend --tau 0.01
   foldproof check bending                             all checks of bending
   foldproof check bending.forces-sum-to-zero --json   one of them, for another program
@@ -61,6 +63,13 @@ void add_folder(CLI::App* command, Options& options, const std::string& what) {
   command->add_option("--out", options.out, what)->capture_default_str();
 }
 
+/// Level sets are kept only where a folder is named: a run leaves nothing behind that it was not asked for.
+void add_cache(CLI::App* command, Options& options) {
+  command->add_option(
+      "--cache", options.cache,
+      "Folder that keeps the level sets of meshes for later runs; the results are the same to the bit");
+}
+
 /// check and study: they write files only if a folder is named.
 void add_selections(CLI::App& app, Options& options) {
   for (CLI::App* command :
@@ -90,6 +99,7 @@ void add_runs(CLI::App& app, Options& options) {
   CLI::App* speed =
       add_command(app, options, "bench", "Measure speed and memory; writes bench.h5", run_bench);
   speed->add_flag("--quick", options.quick, "Up to 100k particles instead of a million");
+  for (CLI::App* command : {simulate, everything}) add_cache(command, options);
   for (CLI::App* command : {simulate, everything, speed}) {
     add_folder(command, options, "Folder for results");
     add_json(command, options);
@@ -97,23 +107,26 @@ void add_runs(CLI::App& app, Options& options) {
 }
 
 void add_project(CLI::App& app, Options& options) {
-  CLI::App* project = add_command(app, options, "project",
-                                  "Bring the cloth of a stored run out of its objects; writes NAME_projected.h5",
-                                  project_run);
+  CLI::App* project = add_command(
+      app, options, "project", "Bring the cloth of a stored run out of its objects; writes NAME_projected.h5",
+      project_run);
   project->footer(project_help);
   project->add_option("RUN.h5", options.file, "What `foldproof simulate` wrote")->required();
   project->add_option("--map", options.map, "Map of depth: plain, power or blend")
       ->check(CLI::IsMember({"plain", "power", "blend"}))
       ->required();
   project->add_option("--tau", options.reach, "Points up to so far outside are moved [m]")->required();
-  project->add_option("--eps", options.eps, "How far out the deepest points come to lie [m]")->capture_default_str();
-  project->add_option("--deepest", options.deepest,
-                      "Deepest penetration that is told from deeper ones [m] (default: the deepest in the run)");
+  project->add_option("--eps", options.eps, "How far out the deepest points come to lie [m]")
+      ->capture_default_str();
+  project->add_option(
+      "--deepest", options.deepest,
+      "Deepest penetration that is told from deeper ones [m] (default: the deepest in the run)");
   project->add_option("--subdivide", options.levels, "Levels of subdivision before the projection, 0 to 8")
       ->capture_default_str();
   project->add_option("--rule", options.rule, "Rule of subdivision: loop or midpoint")
       ->check(CLI::IsMember({"loop", "midpoint"}))
       ->capture_default_str();
+  add_cache(project, options);
   add_folder(project, options, "Folder for the projected run");
   add_json(project, options);
 }
@@ -129,6 +142,14 @@ void add_readers(CLI::App& app, Options& options) {
   add_command(app, options, "report", "Make DIR/report.html from stored results", make_report)
       ->add_option("DIR", options.file, "Folder with run.h5 or case files")
       ->required();
+  CLI::App* mesh = add_command(
+      app, options, "inspect",
+      "What a mesh is good for as a body; exit code 1: it is no solid, or opinions differ", inspect);
+  mesh->add_option("MESH.obj", options.file, "An OBJ file")->required();
+  mesh->add_option("--cells", options.cells, "Of the grid that is looked at, along the longest side")
+      ->check(CLI::Range(4, 1000))
+      ->capture_default_str();
+  add_json(mesh, options);
   CLI::App* evaluate = app.add_subcommand("evaluate", "Evaluate a formula on your numbers");
   evaluate->require_subcommand(1);
   CLI::App* bending =

@@ -1,15 +1,54 @@
 #include "reference/dynamics/events.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace foldproof {
 
+namespace {
+
+std::vector<double> jumps_of(const Motion& motion) { return {motion.from, motion.until}; }
+
+std::vector<double> jumps_of(const Keyframes& motion) {
+  std::vector<double> times;
+  for (const Keyframe& frame : motion.keys) times.push_back(frame.time);
+  return times;
+}
+
+std::vector<double> jumps_of(const RigidObject& body) {
+  return std::visit([](const auto& motion) { return jumps_of(motion); }, body.motion);
+}
+
+std::vector<double> jumps_of(const DeformingObject& object) {
+  std::vector<double> times;
+  for (const DeformingFrame& frame : object.body->frames) times.push_back(frame.time);
+  return times;
+}
+
+}  // namespace
+
+std::vector<double> object_event_times(const System& system, double start) {
+  std::vector<double> times;
+  for (const Filter& filter : system.filters) {
+    const auto* collision = std::get_if<ObjectCollision>(&filter);
+    if (!collision) continue;
+    for (const Object& object : collision->objects)
+      for (const double time : std::visit([](const auto& body) { return jumps_of(body); }, object.body))
+        if (time > start && std::isfinite(time)) times.push_back(time);
+  }
+  return times;
+}
+
 Events::Events(const System& system, double start, double tolerance)
     : given_(system), times_(event_times(system.led, start)), tolerance_(tolerance) {
-  if (times_.empty()) return;
-  own_ = std::make_unique<System>(system);
-  lead(start);
+  if (!times_.empty()) {
+    own_ = std::make_unique<System>(system);
+    lead(start);
+  }
+  const std::vector<double> of_objects = object_event_times(system, start);
+  times_.insert(times_.end(), of_objects.begin(), of_objects.end());
+  std::ranges::sort(times_);
 }
 
 double Events::next() const {
@@ -18,6 +57,7 @@ double Events::next() const {
 
 State Events::passed(State s) {
   std::erase_if(times_, [&](double time) { return time <= s.time + tolerance_; });
+  if (!own_) return s;
   lead(s.time);
   impose(velocities_at(own_->led, s.time), s.v);
   return s;

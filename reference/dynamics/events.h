@@ -1,4 +1,5 @@
-// Events: times at which a prescribed motion starts or stops, and with it the velocity of what is led jumps.
+// Events: times at which the velocity of what is led, or of an object, jumps: a prescribed motion starts or stops, a
+// keyframe or a frame of an animation is passed.
 #pragma once
 
 #include <memory>
@@ -8,8 +9,12 @@
 
 namespace foldproof {
 
-/// The system of a run from event to event. Between two of them every prescribed motion is smooth, and goes on
-/// smoothly beyond either, so that no step has to ask on which side of an event it is.
+/// The times after `start` at which the velocity of an object jumps, in any order, some perhaps more than once [s].
+std::vector<double> object_event_times(const System& system, double start);
+
+/// The system of a run from event to event. Between two of them every prescribed motion is smooth; that of led
+/// particles goes on smoothly beyond either, so that no step has to ask on which side of an event it is. Objects are
+/// asked for their mean velocity over a step, which knows no sides.
 class Events {
  public:
   /// Of a run from `start` [s]. Events closer together than `tolerance` [s] are taken as one.
@@ -21,14 +26,14 @@ class Events {
   /// The system until then. It stays where it is; `passed` changes it.
   const System& system() const { return own_ ? *own_ : given_; }
 
-  /// The state s after all events due by its time: prescribed particles have the velocities of their new motions.
+  /// The state s after all events due by its time: led particles have the velocities of their new motions.
   State passed(State s);
 
  private:
   void lead(double t);
 
   const System& given_;
-  std::unique_ptr<System> own_;  // a copy, if there is any event
+  std::unique_ptr<System> own_;  // a copy, if led particles have any event
   std::vector<double> times_;    // still to come, ascending [s]
   double tolerance_;
 };

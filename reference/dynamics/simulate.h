@@ -11,8 +11,8 @@
 namespace foldproof {
 
 /// How long a step is. Each frame interval (or what an automatic step sees left of it) is divided evenly, so
-/// frames are hit exactly. So are events, at which a prescribed motion starts or stops (dynamics/events.h): there a
-/// method that looks back starts anew.
+/// frames are hit exactly. So are events, at which a prescribed motion starts or stops, or an object's velocity
+/// jumps (dynamics/events.h): there a method that looks back starts anew.
 struct StepRule {
   double fixed = 0;  // the largest step allowed [s]; 0: chosen each step
   double safety =

@@ -3,7 +3,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
+
+#include "reference/level_set/content_key.h"
 
 namespace foldproof {
 
@@ -12,34 +13,7 @@ namespace {
 /// To be raised whenever the same input gives other level sets.
 constexpr int method_version = 1;
 
-/// Fowler, Noll and Vo's hash FNV-1a of 64 bits, of values in the order in which they are added.
-class Key {
- public:
-  template <class T>
-  void add(const T* values, std::size_t count) {
-    const auto* bytes = reinterpret_cast<const unsigned char*>(values);
-    for (std::size_t i = 0; i < count * sizeof(T); ++i) hash_ = (hash_ ^ bytes[i]) * 0x100000001b3;
-  }
-  template <class T>
-  void add(const std::vector<T>& values) {
-    add(std::uint64_t(values.size()));
-    add(values.data(), values.size());
-  }
-  void add(double value) { add(&value, 1); }
-  void add(int value) { add(&value, 1); }
-  void add(std::uint64_t value) { add(&value, 1); }
-
-  std::string text() const {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));
-    return digits;
-  }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325;
-};
-
-void add_settings(Key& key, const OctreeSettings& settings) {
+void add_settings(ContentKey& key, const OctreeSettings& settings) {
   key.add(settings.corner.data(), 3);
   key.add(settings.width);
   key.add(settings.depth);
@@ -92,7 +66,7 @@ bool is_finite(const DeformingFrame& frame) {
 }  // namespace
 
 std::string origin_key(const MeshSequence& sequence, const OctreeSettings& settings) {
-  Key key;
+  ContentKey key;
   key.add(method_version);
   key.add(sequence.triangles);
   key.add(sequence.times);
@@ -105,7 +79,7 @@ std::string origin_key(const MeshSequence& sequence, const OctreeSettings& setti
 }
 
 std::string content_key(const DeformingBody& body) {
-  Key key;
+  ContentKey key;
   for (const DeformingFrame& frame : body.frames) {
     key.add(frame.time);
     add_settings(key, frame.field.settings);

@@ -11,6 +11,7 @@
 
 #include "convergence/studies.h"
 #include "reference/dynamics/integrator.h"
+#include "reference/level_set/makers.h"
 #include "scripts/program/bench.h"
 #include "scripts/program/evaluate.h"
 #include "scripts/program/ledger.h"
@@ -106,11 +107,12 @@ nlohmann::json told(const CaseRun& run, const Options& options) {
 }
 
 /// Judges all shipped cases; those that are shown leave their files in the folder.
-void run_built_in_cases(const std::string& folder, RunRecord& run) {
+void run_built_in_cases(const Options& options, RunRecord& run) {
+  const LevelSetMakers makers = makers_of(options.cache);
   for (const std::string& name : hard_cases())
     for (Record& record : judge_case(built_in_case(name))) run.records.push_back(std::move(record));
   for (const std::string& name : shown_cases()) {
-    CaseRun done = run_case(built_in_case(name), folder, run.provenance);
+    CaseRun done = run_case(built_in_case(name, makers), options.out, run.provenance);
     run.cases.push_back(done.record);
     for (Record& record : done.findings) run.records.push_back(std::move(record));
   }
@@ -149,7 +151,7 @@ int list(const Options& options) {
 
 int simulate_case(const Options& options) {
   make_folder(options.out);
-  const Case shown = case_of_file(options.file, options.overrides);
+  const Case shown = case_of_file(options.file, options.overrides, makers_of(options.cache));
   const Scene& scene = shown.scene;
   say(fmt::format("{}: {}", scene.name, fmt::join(built_parts(scene, build_system(scene)), "; ")));
   const CaseRun run = run_case(shown, options.out, provenance(options.command));
@@ -211,7 +213,7 @@ int verify(const Options& options) {
   RunRecord run = new_run(options);
   const auto start = std::chrono::steady_clock::now();
   run_selection(select({{}, {"check", "study"}}), reference_subject(), tier_of(options), run);
-  run_built_in_cases(options.out, run);
+  run_built_in_cases(options, run);
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   rule_all_claims(run);
   run.faults = read_faults(faults_path());

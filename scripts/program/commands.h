@@ -8,6 +8,7 @@ namespace foldproof {
 int list(const Options& options);
 int simulate_case(const Options& options);
 int project_run(const Options& options);  // project_command.cpp
+int inspect(const Options& options);      // inspect_command.cpp
 int run_checks(const Options& options);
 int run_studies(const Options& options);
 int verify(const Options& options);

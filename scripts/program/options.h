@@ -15,9 +15,11 @@ struct Options {
   std::string command;  // as typed
   std::string out = "results", tier = "quick", file, rest_file;
   std::vector<std::string> names, overrides;
+  std::string cache;               // folder that keeps level sets; none if empty
   std::string map, rule = "loop";  // of project: a depth map, a rule of subdivision
   double reach = 0, eps = 0;       // of project [m]
   double deepest = std::numeric_limits<double>::quiet_NaN();  // of project [m]; NaN: the deepest in the run
+  int cells = 64;                                             // of inspect: along the longest side
   int levels = 0;                                             // of project: of subdivision
   bool json = false, quick = false, no_report = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code

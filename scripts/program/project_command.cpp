@@ -16,6 +16,7 @@
 #include "scripts/program/commands.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
+#include "scripts/program/run_case.h"
 #include "verification/stored_run_file.h"
 #include "verification/trajectory_file.h"
 
@@ -40,7 +41,7 @@ struct Source {
 
 Source source_of(const Options& options) {
   Source source;
-  source.run = read_stored_run(options.file, computing_makers());
+  source.run = read_stored_run(options.file, makers_of(options.cache));
   const Scene& scene = source.run.scene;
   for (const SceneObject& part : scene.objects) source.objects.push_back(part.object);
   if (source.objects.empty()) throw InputError(options.file + ": its case names no object to project out of");

@@ -3,9 +3,11 @@
 #include <chrono>
 #include <filesystem>
 
+#include "reference/level_set/makers.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/cases/judge.h"
+#include "verification/level_set_cache.h"
 #include "verification/trajectory_file.h"
 
 namespace foldproof {
@@ -75,8 +77,14 @@ std::vector<std::string> built_in_cases() {
   return all;
 }
 
-Case built_in_case(const std::string& name) {
-  return with_usual_expectations(case_of_file(project_folder() + "/cases/" + name + ".toml"));
+Case built_in_case(const std::string& name) { return built_in_case(name, computing_makers()); }
+
+Case built_in_case(const std::string& name, const LevelSetMakers& makers) {
+  return with_usual_expectations(case_of_file(project_folder() + "/cases/" + name + ".toml", {}, makers));
+}
+
+LevelSetMakers makers_of(const std::string& cache) {
+  return cache.empty() ? computing_makers() : caching_makers(cache, say);
 }
 
 }  // namespace foldproof

@@ -31,5 +31,9 @@ std::vector<std::string> built_in_cases();
 
 /// Reads cases/<name>.toml of the project, and adds what is expected of every shipped case.
 Case built_in_case(const std::string& name);
+Case built_in_case(const std::string& name, const LevelSetMakers& makers);
+
+/// Makers that keep level sets in a folder and say so; those that compute them if it has no name.
+LevelSetMakers makers_of(const std::string& cache);
 
 }  // namespace foldproof

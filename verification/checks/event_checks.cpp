@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/dynamics/simulate.h"
+#include "reference/mesh/shapes.h"
 #include "verification/checks/dynamics_checks.h"
 #include "verification/checks/measured.h"
 #include "verification/checks/moving_scenes.h"
@@ -119,6 +120,50 @@ Finding events_are_hit(const Subject&) {
   return measured.judged(0, "the state that ends at an event has its time to the bit");
 }
 
+/// A ball, a led cube of keyframes and a ball that deforms, far from the spring, and the times at which they jump.
+struct Movers {
+  ObjectCollision collision;
+  std::vector<double> times;  // s
+};
+
+Movers movers() {
+  Motion motion;
+  motion.velocity = Vector3(0.3, 0, 0);
+  motion.from = 0.1417;
+  motion.until = 0.5773;
+  const Vector3 away(50, 0, 0);
+  const Keyframes keys = make_keyframes({{0.0713, {}}, {0.3331, {Eigen::Quaterniond::Identity(), away}}});
+  const auto grown = [](const Vector3& X, double t) -> Vector3 { return (1 + t) * X; };
+  const MeshSequence sequence = deformed_mesh(make_icosphere(0.1, 1), grown, {0, 0.2113, 0.7177});
+  const OctreeSettings coarse{Vector3::Constant(-0.5), 1, 4, 2, 0.01, 0.1, 1, 0, HangingNodes::constrained};
+  const Pose place{Eigen::Quaterniond::Identity(), away};
+  Movers all;
+  all.collision.objects = {{"ball", RigidObject{Sphere{0.1}, place, motion}, 0},
+                           {"cube", RigidObject{Box{Vector3::Constant(0.1)}, place, keys}, 0},
+                           {"grown",
+                            DeformingObject{std::make_shared<DeformingBody>(
+                                make_deforming_body(sequence, coarse, BetweenFrames::carried))},
+                            0}};
+  all.times = {0.1417, 0.5773, 0.0713, 0.3331, 0.2113, 0.7177};
+  return all;
+}
+
+Finding object_events_are_hit(const Subject&) {
+  const Movers objects = movers();
+  System system = led_spring();
+  system.filters.push_back(objects.collision);
+  Measured measured("distance of an event from the nearest end of a step", "s");
+  for (const char* integrator : {"A", "C", "BDF2", "RK4"}) {
+    const Visited run = visited(system, integrator, {end, 0.1, {0.013, 0.5, 0.1}, 100000});
+    for (const double event : objects.times) {
+      double nearest = INFINITY;
+      for (const double time : run.times) nearest = std::min(nearest, std::abs(time - event));
+      measured.see(std::string(integrator) + ", at " + std::to_string(event) + " s", nearest);
+    }
+  }
+  return measured.judged(0, "the state that ends at an event has its time to the bit");
+}
+
 /// A motion that turns and swings, between two times of which one is a frame's, but for a rounding.
 Finding path_is_kept(const Subject&) {
   System system = led_spring();
@@ -161,6 +206,10 @@ std::vector<Check> event_checks() {
        ours, order_holds},
       {"dynamics.events-are-hit-exactly",
        "A step of the reference ends where a prescribed motion starts or stops.", ours, events_are_hit},
+      {"dynamics.events-of-objects-are-hit-exactly",
+       "A step of the reference ends where an object starts or stops, passes a keyframe or a frame of its "
+       "animation.",
+       ours, object_events_are_hit},
       {"dynamics.led-particles-rest-outside-their-time",
        "A prescribed particle rests before its motion starts, follows its path from then on, and rests after "
        "it stops; a frame at the start has the later velocity.",

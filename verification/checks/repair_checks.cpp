@@ -3,6 +3,7 @@
 
 #include "reference/level_set/closed_mesh.h"
 #include "reference/level_set/mesh_grid.h"
+#include "reference/level_set/mesh_inspection.h"
 #include "reference/level_set/ray_parity.h"
 #include "reference/level_set/repair.h"
 #include "reference/level_set/winding.h"
@@ -42,6 +43,29 @@ Finding parity_agrees(const Subject&) {
 }
 
 /// A missing triangle must show: as streaks along each axis, which two others outvote nearly everywhere.
+/// What is said of meshes whose defects are known.
+Finding inspection_tells(const Subject&) {
+  const TriangleMesh ball = make_icosphere(0.7, 3);
+  TriangleSoup whole{ball.rest, ball.triangles, {}}, open = whole, flipped = whole;
+  open.triangles.erase(open.triangles.begin());
+  std::swap(flipped.triangles[7][0], flipped.triangles[7][1]);
+  const TriangleSoup sheet{ball.rest, {ball.triangles[0]}, {}};
+  const MeshInspection a = inspect_mesh(whole, 20), b = inspect_mesh(open, 20), c = inspect_mesh(flipped, 20),
+                       d = inspect_mesh(sheet, 20);
+  const auto lacks = [](const std::string& text, const char* part) {
+    return text.find(part) == std::string::npos;
+  };
+  Measured measured("what is said wrongly", "1");
+  measured.see("a ball is a solid", !a.refusal.empty() || a.pieces != 1 || a.triangles != 1280);
+  measured.see("its volume, over 1 percent", std::abs(a.volume / (4 * EIGEN_PI / 3 * 0.343) - 1) > 0.01);
+  measured.see("no opinion differs", double(a.against_sign + a.among_rays));
+  measured.see("a hole", lacks(b.refusal, "a hole") || !b.no_repair.empty());
+  measured.see("rays differ behind it", b.among_rays > b.against_sign ? 0 : 1);
+  measured.see("a flipped triangle", lacks(c.refusal, "opposite orientation"));
+  measured.see("a triangle alone has no inside", lacks(d.no_repair, "no inside") || d.nodes != 0);
+  return measured.judged(0, "each defect must be told, and none made up");
+}
+
 Finding parity_shows_holes(const Subject&) {
   const TriangleSoup whole = statue();
   const auto grid = grid_of(whole);
@@ -198,6 +222,10 @@ std::vector<Check> repair_checks() {
        "Rays along three axes find every node on the side of its sign, through edges "
        "and vertices too.",
        "ours", parity_agrees},
+      {"level-set.inspection-tells-what-a-mesh-is",
+       "A mesh that is inspected is said to be a solid if it is, and else why not; rays are a second "
+       "opinion.",
+       "ours", inspection_tells},
       {"level-set.ray-parity-shows-holes",
        "Rays show where triangles are missing, and seldom win the vote there.", "ours", parity_shows_holes},
       {"level-set.winding-number-is-whole",

@@ -1,0 +1,11 @@
+// Findings of the study level-set-cache about the folder of level sets that a case may use.
+#pragma once
+
+#include "verification/check.h"
+
+namespace foldproof {
+
+NamedFinding runs_with_kept_level_sets_are_the_same();
+NamedFinding unfit_grids_are_refused();
+
+}  // namespace foldproof

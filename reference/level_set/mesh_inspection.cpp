@@ -1,0 +1,50 @@
+#include "reference/level_set/mesh_inspection.h"
+
+#include <algorithm>
+
+#include "reference/level_set/closed_mesh.h"
+#include "reference/level_set/ray_parity.h"
+#include "reference/level_set/repair.h"
+
+namespace foldproof {
+
+namespace {
+
+void look_for_solid(const TriangleSoup& soup, MeshInspection& found) {
+  try {
+    const TriangleMesh mesh = make_closed_mesh(soup);
+    const std::vector<int> pieces = pieces_of(mesh);
+    found.pieces = *std::max_element(pieces.begin(), pieces.end()) + 1;
+    found.volume = enclosed_volume(mesh.rest, mesh.triangles);
+  } catch (const InputError& error) {
+    found.refusal = error.what();
+  }
+}
+
+void count_nodes(const TriangleSoup& soup, const Grid& grid, MeshInspection& found) {
+  const auto parity = ray_parity(soup.rest, soup.triangles, grid.lattice);
+  const Disagreement differing = disagreement(grid, parity, 1e-6 * grid.lattice.spacing);
+  found.nodes = grid.lattice.size();
+  found.against_sign = long(differing.with_sign.size());
+  found.among_rays = long(differing.among_rays.size());
+}
+
+}  // namespace
+
+MeshInspection inspect_mesh(const TriangleSoup& soup, int cells) {
+  MeshInspection found;
+  found.vertices = long(soup.rest.cols());
+  found.triangles = long(soup.triangles.size());
+  found.bounds = bounds_of(soup.rest);
+  look_for_solid(soup, found);
+  const GridMethod method{cells, 4, 3, MarchingOrder::second};
+  try {
+    count_nodes(soup, *make_level_set(soup, method, found.refusal.empty() ? Repair::refuse : Repair::winding),
+                found);
+  } catch (const InputError& error) {
+    found.no_repair = error.what();
+  }
+  return found;
+}
+
+}  // namespace foldproof

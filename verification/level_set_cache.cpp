@@ -1,0 +1,99 @@
+#include "verification/level_set_cache.h"
+
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "reference/level_set/deforming_content.h"
+#include "reference/level_set/grid_content.h"
+#include "verification/hdf5_file.h"
+#include "verification/level_set_cache_file.h"
+#include "verification/whole_file.h"
+
+namespace foldproof {
+
+namespace {
+
+const char* const grid_format = "foldproof grid 1";
+
+void write_grid(const std::string& path, const Grid& grid, const std::string& origin) {
+  const std::string partial = path + ".partial";
+  {
+    const Hdf5 file = Hdf5::create_file(partial);
+    file.attribute("format", std::string(grid_format));
+    file.attribute("origin", origin);
+    file.attribute("content", content_key(grid));
+    const Lattice& lattice = grid.lattice;
+    file.array("nodes", {3}, lattice.nodes.data());
+    file.array("corner", {3}, lattice.origin.data()).attribute("unit", std::string("m"));
+    file.array("spacing", {1}, &lattice.spacing).attribute("unit", std::string("m"));
+    file.array("phi", {grid.phi.size()}, grid.phi.data()).attribute("unit", std::string("m"));
+  }
+  rename_when_whole(partial, path);
+}
+
+/// Throws std::runtime_error saying why the file is refused.
+std::shared_ptr<const Grid> read_grid(const std::string& path, const std::string& origin) {
+  const Hdf5 file = Hdf5::open_file(path);
+  const auto require = [&](bool is_met, const std::string& why) {
+    if (!is_met) throw std::runtime_error(path + ": " + why);
+  };
+  require(file.read_text("format") == grid_format, "it holds no grid of this version");
+  require(file.read_text("origin") == origin, "it was computed from another mesh or settings");
+  const std::vector<double> corner = file.read_doubles("corner"), spacing = file.read_doubles("spacing");
+  const std::vector<int> nodes = file.read_ints("nodes");
+  require(corner.size() == 3 && spacing.size() == 1 && nodes.size() == 3, "its lattice is not whole");
+  const Lattice lattice{{corner[0], corner[1], corner[2]}, spacing[0], {nodes[0], nodes[1], nodes[2]}};
+  auto grid = std::make_shared<const Grid>(Grid{lattice, file.read_doubles("phi")});
+  require(content_key(*grid) == file.read_text("content"), "its content is not what was written");
+  require_sound(*grid);
+  return grid;
+}
+
+/// What the file holds, or else what is made and then written; `read` throws std::runtime_error for a file that it
+/// refuses.
+template <class Read, class Make, class Write>
+auto kept(const std::string& path, const std::function<void(const std::string&)>& say, const Read& read,
+          const Make& make, const Write& write) {
+  if (std::filesystem::exists(path)) {
+    try {
+      auto loaded = read();
+      say("level sets loaded from " + path);
+      return loaded;
+    } catch (const std::runtime_error& error) {
+      say(std::string("level sets computed anew, for a file is refused: ") + error.what());
+    }
+  }
+  auto made = make();
+  write(*made);
+  say("level sets kept in " + path);
+  return made;
+}
+
+}  // namespace
+
+LevelSetMakers caching_makers(const std::string& folder, std::function<void(const std::string&)> say) {
+  std::filesystem::create_directories(folder);
+  const auto file = [folder](const std::string& key) {
+    return (std::filesystem::path(folder) / (key + ".h5")).string();
+  };
+  const LevelSetMakers compute = computing_makers();
+  return {[=](const TriangleSoup& soup, const GridMethod& method, Repair repair) {
+            const std::string origin = origin_key(soup, method, repair), path = file(origin);
+            return kept(
+                path, say, [&] { return read_grid(path, origin); },
+                [&] { return compute.make_level_set(soup, method, repair); },
+                [&](const Grid& grid) { write_grid(path, grid, origin); });
+          },
+          [=](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
+            const std::string origin = origin_key(sequence, settings), path = file(origin);
+            const auto read = [&] {
+              return std::make_shared<const DeformingBody>(read_level_sets(path, origin, settings, between));
+            };
+            return kept(
+                path, say, read, [&] { return compute.make_deforming_body(sequence, settings, between); },
+                [&](const DeformingBody& body) { write_level_sets(path, body, origin); });
+          }};
+}
+
+}  // namespace foldproof
