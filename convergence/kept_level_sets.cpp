@@ -12,7 +12,7 @@
 #include "reference/scene/scene.h"
 #include "verification/checks/scratch_folder.h"
 #include "verification/hdf5_file.h"
-#include "verification/level_set_cache.h"
+#include "verification/kept_level_sets_file.h"
 
 namespace foldproof {
 

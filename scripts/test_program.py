@@ -2,6 +2,7 @@
 """Tests of the program as a user meets it: commands, exit codes, messages, files."""
 
 import json
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -84,6 +85,29 @@ step = 0.001
         refused = run("project", stored, "--map", "blend", "--tau", "-1", "--out", str(self.path / "out"))
         self.assertEqual(refused.returncode, 2)
         self.assertIn("0 <= eps < tau", refused.stderr)
+
+    def test_a_body_of_ones_own_is_kept_deformed_and_projected_beside_its_case(self) -> None:
+        shutil.copy(ROOT / "cases/statue.obj", self.path / "body.obj")
+        text = (ROOT / "cases/deforming_body.toml").read_text().replace("statue.obj", "body.obj")
+        case = self.write("mine.toml", text)
+        options = ("--set", "time.end=0.1", "--set", "object.cells=12", "--cache", str(self.path / "kept"))
+        first, second = self.simulate(case, *options), self.simulate(case, *options)
+        self.assertIn("level sets kept in", first.stderr)
+        self.assertIn("level sets loaded from", second.stderr)
+        with h5py.File(self.path / "out/mine.h5") as file:
+            vertices = len(file["objects/0/vertices"])
+            self.assertEqual(file["objects/0/positions"].shape, (len(file["frames/time"]), vertices, 3))
+        done = run("project", str(self.path / "out/mine.h5"), "--map", "plain", "--tau", "0.01", "--out",
+                   str(self.path / "out"), folder=ROOT)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_inspect_says_what_a_mesh_is_good_for(self) -> None:
+        done = run("inspect", str(ROOT / "cases/statue.obj"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("a solid: closed, oriented, without intersections; pieces 1", done.stdout)
+        done = run("inspect", str(ROOT / "cases/skirt.obj"), "--json")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("a hole", json.loads(done.stdout)["refusal"])
 
     def test_simulate_writes_frames_at_their_times(self) -> None:
         done = self.simulate(str(ROOT / "cases/hinge.toml"), "--set", "time.end=0.25", "--json")

@@ -7,7 +7,7 @@
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/cases/judge.h"
-#include "verification/level_set_cache.h"
+#include "verification/kept_level_sets_file.h"
 #include "verification/trajectory_file.h"
 
 namespace foldproof {

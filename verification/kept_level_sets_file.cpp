@@ -1,4 +1,4 @@
-#include "verification/level_set_cache.h"
+#include "verification/kept_level_sets_file.h"
 
 #include <filesystem>
 #include <stdexcept>
