@@ -19,9 +19,8 @@ NamedFinding passes_the_bound(const Subject& subject, const DampedMotion& hinge)
       "On a hinge whose damping falls as it unfolds, scheme C overshoots by more than the way itself.",
       {{worst.value(), 1, 0, "1",
         "measured is the bound of linear motions over the farthest. C's last velocity comes from the damping "
-        "at the "
-        "step's start, explicitly, and is tamed by that at its end: (1 - a)/(1 + a') has no bound when a' < "
-        "a"},
+        "at the step's start, explicitly, and is tamed by that at its end: (1 - a)/(1 + a') has no bound "
+        "when a' < a"},
        rows.columns(),
        "Scheme B takes both at the step's ends the other way round: 1.6 ways here, see the table."}};
 }
@@ -60,12 +59,11 @@ NamedFinding passes_its_place(const Subject& subject, const DampedMotion& hinge)
       "On a hinge without stiffness, whose damping changes as it folds, fully implicit backward Euler goes "
       "farther than the exact motion by more than a tenth of the way.",
       {{worst.value(), 1, 0, "1",
-        "measured is 1.1 ways over the farthest; the damping at a step's end, where the hinge is folded farther, is "
-        "less than that on the way. Without stiffness nothing brings it back"},
+        "measured is 1.1 ways over the farthest; the damping at a step's end, where the hinge is folded "
+        "farther, is less than that on the way. Without stiffness nothing brings it back"},
        rows.columns(),
        "A solve that did not finish would count as NaN. In steps longer still the step's equation has "
-       "several "
-       "solutions, and Newton's method does not always find one: see the table."}};
+       "several solutions, and Newton's method does not always find one: see the table."}};
 }
 
 Table hinge_table(const Subject& subject, const DampedMotion& hinge) {

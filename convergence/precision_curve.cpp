@@ -13,7 +13,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double coarsest = 1. / 8;      // steps of the first run over those at the elastic limit
 constexpr double far_away = 20;          // displacement over the motion beyond which a run is stopped [1]
 constexpr int most_repeats = 4;          // of a run that is timed
-constexpr double enough_seconds = 0.02;  // after which it is not repeated
+constexpr double enough_seconds = 0.01;  // after which it is not repeated
 
 /// Processor time [s], which other programs on the machine disturb less than the clock on the wall.
 double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
@@ -47,6 +47,15 @@ int measured_runs(const PrecisionCurve& curve) {
       std::ranges::count_if(curve.runs, [](const PrecisionRun& run) { return !std::isnan(run.error); }));
 }
 
+/// The work of a run with so many steps: that of the two runs before it, continued linearly; 0 if they do not tell.
+double expected_work(const PrecisionCurve& curve, int steps) {
+  if (curve.runs.size() < 2) return 0;
+  const PrecisionRun &last = curve.runs.back(), &before = curve.runs[curve.runs.size() - 2];
+  if (last.part < 1 || before.part < 1) return 0;
+  return last.applications +
+         (last.applications - before.applications) / (last.steps - before.steps) * (steps - last.steps);
+}
+
 }  // namespace
 
 Mark mark_of(const PrecisionRun& run) {
@@ -63,9 +72,11 @@ PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& p
   double count = std::max(2., coarsest * problem.end / truth.elastic_limit);
   for (bool again = true; again; count *= problem.ratio) {
     const RunPlan plan{problem.end, int(std::lround(count)), far_away * truth.motion, problem.budget};
+    const bool is_short = plan.steps > problem.end / truth.elastic_limit;
+    if (is_short && expected_work(curve, plan.steps) > problem.budget) break;
     const auto [run, seconds] = timed(subject, scene, plan);
     if (run.ending == Ending::over_budget) {
-      if (plan.steps > problem.end / truth.elastic_limit) break;
+      if (is_short) break;
       continue;  // long steps can be dearer than short ones, for Newton's method
     }
     const double error =

@@ -32,8 +32,8 @@ constexpr double lost = 1;
 
 /// The runs of one method: from an eighth of the steps at the elastic limit on, finer by problem.ratio, until
 /// the error is a third of `finest_error` [1] and problem.least_points runs were measured, or until a run with a step
-/// below the elastic limit would exceed the problem's budget. Runs with longer steps that exceed it are left
-/// out.
+/// below the elastic limit exceeds the problem's budget, or would if work went on to grow as between the two before.
+/// Runs with longer steps that exceed it are left out.
 PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& problem,
                                const PrecisionTruth& truth, const Integrator& integrator,
                                double finest_error);

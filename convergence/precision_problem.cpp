@@ -1,5 +1,6 @@
 #include "convergence/precision_problem.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -87,16 +88,19 @@ PrecisionTruth truth_of(const Subject& subject, const PrecisionProblem& problem)
   measure_limits(subject, problem.scene, truth);
   const int at_limit = int(std::ceil(problem.end / truth.elastic_limit));
   const RunPlan second_plan{problem.end, problem.finest * at_limit, infinite, infinite};
-  const Extrapolated second = extrapolated(subject, problem.scene, integrator_named("C"), second_plan);
+  const Extrapolated second =
+      extrapolated(subject, problem.scene, integrator_named(problem.second), second_plan);
   double own = 0;
   if (problem.first == FirstOpinion::oracle) {
     const ExactEnd exact = exact_end(problem.scene, oracle_of(problem.scene), problem.end, oracle_tolerance);
     truth.x = exact.state.x;
     own = exact.uncertainty;
   } else {
-    // RK4 is stable for damping rates up to 2.785/h; start from 2/h, since rates change along the motion
+    // of fourth order, RK4 needs fewer steps; it is stable for damping rates up to 2.785/h: start from 2/h, since rates
+    // change along the motion
     RunPlan plan = second_plan;
-    plan.steps = std::max(4 * at_limit, int(std::ceil(problem.end / truth.damping_2_over)));
+    plan.steps = std::max(
+        {problem.finest * at_limit / 2, at_limit, int(std::ceil(problem.end / truth.damping_2_over))});
     const Extrapolated first = extrapolated(subject, problem.scene, integrator_named("RK4"), plan);
     truth.x = first.x;
     own = first.correction;

@@ -10,7 +10,7 @@
 namespace foldproof {
 
 /// Who says first where the motion ends. oracle: GSL, which shares no formula with the solver; runge_kutta:
-/// extrapolated RK4, for meshes on which the oracle would take minutes. Extrapolated scheme C is always second.
+/// extrapolated RK4, for meshes on which the oracle would take minutes.
 enum class FirstOpinion { oracle, runge_kutta };
 
 struct PrecisionProblem {
@@ -19,9 +19,10 @@ struct PrecisionProblem {
   Scene scene;        // its integrator is replaced by each of the table
   double end;         // s
   FirstOpinion first;
+  std::string second;  // the scheme whose extrapolation is the second opinion
   double ratio;      // of the numbers of steps of neighbouring runs, > 1
   int least_points;  // measured runs of a curve before it may end
-  int finest;        // steps of the reference runs over those at the elastic limit
+  int finest;        // steps of the second opinion's coarser run over those at the elastic limit
   double budget;     // largest work of one judged run [operator applications]
 };
 
@@ -60,7 +61,7 @@ double operator_applications(const Work& work);
 /// Runs the scene with its integrator. NaN, a lost element or a particle beyond farthest is divergence.
 PlannedRun run_planned(const Subject& subject, const Scene& scene, const RunPlan& plan);
 
-/// Both opinions; may take seconds.
+/// Both opinions; may take a second.
 PrecisionTruth truth_of(const Subject& subject, const PrecisionProblem& problem);
 
 /// Largest difference of two ends, of any component [m]; NaN stays NaN.

@@ -79,8 +79,7 @@ NamedFinding as_derived(const Convergence& errors, const Creeping& motion) {
         {"derived", "1", derived},
         {"order of the pair", "1", orders}},
        "measured is the largest relative deviation from the derived error, (k/c)^2 (h/2) a/(1 + a) with a = "
-       "h c/2: "
-       "of first order in h for a above one, of second below"}};
+       "h c/2: of first order in h for a above one, of second below"}};
 }
 
 NamedFinding keeps_its_order(const Convergence& errors, const Creeping& motion) {
@@ -107,8 +106,7 @@ void add_slow_motion(const Subject& subject, StudyResult& result) {
       {"relative error of the rate", "1", Scale::log},
       nan,
       "An oscillator with a damping ratio of 20 creeps home; the rate under each scheme against the exact "
-      "one. "
-      "C moves with a velocity that belongs to the start of the step once the damping is not resolved.",
+      "one. C moves with a velocity that belongs to the start of the step once the damping is not resolved.",
       {}};
   const Creeping motion = creeping(hinge_oscillator(zeta).omega0);
   for (const std::string scheme : {"A", "B", "C"}) {

@@ -27,6 +27,7 @@ PrecisionProblem damped_sheet(Tier tier) {
           hanging_sheet(cells, relaxation),
           0.25,
           FirstOpinion::runge_kutta,
+          "C",
           2,
           2,
           16,

@@ -21,8 +21,9 @@ NamedFinding reference_is_known(const PrecisionScene& scene) {
           {verdict,
            {{"largest motion", "m", std::vector<double>{scene.truth.motion}},
             {"disagreement and own uncertainty", "1", std::vector<double>{scene.truth.uncertainty}}},
-           scene.problem.first == FirstOpinion::oracle ? "GSL and extrapolated scheme C"
-                                                       : "extrapolated RK4 and extrapolated scheme C"}};
+           (scene.problem.first == FirstOpinion::oracle ? "GSL and extrapolated scheme "
+                                                        : "extrapolated RK4 and extrapolated scheme ") +
+               scene.problem.second}};
 }
 
 /// By what an error shrinks when the step is halved, from a pair of runs.
@@ -152,8 +153,7 @@ NamedFinding within_the_limit(const PrecisionScene& scene) {
           "known.",
       {{worst.value(), scene.problem.ratio, 0, "1",
         "beyond 2/omega the fastest mode grows only by about (h^2 omega^2/2 - 2)/a a step, a = h c/2, and a "
-        "step "
-        "is known only to the ratio of neighbouring runs"},
+        "step is known only to the ratio of neighbouring runs"},
        {{"error", "1", std::vector<double>(wanted_errors.begin(), wanted_errors.end())},
         {"largest step of B", "s", steps},
         {"growth of the fastest mode in the run", "1", growths}},
@@ -171,8 +171,7 @@ NamedFinding C_needs_shorter_steps(const PrecisionScene& scene) {
        {{"largest step of C", "s", std::vector<double>{step_of(scene, "C", error)}},
         {"largest step of B", "s", std::vector<double>{step_of(scene, "B", error)}}},
        "measured is the ratio of the steps. Where h c is large, C moves positions by h F/c of the step's "
-       "start: "
-       "its error falls with the first power of h until h c is small"}};
+       "start: its error falls with the first power of h until h c is small"}};
 }
 
 /// C's solves over A's at equal numbers of steps.

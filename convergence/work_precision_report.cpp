@@ -48,10 +48,8 @@ Curve drawn(const PrecisionScene& scene, const PrecisionCurve& curve, const Cost
 
 const char* const caption =
     "Largest position error at the end over the largest motion. In the strip at the top: runs that diverged "
-    "or err by "
-    "more than the motion, where all of their steps would have cost as much as those that they took. The "
-    "floor is the "
-    "uncertainty of the reference solution; runs below it are faint.";
+    "or err by more than the motion, where all of their steps would have cost as much as those that they "
+    "took. The floor is the uncertainty of the reference solution; runs below it are faint.";
 
 /// A cost that two methods are compared by.
 struct Currency {

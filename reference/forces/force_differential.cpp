@@ -18,7 +18,8 @@ void add_hinges(const std::vector<HingeStiffness>& hinges, const PerParticle3& d
   for (const HingeStiffness& h : hinges) {
     Vector12 moved;
     for (int k = 0; k < 4; ++k) moved.segment<3>(3 * k) = dx.col(h.particles[size_t(k)]);
-    const Vector12 change = h.block * moved;
+    const Vector12 change =
+        h.block.lazyProduct(moved);  // in place: Eigen's general product is for larger matrices
     for (int k = 0; k < 4; ++k) df.col(h.particles[size_t(k)]) += change.segment<3>(3 * k);
   }
 }
