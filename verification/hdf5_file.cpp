@@ -2,6 +2,7 @@
 
 #include <hdf5.h>
 
+#include <mutex>
 #include <stdexcept>
 #include <type_traits>
 
@@ -12,6 +13,9 @@ static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int>
 static_assert(std::is_same_v<hsize_t, Shape::value_type>);
 
 namespace {
+
+/// The library serves one thread at a time: whatever calls it holds this.
+std::recursive_mutex library;
 
 void succeed(herr_t result, const std::string& what) {
   if (result < 0) throw std::runtime_error("HDF5: cannot write " + what);
@@ -82,6 +86,7 @@ std::vector<const char*> pointers(const std::vector<std::string>& texts) {
 
 /// The identifier of a new, empty dataset that can grow along its first dimension.
 hid_t growing(hid_t parent, const std::string& name, const Shape& row) {
+  const std::lock_guard held(library);
   Shape start = row, most = row, chunk = row;
   start.insert(start.begin(), 0);
   most.insert(most.begin(), H5S_UNLIMITED);
@@ -127,10 +132,12 @@ Hdf5::Hdf5(std::int64_t id, int (*close)(std::int64_t), const std::string& what)
 }
 
 Hdf5::~Hdf5() {
+  const std::lock_guard held(library);
   if (id_ >= 0) close_(id_);
 }
 
 Hdf5 Hdf5::create_file(const std::string& path) {
+  const std::lock_guard held(library);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   if (file < 0) throw std::runtime_error(path + ": cannot be written; is the folder there and writable?");
@@ -138,51 +145,62 @@ Hdf5 Hdf5::create_file(const std::string& path) {
 }
 
 Hdf5 Hdf5::group(const std::string& name) const {
+  const std::lock_guard held(library);
   return {H5Gcreate2(id_, without_slash(name).c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
           name};
 }
 
 void Hdf5::attribute(const std::string& name, const std::string& value) const {
+  const std::lock_guard held(library);
   const char* text = value.c_str();
   write_attribute(id_, name, text_type(), {}, &text);
 }
 
 void Hdf5::attribute(const std::string& name, double value) const {
+  const std::lock_guard held(library);
   write_attribute(id_, name, H5T_NATIVE_DOUBLE, {}, &value);
 }
 
 void Hdf5::attribute(const std::string& name, int value) const {
+  const std::lock_guard held(library);
   write_attribute(id_, name, H5T_NATIVE_INT, {}, &value);
 }
 
 void Hdf5::attribute(const std::string& name, const std::vector<std::string>& values) const {
+  const std::lock_guard held(library);
   if (values.empty()) return;  // HDF5 1.10 has no empty simple attribute of texts; absent means none
   write_attribute(id_, name, text_type(), {values.size()}, pointers(values).data());
 }
 
 Hdf5 Hdf5::dataset(const std::string& name, const std::vector<double>& values) const {
+  const std::lock_guard held(library);
   return array(name, {values.size()}, values.empty() ? nullptr : values.data());
 }
 
 Hdf5 Hdf5::dataset(const std::string& name, const std::vector<std::string>& values) const {
+  const std::lock_guard held(library);
   const std::vector<const char*> texts = pointers(values);
   return {written(id_, name, text_type(), {texts.size()}, texts.empty() ? nullptr : texts.data()), H5Dclose,
           name};
 }
 
 Hdf5 Hdf5::array(const std::string& name, const Shape& shape, const double* values) const {
+  const std::lock_guard held(library);
   return {written(id_, name, H5T_NATIVE_DOUBLE, shape, values), H5Dclose, name};
 }
 
 Hdf5 Hdf5::array(const std::string& name, const Shape& shape, const int* values) const {
+  const std::lock_guard held(library);
   return {written(id_, name, H5T_NATIVE_INT, shape, values), H5Dclose, name};
 }
 
 Hdf5 Hdf5::array(const std::string& name, const Shape& shape, const unsigned char* values) const {
+  const std::lock_guard held(library);
   return {written(id_, name, H5T_NATIVE_UCHAR, shape, values), H5Dclose, name};
 }
 
 Hdf5 Hdf5::open_file(const std::string& path) {
+  const std::lock_guard held(library);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   found(file >= 0, path + "; is it there, and a whole HDF5 file?");
@@ -190,12 +208,14 @@ Hdf5 Hdf5::open_file(const std::string& path) {
 }
 
 Hdf5 Hdf5::open_group(const std::string& name) const {
+  const std::lock_guard held(library);
   const hid_t group = H5Gopen2(id_, without_slash(name).c_str(), H5P_DEFAULT);
   found(group >= 0, name);
   return {group, H5Gclose, name};
 }
 
 std::string Hdf5::read_text(const std::string& attribute) const {
+  const std::lock_guard held(library);
   const hid_t id = H5Aopen(id_, attribute.c_str(), H5P_DEFAULT);
   found(id >= 0, attribute);
   const Handle open(id, H5Aclose);
@@ -207,27 +227,35 @@ std::string Hdf5::read_text(const std::string& attribute) const {
 }
 
 std::vector<double> Hdf5::read_doubles(const std::string& dataset) const {
+  const std::lock_guard held(library);
   return read_values<double>(id_, without_slash(dataset), H5T_NATIVE_DOUBLE);
 }
 
 std::vector<int> Hdf5::read_ints(const std::string& dataset) const {
+  const std::lock_guard held(library);
   return read_values<int>(id_, without_slash(dataset), H5T_NATIVE_INT);
 }
 
 Shape Hdf5::shape_of(const std::string& dataset) const {
+  const std::lock_guard held(library);
   const Handle set = opened(id_, without_slash(dataset));
   return shape_of_space(Handle(H5Dget_space(set), H5Sclose));
 }
 
-void Hdf5::flush() const { succeed(H5Fflush(id_, H5F_SCOPE_LOCAL), "what was buffered"); }
+void Hdf5::flush() const {
+  const std::lock_guard held(library);
+  succeed(H5Fflush(id_, H5F_SCOPE_LOCAL), "what was buffered");
+}
 
 GrowingDataset::GrowingDataset(const Hdf5& parent, const std::string& name, const std::string& unit,
                                Shape row)
     : row_(std::move(row)), set_(growing(parent.id_, name, row_), H5Dclose, name), name_(name) {
+  const std::lock_guard held(library);
   set_.attribute("unit", unit);
 }
 
 void GrowingDataset::add(const double* row) {
+  const std::lock_guard held(library);
   Shape size = row_, start(row_.size() + 1, 0), count = row_;
   size.insert(size.begin(), length_ + 1);
   count.insert(count.begin(), 1);

@@ -107,15 +107,26 @@ nlohmann::json told(const CaseRun& run, const Options& options) {
 }
 
 /// Judges all shipped cases; those that are shown leave their files in the folder.
-void run_built_in_cases(const Options& options, RunRecord& run) {
+std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance& provenance) {
+  constexpr double length = 60;
   const LevelSetMakers makers = makers_of(options.cache);
+  std::vector<Job> jobs;
   for (const std::string& name : hard_cases())
-    for (Record& record : judge_case(built_in_case(name))) run.records.push_back(std::move(record));
-  for (const std::string& name : shown_cases()) {
-    CaseRun done = run_case(built_in_case(name, makers), options.out, run.provenance);
-    run.cases.push_back(done.record);
-    for (Record& record : done.findings) run.records.push_back(std::move(record));
-  }
+    jobs.push_back({length, false, [name](const Progress& progress) {
+                      RunRecord part;
+                      part.records = judge_case(built_in_case(name), progress);
+                      return part;
+                    }});
+  for (const std::string& name : shown_cases())
+    jobs.push_back(
+        {length, false, [name, makers, folder = options.out, provenance](const Progress& progress) {
+           CaseRun done = run_case(built_in_case(name, makers), folder, provenance, progress);
+           RunRecord part;
+           part.cases = {done.record};
+           part.records = std::move(done.findings);
+           return part;
+         }});
+  return jobs;
 }
 
 }  // namespace
@@ -154,7 +165,9 @@ int simulate_case(const Options& options) {
   const Case shown = case_of_file(options.file, options.overrides, makers_of(options.cache));
   const Scene& scene = shown.scene;
   say(fmt::format("{}: {}", scene.name, fmt::join(built_parts(scene, build_system(scene)), "; ")));
-  const CaseRun run = run_case(shown, options.out, provenance(options.command));
+  ProgressLine line("simulate " + scene.name);
+  const CaseRun run =
+      run_case(shown, options.out, provenance(options.command), [&](double part) { line.show(part); });
   const Work& work = run.outcome.work;
   RunRecord expected;
   expected.records = run.findings;
@@ -212,8 +225,10 @@ int verify(const Options& options) {
   make_folder(options.out);
   RunRecord run = new_run(options);
   const auto start = std::chrono::steady_clock::now();
-  run_selection(select({{}, {"check", "study"}}), reference_subject(), tier_of(options), run);
-  run_built_in_cases(options, run);
+  const Subject subject = reference_subject();
+  std::vector<Job> jobs = jobs_of(select({{}, {"check", "study"}}), subject, tier_of(options));
+  for (Job& job : jobs_of_built_in_cases(options, run.provenance)) jobs.push_back(std::move(job));
+  run_jobs(jobs, "checks, studies and cases", run);
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   rule_all_claims(run);
   run.faults = read_faults(faults_path());

@@ -77,23 +77,46 @@ bool add_cases(const std::string& name, Selection& selection) {
   return found;
 }
 
-void say_unless_it_holds(const Record& record) {
-  if (record.outcome == "holds") return;
-  const Verdict& v = record.finding.verdict;
-  say(fmt::format("  {}: {} (measured {:.4g}, bound {:.4g} {}) {}", record.outcome, record.name, v.measured,
-                  v.bound, v.unit, record.finding.note));
+/// Of the records those that are wanted: all, if none is named, and always that of `name` itself.
+std::vector<Record> wanted_of(std::vector<Record> records, const std::vector<std::string>& wanted,
+                              const std::string& name) {
+  std::erase_if(records, [&](const Record& record) {
+    const auto chosen = [&](const std::string& one) { return chooses(one, record.name); };
+    return !wanted.empty() && record.name != name && std::ranges::none_of(wanted, chosen);
+  });
+  return records;
 }
 
-/// Adds to the run the records that are wanted: all, if none is named, and always that of `name` itself.
-void add_wanted(std::vector<Record> records, const std::vector<std::string>& wanted, const std::string& name,
-                RunRecord& run) {
-  for (Record& record : records) {
-    const auto chosen = [&](const std::string& one) { return chooses(one, record.name); };
-    if (!wanted.empty() && record.name != name && std::none_of(wanted.begin(), wanted.end(), chosen))
-      continue;
-    say_unless_it_holds(record);
-    run.records.push_back(std::move(record));
-  }
+/// What measures seconds: it has the machine for itself.
+const std::vector<std::string> timed = {"solver.cached-terms-save-time", "work-precision", "level-set-cache",
+                                        "level-set-resolution", "octree-memory"};
+
+bool is_timed(const std::string& name) { return std::ranges::find(timed, name) != timed.end(); }
+
+Job job_of(const Check& check, const Subject& subject) {
+  return {1, is_timed(check.name), [check, &subject](const Progress&) {
+            RunRecord part;
+            part.records = {run_check(check, subject)};
+            return part;
+          }};
+}
+
+Job job_of(const Study& study, const Subject& subject, Tier tier, const std::vector<std::string>& wanted) {
+  return {30, is_timed(study.name), [study, &subject, tier, wanted](const Progress& progress) {
+            auto [records, whole] = run_study(study, subject, tier, progress);
+            RunRecord part;
+            part.records = wanted_of(std::move(records), wanted, study.name);
+            part.studies = {std::move(whole)};
+            return part;
+          }};
+}
+
+Job job_of(const Case& shown, const std::vector<std::string>& wanted) {
+  return {60, false, [shown, wanted](const Progress& progress) {
+            RunRecord part;
+            part.records = wanted_of(judge_case(shown, progress), wanted, "");
+            return part;
+          }};
 }
 
 }  // namespace
@@ -112,24 +135,18 @@ Selection select(const Wanted& wanted) {
   return selection;
 }
 
+std::vector<Job> jobs_of(const Selection& selection, const Subject& subject, Tier tier) {
+  std::vector<Job> jobs;
+  for (const Check& check : selection.checks) jobs.push_back(job_of(check, subject));
+  for (const Study& study : selection.studies)
+    jobs.push_back(job_of(study, subject, tier, selection.findings));
+  for (const Case& shown : selection.cases) jobs.push_back(job_of(shown, selection.findings));
+  return jobs;
+}
+
 void run_selection(const Selection& selection, const Subject& subject, Tier tier, RunRecord& run) {
-  ProgressLine progress(selection.studies.empty() ? "checks" : "checks and studies");
-  const double parts =
-      double(selection.checks.size()) + 30 * double(selection.studies.size());  // a study is longer
-  double done = 0;
-  for (const Check& check : selection.checks) {
-    run.records.push_back(run_check(check, subject));
-    say_unless_it_holds(run.records.back());
-    progress.show(++done / parts);
-  }
-  for (const Study& study : selection.studies) {
-    auto [records, whole] =
-        run_study(study, subject, tier, [&](double part) { progress.show((done + 30 * part) / parts); });
-    done += 30;
-    add_wanted(std::move(records), selection.findings, study.name, run);
-    run.studies.push_back(std::move(whole));
-  }
-  for (const Case& shown : selection.cases) add_wanted(judge_case(shown), selection.findings, "", run);
+  run_jobs(jobs_of(selection, subject, tier), selection.studies.empty() ? "checks" : "checks and studies",
+           run);
   for (const std::string& name : selection.findings)
     if (std::none_of(run.records.begin(), run.records.end(),
                      [&](const Record& r) { return chooses(name, r.name) || r.outcome == "fails"; }))

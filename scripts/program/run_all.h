@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scripts/program/jobs.h"
 #include "verification/cases/expectations.h"
 #include "verification/check.h"
 #include "verification/results_file.h"
@@ -28,6 +29,9 @@ struct Wanted {
   std::vector<std::string> kinds;  // of "check", "study": what a missing name stands for
 };
 Selection select(const Wanted& wanted);
+
+/// A job for each check, study and case of the selection. The subject must outlive them.
+std::vector<Job> jobs_of(const Selection& selection, const Subject& subject, Tier tier);
 
 /// Runs the selection with progress, adds to the run, and says a line about each that does not hold.
 void run_selection(const Selection& selection, const Subject& subject, Tier tier, RunRecord& run);

@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "reference/level_set/makers.h"
-#include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/cases/judge.h"
 #include "verification/kept_level_sets_file.h"
@@ -15,9 +14,9 @@ namespace foldproof {
 namespace {
 
 /// Runs the case; `also` watches beside the judge.
-std::vector<Record> judged_run(const Case& shown, const Observer& also, Outcome& outcome) {
+std::vector<Record> judged_run(const Case& shown, const Observer& also, const Progress& progress,
+                               Outcome& outcome) {
   const Scene& scene = shown.scene;
-  ProgressLine progress("simulate " + scene.name);
   CaseJudge judge(shown);
   const Observer observer{[&](const State& s) {
                             judge.enter(s);
@@ -26,7 +25,7 @@ std::vector<Record> judged_run(const Case& shown, const Observer& also, Outcome&
                           [&](const Diagnostics& row) {
                             judge.enter(row);
                             if (also.step) also.step(row);
-                            progress.show(row.time / scene.schedule.end);
+                            progress(row.time / scene.schedule.end);
                           }};
   outcome = simulate(build_system(scene), integrator_named(scene.integrator), start_state(scene),
                      scene.schedule, observer);
@@ -35,7 +34,8 @@ std::vector<Record> judged_run(const Case& shown, const Observer& also, Outcome&
 
 }  // namespace
 
-CaseRun run_case(const Case& shown, const std::string& folder, const Provenance& provenance) {
+CaseRun run_case(const Case& shown, const std::string& folder, const Provenance& provenance,
+                 const Progress& progress) {
   const Scene& scene = shown.scene;
   const std::string file = scene.name + ".h5";
   TrajectoryFile trajectory((std::filesystem::path(folder) / file).string(), scene, build_system(scene),
@@ -45,7 +45,7 @@ CaseRun run_case(const Case& shown, const std::string& folder, const Provenance&
   run.findings = judged_run(shown,
                             {[&](const State& s) { trajectory.add_frame(s); },
                              [&](const Diagnostics& row) { trajectory.add_diagnostics(row); }},
-                            run.outcome);
+                            progress, run.outcome);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   run.record = {scene.name,  file,    scene.title,
                 scene.about, seconds, run.outcome.stop ? described(*run.outcome.stop) : ""};
@@ -53,9 +53,9 @@ CaseRun run_case(const Case& shown, const std::string& folder, const Provenance&
   return run;
 }
 
-std::vector<Record> judge_case(const Case& shown) {
+std::vector<Record> judge_case(const Case& shown, const Progress& progress) {
   Outcome outcome;
-  return judged_run(shown, {}, outcome);
+  return judged_run(shown, {}, progress, outcome);
 }
 
 std::vector<std::string> shown_cases() {

@@ -15,11 +15,12 @@ struct CaseRun {
   Outcome outcome;
 };
 
-/// Simulates the case with progress shown and writes <folder>/<name>.h5 and .xdmf.
-CaseRun run_case(const Case& shown, const std::string& folder, const Provenance& provenance);
+/// Simulates the case and writes <folder>/<name>.h5 and .xdmf.
+CaseRun run_case(const Case& shown, const std::string& folder, const Provenance& provenance,
+                 const Progress& progress);
 
 /// The same without files: what is expected, judged.
-std::vector<Record> judge_case(const Case& shown);
+std::vector<Record> judge_case(const Case& shown, const Progress& progress);
 
 /// The cases that `verify` runs, cases/<name>.toml of the project: those that it shows, and those at the edge
 /// of what the method takes, which it only judges.

@@ -1,0 +1,107 @@
+#include "scripts/program/jobs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <iterator>
+#include <mutex>
+#include <numeric>
+#include <thread>
+
+#include "scripts/program/progress.h"
+
+namespace foldproof {
+
+namespace {
+
+void say_unless_it_holds(const Record& record) {
+  if (record.outcome == "holds") return;
+  const Verdict& v = record.finding.verdict;
+  say(fmt::format("  {}: {} (measured {:.4g}, bound {:.4g} {}) {}", record.outcome, record.name, v.measured,
+                  v.bound, v.unit, record.finding.note));
+}
+
+template <class T>
+void append(std::vector<T>& from, std::vector<T>& to) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+/// The jobs that wait, and what came of those that are done. Shared by all threads.
+class Queue {
+ public:
+  Queue(const std::vector<Job>& jobs, const std::string& label)
+      : jobs_(jobs), done_(jobs.size()), parts_(jobs.size()), progress_(label) {
+    waiting_.resize(jobs.size());
+    std::iota(waiting_.begin(), waiting_.end(), size_t(0));
+    std::ranges::stable_sort(waiting_, {}, [&](size_t i) { return jobs[i].length; });  // the longest last
+    for (const Job& job : jobs) whole_ += job.length;
+  }
+
+  /// Takes jobs of one kind until none is left.
+  void work(bool is_timed) {
+    for (size_t i = 0; take(is_timed, i);) {
+      try {
+        parts_[i] = jobs_[i].run([&, i](double part) { show(i, part); });
+      } catch (...) {
+        const std::lock_guard held(mutex_);
+        if (!error_) error_ = std::current_exception();
+      }
+      show(i, 1);
+      const std::lock_guard held(mutex_);
+      for (const Record& record : parts_[i].records) say_unless_it_holds(record);
+    }
+  }
+
+  void gather(RunRecord& run) {
+    if (error_) std::rethrow_exception(error_);
+    for (RunRecord& part : parts_) {
+      append(part.records, run.records);
+      append(part.studies, run.studies);
+      append(part.cases, run.cases);
+    }
+  }
+
+ private:
+  bool take(bool is_timed, size_t& i) {
+    const std::lock_guard held(mutex_);
+    const auto last = std::ranges::find_if(waiting_.rbegin(), waiting_.rend(),
+                                           [&](size_t job) { return jobs_[job].is_timed == is_timed; });
+    if (last == waiting_.rend()) return false;
+    i = *last;
+    waiting_.erase(std::next(last).base());
+    return true;
+  }
+
+  void show(size_t i, double part) {
+    const std::lock_guard held(mutex_);
+    total_ += jobs_[i].length * (part - done_[i]);
+    done_[i] = part;
+    progress_.show(total_ / whole_);
+  }
+
+  const std::vector<Job>& jobs_;
+  std::mutex mutex_;
+  std::vector<size_t> waiting_;
+  std::vector<double> done_;  // the part of each job
+  std::vector<RunRecord> parts_;
+  std::exception_ptr error_;
+  double whole_ = 0, total_ = 0;
+  ProgressLine progress_;
+};
+
+}  // namespace
+
+void run_jobs(const std::vector<Job>& jobs, const std::string& label, RunRecord& run) {
+  Queue queue(jobs, label);
+  {
+    std::vector<std::jthread> others;
+    for (unsigned k = 1; k < std::min<size_t>(std::thread::hardware_concurrency(), jobs.size()); ++k)
+      others.emplace_back([&] { queue.work(false); });
+    queue.work(false);
+  }
+  queue.work(true);
+  queue.gather(run);
+}
+
+}  // namespace foldproof
