@@ -102,8 +102,7 @@ NamedFinding order_of_loss(const VibratingSheet& sheet, const Response& response
           "Under " + law.name + " undamped vibrations " + law.words + ".",
           {{deviation.value, 0.25, deviation.uncertainty, "1",
             "a loss of another power of the step is off by 2 (by 1 at least); at omega h = 1/8 the next term "
-            "of the "
-            "expansion leaves some hundredths"},
+            "of the expansion leaves some hundredths"},
            {{"step", "s", losses.steps},
             {"|change of amplitude per period|", "1", losses.errors},
             {"order of the pair", "1", orders}},
@@ -205,10 +204,8 @@ Study artificial_damping() {
           "more.",
           "BMF03 section 3",
           "All vibrations of a flat, free sheet are excited at once, and what a step of each method makes of "
-          "each of "
-          "them is held against the factor derived from the method. Then a crumpling sheet vibrates for a "
-          "hundred "
-          "periods of its slowest mode: does its energy have a trend?",
+          "each of them is held against the factor derived from the method. Then a crumpling sheet vibrates "
+          "for a hundred periods of its slowest mode: does its energy have a trend?",
           run};
 }
 

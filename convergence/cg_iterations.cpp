@@ -243,14 +243,12 @@ StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
 Study cg_iterations() {
   return {"cg-iterations",
           "A solve for the implicit velocity takes fewer than ten iterations of conjugate gradients in a "
-          "typical setting, and no more on a "
-          "finer mesh.",
+          "typical setting, and no more on a finer mesh.",
           "BMF03 section 3",
           "A hanging sheet moves with waves and noise. Solves are counted under schemes A and B, each of "
-          "which has one a step; C has both. "
-          "Tolerance, damping, step and mesh size are varied one at a time. The damping ratio is zeta = "
-          "(damping/stiffness) omega/2, for "
-          "springs kd_s/Y and for hinges kd |E|/(ke c/2), with omega from the elastic limit of the step.",
+          "which has one a step; C has both. Tolerance, damping, step and mesh size are varied one at a "
+          "time. The damping ratio is zeta = (damping/stiffness) omega/2, for springs kd_s/Y and for hinges "
+          "kd |E|/(ke c/2), with omega from the elastic limit of the step.",
           run};
 }
 

@@ -169,14 +169,12 @@ StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
 Study elastic_limit_study() {
   return {"elastic-limit",
           "The largest stable step of undamped motion is 2/omega for schemes A, B and C; it is proportional "
-          "to the cells' width where "
-          "springs dominate, and to its square where bending does.",
+          "to the cells' width where springs dominate, and to its square where bending does.",
           "BMF03 section 3",
           "A flat, free, undamped sheet is disturbed a little. Its fastest mode is found by power iteration "
-          "on the elastic forces, the "
-          "largest stable step of each scheme by bisection on runs that stay bounded or do not. The paper "
-          "gives the limit as "
-          "proportional to the width; hinges alone make it fall with the square.",
+          "on the elastic forces, the largest stable step of each scheme by bisection on runs that stay "
+          "bounded or do not. The paper gives the limit as proportional to the width; hinges alone make it "
+          "fall with the square.",
           run};
 }
 

@@ -147,8 +147,7 @@ NamedFinding excess_stays(const Row& row) {
             {"D/ke, forced, mean", "1", values},
             {"standard error", "1", errors}},
            "measured is the last change over the excess, NaN without one; the uncertainty is the standard "
-           "error of the means "
-           "over meshes"}};
+           "error of the means over meshes"}};
 }
 
 void show(const std::vector<Row>& rows, StudyResult& result) {

@@ -77,8 +77,7 @@ NamedFinding loading_is_cheap(const Costs& costs) {
           "Loading takes a tenth of the time of computing, or less.",
           {{costs.load / costs.build, 0.1, 0, "1",
             "a tenth: with it ten runs cost about one computation more than the first; measured in processor "
-            "time, "
-            "which other programs on the machine do not lengthen much"},
+            "time, which other programs on the machine do not lengthen much"},
            {{"computing", "s", std::vector<double>{costs.build}},
             {"loading", "s", std::vector<double>{costs.load}},
             {"file", "MB", std::vector<double>{costs.megabytes}}},
@@ -194,8 +193,7 @@ StudyResult run(const Subject&, Tier, const Progress& progress) {
 Study level_set_cache() {
   return {"level-set-cache", "Level sets computed beforehand serve many runs.", "BMF03 section 5.1",
           "A whole animation's level sets are stored in a file with the key of what they were computed from. "
-          "What does "
-          "a second run pay, and can it be fooled?",
+          "What does a second run pay, and can it be fooled?",
           run};
 }
 

@@ -197,8 +197,7 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
        "With the crude start normals at the surface do not get better on finer grids.",
        {{std::abs(std::log2(kept)), 0.5, 0, "1",
          "a staircase has the same angles at every size; over the grids compared an error of O(h) would fall "
-         "by a factor of "
-         "four, 2 in this measure"},
+         "by a factor of four, 2 in this measure"},
         columns_of(angle, "degrees"),
         "measured is |log2| of the mean angle on the finest grid over that on the coarsest"}});
   const Convergence cured = against_h(exact, &ContourErrors::worst_angle);
@@ -238,16 +237,12 @@ StudyResult run(const Subject&, Tier tier, const Progress& progress) {
 Study level_set_resolution() {
   return {"level-set-resolution",
           "From exact values next to the surface second-order marching gives the distance to O(h^2); the "
-          "paper's crude start "
-          "gives it to O(h), with normals that stay wrong.",
+          "paper's crude start gives it to O(h), with normals that stay wrong.",
           "BMF03 section 5.1",
           "How fine must a grid be, and what does the start cost? Bodies whose distance is known in closed "
-          "form are put on "
-          "grids whose spacing is halved. Measured are the distance at the nodes after fast marching of both "
-          "orders, what "
-          "trilinear interpolation and two kinds of gradients add between exact nodes, and the surface and "
-          "the normals that a "
-          "start from sides alone leaves behind.",
+          "form are put on grids whose spacing is halved. Measured are the distance at the nodes after fast "
+          "marching of both orders, what trilinear interpolation and two kinds of gradients add between "
+          "exact nodes, and the surface and the normals that a start from sides alone leaves behind.",
           run};
 }
 

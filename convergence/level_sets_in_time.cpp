@@ -165,8 +165,7 @@ Figure figure_of(const std::vector<Pair>& pairs) {
           {"largest miss of phi", "m", Scale::log},
           2,
           "Within 2 cm of the surface, at the time in the middle of the two frames, against the exact "
-          "distance to the "
-          "mesh as it is then. The floor is the octrees' tolerance.",
+          "distance to the mesh as it is then. The floor is the octrees' tolerance.",
           {{"blended at the point", x, column(pairs, &Pair::blended), tolerance,
             pair_orders(convergence_of(pairs, &Pair::blended))},
            {"carried along", x, column(pairs, &Pair::carried), tolerance,
@@ -211,8 +210,7 @@ Study level_sets_in_time() {
           "Stored level sets of a deforming body, interpolated in time, converge to the body.",
           "BMF03 section 5.1",
           "How many frames must be stored? A body deforms smoothly; two frames of it lie about one time, "
-          "ever closer, "
-          "and phi between them is held against the exact distance to the mesh at that time.",
+          "ever closer, and phi between them is held against the exact distance to the mesh at that time.",
           run};
 }
 

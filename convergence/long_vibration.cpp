@@ -150,8 +150,7 @@ NamedFinding has_no_trend(const Run& run) {
               run.method + ": its slope is zero within three standard errors.",
           {{std::abs(trend.slope) / trend.error, 3, 0, "standard errors",
             "20 blocks of five periods, their spread corrected for what neighbours have in common: without a "
-            "trend "
-            "three standard errors are exceeded once in a hundred runs"},
+            "trend three standard errors are exceeded once in a hundred runs"},
            {{"block", "periods", trend.times}, {"mean energy", "of the start's", trend.means}},
            "The slope is " + std::to_string(trend.slope * periods) + " +- " +
                std::to_string(trend.error * periods) +
@@ -171,8 +170,7 @@ NamedFinding stays_bounded(const Run& run) {
           run.method + ".",
       {{run.whole ? worst.value() : nan, -std::log(kept), 0, "|ln(energy/start)|",
         "a linear mode's energy lies between 1 and 1 - (omega h/2)^2 of a number that the scheme keeps; "
-        "omega h/2 "
-        "is at most a half"},
+        "omega h/2 is at most a half"},
        {{"time", "periods", thinned(run.time)}, {"energy", "of the start's", thinned(run.energy)}},
        ""}};
 }
@@ -181,8 +179,7 @@ NamedFinding dies_out(const Run& run) {
   return {
       "artificial-damping.dies-out.backward-euler",
       "Backward Euler takes more than half the energy of an undamped sheet within a hundred periods at half "
-      "the "
-      "elastic limit.",
+      "the elastic limit.",
       {{run.energy.back(), 0.5, 0, "of the start's energy", "half of the energy is what we call significant"},
        {{"time", "periods", thinned(run.time)}, {"energy", "of the start's", thinned(run.energy)}},
        ""}};
@@ -268,10 +265,9 @@ void add_long_vibrations(const Subject& subject, Tier tier, StudyResult& result)
   result.figures.push_back(energy_figure(
       "energy-at-equal-cost", "Energy of an undamped sheet, equal cost",
       "As above, with each method's step chosen such that it makes as many evaluations of the forces, or "
-      "products "
-      "with their derivative, as scheme A does at half the elastic limit: the step nearest to A's, "
-      "judged by the first periods. The table has the cost of the whole run; a method that longer "
-      "steps make no cheaper before it is as cheap as A stays at the cheapest of them.",
+      "products with their derivative, as scheme A does at half the elastic limit: the step nearest to A's, "
+      "judged by the first periods. The table has the cost of the whole run; a method that longer steps make "
+      "no cheaper before it is as cheap as A stays at the cheapest of them.",
       same_cost));
   result.tables.push_back(energy_table(vibration, same_step, same_cost));
 }

@@ -171,8 +171,7 @@ Figure figure_of(const std::vector<MeshRun>& meshes, const Convergence& errors,
                 {"position error", "m", Scale::log},
                 2,
                 "Largest component at the particles of the coarsest mesh, at the end of the motion. The step "
-                "is half the "
-                "elastic limit of its mesh, so that it shrinks with the cells.",
+                "is half the elastic limit of its mesh, so that it shrinks with the cells.",
                 {}};
   figure.curves.push_back({"mesh", errors.steps, space, nan, pair_orders(errors)});
   Curve step{"step, half the elastic limit", {}, {}, nan, {}};
@@ -207,12 +206,11 @@ Study mesh_error() {
       "mesh-error", "On a smooth motion the mesh errs more than a step of half the elastic limit does.",
       "ours",
       "How fine should the step be for my mesh? A sheet held along its upper edge swings by a smooth "
-      "velocity, "
-      "on meshes each of which halves the cells of the one before. Errors of the mesh come from neighbouring "
-      "meshes at the particles that they share, with the step's error extrapolated away; errors of the step "
-      "from two steps on one mesh. Where springs decide on the elastic limit it is proportional to the "
-      "cells' "
-      "width, so that with second order in both, the ratio of the two errors is the same on every mesh.",
+      "velocity, on meshes each of which halves the cells of the one before. Errors of the mesh come from "
+      "neighbouring meshes at the particles that they share, with the step's error extrapolated away; errors "
+      "of the step from two steps on one mesh. Where springs decide on the elastic limit it is proportional "
+      "to the cells' width, so that with second order in both, the ratio of the two errors is the same on "
+      "every mesh.",
       run};
 }
 

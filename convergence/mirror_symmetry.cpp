@@ -100,8 +100,7 @@ NamedFinding finding_of(const History& rounding, const History& seeded) {
   return {
       "mirror-symmetry.is-lost-by-rounding-alone",
       "A symmetric sheet stays symmetric but for rounding, which grows no faster than a disturbance put in "
-      "by "
-      "hand.",
+      "by hand.",
       {{worst.value(), 16, 0, "epsilon * side * steps * growth",
         "a step rounds x, v and the dozen forces on a particle in their last digits; sixteen is all of these "
         "erring to one side, and each grows from then on as the disturbance has grown from the start"},
@@ -139,9 +138,8 @@ Study mirror_symmetry() {
           "What is symmetric stays so, but for rounding that grows as the motion's own instability lets it.",
           "our test of BMF03 section 3",
           "A sheet with a plane of symmetry, held at two corners, falls from the horizontal, swings and "
-          "crumples. The "
-          "balance of its two halves is unstable, so that rounding grows; the same run with a small random "
-          "disturbance shows how fast.",
+          "crumples. The balance of its two halves is unstable, so that rounding grows; the same run with a "
+          "small random disturbance shows how fast.",
           run};
 }
 

@@ -182,9 +182,8 @@ NamedFinding linear_is_kept(const Drifts& drifts) {
               ", damped or not, however early a solve stops.",
           {{worst.value(), 1, 0, "epsilon, a step, of sum m|v|",
             "forces come in sums of zero and every iterate of a solve differs from its guess by such forces: "
-            "what is "
-            "left are the roundings of each particle's velocity, half an epsilon of it at most, some of "
-            "either sign"},
+            "what is left are the roundings of each particle's velocity, half an epsilon of it at most, some "
+            "of either sign"},
            {steps, roundings},
            ""}};
 }
@@ -287,8 +286,7 @@ Study momentum_drift() {
   return {"momentum-drift",
           "Schemes A and B keep the angular momentum of a free sheet to rounding, damped or not; C keeps it "
           "undamped, and lets it drift by second order in the step when damped. The implicit midpoint rule "
-          "keeps it "
-          "to the tolerance of its solves; all methods keep the linear momentum.",
+          "keeps it to the tolerance of its solves; all methods keep the linear momentum.",
           "BMF03 section 3; Hairer, Lubich, Wanner, section IV.2",
           "An irregular sheet, bent, stretched and spinning, flies without any force from outside. All "
           "forces keep angular momentum call by call; a method keeps it only if the velocity that moves the "

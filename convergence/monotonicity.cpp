@@ -16,8 +16,7 @@ namespace {
 constexpr double rounding = 1e-8;  // of the way
 constexpr const char* why_rounding =
     "the way is a millionth of the triangle's size, so that each of up to 500 steps rounds by some 1e-10 of "
-    "it; in "
-    "nothing else does a linear motion differ from the derived one";
+    "it; in nothing else does a linear motion differ from the derived one";
 constexpr double turning = 1e-5;  // of the way
 constexpr const char* why_turning =
     "the ways on the sheet are nanometres, to which positions are rounded by 1e-8, and which leave 1e-7 of "
@@ -76,8 +75,7 @@ NamedFinding overshoots(const Subject& subject, const DampedMotions& motions) {
   }
   return {"monotonicity.overshoots.A",
           "Scheme A is not monotone: at h c/2 = 10 its explicit half step throws the cloth back by more than "
-          "a hundred "
-          "times the way that it should go.",
+          "a hundred times the way that it should go.",
           {{worst.value(), 1, 0, "1",
             "measured is a hundred over the way back; derived are 2a(a - 1) = 180 in one step"},
            rows.columns(),
@@ -97,15 +95,12 @@ NamedFinding is_stable(const Subject& subject, const DampedMotions& motions) {
     }
   return {"monotonicity.stable.A",
           "Scheme A is stable under damping however large: linear motions never have more kinetic energy "
-          "than at the "
-          "start.",
+          "than at the start.",
           {{worst.value(), 1, 0, "of the start's energy",
             "each step multiplies the speed of a mode by (1 - a)/(1 + a), whose size is below 1"},
            rows.columns(),
            "Judged in the energy of all modes together: thrown twenty thousand ways off (2 a^2 at a = 100), "
-           "the fast modes "
-           "leak into the "
-           "slow ones, since the sheet is not quite linear."}};
+           "the fast modes leak into the slow ones, since the sheet is not quite linear."}};
 }
 
 // ---- schemes B and C
@@ -243,14 +238,12 @@ StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
 Study monotonicity() {
   return {"monotonicity",
           "In steps far longer than the damping's time A overshoots without bound, B and C by the way itself "
-          "at most, "
-          "though they swing; backward Euler alone is monotone.",
+          "at most, though they swing; backward Euler alone is monotone.",
           "BMF03 section 3",
           "Three motions that damping alone brings to rest: a triangle that expands (linear, known exactly), "
-          "a hinge "
-          "that folds (nonlinear, known by an oracle), a sheet whose modes all move. How far does each "
-          "method go over "
-          "the way, and does it turn back? c is the damping rate of the fastest motion, h the step.",
+          "a hinge that folds (nonlinear, known by an oracle), a sheet whose modes all move. How far does "
+          "each method go over the way, and does it turn back? c is the damping rate of the fastest motion, "
+          "h the step.",
           run};
 }
 

@@ -25,8 +25,7 @@ Figure first_step_figure(const Subject& subject, const DampedMotions& motions) {
                 {"|first step| over the whole way", "1", Scale::log},
                 nan,
                 "The exact motion goes 1 - exp(-h c) of its way. Above h c/2 = 1 the steps of A and RK2 lead "
-                "backwards. "
-                "BDF2 is left out: its first step is another method's.",
+                "backwards. BDF2 is left out: its first step is another method's.",
                 {}};
   const std::vector<double> as = ratios(0.05, 40, 16);
   for (const Integrator& method : integrators()) {
@@ -76,8 +75,7 @@ struct Shown {
 Shown shown_of_triangle() {
   return {{"B", "C", "implicit-midpoint", "BDF2", "backward-euler"},
           "Those methods whose motion stays near: B, C and the implicit midpoint rule swing about the place "
-          "of rest, "
-          "BDF2 (started exactly) passes it once, backward Euler comes from one side."};
+          "of rest, BDF2 (started exactly) passes it once, backward Euler comes from one side."};
 }
 
 Shown shown_of_hinge() {
@@ -116,8 +114,7 @@ Figure sheet_figure(const Subject& subject, const DampedMotions& motions, Tier t
       nan,
       "All modes in the plane of the sheet move at first, and damping stops them. Backward Euler neither "
       "overshoots nor turns back at any step, A, B, C and the implicit midpoint rule neither below 1. BDF2 "
-      "is started "
-      "exactly.",
+      "is started exactly.",
       {}};
   const std::vector<double> as = ratios(0.1, 100, tier == Tier::quick ? 10 : 25);
   for (const std::string method : {"A", "B", "C", "BDF2", "implicit-midpoint"}) {

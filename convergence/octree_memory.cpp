@@ -141,8 +141,7 @@ NamedFinding takes_a_tenth(const std::vector<Balance>& all) {
           "On a bumpy body the octree takes a tenth of the memory of the grid with the same error, or less.",
           {{share_of_grid(finest(all, "statue")), 0.1, 0, "1",
             "a tenth: what is asked of it at 512 cells along each axis, where the full tier measures; the "
-            "quick tier "
-            "stops at 256, where less is saved"},
+            "quick tier stops at 256, where less is saved"},
            evidence_of(all, "statue"),
            "errors are the largest within three cells of the surface, at the same points for both"}};
 }
@@ -153,8 +152,7 @@ NamedFinding even_curve_takes_more(const std::vector<Balance>& all) {
           "memory.",
           {{0.1 / share_of_grid(finest(all, "sphere")), 1, 0, "1",
             "measured is a tenth over the share: below 1 the share is larger. The band's cells must all be "
-            "as small as "
-            "the grid's, and a leaf takes the room of four nodes"},
+            "as small as the grid's, and a leaf takes the room of four nodes"},
            evidence_of(all, "sphere"),
            ""}};
 }
@@ -188,8 +186,7 @@ Figure figure_of(const std::vector<Balance>& all) {
                 {"memory", "MB", Scale::log},
                 nan,
                 "The cube is 1 m wide. A grid of n cells along each axis has (n + 1)^3 values; each octree "
-                "misses by no "
-                "more than the grid beside it.",
+                "misses by no more than the grid beside it.",
                 {}};
   for (const char* const body : {"sphere", "torus", "box", "statue"}) {
     Curve grid{std::string(body) + ", grid", {}, {}, nan, {}},
@@ -255,10 +252,8 @@ Study octree_memory() {
   return {"octree-memory", "An octree takes less memory than a regular grid of the same error.",
           "BMF03 section 5.1",
           "How much does adaptive sampling save? For bodies with even curvature, sharp edges and bumps, a "
-          "regular grid "
-          "and the coarsest octree that misses by no more, both in double precision. The octree may use "
-          "cells of half "
-          "the grid's width where it needs them.",
+          "regular grid and the coarsest octree that misses by no more, both in double precision. The octree "
+          "may use cells of half the grid's width where it needs them.",
           run};
 }
 

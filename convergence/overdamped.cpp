@@ -17,8 +17,7 @@ constexpr double most_shown = 1e6;    // ways
 constexpr double turning = 1e-5;      // of the way
 constexpr const char* why_turning =
     "the ways are nanometres, to which positions are rounded by 1e-8, and which leave 1e-7 of nonlinearity; "
-    "a "
-    "method that overshoots does so by a good part of the way";
+    "a method that overshoots does so by a good part of the way";
 
 /// How far a velocity points away from rest at most, or rises again, over that at the start.
 double velocity_misconduct(const DampedRun& run) {
@@ -61,8 +60,7 @@ NamedFinding sheet_is_monotone(const Subject& subject, const DampedMotion& sheet
   }
   return {"monotonicity.overdamped-sheet.monotone." + method,
           "On an overdamped sheet with stiffness neither a position nor a velocity overshoots or turns back "
-          "at any "
-          "step under " +
+          "at any step under " +
               method + ".",
           {{worst.value(), turning, 0, "of the way or of the speed", why_turning}, rows.columns(), ""}};
 }
@@ -95,13 +93,11 @@ NamedFinding sheet_is_bounded(const Subject& subject, const DampedMotion& sheet,
   return {"monotonicity.overdamped-sheet.bounded." + scheme,
           "On an overdamped sheet with stiffness scheme " + scheme +
               " overshoots or turns back by less than the way itself, in positions, and less than twice the "
-              "speed "
-              "of the start, in velocities.",
+              "speed of the start, in velocities.",
           {{worst.value(), 2, 0, "ways or speeds",
             "derived without stiffness: a velocity is multiplied by (1 - a)/(1 + a), more than -1, so that "
-            "it swings "
-            "by less than twice its size; that part of a position that decays fast overshoots by less than "
-            "itself"},
+            "it swings by less than twice its size; that part of a position that decays fast overshoots by "
+            "less than itself"},
            rows.columns(),
            ""}};
 }
@@ -152,9 +148,7 @@ Figure sheet_figure(const std::string& name, const std::string& of) {
           nan,
           "Every mode starts displaced and on its way to rest. All modes are damped at least four times "
           "critically. Curves of methods that are monotone everywhere are empty and left out; where one ends "
-          "to the "
-          "right, the method "
-          "is unstable. BDF2 is started exactly.",
+          "to the right, the method is unstable. BDF2 is started exactly.",
           {}};
 }
 

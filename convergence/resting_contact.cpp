@@ -77,8 +77,7 @@ NamedFinding quieter(const Rest& forecast, const Rest& push_out) {
 NamedFinding alike(const Rest& forecast, const Rest& projection) {
   return {"resting-contact.projection-is-as-quiet",
           "Cloth at rest shakes as much under forecasting as if points are put on the surface after each "
-          "step and "
-          "lose their velocity into it.",
+          "step and lose their velocity into it.",
           {{std::abs(forecast.jitter / projection.jitter - 1), 0.1, 0, "1",
             "the same shaking but for a tenth, which chance may make"},
            compared(forecast, projection),
@@ -123,8 +122,7 @@ StudyResult run(const Subject& subject, Tier, const Progress& progress) {
 Study resting_contact() {
   return {"resting-contact", "Forecasting lets cloth come to rest.", "BMF03 section 5.2",
           "A sheet falls on a ball and hangs over it. The paper's response corrects velocities before the "
-          "cloth moves; "
-          "the two it is compared with look at where the cloth has come to.",
+          "cloth moves; the two it is compared with look at where the cloth has come to.",
           run};
 }
 

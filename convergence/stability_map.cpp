@@ -176,10 +176,8 @@ NamedFinding as_derived(const Integrator& method, const Springs& springs, const 
               std::string(method.title) + " is that of the oscillator that the fastest mode is.",
           {{worst.value(), 0.01, 0, "1",
             "the bisection ends at a relative width of 3e-4, and beyond the limit of A and B, which they "
-            "leave most "
-            "slowly, the radius exceeds 1 by a few thousandths of the relative excess, of which 1e-6 counts; "
-            "a limit "
-            "that scaled otherwise would be off by factors"},
+            "leave most slowly, the radius exceeds 1 by a few thousandths of the relative excess, of which "
+            "1e-6 counts; a limit that scaled otherwise would be off by factors"},
            {{"damping ratio on the coarsest mesh", "1", points.material},
             {"width of a cell", "m", points.width},
             {"damping ratio of the fastest mode", "1", points.zeta},

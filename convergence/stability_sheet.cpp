@@ -77,10 +77,8 @@ double worst_deviation(const std::vector<double>& measured, const std::vector<do
 
 const char* const why_percent =
     "a spectral radius of 1 + 1e-6 counts as growth; where damping is heaviest radii leave 1 by a hundredth "
-    "of the "
-    "step's excess, so that the limit is found to 1e-3 at least, and a limit that fell with the damping "
-    "would "
-    "be off by factors";
+    "of the step's excess, so that the limit is found to 1e-3 at least, and a limit that fell with the "
+    "damping would be off by factors";
 
 NamedFinding independence(const Integrator& integrator, const Damping& damping, const DampedLimits& limits) {
   const std::string name(integrator.name);

@@ -192,8 +192,7 @@ void add_sheet(const Subject& subject, int points, StudyResult& result) {
   result.findings.push_back(
       {"transient-growth.sheet-A-grows",
        "On the sheet scheme A carries heavily damped disturbances to more than ten times what it does "
-       "lightly "
-       "damped ones, and ever further.",
+       "lightly damped ones, and ever further.",
        {{10 * first / last, 1, 0, "1", "an order of magnitude; the damping rises by four"},
         {{"damping", "1", found.damping}, {"growth", "1", found.growth[0]}},
         "measured is ten times the first growth over the last"}});

@@ -137,8 +137,7 @@ NamedFinding blend_keeps_its_share(const AllKept& blend) {
       "The blend leaves at least (tau - w/2)/(tau + t^ - w/2) of the deviation of depths that were inside.",
       {{worst.value(), 1 + 1e-9, 0, "1",
         "its slope is nowhere less, so that no two depths come closer than by that factor; 1e-9 for the "
-        "tolerance "
-        "of 1e-12 m over deviations of a millimetre"},
+        "tolerance of 1e-12 m over deviations of a millimetre"},
        evidence(blend),
        "measured is that share over the one found"}};
 }
@@ -162,12 +161,10 @@ NamedFinding power_crushes_the_deep(const std::vector<Sunk>& sheets) {
   }
   return {"wrinkles-kept.power-crushes-the-deep",
           "With tau a fifth of the deepest penetration the power law leaves the deeper half of the wrinkles "
-          "less than "
-          "a tenth of what the blend leaves.",
+          "less than a tenth of what the blend leaves.",
           {{worst.value(), 0.1, 0, "1",
             "the power law's slope is at most (tau/(tau + t^)) p u^(p-1) = .0126 from the middle depth down, "
-            "with p = 6 "
-            "and u = 5/12; the blend's is .1304 there"},
+            "with p = 6 and u = 5/12; the blend's is .1304 there"},
            {{"over", "", names},
             {"share left by the power law", "1", power},
             {"share left by the blend", "1", blend}},
@@ -311,10 +308,9 @@ Study wrinkles_kept() {
       "Maps of depth keep the wrinkles that plain projection flattens; how much of them depends on tau.",
       "BMF03 section 5.3, figure 2",
       "Wrinkled strips lie half inside a half space, a ball and a torus, and are projected by each map over "
-      "a range "
-      "of tau. Of the particles that were inside, the standard deviation of the signed distance is compared "
-      "before "
-      "and after; the wavelength is where the spectrum of the distances along the strip's middle is largest.",
+      "a range of tau. Of the particles that were inside, the standard deviation of the signed distance is "
+      "compared before and after; the wavelength is where the spectrum of the distances along the strip's "
+      "middle is largest.",
       run};
 }
 

@@ -50,16 +50,15 @@ std::vector<Claim> its_directions() {
         {"bending.quadratic-bending-acts-in-plane", Role::supports}},
        Standing::confirmed,
        "",
-       "The eleven motions of rigid bodies and in the planes leave one direction only, so any other "
-       "force does work on one of them. The usual alternatives keep momentum (of their "
-       "size, torques sum to {largest of: bending.spring-across-the-hinge-acts-in-plane|net torque|largest, "
+       "The eleven motions of rigid bodies and in the planes leave one direction only, so any other force "
+       "does work on one of them. The usual alternatives keep momentum (of their size, torques sum to "
+       "{largest of: bending.spring-across-the-hinge-acts-in-plane|net torque|largest, "
        "bending.constant-length-gradients-act-in-plane|net torque|largest, "
-       "bending.quadratic-bending-acts-in-plane|net torque|largest} at most) and act in plane. Of "
-       "a force's size, a spring between the far corners puts up to "
-       "{bending.spring-across-the-hinge-acts-in-plane|in plane|largest} into an in-plane motion, "
-       "gradients that take the lengths of normals and edge as constant up to "
-       "{bending.constant-length-gradients-act-in-plane|in plane|largest}, quadratic bending up to "
-       "{bending.quadratic-bending-acts-in-plane|in plane|largest}; the paper's element "
+       "bending.quadratic-bending-acts-in-plane|net torque|largest} at most) and act in plane. Of a force's "
+       "size, a spring between the far corners puts up to {bending.spring-across-the-hinge-acts-in-plane|in "
+       "plane|largest} into an in-plane motion, gradients that take the lengths of normals and edge as "
+       "constant up to {bending.constant-length-gradients-act-in-plane|in plane|largest}, quadratic bending "
+       "up to {bending.quadratic-bending-acts-in-plane|in plane|largest}; the paper's element "
        "{bending.quadratic-bending-acts-in-plane|in plane, the paper's element|largest}."},
       {"B4",
        "4",
@@ -68,11 +67,10 @@ std::vector<Claim> its_directions() {
        {{"bending.mode-weights-are-barycentric", Role::supports}},
        Standing::confirmed,
        "",
-       "Forces times heights balance, and the forces on the edge's ends are the barycentric shares of "
-       "those on the far corners, to {bare: bending.mode-weights-are-barycentric} roundings of a force, "
-       "magnified by how thin the hinge is, "
-       "with heights whose ratio "
-       "goes from {bending.mode-weights-are-barycentric|height of x1 over height of x2|smallest} to "
+       "Forces times heights balance, and the forces on the edge's ends are the barycentric shares of those "
+       "on the far corners, to {bare: bending.mode-weights-are-barycentric} roundings of a force, magnified "
+       "by how thin the hinge is, with heights whose ratio goes from "
+       "{bending.mode-weights-are-barycentric|height of x1 over height of x2|smallest} to "
        "{bending.mode-weights-are-barycentric|height of x1 over height of x2|largest}."},
       {"B10",
        "4",
@@ -80,15 +78,13 @@ std::vector<Claim> its_directions() {
        {{"bending.mode-is-minus-gradient-of-theta", Role::contradicts}},
        Standing::refuted,
        "",
-       "With u and theta as printed, u is minus the gradient of theta, to "
-       "{bare: bending.mode-is-minus-gradient-of-theta} roundings of its size, magnified by how thin the "
-       "hinge is, "
-       "against exact differentiation: the rate is minus that "
-       "sum. The first motion tried turns the angle by "
+       "With u and theta as printed, u is minus the gradient of theta, to {bare: "
+       "bending.mode-is-minus-gradient-of-theta} roundings of its size, magnified by how thin the hinge is, "
+       "against exact differentiation: the rate is minus that sum. The first motion tried turns the angle by "
        "{bending.mode-is-minus-gradient-of-theta|d(theta)/dt of a random motion|1}, where u.v is "
-       "{bending.mode-is-minus-gradient-of-theta|u.v of the same motion|1}. The forces as printed have "
-       "the right sign; only this line has not. The damping force, written with d(theta)/dt, dissipates "
-       "only while that stands for u.v; with the true rate it would feed energy."}};
+       "{bending.mode-is-minus-gradient-of-theta|u.v of the same motion|1}. The forces as printed have the "
+       "right sign; only this line has not. The damping force, written with d(theta)/dt, dissipates only "
+       "while that stands for u.v; with the true rate it would feed energy."}};
 }
 
 std::vector<Claim> the_elastic_force() {
@@ -103,9 +99,8 @@ std::vector<Claim> the_elastic_force() {
        "",
        "Swept from fold to fold it never falls; near flat and near folded it agrees with fifty digits to "
        "{bare: bending.sine-is-accurate-near-flat-and-near-folded} roundings of one, magnified by how thin "
-       "the "
-       "hinge is, in the form that we compute (the printed "
-       "root of a difference would lose half the digits near flat)."},
+       "the hinge is, in the form that we compute (the printed root of a difference would lose half the "
+       "digits near flat)."},
       {"B6",
        "4",
        "The factor |E|^2/(|N1| + |N2|) makes the look independent of the mesh, so that ke is a property "
@@ -117,10 +112,9 @@ std::vector<Claim> the_elastic_force() {
        "The pattern of the triangles and its direction stay as they are",
        "A pattern refined keeps its flexural rigidity D: the error of its cylinders has second order, to "
        "{bending-rigidity.does-not-depend-on-size}. Another pattern has another D: curved along x, the "
-       "patterns tried differ by {bending-rigidity.depends-on-pattern|greatest difference of D/ke|first} "
-       "ke. Squares split along one diagonal differ by "
-       "{bending-rigidity.depends-on-direction|greatest difference of D/ke|first} ke between their own "
-       "directions, and refinement does not remove that."},
+       "patterns tried differ by {bending-rigidity.depends-on-pattern|greatest difference of D/ke|first} ke. "
+       "Squares split along one diagonal differ by {bending-rigidity.depends-on-direction|greatest "
+       "difference of D/ke|first} ke between their own directions, and refinement does not remove that."},
       {"B7",
        "4",
        "Other functions of the angle keep all of this, as long as they scale all four forces alike.",
@@ -128,10 +122,9 @@ std::vector<Claim> the_elastic_force() {
         {"bending.force-is-minus-gradient-of-energy", Role::supports}},
        Standing::confirmed,
        "",
-       "With other laws in the sine's place, forces and torques sum to zero to "
-       "{bare: bending.other-laws-keep-momentum} roundings of the sum of their sizes, and their work is what "
-       "an energy loses, to {bare: bending.force-is-minus-gradient-of-energy} roundings of energy and "
-       "work."}};
+       "With other laws in the sine's place, forces and torques sum to zero to {bare: "
+       "bending.other-laws-keep-momentum} roundings of the sum of their sizes, and their work is what an "
+       "energy loses, to {bare: bending.force-is-minus-gradient-of-energy} roundings of energy and work."}};
 }
 
 std::vector<Claim> rest_angles_and_limits() {
@@ -170,13 +163,10 @@ std::vector<Claim> rest_angles_and_limits() {
        "",
        "A statue's shell with stiff bending hangs by its head to the end of the run. It stretches and swings "
        "back, but no hinge leaves its rest angle by more than {case.stiff_statue.keeps-its-angles}; of the "
-       "energy "
-       "that is exchanged, {case.stiff_statue.energy-is-accounted-for} is not accounted for. Sheets whose "
-       "bending is stiff "
-       "beside their stretching, and ones that it hardly resists at all, run to their end too, with "
-       "{largest of: case.stiff_bending.energy-is-accounted-for, case.soft_bending.energy-is-accounted-for} "
-       "at most "
-       "unaccounted for."}};
+       "energy that is exchanged, {case.stiff_statue.energy-is-accounted-for} is not accounted for. Sheets "
+       "whose bending is stiff beside their stretching, and ones that it hardly resists at all, run to their "
+       "end too, with {largest of: case.stiff_bending.energy-is-accounted-for, "
+       "case.soft_bending.energy-is-accounted-for} at most unaccounted for."}};
 }
 
 std::vector<Claim> the_damping_force() {
@@ -192,14 +182,12 @@ std::vector<Claim> the_damping_force() {
         {"bending.damping-dissipates", Role::supports}},
        Standing::confirmed,
        "",
-       "Motions in the planes of the triangles feel nothing beyond "
-       "{bare: bending.damping-leaves-in-plane-motion-alone} roundings of what the single motions add up to, "
-       "rigid ones nothing beyond {bare: bending.damping-leaves-rigid-motion-alone}, both magnified by how "
-       "thin "
-       "a hinge is; the matrix is symmetric to {bare: bending.damping-is-symmetric} roundings of its largest "
+       "Motions in the planes of the triangles feel nothing beyond {bare: "
+       "bending.damping-leaves-in-plane-motion-alone} roundings of what the single motions add up to, rigid "
+       "ones nothing beyond {bare: bending.damping-leaves-rigid-motion-alone}, both magnified by how thin a "
+       "hinge is; the matrix is symmetric to {bare: bending.damping-is-symmetric} roundings of its largest "
        "entry, and its largest eigenvalue is {bare: bending.damping-is-negative-semidefinite} roundings of "
-       "all "
-       "its rows times the size of its least one."},
+       "all its rows times the size of its least one."},
       {"B12",
        "4",
        "With its factor |E|, kd is a property of the material under refinement, perhaps anisotropic.",
@@ -220,12 +208,11 @@ std::vector<Claim> the_damping_force() {
        {{"bending.nonlinear-damping-stays-symmetric", Role::supports}},
        Standing::confirmed,
        "",
-       "A law that grows with the cube of the rate, multiplying all four forces alike, has a Jacobian "
-       "that is symmetric to {bare: bending.nonlinear-damping-stays-symmetric} roundings of what its "
-       "differences are "
-       "taken of, magnified by how thin the hinge is, on hinges of all angles; one "
-       "that acts on each corner's share by itself misses symmetry by "
-       "{bending.nonlinear-damping-stays-symmetric|corner by corner|smallest} of its size at least."}};
+       "A law that grows with the cube of the rate, multiplying all four forces alike, has a Jacobian that "
+       "is symmetric to {bare: bending.nonlinear-damping-stays-symmetric} roundings of what its differences "
+       "are taken of, magnified by how thin the hinge is, on hinges of all angles; one that acts on each "
+       "corner's share by itself misses symmetry by {bending.nonlinear-damping-stays-symmetric|corner by "
+       "corner|smallest} of its size at least."}};
 }
 
 /// B1, B2, ... in the order of their numbers.

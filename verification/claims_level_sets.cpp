@@ -12,8 +12,7 @@ std::vector<Claim> storing_and_updating() {
       {"C2",
        "5.1",
        "A rigid body's level set is computed once; that of a deforming body need be updated only near the "
-       "surface, "
-       "which is cheap.",
+       "surface, which is cheap.",
        {{"octree.rides-with-its-body", Role::supports},
         {"level-sets-in-time.frame-asks-for-few-distances", Role::supports}},
        Standing::confirmed,
@@ -32,8 +31,7 @@ std::vector<Claim> storing_and_updating() {
        Standing::confirmed,
        "",
        "Loading takes {level-set-cache.loading-is-cheap} of the time of computing and gives every bit back. "
-       "Files "
-       "that are cut, damaged, foreign or stale are refused."}};
+       "Files that are cut, damaged, foreign or stale are refused."}};
 }
 
 std::vector<Claim> sampling_and_interpolating() {
@@ -41,8 +39,7 @@ std::vector<Claim> sampling_and_interpolating() {
       {"C4",
        "5.1",
        "Adaptively sampled distance fields store least, and constraining fine nodes to coarse neighbours "
-       "avoids "
-       "discontinuities.",
+       "avoids discontinuities.",
        {{"octree-memory.bumpy-body-takes-a-tenth", Role::supports},
         {"octree.is-continuous", Role::supports},
         {"octree.union-is-continuous", Role::supports},
@@ -62,14 +59,11 @@ std::vector<Claim> sampling_and_interpolating() {
         {"deforming.blended-ball-shrinks-as-derived", Role::limits}},
        Standing::conditional,
        "From frame to frame a body moves by little against its radius of curvature, or phi is interpolated "
-       "along "
-       "its motion.",
+       "along its motion.",
        "Blended at the point, a ball of radius R that moves by d shrinks to sqrt(R^2 - d^2/4) and is gone "
-       "beyond "
-       "2 R. Both interpolations err with second order in the time between frames; carried along with the "
-       "body, "
-       "the error is {level-sets-in-time.carried-errs-less} of the blended one at most, where the body is "
-       "thrown."}};
+       "beyond 2 R. Both interpolations err with second order in the time between frames; carried along with "
+       "the body, the error is {level-sets-in-time.carried-errs-less} of the blended one at most, where the "
+       "body is thrown."}};
 }
 
 }  // namespace

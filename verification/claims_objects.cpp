@@ -21,22 +21,19 @@ std::vector<Claim> what_marching_gives() {
             {"level-set-resolution.crude-start.normals-stay-wrong", Role::limits}},
            Standing::conditional,
            "Only to a part of a cell: the surface is off by up to "
-           "{level-set-resolution.crude-start.contour}, and normals "
-           "next to it by {level-set-resolution.crude-start.normals-stay-wrong|error|last} in the mean, on "
-           "whatever grid. "
+           "{level-set-resolution.crude-start.contour}, and normals next to it by "
+           "{level-set-resolution.crude-start.normals-stay-wrong|error|last} in the mean, on whatever grid. "
            "Exact values next to the surface cure both.",
            "Marching itself solves its equation to {level-set.marching-solves-its-equation}. From such a "
-           "start the mean error "
-           "about a ball falls from {level-set-resolution.crude-start.distance|error|first} to "
+           "start the mean error about a ball falls from "
+           "{level-set-resolution.crude-start.distance|error|first} to "
            "{level-set-resolution.crude-start.distance|error|last} as the spacing is quartered, while the "
-           "mean angle between "
-           "the grid's normals and the ball's stays at "
+           "mean angle between the grid's normals and the ball's stays at "
            "{level-set-resolution.crude-start.normals-stay-wrong|error|smallest} to "
            "{level-set-resolution.crude-start.normals-stay-wrong|error|largest}. With exact values next to "
-           "the surface the "
-           "largest angle falls to {level-set-resolution.exact-start.normals|error|last}, and second-order "
-           "marching errs by "
-           "{level-set-resolution.second-order.ball|error|last} in the mean."}};
+           "the surface the largest angle falls to {level-set-resolution.exact-start.normals|error|last}, "
+           "and second-order marching errs by {level-set-resolution.second-order.ball|error|last} in the "
+           "mean."}};
 }
 
 std::vector<Claim> where_contact_is_found() {
@@ -55,8 +52,7 @@ std::vector<Claim> where_contact_is_found() {
        "{pointwise-contact.edges-cut-in-by-the-square|depth of midpoints|last} for edges of "
        "{pointwise-contact.edges-cut-in-by-the-square|edge|first} to "
        "{pointwise-contact.edges-cut-in-by-the-square|edge|last}. Midpoints and centres as points of their "
-       "own help "
-       "coarse cloth: see pointwise-contact."},
+       "own help coarse cloth: see pointwise-contact."},
       {"C6",
        "5.2",
        "The forecast is that the point lies exactly on the object's surface after the forecast time.",
@@ -66,8 +62,7 @@ std::vector<Claim> where_contact_is_found() {
         {"forecast-time.order-on-a-turning-ball", Role::limits}},
        Standing::conditional,
        "As a forecast it is exact; as a place only on planes. On curved and on turning objects the point is "
-       "off by "
-       "the square of the step.",
+       "off by the square of the step.",
        "phi + tau (v_p - v).N is zero to rounding. After the step a point that slides on a ball is off by "
        "{forecast-time.order-on-a-resting-ball|miss|first} for a step of "
        "{forecast-time.order-on-a-resting-ball|step|first} and "
@@ -80,14 +75,12 @@ std::vector<Claim> where_contact_is_found() {
         {"resting-contact.projection-is-as-quiet", Role::limits}},
        Standing::conditional,
        "Against velocities that take points out once they are inside. Points that are put on the surface, "
-       "and lose "
-       "their velocity into it, rest as quietly.",
-       "Cloth at rest on a ball shakes by "
-       "{resting-contact.quieter-than-push-out|shaking at rest|forecast} under forecasting, by "
-       "{resting-contact.quieter-than-push-out|shaking at rest|push_out} if points are pushed out, which "
-       "also lets them "
-       "in by {resting-contact.quieter-than-push-out|largest depth|push_out}, and by "
-       "{resting-contact.projection-is-as-quiet|shaking at rest|projection} under projection."},
+       "and lose their velocity into it, rest as quietly.",
+       "Cloth at rest on a ball shakes by {resting-contact.quieter-than-push-out|shaking at rest|forecast} "
+       "under forecasting, by {resting-contact.quieter-than-push-out|shaking at rest|push_out} if points are "
+       "pushed out, which also lets them in by {resting-contact.quieter-than-push-out|largest "
+       "depth|push_out}, and by {resting-contact.projection-is-as-quiet|shaking at rest|projection} under "
+       "projection."},
       {"C8",
        "5.2",
        "Forecasting is not the same as using the object at the next step.",
@@ -96,11 +89,9 @@ std::vector<Claim> where_contact_is_found() {
        Standing::confirmed,
        "",
        "The forecast time is free: a distance to a plane shrinks by the factor of one less the step over the "
-       "forecast "
-       "time, so that cloth comes down softly. With a forecast time of five steps a point is at "
+       "forecast time, so that cloth comes down softly. With a forecast time of five steps a point is at "
        "{forecast-time.is-not-the-next-step|height after a step|forecast} where the object at the next step "
-       "would have "
-       "stopped it. With the step itself, and on a resting plane, the two agree."}};
+       "would have stopped it. With the step itself, and on a resting plane, the two agree."}};
 }
 
 std::vector<Claim> what_contact_does() {
@@ -118,15 +109,13 @@ std::vector<Claim> what_contact_does() {
            Standing::confirmed,
            "",
            "On slopes at rest and moving, a block holds where the tangent of the slope is below the "
-           "friction, a thousandth "
-           "below it included, and else slides as derived, to {contact.a-slope-holds-or-lets-go.C} in a "
-           "second; on a turntable it "
-           "stays in its place to {contact.a-turntable-carries-without-drift.C} in "
-           "{contact.a-turntable-carries-without-drift.C|radius|largest} "
-           "from the axis. A strip that slides round a drum keeps the capstan's law to "
-           "{contact.a-drum-holds-by-the-capstan-law}. For this the velocity that moves the cloth must be "
-           "corrected too, and "
-           "the object's velocity be that of the chord."}};
+           "friction, a thousandth below it included, and else slides as derived, to "
+           "{contact.a-slope-holds-or-lets-go.C} in a second; on a turntable it stays in its place to "
+           "{contact.a-turntable-carries-without-drift.C} in "
+           "{contact.a-turntable-carries-without-drift.C|radius|largest} from the axis. A strip that slides "
+           "round a drum keeps the capstan's law to {contact.a-drum-holds-by-the-capstan-law}. For this the "
+           "velocity that moves the cloth must be corrected too, and the object's velocity be that of the "
+           "chord."}};
 }
 
 std::vector<Claim> what_projection_keeps() {
@@ -134,8 +123,7 @@ std::vector<Claim> what_projection_keeps() {
       {"C11",
        "5.3",
        "Plain projection of cloth that is inside an object smooths its folds out; a map that rises with the "
-       "signed "
-       "distance keeps which of two points is the deeper, and so the folds.",
+       "signed distance keeps which of two points is the deeper, and so the folds.",
        {{"wrinkles-kept.plain-flattens", Role::supports},
         {"wrinkles-kept.blend-keeps-a-share", Role::supports},
         {"wrinkles-kept.wavelength-blend", Role::supports},
@@ -145,20 +133,15 @@ std::vector<Claim> what_projection_keeps() {
         {"projection.twice-compresses-more", Role::limits}},
        Standing::conditional,
        "How high the folds stay is the choice of map and of tau over the deepest penetration: order alone "
-       "promises "
-       "nothing. A smooth power law with tau a fifth of that depth leaves "
+       "promises nothing. A smooth power law with tau a fifth of that depth leaves "
        "{wrinkles-kept.power-crushes-the-deep|share left by the power law|largest} of the deeper half.",
        "Of wrinkles that were inside, plain projection leaves a deviation of {wrinkles-kept.plain-flattens}. "
-       "The map "
-       "that is straight below and blended at tau leaves between "
+       "The map that is straight below and blended at tau leaves between "
        "{wrinkles-kept.blend-keeps-a-share|share of it that is left|smallest} and "
        "{wrinkles-kept.blend-keeps-a-share|share of it that is left|largest} of it for tau from a sixteenth "
-       "to four "
-       "times the deepest penetration, the power law between "
-       "{wrinkles-kept.wavelength-power|share of it that is left|smallest} and "
-       "{wrinkles-kept.wavelength-power|share of it that is left|largest}, at the same wavelength. Done "
-       "twice, a map "
-       "compresses again."},
+       "to four times the deepest penetration, the power law between {wrinkles-kept.wavelength-power|share "
+       "of it that is left|smallest} and {wrinkles-kept.wavelength-power|share of it that is left|largest}, "
+       "at the same wavelength. Done twice, a map compresses again."},
       {"C12",
        "5.3",
        "Projecting into [eps, tau] with a small eps leaves no triangle of the cloth that meets the object.",
@@ -172,12 +155,10 @@ std::vector<Claim> what_projection_keeps() {
         {"eps-needed.box-order", Role::limits}},
        Standing::conditional,
        "eps must be at least L^2/(6 R) for edges of length L on an object of radius R, and in proportion to "
-       "L where "
-       "the object has an edge; L/sqrt(3) suffices for any object.",
+       "L where the object has an edge; L/sqrt(3) suffices for any object.",
        "Decided in whole numbers, without a distance field. The eps that is needed on a ball is "
        "{eps-needed.ball-bound} of L^2/(6 R) at most, along the edge of a box {eps-needed.box-bound} of "
-       "L/sqrt(3), "
-       "at every scale. With eps = 0 every sheet that was tried keeps triangles inside."}};
+       "L/sqrt(3), at every scale. With eps = 0 every sheet that was tried keeps triangles inside."}};
 }
 
 std::vector<Claim> where_projection_applies() {
@@ -191,8 +172,7 @@ std::vector<Claim> where_projection_applies() {
        "",
        "Cloth between two balls that overlap, rippled by millimetres, is stretched up to "
        "{projection.pinched-points-would-tear|stretch when projected|largest} times when each point leaves "
-       "the ball "
-       "in which it is deepest; left alone it keeps every bit."}};
+       "the ball in which it is deepest; left alone it keeps every bit."}};
 }
 
 std::vector<Claim> what_is_drawn() {
@@ -206,8 +186,7 @@ std::vector<Claim> what_is_drawn() {
        Standing::confirmed,
        "",
        "Subdivided first, by midpoints or by Loop's rule, and projected then, no triangle is left inside, "
-       "with an eps "
-       "that shrinks from {projection.serves-the-subdivided-cloth|eps|largest} to "
+       "with an eps that shrinks from {projection.serves-the-subdivided-cloth|eps|largest} to "
        "{projection.serves-the-subdivided-cloth|eps|smallest} as edges are halved. In the other order up to "
        "{projection.subdividing-afterwards-spoils-it|triangles left inside|largest} triangles cut in."}};
 }
@@ -226,12 +205,10 @@ std::vector<Claim> what_is_pinched() {
            Standing::confirmed,
            "",
            "Where two balls close on cloth until they overlap, pinched particles stay within "
-           "{case.pinch.stays-between} of "
-           "where they are equally deep in both, and nothing is faster than {case.pinch.slower-than}. The "
-           "paper asks for the "
-           "place; the formula is ours: the difference of the two depths is forecast to be zero. Held so, "
-           "points that are "
-           "about to enter both objects count as pinched, not only those that are inside both."}};
+           "{case.pinch.stays-between} of where they are equally deep in both, and nothing is faster than "
+           "{case.pinch.slower-than}. The paper asks for the place; the formula is ours: the difference of "
+           "the two depths is forecast to be zero. Held so, points that are about to enter both objects "
+           "count as pinched, not only those that are inside both."}};
 }
 
 }  // namespace

@@ -126,8 +126,7 @@ Figure growth_figure(const std::vector<Speeds>& all) {
                 {"time", "s", Scale::log},
                 1,
                 "Least time of repeats on one thread; the slope triangle is linear growth. Where the data "
-                "outgrow the caches, "
-                "each particle costs more.",
+                "outgrow the caches, each particle costs more.",
                 {}};
   figure.curves = {{"bending, elastic", particles, column(all, &Speeds::bending), not_a_number, {}},
                    {"springs, elastic", particles, column(all, &Speeds::springs), not_a_number, {}},
@@ -173,14 +172,12 @@ std::vector<Record> rates(const std::vector<Speeds>& all, double megabytes) {
           large.step,
           {0.3, "s", "lower",
            "two solves of some ten passes over springs and hinges, at memory speed; ten seconds of animation "
-           "in "
-           "steps of 2 ms then take 25 minutes"}),
+           "in steps of 2 ms then take 25 minutes"}),
       rate("memory", fmt::format("Peak memory of the process with {:.0f} particles.", large.particles),
            megabytes,
            {500, "MB", "lower",
             "5 kB a particle: its state and that of a step under way, and the kept terms of its three "
-            "springs and "
-            "three hinges; a million particles then fit 5 GB"}),
+            "springs and three hinges; a million particles then fit 5 GB"}),
       rate("growth-of-iteration", "Growth exponent of the time per CG iteration in the number of particles.",
            exponent(particles, column(all, &Speeds::iteration)),
            {1.1, "1", "lower",
@@ -217,8 +214,7 @@ RunRecord bench(int most_particles) {
                          "Time grows in proportion to the number of particles.",
                          "measured",
                          "A square sheet of alternating diagonals, gently waved, springs and hinges damped "
-                         "at a ratio of 0.1. Times "
-                         "are of a shared machine: compare them as ratios.",
+                         "at a ratio of 0.1. Times are of a shared machine: compare them as ratios.",
                          seconds,
                          {growth_figure(all)},
                          {},

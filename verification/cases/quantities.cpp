@@ -201,8 +201,7 @@ const std::vector<Quantity>& quantities() {
        Sense::at_most, nullptr, unfinished, nullptr},
       {"energy_is_accounted_for", "1",
        "Kinetic, elastic and gravitational energy less the work of damping stays what it was, over the "
-       "energy "
-       "exchanged.",
+       "energy exchanged.",
        Sense::at_most, nullptr, energy_unaccounted, nullptr},
       {"energy_does_not_drift", "1",
        "The mean of that energy over the last tenth of the run is that over the first tenth, over the energy "

@@ -101,8 +101,7 @@ Finding sine_rises(const Subject&) {
       measured.judged(16, "two neighbouring values carry fewer than 16 roundings of 1 between them");
   finding.note =
       "Measured is by how much, at worst, a value of sin(theta/2) lies below the one before it or rises by "
-      "more "
-      "than half the step of theta, which is its steepest slope; exact values would give 0.";
+      "more than half the step of theta, which is its steepest slope; exact values would give 0.";
   return finding;
 }
 

@@ -136,8 +136,7 @@ Finding force_is_as_defined(const Subject& subject) {
   }
   return measured.judged(64,
                          "a hinge's force takes fewer than 64 roundings, and the normals magnify them by the "
-                         "triangles' thinness "
-                         "(longest side squared over twice the area)");
+                         "triangles' thinness (longest side squared over twice the area)");
 }
 
 }  // namespace

@@ -217,8 +217,7 @@ std::vector<Check> deforming_checks() {
            source, carried_ball_keeps_its_shape},
           {"deforming.blended-ball-shrinks-as-derived",
            "Interpolated at the point, a ball of radius R that moves by d shrinks to sqrt(R^2 - d^2/4) "
-           "across its "
-           "motion, and vanishes beyond two radii.",
+           "across its motion, and vanishes beyond two radii.",
            source, blended_ball_shrinks},
           {"deforming.velocity-is-that-of-the-surface",
            "Inside and outside alike, the velocity is that of the nearest surface point: constant along N.",

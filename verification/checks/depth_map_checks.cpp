@@ -14,8 +14,7 @@ namespace {
 
 const std::string roundings_reason =
     "a handful of operations, each off by half an epsilon of its result; a power's exponent, at most 12 "
-    "here, "
-    "magnifies the roundings of its base";
+    "here, magnifies the roundings of its base";
 
 /// Bands from a tenth of a millimetre to a metre, with and without a least distance, shallow and deep.
 std::vector<DepthBand> bands() {

@@ -142,8 +142,7 @@ Finding areas_and_masses_sum(const Subject&) {
       measured.judged(64, "about ten roundings an area, with errors of either sign, added one by one");
   finding.note =
       "The exact value is the area, the mass, or three times the area for the edges' areas. Areas are those "
-      "of plane geometry; for the round sphere and the statue the mesh's own area stands in, "
-      "and only masses "
+      "of plane geometry; for the round sphere and the statue the mesh's own area stands in, and only masses "
       "and edge areas are compared with it.";
   return finding;
 }

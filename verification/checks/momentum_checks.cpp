@@ -157,8 +157,7 @@ Finding truncated_finding(const Subject&) {
     }
   return {{worst.value(), 64, 0, "epsilon of the sum",
            "an iteration rounds every velocity twice and every damping force about ten times; the tens of "
-           "iterations of the tight "
-           "solves add up at random and in falling size"},
+           "iterations of the tight solves add up at random and in falling size"},
           {names, steps, linear, angular},
           "The momenta are those at the positions for which the damping was prepared."};
 }

@@ -16,8 +16,7 @@ namespace {
 
 const std::string tolerance_reason =
     "points arrive within the tolerance of 1e-12 m; the same again for roundings of distances below a metre, "
-    "a few "
-    "1e-16 each";
+    "a few 1e-16 each";
 constexpr double tolerance = 1e-12, twice = 2e-12;  // m
 
 std::string with(const ProjectionCase& specimen, const DepthMap& map) {

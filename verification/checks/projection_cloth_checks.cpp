@@ -66,8 +66,7 @@ Finding pinched_points_would_tear(const Subject&) {
   Finding finding = measured.judged(
       0.2,
       "neighbours on different sides of the middle leave by different balls, each a tenth of a metre away, "
-      "where "
-      "edges are an eightieth: a fifth leaves room for edges that a few particles' fate spares");
+      "where edges are an eightieth: a fifth leaves room for edges that a few particles' fate spares");
   finding.evidence.push_back({"stretch when left alone", "1", alone});
   finding.evidence.push_back({"stretch when projected", "1", moved});
   return finding;
@@ -210,8 +209,7 @@ std::vector<Check> projection_cloth_checks() {
   const std::string source = "BMF03 section 5.3";
   return {{"projection.pinched-points-would-tear",
            "Cloth pinched between two balls would be torn apart if its points were projected, and is not "
-           "when they are "
-           "left alone.",
+           "when they are left alone.",
            source, pinched_points_would_tear},
           {"projection.serves-the-subdivided-cloth",
            "Cloth subdivided first and projected then has no triangle inside.", source,

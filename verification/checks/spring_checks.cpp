@@ -217,8 +217,7 @@ Finding damping_is_symmetric_negative(const Subject& subject) {
   finding.verdict.measured = worst.value();
   finding.verdict.unit = "epsilon of the matrix's size";
   finding.note =
-      "the size is 3N times the largest |eigenvalue| for an eigenvalue, the largest |D_ij| for the "
-      "asymmetry";
+      "the size is 3N times the largest |eigenvalue| for an eigenvalue, the largest |D_ij| for the asymmetry";
   finding.verdict.why_bound += "; an entry of D and its mirror are the same product in another order";
   return finding;
 }

@@ -125,24 +125,19 @@ TEST_CASE("obj: every refusal names the file, the line, the reason and a remedy"
       {square + "f 1/1/1/1 2 3\n", ":5: '1/1/1/1' is no corner of a face; write a, a/b, a//c or a/b/c"},
       {square + "v 2 nan 0\nf 1 2 3 4 5\n", ":5: a coordinate is not finite; give numbers in m"},
       {square + "v 5 5 5\n\nv 6 6 6\nf 1 2 3 4\n",
-       ":5: in no triangle, the first of 2 unused vertices (they would have no "
-       "mass); remove them"},
+       ":5: in no triangle, the first of 2 unused vertices (they would have no mass); remove them"},
       {square + "v 2 0 0\nf 1 2 3 4\nf 1 2 5\n",
-       ":7: no area: vertex 1 (line 1), vertex 2 (line 2) and vertex 5 (line 5) lie "
-       "on a line (area at most 1e-12 of the longest side squared); remove or "
-       "repair the triangle"},
+       ":7: no area: vertex 1 (line 1), vertex 2 (line 2) and vertex 5 (line 5) lie on a line (area at most "
+       "1e-12 of the longest side squared); remove or repair the triangle"},
       {square + "f 1 2 3\n\nf 1 4 3\n",
-       ":7: opposite orientation to its neighbour, the face of line 5: both run along the edge "
-       "between vertex 1 (line 1) and vertex 3 (line 3) the same way; reverse the order "
-       "of one triangle's vertices"},
+       ":7: opposite orientation to its neighbour, the face of line 5: both run along the edge between "
+       "vertex 1 (line 1) and vertex 3 (line 3) the same way; reverse the order of one triangle's vertices"},
       {square + "v 0 0 1\nf 1 2 3\nf 1 3 4\nf 3 1 5\n",
        ":8: the edge between vertex 1 (line 1) and vertex 3 (line 3) has three triangles or more (the face "
-       "of line 6, the "
-       "face of line 7 and this one); a manifold has one or two"},
+       "of line 6, the face of line 7 and this one); a manifold has one or two"},
       {square + "v 2 1 0\nv 2 2 0\nf 1 2 3 4\n\nf 3 5 6\n",
        ":3: its triangles form more than one fan (the face of line 7 and the face of line 9 meet in this "
-       "vertex only); give "
-       "each fan a vertex of its own"}};
+       "vertex only); give each fan a vertex of its own"}};
   for (const auto& [text, message] : cases) CHECK(refusal_of(text) == message);
 }
 
