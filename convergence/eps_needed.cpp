@@ -30,25 +30,6 @@ struct Body {
   double order;                              // of eps in the edge, expected
 };
 
-oracles::TriangleSoup box_surface() {
-  oracles::TriangleSoup box{PerParticle3(3, 8),
-                            {{0, 2, 3},
-                             {0, 3, 1},
-                             {4, 5, 7},
-                             {4, 7, 6},
-                             {0, 1, 5},
-                             {0, 5, 4},
-                             {2, 6, 7},
-                             {2, 7, 3},
-                             {0, 4, 6},
-                             {0, 6, 2},
-                             {1, 3, 7},
-                             {1, 7, 5}}};
-  for (int k = 0; k < 8; ++k)
-    box.x.col(k) = half_extents.cwiseProduct(Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
-  return box;
-}
-
 Body ball(const std::string& name, double radius) {
   const Vector3 direction = Vector3(0.28, -0.31, 0.9).normalized();
   return {name,
@@ -65,17 +46,20 @@ Body ball(const std::string& name, double radius) {
 }
 
 Body box_edge() {
-  return {"box",
-          "edge of a box",
-          Box{half_extents},
-          half_extents.z(),
-          Vector3(1, 0.03, 1.04).normalized(),
-          [](double edge) {
-            return Vector3(half_extents.x() - 0.7 * edge, 0.007, half_extents.z() - 0.7 * edge);
-          },
-          [](const auto& cloth) { return oracles::triangles_in_body(cloth, box_surface()).empty(); },
-          [](double edge) { return edge / root3; },
-          1};
+  return {
+      "box",
+      "edge of a box",
+      Box{half_extents},
+      half_extents.z(),
+      Vector3(1, 0.03, 1.04).normalized(),
+      [](double edge) {
+        return Vector3(half_extents.x() - 0.7 * edge, 0.007, half_extents.z() - 0.7 * edge);
+      },
+      [](const auto& cloth) {
+        return oracles::triangles_in_body(cloth, oracles::box_between(-half_extents, half_extents)).empty();
+      },
+      [](double edge) { return edge / root3; },
+      1};
 }
 
 /// A sheet of equilateral triangles in the body's plane, about its point.
@@ -167,8 +151,7 @@ NamedFinding bound_finding(const Body& body, const Range& range) {
           "On the " + body.words + " an eps of " + bound + " suffices, L the longest edge.",
           {{worst.value(), 1.001, 0, "1",
             "the farthest point of a triangle from its corners is L/sqrt(3) from them at most; on a ball its "
-            "depth "
-            "below them is at most (L/sqrt(3))^2/(2 R). A thousandth for the search"},
+            "depth below them is at most (L/sqrt(3))^2/(2 R). A thousandth for the search"},
            evidence(range),
            ""}};
 }
@@ -202,14 +185,11 @@ StudyResult run(const Subject&, Tier tier, const Progress& progress) {
 Study eps_needed() {
   return {"eps-needed",
           "The eps that keeps triangles out of an object grows as the square of their edges over its radius, "
-          "and as "
-          "their edges along its own edges.",
+          "and as their edges along its own edges.",
           "BMF03 section 5.3",
           "Sheets of equilateral triangles are sunk into a body and projected plainly, their particles to "
-          "eps outside. "
-          "The least eps is sought with which no triangle has a point in common with the body; that is "
-          "decided in whole "
-          "numbers, without a distance field.",
+          "eps outside. The least eps is sought with which no triangle has a point in common with the body; "
+          "that is decided in whole numbers, without a distance field.",
           run};
 }
 

@@ -47,26 +47,6 @@ oracles::TriangleSoup soup_of(const TriangleMesh& mesh, const PerParticle3& x) {
 
 Object body(const Solid& solid) { return {"body", RigidObject{solid, {}, Motion{}}, 0}; }
 
-/// The surface of the box, corners exact.
-oracles::TriangleSoup box_surface() {
-  oracles::TriangleSoup box{PerParticle3(3, 8),
-                            {{0, 2, 3},
-                             {0, 3, 1},
-                             {4, 5, 7},
-                             {4, 7, 6},
-                             {0, 1, 5},
-                             {0, 5, 4},
-                             {2, 6, 7},
-                             {2, 7, 3},
-                             {0, 4, 6},
-                             {0, 6, 2},
-                             {1, 3, 7},
-                             {1, 7, 5}}};
-  for (int k = 0; k < 8; ++k)
-    box.x.col(k) = half_extents.cwiseProduct(Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
-  return box;
-}
-
 /// A solid, and how many triangles of a cloth are not clear of it.
 struct Target {
   std::string name;
@@ -77,14 +57,15 @@ struct Target {
 };
 
 std::vector<Target> targets() {
-  return {{"ball", Sphere{radius}, radius, [](double edge) { return edge * edge / (6 * radius); },
-           [](const oracles::TriangleSoup& cloth) {
-             return oracles::triangles_in_ball(cloth, Vector3::Zero(), radius).size();
-           }},
-          {"box", Box{half_extents}, half_extents.z(), [](double edge) { return edge / std::sqrt(3.0); },
-           [](const oracles::TriangleSoup& cloth) {
-             return oracles::triangles_in_body(cloth, box_surface()).size();
-           }}};
+  return {
+      {"ball", Sphere{radius}, radius, [](double edge) { return edge * edge / (6 * radius); },
+       [](const oracles::TriangleSoup& cloth) {
+         return oracles::triangles_in_ball(cloth, Vector3::Zero(), radius).size();
+       }},
+      {"box", Box{half_extents}, half_extents.z(), [](double edge) { return edge / std::sqrt(3.0); },
+       [](const oracles::TriangleSoup& cloth) {
+         return oracles::triangles_in_body(cloth, oracles::box_between(-half_extents, half_extents)).size();
+       }}};
 }
 
 /// The sheet projected with eps enough for the edges that it has afterwards, or with eps = 0.

@@ -42,23 +42,7 @@ bool are_parted(const Corners3& s, const Corners3& t) {
   return parted;
 }
 
-TriangleSoup cube(double side) {
-  TriangleSoup soup{PerParticle3(3, 8),
-                    {{0, 2, 3},
-                     {0, 3, 1},
-                     {4, 5, 7},
-                     {4, 7, 6},
-                     {0, 1, 5},
-                     {0, 5, 4},
-                     {2, 6, 7},
-                     {2, 7, 3},
-                     {0, 4, 6},
-                     {0, 6, 2},
-                     {1, 3, 7},
-                     {1, 7, 5}}};
-  for (int k = 0; k < 8; ++k) soup.x.col(k) = side * Vector3(k & 1, k >> 1 & 1, k >> 2 & 1);
-  return soup;
-}
+TriangleSoup cube(double side) { return box_between(Vector3::Zero(), Vector3::Constant(side)); }
 
 }  // namespace
 

@@ -201,6 +201,25 @@ Corners3 corners(const TriangleSoup& soup, std::size_t triangle) {
   return {soup.x.col(t[0]), soup.x.col(t[1]), soup.x.col(t[2])};
 }
 
+TriangleSoup box_between(const Vector3& low, const Vector3& high) {
+  TriangleSoup box{PerParticle3(3, 8),
+                   {{0, 2, 3},
+                    {0, 3, 1},
+                    {4, 5, 7},
+                    {4, 7, 6},
+                    {0, 1, 5},
+                    {0, 5, 4},
+                    {2, 6, 7},
+                    {2, 7, 3},
+                    {0, 4, 6},
+                    {0, 6, 2},
+                    {1, 3, 7},
+                    {1, 7, 5}}};
+  for (int corner = 0; corner < 8; ++corner)  // bit k: on the high side of axis k
+    for (int k = 0; k < 3; ++k) box.x(k, corner) = corner >> k & 1 ? high[k] : low[k];
+  return box;
+}
+
 // The determinant in double is right in sign where it exceeds the bound of Shewchuk (1997), (7 + 56 e) e times the
 // same sum of absolute values, e half the spacing of doubles at 1; the least normal number is there for underflow.
 int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {

@@ -19,6 +19,9 @@ struct TriangleSoup {
 
 Corners3 corners(const TriangleSoup& soup, std::size_t triangle);
 
+/// The surface of a box along the axes, two triangles a side, its corners exactly of these coordinates [m].
+TriangleSoup box_between(const Vector3& low, const Vector3& high);
+
 /// The sign of det(b - a, c - a, d - a): +1, 0 or -1.
 int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
 
