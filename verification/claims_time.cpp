@@ -40,11 +40,10 @@ std::vector<Claim> orders_and_limits() {
        Standing::confirmed, "",
        "Without a filter, A's velocities obey the trapezoidal rule to "
        "{dynamics.lines-one-and-four-are-the-trapezoidal-rule.A} of the velocity, less than the tolerance of "
-       "the solve. On a driven, damped hinge with large angles the observed order in "
-       "positions and velocities is within {largest of: time-order.hinge.A.constant.x, "
-       "time-order.hinge.A.constant.v} of two, on a hanging sheet within {largest of: "
-       "time-order.sheet.A.constant.x, time-order.sheet.A.constant.v}, there with random steps within "
-       "{largest of: "
+       "the solve. On a driven, damped hinge with large angles the observed order in positions and "
+       "velocities is within {largest of: time-order.hinge.A.constant.x, time-order.hinge.A.constant.v} of "
+       "two, on a hanging sheet within {largest of: time-order.sheet.A.constant.x, "
+       "time-order.sheet.A.constant.v}, there with random steps within {largest of: "
        "time-order.sheet.A.random.x, time-order.sheet.A.random.v}."},
       {"T2",
        "3",
@@ -66,8 +65,7 @@ std::vector<Claim> orders_and_limits() {
        "{elastic-limit.is-two-over-omega.springs.A}, and it falls with the width of a cell to a power of "
        "{elastic-limit.exponent.springs|exponent|last} where springs resist, but of "
        "{elastic-limit.exponent.bending|exponent|last} where hinges do. While the damping of springs, of "
-       "hinges or of both rises "
-       "by ten thousand the limit of a clamped sheet stays at 2/omega, to "
+       "hinges or of both rises by ten thousand the limit of a clamped sheet stays at 2/omega, to "
        "{stability-sheet.independent-of-damping.both.A}."}};
 }
 
@@ -133,8 +131,7 @@ std::vector<Claim> damping_of_modes() {
        "ever, and an undamped sheet runs backwards to where it came from. Where springs alone are damped "
        "heavily, or hinges alone, the vibrations of the other part change under A by "
        "{artificial-damping.only-where-damped.A}. Over a hundred periods the energy of an undamped sheet has "
-       "no trend under "
-       "A: its slope is {artificial-damping.no-trend.A} from zero."}};
+       "no trend under A: its slope is {artificial-damping.no-trend.A} from zero."}};
 }
 
 std::vector<Claim> linear_solve() {
@@ -168,22 +165,16 @@ std::vector<Claim> linear_solve() {
        "In the typical setting, on a noisy sheet at a damping ratio of a tenth, half the elastic limit and a "
        "tolerance of a ten-thousandth, the largest count of any solve is {bare: "
        "cg-iterations.fewer-than-ten-in-the-typical-setting} and the mean "
-       "{cg-iterations.fewer-than-ten-in-the-"
-       "typical-setting|mean iterations|largest}. Meshes are refined in a harder setting, at a damping ratio "
-       "of "
-       "three and a tolerance of a hundred-millionth, in which growth would show: there the mean goes with "
-       "the cells "
-       "along a side to the power {cg-iterations.do-not-grow-with-the-mesh}. Over all settings, with "
-       "tolerance, "
-       "damping ratio, step or mesh varied one at a time, the mean goes from "
-       "{cg-iterations.ten-or-more-in-harder-settings|mean iterations|smallest} to "
-       "{cg-iterations.ten-or-more-in-harder-settings|mean iterations|largest} a solve, and the largest "
-       "count of any "
-       "solve is {cg-iterations.ten-or-more-in-harder-settings|largest|largest}. With residuals compared "
-       "with the "
+       "{cg-iterations.fewer-than-ten-in-the-typical-setting|mean iterations|largest}. Meshes are refined in "
+       "a harder setting, at a damping ratio of three and a tolerance of a hundred-millionth, in which "
+       "growth would show: there the mean goes with the cells along a side to the power "
+       "{cg-iterations.do-not-grow-with-the-mesh}. Over all settings, with tolerance, damping ratio, step or "
+       "mesh varied one at a time, the mean goes from {cg-iterations.ten-or-more-in-harder-settings|mean "
+       "iterations|smallest} to {cg-iterations.ten-or-more-in-harder-settings|mean iterations|largest} a "
+       "solve, and the largest count of any solve is "
+       "{cg-iterations.ten-or-more-in-harder-settings|largest|largest}. With residuals compared with the "
        "initial one, the largest count of a setting is at most {cg-iterations.within-the-bound-of-theory} of "
-       "what "
-       "the condition of the matrix allows."}};
+       "what the condition of the matrix allows."}};
 }
 
 std::vector<Claim> cached_terms_and_filters() {
@@ -205,16 +196,14 @@ std::vector<Claim> cached_terms_and_filters() {
       {"T10", "3",
        "With positions stepped explicitly, velocities can be modified at will for many kinds of constraints.",
        each({"A", "B", "C"}, "dynamics.filters-act-on-the-moving-velocity"), Standing::confirmed, "",
-       "The velocity that a filter leaves is exactly the one that moves the cloth: under A, B and C, "
-       "x + h v and the new positions differ in {bare: largest of: "
-       "dynamics.filters-act-on-the-moving-velocity.A, "
+       "The velocity that a filter leaves is exactly the one that moves the cloth: under A, B and C, x + h v "
+       "and the new positions differ in {bare: largest of: dynamics.filters-act-on-the-moving-velocity.A, "
        "dynamics.filters-act-on-the-moving-velocity.B, dynamics.filters-act-on-the-moving-velocity.C} of "
-       "their "
-       "numbers. What a filter promises of the positions at the end of the step therefore comes "
-       "true to the bit."}};
+       "their numbers. What a filter promises of the positions at the end of the step therefore comes true "
+       "to the bit."}};
 }
 
-std::vector<Claim> monotone_motion() {
+std::vector<Claim> overshooting_methods() {
   return {
       {"T13",
        "3",
@@ -226,20 +215,16 @@ std::vector<Claim> monotone_motion() {
         {"transient-growth.A.exponent", Role::supports}},
        Standing::confirmed,
        "",
-       "A particle that is only damped comes, under A, to a total displacement of 1 - (h c/2)^2 of the "
-       "exact one, to {dynamics.pure-damping-displacement.A}: at h c/2 = "
-       "{dynamics.pure-damping-displacement.A|h c/2|5} that is "
-       "{dynamics.pure-damping-displacement.A|displacement over exact|5} times the way it should go: "
-       "backwards. It is stable all the same: with damping ratios up to "
+       "A particle that is only damped comes, under A, to a total displacement of 1 - (h c/2)^2 of the exact "
+       "one, to {dynamics.pure-damping-displacement.A}: at h c/2 = {dynamics.pure-damping-displacement.A|h "
+       "c/2|5} that is {dynamics.pure-damping-displacement.A|displacement over exact|5} times the way it "
+       "should go: backwards. It is stable all the same: with damping ratios up to "
        "{dynamics.stability-limit-is-as-derived.A|damping ratio|largest} the limit is 2/omega. On an "
-       "overdamped sheet "
-       "with stiffness it throws a mode back by "
+       "overdamped sheet with stiffness it throws a mode back by "
        "{monotonicity.overdamped-sheet.overshoots.A|positions|first} times its way at h c/2 = 10. In the "
-       "norm "
-       "of the energy, in which exact "
-       "motion never grows, A carries a disturbance of a damped oscillator to as much as "
-       "{transient-growth.A.grows-with-damping|growth|largest} times its size on the way, in proportion to "
-       "the damping."},
+       "norm of the energy, in which exact motion never grows, A carries a disturbance of a damped "
+       "oscillator to as much as {transient-growth.A.grows-with-damping|growth|largest} times its size on "
+       "the way, in proportion to the damping."},
       {"T14",
        "3",
        "Fully implicit methods of second order, such as BDF2, oscillate too at large steps.",
@@ -251,9 +236,12 @@ std::vector<Claim> monotone_motion() {
        "A motion that is only damped overshoots its way and turns back under BDF2 once h c is large, as its "
        "recurrence says, to {monotonicity.way.BDF2}: by a tenth of the way at most, where A goes wrong by (h "
        "c/2)^2 ways. Under the implicit midpoint rule velocities on an overdamped sheet with stiffness swing "
-       "by "
-       "up to {monotonicity.overdamped-sheet.swings.implicit-midpoint|velocities|last} of those at the "
-       "start."},
+       "by up to {monotonicity.overdamped-sheet.swings.implicit-midpoint|velocities|last} of those at the "
+       "start."}};
+}
+
+std::vector<Claim> monotone_methods() {
+  return {
       {"T15",
        "3",
        "Backward Euler is monotone for every step.",
@@ -266,19 +254,16 @@ std::vector<Claim> monotone_motion() {
         {"monotonicity.passes-its-place.backward-euler", Role::limits}},
        Standing::conditional,
        "on linear motions, and on nonlinear ones that stiffness brings to rest: where damping alone does, "
-       "and "
-       "changes with the shape, the fully implicit method goes too far",
+       "and changes with the shape, the fully implicit method goes too far",
        "At no step tried does a linear motion overshoot or turn back, fully implicit "
        "({monotonicity.monotone.backward-euler}) or linearised "
        "({monotonicity.monotone.linear-backward-euler}), nor on a sheet whose stiffness damping outweighs "
        "({monotonicity.overdamped-sheet.monotone.backward-euler}). An overdamped hinge that closes by nearly "
-       "two "
-       "radians comes to its rest angle without passing it, to {monotonicity.closing-hinge.backward-euler}. "
-       "On a "
-       "hinge without stiffness the linearised method turns back by "
-       "{monotonicity.monotone-on-a-hinge.linear-backward-euler}, no more than the exact motion allows; the "
-       "fully implicit one, which takes the damping at the step's end, "
-       "goes {monotonicity.passes-its-place.backward-euler|farthest|largest} times the exact way, and stays "
+       "two radians comes to its rest angle without passing it, to "
+       "{monotonicity.closing-hinge.backward-euler}. On a hinge without stiffness the linearised method "
+       "turns back by {monotonicity.monotone-on-a-hinge.linear-backward-euler}, no more than the exact "
+       "motion allows; the fully implicit one, which takes the damping at the step's end, goes "
+       "{monotonicity.passes-its-place.backward-euler|farthest|largest} times the exact way, and stays "
        "there."},
       {"T16",
        "3",
@@ -295,8 +280,7 @@ std::vector<Claim> monotone_motion() {
        "Under B the total displacement of a particle that is only damped is the exact one, to "
        "{dynamics.pure-damping-displacement.B}, and no linear motion tried came further than "
        "{monotonicity.bounded.B}, however large the damping. For h c/2 below one it is monotone. On an "
-       "overdamped "
-       "sheet with stiffness positions overshoot by up to "
+       "overdamped sheet with stiffness positions overshoot by up to "
        "{monotonicity.overdamped-sheet.bounded.B|positions|largest} of their way and velocities by "
        "{monotonicity.overdamped-sheet.bounded.B|velocities|largest} of those at the start."}};
 }
@@ -330,16 +314,14 @@ std::vector<Claim> variable_steps() {
        "order without condition; monotone for h c/2 < 1, beyond that only bounded, and that on linear "
        "motions; without damping, steps in turn can resonate though each alone is stable",
        "With alternating steps on a driven hinge the observed order of C is within "
-       "{time-order.hinge.C.alternating.x} of two "
-       "in positions and {time-order.hinge.C.alternating.v} in velocities, with random ones within "
-       "{time-order.hinge.C.random.x} and {time-order.hinge.C.random.v}; on a sheet with random steps within "
-       "{time-order.sheet.C.random.x} and {time-order.sheet.C.random.v}. But steps that are stable each by "
-       "itself need not be so in turn: undamped, a long and a short one multiply a disturbance by "
-       "{variable-step-stability.resonance.C|spectral radius of the pair|1} a pair under C, as under A and "
-       "B; a "
-       "damping ratio of a half cures it (radius {variable-step-stability.damping-cures.C}). A motion that "
-       "is only damped comes no further than {monotonicity.bounded.C}, but swings about its end for h c/2 > "
-       "1."}};
+       "{time-order.hinge.C.alternating.x} of two in positions and {time-order.hinge.C.alternating.v} in "
+       "velocities, with random ones within {time-order.hinge.C.random.x} and {time-order.hinge.C.random.v}; "
+       "on a sheet with random steps within {time-order.sheet.C.random.x} and {time-order.sheet.C.random.v}. "
+       "But steps that are stable each by itself need not be so in turn: undamped, a long and a short one "
+       "multiply a disturbance by {variable-step-stability.resonance.C|spectral radius of the pair|1} a pair "
+       "under C, as under A and B; a damping ratio of a half cures it (radius "
+       "{variable-step-stability.damping-cures.C}). A motion that is only damped comes no further than "
+       "{monotonicity.bounded.C}, but swings about its end for h c/2 > 1."}};
 }
 
 std::vector<Claim> cost_and_momentum() {
@@ -374,9 +356,9 @@ std::vector<Claim> cost_and_momentum() {
 
 std::vector<Claim> time_claims() {
   std::vector<Claim> claims;
-  for (const auto& part :
-       {orders_and_limits(), limits_of_explicit_methods(), damping_of_modes(), linear_solve(),
-        cached_terms_and_filters(), monotone_motion(), variable_steps(), cost_and_momentum()})
+  for (const auto& part : {orders_and_limits(), limits_of_explicit_methods(), damping_of_modes(),
+                           linear_solve(), cached_terms_and_filters(), overshooting_methods(),
+                           monotone_methods(), variable_steps(), cost_and_momentum()})
     claims.insert(claims.end(), part.begin(), part.end());
   return claims;
 }
