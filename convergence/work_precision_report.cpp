@@ -1,4 +1,5 @@
 // Figures and tables of the work-precision study.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -50,6 +51,22 @@ const char* const caption =
     "Largest position error at the end over the largest motion. In the strip at the top: runs that diverged "
     "or err by more than the motion, where all of their steps would have cost as much as those that they "
     "took. The floor is the uncertainty of the reference solution; runs below it are faint.";
+
+/// Which curves have fewer than five runs that err more than the reference, and why.
+std::string short_curves(const PrecisionScene& scene) {
+  constexpr int enough = 5;
+  std::string list;
+  for (const PrecisionCurve& curve : scene.curves) {
+    const auto seen = std::ranges::count_if(
+        curve.runs, [&](const PrecisionRun& run) { return run.error > scene.truth.uncertainty; });
+    if (seen >= enough || curve.runs.empty()) continue;
+    const bool is_fine = curve.runs.back().error <= wanted_errors.back() / 3;
+    list +=
+        (list.empty() ? " " : ", ") + std::string(curve.integrator.name) + " (" + std::to_string(seen) +
+        (is_fine ? ": exact enough from its longest stable steps on)" : ": shorter steps exceed the budget)");
+  }
+  return list.empty() ? "" : " Fewer than five such runs:" + list + ".";
+}
 
 /// A cost that two methods are compared by.
 struct Currency {
@@ -268,6 +285,7 @@ std::vector<Figure> precision_figures(const PrecisionScene& scene) {
       else
         figure.curves.push_back(std::move(points));
     }
+    figure.caption += short_curves(scene);
     figures.push_back(std::move(figure));
   }
   return figures;
