@@ -87,7 +87,7 @@ std::vector<Record> wanted_of(std::vector<Record> records, const std::vector<std
   return records;
 }
 
-/// What measures seconds: it has the machine for itself.
+/// Checks and studies that measure seconds: they have the machine for themselves.
 const std::vector<std::string> timed = {"solver.cached-terms-save-time", "work-precision", "level-set-cache",
                                         "level-set-resolution", "octree-memory"};
 
