@@ -1,10 +1,10 @@
 // buckling: the load at which a compressed strip leaves its plane, and how fast it does so beyond.
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
 #include "convergence/studies.h"
 #include "reference/mesh/shapes.h"
+#include "verification/oracles/dense_algebra.h"
 #include "verification/subject.h"
 
 namespace foldproof {
@@ -100,13 +100,13 @@ Compressed compressed(const Subject& subject, const Strip& strip) {
   for (int i = 0; i < scene.mesh.particles(); ++i)  // what the lower clamp holds back
     if (scene.mesh.rest(1, i) < 1.5 * strip.row()) result.load -= force(1, i) / strip.width();
 
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-      stiffness_across(subject, *prepared, scene, result.rest));
-  result.stiffness = modes.eigenvalues()[0];
+  const oracles::SymmetricModes modes =
+      oracles::symmetric_modes(stiffness_across(subject, *prepared, scene, result.rest));
+  result.stiffness = modes.values[0];
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   const std::vector<int> free = free_particles(scene);
   for (size_t i = 0; i < free.size(); ++i)
-    result.mode[free[i]] = modes.eigenvectors()(Eigen::Index(i), 0) / std::sqrt(mass[free[i]]);
+    result.mode[free[i]] = modes.vectors(Eigen::Index(i), 0) / std::sqrt(mass[free[i]]);
   result.mode.normalize();
   return result;
 }
@@ -149,8 +149,7 @@ NamedFinding load_finding(const Rigidities& found) {
       "between 2/9 ke (free edges) and 1/4 ke (bent to a cylinder).",
       {{outside.value(), discrete, 0, "ke",
         "outside of the two rigidities by no more than n rows miss of a cosine's curvature, (2 pi/(n - "
-        "1))^2/12 "
-        "of it, on the finest mesh"},
+        "1))^2/12 of it, on the finest mesh"},
        {{"rows", "1", found.rows},
         {"critical strain", "1", found.strains},
         {"critical load", "N/m", found.loads},
@@ -238,14 +237,12 @@ StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
 Study buckling() {
   return {"buckling",
           "A compressed strip leaves its plane at Euler's load with the mesh's own rigidity, and grows "
-          "beyond it at "
-          "the rate of the linearised forces.",
+          "beyond it at the rate of the linearised forces.",
           "our test of BMF03 section 4",
           "A strip of equilateral triangles between two clamps is shortened; motion in its plane is left to "
-          "die out, "
-          "none leaves it. Central differences of the forces across the plane give the stiffness against "
-          "buckling, "
-          "and the strain at which it vanishes; the clamp's force there is the critical load.",
+          "die out, none leaves it. Central differences of the forces across the plane give the stiffness "
+          "against buckling, and the strain at which it vanishes; the clamp's force there is the critical "
+          "load.",
           run};
 }
 

@@ -8,6 +8,7 @@
 #include "convergence/order.h"
 #include "convergence/studies.h"
 #include "reference/mesh/shapes.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -35,7 +36,7 @@ Scene swarm(const SceneObject& object, const Vector3& velocity) {
 SceneObject floor_object() {
   SceneObject part = solid_object("floor", HalfSpace{}, 0);
   std::get<RigidObject>(part.object.body).place.rotation =
-      Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), Vector3::UnitY());
+      oracles::turn_between(Vector3::UnitZ(), Vector3::UnitY());
   return part;
 }
 
@@ -95,8 +96,7 @@ NamedFinding order_finding(const Setting& setting, const Convergence& misses) {
           "On " + setting.words + ", it misses the surface by the square of the step.",
           {{deviation.value, 0.1, deviation.uncertainty, "1",
             "a first-order miss would be off by one: the forecast has then the wrong direction or velocity; "
-            "the next "
-            "term is smaller by the way of a step over the radius, a hundredth"},
+            "the next term is smaller by the way of a step over the radius, a hundredth"},
            {{"step", "s", misses.steps}, {"miss", "m", misses.errors}},
            "measured is |order - 2| of the last two pairs"}};
 }
@@ -209,10 +209,9 @@ Study forecast_time_study() {
   return {"forecast-time", "A forecast is exact on planes and of second order on curved and turning objects.",
           "BMF03 section 5.2",
           "The response makes a point's forecast exact: phi + tau (v_p - v).N = 0. Where the point is after "
-          "that time "
-          "is another matter: the surface curves away under a point that slides, and the object's normals "
-          "turn. And "
-          "the forecast time need not be the step: it is the time in which a point comes to the surface.",
+          "that time is another matter: the surface curves away under a point that slides, and the object's "
+          "normals turn. And the forecast time need not be the step: it is the time in which a point comes "
+          "to the surface.",
           run};
 }
 

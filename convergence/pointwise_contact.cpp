@@ -5,6 +5,7 @@
 #include "convergence/contact_runs.h"
 #include "convergence/order.h"
 #include "convergence/studies.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -44,9 +45,8 @@ NamedFinding order_finding(const Cut& cut) {
           "Edges whose ends lie on a ball cut into it by the square of their length.",
           {{deviation.value, 0.3, 0, "1",
             "a chord of length L is L^2/(8R) deep; how far the longest edges have come to lie along the ball "
-            "differs from "
-            "mesh to mesh by a few percent, which is worth three tenths of an order between meshes half as "
-            "fine again"},
+            "differs from mesh to mesh by a few percent, which is worth three tenths of an order between "
+            "meshes half as fine again"},
            {{"edge", "m", cut.lengths},
             {"depth of midpoints", "m", cut.edges},
             {"depth of centres", "m", cut.faces}},
@@ -83,7 +83,7 @@ NamedFinding spike_finding(const Subject& subject) {
   Scene scene = level_sheet(8, 0.3, {0.3 / 24, 0.03, 0.3 / 48});
   scene.objects.push_back(solid_object("pin", Capsule{0.003, 0.6}, 0));
   auto& body = std::get<RigidObject>(scene.objects[0].object.body);
-  body.place = {Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), Vector3::UnitY()), {0, -0.6, 0}};
+  body.place = {oracles::turn_between(Vector3::UnitZ(), Vector3::UnitY()), {0, -0.6, 0}};
   const State end = run_to_end(subject, scene, usual_step(scene), 0.25, [](const State&) {});
   const double height = end.x.row(1).mean();
   return {"pointwise-contact.a-pin-comes-through",
@@ -126,8 +126,7 @@ StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
 Study pointwise_contact() {
   return {"pointwise-contact", "Particles alone are enough where the cloth is dense.", "BMF03 section 5.2",
           "The response holds points out of objects. What lies between the points is held out only as far as "
-          "the object is "
-          "flat from one point to the next.",
+          "the object is flat from one point to the next.",
           run};
 }
 

@@ -1,9 +1,10 @@
 #include "convergence/row_strip.h"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -116,7 +117,7 @@ StripAtRest at_rest(const RowStrip& strip, StripAtRest start) {
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_steps; ++i) {
     const Eigen::VectorXd step =
-        jacobian(strip, unknowns).partialPivLu().solve(-generalised_forces(strip, unknowns));
+        oracles::solved(jacobian(strip, unknowns), -generalised_forces(strip, unknowns));
     Worst largest;
     for (const double change : step) largest.see(std::abs(change));
     const double size = largest.value();

@@ -1,6 +1,5 @@
 // shape-return: a sculpted shell is pulled out of shape, let go, and damped until it rests.
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,6 +9,7 @@
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
 #include "verification/checks/moving_scenes.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -71,10 +71,11 @@ Scene pulled_out_of_shape(const Shell& shell, RestAngles angles) {
 double distance_from(const PerParticle3& rest, const PerParticle3& x) {
   const PerParticle3 a = rest.colwise() - rest.rowwise().mean(), b = x.colwise() - x.rowwise().mean();
   const Eigen::Matrix3d covariance = b * a.transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const oracles::SingularParts parts = oracles::singular_parts(covariance);
+  const Eigen::Matrix3d U = parts.U, V = parts.V;
   Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity();
-  mirror(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  const Eigen::Matrix3d turn = svd.matrixU() * mirror * svd.matrixV().transpose();
+  mirror(2, 2) = (U * V.transpose()).determinant() < 0 ? -1 : 1;
+  const Eigen::Matrix3d turn = U * mirror * V.transpose();
   return std::sqrt((b - turn * a).colwise().squaredNorm().mean());
 }
 

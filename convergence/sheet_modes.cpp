@@ -1,6 +1,5 @@
 #include "convergence/sheet_modes.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +7,7 @@
 #include "convergence/oracle_problem.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/moving_scenes.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -64,13 +64,13 @@ void add_modes(const Scene& scene, ModeKind kind, std::vector<SheetMode>& modes)
   constexpr Eigen::Index rigid = 3;
   const std::vector<Eigen::Index> coordinates = coordinates_of(kind, scene.mesh.rest.cols());
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled_stiffness(scene, coordinates));
-  for (Eigen::Index k = rigid; k < solver.eigenvalues().size(); ++k) {
+  const oracles::SymmetricModes found = oracles::symmetric_modes(scaled_stiffness(scene, coordinates));
+  for (Eigen::Index k = rigid; k < found.values.size(); ++k) {
     PerParticle3 shape = PerParticle3::Zero(3, mass.size());
     for (size_t i = 0; i < coordinates.size(); ++i)
       shape.reshaped()[coordinates[i]] =
-          solver.eigenvectors()(Eigen::Index(i), k) / std::sqrt(mass[coordinates[i] / 3]);
-    modes.push_back({kind, std::sqrt(solver.eigenvalues()[k]), shape});
+          found.vectors(Eigen::Index(i), k) / std::sqrt(mass[coordinates[i] / 3]);
+    modes.push_back({kind, std::sqrt(found.values[k]), shape});
   }
 }
 

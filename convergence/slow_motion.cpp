@@ -1,11 +1,11 @@
 #include "convergence/slow_motion.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
 #include "convergence/order.h"
 #include "convergence/step_matrix.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -34,7 +34,7 @@ Convergence rate_errors(const Subject& subject, const std::string& scheme) {
   Convergence errors;
   for (int level = 0; level < levels; ++level) {
     const double h = 2 * most / motion.c / (1 << level), expected = std::exp(-motion.rate * h);
-    const Eigen::VectorXcd values = step_matrix(of, {h, h}).eigenvalues();
+    const Eigen::VectorXcd values = oracles::eigenvalues(step_matrix(of, {h, h}));
     Eigen::Index next = 0;
     (values.array() - expected).abs().minCoeff(&next);
     errors.steps.push_back(h);

@@ -1,12 +1,12 @@
 #include "convergence/step_matrix.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -160,7 +160,7 @@ oracles::Scheme derived_scheme(std::string_view integrator) {
 double spectral_radius(const Eigen::MatrixXd& matrix) {
   if (!matrix.allFinite()) return std::numeric_limits<double>::quiet_NaN();
   Worst worst;
-  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
+  const Eigen::VectorXcd values = oracles::eigenvalues(matrix);
   for (const std::complex<double>& value : values) worst.see(std::abs(value));
   return worst.value();
 }
@@ -191,8 +191,7 @@ double transient_growth(const Eigen::MatrixXd& matrix, int powers) {
   for (int i = 0; i < powers; ++i) {
     if (!power.allFinite()) return std::numeric_limits<double>::infinity();
     const Eigen::MatrixXd square = power.transpose() * power;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(square, Eigen::EigenvaluesOnly);
-    worst.see(std::sqrt(solver.eigenvalues()[square.rows() - 1]));
+    worst.see(std::sqrt(oracles::symmetric_eigenvalues(square)[square.rows() - 1]));
     power = matrix * power;
   }
   return worst.value();
@@ -201,10 +200,11 @@ double transient_growth(const Eigen::MatrixXd& matrix, int powers) {
 Eigen::MatrixXd in_energy_norm(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& stiffness,
                                double omega0) {
   const Eigen::Index n = stiffness.rows();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness);
+  const auto [values, vectors] = oracles::symmetric_modes(stiffness);
+  const Eigen::VectorXd roots = values.cwiseSqrt();
   Eigen::MatrixXd scale = Eigen::MatrixXd::Identity(2 * n, 2 * n), back = scale;
-  scale.topLeftCorner(n, n) = solver.operatorSqrt() / omega0;
-  back.topLeftCorner(n, n) = solver.operatorInverseSqrt() * omega0;
+  scale.topLeftCorner(n, n) = vectors * roots.asDiagonal() * vectors.transpose() / omega0;
+  back.topLeftCorner(n, n) = vectors * roots.cwiseInverse().asDiagonal() * vectors.transpose() * omega0;
   return scale * matrix * back;
 }
 

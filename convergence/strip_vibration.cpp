@@ -1,5 +1,4 @@
 // strip-vibration: the lowest frequencies of a clamped strip, from its stiffness and from its steps.
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "convergence/studies.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/checks/moving_scenes.h"
+#include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/gsl.h"
 
 namespace foldproof {
@@ -31,11 +31,11 @@ double exact_frequency(int n) {
   return std::pow(clamped_free_root(n) / strip_length, 2) * std::sqrt(strip_D / strip_density);
 }
 
-using Modes = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>;
+using Modes = oracles::SymmetricModes;
 
 /// Modes of K x = omega^2 M x; only the symmetric part of K counts, the rest is rounding.
 Modes modes_of(const Eigen::MatrixXd& K, const Eigen::VectorXd& masses) {
-  return Modes(0.5 * (K + K.transpose()), masses.asDiagonal().toDenseMatrix());
+  return oracles::symmetric_modes(0.5 * (K + K.transpose()), masses.asDiagonal().toDenseMatrix());
 }
 
 /// Forces across a strip held cylindrical when its free rows rise by `heights` [m]; one of each per row [N].
@@ -62,7 +62,7 @@ Eigen::Vector2d frequencies(const RowStrip& strip) {
   const Modes modes = modes_of(K, masses);
   Eigen::Vector2d omega;
   for (Eigen::Index mode = 0; mode < 2; ++mode) {
-    const Eigen::VectorXd shape = amplitude * modes.eigenvectors().col(mode).normalized();
+    const Eigen::VectorXd shape = amplitude * modes.vectors.col(mode).normalized();
     omega[mode] = std::sqrt(-shape.dot(pull(strip, shape)) / shape.dot(masses.cwiseProduct(shape)));
   }
   return omega;
@@ -155,10 +155,10 @@ double worst_difference(const Subject& subject, const Scene& scene, const std::s
   constexpr double amplitude = 3e-5;  // m
   const std::vector<int> free = free_particles(scene);
   const Modes modes = sheet_modes(Probe(subject, scene), scene, free);
-  const Eigen::VectorXd shape = modes.eigenvectors().col(mode - 1);  // shape.M shape = 1
+  const Eigen::VectorXd shape = modes.vectors.col(mode - 1);  // shape.M shape = 1
   const PerParticle masses = lumped_masses(scene.mesh, scene.density);
-  const double omega = std::sqrt(modes.eigenvalues()[mode - 1]);
-  const double h = 1 / std::sqrt(modes.eigenvalues().tail<1>()[0]);  // half of the limit
+  const double omega = std::sqrt(modes.values[mode - 1]);
+  const double h = 1 / std::sqrt(modes.values.tail<1>()[0]);  // half of the limit
   const double scale = amplitude / shape.norm();
 
   Stepper stepper(subject, scene, scheme);

@@ -1,9 +1,9 @@
-#include <Eigen/Dense>
 #include <cmath>
 
 #include "verification/checks/bending_checks.h"
 #include "verification/checks/measured.h"
 #include "verification/checks/specimens.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -78,9 +78,9 @@ Finding mode_is_the_only_one(const Subject&) {
   Measured measured = roundings_of("thinness over the eleventh singular value");
   std::vector<double> gaps;
   for (const Corners& x : shapes()) {
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(eleven_modes(x).modes.transpose(), Eigen::ComputeFullV);
-    const double smallest = svd.singularValues()[10] / svd.singularValues()[0];
-    const Mode u = reference_mode(x).normalized(), alone = svd.matrixV().col(11);
+    const oracles::SingularParts parts = oracles::singular_parts(eleven_modes(x).modes.transpose());
+    const double smallest = parts.values[10] / parts.values[0];
+    const Mode u = reference_mode(x).normalized(), alone = parts.V.col(11);
     const double sine = (u - u.dot(alone) * alone).norm();
     const bool several = !(smallest > 1e-4);  // the eleven would not be independent
     gaps.push_back(smallest);
@@ -121,8 +121,7 @@ Finding mode_is_minus_gradient(const Subject&) {
   finding.evidence.push_back({"u.v of the same motion", "rad/s", products});
   finding.note =
       "The printed line d(theta)/dt = u.v has the wrong sign: d(theta)/dt = -u.v, as the last two columns "
-      "show. "
-      "The printed forces are right.";
+      "show. The printed forces are right.";
   return finding;
 }
 

@@ -1,5 +1,4 @@
 // Nonlinear damping of the angle's rate; and whether a sculpted shape comes back.
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <functional>
 
@@ -8,6 +7,7 @@
 #include "verification/checks/measured.h"
 #include "verification/checks/moving_scenes.h"
 #include "verification/checks/specimens.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -76,7 +76,7 @@ double relative_asymmetry(const Matrix12& J) {
 /// Largest eigenvalue of the symmetric part [N s/m]; at most 0 where the law dissipates more as v grows.
 double largest_eigenvalue(const Matrix12& J) {
   const Matrix12 symmetric = (J + J.transpose()) / 2;
-  return Eigen::SelfAdjointEigenSolver<Matrix12>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[11];
+  return oracles::symmetric_eigenvalues(symmetric)[11];
 }
 
 Finding nonlinear_damping_stays_symmetric(const Subject& subject) {

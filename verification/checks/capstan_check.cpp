@@ -6,6 +6,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/checks/contact_checks.h"
 #include "verification/checks/contact_scenes.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -37,9 +38,8 @@ Scene wrapped_strip(double wrap, double friction) {
     if (s < 1e-9) scene.led.push_back({int(i), scene.x.col(i), {}});
     if (s > length - 1e-9) scene.led.push_back({int(i), scene.x.col(i), motion});
   }
-  SceneObject drum =
-      object_at("drum", Capsule{radius, 1},
-                {Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), Vector3::UnitX()), Vector3::Zero()});
+  SceneObject drum = object_at("drum", Capsule{radius, 1},
+                               {oracles::turn_between(Vector3::UnitZ(), Vector3::UnitX()), Vector3::Zero()});
   drum.object.friction = friction;
   scene.objects.push_back(drum);
   return scene;

@@ -1,10 +1,10 @@
 #include "verification/checks/differential_checks.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "verification/checks/measured.h"
 #include "verification/checks/specimens.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -132,11 +132,9 @@ Finding is_symmetric(const Subject&) {
 /// P <= 0, A - P >= 0 and P (A - P) = 0; relative to |A|.
 double projection_error(const Matrix& A, const Matrix& P) {
   const double scale = A.norm();
-  const Eigen::SelfAdjointEigenSolver<Matrix> of_P(P, Eigen::EigenvaluesOnly),
-      of_rest(A - P, Eigen::EigenvaluesOnly);
   Worst worst;
-  worst.see(of_P.eigenvalues().maxCoeff() / scale);
-  worst.see(-of_rest.eigenvalues().minCoeff() / scale);
+  worst.see(oracles::symmetric_eigenvalues(P).maxCoeff() / scale);
+  worst.see(-oracles::symmetric_eigenvalues(A - P).minCoeff() / scale);
   worst.see((P * (A - P)).norm() / (scale * scale));
   return worst.value() / epsilon;
 }
@@ -174,8 +172,8 @@ Finding semidefinite_only_resists(const Subject&) {
   Measured measured = roundings_of("the largest entry");
   for (const Specimen& specimen : elastic_specimens()) {
     const Matrix K = stiffness_of(specimen, Definiteness::semidefinite);
-    const Eigen::SelfAdjointEigenSolver<Matrix> modes(0.5 * (K + K.transpose()), Eigen::EigenvaluesOnly);
-    measured.see(specimen.name, modes.eigenvalues().maxCoeff() / (epsilon * largest_entry(K)));
+    const Eigen::VectorXd values = oracles::symmetric_eigenvalues(0.5 * (K + K.transpose()));
+    measured.see(specimen.name, values.maxCoeff() / (epsilon * largest_entry(K)));
   }
   return measured.judged(
       256, "a sum of some hundred negative semidefinite blocks, each so to a few dozen roundings");
@@ -192,8 +190,7 @@ std::vector<Check> differential_checks() {
        what, hinge_is_second_derivative},
       {"elastic-differential.matches-force-differences",
        "The reference's elastic derivative is that of the subject's forces, for springs, both bending laws, "
-       "and their "
-       "sum.",
+       "and their sum.",
        what, matches_differences},
       {"elastic-differential.is-symmetric", "The reference's elastic derivative is symmetric.", what,
        is_symmetric},

@@ -1,11 +1,11 @@
 #include "verification/checks/force_checks.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "reference/dynamics/system.h"
 #include "verification/checks/measured.h"
 #include "verification/checks/specimens.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -81,9 +81,7 @@ oracles::Estimate largest_frequency(const Probe& probe, const State& s, const Pe
   std::array<double, 2> found{};
   for (int k = 0; k < 2; ++k) {
     const Eigen::MatrixXd K = scaled_stiffness(probe, s, mass, 1e-6 * (2 - k));
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (K + K.transpose()),
-                                                                Eigen::EigenvaluesOnly);
-    found[k] = std::sqrt(solver.eigenvalues().maxCoeff());
+    found[k] = std::sqrt(oracles::symmetric_eigenvalues(0.5 * (K + K.transpose())).maxCoeff());
   }
   return {found[1], std::abs(found[1] - found[0])};
 }

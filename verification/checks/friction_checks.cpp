@@ -7,6 +7,7 @@
 #include "verification/checks/contact_checks.h"
 #include "verification/checks/contact_scenes.h"
 #include "verification/checks/measured.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -24,9 +25,8 @@ struct Slope {
 Slope slope(double angle, double friction, const Vector3& velocity) {
   Slope result{
       loose_particles(3), {0, std::cos(angle), std::sin(angle)}, {0, -std::sin(angle), std::cos(angle)}};
-  SceneObject part =
-      object_at("slope", HalfSpace{},
-                {Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), result.normal), Vector3::Zero()});
+  SceneObject part = object_at("slope", HalfSpace{},
+                               {oracles::turn_between(Vector3::UnitZ(), result.normal), Vector3::Zero()});
   part.object.friction = friction;
   std::get<Motion>(std::get<RigidObject>(part.object.body).motion).velocity = velocity;
   Scene& scene = result.scene;

@@ -1,5 +1,4 @@
 // The methods that the paper's schemes are compared with: the equations of a step, and what limits it.
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "reference/dynamics/simulate.h"
@@ -7,6 +6,7 @@
 #include "verification/checks/measured.h"
 #include "verification/checks/moving_scenes.h"
 #include "verification/checks/specimens.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -116,7 +116,7 @@ Finding linearised_step(const Subject& subject) {
     const Eigen::VectorXd mass = system.mass.transpose().replicate(3, 1).reshaped();
     const Eigen::MatrixXd A = Eigen::MatrixXd(mass.asDiagonal()) - h * damping_matrix(probe, now) - h * h * K;
     const PerParticle3 momentum = now.v * system.mass.asDiagonal() + h * probe.elastic(now);
-    const Eigen::VectorXd v = A.ldlt().solve(momentum.reshaped());
+    const Eigen::VectorXd v = oracles::solved_symmetric(A, momentum.reshaped());
     const PerParticle3 next = stepper.step(now, h).v;
     measured.see("h = " + std::to_string(h) + " s",
                  largest_difference(next, v.reshaped(3, next.cols())) / largest_speed(next));
@@ -194,12 +194,11 @@ double rate_over_bound(const Subject& subject, const Specimen& specimen) {
   const System system = build_system(specimen.scene);
   const Eigen::MatrixXd D = damping_matrix(Probe(subject, specimen.scene), specimen.state);
   const Eigen::VectorXd roots = system.mass.transpose().replicate(3, 1).reshaped().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(roots.asDiagonal() * D * roots.asDiagonal(),
-                                                             Eigen::EigenvaluesOnly);
+  const Eigen::VectorXd rates = oracles::symmetric_eigenvalues(roots.asDiagonal() * D * roots.asDiagonal());
   Work uncounted;
   const double bound =
       damping_rate_bound(damping_at(system.forces, specimen.state, uncounted), system.inverse_mass);
-  return -modes.eigenvalues().minCoeff() / bound;
+  return -rates.minCoeff() / bound;
 }
 
 Finding damping_bound_is_a_bound(const Subject& subject) {

@@ -1,10 +1,10 @@
 // The schemes on one oscillator, where each is a matrix of two by two.
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "reference/dynamics/integrator.h"
 #include "verification/checks/dynamics_checks.h"
 #include "verification/checks/moving_scenes.h"
+#include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/exact_solutions.h"
 
 namespace foldproof {
@@ -78,10 +78,8 @@ Finding verlet_finding(const Subject&, const std::string& integrator) {
   }
   return {{worst.value(), 4e-14, 2 * epsilon, "1",
            "1,000 steps of five roundings that add up like a random walk: sqrt(5000)/2 = 35 epsilon of the "
-           "amplitude, and up "
-           "to five times that at the worst step near the stability limit. The constants have few bits, so "
-           "that no "
-           "rounding is the same in every step"},
+           "amplitude, and up to five times that at the worst step near the stability limit. The constants "
+           "have few bits, so that no rounding is the same in every step"},
           {omega_h, errors},
           ""};
 }
@@ -124,7 +122,7 @@ Finding matrix_finding(const Subject&, const std::string& integrator) {
 }
 
 double spectral_radius(const Eigen::Matrix2d& matrix) {
-  return Eigen::EigenSolver<Eigen::Matrix2d>(matrix, false).eigenvalues().cwiseAbs().maxCoeff();
+  return oracles::eigenvalues(matrix).cwiseAbs().maxCoeff();
 }
 
 Finding stability_finding(const Subject&, const std::string& integrator) {
@@ -151,8 +149,7 @@ Finding stability_finding(const Subject&, const std::string& integrator) {
   }
   return {{misjudged, 0, 0, "1",
            "a step is stable if the spectral radius is at most 1 + 1e-10: rounding moves it by 1e-13 at "
-           "most, and a millionth beyond "
-           "the limit it exceeds 1 by 1e-8 at least"},
+           "most, and a millionth beyond the limit it exceeds 1 by 1e-8 at least"},
           {ratios, wrong},
           ""};
 }
@@ -181,8 +178,7 @@ Finding pure_damping_finding(const Subject&, const std::string& integrator) {
   }
   return {{worst.value(), 4, 0, "epsilon of the path, a step",
            "each step rounds the position once and the velocity about six times; (1 + h c/2) is how much "
-           "larger the terms are than "
-           "the velocity that they leave"},
+           "larger the terms are than the velocity that they leave"},
           {as, totals},
           ""};
 }
@@ -204,8 +200,7 @@ std::vector<Check> oscillator_checks() {
       stability_finding);
   add("dynamics.pure-damping-displacement",
       "the reference's way of a particle that is only damped is, over the exact one, 1 - (h c/2)^2 in A and "
-      "1 in "
-      "B and C.",
+      "1 in B and C.",
       derived, pure_damping_finding);
   return list;
 }

@@ -6,6 +6,7 @@
 #include "verification/checks/contact_checks.h"
 #include "verification/checks/contact_scenes.h"
 #include "verification/checks/measured.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -67,7 +68,7 @@ Finding pinch_friction_finding(const Subject& subject) {
 /// A floor and a wall that meet in a corner, particles near it outside both.
 Scene corner() {
   Scene scene = loose_particles(20);
-  const Eigen::Quaterniond wall = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), Vector3(1, 0.2, 0.1));
+  const Eigen::Quaterniond wall = oracles::turn_between(Vector3::UnitZ(), Vector3(1, 0.2, 0.1));
   scene.objects.push_back(object_at("floor", HalfSpace{}, {}));
   scene.objects.push_back(object_at("wall", HalfSpace{}, {wall, Vector3::Zero()}));
   return scene;

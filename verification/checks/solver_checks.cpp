@@ -1,13 +1,12 @@
 // The conjugate gradients of the reference against dense linear algebra, and what they promise.
 #include "verification/checks/solver_checks.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "reference/dynamics/system.h"
 #include "verification/checks/moving_scenes.h"
 #include "verification/checks/solver_problems.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -59,8 +58,7 @@ Finding promise_finding(const Subject&) {
   for (size_t k = 0; k < table.step.size(); ++k) worst.see(table.recomputed[k] / table.tolerance[k]);
   return {{worst.value(), 1.05, 0, "of the tolerance",
            "the tolerance, and what the iteration's residual and the true one drift apart: some hundred "
-           "epsilon, a twentieth of "
-           "the smallest tolerance, 1e-12"},
+           "epsilon, a twentieth of the smallest tolerance, 1e-12"},
           table.columns(),
           "The residual b - (M - s D) w is recomputed with a dense D made of the modes of all dampers."};
 }
@@ -72,8 +70,7 @@ Finding returned_finding(const Subject&) {
     worst.see(std::abs(table.returned[k] - table.recomputed[k]) / epsilon);
   return {{worst.value(), 256, 0, "epsilon of the scale",
            "each of up to a hundred iterations rounds r in proportion to the correction of that iteration, "
-           "and the solve began with |r| "
-           "of the scale's own size or a few times it"},
+           "and the solve began with |r| of the scale's own size or a few times it"},
           table.columns(),
           ""};
 }
@@ -89,7 +86,7 @@ Finding cholesky_finding(const Subject&) {
       Work work;
       solve_velocity(problem.damping, s, problem.system.mass, problem.system.inverse_mass,
                      {tolerance, 1000, ResidualScale::momentum}, w, work);
-      const Eigen::VectorXd exact = dense.A.ldlt().solve(dense.b);
+      const Eigen::VectorXd exact = oracles::solved_symmetric(dense.A, dense.b);
       const Eigen::VectorXd error =
           dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)) - exact);
       steps.push_back(s);
@@ -199,8 +196,7 @@ Finding operator_finding(const Subject& subject) {
     A.col(k) = PerParticle3(column * mass.cwiseSqrt().cwiseInverse().asDiagonal()).reshaped();
   }
   const double largest = A.cwiseAbs().maxCoeff();
-  const Eigen::VectorXd eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd eigenvalues = oracles::symmetric_eigenvalues(A);
   const double asymmetry = (A - A.transpose()).cwiseAbs().maxCoeff() / (epsilon * largest);
   const double deficit = (1 - eigenvalues[0]) / (epsilon * eigenvalues[n - 1]);
   Worst worst;
@@ -208,8 +204,7 @@ Finding operator_finding(const Subject& subject) {
   worst.see(deficit);
   return {{worst.value(), 64, 0, "epsilon of the largest",
            "an entry sums some twenty dampers of five roundings; the smallest eigenvalue, 1 but for "
-           "rounding, is found to about the "
-           "square root of the matrix' size, 10, in epsilon of the largest"},
+           "rounding, is found to about the square root of the matrix' size, 10, in epsilon of the largest"},
           {{"asymmetry", "epsilon of the largest entry", std::vector<double>{asymmetry}},
            {"smallest eigenvalue below 1", "epsilon of the largest", std::vector<double>{deficit}},
            {"largest eigenvalue", "1", std::vector<double>{eigenvalues[n - 1]}}},

@@ -1,6 +1,4 @@
 // The reference's solver for Newton steps whose matrix is not symmetric, against dense linear algebra.
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "reference/dynamics/biconjugate_gradient.h"
@@ -8,6 +6,7 @@
 #include "verification/checks/measured.h"
 #include "verification/checks/moving_scenes.h"
 #include "verification/checks/solver_checks.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -106,8 +105,8 @@ Finding is_the_dense_solution(const Subject&) {
     Solve solve{};
     const double tolerance = 1e-8;
     const Eigen::VectorXd error =
-        solved(problem, tolerance, solve) - problem.A.partialPivLu().solve(problem.scaled_r);
-    const double least = problem.A.jacobiSvd().singularValues().minCoeff();
+        solved(problem, tolerance, solve) - oracles::solved(problem.A, problem.scaled_r);
+    const double least = oracles::singular_parts(problem.A).values.minCoeff();
     measured.see(name, error.norm() * least / (tolerance * problem.scaled_r.norm()));
   }
   return measured.judged(

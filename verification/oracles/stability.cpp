@@ -1,11 +1,11 @@
 #include "verification/oracles/stability.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "reference/types.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof::oracles {
 
@@ -63,7 +63,7 @@ std::vector<Complex> system_rates(const Eigen::MatrixXd& K, const Eigen::MatrixX
   const double omega0 = std::sqrt(K.norm());
   Eigen::MatrixXd matrix(2 * n, 2 * n);
   matrix << Eigen::MatrixXd::Zero(n, n), omega0 * Eigen::MatrixXd::Identity(n, n), -K / omega0, -C;
-  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues(matrix);
   return {values.begin(), values.end()};
 }
 
@@ -87,8 +87,7 @@ Estimate largest_runge_kutta_step(int order, const std::vector<Complex>& rates) 
 
 Estimate largest_leapfrog_step(const Eigen::MatrixXd& K) {
   require(K.allFinite() && K.rows() > 0, "K must be finite");
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(K, Eigen::EigenvaluesOnly);
-  const double squared = solver.eigenvalues()[K.rows() - 1];
+  const double squared = symmetric_eigenvalues(K)[K.rows() - 1];
   require(squared > 0, "K must have a positive eigenvalue");
   const double h = 2 / std::sqrt(squared);
   return {h, double(K.rows()) * epsilon * h};
@@ -98,8 +97,7 @@ Estimate largest_leapfrog_step(const Eigen::MatrixXd& K) {
 Estimate largest_variable_newmark_step(const Eigen::MatrixXd& K, const Eigen::MatrixXd& C) {
   const auto is_positive = [&](double h) {
     const Eigen::MatrixXd matrix = 4 * Eigen::MatrixXd::Identity(K.rows(), K.rows()) + 2 * h * C - h * h * K;
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[0] >
-           0;
+    return symmetric_eigenvalues(matrix)[0] > 0;
   };
   const double least = largest_leapfrog_step(K).value * (1 - 1e-9);
   double beyond = 2 * least;
