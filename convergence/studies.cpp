@@ -31,6 +31,8 @@ std::vector<Study> all_studies() {
           level_set_resolution(),
           wrinkles_kept(),
           eps_needed(),
+          sharp_edges(),
+          folds_inside(),
           forecast_time_study(),
           resting_contact(),
           pointwise_contact()};

@@ -35,6 +35,8 @@ Study monotonicity();          // monotonicity: coming to rest in steps longer t
 Study level_set_resolution();  // level-set-resolution: distance and normals of grids against their spacing
 Study wrinkles_kept();         // wrinkles-kept: what each map of depth leaves of wrinkles inside an object
 Study eps_needed();            // eps-needed: how far out the deepest points must go
+Study sharp_edges();           // sharp-edges: normals of samples next to a body's edges
+Study folds_inside();          // folds-inside: folds of cloth that may stay inside of an object
 Study forecast_time_study();   // forecast-time: where a point is after its forecast, and what tau does
 Study resting_contact();       // resting-contact: what keeps moving under each response
 Study pointwise_contact();     // pointwise-contact: what lies between particles that are held out

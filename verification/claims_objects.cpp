@@ -161,6 +161,25 @@ std::vector<Claim> what_projection_keeps() {
        "L/sqrt(3), at every scale. With eps = 0 every sheet that was tried keeps triangles inside."}};
 }
 
+std::vector<Claim> what_freedom_gives() {
+  return {
+      {"C10",
+       "5.3",
+       "That the response leaves some points inside of objects lets more folds and wrinkles develop.",
+       {{"folds-inside.more-where-both-sides-are-free", Role::supports},
+        {"folds-inside.no-more-over-a-ball", Role::limits}},
+       Standing::conditional,
+       "Where cloth is inside to begin with and the forecast time lets it stay there: cloth that falls on a "
+       "ball from outside is never inside, and folds as much whatever the forecast time.",
+       "A tube that is pushed together on a drum has "
+       "{folds-inside.more-where-both-sides-are-free|crests a turn|last} crests a turn, after the "
+       "projection, "
+       "if its valleys may stay inside, and {folds-inside.more-where-both-sides-are-free|crests a "
+       "turn|first} "
+       "if it is brought to the surface within a step. Over a ball the mean fold changes by "
+       "{folds-inside.no-more-over-a-ball} of itself."}};
+}
+
 std::vector<Claim> where_projection_applies() {
   return {
       {"C13",
@@ -219,6 +238,7 @@ std::vector<Claim> object_claims() {
   for (Claim& claim : where_contact_is_found()) claims.push_back(std::move(claim));
   for (Claim& claim : what_contact_does()) claims.push_back(std::move(claim));
   for (Claim& claim : what_projection_keeps()) claims.push_back(std::move(claim));
+  for (Claim& claim : what_freedom_gives()) claims.push_back(std::move(claim));
   for (Claim& claim : where_projection_applies()) claims.push_back(std::move(claim));
   for (Claim& claim : what_is_pinched()) claims.push_back(std::move(claim));
   for (Claim& claim : what_is_drawn()) claims.push_back(std::move(claim));

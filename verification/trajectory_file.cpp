@@ -127,8 +127,8 @@ struct TrajectoryFile::Content {
   /// Signed distance of each particle to the union of the objects.
   void add_distances(const State& s) {
     PerParticle phi(s.x.cols());
-    for (Eigen::Index i = 0; i < s.x.cols(); ++i)
-      phi[i] = nearest_objects(solids, s.x.col(i), {s.time, s.time, 0}).first.phi;
+    ObjectsDuring now(solids, {s.time, s.time, 0});
+    for (Eigen::Index i = 0; i < s.x.cols(); ++i) phi[i] = nearest_of(now.at(s.x.col(i))).first.phi;
     for (GrowingDataset& rows : distances) rows.add(phi.data());
   }
 

@@ -1,13 +1,19 @@
 #include "reference/filters/object_collision.h"
 
+#include <algorithm>
+
 namespace foldproof {
 
 void ObjectCollision::correct(const Span& span, const State& s, PerParticle3& v, Work& work) const {
   const double tau = forecast_time > 0 ? forecast_time : span.step;
   const bool moves = span.end > span.start;
+  const bool ahead = response.asked == Asked::at_end;
+  ObjectsDuring around(objects, ahead ? Span{span.end, span.end, span.step} : span);
   for (const CollisionPoint& point : points) {
-    const Vector3 before = point.mean(v);
-    const Vector3 after = response.velocity(objects, {point.mean(s.x), before, span, tau});
+    const Vector3 p = point.mean(s.x), before = point.mean(v);
+    const Vector3 place = ahead ? Vector3(p + (span.end - span.start) * before) : p;
+    if (around.out_of_reach(place, before, std::max(tau, span.step))) continue;
+    const Vector3 after = response.velocity(around.at(place), {p, before, span, tau});
     ++work.object_queries;
     if (after == before) continue;
     if (moves) ++work.object_contacts;

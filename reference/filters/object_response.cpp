@@ -27,26 +27,10 @@ double forecast_distance(const ObjectPoint& at, const Vector3& v_p, double tau) 
   return at.phi + tau * (v_p - at.velocity).dot(at.normal);
 }
 
-std::vector<ObjectPoint> all_objects_at(std::span<const Object> objects, const MovingPoint& point) {
-  std::vector<ObjectPoint> all;
-  for (size_t i = 0; i < objects.size(); ++i) {
-    all.push_back(
-        std::visit([&](const auto& body) { return body.at(point.p, point.span); }, objects[i].body));
-    all.back().part = int(i);
-  }
-  return all;
-}
-
-Vector3 between(const ObjectPoint& a, const ObjectPoint& b, std::span<const Object> objects,
-                const MovingPoint& point) {
-  return velocity_between(a, b, point, {objects[size_t(a.part)].friction, objects[size_t(b.part)].friction});
-}
-
 /// Each object once, the one that the point is forecast to be deepest in first: an object that is not the
 /// nearest, but will be entered, is not forgotten. If the way out of one leads into another that faces it, the
 /// point is held between them.
-Vector3 against_each(std::vector<ObjectPoint> left, std::span<const Object> objects,
-                     const MovingPoint& point) {
+Vector3 against_each(std::span<ObjectPoint> left, const MovingPoint& point) {
   Vector3 v = point.v;
   std::optional<ObjectPoint> before;
   const auto deeper = [&](const ObjectPoint& a, const ObjectPoint& b) {
@@ -54,69 +38,64 @@ Vector3 against_each(std::vector<ObjectPoint> left, std::span<const Object> obje
   };
   while (!left.empty()) {
     const auto deepest = std::min_element(left.begin(), left.end(), deeper);
-    const bool enters = forecast_distance(*deepest, v, point.tau) < 0;
-    if (enters && before && before->normal.dot(deepest->normal) < facing)
-      return between(*before, *deepest, objects, point);
-    v = forecast_velocity(*deepest, v, point.tau, objects[size_t(deepest->part)].friction);
+    if (!(forecast_distance(*deepest, v, point.tau) < 0)) break;
+    if (before && before->normal.dot(deepest->normal) < facing)
+      return velocity_between(*before, *deepest, point);
+    v = forecast_velocity(*deepest, v, point.tau);
     before = *deepest;
-    left.erase(deepest);
+    std::rotate(deepest, deepest + 1, left.end());
+    left = left.first(left.size() - 1);
   }
   return v;
 }
 
-Vector3 forecast(std::span<const Object> objects, const MovingPoint& point) {
-  const std::vector<ObjectPoint> all = all_objects_at(objects, point);
-  const Nearest nearest = nearest_of(all);
-  if (nearest.pinched()) return between(nearest.first, nearest.second, objects, point);
-  return against_each(all, objects, point);
+Vector3 forecast(std::span<ObjectPoint> said, const MovingPoint& point) {
+  const auto inside = [](const ObjectPoint& at) { return at.phi < 0; };
+  if (std::count_if(said.begin(), said.end(), inside) < 2) return against_each(said, point);
+  const Nearest nearest = nearest_of(said);
+  return velocity_between(nearest.first, nearest.second, point);
 }
 
-Vector3 forecast_deepest(std::span<const Object> objects, const MovingPoint& point) {
-  const ObjectPoint at = nearest_objects(objects, point.p, point.span).first;
-  if (at.part < 0) return point.v;
-  return forecast_velocity(at, point.v, point.tau, objects[size_t(at.part)].friction);
+Vector3 forecast_deepest(std::span<ObjectPoint> said, const MovingPoint& point) {
+  return forecast_velocity(nearest_of(said).first, point.v, point.tau);
 }
 
 /// v with `push` [m/s] added along the normal, and friction.
-Vector3 pushed(const ObjectPoint& at, const Vector3& v, double push, double mu) {
+Vector3 pushed(const ObjectPoint& at, const Vector3& v, double push) {
   const Vector3 relative = v - at.velocity;
   const Vector3 sliding = relative - relative.dot(at.normal) * at.normal;
-  return v + push * at.normal - (1 - kept_by_friction(mu, push, sliding.norm())) * sliding;
+  return v + push * at.normal - (1 - kept_by_friction(at.friction, push, sliding.norm())) * sliding;
 }
 
-/// Where the point would be after the step is asked, and put on the surface if it is inside; a velocity that
-/// ends the step loses its part into a surface that the point is on.
-Vector3 projection(std::span<const Object> objects, const MovingPoint& point) {
+/// Put on the surface if it would be inside after the step; a velocity that ends the step loses its part into a
+/// surface that the point is on.
+Vector3 projection(std::span<ObjectPoint> said, const MovingPoint& point) {
   const double h = point.span.end - point.span.start;
-  const Span end{point.span.end, point.span.end, point.span.step};
-  const ObjectPoint at = nearest_objects(objects, point.p + h * point.v, end).first;
-  if (at.part < 0) return point.v;
+  const ObjectPoint at = nearest_of(said).first;
   const double inwards = -(point.v - at.velocity).dot(at.normal);  // m/s
   double push = 0;
   if (h > 0 && at.phi < 0) push = -at.phi / h;
   if (h == 0 && at.phi < touching * point.span.step * inwards) push = inwards;
-  if (!(push > 0)) return point.v;
-  return pushed(at, point.v, push, objects[size_t(at.part)].friction);
+  return push > 0 ? pushed(at, point.v, push) : point.v;
 }
 
 /// A point that is found inside after the step gets the velocity that takes it out in one step.
-Vector3 push_out(std::span<const Object> objects, const MovingPoint& point) {
+Vector3 push_out(std::span<ObjectPoint> said, const MovingPoint& point) {
   if (point.span.end > point.span.start) return point.v;
-  const ObjectPoint at = nearest_objects(objects, point.p, point.span).first;
-  if (!(at.phi < 0)) return point.v;
-  return forecast_velocity(at, point.v, point.span.step, objects[size_t(at.part)].friction);
+  const ObjectPoint at = nearest_of(said).first;
+  return at.phi < 0 ? forecast_velocity(at, point.v, point.span.step) : point.v;
 }
 
 }  // namespace
 
-Vector3 forecast_velocity(const ObjectPoint& at, const Vector3& v_p, double tau, double mu) {
+Vector3 forecast_velocity(const ObjectPoint& at, const Vector3& v_p, double tau) {
   const Vector3 relative = v_p - at.velocity;
   const double phi_new = at.phi + tau * relative.dot(at.normal);
   if (phi_new >= 0) return v_p;
 
   const double push = -phi_new / tau;  // v_pN' - v_pN [m/s]
   const Vector3 sliding = relative - relative.dot(at.normal) * at.normal;
-  const double kept = kept_by_friction(mu, push, sliding.norm());
+  const double kept = kept_by_friction(at.friction, push, sliding.norm());
   return at.velocity - at.phi / tau * at.normal + kept * sliding;
 }
 
@@ -125,10 +104,9 @@ Vector3 forecast_velocity(const ObjectPoint& at, const Vector3& v_p, double tau,
 //    N_a | psi=0
 //   ----------      d(psi)/dt = (v_p - v_a).N_a - (v_p - v_b).N_b
 //        b
-Vector3 velocity_between(const ObjectPoint& a, const ObjectPoint& b, const MovingPoint& point,
-                         const Eigen::Vector2d& mu) {
+Vector3 velocity_between(const ObjectPoint& a, const ObjectPoint& b, const MovingPoint& point) {
   const Vector3 across = a.normal - b.normal;
-  if (!(across.norm() > least_difference_of_normals)) return forecast_velocity(a, point.v, point.tau, mu[0]);
+  if (!(across.norm() > least_difference_of_normals)) return forecast_velocity(a, point.v, point.tau);
   const double push_a = std::max(0.0, -forecast_distance(a, point.v, point.tau) / point.tau);  // m/s
   const double push_b = std::max(0.0, -forecast_distance(b, point.v, point.tau) / point.tau);
 
@@ -136,18 +114,20 @@ Vector3 velocity_between(const ObjectPoint& a, const ObjectPoint& b, const Movin
   const double psi_new = forecast_distance(a, point.v, point.tau) - forecast_distance(b, point.v, point.tau);
   const Vector3 relative = point.v - (a.velocity + b.velocity) / 2;
   const Vector3 sliding = relative - relative.dot(n) * n;
-  const double kept = kept_by_friction(1, mu[0] * push_a + mu[1] * push_b, sliding.norm());
+  const double kept = kept_by_friction(1, a.friction * push_a + b.friction * push_b, sliding.norm());
   return point.v - psi_new / (point.tau * across.norm()) * n - (1 - kept) * sliding;
 }
 
 const std::vector<Response>& responses() {
   static const std::vector<Response> table = {
-      {"forecast", "interface forecasting; pinched points are held between (BMF03 section 5.2)", forecast},
+      {"forecast", "interface forecasting; pinched points are held between (BMF03 section 5.2)",
+       Asked::at_start, forecast},
       {"forecast_deepest",
-       "interface forecasting against the deepest or nearest object alone, pinched or not", forecast_deepest},
-      {"projection", "points are put on the surface after the step", projection},
+       "interface forecasting against the deepest or nearest object alone, pinched or not", Asked::at_start,
+       forecast_deepest},
+      {"projection", "points are put on the surface after the step", Asked::at_end, projection},
       {"push_out", "points found inside after a step are given the velocity that takes them out in the next",
-       push_out},
+       Asked::at_start, push_out},
   };
   return table;
 }

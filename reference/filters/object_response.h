@@ -22,22 +22,28 @@ struct MovingPoint {
 ///   phi_new = phi + tau (v_p - v).N                     the signed distance forecast at the time tau ahead
 ///   v_pN'   = v_pN - phi_new/tau  if phi_new < 0        so that the point is forecast to lie on the surface
 ///   v_T'    = max(0, 1 - mu (v_pN' - v_pN)/|v_T|) v_T   Coulomb friction of the tangential relative velocity
-/// Untouched, bit for bit, if phi_new >= 0. v_p [m/s], tau [s] > 0, mu [1].
-Vector3 forecast_velocity(const ObjectPoint& at, const Vector3& v_p, double tau, double mu);
+/// Untouched, bit for bit, if phi_new >= 0. v_p [m/s], tau [s] > 0, mu is that of `at`.
+Vector3 forecast_velocity(const ObjectPoint& at, const Vector3& v_p, double tau);
 
 /// A point inside two objects, held on the surface between them: psi = phi_a - phi_b is forecast to be zero at
 /// the time tau ahead, by a velocity along N_a - N_b, inwards or outwards; along that surface it is free, but
 /// for friction against the mean of the two objects' velocities, with the two pushes that a and b would give
-/// alone as normal forces. mu: of a, of b [1].
+/// alone as normal forces.
 /// So is a point that is not pinched yet if the way out of one object leads into another that faces it.
 /// Where N_a and N_b are nearly the same, there is no surface between: against a alone.
-Vector3 velocity_between(const ObjectPoint& a, const ObjectPoint& b, const MovingPoint& point,
-                         const Eigen::Vector2d& mu);
+Vector3 velocity_between(const ObjectPoint& a, const ObjectPoint& b, const MovingPoint& point);
+
+/// Where a response asks the objects.
+enum class Asked {
+  at_start,  // at the point, at the span's start
+  at_end     // where its velocity takes the point, at the span's end
+};
 
 /// A way to answer; `velocity` is v, bit for bit, where there is nothing to answer.
 struct Response {
   std::string_view name, about;
-  Vector3 (*velocity)(std::span<const Object> objects, const MovingPoint& point);
+  Asked asked;
+  Vector3 (*velocity)(std::span<ObjectPoint> said, const MovingPoint& point);  // may reorder what is said
 };
 
 /// The table of responses: the paper's first.

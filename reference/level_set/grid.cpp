@@ -27,28 +27,37 @@ Place place_of(const Lattice& lattice, const Vector3& p) {
   return place;
 }
 
+/// The weight of a cell's lower or upper nodes along an axis.
+double weight_along(const Vector3& within, int axis, int upper) {
+  return upper ? within[axis] : 1 - within[axis];
+}
+
 /// The weights of the eight nodes of a cell: bit 0 of the corner's number is its step along x, and so on.
 std::array<double, 8> corner_weights(const Vector3& within) {
   std::array<double, 8> weights;
   for (int corner = 0; corner < 8; ++corner) {
     weights[corner] = 1;
-    for (int axis = 0; axis < 3; ++axis)
-      weights[corner] *= corner >> axis & 1 ? within[axis] : 1 - within[axis];
+    for (int axis = 0; axis < 3; ++axis) weights[corner] *= weight_along(within, axis, corner >> axis & 1);
   }
   return weights;
 }
 
-/// Central differences at a node, one-sided at the border [1].
-Vector3 nodal_gradient(const Grid& grid, const Node& node, const std::array<long, 3>& strides) {
-  const double* phi = &grid.phi[grid.lattice.index(node)];
-  Vector3 gradient;
-  for (int axis = 0; axis < 3; ++axis) {
-    const long ahead = node[axis] + 1 < grid.lattice.nodes[axis] ? strides[axis] : 0;
-    const long behind = node[axis] > 0 ? strides[axis] : 0;
-    const int steps = (ahead > 0) + (behind > 0);
-    gradient[axis] = (phi[ahead] - phi[-behind]) / (steps * grid.lattice.spacing);
-  }
-  return gradient;
+/// The differences at a cell's two nodes along an axis, central or at the border one-sided, blended: the sum of
+/// weights times the values these steps away from the lower node.
+struct Slope {
+  std::array<long, 4> steps;
+  std::array<double, 4> weights;  // 1/m
+};
+
+Slope slope_along(const Lattice& lattice, int axis, const Place& place) {
+  const long stride = lattice.strides()[axis];
+  const int lower = place.cell[axis];
+  const bool first = lower == 0, last = lower + 2 == lattice.nodes[axis];
+  const double t = place.within[axis];
+  const double at_lower = (1 - t) / ((first ? 1 : 2) * lattice.spacing);
+  const double at_upper = t / ((last ? 1 : 2) * lattice.spacing);
+  return {{first ? 0 : -stride, 0, stride, last ? stride : 2 * stride},
+          {-at_lower, -at_upper, at_lower, at_upper}};
 }
 
 /// The part of the way that leads to p which lies outside of the bounds; it begins inside.
@@ -65,12 +74,21 @@ Distance blended(const Grid& grid, const Vector3& p) {
   const Place place = place_of(grid.lattice, p);
   const std::array<double, 8> weights = corner_weights(place.within);
   const std::array<long, 3> strides = grid.lattice.strides();
+  const double* lowest = &grid.phi[grid.lattice.index(place.cell)];
   Distance blend{0, Vector3::Zero()};
-  for (int corner = 0; corner < 8; ++corner) {
-    const Node node{place.cell[0] + (corner & 1), place.cell[1] + (corner >> 1 & 1),
-                    place.cell[2] + (corner >> 2)};
-    blend.phi += weights[corner] * grid.phi[grid.lattice.index(node)];
-    blend.normal += weights[corner] * nodal_gradient(grid, node, strides);
+  for (int corner = 0; corner < 8; ++corner)
+    blend.phi +=
+        weights[corner] *
+        lowest[(corner & 1) * strides[0] + (corner >> 1 & 1) * strides[1] + (corner >> 2) * strides[2]];
+  for (int axis = 0; axis < 3; ++axis) {
+    const Slope slope = slope_along(grid.lattice, axis, place);
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    for (int row = 0; row < 4; ++row) {
+      const int on_b = row & 1, on_c = row >> 1;
+      const double* phi = lowest + on_b * strides[b] + on_c * strides[c];
+      const double weight = weight_along(place.within, b, on_b) * weight_along(place.within, c, on_c);
+      for (int k = 0; k < 4; ++k) blend.normal[axis] += weight * slope.weights[k] * phi[slope.steps[k]];
+    }
   }
   const double length = blend.normal.norm();
   if (length > 0) blend.normal /= length;

@@ -1,19 +1,39 @@
 #include "reference/level_set/object.h"
 
+#include <cmath>
 #include <utility>
 
 namespace foldproof {
 
-ObjectPoint RigidObject::at(const Vector3& p, const Span& span) const {
+namespace {
+
+// phi changes by no more than this per distance: a distance by 1, its trilinear interpolant by sqrt(3), and a
+// little for what marching and sampling miss.
+constexpr double steepest = 2;
+
+}  // namespace
+
+RigidDuring RigidObject::during(const Span& span) const {
   const Pose pose = pose_at(motion, span.start);
   const Pose now = after(pose, place);
-  const Distance distance = distance_to(solid, unplaced(now, p));
-  ObjectPoint point{distance.phi, now.rotation * distance.normal, velocity_at(motion, p, span.start)};
+  RigidDuring during{&solid, now.rotation.toRotationMatrix(), now.translation, {}, {}, pose.translation};
   if (span.end > span.start) {
-    const Vector3 carried = placed(pose_at(motion, span.end), unplaced(pose, p));
-    point.velocity = (carried - p) / (span.end - span.start);
+    const Pose end = pose_at(motion, span.end);
+    const Eigen::Matrix3d turn = (end.rotation * pose.rotation.conjugate()).toRotationMatrix();
+    during.spin = (turn - Eigen::Matrix3d::Identity()) / (span.end - span.start);
+    during.drift = (end.translation - pose.translation) / (span.end - span.start);
+  } else {
+    during.drift = velocity_at(motion, during.pivot, span.start);
+    for (int axis = 0; axis < 3; ++axis)
+      during.spin.col(axis) =
+          velocity_at(motion, during.pivot + Vector3::Unit(axis), span.start) - during.drift;
   }
-  return point;
+  return during;
+}
+
+ObjectPoint RigidDuring::at(const Vector3& p) const {
+  const Distance distance = distance_to(*solid, turned.transpose() * (p - moved));
+  return {distance.phi, turned * distance.normal, velocity_at(p)};
 }
 
 namespace {
@@ -26,7 +46,7 @@ void enter(ObjectPoint point, Nearest& nearest) {
 
 }  // namespace
 
-ObjectPoint DeformingObject::at(const Vector3& p, const Span& span) const {
+ObjectPoint DeformingDuring::at(const Vector3& p) const {
   const DeformingPoint now = deforming_at(*body, p, span.start);
   ObjectPoint point{now.phi, now.normal, now.velocity};
   if (span.end > span.start)
@@ -40,14 +60,35 @@ Nearest nearest_of(std::span<const ObjectPoint> points) {
   return nearest;
 }
 
-Nearest nearest_objects(std::span<const Object> objects, const Vector3& p, const Span& span) {
-  Nearest nearest;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    ObjectPoint point = std::visit([&](const auto& body) { return body.at(p, span); }, objects[i].body);
-    point.part = int(i);
-    enter(point, nearest);
+ObjectsDuring::ObjectsDuring(std::span<const Object> objects, const Span& span) : answers_(objects.size()) {
+  for (const Object& object : objects)
+    std::visit([&](const auto& body) { bodies_.emplace_back(body.during(span)); }, object.body);
+  for (std::size_t i = 0; i < objects.size(); ++i) friction_.push_back(objects[i].friction);
+}
+
+std::span<ObjectPoint> ObjectsDuring::at(const Vector3& p) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    answers_[i] = std::visit([&](const auto& body) { return body.at(p); }, bodies_[i]);
+    answers_[i].part = int(i);
+    answers_[i].friction = friction_[i];
   }
-  return nearest;
+  asked_ = p;
+  return answers_;
+}
+
+bool ObjectsDuring::out_of_reach(const Vector3& p, const Vector3& v, double time) const {
+  const double moved = steepest * (p - asked_).norm();  // NaN before the first question
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const double room = answers_[i].phi - moved;  // m, at least
+    if (!(room > 0) || std::isinf(room)) return false;
+    const double speed = std::visit([&](const auto& body) { return body.speed_past(p, v); }, bodies_[i]);
+    if (!(room > time * speed)) return false;
+  }
+  return true;
+}
+
+Nearest nearest_objects(std::span<const Object> objects, const Vector3& p, const Span& span) {
+  return nearest_of(ObjectsDuring(objects, span).at(p));
 }
 
 }  // namespace foldproof

@@ -27,7 +27,21 @@ struct ObjectPoint {
   Vector3 normal = Vector3::Zero();                      // N, outward, at the span's start [1]
   Vector3 velocity = Vector3::Zero();  // v, of the object there: its mean over the span, so that a point that
       // takes it rides along exactly; at the span's time if that is all [m/s]
-  int part = -1;  // which of the objects; -1: there is none
+  int part = -1;        // which of the objects; -1: there is none
+  double friction = 0;  // mu, of that object [1]
+};
+
+/// A rigid object during a span: its poses and its velocity, which all points share, worked out once.
+struct RigidDuring {
+  const Solid* solid;
+  Eigen::Matrix3d turned;  // the solid's point X is at x = turned X + moved at the span's start
+  Vector3 moved;           // m
+  Eigen::Matrix3d spin;    // the object's point at p has the velocity drift + spin (p - pivot) [1/s]
+  Vector3 drift, pivot;    // m/s, m
+
+  ObjectPoint at(const Vector3& p) const;
+  Vector3 velocity_at(const Vector3& p) const { return drift + spin * (p - pivot); }                   // m/s
+  double speed_past(const Vector3& p, const Vector3& v) const { return (v - velocity_at(p)).norm(); }  // m/s
 };
 
 /// A solid in rigid motion: first put in its place, then moved.
@@ -36,14 +50,25 @@ struct RigidObject {
   Pose place;
   RigidMotion motion;
 
-  ObjectPoint at(const Vector3& p, const Span& span) const;
+  RigidDuring during(const Span& span) const;  // this object must outlive it
+  ObjectPoint at(const Vector3& p, const Span& span) const { return during(span).at(p); }
+};
+
+struct DeformingDuring {
+  const DeformingBody* body;
+  Span span;
+
+  ObjectPoint at(const Vector3& p) const;
+  /// Not known without asking.
+  double speed_past(const Vector3&, const Vector3&) const { return std::numeric_limits<double>::infinity(); }
 };
 
 /// A body that deforms as its animation says; copies share it.
 struct DeformingObject {
   std::shared_ptr<const DeformingBody> body;
 
-  ObjectPoint at(const Vector3& p, const Span& span) const;
+  DeformingDuring during(const Span& span) const { return {body.get(), span}; }
+  ObjectPoint at(const Vector3& p, const Span& span) const { return during(span).at(p); }
 };
 
 using Body = std::variant<RigidObject, DeformingObject>;
@@ -65,6 +90,25 @@ struct Nearest {
 
 /// What the objects say about one point, in any order.
 Nearest nearest_of(std::span<const ObjectPoint> points);
+
+/// Objects during a span, to be asked about many points. The objects must outlive it.
+class ObjectsDuring {
+ public:
+  ObjectsDuring(std::span<const Object> objects, const Span& span);
+
+  /// What each object says about p, in their order; overwritten by the next call.
+  std::span<ObjectPoint> at(const Vector3& p);
+
+  /// Whether the last answers show, without asking, that no object is as near to p as it and a point that moves
+  /// at v [m/s] can come to each other in `time` [s].
+  bool out_of_reach(const Vector3& p, const Vector3& v, double time) const;
+
+ private:
+  std::vector<std::variant<RigidDuring, DeformingDuring>> bodies_;
+  std::vector<double> friction_;
+  std::vector<ObjectPoint> answers_;
+  Vector3 asked_ = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());  // the point of the answers
+};
 
 Nearest nearest_objects(std::span<const Object> objects, const Vector3& p, const Span& span);
 

@@ -1,7 +1,6 @@
 #include "reference/level_set/octree.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "reference/level_set/octree_nodes.h"
@@ -9,11 +8,6 @@
 namespace foldproof {
 
 namespace {
-
-/// The index of a branch's child c among all branches; c must be a branch.
-int inner_child(const OctreeBranch& branch, int c) {
-  return branch.children + std::popcount(unsigned(branch.inner) & ((1u << c) - 1));
-}
 
 Vector3 clamped_to_cube(const OctreeSettings& cube, const Vector3& p) {
   return p.cwiseMax(cube.corner).cwiseMin(cube.corner + Vector3::Constant(cube.width));

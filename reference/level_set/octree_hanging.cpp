@@ -1,4 +1,3 @@
-#include <bit>
 
 #include "reference/level_set/octree_nodes.h"
 
@@ -17,7 +16,7 @@ bool is_leaf(const Octree& tree, int level, const Cell& cell) {
     const int c = (cell[0] >> shift & 1) | (cell[1] >> shift & 1) << 1 | (cell[2] >> shift & 1) << 2;
     const OctreeBranch& branch = tree.branches[b];
     if (!(branch.inner >> c & 1)) return true;
-    b = branch.children + std::popcount(unsigned(branch.inner) & ((1u << c) - 1));
+    b = inner_child(branch, c);
   }
   return false;
 }

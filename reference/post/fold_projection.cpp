@@ -16,13 +16,12 @@ struct Place {
 
 /// The union of the objects at one time.
 struct Union {
-  std::span<const Object> objects;
-  Span now;
+  ObjectsDuring objects;
   long queries = 0;
 
   Nearest at(const Vector3& p) {
     ++queries;
-    return nearest_objects(objects, p, now);
+    return nearest_of(objects.at(p));
   }
 };
 
@@ -63,7 +62,7 @@ ProjectedCloth project_folds(std::span<const Object> objects, const PerParticle3
                              const FoldProjection& projection) {
   check_projection(projection);
   const DepthMap& map = depth_map_named(projection.map);
-  Union solids{objects, {time, time, 0}};
+  Union solids{{objects, {time, time, 0}}};
   ProjectedCloth cloth{x, PerParticle(x.cols()), PerParticle(x.cols()), {}};
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const Nearest nearest = solids.at(x.col(i));

@@ -194,13 +194,18 @@ std::vector<Record> rates(const std::vector<Speeds>& all, double megabytes) {
 RunRecord bench(int most_particles) {
   std::vector<Speeds> all;
   double megabytes = 0;
+  std::vector<Record> contact;
   ProgressLine progress("bench");
   const std::vector<int> cells = {31, 99, 315, 999};  // 1k, 10k, 100k, 1M particles
   const double seconds = seconds_of([&] {
     for (const int n : cells) {
       if ((n + 1) * (n + 1) > most_particles) break;
       all.push_back(measure(n));
-      if (n == 315) megabytes = peak_megabytes();
+      if (n == 315) {
+        megabytes = peak_megabytes();
+        const Load load = make_load(n);
+        contact.push_back(contact_rate(load.scene, load.limit / 2, all.back().step));
+      }
       progress.show(double(n + 1) * (n + 1) / most_particles);
     }
   });
@@ -208,6 +213,7 @@ RunRecord bench(int most_particles) {
   run.tier = "";
   run.subject = "foldproof reference";
   run.records = rates(all, megabytes);
+  run.records.insert(run.records.end(), contact.begin(), contact.end());
   for (Record& record : level_set_rates()) run.records.push_back(std::move(record));
   for (Record& record : octree_rates()) run.records.push_back(std::move(record));
   run.studies.push_back({"bench",

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/scene/scene.h"
 #include "verification/check.h"
 
 namespace foldproof {
@@ -22,6 +23,9 @@ struct Target {
 
 /// A measured number beside its target.
 Record rate(const std::string& name, const std::string& claim, double measured, const Target& target);
+
+/// bench_contact.cpp: a scene's particles on an object, against a step of its own [s] that takes step_seconds.
+Record contact_rate(const Scene& scene, double step, double step_seconds);
 
 std::vector<Record> octree_rates();     // bench_octree.cpp: an octree of a mesh, queries
 std::vector<Record> level_set_rates();  // bench_level_set.cpp: grids about a mesh, queries

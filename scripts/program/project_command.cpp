@@ -60,8 +60,9 @@ double deepest_in(const Source& source) {
   double deepest = 0;
   for (std::size_t k = 0; k < source.run.times.size(); ++k) {
     const State s = source.frame(k);
+    ObjectsDuring now(source.objects, {s.time, s.time, 0});
     for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
-      const Nearest nearest = nearest_objects(source.objects, s.x.col(i), {s.time, s.time, 0});
+      const Nearest nearest = nearest_of(now.at(s.x.col(i)));
       if (!nearest.pinched()) deepest = std::max(deepest, -nearest.first.phi);
     }
   }

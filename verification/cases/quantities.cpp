@@ -84,16 +84,14 @@ double length_change(const Scene& scene, const State& s) {
   return worst.value();
 }
 
-/// What the scene's objects say about a particle in a frame.
-Nearest nearest_at(const Scene& scene, const State& s, Eigen::Index particle) {
-  std::vector<ObjectPoint> points;
-  for (const SceneObject& part : scene.objects) {
-    const Span now{s.time, s.time, 0};
-    points.push_back(
-        std::visit([&](const auto& body) { return body.at(s.x.col(particle), now); }, part.object.body));
-    points.back().part = int(points.size()) - 1;
-  }
-  return nearest_of(points);
+/// What the scene's objects say about each particle in a frame.
+std::vector<Nearest> nearest_at(const Scene& scene, const State& s) {
+  std::vector<Object> objects;
+  for (const SceneObject& part : scene.objects) objects.push_back(part.object);
+  ObjectsDuring now(objects, {s.time, s.time, 0});
+  std::vector<Nearest> nearest;
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i) nearest.push_back(nearest_of(now.at(s.x.col(i))));
+  return nearest;
 }
 
 /// Of free particles. Pinched ones are inside by what pinches them, and not counted.
@@ -101,10 +99,9 @@ double penetration(const Scene& scene, const State& s) {
   std::vector<char> free(size_t(s.x.cols()), 1);
   for (const PrescribedParticle& p : scene.led) free[size_t(p.particle)] = 0;
   Worst worst;
-  for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
-    if (!free[size_t(i)]) continue;
-    if (const Nearest nearest = nearest_at(scene, s, i); !nearest.pinched()) worst.see(-nearest.first.phi);
-  }
+  const std::vector<Nearest> nearest = nearest_at(scene, s);
+  for (size_t i = 0; i < nearest.size(); ++i)
+    if (free[i] && !nearest[i].pinched()) worst.see(-nearest[i].first.phi);
   return worst.value();
 }
 
@@ -113,8 +110,7 @@ double depth_at_end(const RunSeen& run) { return penetration(run.scene, run.outc
 /// How far a pinched particle is from the surface where its two objects are equally deep, at most.
 double off_centre(const Scene& scene, const State& s) {
   Worst worst;
-  for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
-    const Nearest nearest = nearest_at(scene, s, i);
+  for (const Nearest& nearest : nearest_at(scene, s)) {
     if (!nearest.pinched()) continue;
     const double slope = (nearest.first.normal - nearest.second.normal).norm();
     worst.see(std::abs(nearest.first.phi - nearest.second.phi) / slope);
@@ -124,7 +120,7 @@ double off_centre(const Scene& scene, const State& s) {
 
 double pinched_particles(const Scene& scene, const State& s) {
   double count = 0;
-  for (Eigen::Index i = 0; i < s.x.cols(); ++i) count += nearest_at(scene, s, i).pinched() ? 1 : 0;
+  for (const Nearest& nearest : nearest_at(scene, s)) count += nearest.pinched() ? 1 : 0;
   return count;
 }
 

@@ -82,9 +82,8 @@ ProjectedCloth projected(const ProjectionCase& specimen, const FoldProjection& p
 
 PerParticle distances(const ProjectionCase& specimen, const PerParticle3& x) {
   PerParticle phi(x.cols());
-  const Span now{specimen.time, specimen.time, 0};
-  for (Eigen::Index i = 0; i < x.cols(); ++i)
-    phi[i] = nearest_objects(specimen.objects, x.col(i), now).first.phi;
+  ObjectsDuring now(specimen.objects, {specimen.time, specimen.time, 0});
+  for (Eigen::Index i = 0; i < x.cols(); ++i) phi[i] = nearest_of(now.at(x.col(i))).first.phi;
   return phi;
 }
 

@@ -142,6 +142,59 @@ Finding galilean_finding(const Subject& subject) {
   return measured.judged(40, why_roundings);
 }
 
+/// A sheet of particles through the middle of a body, row by row, each moving at random.
+struct Crossing {
+  Scene scene;
+  State state;
+};
+
+Crossing crossing(const SceneObject& part) {
+  Crossing crossing{loose_particles(25), {}};
+  crossing.scene.objects.push_back(part);
+  Random random(23);
+  const PerParticle3 x = crossing.scene.x.colwise() - crossing.scene.x.rowwise().mean();
+  crossing.state = {0, x + 0.01 * random.vectors(x.cols(), 1), random.vectors(x.cols(), 2)};
+  return crossing;
+}
+
+/// The same particles, each in a scene of its own.
+PerParticle3 avoided_alone(const Subject& subject, const Crossing& crossing, const Span& span) {
+  PerParticle3 all(3, crossing.state.x.cols());
+  for (Eigen::Index i = 0; i < all.cols(); ++i) {
+    Scene alone = loose_particles(2);
+    alone.objects = crossing.scene.objects;
+    const State state{0, crossing.state.x.col(i).replicate(1, alone.x.cols()),
+                      crossing.state.v.col(i).replicate(1, alone.x.cols())};
+    all.col(i) = avoided(subject, alone, span, state).col(0);
+  }
+  return all;
+}
+
+Finding neighbours_finding(const Subject& subject) {
+  constexpr double radius = 0.31, step = 0.01;
+  const DistanceFunction ball = [](const Vector3& p) { return Sphere{radius}.at(p); };
+  const auto tree = std::make_shared<const Octree>(make_octree(
+      {ball}, {Vector3::Constant(-0.5), 1, 6, 3, 1e-3, 0.05, 0.25, 0, HangingNodes::constrained}));
+  std::vector<std::string> bodies;
+  std::vector<double> changed, differ;
+  double worst = 0;
+  for (SceneObject part : {object_at("ball", Sphere{radius}, {}), object_at("octree", OctreeSolid{tree}, {}),
+                           object_at("pin", Capsule{0.03, 0.7}, {})}) {
+    std::get<Motion>(std::get<RigidObject>(part.object.body).motion).angular_velocity = {0, 1, 3};
+    const Crossing crossed = crossing(part);
+    const Span span{0, step, step};
+    const PerParticle3 together = avoided(subject, crossed.scene, span, crossed.state);
+    bodies.push_back(part.object.name);
+    changed.push_back(double((together - crossed.state.v).colwise().any().count()));
+    differ.push_back(numbers_that_differ(together, avoided_alone(subject, crossed, span)));
+    worst = changed.back() > 0 ? worst + differ.back() : std::numeric_limits<double>::quiet_NaN();
+  }
+  return {{worst, 0, 0, "numbers",
+           "what is known of a neighbour may spare a question, but only where the answer cannot matter"},
+          {{"body", "1", bodies}, {"particles answered", "1", changed}, {"numbers that differ", "1", differ}},
+          "625 particles in rows through the middle of each body, together and one at a time"};
+}
+
 }  // namespace
 
 std::vector<Check> response_checks() {
@@ -163,6 +216,9 @@ std::vector<Check> response_checks() {
        "BMF03 section 5.2", reversal_finding},
       {"contact.response-is-galilean", "Cloth and object that share one more velocity are answered alike.",
        "mechanics", galilean_finding},
+      {"contact.neighbours-do-not-matter",
+       "A particle is answered with the same bits alone and among its neighbours.", "BMF03 section 5.2",
+       neighbours_finding},
   };
 }
 
