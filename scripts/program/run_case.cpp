@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "reference/level_set/makers.h"
+#include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/cases/judge.h"
 #include "verification/kept_level_sets_file.h"
