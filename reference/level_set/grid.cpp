@@ -53,9 +53,8 @@ Slope slope_along(const Lattice& lattice, int axis, const Place& place) {
   const long stride = lattice.strides()[axis];
   const int lower = place.cell[axis];
   const bool first = lower == 0, last = lower + 2 == lattice.nodes[axis];
-  const double t = place.within[axis];
-  const double at_lower = (1 - t) / ((first ? 1 : 2) * lattice.spacing);
-  const double at_upper = t / ((last ? 1 : 2) * lattice.spacing);
+  const double at_lower = weight_along(place.within, axis, 0) / ((first ? 1 : 2) * lattice.spacing);
+  const double at_upper = weight_along(place.within, axis, 1) / ((last ? 1 : 2) * lattice.spacing);
   return {{first ? 0 : -stride, 0, stride, last ? stride : 2 * stride},
           {-at_lower, -at_upper, at_lower, at_upper}};
 }

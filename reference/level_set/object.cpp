@@ -78,10 +78,11 @@ std::span<ObjectPoint> ObjectsDuring::at(const Vector3& p) {
 
 bool ObjectsDuring::out_of_reach(const Vector3& p, const Vector3& v, double time) const {
   const double moved = steepest * (p - asked_).norm();  // NaN before the first question
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const double room = answers_[i].phi - moved;  // m, at least
+  for (const ObjectPoint& answer : answers_) {          // in whatever order it was put since
+    const double room = answer.phi - moved;             // m, at least
     if (!(room > 0) || std::isinf(room)) return false;
-    const double speed = std::visit([&](const auto& body) { return body.speed_past(p, v); }, bodies_[i]);
+    const auto& body = bodies_[std::size_t(answer.part)];
+    const double speed = std::visit([&](const auto& during) { return during.speed_past(p, v); }, body);
     if (!(room > time * speed)) return false;
   }
   return true;

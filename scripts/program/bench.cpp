@@ -1,7 +1,6 @@
 #include "scripts/program/bench.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,12 +17,6 @@ namespace foldproof {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-double peak_megabytes() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return double(usage.ru_maxrss) / 1024;  // ru_maxrss is in KiB
-}
 
 /// A square sheet of n x n cells, gently waved and moving, damping ratio 0.1 of springs and hinges at the
 /// bound on omega.
@@ -196,13 +189,14 @@ RunRecord bench(int most_particles) {
   double megabytes = 0;
   std::vector<Record> contact;
   ProgressLine progress("bench");
+  forget_peak();
   const std::vector<int> cells = {31, 99, 315, 999};  // 1k, 10k, 100k, 1M particles
   const double seconds = seconds_of([&] {
     for (const int n : cells) {
       if ((n + 1) * (n + 1) > most_particles) break;
       all.push_back(measure(n));
       if (n == 315) {
-        megabytes = peak_megabytes();
+        megabytes = resident_megabytes("VmHWM");
         const Load load = make_load(n);
         contact.push_back(contact_rate(load.scene, load.limit / 2, all.back().step));
       }

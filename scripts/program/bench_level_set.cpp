@@ -1,9 +1,6 @@
 // Speed and memory of level sets: a grid of 128^3 nodes about a mesh of 81,920 triangles.
 #include <fmt/format.h>
-#include <malloc.h>
 
-#include <fstream>
-#include <limits>
 #include <random>
 #include <string>
 
@@ -17,21 +14,6 @@ namespace foldproof {
 namespace {
 
 constexpr int side = 128;  // nodes
-
-/// "VmHWM" (largest resident memory since forgotten) or "VmRSS" (now) of this process [MB]; NaN where the system
-/// does not say.
-double resident_megabytes(const std::string& what) {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with(what + ":")) return std::stod(line.substr(what.size() + 1)) / 1024;
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
-/// Gives free memory back and forgets the peak, so that what follows is not hidden in what was used before.
-void forget_peak() {
-  malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << "5";
-}
 
 /// A cube of 128 nodes along each side about the mesh, three cells of it beyond the longest side's ends.
 Lattice cube_about(const Bounds& bounds) {
@@ -85,25 +67,25 @@ std::vector<Record> level_set_rates() {
   const std::string on = fmt::format(" {} triangles, 128^3 nodes.", body.triangles.size());
   const std::string measured_on =
       "as measured for comparable programs on 20,000 triangles, scaled to as many again";
-  return {
-      rate("level-set-band",
-           "Exact signed distance in a band of three cells, tree and normals included;" + on, band,
-           {1.5, "s", "lower", "some 400,000 nodes at 3 microseconds a search, " + measured_on}),
-      rate("level-set-whole", "Band, and second-order marching of all nodes;" + on, whole,
-           {8, "s", "lower",
-            "two million nodes at 3 microseconds each: a heap of the front, three quadratics, " +
-                measured_on}),
-      rate("level-set-memory", "Peak memory over the grid itself while it is made;" + on, over,
-           {100, "MB", "lower", "a flag a node, the front, the band's seeds: less than 50 bytes a node"}),
-      rate("level-set-intersections",
-           fmt::format("All pairs of {} triangles that intersect.", body.triangles.size()), pairs,
-           {1, "s", "lower", "a dozen neighbours a triangle at a microsecond each"}),
-      rate("level-set-mesh-queries", "Exact signed distance and N at random points about the mesh.",
-           queries(mesh, {points.begin(), points.begin() + 20000}), {0.1, "million/s", "higher", "some hundred boxes and triangles a search"}),
-      rate("level-set-grid-queries", "Trilinear phi and blended N on the grid, at random points.",
-           queries(grid, points),
-           {3, "million/s", "higher",
-            "fifty values gathered from two million, most of them not in the cache"})};
+  return {rate("level-set-band",
+               "Exact signed distance in a band of three cells, tree and normals included;" + on, band,
+               {1.5, "s", "lower", "some 400,000 nodes at 3 microseconds a search, " + measured_on}),
+          rate("level-set-whole", "Band, and second-order marching of all nodes;" + on, whole,
+               {8, "s", "lower",
+                "two million nodes at 3 microseconds each: a heap of the front, three quadratics, " +
+                    measured_on}),
+          rate("level-set-memory", "Peak memory over the grid itself while it is made;" + on, over,
+               {100, "MB", "lower", "a flag a node, the front, the band's seeds: less than 50 bytes a node"}),
+          rate("level-set-intersections",
+               fmt::format("All pairs of {} triangles that intersect.", body.triangles.size()), pairs,
+               {1, "s", "lower", "a dozen neighbours a triangle at a microsecond each"}),
+          rate("level-set-mesh-queries", "Exact signed distance and N at random points about the mesh.",
+               queries(mesh, {points.begin(), points.begin() + 20000}),
+               {0.1, "million/s", "higher", "some hundred boxes and triangles a search"}),
+          rate("level-set-grid-queries", "Trilinear phi and blended N on the grid, at random points.",
+               queries(grid, points),
+               {3, "million/s", "higher",
+                "fifty values gathered from two million, most of them not in the cache"})};
 }
 
 }  // namespace foldproof

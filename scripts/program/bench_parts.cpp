@@ -1,7 +1,11 @@
 #include "scripts/program/bench_parts.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <chrono>
+#include <fstream>
+#include <limits>
 
 namespace foldproof {
 
@@ -20,6 +24,18 @@ double least_seconds(const std::function<void()>& run) {
     total += seconds;
   }
   return least;
+}
+
+double resident_megabytes(const std::string& what) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(what + ":")) return std::stod(line.substr(what.size() + 1)) / 1024;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+void forget_peak() {
+  malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << "5";
 }
 
 Record rate(const std::string& name, const std::string& claim, double measured, const Target& target) {

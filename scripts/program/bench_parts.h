@@ -15,6 +15,13 @@ double seconds_of(const std::function<void()>& run);
 /// The least time of enough repeats to fill a fifth of a second, at least three [s].
 double least_seconds(const std::function<void()>& run);
 
+/// "VmHWM" (largest resident memory since forgotten) or "VmRSS" (now) of this process [MB]; NaN where the system
+/// does not say.
+double resident_megabytes(const std::string& what);
+
+/// Gives free memory back and forgets the peak, so that what follows is not hidden in what was used before.
+void forget_peak();
+
 struct Target {
   double value;
   std::string unit, better;  // "higher" or "lower"

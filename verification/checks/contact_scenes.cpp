@@ -48,12 +48,6 @@ std::function<Known(const Vector3&, const Span&)> known_slope(const Vector3& ori
   };
 }
 
-SceneObject moving(SceneObject part, const Motion& motion, double friction) {
-  std::get<RigidObject>(part.object.body).motion = motion;
-  part.object.friction = friction;
-  return part;
-}
-
 /// Puts the particle at a depth in [-0.04, 0.04] m below the surface point nearest to it, with a random velocity.
 void scatter(Contact& contact, Eigen::Index i, Random& random) {
   Vector3 p = contact.state.x.col(i);
@@ -94,6 +88,12 @@ SceneObject object_at(const std::string& name, const Solid& solid, const Pose& p
   SceneObject part;
   part.object.name = part.shape = name;
   part.object.body = RigidObject{solid, pose, Motion{}};
+  return part;
+}
+
+SceneObject moving(SceneObject part, const Motion& motion, double friction) {
+  std::get<RigidObject>(part.object.body).motion = motion;
+  part.object.friction = friction;
   return part;
 }
 

@@ -55,6 +55,9 @@ Scene loose_particles(int n);
 /// The object at rest at the pose, ready to be put in a scene.
 SceneObject object_at(const std::string& name, const Solid& solid, const Pose& pose);
 
+/// The object with a motion and a coefficient of friction.
+SceneObject moving(SceneObject part, const Motion& motion, double friction);
+
 /// A rotation about an axis [rad], in the way of Rodrigues.
 Vector3 rotated(const Vector3& x, const Vector3& turn);
 

@@ -148,9 +148,9 @@ struct Crossing {
   State state;
 };
 
-Crossing crossing(const SceneObject& part) {
+Crossing crossing(const std::vector<SceneObject>& parts) {
   Crossing crossing{loose_particles(25), {}};
-  crossing.scene.objects.push_back(part);
+  crossing.scene.objects = parts;
   Random random(23);
   const PerParticle3 x = crossing.scene.x.colwise() - crossing.scene.x.rowwise().mean();
   crossing.state = {0, x + 0.01 * random.vectors(x.cols(), 1), random.vectors(x.cols(), 2)};
@@ -178,13 +178,21 @@ Finding neighbours_finding(const Subject& subject) {
   std::vector<std::string> bodies;
   std::vector<double> changed, differ;
   double worst = 0;
-  for (SceneObject part : {object_at("ball", Sphere{radius}, {}), object_at("octree", OctreeSolid{tree}, {}),
-                           object_at("pin", Capsule{0.03, 0.7}, {})}) {
-    std::get<Motion>(std::get<RigidObject>(part.object.body).motion).angular_velocity = {0, 1, 3};
-    const Crossing crossed = crossing(part);
+  Motion turning, flying;
+  turning.angular_velocity = {0, 1, 3};
+  flying.velocity = {0, 0, -20};  // by its diameter in a step: it is met from afar
+  const SceneObject flies =
+      moving(object_at("two balls, one flying", Sphere{0.1}, {{1, 0, 0, 0}, {0.25, 0, 0.25}}), flying, 0.3);
+  const SceneObject still = object_at("", Sphere{0.1}, {{1, 0, 0, 0}, {-0.3, 0, 0}});
+  for (const std::vector<SceneObject>& parts :
+       {std::vector{moving(object_at("ball", Sphere{radius}, {}), turning, 0.3)},
+        std::vector{moving(object_at("octree", OctreeSolid{tree}, {}), turning, 0.3)},
+        std::vector{moving(object_at("pin", Capsule{0.03, 0.7}, {}), turning, 0.3)},
+        std::vector{flies, still}}) {
+    const Crossing crossed = crossing(parts);
     const Span span{0, step, step};
     const PerParticle3 together = avoided(subject, crossed.scene, span, crossed.state);
-    bodies.push_back(part.object.name);
+    bodies.push_back(parts.front().object.name);
     changed.push_back(double((together - crossed.state.v).colwise().any().count()));
     differ.push_back(numbers_that_differ(together, avoided_alone(subject, crossed, span)));
     worst = changed.back() > 0 ? worst + differ.back() : std::numeric_limits<double>::quiet_NaN();
