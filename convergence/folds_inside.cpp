@@ -98,6 +98,16 @@ double mean_fold(const Scene& scene, const State& s) {
   return sum / double(angles.size());
 }
 
+/// How deep the deepest particle is that nothing holds [m]; 0 if none is inside.
+double deepest_free(const Scene& scene, const State& s) {
+  std::vector<char> held(size_t(s.x.cols()), 0);
+  for (const PrescribedParticle& particle : scene.led) held[size_t(particle.particle)] = 1;
+  Worst deepest;
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i)
+    if (!held[size_t(i)]) deepest.see(-distance_at(scene, s.x.col(i), s.time));
+  return deepest.value();
+}
+
 /// Runs the scene until `end` [s], with forecast times of so many steps.
 Folds folds_of(const Subject& subject, Scene scene, double end, const std::vector<double>& taus_over_h) {
   Folds folds;
@@ -106,7 +116,7 @@ Folds folds_of(const Subject& subject, Scene scene, double end, const std::vecto
     scene.collision.forecast_time = steps * h;
     const State s = run_to_end(subject, scene, h, end, [](const State&) {});
     folds.tau.push_back(steps * h);
-    folds.inside.push_back(depths_of(scene, s).particles);
+    folds.inside.push_back(deepest_free(scene, s));
     folds.angles.push_back(mean_fold(scene, s));
     const bool is_tube = scene.mesh.particles() == around * (along + 1);
     folds.crests.push_back(is_tube ? crests_a_ring(scene, s) : nan);
