@@ -203,12 +203,6 @@ Finding surface_finding(const Subject&) {
                          "a thousandth of it");
 }
 
-/// What has to be refused, and words of the message.
-struct Refused {
-  std::string tables;
-  std::vector<std::string> words;
-};
-
 std::vector<Refused> refusals(const ScratchFolder& folder) {
   const auto body = [&](const std::string& keys) { return ball_body(folder, keys); };
   const std::string twist = deform("twist", 20, 0.5),
@@ -238,25 +232,7 @@ std::vector<Refused> refusals(const ScratchFolder& folder) {
 
 Finding refusal_finding(const Subject&) {
   const ScratchFolder folder;
-  std::vector<std::string> messages, faults;
-  for (const Refused& refused : refusals(folder)) {
-    std::string message;
-    try {
-      read_case(refused.tables);
-    } catch (const InputError& error) {
-      message = error.what();
-    }
-    std::string lacks = message.starts_with("trial.toml:") ? "" : "file and line";
-    for (const std::string& word : refused.words)
-      if (message.find(word) == std::string::npos) lacks += " '" + word + "'";
-    messages.push_back(message.empty() ? "accepted: " + refused.tables : message.substr(0, 200));
-    faults.push_back(lacks);
-  }
-  const double wrong =
-      double(std::count_if(faults.begin(), faults.end(), [](const auto& f) { return !f.empty(); }));
-  return {{wrong, 0, 0, "cases", "each must be refused with file, line and what is known"},
-          {{"message", "", messages}, {"lacks", "", faults}},
-          ""};
+  return refused_cases(refusals(folder));
 }
 
 }  // namespace

@@ -114,12 +114,6 @@ Finding surface_finding(const Subject&) {
           "triangles that face inwards, if there are any, are counted instead"};
 }
 
-/// What has to be refused, and words of the message.
-struct Refused {
-  std::string tables;
-  std::vector<std::string> words;
-};
-
 std::vector<Refused> refusals() {
   const std::string ball = "[[object]]\nshape = \"sphere\"\nradius = 0.3\n";
   return {{"[[object]]\nshape = \"sphere\"\n", {"radius"}},
@@ -145,25 +139,7 @@ std::vector<Refused> refusals() {
 }
 
 Finding refusal_finding(const Subject&) {
-  std::vector<std::string> messages, faults;
-  for (const Refused& refused : refusals()) {
-    std::string message;
-    try {
-      read_case(refused.tables);
-    } catch (const InputError& error) {
-      message = error.what();
-    }
-    messages.push_back(message.empty() ? "accepted: " + refused.tables : message);
-    std::string lacks = message.starts_with("trial.toml:") ? "" : "file and line";
-    for (const std::string& word : refused.words)
-      if (message.find(word) == std::string::npos) lacks += " '" + word + "'";
-    faults.push_back(lacks);
-  }
-  const double wrong =
-      double(std::count_if(faults.begin(), faults.end(), [](const auto& f) { return !f.empty(); }));
-  return {{wrong, 0, 0, "cases", "each must be refused with file, line and what is known"},
-          {{"message", "", messages}, {"lacks", "", faults}},
-          ""};
+  return refused_cases(refusals());
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "verification/checks/trial_cases.h"
 
+#include <algorithm>
+
 #include "reference/mesh/shapes.h"
 
 namespace foldproof {
@@ -16,6 +18,28 @@ PerParticle3 plain_positions() {
   sheet.columns = 4;
   sheet.rows = 3;
   return make_sheet(sheet).rest;
+}
+
+Finding refused_cases(const std::vector<Refused>& cases) {
+  std::vector<std::string> messages, faults;
+  for (const Refused& refused : cases) {
+    std::string message;
+    try {
+      read_case(refused.tables);
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    messages.push_back(message.empty() ? "accepted: " + refused.tables : message.substr(0, 200));
+    std::string lacks = message.starts_with("trial.toml:") ? "" : "file and line";
+    for (const std::string& word : refused.words)
+      if (message.find(word) == std::string::npos) lacks += " '" + word + "'";
+    faults.push_back(lacks);
+  }
+  const double wrong =
+      double(std::count_if(faults.begin(), faults.end(), [](const auto& f) { return !f.empty(); }));
+  return {{wrong, 0, 0, "cases", "each must be refused with file, line and what is known"},
+          {{"message", "", messages}, {"lacks", "", faults}},
+          ""};
 }
 
 }  // namespace foldproof

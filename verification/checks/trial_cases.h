@@ -33,6 +33,15 @@ step = 0.003
 /// The sheet, some tables, the time.
 Scene read_case(const std::string& tables, const std::vector<std::string>& overrides = {});
 
+/// Tables that have to be refused, and words of the message.
+struct Refused {
+  std::string tables;
+  std::vector<std::string> words;
+};
+
+/// How many are accepted, or refused without file and line or one of the words.
+Finding refused_cases(const std::vector<Refused>& cases);
+
 /// The positions of that sheet, 3 x N [m].
 PerParticle3 plain_positions();
 
