@@ -1,6 +1,5 @@
 #include "convergence/grid_cost.h"
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -8,6 +7,7 @@
 #include "reference/level_set/narrow_band.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/moving_scenes.h"
+#include "verification/processor_time.h"
 
 namespace foldproof {
 
@@ -16,14 +16,10 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int points = 4000;
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// A grid of a mesh: what it holds, how long it took, how far it errs.
 struct GridCost {
   double cells, nodes, megabytes, band_nodes;
-  double band, marching;  // s
+  double band, marching;  // processor time [s]
   double error;           // largest of phi at random points within three cells of the surface [m]
   double h;               // m
 };
@@ -31,12 +27,12 @@ struct GridCost {
 GridCost cost_of(const MeshDistance& mesh, int cells) {
   const Bounds& bounds = mesh.tree.nodes[0].bounds;
   const Lattice lattice = lattice_about(bounds, cells, 3);
-  const auto start = std::chrono::steady_clock::now();
+  const double start = processor_seconds();
   const Seeds seeds = narrow_band(mesh, lattice, 3);
-  const double band = seconds_since(start);
-  const auto middle = std::chrono::steady_clock::now();
+  const double band = processor_seconds() - start;
+  const double middle = processor_seconds();
   const Grid grid = march(lattice, seeds, MarchingOrder::second);
-  const double marching = seconds_since(middle);
+  const double marching = processor_seconds() - middle;
   Random random(113);
   Worst error;
   for (int i = 0; i < points; ++i) {

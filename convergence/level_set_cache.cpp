@@ -1,7 +1,6 @@
 // level-set-cache: level sets computed once, for many runs; and files that must not be trusted.
 #include <cmath>
 #include <cstdint>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -14,6 +13,7 @@
 #include "verification/checks/scratch_folder.h"
 #include "verification/hdf5_file.h"
 #include "verification/level_set_cache_file.h"
+#include "verification/processor_time.h"
 
 namespace foldproof {
 
@@ -52,18 +52,16 @@ struct Costs {
   double megabytes;    // of the file
 };
 
-double seconds_since(std::clock_t start) { return double(std::clock() - start) / CLOCKS_PER_SEC; }
-
 NamedFinding loaded_is_the_same(Costs& costs) {
   const ScratchFolder folder;
   const std::string path = folder.file("ball.h5");
-  std::clock_t start = std::clock();
+  double start = processor_seconds();
   const CachedBody built = cached(path, animation(3), settings(6));
-  costs.build = seconds_since(start);
+  costs.build = processor_seconds() - start;
   costs.megabytes = double(std::filesystem::file_size(path)) / 1e6;
-  start = std::clock();
+  start = processor_seconds();
   const CachedBody loaded = cached(path, animation(3), settings(6));
-  costs.load = seconds_since(start);
+  costs.load = processor_seconds() - start;
   const double wrong =
       (built.was_loaded ? 1 : 0) + (loaded.was_loaded ? 0 : 1) + different_answers(built.body, loaded.body);
   return {

@@ -1,9 +1,7 @@
 // level-sets-in-time: what lies between two stored level sets of a body that deforms, and what a frame costs.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <random>
 
 #include "convergence/order.h"
@@ -51,25 +49,8 @@ struct Pair {
   double way;               // the farthest that a vertex moves in it [m]
   double blended, carried;  // largest miss of phi at the middle time [m]
   double evaluations;       // distances asked for, for one frame
-  double beyond;  // of its distinct nodes, the share that an update of the band alone could leave out [1]
+  double kept;  // of the second frame's nodes, the share that keeps the nearest point of the first [1]
 };
-
-/// The share of nodes farther from the surface than three finest cells, each counted once, for each is looked for once.
-double share_beyond_the_band(const PerParticle3& x, const std::vector<Triangle>& triangles,
-                             const OctreeSettings& settings) {
-  const MeshDistance mesh = make_mesh_distance(x, triangles);
-  std::map<std::array<double, 3>, double> phi;  // m
-  make_octree({[&](const Vector3& p) {
-                const Distance at = mesh.at(p);
-                phi[{p.x(), p.y(), p.z()}] = at.phi;
-                return at;
-              }},
-              settings);
-  const double reach = 3 * std::ldexp(settings.width, -settings.depth);
-  const auto beyond =
-      std::ranges::count_if(phi, [&](const auto& node) { return std::abs(node.second) > reach; });
-  return double(beyond) / double(phi.size());
-}
 
 double largest_miss(const DeformingBody& body, const MeshDistance& exact,
                     const std::vector<Vector3>& points) {
@@ -87,7 +68,7 @@ Pair measured(const TriangleMesh& ball, double interval, int depth, const std::v
             0,
             0,
             double(body.frames[0].field.evaluations),
-            share_beyond_the_band(sequence.positions[0], sequence.triangles, settings_to(depth))};
+            1 - double(body.frames[1].searches) / double(body.frames[1].nodes)};
   pair.blended = largest_miss(body, exact, points);
   body.between = BetweenFrames::carried;
   pair.carried = largest_miss(body, exact, points);
@@ -180,7 +161,7 @@ Table table_of(const std::vector<Pair>& pairs) {
            {"miss, blended", "m", column(pairs, &Pair::blended)},
            {"miss, carried", "m", column(pairs, &Pair::carried)},
            {"distances for a frame", "1", column(pairs, &Pair::evaluations)},
-           {"nodes beyond three finest cells", "1", column(pairs, &Pair::beyond)}}};
+           {"nodes that keep their nearest point", "1", column(pairs, &Pair::kept)}}};
 }
 
 StudyResult run(const Subject&, Tier tier, const Progress& progress) {

@@ -1,7 +1,6 @@
 // octree-memory: what an octree saves against a regular grid of the same error.
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <memory>
 #include <random>
@@ -11,6 +10,7 @@
 #include "reference/level_set/octree.h"
 #include "reference/level_set/octree_nodes.h"
 #include "reference/mesh/shapes.h"
+#include "verification/processor_time.h"
 
 namespace foldproof {
 
@@ -100,11 +100,11 @@ Balance balance_of(const Body& body, int level) {
   Balance balance{body.name, level, 8 * std::pow(1 / h + 1, 3), 0, grid_miss(body, points, level), nan, 0,
                   0,         0};
   for (const double share : {1.05, 0.85, 0.6, 0.42, 0.3}) {
-    const std::clock_t start = std::clock();
+    const double start = processor_seconds();
     const Octree tree =
         make_octree({body.distance}, {Vector3::Constant(-0.5), 1, level + 1, 3, share * balance.grid_miss,
                                       band + std::sqrt(3.0) * h, 0.25, 0, HangingNodes::constrained});
-    balance.seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+    balance.seconds = processor_seconds() - start;
     balance.tree_bytes = double(bytes(tree));
     balance.tree_miss = tree_miss(body, points, tree);
     balance.tolerance = share * balance.grid_miss;

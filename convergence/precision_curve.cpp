@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
+
+#include "verification/processor_time.h"
 
 namespace foldproof {
 
@@ -14,9 +15,6 @@ constexpr double coarsest = 1. / 8;      // steps of the first run over those at
 constexpr double far_away = 20;          // displacement over the motion beyond which a run is stopped [1]
 constexpr int most_repeats = 4;          // of a run that is timed
 constexpr double enough_seconds = 0.01;  // after which it is not repeated
-
-/// Processor time [s], which other programs on the machine disturb less than the clock on the wall.
-double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 struct TimedRun {
   PlannedRun run;
@@ -83,7 +81,7 @@ PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& p
         run.ending == Ending::reached ? largest_distance(run.last.x, truth.x) / truth.motion : nan;
     curve.runs.push_back({plan.steps, error <= lost ? error : nan, operator_applications(run.work), seconds,
                           double(run.steps) / plan.steps, run.work});
-    again = !(error <= finest_error / 3) || measured_runs(curve) < problem.least_points;
+    again = !(error <= finest_error) || measured_runs(curve) < problem.least_points;
   }
   return curve;
 }

@@ -31,7 +31,7 @@ struct PrecisionCurve {
 constexpr double lost = 1;
 
 /// The runs of one method: from an eighth of the steps at the elastic limit on, finer by problem.ratio, until
-/// the error is a third of `finest_error` [1] and problem.least_points runs were measured, or until a run with a step
+/// the error is `finest_error` [1] and problem.least_points runs were measured, or until a run with a step
 /// below the elastic limit exceeds the problem's budget, or would if work went on to grow as between the two before.
 /// Runs with longer steps that exceed it are left out.
 PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& problem,

@@ -167,11 +167,12 @@ def _spans(planes: np.ndarray, y: np.ndarray, width: int) -> tuple[np.ndarray, n
 
 def _keep_nearest(samples: Samples, pixel: np.ndarray, near: np.ndarray, owner: np.ndarray) -> None:
     triangle, nearness = samples.triangle.reshape(-1), samples.nearness.reshape(-1)
-    better = near > nearness[pixel]
-    pixel, near, owner = pixel[better], near[better], owner[better]
-    order = np.argsort(near)  # of equal pixels the last written stays: the nearest
-    triangle[pixel[order]] = owner[order]
-    nearness[pixel[order]] = near[order]
+    while True:  # of equal pixels the last written stays; those nearer than that are written again
+        better = np.flatnonzero(near > nearness[pixel])
+        if not len(better):
+            return
+        pixel, near, owner = pixel[better], near[better], owner[better]
+        triangle[pixel], nearness[pixel] = owner, near
 
 
 def _shaded(samples: Samples, triangles: np.ndarray, planes: np.ndarray, normals: np.ndarray,

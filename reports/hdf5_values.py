@@ -22,7 +22,7 @@ def columns_of(group: h5py.Group | None) -> list[Column]:
     if group is None:
         return []
     sets = [(key, item) for key, item in group.items() if isinstance(item, h5py.Dataset)]
-    sets.sort(key=lambda entry: (number_of(attributes_of(entry[1]), "order", 0), entry[0]))
+    sets.sort(key=_place)
     return [Column(key, text_of(attributes_of(item), "unit"), _values(item)) for key, item in sets]
 
 
@@ -36,7 +36,12 @@ def _values(data: h5py.Dataset) -> np.ndarray:
 def in_order(group: h5py.Group, key: str) -> list[tuple[str, h5py.Group]]:
     """Names and groups inside group/key, in the order that they give."""
     inner = [(name, item) for name, item in group.get(key, {}).items() if isinstance(item, h5py.Group)]
-    return sorted(inner, key=lambda entry: (number_of(attributes_of(entry[1]), "order", 0), entry[0]))
+    return sorted(inner, key=_place)
+
+
+def _place(entry: tuple[str, h5py.Group | h5py.Dataset]) -> tuple[float, str]:
+    name, item = entry
+    return number_of({"order": item.attrs.get("order", 0)}, "order", 0), name
 
 
 def attributes_of(item: h5py.Group | h5py.Dataset) -> dict[str, Any]:

@@ -47,7 +47,7 @@ std::vector<BranchNodes<T>> read_nodes(const Hdf5& group, const std::string& nam
 
 DeformingFrame read_frame(const Hdf5& group, double time, const OctreeSettings& settings) {
   DeformingFrame frame{
-      time, {settings, {}, group.read_ints("part"), read_nodes<double>(group, "phi", 1), 0}, {}, {}};
+      time, {settings, {}, group.read_ints("part"), read_nodes<double>(group, "phi", 1), 0}, {}, {}, 0, 0};
   const std::vector<int> rows = group.read_ints("branches");
   for (std::size_t i = 0; i + 3 < rows.size(); i += 4)
     frame.field.branches.push_back({rows[i], rows[i + 1], static_cast<unsigned char>(rows[i + 2]),

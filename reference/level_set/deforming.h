@@ -43,6 +43,8 @@ struct DeformingFrame {
   std::vector<BranchNodes<Vector3>> to_next;  // of each channel, up to the next frame; last frame: none [m]
   std::vector<BranchNodes<Vector3>>
       from_previous;  // of each channel, since the frame before; first: none [m]
+  long nodes = 0,
+       searches = 0;  // while it was built: distinct nodes, and those whose nearest point was looked for
 };
 
 /// How phi and v are interpolated between two frames.
@@ -56,7 +58,10 @@ struct DeformingBody {
   BetweenFrames between;
 };
 
-/// Level sets of every frame, as octrees that cover the cube of the settings. Throws what make_octree throws, and
+/// Level sets of every frame, as octrees that cover the cube of the settings. Within the settings' band of the surface
+/// a node's value is exact. Beyond it a frame keeps the frame before's nearest points where they are still near
+/// enough: there |phi| may be too large by half of what a cell may miss, beyond (|phi| - band)/2, and the displacement
+/// is that of the point that was kept. Throws what make_octree throws, and
 /// InputError for a sequence without frames, with times that do not rise or numbers of vertices that differ.
 DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSettings& settings,
                                   BetweenFrames between);

@@ -25,17 +25,51 @@ Vector3 barycentric(const Corners3& corners, const Vector3& p) {
   return {1 - b - c, b, c};
 }
 
-/// What is nearest to the nodes of an octree, each looked for once: every cell about a node asks for it anew, and so
-/// do the displacements once the octree stands.
-class NodeFeatures {
- public:
-  explicit NodeFeatures(const MeshDistance& mesh) : mesh_(mesh) {}
+/// What the corners' columns of x, 3 x N, amount to at a point of the triangle.
+Vector3 at_point_of(const Triangle& t, const Vector3& weight, const PerParticle3& x) {
+  Vector3 sum = Vector3::Zero();
+  for (int k = 0; k < 3; ++k) sum += weight[k] * x.col(t[k]);
+  return sum;
+}
 
-  const NearestFeature& at(const Vector3& p) {
-    const auto [place, is_new] = known_.try_emplace({p.x(), p.y(), p.z()});
-    if (is_new) place->second = nearest_feature(mesh_, p, std::numeric_limits<double>::infinity());
+/// What is known of a node: its distance, and the surface point that it is measured to.
+struct NodeValue {
+  double phi;  // m
+  double
+      least;  // |phi| is at least this; less than measured where the point is kept from the frame before [m]
+  int triangle;    // of the sequence
+  Vector3 weight;  // of the triangle's corners, at the point
+};
+
+/// The share of what a cell may miss beyond the band by which a kept value may be too large.
+constexpr double kept_share = 0.5;
+
+/// The values at the nodes of a frame's octree, each found once: every cell about a node asks for it anew, and so do
+/// the displacements once the octree stands.
+///
+/// In the band the nearest point is looked for. Beyond it the point that was nearest in the frame before, moved along
+/// with the mesh, is kept if nothing is nearer by more than the share: to see that is a short search, which ends at
+/// every box that is farther away. The sign is the frame before's if the surface was farther than it has moved.
+class NodeValues {
+ public:
+  NodeValues(const MeshSequence& sequence, std::size_t frame, const OctreeSettings& settings)
+      : mesh_(make_mesh_distance(sequence.positions[frame], sequence.triangles)), settings_(settings) {}
+
+  /// `way`: the farthest that a vertex has moved since the frame before [m].
+  void follow(const NodeValues& before, double way) {
+    before_ = &before.known_;
+    way_ = way;
+  }
+
+  const NodeValue& at(const Vector3& p) {
+    const Position position = {p.x(), p.y(), p.z()};
+    const auto [place, is_new] = known_.try_emplace(position);
+    if (is_new && !keep(p, position, place->second)) place->second = searched(p);
     return place->second;
   }
+
+  long searches() const { return searches_; }
+  long nodes() const { return long(known_.size()); }
 
  private:
   using Position = std::array<double, 3>;  // m
@@ -48,53 +82,75 @@ class NodeFeatures {
     }
   };
 
-  const MeshDistance& mesh_;
-  std::unordered_map<Position, NearestFeature, Hash> known_;
+  NodeValue value_at(const Vector3& p, const NearestFeature& nearest) {
+    ++searches_;
+    const double phi = signed_distance(mesh_, nearest, p).phi;
+    return {phi, std::abs(phi), mesh_.tree.order[nearest.triangle],
+            barycentric(mesh_.corners[nearest.triangle], nearest.point)};
+  }
+
+  NodeValue searched(const Vector3& p) {
+    return value_at(p, nearest_feature(mesh_, p, std::numeric_limits<double>::infinity()));
+  }
+
+  bool keep(const Vector3& p, const Position& position, NodeValue& value) {
+    if (!before_) return false;
+    const auto known = before_->find(position);
+    if (known == before_->end() || !(known->second.least > way_)) return false;
+    const NodeValue& old = known->second;
+    const Triangle& t = mesh_.triangles[old.triangle];
+    const double most = (p - at_point_of(t, old.weight, mesh_.x)).norm();
+    const double share = kept_share * settings_.beyond;
+    // most - least = share (least - band); in the band least is above most, and the search finds the nearest point
+    const double least = (most + share * settings_.band) / (1 + share);
+    const NearestFeature nearer = nearest_feature(mesh_, p, least);
+    value = nearer.triangle < 0 ? NodeValue{std::copysign(most, old.phi), least, old.triangle, old.weight}
+                                : value_at(p, nearer);
+    return true;
+  }
+
+  using Known = std::unordered_map<Position, NodeValue, Hash>;
+  MeshDistance mesh_;
+  const OctreeSettings& settings_;
+  const Known* before_ = nullptr;
+  double way_ = 0;  // m
+  long searches_ = 0;
+  Known known_;
 };
 
-/// What the surface point that is nearest to a node is displaced by, its vertices moving from `from` to `to`.
-Vector3 displacement_near(const MeshDistance& mesh, const PerParticle3& from, const PerParticle3& to,
-                          const NearestFeature& nearest) {
-  const Triangle& t = mesh.triangles[mesh.tree.order[nearest.triangle]];
-  const Vector3 weight = barycentric(mesh.corners[nearest.triangle], nearest.point);
-  Vector3 u = Vector3::Zero();
-  for (int k = 0; k < 3; ++k) u += weight[k] * (to.col(t[k]) - from.col(t[k]));
-  return u;
-}
-
-/// What the vertices move by, and the mesh and its nearest features at the one end that belongs to the octree.
-struct Displaced {
-  const MeshDistance& mesh;
-  NodeFeatures& features;
-  const PerParticle3 &from, &to;  // 3 x N [m]
-};
-
-std::vector<BranchNodes<Vector3>> node_displacements(const Octree& tree, const Displaced& displaced) {
+/// What the points of all nodes are displaced by, while the frame `from` becomes the frame `to`.
+std::vector<BranchNodes<Vector3>> node_displacements(const Octree& tree, NodeValues& values,
+                                                     const MeshSequence& sequence, std::size_t from,
+                                                     std::size_t to) {
+  const PerParticle3 moved = sequence.positions[to] - sequence.positions[from];
   const std::vector<OctreePlace> places = branch_places(tree);
   std::vector<BranchNodes<Vector3>> all(places.size());
   for (std::size_t b = 0; b < places.size(); ++b) {
     for (int n = 0; n < 27; ++n) {
-      const NearestFeature& nearest = displaced.features.at(node_position(tree.settings, places[b], n));
-      all[b][n] = displacement_near(displaced.mesh, displaced.from, displaced.to, nearest);
+      const NodeValue& node = values.at(node_position(tree.settings, places[b], n));
+      all[b][n] = at_point_of(sequence.triangles[node.triangle], node.weight, moved);
     }
     if (tree.settings.hanging == HangingNodes::constrained) constrain(hanging_nodes(tree, places[b]), all[b]);
   }
   return all;
 }
 
-DeformingFrame make_frame(const MeshSequence& sequence, std::size_t k, const OctreeSettings& settings) {
-  const PerParticle3& x = sequence.positions[k];
-  const MeshDistance mesh = make_mesh_distance(x, sequence.triangles);
-  NodeFeatures features(mesh);
+DeformingFrame make_frame(const MeshSequence& sequence, std::size_t k, NodeValues& values,
+                          const OctreeSettings& settings) {
   const DistanceFunction distance = [&](const Vector3& p) {
-    return signed_distance(mesh, features.at(p), p);
+    return Distance{values.at(p).phi, Vector3::Zero()};  // the octree takes no directions
   };
-  DeformingFrame frame{sequence.times[k], make_octree({distance}, settings), {}, {}};
+  DeformingFrame frame{sequence.times[k], make_octree({distance}, settings), {}, {}, 0, 0};
   if (k + 1 < sequence.times.size())
-    frame.to_next = node_displacements(frame.field, {mesh, features, x, sequence.positions[k + 1]});
-  if (k > 0)
-    frame.from_previous = node_displacements(frame.field, {mesh, features, sequence.positions[k - 1], x});
+    frame.to_next = node_displacements(frame.field, values, sequence, k, k + 1);
+  if (k > 0) frame.from_previous = node_displacements(frame.field, values, sequence, k - 1, k);
+  frame.nodes = values.nodes();
+  frame.searches = values.searches();
   return frame;
+}
+
+double farthest_way(const PerParticle3& from, const PerParticle3& to) {
+  return (to - from).colwise().norm().maxCoeff();
 }
 
 void require_usable(const MeshSequence& sequence) {
@@ -158,8 +214,13 @@ DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSett
                                   BetweenFrames between) {
   require_usable(sequence);
   DeformingBody body{{}, between};
-  for (std::size_t k = 0; k < sequence.times.size(); ++k)
-    body.frames.push_back(make_frame(sequence, k, settings));
+  std::unique_ptr<NodeValues> before;
+  for (std::size_t k = 0; k < sequence.times.size(); ++k) {
+    auto values = std::make_unique<NodeValues>(sequence, k, settings);
+    if (before) values->follow(*before, farthest_way(sequence.positions[k - 1], sequence.positions[k]));
+    body.frames.push_back(make_frame(sequence, k, *values, settings));
+    before = std::move(values);
+  }
   return body;
 }
 

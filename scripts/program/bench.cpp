@@ -60,8 +60,7 @@ struct Speeds {
       iterations;  // seconds of each, but counts first and last
 };
 
-Speeds measure(int cells) {
-  const Load load = make_load(cells);
+Speeds measure(const Load& load) {
   const State& s = load.state;
   PerParticle3 f = PerParticle3::Zero(3, s.x.cols());
   Work work;
@@ -194,10 +193,10 @@ RunRecord bench(int most_particles) {
   const double seconds = seconds_of([&] {
     for (const int n : cells) {
       if ((n + 1) * (n + 1) > most_particles) break;
-      all.push_back(measure(n));
+      const Load load = make_load(n);
+      all.push_back(measure(load));
       if (n == 315) {
         megabytes = resident_megabytes("VmHWM");
-        const Load load = make_load(n);
         contact.push_back(contact_rate(load.scene, load.limit / 2, all.back().step));
       }
       progress.show(double(n + 1) * (n + 1) / most_particles);

@@ -80,7 +80,7 @@ std::vector<Record> level_set_rates() {
                fmt::format("All pairs of {} triangles that intersect.", body.triangles.size()), pairs,
                {1, "s", "lower", "a dozen neighbours a triangle at a microsecond each"}),
           rate("level-set-mesh-queries", "Exact signed distance and N at random points about the mesh.",
-               queries(mesh, {points.begin(), points.begin() + 20000}),
+               queries(mesh, {points.begin(), points.begin() + 5000}),
                {0.1, "million/s", "higher", "some hundred boxes and triangles a search"}),
           rate("level-set-grid-queries", "Trilinear phi and blended N on the grid, at random points.",
                queries(grid, points),

@@ -28,7 +28,7 @@ std::vector<Vector3> places(const MeshDistance& mesh) {
   std::mt19937_64 random(11);
   const auto within = [&](double half) { return half * (2 * double(random() >> 11) * 0x1p-53 - 1); };
   std::vector<Vector3> result;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < 40000; ++i) {
     const double x = within(0.4), y = within(0.4), z = within(0.4), up = within(band);
     const Distance at = mesh.at({x, y, z});
     result.push_back(Vector3(x, y, z) - (at.phi - up) * at.normal);

@@ -112,20 +112,19 @@ std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance
   const LevelSetMakers makers = makers_of(options.cache);
   std::vector<Job> jobs;
   for (const std::string& name : hard_cases())
-    jobs.push_back({length, false, [name](const Progress& progress) {
+    jobs.push_back({length, [name](const Progress& progress) {
                       RunRecord part;
                       part.records = judge_case(built_in_case(name), progress);
                       return part;
                     }});
   for (const std::string& name : shown_cases())
-    jobs.push_back(
-        {length, false, [name, makers, folder = options.out, provenance](const Progress& progress) {
-           CaseRun done = run_case(built_in_case(name, makers), folder, provenance, progress);
-           RunRecord part;
-           part.cases = {done.record};
-           part.records = std::move(done.findings);
-           return part;
-         }});
+    jobs.push_back({length, [name, makers, folder = options.out, provenance](const Progress& progress) {
+                      CaseRun done = run_case(built_in_case(name, makers), folder, provenance, progress);
+                      RunRecord part;
+                      part.cases = {done.record};
+                      part.records = std::move(done.findings);
+                      return part;
+                    }});
   return jobs;
 }
 

@@ -38,9 +38,9 @@ class Queue {
     for (const Job& job : jobs) whole_ += job.length;
   }
 
-  /// Takes jobs of one kind until none is left.
-  void work(bool is_timed) {
-    for (size_t i = 0; take(is_timed, i);) {
+  /// Takes jobs until none is left.
+  void work() {
+    for (size_t i = 0; take(i);) {
       try {
         parts_[i] = jobs_[i].run([&, i](double part) { show(i, part); });
       } catch (...) {
@@ -63,13 +63,11 @@ class Queue {
   }
 
  private:
-  bool take(bool is_timed, size_t& i) {
+  bool take(size_t& i) {
     const std::lock_guard held(mutex_);
-    const auto last = std::ranges::find_if(waiting_.rbegin(), waiting_.rend(),
-                                           [&](size_t job) { return jobs_[job].is_timed == is_timed; });
-    if (last == waiting_.rend()) return false;
-    i = *last;
-    waiting_.erase(std::next(last).base());
+    if (waiting_.empty()) return false;
+    i = waiting_.back();
+    waiting_.pop_back();
     return true;
   }
 
@@ -97,10 +95,9 @@ void run_jobs(const std::vector<Job>& jobs, const std::string& label, RunRecord&
   {
     std::vector<std::jthread> others;
     for (unsigned k = 1; k < std::min<size_t>(std::thread::hardware_concurrency(), jobs.size()); ++k)
-      others.emplace_back([&] { queue.work(false); });
-    queue.work(false);
+      others.emplace_back([&] { queue.work(); });
+    queue.work();
   }
-  queue.work(true);
   queue.gather(run);
 }
 

@@ -12,14 +12,12 @@ namespace foldproof {
 /// What is run by itself: it depends on no other job, and its result on no order.
 struct Job {
   double length;  // how long it takes beside others, roughly
-  bool is_timed;  // it measures seconds, which a second job on the machine would disturb: runs alone
   std::function<RunRecord(const Progress&)>
       run;  // records, studies and cases, to be added to those of the others
 };
 
-/// Runs the jobs, the longest first, one a core, and then the timed ones alone; says a line about each finding that
-/// does not hold, and adds what they made to the run in the order of the jobs. What a job throws is thrown when all
-/// are done.
+/// Runs the jobs, the longest first, one a core; says a line about each finding that does not hold, and adds what they
+/// made to the run in the order of the jobs. What a job throws is thrown when all are done.
 void run_jobs(const std::vector<Job>& jobs, const std::string& label, RunRecord& run);
 
 }  // namespace foldproof

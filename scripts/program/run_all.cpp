@@ -87,14 +87,8 @@ std::vector<Record> wanted_of(std::vector<Record> records, const std::vector<std
   return records;
 }
 
-/// Checks and studies that measure seconds: they have the machine for themselves.
-const std::vector<std::string> timed = {"solver.cached-terms-save-time", "work-precision", "level-set-cache",
-                                        "level-set-resolution", "octree-memory"};
-
-bool is_timed(const std::string& name) { return std::ranges::find(timed, name) != timed.end(); }
-
 Job job_of(const Check& check, const Subject& subject) {
-  return {1, is_timed(check.name), [check, &subject](const Progress&) {
+  return {1, [check, &subject](const Progress&) {
             RunRecord part;
             part.records = {run_check(check, subject)};
             return part;
@@ -102,7 +96,7 @@ Job job_of(const Check& check, const Subject& subject) {
 }
 
 Job job_of(const Study& study, const Subject& subject, Tier tier, const std::vector<std::string>& wanted) {
-  return {30, is_timed(study.name), [study, &subject, tier, wanted](const Progress& progress) {
+  return {30, [study, &subject, tier, wanted](const Progress& progress) {
             auto [records, whole] = run_study(study, subject, tier, progress);
             RunRecord part;
             part.records = wanted_of(std::move(records), wanted, study.name);
@@ -112,7 +106,7 @@ Job job_of(const Study& study, const Subject& subject, Tier tier, const std::vec
 }
 
 Job job_of(const Case& shown, const std::vector<std::string>& wanted) {
-  return {60, false, [shown, wanted](const Progress& progress) {
+  return {60, [shown, wanted](const Progress& progress) {
             RunRecord part;
             part.records = wanted_of(judge_case(shown, progress), wanted, "");
             return part;

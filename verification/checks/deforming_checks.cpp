@@ -4,9 +4,11 @@
 #include <cmath>
 #include <filesystem>
 #include <random>
+#include <set>
 
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/object.h"
+#include "reference/level_set/octree_nodes.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/measured.h"
@@ -114,6 +116,69 @@ MeshSequence turning_ball(double angle, int subdivisions) {
   return deformed_mesh(make_icosphere(radius, subdivisions), deformation, {0, 0.04});
 }
 
+/// How far the nodes of a frame err, over what they may: some roundings, and beyond the band half of what a cell may
+/// miss there, if |phi| is too large.
+double node_error(const DeformingFrame& frame, const MeshDistance& exact) {
+  const Octree& tree = frame.field;
+  const std::vector<OctreePlace> places = branch_places(tree);
+  Worst worst;
+  for (std::size_t b = 0; b < places.size(); ++b)
+    for (int n = 0; n < 27; ++n) {
+      const double phi = exact.at(node_position(tree.settings, places[b], n)).phi;
+      const double kept = tree.phi[std::size_t(tree.branches[b].channels)][std::size_t(n)];
+      const double rounding = 16 * epsilon * tree.settings.width;
+      const double more = (phi < 0 ? -1 : 1) * (kept - phi);
+      const double beyond = std::max(0.0, std::abs(phi) - tree.settings.band);
+      worst.see(more > 0 ? more / (rounding + tree.settings.beyond / 2 * beyond) : -more / rounding);
+    }
+  return worst.value();
+}
+
+/// Hanging nodes keep their own values, as they were found.
+OctreeSettings free_sampling() {
+  OctreeSettings settings = coarse_sampling();
+  settings.hanging = HangingNodes::free;
+  return settings;
+}
+
+Finding kept_nodes_err_as_bounded(const Subject&) {
+  Measured measured("largest error", "what is allowed");
+  for (const double way : {0.003, 0.02, 0.11, 0.33}) {
+    const MeshSequence ball = moving_ball(way, {0, 0.02, 0.04});
+    const DeformingBody body = make_deforming_body(ball, free_sampling(), BetweenFrames::carried);
+    for (std::size_t k = 0; k < body.frames.size(); ++k)
+      measured.see(std::to_string(way) + " m a frame, frame " + std::to_string(k),
+                   node_error(body.frames[k], make_mesh_distance(ball.positions[k], ball.triangles)));
+  }
+  return measured.judged(
+      1,
+      "a value is kept only if nothing lies nearer by more than half of what a cell may miss "
+      "beyond the band, and the surface cannot have passed the node");
+}
+
+Finding far_nodes_are_not_searched(const Subject&) {
+  const MeshSequence ball = moving_ball(0.003, {0, 0.02, 0.04});
+  const DeformingBody body = make_deforming_body(ball, free_sampling(), BetweenFrames::carried);
+  Measured measured("searched", "nodes that must be, and a tenth of the others");
+  for (std::size_t k = 1; k < body.frames.size(); ++k) {
+    const Octree& tree = body.frames[k].field;
+    std::set<std::array<double, 3>> all, near;
+    const std::vector<OctreePlace> places = branch_places(tree);
+    for (std::size_t b = 0; b < places.size(); ++b)
+      for (int n = 0; n < 27; ++n) {
+        const Vector3 p = node_position(tree.settings, places[b], n);
+        all.insert({p.x(), p.y(), p.z()});
+        if (std::abs(tree.phi[b][std::size_t(n)]) <= tree.settings.band) near.insert({p.x(), p.y(), p.z()});
+      }
+    const double must = double(near.size()) / double(all.size());
+    measured.see("frame " + std::to_string(k),
+                 double(body.frames[k].searches) / double(body.frames[k].nodes) / (must + 0.1 * (1 - must)));
+  }
+  return measured.judged(1,
+                         "what is in the band must be searched; a tenth of the rest is left to nodes that "
+                         "the frame before did not have");
+}
+
 Finding velocity_is_that_of_the_surface(const Subject&) {
   Measured measured("largest difference", "largest speed");
   const MeshSequence ball = turning_ball(0.3, 3);
@@ -212,24 +277,32 @@ Finding sequences_are_read(const Subject&) {
 
 std::vector<Check> deforming_checks() {
   const char* const source = "BMF03 section 5.1";
-  return {{"deforming.carried-ball-keeps-its-shape",
-           "Interpolated along its motion a ball keeps its shape between frames, however far it moves.",
-           source, carried_ball_keeps_its_shape},
-          {"deforming.blended-ball-shrinks-as-derived",
-           "Interpolated at the point, a ball of radius R that moves by d shrinks to sqrt(R^2 - d^2/4) "
-           "across its motion, and vanishes beyond two radii.",
-           source, blended_ball_shrinks},
-          {"deforming.velocity-is-that-of-the-surface",
-           "Inside and outside alike, the velocity is that of the nearest surface point: constant along N.",
-           source, velocity_is_that_of_the_surface},
-          {"deforming.points-ride-along",
-           "The mean velocity over a span takes a point where the body takes it, across frames too.", source,
-           points_ride_along},
-          {"deforming.rests-outside-its-frames", "Before its first frame and after its last a body rests.",
-           source, rests_outside_its_frames},
-          {"deforming.sequences-are-read",
-           "A folder of OBJ files is read as it was written, and what is no sequence is refused.", source,
-           sequences_are_read}};
+  return {
+      {"deforming.carried-ball-keeps-its-shape",
+       "Interpolated along its motion a ball keeps its shape between frames, however far it moves.", source,
+       carried_ball_keeps_its_shape},
+      {"deforming.blended-ball-shrinks-as-derived",
+       "Interpolated at the point, a ball of radius R that moves by d shrinks to sqrt(R^2 - d^2/4) "
+       "across its motion, and vanishes beyond two radii.",
+       source, blended_ball_shrinks},
+      {"deforming.velocity-is-that-of-the-surface",
+       "Inside and outside alike, the velocity is that of the nearest surface point: constant along N.",
+       source, velocity_is_that_of_the_surface},
+      {"deforming.kept-nodes-err-as-bounded",
+       "A frame's values are exact in the band; beyond it those kept from the frame before err by no more "
+       "than half of what a cell may miss there, and have the right sign, however far the body moved.",
+       source, kept_nodes_err_as_bounded},
+      {"deforming.far-nodes-are-not-searched",
+       "Where the body moves little, nearest points are looked for in the band only.", source,
+       far_nodes_are_not_searched},
+      {"deforming.points-ride-along",
+       "The mean velocity over a span takes a point where the body takes it, across frames too.", source,
+       points_ride_along},
+      {"deforming.rests-outside-its-frames", "Before its first frame and after its last a body rests.",
+       source, rests_outside_its_frames},
+      {"deforming.sequences-are-read",
+       "A folder of OBJ files is read as it was written, and what is no sequence is refused.", source,
+       sequences_are_read}};
 }
 
 }  // namespace foldproof

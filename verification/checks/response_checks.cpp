@@ -107,15 +107,17 @@ Finding reversal_finding(const Subject& subject) {
 
 Finding untouched_finding(const Subject& subject) {
   double differ = 0, untreated = 0;
-  for (const Contact& contact : known_contacts()) {
-    const PerParticle3 after = avoided(subject, contact.scene, contact.span, contact.state);
-    for (Eigen::Index i = 0; i < after.cols(); ++i) {
-      const Answer a = answer_of(contact, after, i);
-      if (!(a.forecast > unsure(contact))) continue;
-      ++untreated;
-      differ += numbers_that_differ(after.col(i), contact.state.v.col(i));
+  for (Contact contact : known_contacts())
+    for (const char* const response : {"forecast", "forecast_deepest"}) {
+      contact.scene.collision.response = response;
+      const PerParticle3 after = avoided(subject, contact.scene, contact.span, contact.state);
+      for (Eigen::Index i = 0; i < after.cols(); ++i) {
+        const Answer a = answer_of(contact, after, i);
+        if (!(a.forecast > unsure(contact))) continue;
+        ++untreated;
+        differ += numbers_that_differ(after.col(i), contact.state.v.col(i));
+      }
     }
-  }
   const double few = std::numeric_limits<double>::quiet_NaN();
   return {{untreated > 100 ? differ : few, 0, 0, "numbers",
            "a point that is forecast to be outside must keep its velocity, bit for bit"},
