@@ -185,7 +185,7 @@ Finding surface_finding(const Subject&) {
   Measured measured("largest distance of the drawn surface from the level set", "tolerances");
   for (const std::string kind : {"bend", "twist", "breathe"}) {
     const Scene scene = read_case(ball_body(
-        folder, place + "cells = 24\ninterval = 0.02\n" + deform(kind, kind == "breathe" ? 0.3 : 40, 0.5)));
+        folder, place + "cells = 16\ninterval = 0.02\n" + deform(kind, kind == "breathe" ? 0.3 : 40, 0.5)));
     const auto& body = std::get<DeformingObject>(scene.objects.at(0).object.body);
     const double tolerance = body.body->frames.front().field.settings.tolerance;
     Worst worst;
@@ -204,7 +204,7 @@ Finding surface_finding(const Subject&) {
 }
 
 std::vector<Refused> refusals(const ScratchFolder& folder) {
-  const auto body = [&](const std::string& keys) { return ball_body(folder, keys); };
+  const auto body = [&](const std::string& keys) { return ball_body(folder, "cells = 8\n" + keys); };
   const std::string twist = deform("twist", 20, 0.5),
                     sphere = "[[object]]\nshape = \"sphere\"\nradius = 0.3\n";
   const std::string frames = "[[object]]\nframes = \"" + written_frames(folder) + "\"\n";
@@ -213,7 +213,7 @@ std::vector<Refused> refusals(const ScratchFolder& folder) {
           {body("field = \"octree\"\nrepair = \"winding\""), {"'repair' needs field = \"grid\""}},
           {body("tolerance = 1e-3"), {"unknown key 'tolerance'"}},
           {sphere + twist, {"needs a mesh", "statue"}},
-          {body("velocity = [0, 0, 1]\n" + twist), {"unknown key 'velocity'"}},
+          {body("interval = 0.2\nvelocity = [0, 0, 1]\n" + twist), {"unknown key 'velocity'"}},
           {body("field = \"grid\"\n" + twist), {"unknown field 'grid'", "octree"}},
           {body("between = \"morphed\"\n" + twist), {"unknown between 'morphed'", "carried"}},
           {body("interval = 1e-5\n" + twist), {"more than 1000 level sets", "interval"}},
@@ -221,7 +221,7 @@ std::vector<Refused> refusals(const ScratchFolder& folder) {
           {body("[[object.deform]]\nkind = \"melt\"\n"), {"unknown kind 'melt'", "breathe"}},
           {body("[[object.deform]]\nkind = \"bend\"\namplitude = 3\n"), {"period"}},
           {body("[[object.deform]]\nkind = \"bend\"\namplitude = 3\nperiod = 0\n"), {"'period' must be > 0"}},
-          {body(deform("bend", 20, 0.5) + "toward = 3\n"), {"unknown key 'toward'"}},
+          {body("interval = 0.2\n" + deform("bend", 20, 0.5) + "toward = 3\n"), {"unknown key 'toward'"}},
           {body("interval = 0.1\n" + deform("bend", 900, 0.6)),
            {"frame 1", "0.100000 s", "meets triangle", "smaller amplitude"}},
           {frames + twist, {"'frames' are an animation"}},
