@@ -13,7 +13,7 @@
 #include "verification/checks/scratch_folder.h"
 #include "verification/hdf5_file.h"
 #include "verification/level_set_cache_file.h"
-#include "verification/processor_time.h"
+#include "verification/checks/processor_time.h"
 
 namespace foldproof {
 

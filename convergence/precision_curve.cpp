@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "verification/processor_time.h"
+#include "verification/checks/processor_time.h"
 
 namespace foldproof {
 

@@ -6,7 +6,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/checks/moving_scenes.h"
 #include "verification/checks/solver_checks.h"
-#include "verification/processor_time.h"
+#include "verification/checks/processor_time.h"
 
 namespace foldproof {
 
