@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 #include "verification/checks/moving_scenes.h"
 
@@ -32,7 +33,8 @@ void Measured::see(const std::string& name, const oracles::Estimate& value) {
 }
 
 Finding Measured::judged(double bound, const std::string& why_bound) const {
-  return {{worst_.value(), bound, uncertainty_.value(), unit_, why_bound},
+  const double worst = values_.empty() ? std::numeric_limits<double>::quiet_NaN() : worst_.value();
+  return {{worst, bound, uncertainty_.value(), unit_, why_bound},
           {{"case", "", names_}, {quantity_, unit_, values_}},
           ""};
 }

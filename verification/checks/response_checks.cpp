@@ -125,6 +125,30 @@ Finding untouched_finding(const Subject& subject) {
           ""};
 }
 
+//   N0   N1       over the step the plane turns by theta from N0 to N1 and takes the point's place with it; the point
+//    |  /         slides by w across N0, of which |w.N1| <= |w| sin(theta) is depth, and of a depth that it had
+//  --p-----w-->   1 - cos(theta) is left
+Finding turning_finding(const Subject& subject) {
+  Measured measured("deepest point after the step", "|w| sin(theta) + depth (1 - cos(theta))");
+  for (const Contact& contact : known_contacts()) {
+    const double h = contact.span.end - contact.span.start;
+    if (!contact.name.starts_with("slope") || contact.tau != contact.span.step) continue;
+    const PerParticle3 after = avoided(subject, contact.scene, contact.span, contact.state);
+    const Span end{contact.span.end, contact.span.end, contact.span.step};
+    Worst worst;
+    for (Eigen::Index i = 0; i < after.cols(); ++i) {
+      const Answer a = answer_of(contact, after, i);
+      if (!is_treated(contact, a)) continue;
+      const Known then = contact.known(contact.state.x.col(i) + h * a.after, end);
+      const double turned = a.known.normal.cross(then.normal).norm();
+      const double depth = std::abs(a.known.phi) * (1 - a.known.normal.dot(then.normal));
+      worst.see(-then.phi / (h * a.still_sliding.norm() * turned + depth + unsure(contact)));
+    }
+    measured.see(contact.name, worst.value());
+  }
+  return measured.judged(1, "geometry of a plane that turns, and roundings of lengths of a metre");
+}
+
 Finding galilean_finding(const Subject& subject) {
   const Vector3 shared(5.3, -7.1, 3.7);
   Measured measured = roundings_of("speed");
@@ -226,6 +250,10 @@ std::vector<Check> response_checks() {
        "BMF03 section 5.2", reversal_finding},
       {"contact.response-is-galilean", "Cloth and object that share one more velocity are answered alike.",
        "mechanics", galilean_finding},
+      {"contact.turning-plane-is-entered-as-derived",
+       "A plane that turns in a step is entered by no more than the way that a point slides on it times the "
+       "sine of the turn.",
+       "BMF03 section 5.2", turning_finding},
       {"contact.neighbours-do-not-matter",
        "A particle is answered with the same bits alone and among its neighbours.", "BMF03 section 5.2",
        neighbours_finding},
