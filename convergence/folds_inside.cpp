@@ -7,6 +7,7 @@
 #include "convergence/studies.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
 
@@ -37,7 +38,7 @@ Scene tube_on_drum() {
   scene.rest_angles = hinge_angles(scene.mesh, scene.mesh.rest);
   SceneObject drum = solid_object("drum", Capsule{radius, 0.3}, 0.2);
   std::get<RigidObject>(drum.object.body).place.rotation =
-      Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), Vector3::UnitY());
+      oracles::turn_between(Vector3::UnitZ(), Vector3::UnitY());
   scene.objects.push_back(drum);
   scene.solver.tolerance = 1e-8;
   return scene;

@@ -1,5 +1,4 @@
 // shape-return: a sculpted shell is pulled out of shape, let go, and damped until it rests.
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -67,6 +66,11 @@ Scene pulled_out_of_shape(const Shell& shell, RestAngles angles) {
   return scene;
 }
 
+/// 1 for a right-handed frame, -1 for a left-handed one.
+double handedness(const Eigen::Matrix3d& frame) {
+  return frame.col(0).cross(frame.col(1)).dot(frame.col(2)) < 0 ? -1 : 1;
+}
+
 /// Root mean square distance of x from the rest shape, over the particles, after the best rigid motion [m].
 double distance_from(const PerParticle3& rest, const PerParticle3& x) {
   const PerParticle3 a = rest.colwise() - rest.rowwise().mean(), b = x.colwise() - x.rowwise().mean();
@@ -74,7 +78,7 @@ double distance_from(const PerParticle3& rest, const PerParticle3& x) {
   const oracles::SingularParts parts = oracles::singular_parts(covariance);
   const Eigen::Matrix3d U = parts.U, V = parts.V;
   Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity();
-  mirror(2, 2) = (U * V.transpose()).determinant() < 0 ? -1 : 1;
+  mirror(2, 2) = handedness(U) * handedness(V);
   const Eigen::Matrix3d turn = U * mirror * V.transpose();
   return std::sqrt((b - turn * a).colwise().squaredNorm().mean());
 }

@@ -35,7 +35,7 @@ using Modes = oracles::SymmetricModes;
 
 /// Modes of K x = omega^2 M x; only the symmetric part of K counts, the rest is rounding.
 Modes modes_of(const Eigen::MatrixXd& K, const Eigen::VectorXd& masses) {
-  return oracles::symmetric_modes(0.5 * (K + K.transpose()), masses.asDiagonal().toDenseMatrix());
+  return oracles::symmetric_modes(0.5 * (K + K.transpose()), masses);
 }
 
 /// Forces across a strip held cylindrical when its free rows rise by `heights` [m]; one of each per row [N].

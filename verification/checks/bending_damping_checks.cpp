@@ -1,4 +1,3 @@
-#include <Eigen/Dense>
 #include <cmath>
 
 #include "verification/checks/bending_checks.h"

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <cmath>
 
 namespace foldproof::oracles {
 
@@ -20,12 +21,16 @@ SymmetricModes symmetric_modes(const Eigen::MatrixXd& K) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-SymmetricModes symmetric_modes(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(K, M);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+SymmetricModes symmetric_modes(const Eigen::MatrixXd& K, const Eigen::VectorXd& masses) {
+  const Eigen::VectorXd scale = masses.cwiseSqrt().cwiseInverse();
+  SymmetricModes modes = symmetric_modes(scale.asDiagonal() * K * scale.asDiagonal());
+  modes.vectors = scale.asDiagonal() * modes.vectors;
+  return modes;
 }
 
-Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) { return A.partialPivLu().solve(b); }
+Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  return A.partialPivLu().solve(b);
+}
 
 Eigen::MatrixXd solved_symmetric(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
   return A.ldlt().solve(B);
@@ -37,7 +42,14 @@ SingularParts singular_parts(const Eigen::MatrixXd& matrix) {
 }
 
 Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  return Eigen::Quaterniond::FromTwoVectors(from, to);
+  const Eigen::Vector3d a = from.normalized(), b = to.normalized();
+  const double half = std::sqrt((1 + a.dot(b)) / 2);  // cosine of half the angle
+  if (!(half > 1e-8)) {                               // opposite: about any axis across
+    const Eigen::Vector3d axis = a.unitOrthogonal();
+    return {0, axis.x(), axis.y(), axis.z()};
+  }
+  const Eigen::Vector3d v = a.cross(b) / (2 * half);
+  return {half, v.x(), v.y(), v.z()};
 }
 
 }  // namespace foldproof::oracles

@@ -22,8 +22,8 @@ struct SymmetricModes {
 /// K x = value x, |x| = 1; the lower half of K is read.
 SymmetricModes symmetric_modes(const Eigen::MatrixXd& K);
 
-/// K x = value M x, x.M x = 1; the lower halves are read, M is positive definite.
-SymmetricModes symmetric_modes(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M);
+/// K x = value M x, x.M x = 1, M = diag(masses) with positive masses; the lower half of K is read.
+SymmetricModes symmetric_modes(const Eigen::MatrixXd& K, const Eigen::VectorXd& masses);
 
 /// x of A x = b, by LU with partial pivoting.
 Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);

@@ -1,6 +1,5 @@
 #include "verification/oracles/homogenised_bending.h"
 
-#include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <tuple>
 
 #include "reference/types.h"
+#include "verification/oracles/dense_algebra.h"
 
 namespace foldproof::oracles {
 
@@ -199,7 +199,7 @@ Eigen::Matrix3d relaxed_rigidity(const PeriodicMesh& mesh) {
   Eigen::Matrix3d R = energy.topLeftCorner<3, 3>();
   if (others == 0) return R;
   const Eigen::MatrixXd mixed = energy.bottomLeftCorner(others, 3);
-  return R - mixed.transpose() * energy.bottomRightCorner(others, others).ldlt().solve(mixed);
+  return R - mixed.transpose() * solved_symmetric(energy.bottomRightCorner(others, others), mixed);
 }
 
 double cylinder_rigidity(const Eigen::Matrix3d& R, double angle) {
@@ -209,7 +209,7 @@ double cylinder_rigidity(const Eigen::Matrix3d& R, double angle) {
 
 double strip_rigidity(const Eigen::Matrix3d& R, double angle) {
   const Eigen::Vector3d along = curvature_along(angle);
-  return 1 / along.dot(R.ldlt().solve(along));
+  return 1 / along.dot(Eigen::Vector3d(solved_symmetric(R, along)));
 }
 
 RigidityRange cylinder_range(const Eigen::Matrix3d& R) {
