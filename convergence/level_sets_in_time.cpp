@@ -138,6 +138,19 @@ NamedFinding frame_is_cheap(const std::vector<Pair>& pairs, int depth) {
        ""}};
 }
 
+NamedFinding fast_bodies_keep_little(const std::vector<Pair>& pairs) {
+  return {
+      "level-sets-in-time.fast-bodies-keep-little",
+      "A body that moves by more than its radius between two frames leaves few nodes of the first as they "
+      "were: nearly all are looked for anew.",
+      {{pairs.front().kept, 0.1, 0, "1",
+        "a tenth: a node farther from the surface than the way keeps its nearest point, and few of them are "
+        "in the cube"},
+       {{"longest way of a vertex", "m", column(pairs, &Pair::way)},
+        {"nodes that keep their nearest point", "1", column(pairs, &Pair::kept)}},
+       ""}};
+}
+
 Figure figure_of(const std::vector<Pair>& pairs) {
   const std::vector<double> x = column(pairs, &Pair::interval);
   return {"errors",
@@ -178,7 +191,7 @@ StudyResult run(const Subject&, Tier tier, const Progress& progress) {
   StudyResult result;
   result.findings = {second_order(pairs, &Pair::blended, "blended"),
                      second_order(pairs, &Pair::carried, "carried"), carried_errs_less(pairs),
-                     frame_is_cheap(pairs, depth)};
+                     frame_is_cheap(pairs, depth), fast_bodies_keep_little(pairs)};
   result.figures = {figure_of(pairs)};
   result.tables = {table_of(pairs)};
   return result;

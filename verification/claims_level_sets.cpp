@@ -14,13 +14,21 @@ std::vector<Claim> storing_and_updating() {
        "A rigid body's level set is computed once; that of a deforming body need be updated only near the "
        "surface, which is cheap.",
        {{"octree.rides-with-its-body", Role::supports},
-        {"level-sets-in-time.frame-asks-for-few-distances", Role::supports}},
-       Standing::confirmed,
-       "",
+        {"level-sets-in-time.frame-asks-for-few-distances", Role::supports},
+        {"deforming.far-nodes-are-not-searched", Role::supports},
+        {"deforming.kept-nodes-err-as-bounded", Role::supports},
+        {"level-sets-in-time.fast-bodies-keep-little", Role::limits}},
+       Standing::conditional,
+       "From frame to frame the body moves by little against its distance from the nodes; one that moves by "
+       "its own size is looked for anew everywhere.",
        "An octree of a body that turns and moves answers within {octree.rides-with-its-body} and asks for no "
        "distance after it was built. A frame of a deforming body asks for "
        "{level-sets-in-time.frame-asks-for-few-distances|distances for the first frame|largest} distances, "
-       "{level-sets-in-time.frame-asks-for-few-distances} of the nodes of a grid as fine."},
+       "{level-sets-in-time.frame-asks-for-few-distances} of the nodes of a grid as fine. Away from the "
+       "surface nodes keep what was nearest in the frame before, and err by "
+       "{deforming.kept-nodes-err-as-bounded} of what they may at most. Of a body that moves by more than "
+       "its radius in a frame only "
+       "{level-sets-in-time.fast-bodies-keep-little} of the nodes are kept."},
       {"C3",
        "5.1",
        "Level sets of a whole animation, computed beforehand, serve many cloth simulations at no further "
