@@ -93,6 +93,7 @@ DeformingBody read_level_sets(const std::string& path, const std::string& origin
     body.frames.push_back(read_frame(frames.open_group(std::to_string(k)), times[k], settings));
   require(content_key(body) == file.read_text("content"), path, "its content is not what was written");
   require_sound(body);
+  for (DeformingFrame& frame : body.frames) set_starts(frame.field);
   return body;
 }
 

@@ -48,7 +48,10 @@ OctreeLeaf leaf_at(const Octree& tree, const Vector3& p) {
   const Vector3 scaled = (p - cube.corner) * (1 / cube.width);
   std::array<int, 3> finest;
   for (int axis = 0; axis < 3; ++axis) finest[axis] = std::clamp(int(scaled[axis] * cells), 0, cells - 1);
-  for (int b = 0, shift = cube.depth - 1;; --shift) {
+  const int level = start_level(cube), drop = cube.depth - level;
+  const OctreeStart start = tree.starts[std::size_t(
+      ((finest[2] >> drop) << level | finest[1] >> drop) << level | finest[0] >> drop)];
+  for (int b = start.branch, shift = cube.depth - 1 - start.level;; --shift) {
     const int c = (finest[0] >> shift & 1) | (finest[1] >> shift & 1) << 1 | (finest[2] >> shift & 1) << 2;
     const OctreeBranch& branch = tree.branches[b];
     if (branch.inner >> c & 1) {
@@ -114,7 +117,22 @@ std::size_t leaves(const Octree& tree) { return 7 * tree.branches.size() + 1; }
 
 std::size_t bytes(const Octree& tree) {
   return sizeof(Octree) + tree.branches.size() * sizeof(OctreeBranch) + tree.part.size() * sizeof(int) +
-         tree.phi.size() * sizeof(BranchNodes<double>);
+         tree.phi.size() * sizeof(BranchNodes<double>) + tree.starts.size() * sizeof(OctreeStart);
+}
+
+void set_starts(Octree& tree) {
+  const int last = start_level(tree.settings), cells = 1 << last;
+  tree.starts.assign(std::size_t(cells * cells * cells), {0, 0});
+  const std::vector<OctreePlace> places = branch_places(tree);
+  for (std::size_t b = 0; b < places.size() && places[b].level <= last; ++b) {  // level by level
+    const int width = 1 << (last - places[b].level);
+    const auto& [x, y, z] = places[b].cell;
+    for (int k = 0; k < width * width * width; ++k) {
+      const int i = x * width + k % width, j = y * width + k / width % width,
+                l = z * width + k / width / width;
+      tree.starts[std::size_t((l * cells + j) * cells + i)] = {int(b), places[b].level};
+    }
+  }
 }
 
 Vector3 lattice_position(const OctreeSettings& settings, int level, const std::array<int, 3>& index) {

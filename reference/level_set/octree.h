@@ -47,6 +47,11 @@ struct OctreeBranch {
   unsigned char parts;  // how many channels it has, at least one
 };
 
+/// Where the descent to a leaf begins: the deepest branch, down to start_level, that holds a cell of that level.
+struct OctreeStart {
+  int branch, level;
+};
+
 /// Of a union each branch holds a channel for every part that is nearest at one of its nodes, or nearer than the
 /// reach. Each channel is smooth where the part is, so that the crease of the union lies between nodes where it
 /// belongs.
@@ -56,6 +61,7 @@ struct Octree {
   std::vector<int> part;                 // of each channel: which body
   std::vector<BranchNodes<double>> phi;  // of each channel [m]
   long evaluations = 0;                  // distances asked for while it was built
+  std::vector<OctreeStart> starts = {};  // of the 2^start_level cells along each axis, x fastest
 
   /// The union of all parts: the distance to the part that is nearest or entered deepest.
   Distance at(const Vector3& p) const;
@@ -66,6 +72,12 @@ struct Octree {
 /// misses. Neighbours, also across edges and corners, differ by one level at most.
 /// Throws InputError: no bodies, a setting out of range, a body that reaches the cube's boundary.
 Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings);
+
+/// The first levels are looked up, for a descent waits for memory at each.
+inline int start_level(const OctreeSettings& settings) { return settings.depth < 4 ? settings.depth - 1 : 3; }
+
+/// Makes a tree whose branches stand ready to be asked.
+void set_starts(Octree& tree);
 
 /// The leaf that holds p, which lies in the cube.
 struct OctreeLeaf {

@@ -54,6 +54,7 @@ Octree laid_out(const OctreeGrowth& growth) {
   tree.branches.shrink_to_fit();
   tree.part.shrink_to_fit();
   tree.phi.shrink_to_fit();
+  set_starts(tree);
   return tree;
 }
 
