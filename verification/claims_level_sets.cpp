@@ -20,14 +20,13 @@ std::vector<Claim> storing_and_updating() {
         {"level-sets-in-time.fast-bodies-keep-little", Role::limits}},
        Standing::conditional,
        "From frame to frame the body moves by little against its distance from the nodes; one that moves by "
-       "its own size is looked for anew everywhere.",
+       "its own size is looked for anew everywhere",
        "An octree of a body that turns and moves answers within {octree.rides-with-its-body} and asks for no "
        "distance after it was built. A frame of a deforming body asks for "
        "{level-sets-in-time.frame-asks-for-few-distances|distances for the first frame|largest} distances, "
        "{level-sets-in-time.frame-asks-for-few-distances} of the nodes of a grid as fine. Away from the "
-       "surface nodes keep what was nearest in the frame before, and err by "
-       "{deforming.kept-nodes-err-as-bounded} of what they may at most. Of a body that moves by more than "
-       "its radius in a frame only "
+       "surface nodes keep what was nearest in the frame before; their largest error is "
+       "{deforming.kept-nodes-err-as-bounded}. Of a body that moves by more than its radius in a frame only "
        "{level-sets-in-time.fast-bodies-keep-little} of the nodes are kept."},
       {"C3",
        "5.1",
@@ -54,7 +53,7 @@ std::vector<Claim> sampling_and_interpolating() {
         {"octree-memory.even-curve-takes-more", Role::limits}},
        Standing::conditional,
        "The body is curved unevenly: on a sphere every cell next to the surface must be as small as the "
-       "grid's.",
+       "grid's",
        "At the same largest error within three cells of the surface an octree of a bumpy body takes "
        "{octree-memory.bumpy-body-takes-a-tenth} of the grid's memory; one of a sphere "
        "{octree-memory.even-curve-takes-more|memory over the grid's|last}. Constrained, phi jumps by "
@@ -67,7 +66,7 @@ std::vector<Claim> sampling_and_interpolating() {
         {"deforming.blended-ball-shrinks-as-derived", Role::limits}},
        Standing::conditional,
        "From frame to frame a body moves by little against its radius of curvature, or phi is interpolated "
-       "along its motion.",
+       "along its motion",
        "Blended at the point, a ball of radius R that moves by d shrinks to sqrt(R^2 - d^2/4) and is gone "
        "beyond 2 R. Both interpolations err with second order in the time between frames; carried along with "
        "the body, the error is {level-sets-in-time.carried-errs-less} of the blended one at most, where the "

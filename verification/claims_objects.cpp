@@ -23,7 +23,7 @@ std::vector<Claim> what_marching_gives() {
            "Only to a part of a cell: the surface is off by up to "
            "{level-set-resolution.crude-start.contour}, and normals next to it by "
            "{level-set-resolution.crude-start.normals-stay-wrong|error|last} in the mean, on whatever grid. "
-           "Exact values next to the surface cure both.",
+           "Exact values next to the surface cure both",
            "Marching itself solves its equation to {level-set.marching-solves-its-equation}. From such a "
            "start the mean error about a ball falls from "
            "{level-set-resolution.crude-start.distance|error|first} to "
@@ -46,7 +46,7 @@ std::vector<Claim> where_contact_is_found() {
         {"pointwise-contact.a-pin-comes-through", Role::limits}},
        Standing::conditional,
        "Where the object's features are larger than the cloth's edges: a pin thinner than an edge comes "
-       "through.",
+       "through",
        "On a ball, what lies between particles cuts in by the square of the edge: midpoints by "
        "{pointwise-contact.edges-cut-in-by-the-square|depth of midpoints|first} to "
        "{pointwise-contact.edges-cut-in-by-the-square|depth of midpoints|last} for edges of "
@@ -62,7 +62,7 @@ std::vector<Claim> where_contact_is_found() {
         {"forecast-time.order-on-a-turning-ball", Role::limits}},
        Standing::conditional,
        "As a forecast it is exact; as a place only on planes. On curved and on turning objects the point is "
-       "off by the square of the step.",
+       "off by the square of the step",
        "phi + tau (v_p - v).N is zero to rounding. After the step a point that slides on a ball is off by "
        "{forecast-time.order-on-a-resting-ball|miss|first} for a step of "
        "{forecast-time.order-on-a-resting-ball|step|first} and "
@@ -75,7 +75,7 @@ std::vector<Claim> where_contact_is_found() {
         {"resting-contact.projection-is-as-quiet", Role::limits}},
        Standing::conditional,
        "Against velocities that take points out once they are inside. Points that are put on the surface, "
-       "and lose their velocity into it, rest as quietly.",
+       "and lose their velocity into it, rest as quietly",
        "Cloth at rest on a ball shakes by {resting-contact.quieter-than-push-out|shaking at rest|forecast} "
        "under forecasting, by {resting-contact.quieter-than-push-out|shaking at rest|push_out} if points are "
        "pushed out, which also lets them in by {resting-contact.quieter-than-push-out|largest "
@@ -134,7 +134,7 @@ std::vector<Claim> what_projection_keeps() {
        Standing::conditional,
        "How high the folds stay is the choice of map and of tau over the deepest penetration: order alone "
        "promises nothing. A smooth power law with tau a fifth of that depth leaves "
-       "{wrinkles-kept.power-crushes-the-deep|share left by the power law|largest} of the deeper half.",
+       "{wrinkles-kept.power-crushes-the-deep|share left by the power law|largest} of the deeper half",
        "Of wrinkles that were inside, plain projection leaves a deviation of {wrinkles-kept.plain-flattens}. "
        "The map that is straight below and blended at tau leaves between "
        "{wrinkles-kept.blend-keeps-a-share|share of it that is left|smallest} and "
@@ -155,7 +155,7 @@ std::vector<Claim> what_projection_keeps() {
         {"eps-needed.box-order", Role::limits}},
        Standing::conditional,
        "eps must be at least L^2/(6 R) for edges of length L on an object of radius R, and in proportion to "
-       "L where the object has an edge; L/sqrt(3) suffices for any object.",
+       "L where the object has an edge; L/sqrt(3) suffices for any object",
        "Decided in whole numbers, without a distance field. The eps that is needed on a ball is "
        "{eps-needed.ball-bound} of L^2/(6 R) at most, along the edge of a box {eps-needed.box-bound} of "
        "L/sqrt(3), at every scale. With eps = 0 every sheet that was tried keeps triangles inside."}};
@@ -170,7 +170,7 @@ std::vector<Claim> what_freedom_gives() {
         {"folds-inside.no-more-over-a-ball", Role::limits}},
        Standing::conditional,
        "Where cloth is inside to begin with and the forecast time lets it stay there: cloth that falls on a "
-       "ball from outside is never inside, and folds as much whatever the forecast time.",
+       "ball from outside is never inside, and folds as much whatever the forecast time",
        "A tube that is pushed together on a drum has "
        "{folds-inside.more-where-both-sides-are-free|crests a turn|last} crests a turn, after the "
        "projection, "

@@ -142,7 +142,7 @@ OctreeSettings free_sampling() {
 }
 
 Finding kept_nodes_err_as_bounded(const Subject&) {
-  Measured measured("largest error", "what is allowed");
+  Measured measured("largest error", "of what is allowed");
   for (const double way : {0.003, 0.02, 0.33}) {
     const MeshSequence ball = moving_ball(way, {0, 0.02, 0.04});
     const DeformingBody body = make_deforming_body(ball, free_sampling(), BetweenFrames::carried);
