@@ -10,10 +10,10 @@
 #include "convergence/studies.h"
 #include "reference/level_set/deforming_content.h"
 #include "reference/mesh/shapes.h"
+#include "verification/checks/processor_time.h"
 #include "verification/checks/scratch_folder.h"
 #include "verification/hdf5_file.h"
 #include "verification/level_set_cache_file.h"
-#include "verification/checks/processor_time.h"
 
 namespace foldproof {
 
