@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace foldproof {
 
@@ -15,11 +16,23 @@ using Vector3 = Eigen::Vector3d;
 using PerParticle = Eigen::VectorXd;    // N
 using PerParticle3 = Eigen::Matrix3Xd;  // 3 x N; column i belongs to particle i
 
-/// Positions and velocities at one time.
+/// A particle that sticks to a place in the frame of a sticky patch's triangle (forces/sticking.h).
+struct Bond {
+  int patch, triangle, particle;  // patch: of the scene's list; triangle: of the patch's
+  Vector3 place;  // weights of the triangle's second and third corner [1], height above it [m]
+};
+
+/// What lasts from step to step beside positions and velocities.
+struct Memory {
+  std::vector<Bond> bonds;  // by patch, particle, triangle
+};
+
+/// Positions and velocities at one time, and what must be remembered.
 struct State {
   double time = 0;  // s
   PerParticle3 x;   // 3 x N [m]
   PerParticle3 v;   // 3 x N [m/s]
+  Memory memory = {};
 };
 
 /// Counted work: what a method costs, whatever the machine. Returned or added to, never global.
@@ -31,11 +44,19 @@ struct Work {
   long stiffness_products = 0;      // products of it with a displacement
   long newton_iterations = 0;       // over all nonlinear systems
   long solves = 0;                  // linear systems solved for a velocity
-  long cg_iterations = 0;           // over all solves; an unsymmetric system's count two, as their products do
-  long object_queries = 0;          // points that were asked where they are to the collision objects
-  long object_contacts = 0;         // of those that were to be moved, how many had their velocity corrected
-  long unfinished_solves = 0;       // solves, linear or not, that stopped before they kept their promise
-  double worst_residual = 0;        // largest relative residual returned by a solve [1]
+  long cg_iterations = 0;    // over all solves; an unsymmetric system's count two, as their products do
+  long object_queries = 0;   // points that were asked where they are to the collision objects
+  long object_contacts = 0;  // of those that were to be moved, how many had their velocity corrected
+  long strain_sweeps = 0;    // of strain limiting over all springs
+  double strain_left = 0;    // largest violation of a strain limit that a call left, over the rest length [1]
+  long close_pairs = 0;      // pairs of cloth features nearer than the thickness that were answered
+  long crossing_queries = 0;   // pairs of cloth features asked whether their motion takes them together
+  long crossings = 0;          // of those, pairs that were kept apart by an impulse
+  long zones = 0;              // rigid impact zones
+  long zone_particles = 0;     // particles in them
+  long bonds = 0;              // bonds of sticking at the step's start
+  long unfinished_solves = 0;  // solves, linear or not, that stopped before they kept their promise
+  double worst_residual = 0;   // largest relative residual returned by a solve [1]
 };
 
 /// Sets `worst` to `value` if that is larger or NaN; a NaN stays whatever comes after it.

@@ -19,6 +19,15 @@ const PreparedReference& own(const Prepared& prepared) {
   return static_cast<const PreparedReference&>(prepared);
 }
 
+/// v as the filters of this kind make it.
+template <class Kind>
+PerParticle3 filtered(const Prepared& prepared, const Span& span, const State& s, PerParticle3 v) {
+  Work uncounted;
+  for (const Filter& filter : own(prepared).system.filters)
+    if (const auto* of_kind = std::get_if<Kind>(&filter)) of_kind->correct(span, s, v, uncounted);
+  return v;
+}
+
 }  // namespace
 
 Subject reference_subject() {
@@ -40,14 +49,9 @@ Subject reference_subject() {
     const Energies e = energies(own(prepared).system, s);
     return e.total() - e.kinetic;
   };
-  subject.avoid_objects = [](Prepared& prepared, const Span& span, const State& s, const PerParticle3& v) {
-    Work uncounted;
-    PerParticle3 corrected = v;
-    for (const Filter& filter : own(prepared).system.filters)
-      if (const auto* objects = std::get_if<ObjectCollision>(&filter))
-        objects->correct(span, s, corrected, uncounted);
-    return corrected;
-  };
+  subject.avoid_objects = filtered<ObjectCollision>;
+  subject.limit_strain = filtered<StrainLimiter>;
+  subject.avoid_itself = filtered<SelfCollision>;
   subject.step = [](Prepared& prepared, std::span<const State> past, double dt, Work& work) {
     return own(prepared).integrator.step(own(prepared).system, past, dt, work);
   };

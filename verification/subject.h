@@ -35,7 +35,16 @@ struct Subject {
   std::function<double(Prepared&, const State& s)> potential_energy;
 
   /// The velocities (3 x N [m/s]) that the scene's objects make of v, when v moves the cloth from s over the span.
-  std::function<PerParticle3(Prepared&, const Span& span, const State& s, const PerParticle3& v)> avoid_objects;
+  std::function<PerParticle3(Prepared&, const Span& span, const State& s, const PerParticle3& v)>
+      avoid_objects;
+
+  /// The velocities (3 x N [m/s]) that the scene's strain limits make of v, which moves the cloth from s over the span.
+  std::function<PerParticle3(Prepared&, const Span& span, const State& s, const PerParticle3& v)>
+      limit_strain;
+
+  /// The same of what keeps cloth from itself: repulsion, impulses against crossings, impact zones.
+  std::function<PerParticle3(Prepared&, const Span& span, const State& s, const PerParticle3& v)>
+      avoid_itself;
 
   /// One step of dt [s] from the latest of the states `past`, of which a method may use two; adds the work
   /// that it counted, if it counts.

@@ -168,6 +168,11 @@ constexpr Scalar scalars[] = {
     {"cg_residual", "1", [](const Diagnostics& d) { return d.cg_residual; }},
     {"step_over_elastic_limit", "1", [](const Diagnostics& d) { return d.step_over_elastic_limit; }},
     {"object_contacts", "1", [](const Diagnostics& d) { return double(d.object_contacts); }},
+    {"strain_left", "1", [](const Diagnostics& d) { return d.strain_left; }},
+    {"close_pairs", "1", [](const Diagnostics& d) { return double(d.close_pairs); }},
+    {"crossings", "1", [](const Diagnostics& d) { return double(d.crossings); }},
+    {"zone_particles", "1", [](const Diagnostics& d) { return double(d.zone_particles); }},
+    {"bonds", "1", [](const Diagnostics& d) { return double(d.bonds); }},
     {"seconds", "s", [](const Diagnostics& d) { return d.seconds; }},
 };
 

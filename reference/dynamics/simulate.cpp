@@ -88,6 +88,11 @@ class Watch {
     row.cg_residual = work.worst_residual;
     row.step_over_elastic_limit = h / elastic_limit(system_, s);
     row.object_contacts = work.object_contacts;
+    row.strain_left = work.strain_left;
+    row.close_pairs = work.close_pairs;
+    row.crossings = work.crossings;
+    row.zone_particles = work.zone_particles;
+    row.bonds = work.bonds;
     row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     observer_.step(row);
   }
@@ -118,6 +123,14 @@ void add(Work& sum, const Work& part) {
   sum.cg_iterations += part.cg_iterations;
   sum.object_queries += part.object_queries;
   sum.object_contacts += part.object_contacts;
+  sum.strain_sweeps += part.strain_sweeps;
+  keep_worst(sum.strain_left, part.strain_left);
+  sum.close_pairs += part.close_pairs;
+  sum.crossing_queries += part.crossing_queries;
+  sum.crossings += part.crossings;
+  sum.zones += part.zones;
+  sum.zone_particles += part.zone_particles;
+  sum.bonds += part.bonds;
   sum.unfinished_solves += part.unfinished_solves;
   keep_worst(sum.worst_residual, part.worst_residual);
 }

@@ -39,6 +39,10 @@ struct Diagnostics {
   double cg_residual = 0;                     // worst of this step's solves, relative
   double step_over_elastic_limit = 0;         // 1
   long object_contacts = 0;                   // points whose motion in this step an object corrected
+  double strain_left = 0;                     // largest violation of a strain limit left in this step [1]
+  long close_pairs = 0, crossings = 0;        // of cloth with itself, answered in this step
+  long zone_particles = 0;                    // particles that moved in rigid impact zones in this step
+  long bonds = 0;                             // particles that stuck to something in this step
   double seconds = 0;                         // since the start of the run, clock time
 };
 

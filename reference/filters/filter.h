@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "reference/filters/object_collision.h"
+#include "reference/filters/self_collision.h"
+#include "reference/filters/strain_limit.h"
 #include "reference/types.h"
 
 namespace foldproof {
@@ -26,8 +28,9 @@ concept MotionFilter = requires(const F filter, const Span span, const State s, 
   filter.correct(span, s, v, work);
 };
 
-using Filter = std::variant<ObjectCollision, CustomFilter>;
-static_assert(MotionFilter<ObjectCollision> && MotionFilter<CustomFilter>);
+using Filter = std::variant<StrainLimiter, ObjectCollision, SelfCollision, CustomFilter>;
+static_assert(MotionFilter<StrainLimiter> && MotionFilter<ObjectCollision> && MotionFilter<SelfCollision> &&
+              MotionFilter<CustomFilter>);
 
 /// Applies the filters in their order.
 void correct(const std::vector<Filter>& filters, const Span& span, const State& s, PerParticle3& v,

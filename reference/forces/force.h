@@ -11,6 +11,7 @@
 #include "reference/forces/force_differential.h"
 #include "reference/forces/gravity.h"
 #include "reference/forces/springs.h"
+#include "reference/forces/sticking.h"
 #include "reference/types.h"
 
 namespace foldproof {
@@ -38,9 +39,9 @@ concept ForceModel = requires(const F force, const State s, PerParticle3 f) {
   { force.energy(s) } -> std::convertible_to<double>;
 };
 
-using Force = std::variant<Gravity, StretchSprings, Bending, CustomForce>;
+using Force = std::variant<Gravity, StretchSprings, Bending, Sticking, CustomForce>;
 static_assert(ForceModel<Gravity> && ForceModel<StretchSprings> && ForceModel<Bending> &&
-              ForceModel<CustomForce>);
+              ForceModel<Sticking> && ForceModel<CustomForce>);
 
 /// All elastic and external forces [N], 3 x N.
 PerParticle3 elastic_forces(const std::vector<Force>& forces, const State& s, Work& work);

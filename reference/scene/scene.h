@@ -8,6 +8,8 @@
 
 #include "reference/dynamics/simulate.h"
 #include "reference/filters/object_collision.h"
+#include "reference/filters/self_collision.h"
+#include "reference/filters/strain_limit.h"
 #include "reference/forces/force.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/motion/motion.h"
@@ -54,6 +56,9 @@ struct Scene {
   std::vector<PrescribedParticle> led;
   std::vector<SceneObject> objects;
   CollisionSettings collision;
+  std::optional<StrainLimits> strain_limits;  // needs stretch
+  std::optional<SelfCollisionSettings> self_collision;
+  std::vector<StickyPatch> sticky;
 
   std::string integrator = "C";
   Schedule schedule;
