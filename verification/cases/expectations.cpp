@@ -72,6 +72,12 @@ Case with_usual_expectations(Case shown) {
          "energy where the stiffest modes carry a small part of it; one percent leaves no room "
          "for a force that is not the gradient of its energy"},
         shown.expectations);
+  if (scene.self_collision)
+    add_unless_stated(
+        {"crosses_itself", 0,
+         "what starts free of crossings stays free of them: repulsion and impulses may fail, impact "
+         "zones may not"},
+        shown.expectations);
   return shown;
 }
 

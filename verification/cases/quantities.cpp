@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "verification/cases/self_crossings.h"
+
 namespace foldproof {
 
 namespace {
@@ -232,6 +234,9 @@ const std::vector<Quantity>& quantities() {
        pinched_particles, nullptr, without_objects},
       {"stays_between", "m", "Particles inside two objects stay where they are equally deep in both.",
        Sense::at_most, off_centre, nullptr, without_objects},
+      {"crosses_itself", "pairs",
+       "In no frame does an edge of the cloth meet a triangle of it, touching included.", Sense::at_most,
+       self_crossings, nullptr, nullptr},
       {"keeps_its_place", "m", "The mean of all particles stays where it was.", Sense::at_most, shift,
        nullptr, nullptr},
       {"is_carried", "m", "The mean of all particles is carried away from where it was.", Sense::at_least,

@@ -79,6 +79,22 @@ TEST_CASE("expect: shipped cases must end, and account for their energy unless t
   CHECK(driven.expectations.size() == 1);
 }
 
+TEST_CASE("expect: a case that keeps cloth from itself must not cross itself, and what crosses is counted") {
+  Case shown = trial("[expect.crosses_itself]\nat_most = 1\nwhy = \"w\"\n");
+  CHECK(find_quantity("crosses_itself")->of_frame(shown.scene, start_state(shown.scene)) == 0);
+  State folded = start_state(shown.scene);
+  folded.x.row(0) = (folded.x.row(0).array() - folded.x.row(0).mean()).abs();  // one half on the other
+  CHECK(find_quantity("crosses_itself")->of_frame(shown.scene, folded) > 10);
+  folded.x(0, 0) = NAN;
+  CHECK(std::isnan(find_quantity("crosses_itself")->of_frame(shown.scene, folded)));
+  shown.scene.self_collision = SelfCollisionSettings{0.01, 1, 0, 8, true};
+  shown.expectations.clear();
+  const Case usual = with_usual_expectations(shown);
+  REQUIRE(usual.expectations.size() == 3);
+  CHECK(usual.expectations[2].key == "crosses_itself");
+  CHECK(usual.expectations[2].bound == 0);
+}
+
 TEST_CASE("expect: a bound that is kept holds, one that is not fails, and a run that stops says nothing") {
   const std::string flat = "[expect.stays_flat]\nat_most = 0\nwhy = \"w\"\n";
   const std::string leaves = "[expect.leaves_its_plane]\nat_least = 1e-9\nwhy = \"w\"\n";

@@ -2,46 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <random>
 #include <stdexcept>
 
-#include "verification/oracles/scalars.h"
-#include "verification/oracles/triple.h"
+#include "verification/oracles/whole_points.h"
 
 namespace foldproof::oracles {
 
 namespace {
-
-using Exact = Triple<Whole>;
-
-int sign_of(const Whole& value) { return value.sign(); }
-
-/// The smallest power of two that divides all coordinates; a zero says nothing.
-int common_exponent(std::initializer_list<Vector3> points) {
-  int common = std::numeric_limits<int>::max();
-  for (const Vector3& p : points) {
-    for (int axis = 0; axis < 3; ++axis) {
-      int exponent;
-      if (std::frexp(p[axis], &exponent) != 0) common = std::min(common, exponent - 53);
-    }
-  }
-  return common;
-}
-
-/// value / 2^exponent, a whole number.
-Whole whole(double value, int exponent) {
-  int own;
-  const double mantissa = std::frexp(value, &own);
-  Whole result = std::int64_t(std::ldexp(mantissa, 53));
-  if (mantissa != 0) result <<= unsigned(own - 53 - exponent);
-  return result;
-}
-
-Exact exact(const Vector3& p, int exponent) {
-  return {whole(p.x(), exponent), whole(p.y(), exponent), whole(p.z(), exponent)};
-}
 
 int exact_orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
   const int k = common_exponent({a, b, c, d});

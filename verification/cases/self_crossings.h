@@ -1,0 +1,12 @@
+// Does the cloth pass through itself?
+#pragma once
+
+#include "reference/scene/scene.h"
+
+namespace foldproof {
+
+/// Pairs of an edge and a triangle of the cloth that meet, decided without rounding: see
+/// verification/oracles/exact_crossings.h for what is counted. NaN if a position is not finite.
+double self_crossings(const Scene& scene, const State& frame);
+
+}  // namespace foldproof
