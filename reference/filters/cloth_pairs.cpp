@@ -1,12 +1,183 @@
 #include "reference/filters/cloth_pairs.h"
 
+#include <algorithm>
+
 namespace foldproof {
 
+namespace {
+
+constexpr int triangles_per_leaf = 4;
+
+/// A vertex or an edge: one or two particles.
+struct Feature {
+  int a, b;
+};
+
+bool share_a_particle(const Feature& f, const Triangle& t) {
+  return std::find(t.begin(), t.end(), f.a) != t.end() || std::find(t.begin(), t.end(), f.b) != t.end();
+}
+
+/// The search: boxes of this motion, and the pairs found.
+struct Search {
+  const ClothTree& cloth;
+  const std::vector<char>& moved;
+  std::vector<Bounds> particles, triangles, nodes;
+  std::vector<char> triangle_moved, node_moved;  // empty: all are asked about
+  std::vector<FeaturePair> found;
+
+  Search(const ClothTree& of, const PerParticle3& x, const PerParticle3& end, double margin,
+         const std::vector<char>& which);
+
+  bool skips(int node_a, int node_b) const {
+    return (!moved.empty() && !node_moved[size_t(node_a)] && !node_moved[size_t(node_b)]) ||
+           !nodes[size_t(node_a)].intersects(nodes[size_t(node_b)]);
+  }
+  void within(int node);
+  void between(int a, int b);
+  void between_leaves(const BoxNode& a, const BoxNode& b);
+  void compare(int s, int t);
+  void add_vertex(int vertex, int triangle);
+  void add_edges(const Feature& e, const Feature& f);
+  bool has_moved(const FeaturePair& pair) const;
+};
+
+Search::Search(const ClothTree& of, const PerParticle3& x, const PerParticle3& end, double margin,
+               const std::vector<char>& which)
+    : cloth(of), moved(which) {
+  const Vector3 wider = Vector3::Constant(margin / 2);
+  particles.resize(size_t(x.cols()));
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    particles[size_t(i)] = {x.col(i).cwiseMin(end.col(i)) - wider, x.col(i).cwiseMax(end.col(i)) + wider};
+  triangles.resize(cloth.triangles.size());
+  triangle_moved.assign(moved.empty() ? 0 : triangles.size(), 0);
+  for (size_t t = 0; t < triangles.size(); ++t)
+    for (const int corner : cloth.triangles[t]) {
+      triangles[t].extend(particles[size_t(corner)]);
+      if (!moved.empty() && moved[size_t(corner)]) triangle_moved[t] = 1;
+    }
+  // nodes are depth first: both children come after their parent
+  const BoxTree& tree = cloth.tree;
+  nodes.resize(tree.nodes.size());
+  node_moved.assign(moved.empty() ? 0 : nodes.size(), 0);
+  for (int n = int(nodes.size()) - 1; n >= 0; --n) {
+    const BoxNode& node = tree.nodes[size_t(n)];
+    const auto take = [&](const Bounds& box, const std::vector<char>& flags, size_t i) {
+      nodes[size_t(n)].extend(box);
+      if (!moved.empty() && flags[i]) node_moved[size_t(n)] = 1;
+    };
+    if (node.right < 0) {
+      for (int i = node.first; i < node.first + node.count; ++i) {
+        const size_t t = size_t(tree.order[size_t(i)]);
+        take(triangles[t], triangle_moved, t);
+      }
+    } else {
+      for (const int child : {n + 1, node.right}) take(nodes[size_t(child)], node_moved, size_t(child));
+    }
+  }
+}
+
+/// Pairs of triangles below one node.
+void Search::within(int node) {
+  const BoxNode& here = cloth.tree.nodes[size_t(node)];
+  if (!moved.empty() && !node_moved[size_t(node)]) return;
+  if (here.right < 0) {
+    for (int i = here.first; i < here.first + here.count; ++i)
+      for (int j = i + 1; j < here.first + here.count; ++j)
+        compare(cloth.tree.order[size_t(i)], cloth.tree.order[size_t(j)]);
+    return;
+  }
+  within(node + 1);
+  within(here.right);
+  between(node + 1, here.right);
+}
+
+/// Pairs of a triangle below one node and one below another; the larger node is opened first.
+void Search::between(int a, int b) {
+  if (skips(a, b)) return;
+  const BoxNode &at_a = cloth.tree.nodes[size_t(a)], &at_b = cloth.tree.nodes[size_t(b)];
+  if (at_a.right < 0 && at_b.right < 0) {
+    between_leaves(at_a, at_b);
+  } else if (at_a.right >= 0 && (at_b.right < 0 || at_a.count >= at_b.count)) {
+    between(a + 1, b);
+    between(at_a.right, b);
+  } else {
+    between(a, b + 1);
+    between(a, at_b.right);
+  }
+}
+
+void Search::between_leaves(const BoxNode& a, const BoxNode& b) {
+  for (int i = a.first; i < a.first + a.count; ++i)
+    for (int j = b.first; j < b.first + b.count; ++j)
+      compare(cloth.tree.order[size_t(i)], cloth.tree.order[size_t(j)]);
+}
+
+/// The features that the triangles s and t answer for, against each other.
+void Search::compare(int s, int t) {
+  if (!moved.empty() && !triangle_moved[size_t(s)] && !triangle_moved[size_t(t)]) return;
+  if (!triangles[size_t(s)].intersects(triangles[size_t(t)])) return;
+  const Triangle &at_s = cloth.triangles[size_t(s)], &at_t = cloth.triangles[size_t(t)];
+  const OwnFeatures &own_s = cloth.own[size_t(s)], &own_t = cloth.own[size_t(t)];
+  for (size_t k = 0; k < 3; ++k) {
+    if (own_s.corner[k]) add_vertex(at_s[k], t);
+    if (own_t.corner[k]) add_vertex(at_t[k], s);
+  }
+  for (size_t k = 0; k < 3; ++k) {
+    if (!own_s.side[k]) continue;
+    for (size_t l = 0; l < 3; ++l)
+      if (own_t.side[l]) add_edges({at_s[k], at_s[(k + 1) % 3]}, {at_t[l], at_t[(l + 1) % 3]});
+  }
+}
+
+bool Search::has_moved(const FeaturePair& pair) const {
+  return moved.empty() || std::any_of(pair.particles.begin(), pair.particles.end(),
+                                      [&](int i) { return moved[size_t(i)] != 0; });
+}
+
+void Search::add_vertex(int vertex, int triangle) {
+  const Triangle& t = cloth.triangles[size_t(triangle)];
+  if (!particles[size_t(vertex)].intersects(triangles[size_t(triangle)])) return;
+  if (share_a_particle({vertex, vertex}, t)) return;
+  const FeaturePair pair{PairKind::vertex_triangle, {vertex, t[0], t[1], t[2]}};
+  if (has_moved(pair)) found.push_back(pair);
+}
+
+void Search::add_edges(const Feature& e, const Feature& f) {
+  if (e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b) return;
+  const Bounds box = particles[size_t(e.a)].merged(particles[size_t(e.b)]);
+  if (!box.intersects(particles[size_t(f.a)].merged(particles[size_t(f.b)]))) return;
+  const FeaturePair pair{PairKind::edge_edge, {e.a, e.b, f.a, f.b}};
+  if (has_moved(pair)) found.push_back(pair);
+}
+
+}  // namespace
+
 ClothTree make_cloth_tree(const TriangleMesh& mesh) {
-  ClothTree tree;
-  tree.triangles = mesh.triangles;
-  tree.edges = mesh.edges;
-  return tree;
+  ClothTree cloth{mesh.triangles, std::vector<OwnFeatures>(mesh.triangles.size()), {}};
+  cloth.tree = make_box_tree(triangle_bounds(mesh.rest, mesh.triangles), triangles_per_leaf);
+  std::vector<char> spoken_for(size_t(mesh.particles()), 0);
+  for (size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (size_t k = 0; k < 3; ++k) {
+      char& taken = spoken_for[size_t(mesh.triangles[t][k])];
+      cloth.own[t].corner[k] = !taken;
+      taken = 1;
+    }
+  // of an edge's two triangles, the first
+  for (const Edge& edge : mesh.edges) {
+    const size_t t = size_t(edge.triangles[0]);
+    for (size_t k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+      if (std::minmax(a, b) == std::minmax(edge.a, edge.b)) cloth.own[t].side[k] = true;
+    }
+  }
+  return cloth;
+}
+
+std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& x, const PerParticle3& end,
+                                    double margin, const std::vector<char>& moved) {
+  Search search(cloth, x, end, margin, moved);
+  search.within(0);
+  return std::move(search.found);
 }
 
 }  // namespace foldproof

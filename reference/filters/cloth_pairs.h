@@ -1,36 +1,35 @@
-// Which features of the cloth may be near each other: vertices and triangles, edges and edges.
+// Which features of the cloth may come near each other: a tree of boxes, fitted anew to each motion.
 #pragma once
 
-#include <array>
-#include <span>
 #include <vector>
 
+#include "reference/filters/feature_pair.h"
 #include "reference/mesh/box_tree.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/types.h"
 
 namespace foldproof {
 
-enum class PairKind { vertex_triangle, edge_edge };
-
-/// Two features without a particle in common.
-struct FeaturePair {
-  PairKind kind;
-  std::array<int, 4>
-      particles;  // the vertex and the triangle's corners; or the first edge's ends and the second's
+/// What a triangle answers for, so that each vertex and each edge is asked about once: of its corners and its sides
+/// (k: from corner k to the next), those that belong to it.
+struct OwnFeatures {
+  std::array<bool, 3> corner, side;
 };
 
-/// Boxes over the cloth's triangles, in an order that its rest shape fixes; fitted anew to each motion.
+/// Boxes over the cloth's triangles. Which triangles share a box the rest shape decides, once.
 struct ClothTree {
   std::vector<Triangle> triangles;  // M
-  std::vector<Edge> edges;
-  std::vector<std::array<bool, 3>>
-      has_vertex;  // M: whether the triangle speaks for its corner k; one triangle does
-  std::vector<std::array<int, 3>>
-      has_edge;  // M: the edge from corner k to the next if it speaks for it, else -1
-  BoxTree tree;  // over the triangles
+  std::vector<OwnFeatures> own;     // M
+  BoxTree tree;                     // over the triangles
 };
 
 ClothTree make_cloth_tree(const TriangleMesh& mesh);
+
+/// Pairs of features without a common particle whose boxes, over their straight way from x to `end` and widened by
+/// margin/2 on all sides, overlap: all that come nearer than `margin` on their way are among them. In an order that
+/// the tree and the boxes fix.
+///   moved   N, or empty: pairs of which no particle is marked are left out
+std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& x, const PerParticle3& end,
+                                    double margin, const std::vector<char>& moved = {});
 
 }  // namespace foldproof

@@ -1,9 +1,115 @@
 #include "reference/filters/self_collision.h"
 
+#include <algorithm>
+
+#include "reference/filters/approach.h"
+#include "reference/filters/impact_zones.h"
+#include "reference/forces/degenerate.h"
+
 namespace foldproof {
 
-void SelfCollision::correct(const Span&, const State&, PerParticle3&, Work&) const {
-  throw InputError("self-collision is not built yet");
+namespace {
+
+constexpr double kept_share = 0.1;  // of the thickness: the distance that no motion may undercut
+
+/// The motion of one step, and what is done to keep it free of crossings.
+struct Step {
+  const SelfCollision& filter;
+  const PerParticle3& x;
+  PerParticle3& v;
+  double h;  // s
+  Work& work;
+  std::vector<char>
+      moved;  // N: particles whose velocity was changed since all pairs were last asked; empty: all
+
+  double keep() const { return kept_share * filter.settings.thickness; }  // m
+  std::vector<FeaturePair> pairs() const { return near_pairs(filter.cloth, x, x + h * v, 2 * keep(), moved); }
+  std::optional<Approach> approach(const FeaturePair& pair);
+  long answer_all(int round);
+  void answer(const FeaturePair& pair, const Approach& met, int round);
+  bool grow(ImpactZones& zones, std::vector<char>& leads);
+  void move_zones(ImpactZones& zones, std::vector<char>& leads);
+};
+
+std::optional<Approach> Step::approach(const FeaturePair& pair) {
+  ++work.crossing_queries;
+  return first_approach(pair.kind, corners_of(pair, x), h * corners_of(pair, v), keep());
+}
+
+/// Each pair that would come together, one after the other as v then is. Returns their number.
+long Step::answer_all(int round) {
+  const std::vector<FeaturePair> asked = pairs();
+  moved.assign(size_t(x.cols()), 0);
+  long answered = 0;
+  for (const FeaturePair& pair : asked) {
+    const std::optional<Approach> met = approach(pair);
+    if (!met) continue;
+    answer(pair, *met, round);
+    for (const int i : pair.particles) moved[size_t(i)] = 1;
+    ++answered;
+  }
+  work.crossings += answered;
+  return answered;
+}
+
+/// The impulse between the points that would meet, along the line between them then. In the first round they may come
+/// as near as the thickness, where repulsion awaits them; after it their approach is stopped. Friction as in repulsion.
+void Step::answer(const FeaturePair& pair, const Approach& met, int round) {
+  const Vector3& N = met.at.normal;
+  const double gap = (corners_of(pair, x) * met.at.weights).dot(N);  // along it, at the start [m]
+  const Vector3 relative = corners_of(pair, v) * met.at.weights;
+  const double allowed = round > 0 ? 0 : std::min(0.0, (filter.settings.thickness - gap) / h);  // m/s
+  const double push = allowed - relative.dot(N);
+  if (!(push > 0)) return;
+  push_apart(pair, met.at.weights, push * N + rubbed(relative, N, push, filter.settings.friction),
+             filter.inverse_mass, v);
+}
+
+/// Joins what still comes together; false if nothing does. leads: prescribed particles that no zone's motion meets.
+bool Step::grow(ImpactZones& zones, std::vector<char>& leads) {
+  bool any = false;
+  for (const FeaturePair& pair : pairs()) {
+    const bool led =
+        std::any_of(pair.particles.begin(), pair.particles.end(), [&](int i) { return leads[size_t(i)]; });
+    const bool together = zones.together(pair);
+    if ((together && !led) || !approach(pair)) continue;
+    if (together)
+      throw DegenerateElement("prescribed motion takes the cloth through itself",
+                              {pair.particles.begin(), pair.particles.end()});
+    zones.join(pair);
+    any = true;
+  }
+  return any;
+}
+
+void Step::move_zones(ImpactZones& zones, std::vector<char>& leads) {
+  moved.assign(size_t(x.cols()), 0);
+  for (const std::vector<int>& zone : zones.grown()) {
+    const double missed = move_as_one(zone, x, filter.mass, filter.inverse_mass, v);
+    for (const int i : zone) {
+      moved[size_t(i)] = 1;
+      leads[size_t(i)] = filter.inverse_mass[i] == 0 && h * missed > 1e-6 * keep();
+    }
+  }
+}
+
+}  // namespace
+
+void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, Work& work) const {
+  const double h = span.step;
+  work.close_pairs +=
+      repel(near_pairs(cloth, s.x, s.x, settings.thickness), s.x, settings, h, inverse_mass, v);
+  if (!(span.end > span.start)) return;
+
+  Step step{*this, s.x, v, h, work, {}};
+  for (int round = 0; round < settings.rounds; ++round)
+    if (step.answer_all(round) == 0) return;
+
+  ImpactZones zones(s.x.cols());
+  std::vector<char> leads(size_t(s.x.cols()), 0);
+  while (step.grow(zones, leads)) step.move_zones(zones, leads);
+  work.zones += zones.zones();
+  work.zone_particles += zones.particles();
 }
 
 }  // namespace foldproof

@@ -33,6 +33,9 @@ System build_system(const Scene& scene) {
   if (scene.bending) system.forces.push_back(make_bending(scene.mesh, *scene.bending, scene.rest_angles));
   for (const PrescribedParticle& particle : scene.led) prescribe(system, particle);
   if (!scene.objects.empty()) system.filters.push_back(object_collision(scene, system.inverse_mass));
+  if (scene.self_collision)
+    system.filters.push_back(
+        SelfCollision{*scene.self_collision, make_cloth_tree(scene.mesh), system.mass, system.inverse_mass});
   system.solver = scene.solver;
   return system;
 }

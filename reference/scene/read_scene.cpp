@@ -2,10 +2,11 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <random>
 
 #include "reference/scene/key_values.h"
 #include "reference/scene/read_objects.h"
+#include "reference/scene/read_self_collision.h"
+#include "reference/scene/read_start.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/shapes_of.h"
 
@@ -98,30 +99,6 @@ void read_hold(const KeyTable& keys, Scene& scene) {
   }
 }
 
-/// One factor for all directions, or one for each of x, y, z.
-Vector3 read_start_stretch(const KeyTable& keys) {
-  if (!keys.is_list("stretch")) return Vector3::Constant(positive_or(keys, "stretch", 1));
-  const Vector3 stretch = keys.vector("stretch");
-  if (!(stretch.minCoeff() > 0)) throw InputError(keys.where("stretch") + ": 'stretch' must be > 0");
-  return stretch;
-}
-
-void read_start(const KeyTable& keys, Scene& scene) {
-  const Vector3 center = scene.x.rowwise().mean();
-  const Vector3 stretch = read_start_stretch(keys);
-  scene.x = (stretch.asDiagonal() * (scene.x.colwise() - center)).colwise() + center;
-
-  const Vector3 spin = keys.vector_or("spin", Vector3::Zero()) * radians_per_degree;
-  const Vector3 velocity = keys.vector_or("velocity", Vector3::Zero());
-  const double noise = not_negative_or(keys, "noise", 0);
-  std::mt19937_64 random(std::uint64_t(keys.integer_or("seed", 1)));
-  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-    const Vector3 arm = scene.x.col(i) - center;
-    scene.v.col(i) = velocity + spin.cross(arm);
-    for (int k = 0; k < 3; ++k) scene.x(k, i) += noise * (2 * double(random() >> 11) * 0x1p-53 - 1);
-  }
-}
-
 void read_time(const KeyTable& keys, Scene& scene) {
   scene.schedule.end = positive(keys, "end");
   scene.schedule.frame_interval = 1 / positive_or(keys, "frames_per_second", 30);
@@ -171,6 +148,8 @@ Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSet
   for (const auto& hold : keys.tables("hold")) read_hold(*hold, scene);
   read_time(*time, scene);
   read_objects(keys, {folder, scene.schedule.end, makers}, scene);
+  if (const auto self = keys.table("self_collision"))
+    scene.self_collision = read_self_collision(*self, scene.mesh);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
   keys.leave("expect");  // what must hold of the run: whoever judges it reads that table
   keys.refuse_unused();

@@ -88,6 +88,32 @@ void place(const KeyTable& keys, PerParticle3& x) {
   x.colwise() += keys.vector_or("move", Vector3::Zero());
 }
 
+/// The positions (3 x n [m]) and copies of them, each turned and moved on from the one before.
+PerParticle3 repeated(const PerParticle3& x, int copies, const Eigen::Matrix3d& turn, const Vector3& move) {
+  const Eigen::Index n = x.cols();
+  PerParticle3 all(3, n * copies);
+  all.leftCols(n) = x;
+  for (Eigen::Index c = 1; c < copies; ++c) {
+    const PerParticle3 before = all.middleCols((c - 1) * n, n);
+    const Vector3 middle = before.rowwise().mean();
+    all.middleCols(c * n, n) = (turn * (before.colwise() - middle)).colwise() + Vector3(middle + move);
+  }
+  return all;
+}
+
+/// So many pieces of the cloth in place of one; rest shapes are moved, too, so that they lie apart.
+void copy(const KeyTable& keys, PlacedMesh& cloth) {
+  const int copies = count(keys, "count"), n = cloth.mesh.particles();
+  const Vector3 move = keys.vector("move");
+  const Eigen::Matrix3d turn = read_turn(keys).toRotationMatrix();
+  std::vector<Triangle> triangles;
+  for (int c = 0; c < copies; ++c)
+    for (const Triangle& t : cloth.mesh.triangles)
+      triangles.push_back({c * n + t[0], c * n + t[1], c * n + t[2]});
+  cloth.mesh = make_triangle_mesh(repeated(cloth.mesh.rest, copies, turn, move), std::move(triangles));
+  cloth.start = repeated(cloth.start, copies, turn, move);
+}
+
 }  // namespace
 
 std::string mesh_file(const KeyTable& keys, const std::string& folder, const std::string& table) {
@@ -130,6 +156,7 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder) {
   }
   place(cloth, result.start);
   if (!pleats) result.mesh.rest = result.start;
+  if (const auto copies = cloth.table("copies")) copy(*copies, result);
   if (pleats && cloth.has("fit")) throw InputError(cloth.where("fit") + ": 'fit' does not go with pleats");
   return result;
 }

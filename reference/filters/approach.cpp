@@ -1,0 +1,55 @@
+#include "reference/filters/approach.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace foldproof {
+
+namespace {
+
+// Planes tried before a motion is taken for a meeting.
+constexpr int most_planes = 1000;
+
+//      first feature           At time t the features are nearest across the vector N. A plane with that normal
+//     ------o------            parts them as long as every point of the first is beyond every point of the second:
+//           | N                (x_i - x_j).N + tau (w_i - w_j).N > 0  for all i of the first, j of the second,
+//     ------o------            each linear in tau, the time from t on. Whatever N is, this is a proof; the nearest
+//      second feature          points only make it last long.
+//
+/// How long a plane with the normal N keeps the features at least `gap` [m] apart, from positions x on, at the rates
+/// `way`: infinite if they do not close, negative if it does not part them now.
+double parted_for(PairKind kind, const Corners4& x, const Corners4& way, const Vector3& N, double gap) {
+  const Eigen::RowVector4d height = N.transpose() * x, rate = N.transpose() * way;  // m, m per motion
+  const int first = kind == PairKind::vertex_triangle ? 1 : 2;  // points of the first feature
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < first; ++i)
+    for (int j = first; j < 4; ++j) {
+      const double room = height[i] - height[j] - gap, closing = rate[j] - rate[i];
+      if (!(room > 0)) return -1;
+      if (closing > 0) least = std::min(least, room / closing);
+    }
+  return least;
+}
+
+}  // namespace
+
+std::optional<Approach> first_approach(PairKind kind, const Corners4& x, const Corners4& way, double keep) {
+  // seen from one of the points, so that large coordinates and common motion cost no digits
+  const Corners4 from = x.colwise() - Vector3(x.col(3)), along = way.colwise() - Vector3(way.col(3));
+  double t = 0;
+  Nearness at = nearness(kind, from);
+  // what is kept, when an approach is reported, and halfway between the two what planes promise [m]
+  const double kept = at.distance > keep ? keep : at.distance / 2;
+  const double reported = kept + std::min(at.distance - kept, kept) / 2;
+  const double promised = (kept + reported) / 2;
+  for (int plane = 0; plane < most_planes && at.distance > reported; ++plane) {
+    const double lasts = parted_for(kind, from + t * along, along, at.normal, promised);
+    if (!(lasts > 0)) break;
+    t += lasts;
+    if (t >= 1) return {};
+    at = nearness(kind, from + t * along);
+  }
+  return Approach{t, at};
+}
+
+}  // namespace foldproof

@@ -1,0 +1,96 @@
+#include "reference/filters/feature_pair.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace foldproof {
+
+namespace {
+
+// Edges whose directions differ by less than this, squared sine, are taken for parallel; triangles whose area is less
+// than this share of what their sides could span, squared, for lines: rounding would choose where they are nearest.
+constexpr double nearly_parallel = 1e-14;
+
+/// Where along the edge from a to b the point p is nearest: 0 at a, 1 at b.
+double nearest_along(const Vector3& p, const Vector3& a, const Vector3& b) {
+  const Vector3 d = b - a;
+  const double length2 = d.squaredNorm();  // m^2
+  return length2 > 0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0;
+}
+
+Nearness nearness_at(const Corners4& x, const Eigen::Vector4d& weights) {
+  const Vector3 apart = x * weights;
+  const double distance = apart.norm();
+  return {distance, distance > 0 ? Vector3(apart / distance) : Vector3::Zero(), weights};
+}
+
+void keep_nearer(Nearness& nearest, const Corners4& x, const Eigen::Vector4d& weights) {
+  const Nearness other = nearness_at(x, weights);
+  if (!(nearest.distance <= other.distance)) nearest = other;
+}
+
+Nearness nowhere() {
+  return {std::numeric_limits<double>::quiet_NaN(), Vector3(), Eigen::Vector4d()};
+}
+
+//        x3           The vertex x0 over the triangle. The foot of its perpendicular has the weights w2, w3 (and
+//       /  \          w1 = 1 - w2 - w3); a negative weight says that it lies beyond the side across from that corner,
+//     x1 -- x2        and then the nearest point is on a side for which that is so.
+Nearness vertex_triangle(const Corners4& x) {
+  const Vector3 e2 = x.col(2) - x.col(1), e3 = x.col(3) - x.col(1), r = x.col(0) - x.col(1);
+  const Vector3 N = e2.cross(e3);  // twice the area [m^2]
+  const double area2 = N.squaredNorm();
+  Vector3 w = Vector3::Constant(-1);
+  if (area2 > nearly_parallel * e2.squaredNorm() * e3.squaredNorm()) {
+    w[1] = r.cross(e3).dot(N) / area2;
+    w[2] = e2.cross(r).dot(N) / area2;
+    w[0] = 1 - w[1] - w[2];
+    if (w.minCoeff() >= 0) return nearness_at(x, {1, -w[0], -w[1], -w[2]});
+  }
+  Nearness nearest = nowhere();
+  for (int corner = 0; corner < 3; ++corner) {
+    if (w[corner] >= 0) continue;
+    const int a = (corner + 1) % 3, b = (corner + 2) % 3;
+    const double along = nearest_along(x.col(0), x.col(1 + a), x.col(1 + b));
+    Eigen::Vector4d weights(1, 0, 0, 0);
+    weights[1 + a] = -(1 - along);
+    weights[1 + b] = -along;
+    keep_nearer(nearest, x, weights);
+  }
+  return nearest;
+}
+
+Eigen::Vector4d edge_weights(double a, double b) { return {1 - a, a, -(1 - b), -b}; }
+
+/// Two edges x0 x1 and x2 x3: nearest inside both, or at an end of one of them.
+Nearness edge_edge(const Corners4& x) {
+  const Vector3 d = x.col(1) - x.col(0), e = x.col(3) - x.col(2), r = x.col(0) - x.col(2);
+  const double dd = d.dot(d), de = d.dot(e), ee = e.dot(e), dr = d.dot(r), er = e.dot(r);
+  const double determinant = dd * ee - de * de;
+  if (determinant > nearly_parallel * dd * ee) {
+    const double a = (de * er - ee * dr) / determinant, b = (dd * er - de * dr) / determinant;
+    if (a >= 0 && a <= 1 && b >= 0 && b <= 1) return nearness_at(x, edge_weights(a, b));
+  }
+  Nearness nearest = nowhere();
+  for (int end = 0; end < 2; ++end) {
+    keep_nearer(nearest, x, edge_weights(end, nearest_along(x.col(end), x.col(2), x.col(3))));
+    keep_nearer(nearest, x, edge_weights(nearest_along(x.col(2 + end), x.col(0), x.col(1)), end));
+  }
+  return nearest;
+}
+
+}  // namespace
+
+Corners4 corners_of(const FeaturePair& pair, const PerParticle3& of) {
+  Corners4 columns;
+  for (int k = 0; k < 4; ++k) columns.col(k) = of.col(pair.particles[size_t(k)]);
+  return columns;
+}
+
+Nearness nearness(PairKind kind, const Corners4& x) {
+  return kind == PairKind::vertex_triangle ? vertex_triangle(x) : edge_edge(x);
+}
+
+}  // namespace foldproof

@@ -1,0 +1,59 @@
+#include "reference/filters/repulsion.h"
+
+#include <algorithm>
+
+namespace foldproof {
+
+namespace {
+
+constexpr double overlap_per_step = 0.1;  // of the overlap, taken away in a step at most
+
+/// sum(w_i^2/m_i) [1/kg].
+double compliance(const FeaturePair& pair, const Eigen::Vector4d& weights, const PerParticle& inverse_mass) {
+  double sum = 0;
+  for (int k = 0; k < 4; ++k) sum += weights[k] * weights[k] * inverse_mass[pair.particles[size_t(k)]];
+  return sum;
+}
+
+}  // namespace
+
+void push_apart(const FeaturePair& pair, const Eigen::Vector4d& weights, const Vector3& change,
+                const PerParticle& inverse_mass, PerParticle3& v) {
+  const double yields = compliance(pair, weights, inverse_mass);
+  if (!(yields > 0)) return;
+  for (int k = 0; k < 4; ++k) {
+    const int i = pair.particles[size_t(k)];
+    if (inverse_mass[i] > 0) v.col(i) += weights[k] * inverse_mass[i] / yields * change;
+  }
+}
+
+Vector3 rubbed(const Vector3& relative, const Vector3& N, double push, double friction) {
+  const Vector3 along = relative - relative.dot(N) * N;
+  const double speed = along.norm();
+  return speed > 0 ? Vector3(-std::min(1.0, friction * push / speed) * along) : Vector3::Zero();
+}
+
+long repel(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
+           const SelfCollisionSettings& settings, double h, const PerParticle& inverse_mass,
+           PerParticle3& v) {
+  long answered = 0;
+  for (const FeaturePair& pair : pairs) {
+    const Nearness at = nearness(pair.kind, corners_of(pair, x));
+    const double overlap = settings.thickness - at.distance;           // d [m]
+    const double yields = compliance(pair, at.weights, inverse_mass);  // 1/kg
+    if (!(overlap > 0) || !(at.distance > 0) || !(yields > 0)) continue;
+    const Vector3 relative = corners_of(pair, v) * at.weights;
+    const double parting = relative.dot(at.normal),
+                 wanted = overlap_per_step * overlap / h;  // v_N, 0.1 d/h [m/s]
+    double after = std::max(0.0, parting);
+    if (after < wanted) after += std::min(h * settings.stiffness * overlap * yields, wanted - after);
+    const double push = after - parting;
+    if (!(push > 0)) continue;
+    push_apart(pair, at.weights, push * at.normal + rubbed(relative, at.normal, push, settings.friction),
+               inverse_mass, v);
+    ++answered;
+  }
+  return answered;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,47 @@
+#include "reference/scene/read_self_collision.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+#include "reference/scene/key_values.h"
+
+namespace foldproof {
+
+namespace {
+
+/// The least height of a triangle at rest [m].
+double least_height(const TriangleMesh& mesh) {
+  const Eigen::VectorXd areas = triangle_areas(mesh.triangles, mesh.rest);
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (size_t k = 0; k < 3; ++k) {
+      const Vector3 side =
+          mesh.rest.col(mesh.triangles[t][k]) - mesh.rest.col(mesh.triangles[t][(k + 1) % 3]);
+      least = std::min(least, 2 * areas[Eigen::Index(t)] / side.norm());
+    }
+  return least;
+}
+
+}  // namespace
+
+SelfCollisionSettings read_self_collision(const KeyTable& keys, const TriangleMesh& mesh) {
+  SelfCollisionSettings settings;
+  settings.thickness = positive(keys, "thickness");
+  settings.stiffness = not_negative_or(keys, "stiffness", 0);
+  settings.friction = not_negative_or(keys, "friction", 0);
+  settings.rounds = int(count_or(keys, "rounds", settings.rounds));
+  settings.untangle = keys.flag_or("untangle", settings.untangle);
+  const double least = least_height(mesh);
+  if (!(settings.thickness < least / 2)) {
+    char told[120];
+    std::snprintf(told, sizeof told,
+                  ": 'thickness' is %.4g m; it must be less than half the least height of a triangle, %.4g m",
+                  settings.thickness, least / 2);
+    throw InputError(keys.where("thickness") + told);
+  }
+  return settings;
+}
+
+}  // namespace foldproof

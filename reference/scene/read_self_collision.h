@@ -1,0 +1,14 @@
+// The table [self_collision] of a case.
+#pragma once
+
+#include "reference/filters/repulsion.h"
+#include "reference/mesh/triangle_mesh.h"
+#include "reference/scene/key_file.h"
+
+namespace foldproof {
+
+/// Throws InputError "file:line: ..." for values out of range, and for a thickness of half the least height of a
+/// triangle or more: neighbours would repel each other at rest.
+SelfCollisionSettings read_self_collision(const KeyTable& keys, const TriangleMesh& mesh);
+
+}  // namespace foldproof
