@@ -35,7 +35,8 @@ std::vector<Study> all_studies() {
           folds_inside(),
           forecast_time_study(),
           resting_contact(),
-          pointwise_contact()};
+          pointwise_contact(),
+          self_collision_cost()};
 }
 
 }  // namespace foldproof

@@ -39,6 +39,7 @@ Study sharp_edges();           // sharp-edges: normals of samples next to a body
 Study folds_inside();          // folds-inside: folds of cloth that may stay inside of an object
 Study forecast_time_study();   // forecast-time: where a point is after its forecast, and what tau does
 Study resting_contact();       // resting-contact: what keeps moving under each response
+Study self_collision_cost();     // self-collision-cost: search, zones, gaps at rest
 Study pointwise_contact();     // pointwise-contact: what lies between particles that are held out
 
 /// All of them, in the order in which they are reported.

@@ -31,9 +31,7 @@ void keep_nearer(Nearness& nearest, const Corners4& x, const Eigen::Vector4d& we
   if (!(nearest.distance <= other.distance)) nearest = other;
 }
 
-Nearness nowhere() {
-  return {std::numeric_limits<double>::quiet_NaN(), Vector3(), Eigen::Vector4d()};
-}
+Nearness nowhere() { return {std::numeric_limits<double>::quiet_NaN(), Vector3(), Eigen::Vector4d()}; }
 
 //        x3           The vertex x0 over the triangle. The foot of its perpendicular has the weights w2, w3 (and
 //       /  \          w1 = 1 - w2 - w3); a negative weight says that it lies beyond the side across from that corner,

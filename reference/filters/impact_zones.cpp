@@ -101,15 +101,15 @@ struct NormalEquations {
   }
 };
 
-/// The least solution, and a basis of the motions that the equations leave open.
+/// The least solution, and a basis of the motions that the equations leave open. scale: of an eigenvalue that is one.
 struct Solved {
   Motion6 motion;
   Eigen::Matrix<double, 6, Eigen::Dynamic> open;
 };
 
-Solved solve(const Matrix6& left, const Motion6& right) {
+Solved solve(const Matrix6& left, const Motion6& right, double scale) {
   const Eigen::SelfAdjointEigenSolver<Matrix6> modes(left);
-  const double cut = no_motion * modes.eigenvalues()[5];
+  const double cut = no_motion * scale;
   Solved solved{Motion6::Zero(), {}};
   int open = 0;
   for (int k = 0; k < 6; ++k) {
@@ -134,9 +134,10 @@ double move_as_one(const std::vector<int>& zone, const PerParticle3& x, const Pe
     (is_led ? led : free).add(frame.velocity_of(x.col(i)), v.col(i), is_led ? 1 : mass[i]);
   }
   // what the prescribed particles say first; momentum decides the rest
-  const Solved by_led = solve(led.left, led.right);
+  const Solved by_led = solve(led.left, led.right, led.left.trace());
   const Matrix6 onto = by_led.open * by_led.open.transpose();
-  const Solved by_momentum = solve(onto * free.left * onto, onto * (free.right - free.left * by_led.motion));
+  const Solved by_momentum =
+      solve(onto * free.left * onto, onto * (free.right - free.left * by_led.motion), free.left.trace());
   const Motion6 motion = by_led.motion + by_momentum.motion;
   double missed = 0;
   for (const int i : zone) {

@@ -33,22 +33,55 @@ Vector3 rubbed(const Vector3& relative, const Vector3& N, double push, double fr
   return speed > 0 ? Vector3(-std::min(1.0, friction * push / speed) * along) : Vector3::Zero();
 }
 
+namespace {
+
+/// A pair within the thickness.
+struct ClosePair {
+  FeaturePair pair;
+  Nearness at;
+};
+
+bool inside_both(const Eigen::Vector4d& weights) { return (weights.array() != 0).all(); }
+
+/// Pairs within the thickness that carry. Where two layers lie flat on each other, the nearest points of most pairs are at
+/// ends and corners, with normals that lean: layers would catch on each other's edges when they slide. So two edges count
+/// where they are nearest inside both; a vertex counts over a triangle, and at a triangle's rim only if it is no nearer to
+/// another triangle, as over a fold or at the cloth's border.
+std::vector<ClosePair> carrying(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
+                                double thickness) {
+  std::vector<ClosePair> close;
+  PerParticle nearest = PerParticle::Constant(x.cols(), thickness);  // of each vertex to a triangle [m]
+  for (const FeaturePair& pair : pairs) {
+    const Nearness at = nearness(pair.kind, corners_of(pair, x));
+    if (!(at.distance < thickness) || !(at.distance > 0)) continue;
+    if (pair.kind == PairKind::edge_edge && !inside_both(at.weights)) continue;
+    close.push_back({pair, at});
+    double& least = nearest[pair.particles[0]];
+    if (pair.kind == PairKind::vertex_triangle) least = std::min(least, at.distance);
+  }
+  std::erase_if(close, [&](const ClosePair& one) {
+    return one.pair.kind == PairKind::vertex_triangle && !inside_both(one.at.weights) &&
+           one.at.distance > nearest[one.pair.particles[0]];
+  });
+  return close;
+}
+
+}  // namespace
+
 long repel(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
            const SelfCollisionSettings& settings, double h, const PerParticle& inverse_mass,
            PerParticle3& v) {
   long answered = 0;
-  for (const FeaturePair& pair : pairs) {
-    const Nearness at = nearness(pair.kind, corners_of(pair, x));
+  for (const auto& [pair, at] : carrying(pairs, x, settings.thickness)) {
     const double overlap = settings.thickness - at.distance;           // d [m]
     const double yields = compliance(pair, at.weights, inverse_mass);  // 1/kg
-    if (!(overlap > 0) || !(at.distance > 0) || !(yields > 0)) continue;
     const Vector3 relative = corners_of(pair, v) * at.weights;
     const double parting = relative.dot(at.normal),
                  wanted = overlap_per_step * overlap / h;  // v_N, 0.1 d/h [m/s]
     double after = std::max(0.0, parting);
     if (after < wanted) after += std::min(h * settings.stiffness * overlap * yields, wanted - after);
     const double push = after - parting;
-    if (!(push > 0)) continue;
+    if (!(push > 0) || !(yields > 0)) continue;
     push_apart(pair, at.weights, push * at.normal + rubbed(relative, at.normal, push, settings.friction),
                inverse_mass, v);
     ++answered;

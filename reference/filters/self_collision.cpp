@@ -5,12 +5,15 @@
 #include "reference/filters/approach.h"
 #include "reference/filters/impact_zones.h"
 #include "reference/forces/degenerate.h"
+#include "reference/level_set/self_intersection.h"
 
 namespace foldproof {
 
 namespace {
 
 constexpr double kept_share = 0.1;  // of the thickness: the distance that no motion may undercut
+constexpr double untangled_share =
+    0.1;  // of the thickness, a step: by which what pierces is moved against what it pierces
 
 /// The motion of one step, and what is done to keep it free of crossings.
 struct Step {
@@ -19,17 +22,24 @@ struct Step {
   PerParticle3& v;
   double h;  // s
   Work& work;
-  std::vector<char>
-      moved;  // N: particles whose velocity was changed since all pairs were last asked; empty: all
+  const std::vector<char>& tangled;  // N, or empty: particles that are left to pass each other
+  std::vector<char> moved =
+      {};  // N: particles whose velocity was changed since all pairs were last asked; empty: all
 
   double keep() const { return kept_share * filter.settings.thickness; }  // m
-  std::vector<FeaturePair> pairs() const { return near_pairs(filter.cloth, x, x + h * v, 2 * keep(), moved); }
+  std::vector<FeaturePair> pairs() const;
   std::optional<Approach> approach(const FeaturePair& pair);
   long answer_all(int round);
   void answer(const FeaturePair& pair, const Approach& met, int round);
   bool grow(ImpactZones& zones, std::vector<char>& leads);
   void move_zones(ImpactZones& zones, std::vector<char>& leads);
 };
+
+std::vector<FeaturePair> Step::pairs() const {
+  std::vector<FeaturePair> found = near_pairs(filter.cloth, x, x + h * v, 2 * keep(), moved);
+  if (!tangled.empty()) leave_out_tangled(tangled, found);
+  return found;
+}
 
 std::optional<Approach> Step::approach(const FeaturePair& pair) {
   ++work.crossing_queries;
@@ -97,11 +107,19 @@ void Step::move_zones(ImpactZones& zones, std::vector<char>& leads) {
 
 void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, Work& work) const {
   const double h = span.step;
-  work.close_pairs +=
-      repel(near_pairs(cloth, s.x, s.x, settings.thickness), s.x, settings, h, inverse_mass, v);
+  std::vector<FeaturePair> close = near_pairs(cloth, s.x, s.x, settings.thickness);
+  std::vector<char> tangled;
+  if (!at_start.empty()) {
+    const CrossingTriangles crossing = self_intersections(s.x, cloth.triangles);
+    if (!crossing.empty()) tangled = tangled_particles(crossing, cloth.triangles, s.x.cols());
+    if (!crossing.empty()) leave_out_tangled(tangled, close);
+    push_out_of_tangle(crossing, cloth.triangles, s.x, untangled_share * settings.thickness / h, inverse_mass,
+                       v);
+  }
+  work.close_pairs += repel(close, s.x, settings, h, inverse_mass, v);
   if (!(span.end > span.start)) return;
 
-  Step step{*this, s.x, v, h, work, {}};
+  Step step{*this, s.x, v, h, work, tangled};
   for (int round = 0; round < settings.rounds; ++round)
     if (step.answer_all(round) == 0) return;
 

@@ -4,6 +4,7 @@
 
 #include "reference/filters/cloth_pairs.h"
 #include "reference/filters/repulsion.h"
+#include "reference/filters/untangling.h"
 #include "reference/level_set/object.h"
 #include "reference/types.h"
 
@@ -14,10 +15,13 @@ namespace foldproof {
 /// planes part them all along (approach.h), or that they move as one (impact_zones.h). So what is free of crossings stays
 /// free of them, and pairs farther apart than a tenth of the thickness stay so. The velocity that ends a step moves
 /// nothing; layers within the thickness are kept from approaching.
+/// Cloth that starts crossing itself is held apart only where it is not tangled, and pushed out of the tangle; there is no
+/// proof until it is out.
 struct SelfCollision {
   SelfCollisionSettings settings;
   ClothTree cloth;
-  PerParticle mass, inverse_mass;  // N [kg], [1/kg]; the latter 0 for prescribed particles
+  PerParticle mass, inverse_mass;   // N [kg], [1/kg]; the latter 0 for prescribed particles
+  CrossingTriangles at_start = {};  // pairs that cross before the first step
 
   /// Throws DegenerateElement where prescribed particles force the cloth through itself.
   void correct(const Span& span, const State& s, PerParticle3& v, Work& work) const;

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "reference/level_set/self_intersection.h"
+
 namespace foldproof {
 
 Scene scene_of(TriangleMesh mesh, double density) {
@@ -24,6 +26,11 @@ ObjectCollision object_collision(const Scene& scene, const PerParticle& inverse_
   return filter;
 }
 
+SelfCollision self_collision(const Scene& scene, const System& system) {
+  return {*scene.self_collision, make_cloth_tree(scene.mesh), system.mass, system.inverse_mass,
+          self_intersections(start_state(scene).x, scene.mesh.triangles)};
+}
+
 }  // namespace
 
 System build_system(const Scene& scene) {
@@ -33,9 +40,7 @@ System build_system(const Scene& scene) {
   if (scene.bending) system.forces.push_back(make_bending(scene.mesh, *scene.bending, scene.rest_angles));
   for (const PrescribedParticle& particle : scene.led) prescribe(system, particle);
   if (!scene.objects.empty()) system.filters.push_back(object_collision(scene, system.inverse_mass));
-  if (scene.self_collision)
-    system.filters.push_back(
-        SelfCollision{*scene.self_collision, make_cloth_tree(scene.mesh), system.mass, system.inverse_mass});
+  if (scene.self_collision) system.filters.push_back(self_collision(scene, system));
   system.solver = scene.solver;
   return system;
 }
@@ -77,6 +82,14 @@ std::string described(const ObjectCollision& collision) {
          std::string(collision.response.name) + "'";
 }
 
+std::string described(const SelfCollision& self) {
+  char numbers[80];
+  std::snprintf(numbers, sizeof numbers, "self-collision (thickness %.6g m, friction %.6g)",
+                self.settings.thickness, self.settings.friction);
+  return numbers +
+         (self.at_start.empty() ? "" : ", which starts crossing itself: " + triangles_named(self.at_start));
+}
+
 }  // namespace
 
 std::vector<std::string> built_parts(const Scene& scene, const System& system) {
@@ -95,6 +108,8 @@ std::vector<std::string> built_parts(const Scene& scene, const System& system) {
   for (const SceneObject& part : scene.objects) parts.push_back(described(part));
   for (const Filter& filter : system.filters)
     if (const auto* collision = std::get_if<ObjectCollision>(&filter)) parts.push_back(described(*collision));
+  for (const Filter& filter : system.filters)
+    if (const auto* self = std::get_if<SelfCollision>(&filter)) parts.push_back(described(*self));
   return parts;
 }
 

@@ -151,6 +151,7 @@ Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSet
   if (const auto self = keys.table("self_collision"))
     scene.self_collision = read_self_collision(*self, scene.mesh);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
+  if (const auto self = keys.table("self_collision")) refuse_tangled_start(*self, scene);
   keys.leave("expect");  // what must hold of the run: whoever judges it reads that table
   keys.refuse_unused();
   return scene;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "reference/level_set/self_intersection.h"
 #include "reference/scene/key_values.h"
 
 namespace foldproof {
@@ -42,6 +43,14 @@ SelfCollisionSettings read_self_collision(const KeyTable& keys, const TriangleMe
     throw InputError(keys.where("thickness") + told);
   }
   return settings;
+}
+
+void refuse_tangled_start(const KeyTable& keys, const Scene& scene) {
+  if (scene.self_collision->untangle) return;
+  const CrossingTriangles crossing = self_intersections(start_state(scene).x, scene.mesh.triangles);
+  if (!crossing.empty())
+    throw InputError(keys.where("untangle") + ": the cloth crosses itself at the start, in " +
+                     triangles_named(crossing) + "; with untangle = true it is run and pushed apart");
 }
 
 }  // namespace foldproof

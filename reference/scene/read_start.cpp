@@ -16,7 +16,8 @@ namespace {
 //          ______)   ^ up
 //   start            |    -> along
 struct Serpentine {
-  double run, gap;  // length of a straight run, distance between two [m]
+  double run, gap;   // length of a straight run, distance between two [m]
+  double last, dip;  // runs before the last, and by how much that sinks towards its end [m]
 
   /// Where the point at the arc length s [m] lies: along, up [m].
   Eigen::Vector2d at(double s) const {
@@ -30,7 +31,8 @@ struct Serpentine {
       across = run + radius * std::sin(angle);
       height = radius * (1 - std::cos(angle));
     }
-    return {forth ? across : run - across, below * gap + height};
+    const double sunk = below == last ? dip * std::min(1.0, into / run) : 0;
+    return {forth ? across : run - across, below * gap + height - sunk};
   }
 };
 
@@ -49,7 +51,8 @@ void fold(const KeyTable& keys, PerParticle3& x) {
                turns = double(layers - 1) * std::numbers::pi * gap / 2;
   if (!(height.maxCoeff() - height.minCoeff() <= 1e-6 * length))
     throw InputError(keys.where() + ": the cloth must lie flat, square to 'up', before it is folded");
-  const Serpentine serpentine{(length - turns) / double(layers), gap};
+  const Serpentine serpentine{(length - turns) / double(layers), gap, double(layers - 1),
+                              keys.number_or("dip", 0)};
   if (!(serpentine.run > gap))
     throw InputError(keys.where("layers") + ": the cloth is too short for so many layers with that gap");
   for (Eigen::Index i = 0; i < x.cols(); ++i) {

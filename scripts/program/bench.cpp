@@ -207,6 +207,7 @@ RunRecord bench(int most_particles) {
   run.subject = "foldproof reference";
   run.records = rates(all, megabytes);
   run.records.insert(run.records.end(), contact.begin(), contact.end());
+  run.records.push_back(self_collision_rate());
   for (Record& record : level_set_rates()) run.records.push_back(std::move(record));
   for (Record& record : octree_rates()) run.records.push_back(std::move(record));
   run.studies.push_back({"bench",

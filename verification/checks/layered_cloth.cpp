@@ -1,0 +1,71 @@
+#include "verification/checks/layered_cloth.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "reference/mesh/shapes.h"
+
+namespace foldproof {
+
+Scene layered_scene(const Layered& wanted) {
+  Random random(wanted.seed);
+  Sheet sheet;
+  sheet.pattern = SheetPattern::jittered;
+  sheet.width = 0.1;
+  sheet.height = 0.12;
+  sheet.columns = 5;
+  sheet.rows = 6;
+  sheet.jitter = 0.2;
+  const TriangleMesh one = make_sheet(sheet);
+  const Eigen::Index n = one.particles();
+  PerParticle3 rest(3, n * wanted.sheets);
+  std::vector<Triangle> triangles;
+  for (int k = 0; k < wanted.sheets; ++k) {
+    rest.middleCols(k * n, n) = one.rest.colwise() + Vector3(0.003 * k, -0.002 * k, wanted.gap * k);
+    for (const Triangle& t : one.triangles)
+      triangles.push_back({int(k * n) + t[0], int(k * n) + t[1], int(k * n) + t[2]});
+  }
+  Scene scene = scene_of(make_triangle_mesh(std::move(rest), std::move(triangles)), 0.17);
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) scene.x(2, i) += random.in(-wanted.height, wanted.height);
+  scene.v = random.vectors(scene.x.cols(), wanted.speed);
+  scene.self_collision = wanted.settings;
+  return scene;
+}
+
+PerParticle3 kept_apart(const Subject& subject, const Scene& scene, const StepAsked& asked) {
+  const auto prepared = subject.prepare(scene);
+  const State s = start_state(scene);
+  const Span span{0, asked.moves ? asked.step : 0, asked.step};
+  return offered(subject.avoid_itself, "avoid_itself")(*prepared, span, s, s.v);
+}
+
+std::vector<FeaturePair> all_pairs(const TriangleMesh& mesh) {
+  std::vector<FeaturePair> all;
+  for (int i = 0; i < mesh.particles(); ++i)
+    for (const Triangle& t : mesh.triangles)
+      if (std::find(t.begin(), t.end(), i) == t.end())
+        all.push_back({PairKind::vertex_triangle, {i, t[0], t[1], t[2]}});
+  for (size_t e = 0; e < mesh.edges.size(); ++e)
+    for (size_t f = e + 1; f < mesh.edges.size(); ++f) {
+      const Edge &a = mesh.edges[e], &b = mesh.edges[f];
+      if (a.a != b.a && a.a != b.b && a.b != b.a && a.b != b.b)
+        all.push_back({PairKind::edge_edge, {a.a, a.b, b.a, b.b}});
+    }
+  return all;
+}
+
+Vector3 momentum_of(const PerParticle& mass, const PerParticle3& v) { return v * mass; }
+
+Vector3 turn_of(const PerParticle& mass, const PerParticle3& x, const PerParticle3& v) {
+  const Vector3 middle = x.rowwise().mean();
+  Vector3 sum = Vector3::Zero();
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    sum += mass[i] * Vector3(x.col(i) - middle).cross(Vector3(v.col(i)));
+  return sum;
+}
+
+double kinetic_of(const PerParticle& mass, const PerParticle3& v) {
+  return 0.5 * v.colwise().squaredNorm().dot(mass.transpose());
+}
+
+}  // namespace foldproof

@@ -1,0 +1,40 @@
+// Sheets close above each other, in motion: cloth to try self-collision on.
+#pragma once
+
+#include "reference/filters/feature_pair.h"
+#include "reference/scene/scene.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/subject.h"
+
+namespace foldproof {
+
+/// How sheets lie and move.
+struct Layered {
+  int sheets = 3;
+  double gap = 0.003;     // between two [m]; the thickness is .004
+  double height = 0.001;  // of random bumps of each, less than half of the gap [m]
+  double speed = 0.3;     // of random velocities [m/s]
+  SelfCollisionSettings settings = {0.004, 0, 0, 8, true};
+  unsigned seed = 1;
+};
+
+/// Sheets of 5 x 6 jittered cells of 2 cm, 42 particles each, one above the other; nothing but self-collision is named.
+Scene layered_scene(const Layered& wanted);
+
+/// What the subject's self-collision makes of the start's velocities over a step of `step` [s] from time 0: of the velocity
+/// that moves the cloth, or, with `moves` = false, of one that ends a step. 3 x N [m/s].
+struct StepAsked {
+  double step;
+  bool moves;
+};
+PerParticle3 kept_apart(const Subject& subject, const Scene& scene, const StepAsked& asked);
+
+/// All pairs of a vertex and a triangle and of two edges without a common particle, each once.
+std::vector<FeaturePair> all_pairs(const TriangleMesh& mesh);
+
+/// sum m v [kg m/s], sum m x x v about the mean [kg m^2/s] and sum m v^2/2 [J] of velocities v at x.
+Vector3 momentum_of(const PerParticle& mass, const PerParticle3& v);
+Vector3 turn_of(const PerParticle& mass, const PerParticle3& x, const PerParticle3& v);
+double kinetic_of(const PerParticle& mass, const PerParticle3& v);
+
+}  // namespace foldproof
