@@ -60,20 +60,27 @@ std::vector<Record> judge_case(const Case& shown, const Progress& progress) {
 }
 
 std::vector<std::string> shown_cases() {
-  return {"hinge",        "hanging_sheet", "flag_drop",       "rest_fold",      "stiff_statue",
-          "drape_sphere", "drape_statue",  "spinning_sphere", "incline",        "incline_slides",
-          "pinch",        "armpit",        "half_inside",     "stretched_body", "deforming_body"};
+  return {"hinge",        "hanging_sheet",  "flag_drop",      "rest_fold",
+          "stiff_statue", "drape_sphere",   "drape_statue",   "spinning_sphere",
+          "incline",      "incline_slides", "pinch",          "armpit",
+          "half_inside",  "stretched_body", "deforming_body", "hard/fast"};
 }
 
 std::vector<std::string> hard_cases() {
   return {"hard/stiff_bending",     "hard/soft_bending",      "hard/heavy_damping",
           "hard/slivers",           "hard/graded_mesh",       "hard/sharp_fold",
           "hard/inextensible",      "hard/flat_hanging",      "hard/flat_standing",
-          "hard/strip_below_euler", "hard/strip_above_euler", "hard/hundred_thousand_steps"};
+          "hard/strip_below_euler", "hard/strip_above_euler", "hard/hundred_thousand_steps",
+          "hard/reef_fold"};
+}
+
+std::vector<std::string> long_cases() {
+  return {"hard/fold_stack", "hard/twist", "hard/funnel", "hard/pile", "hard/pinch_self"};
 }
 
 std::vector<std::string> built_in_cases() {
   std::vector<std::string> all = shown_cases();
+  for (const std::string& name : long_cases()) all.push_back(name);
   for (const std::string& name : hard_cases()) all.push_back(name);
   return all;
 }

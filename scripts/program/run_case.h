@@ -26,6 +26,7 @@ std::vector<Record> judge_case(const Case& shown, const Progress& progress);
 /// of what the method takes, which it only judges.
 std::vector<std::string> shown_cases();
 std::vector<std::string> hard_cases();
+std::vector<std::string> long_cases();  // of the full tier
 
 /// Both.
 std::vector<std::string> built_in_cases();

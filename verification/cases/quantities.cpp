@@ -237,6 +237,8 @@ const std::vector<Quantity>& quantities() {
       {"crosses_itself", "pairs",
        "In no frame does an edge of the cloth meet a triangle of it, touching included.", Sense::at_most,
        self_crossings, nullptr, nullptr},
+      {"ends_crossing_itself", "pairs", "At the end no edge of the cloth meets a triangle of it.",
+       Sense::at_most, nullptr, self_crossings_at_end, nullptr},
       {"keeps_its_place", "m", "The mean of all particles stays where it was.", Sense::at_most, shift,
        nullptr, nullptr},
       {"is_carried", "m", "The mean of all particles is carried away from where it was.", Sense::at_least,
