@@ -20,13 +20,6 @@ void add_point(const std::vector<int>& particles, const PerParticle& inverse_mas
 
 }  // namespace
 
-Vector3 CollisionPoint::mean(const PerParticle3& of) const {
-  if (count == 1) return of.col(particles[0]);
-  Vector3 sum = Vector3::Zero();
-  for (int k = 0; k < count; ++k) sum += of.col(particles[size_t(k)]);
-  return sum / count;
-}
-
 std::vector<CollisionPoint> collision_points(const TriangleMesh& mesh, const PerParticle& inverse_mass,
                                              PointKind kind) {
   std::vector<CollisionPoint> points;

@@ -18,7 +18,12 @@ struct CollisionPoint {
   int count = 0;
   Vector3 shares = Vector3::Zero();  // 1
 
-  Vector3 mean(const PerParticle3& of) const;  // of its particles' columns
+  /// Of its particles' columns.
+  Vector3 mean(const PerParticle3& of) const {
+    Vector3 sum = of.col(particles[0]);
+    for (int k = 1; k < count; ++k) sum += of.col(particles[size_t(k)]);
+    return count == 1 ? sum : Vector3(sum / count);
+  }
 };
 
 /// Particles alone, or with midpoints of edges, or with those and centres of triangles.

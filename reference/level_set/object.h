@@ -35,13 +35,16 @@ struct ObjectPoint {
 struct RigidDuring {
   const Solid* solid;
   Eigen::Matrix3d turned;  // the solid's point X is at x = turned X + moved at the span's start
+  Eigen::Matrix3d back;    // turned's inverse
   Vector3 moved;           // m
   Eigen::Matrix3d spin;    // the object's point at p has the velocity drift + spin (p - pivot) [1/s]
   Vector3 drift, pivot;    // m/s, m
 
   ObjectPoint at(const Vector3& p) const;
-  Vector3 velocity_at(const Vector3& p) const { return drift + spin * (p - pivot); }                   // m/s
-  double speed_past(const Vector3& p, const Vector3& v) const { return (v - velocity_at(p)).norm(); }  // m/s
+  Vector3 velocity_at(const Vector3& p) const { return drift + spin * (p - pivot); }  // m/s
+  double squared_speed_past(const Vector3& p, const Vector3& v) const {
+    return (v - velocity_at(p)).squaredNorm();  // m^2/s^2
+  }
 };
 
 /// A solid in rigid motion: first put in its place, then moved.
@@ -60,7 +63,9 @@ struct DeformingDuring {
 
   ObjectPoint at(const Vector3& p) const;
   /// Not known without asking.
-  double speed_past(const Vector3&, const Vector3&) const { return std::numeric_limits<double>::infinity(); }
+  double squared_speed_past(const Vector3&, const Vector3&) const {
+    return std::numeric_limits<double>::infinity();
+  }
 };
 
 /// A body that deforms as its animation says; copies share it.

@@ -13,11 +13,15 @@ Vector3 clamped_to_cube(const OctreeSettings& cube, const Vector3& p) {
   return p.cwiseMax(cube.corner).cwiseMin(cube.corner + Vector3::Constant(cube.width));
 }
 
-/// phi and N of the channel in the leaf.
-Distance distance_in(const Octree& tree, int channel, const OctreeLeaf& leaf) {
-  const Trilinear at = trilinear(tree.phi[channel], leaf.child, leaf.local);
+/// phi and N of an interpolant.
+Distance distance_of(const Trilinear& at) {
   const double length = at.slope.norm();
   return {at.value, length > 0 ? Vector3(at.slope / length) : Vector3::UnitZ()};
+}
+
+/// phi and N of the channel in the leaf.
+Distance distance_in(const Octree& tree, int channel, const OctreeLeaf& leaf) {
+  return distance_of(trilinear(tree.phi[channel], leaf.child, leaf.local));
 }
 
 /// A distance at q, the cube's nearest point to p, carried on to p: that of the surface point that it tells of.
@@ -48,18 +52,21 @@ OctreeLeaf leaf_at(const Octree& tree, const Vector3& p) {
   const Vector3 scaled = (p - cube.corner) * (1 / cube.width);
   std::array<int, 3> finest;
   for (int axis = 0; axis < 3; ++axis) finest[axis] = std::clamp(int(scaled[axis] * cells), 0, cells - 1);
-  const int level = start_level(cube), drop = cube.depth - level;
-  const OctreeStart start = tree.starts[std::size_t(
-      ((finest[2] >> drop) << level | finest[1] >> drop) << level | finest[0] >> drop)];
-  for (int b = start.branch, shift = cube.depth - 1 - start.level;; --shift) {
-    const int c = (finest[0] >> shift & 1) | (finest[1] >> shift & 1) << 1 | (finest[2] >> shift & 1) << 2;
+  const auto& [x, y, z] = finest;
+  const int first = tree.start_level, drop = cube.depth - first;
+  const OctreeStart start = tree.starts[std::size_t(((z >> drop) << first | y >> drop) << first | x >> drop)];
+  for (int b = start.branch, level = start.level + 1;; ++level) {
+    const int width = cells >> level;  // of the branch's children, in finest cells
+    const int c = int((x & width) != 0) | int((y & width) != 0) << 1 | int((z & width) != 0) << 2;
     const OctreeBranch& branch = tree.branches[b];
     if (branch.inner >> c & 1) {
       b = inner_child(branch, c);
       continue;
     }
-    const Vector3 cell(finest[0] >> shift, finest[1] >> shift, finest[2] >> shift);
-    return {b, c, cube.depth - shift, scaled * double(cells >> shift) - cell};
+    OctreeLeaf leaf{b, c, level, {}};
+    for (int axis = 0; axis < 3; ++axis)
+      leaf.local[axis] = scaled[axis] * double(1 << level) - double(finest[axis] >> (cube.depth - level));
+    return leaf;
   }
 }
 
@@ -67,12 +74,12 @@ Distance Octree::at(const Vector3& p) const {
   const Vector3 q = clamped_to_cube(settings, p);
   const OctreeLeaf leaf = leaf_at(*this, q);
   const OctreeBranch& branch = branches[leaf.branch];
-  Distance nearest = distance_in(*this, branch.channels, leaf);
+  Trilinear nearest = trilinear(phi[branch.channels], leaf.child, leaf.local);
   for (int k = 1; k < branch.parts; ++k) {
-    const Distance other = distance_in(*this, branch.channels + k, leaf);
-    if (other.phi < nearest.phi) nearest = other;
+    const Trilinear other = trilinear(phi[branch.channels + k], leaf.child, leaf.local);
+    if (other.value < nearest.value) nearest = other;
   }
-  return q == p ? nearest : beyond_cube(nearest, q, p);
+  return q == p ? distance_of(nearest) : beyond_cube(distance_of(nearest), q, p);
 }
 
 PartsAt parts_at(const Octree& tree, const Vector3& p) {
@@ -121,7 +128,9 @@ std::size_t bytes(const Octree& tree) {
 }
 
 void set_starts(Octree& tree) {
-  const int last = start_level(tree.settings), cells = 1 << last;
+  tree.start_level = 0;
+  while (std::size_t(8) << 3 * tree.start_level <= tree.branches.size()) ++tree.start_level;
+  const int last = tree.start_level, cells = 1 << last;
   tree.starts.assign(std::size_t(cells * cells * cells), {0, 0});
   const std::vector<OctreePlace> places = branch_places(tree);
   for (std::size_t b = 0; b < places.size() && places[b].level <= last; ++b) {  // level by level

@@ -61,6 +61,7 @@ struct Octree {
   std::vector<int> part;                 // of each channel: which body
   std::vector<BranchNodes<double>> phi;  // of each channel [m]
   long evaluations = 0;                  // distances asked for while it was built
+  int start_level = 0;                   // the last that has no more cells than the tree has branches
   std::vector<OctreeStart> starts = {};  // of the 2^start_level cells along each axis, x fastest
 
   /// The union of all parts: the distance to the part that is nearest or entered deepest.
@@ -73,10 +74,8 @@ struct Octree {
 /// Throws InputError: no bodies, a setting out of range, a body that reaches the cube's boundary.
 Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings);
 
-/// The first levels are looked up, for a descent waits for memory at each.
-inline int start_level(const OctreeSettings& settings) { return settings.depth < 4 ? settings.depth - 1 : 3; }
-
-/// Makes a tree whose branches stand ready to be asked.
+/// Makes a tree whose branches stand ready to be asked: the levels down to start_level are looked up, for a descent
+/// waits for memory at each.
 void set_starts(Octree& tree);
 
 /// The leaf that holds p, which lies in the cube.
