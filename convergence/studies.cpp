@@ -36,7 +36,8 @@ std::vector<Study> all_studies() {
           forecast_time_study(),
           resting_contact(),
           pointwise_contact(),
-          self_collision_cost()};
+          self_collision_cost(),
+          crossing_queries()};
 }
 
 }  // namespace foldproof

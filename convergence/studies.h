@@ -41,6 +41,7 @@ Study forecast_time_study();   // forecast-time: where a point is after its fore
 Study resting_contact();       // resting-contact: what keeps moving under each response
 Study self_collision_cost();     // self-collision-cost: search, zones, gaps at rest
 Study pointwise_contact();     // pointwise-contact: what lies between particles that are held out
+Study crossing_queries();      // crossing-queries: moving features that meet, and whether that is noticed
 
 /// All of them, in the order in which they are reported.
 std::vector<Study> all_studies();

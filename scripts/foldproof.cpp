@@ -15,6 +15,7 @@ constexpr const char* examples = R"(Examples:
   foldproof simulate cases/any_mesh.toml --set cloth.mesh=body.obj
   foldproof inspect body.obj                          is it closed, oriented, without intersections?
   foldproof simulate cases/drape_statue.toml --set object.mesh=body.obj --cache cache
+  foldproof crossings results/fold_stack.h5           does the cloth pass through itself? Of OBJ files, too
   foldproof project results/half_inside.h5 --map blend --tau 0.01
   foldproof check bending                             all checks of bending
   foldproof check bending.forces-sum-to-zero --json   one of them, for another program
@@ -29,6 +30,11 @@ constexpr const char* evaluate_help =
   x1 x2 x3 x4 (12 position components [m]), v1 v2 v3 v4 (12 velocity components [m/s]), ke [J], kd [N s], theta0 [rad].
 Output: 12 elastic and 12 damping force components [N] in 17 digits. The weight |E|^2/(|N1|+|N2|) is taken at the current positions, or, with --rest, at
 the rest positions: rows of 12 numbers.)";
+
+constexpr const char* queries_help =
+    R"(A row of FILE is a point: numerator and denominator of x, y and z, and 1 if the query meets, else 0, all whole numbers. Eight rows are a query: four
+points at the start of a motion in straight lines, the same four at its end. vertex-face: the vertex, then the triangle's corners. edge-edge: the ends of the
+first edge, then of the second. Exit code 1: the reference misses a meeting, or the exact judge does not agree with the file.)";
 
 constexpr const char* project_help =
     R"(Prints how many points were moved, and of the last frame how much of the wrinkles is left: the standard deviation of the depths of points that were
@@ -150,6 +156,13 @@ void add_readers(CLI::App& app, Options& options) {
       ->check(CLI::Range(4, 1000))
       ->capture_default_str();
   add_json(mesh, options);
+  CLI::App* crossings = add_command(app, options, "crossings",
+                                    "Edges and triangles of a cloth that meet, decided exactly, in every "
+                                    "frame; exit code 1: there are some",
+                                    show_crossings);
+  crossings->add_option("FILE", options.names, "Stored runs (.h5), or meshes (.obj), each a frame")
+      ->required();
+  add_json(crossings, options);
   CLI::App* evaluate = app.add_subcommand("evaluate", "Evaluate a formula on your numbers");
   evaluate->require_subcommand(1);
   CLI::App* bending =
@@ -157,6 +170,17 @@ void add_readers(CLI::App& app, Options& options) {
   bending->footer(evaluate_help);
   bending->add_option("FILE", options.file, "CSV, 27 columns")->required();
   bending->add_option("--rest", options.rest_file, "CSV, 12 columns: rest positions, for rest weighting");
+  CLI::App* queries = add_command(
+      *evaluate, options, "crossings",
+      "Moving features that meet, or not: the reference and the exact judge against a file's word",
+      evaluate_queries);
+  queries->footer(queries_help);
+  queries->add_option("FILE", options.file, "CSV, 7 columns, 8 rows a query")->required();
+  queries->add_option("--kind", options.kind, "vertex-face or edge-edge")
+      ->check(CLI::IsMember({"vertex-face", "edge-edge"}))
+      ->required();
+  queries->add_option("--keep", options.keep, "What the reference is to keep apart [m]")
+      ->capture_default_str();
 }
 
 int run(int argc, char** argv) {

@@ -109,6 +109,36 @@ step = 0.001
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("a hole", json.loads(done.stdout)["refusal"])
 
+    def test_crossings_names_what_crosses_in_runs_and_meshes(self) -> None:
+        flat = self.write("flat.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 4 4 0\nf 1 2 3\nf 2 4 3\n")
+        crossed = self.write("crossed.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 2\nv 9 9 9\nf 1 2 3\nf 4 5 6\n")
+        self.assertEqual(run("crossings", flat).returncode, 0)
+        done = run("crossings", flat, crossed)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("the first: edge from particle 3 to 4, triangle 0", done.stdout)
+        self.assertIn("2 frames, 1 of them with crossings", done.stdout)
+        self.assertEqual(self.simulate(str(ROOT / "cases/hinge.toml"), "--set", "time.end=0.1").returncode, 0)
+        told = json.loads(run("crossings", str(self.path / "out/hinge.h5"), "--json").stdout)
+        self.assertEqual([row["pairs"] for row in told], [0] * 7)
+        self.assertEqual(run("crossings", self.write("none.h5", "")).returncode, 2)
+
+    def test_evaluate_crossings_judges_a_file_of_queries(self) -> None:
+        triangle = [(0, 0, 0), (4, 0, 0), (0, 4, 0)]
+        hits = [(1, 1, 3), *triangle, (1, 1, -1), *triangle]
+        clear = [(1, 1, 3), *triangle, (1, 1, 1), *triangle]
+        rows = [f"{x},1,{y},1,{2 * z},2,{truth}" for points, truth in ((hits, 1), (clear, 0)) for x, y, z in points]
+        file = self.write("queries.csv", "\n".join(rows) + "\n")
+        done = run("evaluate", "crossings", file, "--kind", "vertex-face")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("2 queries, 1 of which meet", done.stdout)
+        self.assertIn("exact judge: 0 missed, 0 told though apart", done.stdout)
+        wrong = self.write("wrong.csv", "\n".join(row[:-1] + "1" for row in rows))
+        self.assertEqual(run("evaluate", "crossings", wrong, "--kind", "vertex-face").returncode, 1)
+        short = self.write("short.csv", "\n".join(rows[:-1]))
+        refused = run("evaluate", "crossings", short, "--kind", "vertex-face")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("a query has 8", refused.stderr)
+
     def test_simulate_writes_frames_at_their_times(self) -> None:
         done = self.simulate(str(ROOT / "cases/hinge.toml"), "--set", "time.end=0.25", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)

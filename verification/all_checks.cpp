@@ -2,6 +2,7 @@
 
 #include "verification/checks/bending_checks.h"
 #include "verification/checks/contact_checks.h"
+#include "verification/checks/crossing_checks.h"
 #include "verification/checks/deforming_checks.h"
 #include "verification/checks/differential_checks.h"
 #include "verification/checks/dynamics_checks.h"
@@ -22,7 +23,7 @@ std::vector<Check> all_checks() {
        {mesh_checks(), force_checks(), bending_checks(), differential_checks(), force_differential_checks(),
         solver_checks(), unsymmetric_solver_checks(), cached_terms_checks(), dynamics_checks(),
         contact_checks(), scene_checks(), level_set_checks(), projection_checks(), octree_checks(),
-        octree_union_checks(), deforming_checks(), self_collision_checks()})
+        octree_union_checks(), deforming_checks(), self_collision_checks(), crossing_checks()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -34,6 +34,35 @@ State StoredRun::frame(std::size_t k) const {
   return {times[k], of(positions), of(velocities)};
 }
 
+PerParticle3 StoredFrames::frame(std::size_t k) const {
+  const Eigen::Index particles = Eigen::Index(positions.size() / times.size() / 3);
+  return Eigen::Map<const PerParticle3>(positions.data() + 3 * particles * Eigen::Index(k), 3, particles);
+}
+
+StoredFrames read_stored_frames(const std::string& path) {
+  StoredFrames run;
+  std::vector<int> corners;
+  try {
+    const Hdf5 file = Hdf5::open_file(path);
+    corners = file.open_group("mesh").read_ints("triangles");
+    run.times = file.open_group("frames").read_doubles("time");
+    run.positions = file.open_group("frames").read_doubles("positions");
+  } catch (const std::runtime_error& error) {
+    throw InputError(path + ": is no stored simulation: " + error.what());
+  }
+  if (run.times.empty() || run.positions.size() % (3 * run.times.size()) != 0 || corners.size() % 3 != 0)
+    throw InputError(
+        path + ": its positions are not three a particle in every frame, or its triangles not of three");
+  const auto particles = int(run.positions.size() / run.times.size() / 3);
+  for (const int corner : corners)
+    if (corner < 0 || corner >= particles)
+      throw InputError(path + ": a triangle names particle " + std::to_string(corner) + " of " +
+                       std::to_string(particles));
+  for (std::size_t k = 0; k < corners.size(); k += 3)
+    run.triangles.push_back({corners[k], corners[k + 1], corners[k + 2]});
+  return run;
+}
+
 StoredRun read_stored_run(const std::string& path, const LevelSetMakers& makers) {
   StoredRun run;
   try {

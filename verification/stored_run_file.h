@@ -16,6 +16,18 @@ struct StoredRun {
   State frame(std::size_t k) const;
 };
 
+/// Of a stored simulation nothing but how its cloth moves: any program can write this much.
+struct StoredFrames {
+  std::vector<Triangle> triangles;  // /mesh/triangles, M
+  std::vector<double> times;        // /frames/time, T [s]
+  std::vector<double> positions;    // /frames/positions, T x N x 3 [m]
+
+  PerParticle3 frame(std::size_t k) const;  // 3 x N [m]
+};
+
+/// Throws InputError naming the file if it lacks one of these, or they do not fit together.
+StoredFrames read_stored_frames(const std::string& path);
+
 /// Reads a stored simulation; meshes that its case names by a relative path are looked for beside the case file
 /// that was simulated, those of --set from the working folder. Throws InputError naming the file if it holds no
 /// simulation, or one of another cloth than its case text says.

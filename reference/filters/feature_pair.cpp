@@ -10,8 +10,8 @@ namespace foldproof {
 namespace {
 
 // Edges whose directions differ by less than this, squared sine, are taken for parallel; triangles whose area is less
-// than this share of what their sides could span, squared, for lines: rounding would choose where they are nearest.
-constexpr double nearly_parallel = 1e-14;
+// than this share of what their sides could span, squared, for lines. What that hides is 1e-10 of their size.
+constexpr double nearly_parallel = 1e-20;
 
 /// Where along the edge from a to b the point p is nearest: 0 at a, 1 at b.
 double nearest_along(const Vector3& p, const Vector3& a, const Vector3& b) {
@@ -42,8 +42,13 @@ Nearness vertex_triangle(const Corners4& x) {
   const double area2 = N.squaredNorm();
   Vector3 w = Vector3::Constant(-1);
   if (area2 > nearly_parallel * e2.squaredNorm() * e3.squaredNorm()) {
-    w[1] = r.cross(e3).dot(N) / area2;
-    w[2] = e2.cross(r).dot(N) / area2;
+    w.setZero();
+    // the second pass finds what rounding left of the first in a thin triangle
+    for (int pass = 0; pass < 2; ++pass) {
+      const Vector3 rest = r - w[1] * e2 - w[2] * e3;
+      w[1] += rest.cross(e3).dot(N) / area2;
+      w[2] += e2.cross(rest).dot(N) / area2;
+    }
     w[0] = 1 - w[1] - w[2];
     if (w.minCoeff() >= 0) return nearness_at(x, {1, -w[0], -w[1], -w[2]});
   }
@@ -62,14 +67,19 @@ Nearness vertex_triangle(const Corners4& x) {
 
 Eigen::Vector4d edge_weights(double a, double b) { return {1 - a, a, -(1 - b), -b}; }
 
-/// Two edges x0 x1 and x2 x3: nearest inside both, or at an end of one of them.
+/// Two edges x0 x1 and x2 x3: nearest inside both, or at an end of one of them. Inside, x0 + a d and x2 + b e are
+/// nearest across N = d x e, so a = (x2 - x0) x e . N / |N|^2. Of nearly parallel edges rounding shifts a along them;
+/// the foot of that place on the other edge, and its foot in turn, are as near to each other as the nearest points are.
 Nearness edge_edge(const Corners4& x) {
-  const Vector3 d = x.col(1) - x.col(0), e = x.col(3) - x.col(2), r = x.col(0) - x.col(2);
-  const double dd = d.dot(d), de = d.dot(e), ee = e.dot(e), dr = d.dot(r), er = e.dot(r);
-  const double determinant = dd * ee - de * de;
-  if (determinant > nearly_parallel * dd * ee) {
-    const double a = (de * er - ee * dr) / determinant, b = (dd * er - de * dr) / determinant;
-    if (a >= 0 && a <= 1 && b >= 0 && b <= 1) return nearness_at(x, edge_weights(a, b));
+  const Vector3 d = x.col(1) - x.col(0), e = x.col(3) - x.col(2), r = x.col(2) - x.col(0);
+  const Vector3 N = d.cross(e);  // m^2
+  const double size = N.squaredNorm();
+  if (size > nearly_parallel * d.squaredNorm() * e.squaredNorm()) {
+    const double a = r.cross(e).dot(N) / size, b = r.cross(d).dot(N) / size;
+    if (a >= 0 && a <= 1 && b >= 0 && b <= 1) {
+      const double foot = nearest_along(x.col(0) + a * d, x.col(2), x.col(3));
+      return nearness_at(x, edge_weights(nearest_along(x.col(2) + foot * e, x.col(0), x.col(1)), foot));
+    }
   }
   Nearness nearest = nowhere();
   for (int end = 0; end < 2; ++end) {

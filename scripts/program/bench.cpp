@@ -210,6 +210,7 @@ RunRecord bench(int most_particles) {
   run.records.push_back(self_collision_rate());
   for (Record& record : level_set_rates()) run.records.push_back(std::move(record));
   for (Record& record : octree_rates()) run.records.push_back(std::move(record));
+  run.records.push_back(crossing_rate());
   run.studies.push_back({"bench",
                          "Time grows in proportion to the number of particles.",
                          "measured",

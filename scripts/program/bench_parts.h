@@ -35,6 +35,7 @@ Record rate(const std::string& name, const std::string& claim, double measured, 
 Record contact_rate(const Scene& scene, double step, double step_seconds);
 
 Record self_collision_rate();           // bench_self.cpp: a step of cloth that lies on itself
+Record crossing_rate();                 // bench_crossings.cpp: the test for crossings of moving features
 std::vector<Record> octree_rates();     // bench_octree.cpp: an octree of a mesh, queries
 std::vector<Record> level_set_rates();  // bench_level_set.cpp: grids about a mesh, queries
 

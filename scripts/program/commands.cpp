@@ -14,6 +14,7 @@
 #include "reference/level_set/makers.h"
 #include "scripts/program/bench.h"
 #include "scripts/program/evaluate.h"
+#include "scripts/program/evaluate_crossings.h"
 #include "scripts/program/ledger.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
@@ -206,6 +207,10 @@ int make_report(const Options& options) { return report_on(options.file, nullptr
 int evaluate_hinges(const Options& options) {
   evaluate_bending(options.file, options.rest_file);
   return all_hold;
+}
+
+int evaluate_queries(const Options& options) {
+  return evaluate_crossings(options.file, options.kind, options.keep) ? all_hold : some_fail;
 }
 
 int run_bench(const Options& options) {

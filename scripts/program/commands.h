@@ -15,6 +15,8 @@ int verify(const Options& options);
 int make_report(const Options& options);
 int evaluate_hinges(const Options& options);
 int run_bench(const Options& options);
+int show_crossings(const Options& options);  // crossings_command.cpp
+int evaluate_queries(const Options& options);
 int show_claims(const Options& options);  // claims_command.cpp
 
 }  // namespace foldproof

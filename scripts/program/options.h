@@ -19,6 +19,8 @@ struct Options {
   std::string map, rule = "loop";  // of project: a depth map, a rule of subdivision
   double reach = 0, eps = 0;       // of project [m]
   double deepest = std::numeric_limits<double>::quiet_NaN();  // of project [m]; NaN: the deepest in the run
+  std::string kind;                                           // of evaluate crossings: of pair
+  double keep = 1e-6;                                         // of evaluate crossings [m]
   int cells = 64;                                             // of inspect: along the longest side
   int levels = 0;                                             // of project: of subdivision
   bool json = false, quick = false, no_report = false;

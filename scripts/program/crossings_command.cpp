@@ -1,0 +1,78 @@
+// foldproof crossings: does a cloth pass through itself? Of stored runs, and of meshes of any other program.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reference/mesh/obj.h"
+#include "scripts/program/commands.h"
+#include "verification/oracles/exact_crossings.h"
+#include "verification/stored_run_file.h"
+
+namespace foldproof {
+
+namespace {
+
+struct FrameJudged {
+  std::string file;
+  std::size_t frame;
+  double time;  // s
+  std::vector<oracles::EdgeInTriangle> pairs;
+};
+
+FrameJudged judged(const std::string& file, std::size_t frame, double time, const PerParticle3& x,
+                   const std::vector<Triangle>& triangles) {
+  if (!x.allFinite())
+    throw InputError(fmt::format("{}: frame {} has positions that are not finite", file, frame));
+  return {file, frame, time, oracles::exact_crossings(x, triangles)};
+}
+
+void judge_file(const std::string& file, std::vector<FrameJudged>& all) {
+  if (file.ends_with(".obj")) {
+    const TriangleSoup mesh = read_obj_soup(file);
+    all.push_back(judged(file, 0, 0, mesh.rest, mesh.triangles));
+    return;
+  }
+  const StoredFrames run = read_stored_frames(file);
+  for (std::size_t k = 0; k < run.times.size(); ++k)
+    all.push_back(judged(file, k, run.times[k], run.frame(k), run.triangles));
+}
+
+void print(const std::vector<FrameJudged>& all) {
+  std::size_t crossed = 0;
+  for (const FrameJudged& frame : all) {
+    if (frame.pairs.empty()) continue;
+    ++crossed;
+    const auto& [edge, triangle] = frame.pairs.front();
+    fmt::print("{}: frame {}, t = {:.6g} s: {} pairs; the first: edge from particle {} to {}, triangle {}\n",
+               frame.file, frame.frame, frame.time, frame.pairs.size(), edge[0], edge[1], triangle);
+  }
+  fmt::print("{} frames, {} of them with crossings\n", all.size(), crossed);
+}
+
+nlohmann::json told(const std::vector<FrameJudged>& all) {
+  nlohmann::json frames = nlohmann::json::array();
+  for (const FrameJudged& frame : all) {
+    nlohmann::json row = {
+        {"file", frame.file}, {"frame", frame.frame}, {"time", frame.time}, {"pairs", frame.pairs.size()}};
+    if (!frame.pairs.empty())
+      row["first"] = {{"edge", frame.pairs.front().edge}, {"triangle", frame.pairs.front().triangle}};
+    frames.push_back(std::move(row));
+  }
+  return frames;
+}
+
+}  // namespace
+
+int show_crossings(const Options& options) {
+  std::vector<FrameJudged> all;
+  for (const std::string& file : options.names) judge_file(file, all);
+  if (options.json)
+    fmt::print("{}\n", told(all).dump(1));
+  else
+    print(all);
+  for (const FrameJudged& frame : all)
+    if (!frame.pairs.empty()) return some_fail;
+  return all_hold;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,12 @@
+// Checks of how near two features of a cloth are; whether moving ones meet is the study crossing-queries.
+#pragma once
+
+#include <vector>
+
+#include "verification/check.h"
+
+namespace foldproof {
+
+std::vector<Check> crossing_checks();
+
+}  // namespace foldproof
