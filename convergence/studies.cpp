@@ -37,7 +37,8 @@ std::vector<Study> all_studies() {
           resting_contact(),
           pointwise_contact(),
           self_collision_cost(),
-          crossing_queries()};
+          crossing_queries(),
+          sticking_lag()};
 }
 
 }  // namespace foldproof

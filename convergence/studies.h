@@ -42,6 +42,7 @@ Study resting_contact();       // resting-contact: what keeps moving under each 
 Study self_collision_cost();     // self-collision-cost: search, zones, gaps at rest
 Study pointwise_contact();     // pointwise-contact: what lies between particles that are held out
 Study crossing_queries();      // crossing-queries: moving features that meet, and whether that is noticed
+Study sticking_lag();  // sticking-lag: lag, limits and cost of what sticks, with forecasts and without
 
 /// All of them, in the order in which they are reported.
 std::vector<Study> all_studies();

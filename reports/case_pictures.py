@@ -38,6 +38,7 @@ class PictureRow:
     bar_metres: float
     bar_fraction: float             # of a picture's width
     held: int
+    sticks: bool                    # is anything sticky?
     portrait: str                   # data URI of one frame, cut to the cloth
     portrait_size: tuple[int, int]
 
@@ -48,7 +49,7 @@ def make_pictures(case: Case, name: str, folder: Path) -> PictureRow | None:
     if not len(case.frame_times) or not len(case.triangles):
         return None
     chosen, frames, camera = _frames_and_camera(case)
-    drawn = [picture_of(x, case.triangles, case.held, camera, scenery_of(case, frame))
+    drawn = [picture_of(x, case.triangles, case.held, camera, scenery_of(case, frame), case.stuck(frame))
              for x, frame in zip(frames, chosen)]
     times = [float(case.frame_times[frame]) for frame in chosen]
     bar = nice_length(0.3 * camera.metres[0])
@@ -59,6 +60,7 @@ def make_pictures(case: Case, name: str, folder: Path) -> PictureRow | None:
                                 for time, picture, complete in zip(times, drawn, whole)],
                       size=camera.pixels, columns=3 if len(drawn) == WIDE else USUAL, bar_metres=bar,
                       bar_fraction=bar / camera.metres[0], held=int(case.held.sum()),
+                      sticks=case.stuck(0) is not None,
                       portrait=_uri(portrait), portrait_size=(portrait.shape[1], portrait.shape[0]))
 
 

@@ -14,7 +14,7 @@ from study_plots import spread
 
 WIDTH, HEIGHT = 5.3, 3.1            # [inch]
 MOST_POINTS = 300                   # per line; longer histories show mean and extremes of so many stretches
-ENERGIES = ("kinetic_energy", "stretch_energy", "bending_energy", "gravity_energy")
+ENERGIES = ("kinetic_energy", "stretch_energy", "bending_energy", "gravity_energy", "sticking_energy")
 
 Line = tuple[str, np.ndarray, str, float]   # label, values, colour, width
 
@@ -40,10 +40,10 @@ Panel = tuple[str, str, str, list[Line]]    # label, unit, scale, lines
 
 
 def _energies(columns: dict[str, Column]) -> tuple[list[Panel], str]:
-    present = [key for key in ENERGIES if key in columns]
+    present = [key for key in ENERGIES if key in columns and (key != ENERGIES[-1] or columns[key].values.any())]
     if not present:
         return [], ""
-    lines: list[Line] = [(key.removesuffix("_energy"), columns[key].values, COLOURS[k], 1.1)
+    lines: list[Line] = [(key.removesuffix("_energy"), columns[key].values, COLOURS[k if k < 4 else 5], 1.1)
                          for k, key in enumerate(present)]
     total = np.sum([columns[key].values for key in present], axis=0)
     lines.append(("total", total, INK, 1.8))

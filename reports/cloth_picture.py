@@ -20,6 +20,7 @@ FRONT = np.array([0.56, 0.175, 0.085])      # linear RGB of the side that the tr
 BACK = np.array([0.085, 0.20, 0.30])
 OBJECT = np.array([0.30, 0.30, 0.29])       # what the cloth can hit, both sides
 MARK = np.array([0.012, 0.014, 0.018])      # held particles
+STUCK = np.array([0.60, 0.30, 0.01])        # particles that stick to something
 KEY_LIGHT = np.array([-0.50, 0.62, 0.60])   # in camera axes: right, up, toward the viewer
 FILL_LIGHT = np.array([0.85, -0.05, 0.50])
 SET_BACK = 0.008                            # of the picture's size: cloth that lies on an object stays visible
@@ -41,9 +42,9 @@ class Samples:
 
 
 def picture_of(x: np.ndarray, triangles: np.ndarray, held: np.ndarray, camera: Camera,
-               scenery: Scenery | None = None) -> np.ndarray:
+               scenery: Scenery | None = None, stuck: np.ndarray | None = None) -> np.ndarray:
     """The cloth at positions x (N x 3 [m]) and the objects, RGBA, height x width x 4, uint8. Triangles that
-    are not finite are left out."""
+    are not finite are left out. held, stuck: N, what is marked."""
     width, height = (SUPERSAMPLING * size for size in camera.pixels)
     if len(triangles) <= COARSE:
         x, triangles, held = _taken_apart(x, triangles, held)
@@ -64,6 +65,9 @@ def picture_of(x: np.ndarray, triangles: np.ndarray, held: np.ndarray, camera: C
         colour[:, :, channel][seen] = light[channel]
     colour[:, :, 3] = seen
     _mark(colour, points, nearness, held, samples, camera)
+    if stuck is not None:
+        beyond = np.zeros(len(points) - len(stuck), dtype=bool)
+        _mark(colour, points, nearness, np.concatenate([stuck, beyond]), samples, camera, STUCK)
     return _finished(colour)
 
 
@@ -271,8 +275,8 @@ def _edge_lines(planes: np.ndarray, owner: np.ndarray, weights: list[np.ndarray]
 
 
 def _mark(colour: np.ndarray, points: np.ndarray, nearness: np.ndarray, held: np.ndarray, samples: Samples,
-          camera: Camera) -> None:
-    """A ringed dot on every held particle, weaker where cloth hides it."""
+          camera: Camera, inside: np.ndarray = MARK) -> None:
+    """A ringed dot of the colour `inside` on every particle of `held`, weaker where cloth hides it."""
     which = np.flatnonzero(held & np.isfinite(points).all(axis=1))
     radius = (5.4 if len(which) <= 60 else 2.4) * SUPERSAMPLING
     reach = int(radius) + 1
@@ -285,7 +289,7 @@ def _mark(colour: np.ndarray, points: np.ndarray, nearness: np.ndarray, held: np
             continue
         hidden = samples.nearness[line, column] > nearness[particle] + 0.02 * max(camera.metres)
         patch = colour[line - reach:line + reach + 1, column - reach:column + reach + 1]
-        ink = np.where((distance > 0.68 * radius)[:, :, None], 0.95, MARK)
+        ink = np.where((distance > 0.68 * radius)[:, :, None], 0.95, inside)
         alpha = (np.clip(radius - distance + 0.5, 0.0, 1.0) * (0.35 if hidden else 1.0))[:, :, None]
         patch[:, :, :3] = patch[:, :, :3] * (1 - alpha) + ink * alpha
         patch[:, :, 3:] = np.maximum(patch[:, :, 3:], alpha)

@@ -186,6 +186,18 @@ class Case:
             data = file.get("frames/object_distance")
             return None if data is None else np.asarray(data[frame % data.shape[0]], dtype=float)
 
+    def stuck(self, frame: int) -> np.ndarray | None:
+        """N, true for particles that stick to something in one frame; None if nothing in the case is sticky."""
+        with h5py.File(self.path, "r") as file:
+            if "sticky/bond_counts" not in file:
+                return None
+            ends = np.cumsum(np.asarray(file["sticky/bond_counts"], dtype=int))
+            frame %= len(ends)
+            first = ends[frame - 1] if frame > 0 else 0
+            stuck = np.zeros(len(self.held), dtype=bool)
+            stuck[np.asarray(file["sticky/bonds"][first:ends[frame], 2], dtype=int)] = True
+            return stuck
+
     def rest_positions(self) -> np.ndarray | None:
         """Rest positions of all particles, N x 3 [m]; None if the file has none."""
         with h5py.File(self.path, "r") as file:

@@ -14,6 +14,7 @@
 #include "verification/checks/scene_checks.h"
 #include "verification/checks/self_collision_checks.h"
 #include "verification/checks/solver_checks.h"
+#include "verification/checks/sticking_checks.h"
 
 namespace foldproof {
 
@@ -23,7 +24,7 @@ std::vector<Check> all_checks() {
        {mesh_checks(), force_checks(), bending_checks(), differential_checks(), force_differential_checks(),
         solver_checks(), unsymmetric_solver_checks(), cached_terms_checks(), dynamics_checks(),
         contact_checks(), scene_checks(), level_set_checks(), projection_checks(), octree_checks(),
-        octree_union_checks(), deforming_checks(), self_collision_checks(), crossing_checks()})
+        octree_union_checks(), deforming_checks(), self_collision_checks(), crossing_checks(), sticking_checks()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

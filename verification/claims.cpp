@@ -265,6 +265,7 @@ std::vector<Claim> all_claims() {
   std::vector<Claim> claims = time_claims();
   for (Claim& claim : bending_claims()) claims.push_back(std::move(claim));
   for (Claim& claim : object_claims()) claims.push_back(std::move(claim));
+  for (Claim& claim : sticking_claims()) claims.push_back(std::move(claim));
   return claims;
 }
 

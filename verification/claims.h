@@ -50,6 +50,7 @@ std::vector<Claim> time_claims();       // claims_time.cpp: BMF03 section 3
 std::vector<Claim> bending_claims();    // claims_bending.cpp: BMF03 section 4
 std::vector<Claim> level_set_claims();  // claims_level_sets.cpp: BMF03 section 5.1, part of object_claims
 std::vector<Claim> object_claims();     // claims_objects.cpp: BMF03 section 5, objects
+std::vector<Claim> sticking_claims();   // claims_sticking.cpp: BMF03 section 6
 
 /// The ruling that these findings give; the table stands above its definition.
 Standing ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records);

@@ -1,5 +1,8 @@
 #include "verification/subject.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "reference/dynamics/integrator.h"
 #include "reference/forces/force.h"
 
@@ -28,6 +31,12 @@ PerParticle3 filtered(const Prepared& prepared, const Span& span, const State& s
   return v;
 }
 
+/// Is there anything that forms or breaks?
+bool sticks(const System& system) {
+  return std::ranges::any_of(system.forces,
+                             [](const Force& force) { return std::holds_alternative<Sticking>(force); });
+}
+
 }  // namespace
 
 Subject reference_subject() {
@@ -53,7 +62,12 @@ Subject reference_subject() {
   subject.limit_strain = filtered<StrainLimiter>;
   subject.avoid_itself = filtered<SelfCollision>;
   subject.step = [](Prepared& prepared, std::span<const State> past, double dt, Work& work) {
-    return own(prepared).integrator.step(own(prepared).system, past, dt, work);
+    const PreparedReference& reference = own(prepared);
+    if (!sticks(reference.system)) return reference.integrator.step(reference.system, past, dt, work);
+    std::vector<State> begun(past.begin(), past.end());
+    begin_step(reference.system, begun.back());
+    work.bonds += long(begun.back().memory.bonds.size());
+    return reference.integrator.step(reference.system, begun, dt, work);
   };
   return subject;
 }

@@ -67,6 +67,35 @@ void add_place(double t, ObjectRows& object) {
   object.rows[1].add(pose.translation.data());
 }
 
+/// Group /sticky: the patches, and the bonds of all frames one after the other. A frame has as many as bond_counts says.
+struct BondRows {
+  GrowingDataset counts, bonds, places;
+
+  BondRows(const Hdf5& group, const Scene& scene)
+      : counts(group, "bond_counts", "1", {}),
+        bonds(group, "bonds", "1", {3}),           // patch, triangle of it, particle
+        places(group, "places", "1, 1, m", {3}) {  // weights of the corners b and c, height
+    for (size_t k = 0; k < scene.sticky.size(); ++k) {
+      const StickyPatch& patch = scene.sticky[k];
+      const Hdf5 of_patch = group.group(std::to_string(k));
+      of_patch.attribute("name", patch.name);
+      of_patch.attribute("is_cloth", patch.place ? 0 : 1);
+      of_patch.array("triangles", {patch.triangles.size(), 3}, patch.triangles.data()->data());
+      of_patch.array("particles", {patch.particles.size()}, patch.particles.data());
+    }
+  }
+
+  void add(const State& s) {
+    const double count = double(s.memory.bonds.size());
+    counts.add(&count);
+    for (const Bond& bond : s.memory.bonds) {
+      const double row[] = {double(bond.patch), double(bond.triangle), double(bond.particle)};
+      bonds.add(row);
+      places.add(bond.place.data());
+    }
+  }
+};
+
 constexpr const char* xdmf_head = R"(<?xml version="1.0" ?>
 <Xdmf Version="3.0">
   <Domain>
@@ -105,6 +134,7 @@ struct TrajectoryFile::Content {
   std::vector<ObjectRows> objects;
   std::vector<Object> solids;
   std::vector<GrowingDataset> distances;  // one if there are objects
+  std::vector<BondRows> bonds;            // one if anything is sticky
   std::vector<double> frame_times;
 
   Content(const std::string& to, const Scene& scene)
@@ -122,6 +152,7 @@ struct TrajectoryFile::Content {
         objects(write_objects(file, scene)) {
     for (const SceneObject& part : scene.objects) solids.push_back(part.object);
     if (!solids.empty()) distances.emplace_back(frames, "object_distance", "m", Shape{particles});
+    if (!scene.sticky.empty()) bonds.emplace_back(file.group("sticky"), scene);
   }
 
   /// Signed distance of each particle to the union of the objects.
@@ -163,6 +194,7 @@ constexpr Scalar scalars[] = {
     {"stretch_energy", "J", [](const Diagnostics& d) { return d.energy.stretch; }},
     {"bending_energy", "J", [](const Diagnostics& d) { return d.energy.bending; }},
     {"gravity_energy", "J", [](const Diagnostics& d) { return d.energy.gravity; }},
+    {"sticking_energy", "J", [](const Diagnostics& d) { return d.energy.sticking; }},
     {"damping_work", "J", [](const Diagnostics& d) { return d.damping_work; }},
     {"cg_iterations", "1", [](const Diagnostics& d) { return double(d.cg_iterations); }},
     {"cg_residual", "1", [](const Diagnostics& d) { return d.cg_residual; }},
@@ -206,6 +238,7 @@ void TrajectoryFile::add_frame(const State& s) {
   content_->velocities.add(s.v.data());
   if (!content_->solids.empty()) content_->add_distances(s);
   for (ObjectRows& object : content_->objects) add_place(s.time, object);
+  for (BondRows& bonds : content_->bonds) bonds.add(s);
   content_->frame_times.push_back(s.time);
   content_->file.flush();
 }

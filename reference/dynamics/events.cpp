@@ -40,14 +40,27 @@ std::vector<double> object_event_times(const System& system, double start) {
   return times;
 }
 
+std::vector<double> sticking_event_times(const System& system, double start) {
+  std::vector<double> times;
+  for (const Force& force : system.forces) {
+    const auto* sticking = std::get_if<Sticking>(&force);
+    if (!sticking) continue;
+    for (const StickyPatch& patch : sticking->patches)
+      for (const double time : {patch.from, patch.until - patch.release, patch.until})
+        if (time > start && std::isfinite(time)) times.push_back(time);
+  }
+  return times;
+}
+
 Events::Events(const System& system, double start, double tolerance)
     : given_(system), times_(event_times(system.led, start)), tolerance_(tolerance) {
   if (!times_.empty()) {
     own_ = std::make_unique<System>(system);
     lead(start);
   }
-  const std::vector<double> of_objects = object_event_times(system, start);
-  times_.insert(times_.end(), of_objects.begin(), of_objects.end());
+  for (const std::vector<double>& more :
+       {object_event_times(system, start), sticking_event_times(system, start)})
+    times_.insert(times_.end(), more.begin(), more.end());
   std::ranges::sort(times_);
 }
 

@@ -24,9 +24,12 @@ struct Stage {
   PerParticle3 X;  // 3 x N [m]
   PerParticle3 V;  // 3 x N [m/s]
   double s;        // s
+  Memory memory;   // of the state that the step starts from
 };
 
-State state_of(const Stage& stage, const PerParticle3& w) { return {stage.time, stage.X + stage.s * w, w}; }
+State state_of(const Stage& stage, const PerParticle3& w) {
+  return {stage.time, stage.X + stage.s * w, w, stage.memory};
+}
 
 double norm_of(const PerParticle3& momentum, const PerParticle& inverse_mass) {
   return std::sqrt(momentum.colwise().squaredNorm().dot(inverse_mass.transpose()));
@@ -145,6 +148,10 @@ double rounding_at(const System& system, const Stage& stage, const PerParticle3&
   for (const Force& force : system.forces) {
     if (const auto* springs = std::get_if<StretchSprings>(&force)) springs->add_stiffness_bound(at, rows);
     if (const auto* bending = std::get_if<Bending>(&force)) bending->add_stiffness_bound(at, rows);
+    if (const auto* sticking = std::get_if<Sticking>(&force)) {
+      sticking->add_spring_bound(at, rows);
+      sticking->add_turning_bound(at, rows);
+    }
   }
   const double rounding = std::numeric_limits<double>::epsilon() * at.x.cwiseAbs().maxCoeff();
   return stage.s * rounding * std::sqrt(rows.cwiseAbs2().dot(system.inverse_mass));
@@ -206,7 +213,7 @@ PerParticle3 solve_stage(const System& system, const State& now, Stage& stage, W
 
 State backward_euler(const System& system, std::span<const State> past, double h, Work& work) {
   const State& now = past.back();
-  Stage stage{now.time + h, now.x, now.v, h};
+  Stage stage{now.time + h, now.x, now.v, h, now.memory};
   const PerParticle3 w = solve_stage(system, now, stage, work);
   return end_of_step(system, now, h, {w, w}, work);
 }
@@ -215,7 +222,7 @@ State linearised_backward_euler(const System& system, std::span<const State> pas
   const State& now = past.back();
   PerParticle3 w = now.v;
   impose(mean_velocities(system.led, now.x, now.time, h), w);
-  const Stage stage{now.time + h, now.x, now.v, h};
+  const Stage stage{now.time + h, now.x, now.v, h, now.memory};
   const Solve solve = solve_linearised(system, now, stage, system.solver, w, work);
   if (!solve.converged) ++work.unfinished_solves;
   keep_worst(work.worst_residual, solve.residual);
@@ -224,7 +231,7 @@ State linearised_backward_euler(const System& system, std::span<const State> pas
 
 State implicit_midpoint(const System& system, std::span<const State> past, double h, Work& work) {
   const State& now = past.back();
-  Stage stage{now.time + h / 2, now.x, now.v, h / 2};
+  Stage stage{now.time + h / 2, now.x, now.v, h / 2, now.memory};
   const PerParticle3 w = solve_stage(system, now, stage, work);
   return end_of_step(system, now, h, {w, 2 * w - now.v}, work);
 }
@@ -237,7 +244,7 @@ State bdf2(const System& system, std::span<const State> past, double h, Work& wo
   // s = h (1 + r)/(1 + 2 r)
   const double r = h / (now.time - before.time);
   const double p = r * r / (1 + 2 * r), s = h * (1 + r) / (1 + 2 * r);
-  Stage stage{now.time + h, now.x + p * (now.x - before.x), now.v + p * (now.v - before.v), s};
+  Stage stage{now.time + h, now.x + p * (now.x - before.x), now.v + p * (now.v - before.v), s, now.memory};
   const PerParticle3 w = solve_stage(system, now, stage, work);
   return end_of_step(system, now, h, {(stage.X + stage.s * w - now.x) / h, w}, work);
 }

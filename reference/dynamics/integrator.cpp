@@ -18,7 +18,8 @@ const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> table = {
       {"A", "mixed explicit/implicit", "BMF03 section 3, first list", 2, 1, mixed_explicit_implicit},
       {"B", "central Newmark", "BMF03 section 3, second list", 2, 1, central_newmark},
-      {"C", "variable-step Newmark", "BMF03 section 3, last list", 2, 1, variable_step_newmark},
+      {"C", "variable-step Newmark", "BMF03 section 3, last list", 2, 1, variable_step_newmark, mixed,
+       std::numeric_limits<double>::infinity(), true},
       {"forward-euler", "forward Euler", "Euler 1768", 1, 1, forward_euler, fully_explicit},
       {"RK2", "explicit midpoint", "Runge 1895", 2, 1, explicit_midpoint, fully_explicit},
       {"SSP-RK3", "SSP Runge-Kutta 3", "Shu and Osher 1988", 3, 1, ssp_runge_kutta_3, fully_explicit},

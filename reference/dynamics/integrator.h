@@ -22,6 +22,7 @@ struct Integrator {
   State (*step)(const System& system, std::span<const State> past, double h, Work& work);  // h [s]
   Family family = Family::mixed;
   double largest_growth = std::numeric_limits<double>::infinity();  // of a step over the one before [1]
+  bool damping_widens_limit = false;  // stable for h^2 K < 4 M + 2 h D, not for h^2 K < 4 M only
 };
 
 const std::vector<Integrator>& integrators();
@@ -46,6 +47,7 @@ class History {
 
   std::span<const State> past() const { return states_; }
   const State& now() const { return states_.back(); }
+  State& now() { return states_.back(); }
 
  private:
   std::vector<State> states_;

@@ -150,16 +150,18 @@ void run_to(double target, Run& run) {
   auto& [integrator, schedule, watch, events, history, outcome] = run;
   const System& system = events.system();
   while (history.now().time < target && !outcome.stop) {
-    const State& now = history.now();
+    State& now = history.now();
     const long number = outcome.steps + 1;
     if (number > schedule.max_steps) {
       outcome.stop = Stop{"the cap on the number of steps was reached", now.time, number, -1};
       return;
     }
     try {
+      begin_step(system, now);
       const double left = target - now.time;
       const double h = step_allowed(system, integrator, history.past(), schedule.step, left);
       Work work;
+      work.bonds = long(now.memory.bonds.size());
       State next = integrator.step(system, history.past(), h, work);
       if (h == left) next.time = target;  // no rounding between a frame's time and its state's
       outcome.stop = fault_in(now, next, watch.size(), number);
@@ -187,7 +189,7 @@ void run_across_events(double target, Run& run) {
 
 /// The automatic step before it is fitted to the frame [s].
 double limit_of(const System& system, const Integrator& integrator, const State& s, const StepRule& rule) {
-  double limit = elastic_limit(system, s);
+  double limit = integrator.damping_widens_limit ? widened_limit(system, s) : elastic_limit(system, s);
   if (integrator.family == Family::fully_explicit) {
     Work uncounted;
     const double rate = damping_rate_bound(damping_at(system.forces, s, uncounted), system.inverse_mass);

@@ -42,7 +42,7 @@ struct Diagnostics {
   double strain_left = 0;                     // largest violation of a strain limit left in this step [1]
   long close_pairs = 0, crossings = 0;        // of cloth with itself, answered in this step
   long zone_particles = 0;                    // particles that moved in rigid impact zones in this step
-  long bonds = 0;                             // particles that stuck to something in this step
+  long bonds = 0;                             // of sticking, at this step's start
   double seconds = 0;                         // since the start of the run, clock time
 };
 

@@ -1,7 +1,9 @@
 #include "reference/dynamics/system.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace foldproof {
 
@@ -31,6 +33,21 @@ double elastic_limit(const System& system, const State& s) {
   return 2 / frequency_bound(system.forces, s, system.inverse_mass);
 }
 
+double widened_limit(const System& system, const State& s) {
+  const double limit = elastic_limit(system, s);
+  double forecast = std::numeric_limits<double>::infinity();
+  for (const Force& force : system.forces)
+    if (const auto* sticking = std::get_if<Sticking>(&force)) forecast = sticking->shortest_forecast(s);
+  if (std::isinf(forecast)) return limit;
+  const double others = 2 / frequency_beyond_forecasts(system.forces, s, system.inverse_mass);
+  return std::max(limit, std::min(others, 2 * forecast));
+}
+
+void begin_step(const System& system, State& s) {
+  for (const Force& force : system.forces)
+    if (const auto* sticking = std::get_if<Sticking>(&force)) sticking->renew_bonds(s);
+}
+
 Energies energies(const System& system, const State& s) {
   Energies e;
   e.kinetic = 0.5 * s.v.colwise().squaredNorm().dot(system.mass.transpose());
@@ -39,6 +56,7 @@ Energies energies(const System& system, const State& s) {
     if (std::holds_alternative<Gravity>(force)) e.gravity += energy;
     if (std::holds_alternative<StretchSprings>(force)) e.stretch += energy;
     if (std::holds_alternative<Bending>(force)) e.bending += energy;
+    if (std::holds_alternative<Sticking>(force)) e.sticking += energy;
     if (std::holds_alternative<CustomForce>(force)) e.custom += energy;
   }
   return e;

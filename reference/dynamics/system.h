@@ -30,10 +30,17 @@ void prescribe(System& system, const PrescribedParticle& particle);
 /// without stiffness.
 double elastic_limit(const System& system, const State& s);
 
-struct Energies {
-  double kinetic = 0, stretch = 0, bending = 0, gravity = 0, custom = 0;  // J
+/// The same for a scheme whose limit damping widens to h^2 K < 4 M + 2 h D (scheme C). In steps up to 2 tau_s the damping
+/// of sticking outweighs its stiffness: max(2/omega, min(2/omega without sticking's springs, 2 tau_s)) [s].
+double widened_limit(const System& system, const State& s);
 
-  double total() const { return kinetic + stretch + bending + gravity + custom; }
+/// What forms or breaks does so once a step, before it: bonds of sticking. A second call changes nothing.
+void begin_step(const System& system, State& s);
+
+struct Energies {
+  double kinetic = 0, stretch = 0, bending = 0, gravity = 0, custom = 0, sticking = 0;  // J
+
+  double total() const { return kinetic + stretch + bending + gravity + custom + sticking; }
 };
 
 Energies energies(const System& system, const State& s);

@@ -33,11 +33,20 @@ void add_hinges(const std::vector<HingeDamper>& hinges, const PerParticle3& v, P
   }
 }
 
+void add_targets(const std::vector<TargetDamper>& targets, const PerParticle3& v, PerParticle3& f) {
+  for (const TargetDamper& t : targets) {
+    const Vector3 pull = t.coefficient * (carried(t.frames, v) - v.col(t.particle));
+    f.col(t.particle) += pull;
+    add_at_corners(t.frames, -pull, f);
+  }
+}
+
 }  // namespace
 
 void DampingOperator::add_product(const PerParticle3& v, PerParticle3& f) const {
   add_pairs(pairs, v, f);
   add_hinges(hinges, v, f);
+  add_targets(targets, v, f);
   for (const auto& add : custom) add(v, f);
 }
 

@@ -1,14 +1,15 @@
 // The damping forces at one set of positions: F_damping = D v, linear in v, D symmetric negative semi-
 // definite.
 //
-// Every damper of the paper resists one mode: F = -w (w.v), a matrix of rank one that is never assembled. All
-// that depends on positions is in w, computed once and used for every product of a solve (BMF03 section 3).
+// Every damper of cloth resists one mode: F = -w (w.v), a matrix of rank one that is never assembled; what sticks is
+// held in three. All that depends on positions is in w, computed once and used for every product of a solve (BMF03 section 3).
 #pragma once
 
 #include <array>
 #include <functional>
 #include <vector>
 
+#include "reference/forces/triangle_frame.h"
 #include "reference/types.h"
 
 namespace foldproof {
@@ -28,9 +29,19 @@ struct HingeDamper {
   Vector3 w1, w2;
 };
 
+/// Resists the motion of a particle against a place that triangles of cloth carry, of rank three:
+///   F = coefficient (J v - v_particle) on the particle, -J^T F on the corners
+/// Without frames the place is at rest: what moves by itself has its part among the forces that do not depend on v.
+struct TargetDamper {
+  int particle;
+  double coefficient;                 // N s/m
+  std::vector<TriangleFrame> frames;  // J, see there
+};
+
 struct DampingOperator {
   std::vector<PairDamper> pairs;
   std::vector<HingeDamper> hinges;
+  std::vector<TargetDamper> targets;
   std::vector<std::function<void(const PerParticle3& v, PerParticle3& f)>> custom;
 
   /// f += D v; both 3 x N, v in m/s, f in N.

@@ -25,6 +25,7 @@ DampingOperator damping_at(const std::vector<Force>& forces, const State& s, Wor
   for (const Force& force : forces) {
     if (const auto* springs = std::get_if<StretchSprings>(&force)) springs->prepare_damping(s, damping);
     if (const auto* bending = std::get_if<Bending>(&force)) bending->prepare_damping(s, damping);
+    if (const auto* sticking = std::get_if<Sticking>(&force)) sticking->prepare_damping(s, damping);
     if (const auto* custom = std::get_if<CustomForce>(&force)) prepare(*custom, s, damping);
   }
   ++work.damping_preparations;
@@ -49,6 +50,8 @@ ForceDifferential elastic_differential_at(const std::vector<Force>& forces, cons
       springs->add_elastic_differential(s, definiteness, differential);
     if (const auto* bending = std::get_if<Bending>(&force))
       bending->add_elastic_differential(s, definiteness, differential);
+    if (const auto* sticking = std::get_if<Sticking>(&force))
+      sticking->add_elastic_differential(s, definiteness, differential);
     if (const auto* custom = std::get_if<CustomForce>(&force)) add_differential(*custom, s, differential);
   }
   ++work.stiffness_preparations;
@@ -61,6 +64,8 @@ ForceDifferential force_differential_at(const std::vector<Force>& forces, const 
     if (const auto* springs = std::get_if<StretchSprings>(&force))
       springs->add_force_differential(s, differential);
     if (const auto* bending = std::get_if<Bending>(&force)) bending->add_force_differential(s, differential);
+    if (const auto* sticking = std::get_if<Sticking>(&force))
+      sticking->add_force_differential(s, differential);
     if (const auto* custom = std::get_if<CustomForce>(&force)) add_differential(*custom, s, differential);
   }
   ++work.stiffness_preparations;
@@ -78,20 +83,41 @@ double damping_rate_bound(const DampingOperator& damping, const PerParticle& inv
     const Eigen::Vector4d norms(h.w1.norm(), h.w2.norm(), w3.norm(), w4.norm());
     for (int k = 0; k < 4; ++k) rows[h.particles[size_t(k)]] += norms[k] * norms.sum();
   }
+  for (const TargetDamper& t : damping.targets) add_row_sums(t.particle, t.frames, t.coefficient, rows);
   double largest = 0;
   for (Eigen::Index i = 0; i < rows.size(); ++i) keep_worst(largest, rows[i] * inverse_mass[i]);
   return largest;
 }
 
-double frequency_bound(const std::vector<Force>& forces, const State& s, const PerParticle& inverse_mass) {
+namespace {
+
+enum class StickingPart { all, beyond_forecasts };
+
+double frequency_of(const std::vector<Force>& forces, const State& s, const PerParticle& inverse_mass,
+                    StickingPart part) {
   PerParticle rows = PerParticle::Zero(s.x.cols());
   for (const Force& force : forces) {
     if (const auto* springs = std::get_if<StretchSprings>(&force)) springs->add_stiffness_bound(s, rows);
     if (const auto* bending = std::get_if<Bending>(&force)) bending->add_stiffness_bound(s, rows);
+    if (const auto* sticking = std::get_if<Sticking>(&force)) {
+      if (part == StickingPart::all) sticking->add_spring_bound(s, rows);
+      sticking->add_turning_bound(s, rows);
+    }
   }
   double largest = 0;
   for (Eigen::Index i = 0; i < rows.size(); ++i) keep_worst(largest, rows[i] * inverse_mass[i]);
   return std::sqrt(largest);
+}
+
+}  // namespace
+
+double frequency_bound(const std::vector<Force>& forces, const State& s, const PerParticle& inverse_mass) {
+  return frequency_of(forces, s, inverse_mass, StickingPart::all);
+}
+
+double frequency_beyond_forecasts(const std::vector<Force>& forces, const State& s,
+                                  const PerParticle& inverse_mass) {
+  return frequency_of(forces, s, inverse_mass, StickingPart::beyond_forecasts);
 }
 
 }  // namespace foldproof

@@ -57,11 +57,15 @@ ForceDifferential elastic_differential_at(const std::vector<Force>& forces, cons
 /// forces give that of their elastic part alone.
 ForceDifferential force_differential_at(const std::vector<Force>& forces, const State& s, Work& work);
 
-/// An upper bound on the largest elastic angular frequency [rad/s] at s, from springs and hinges:
+/// An upper bound on the largest elastic angular frequency [rad/s] at s, from springs, hinges and bonds of sticking:
 ///   omega^2 <= max over particles i of (1/m_i) (sum over the stiffness matrices' rows at i)
 /// the maximum row sum, by Gershgorin after scaling with the masses. inverse_mass: N [1/kg], 0 for prescribed
 /// particles.
 double frequency_bound(const std::vector<Force>& forces, const State& s, const PerParticle& inverse_mass);
+
+/// The same without the springs of sticking, whose forecasts keep scheme C stable: forces/sticking.h.
+double frequency_beyond_forecasts(const std::vector<Force>& forces, const State& s,
+                                  const PerParticle& inverse_mass);
 
 /// An upper bound on the largest damping rate [1/s], the largest eigenvalue of -M^{-1} D, by the same row
 /// sums.

@@ -24,6 +24,8 @@ struct Contents {
   std::vector<Vector3> vertices;
   std::vector<Triangle> triangles;  // indices from 0; the file's end tells which are too high
   MeshOrigin origin;
+  FaceGroups groups;
+  std::vector<std::string> names_g, names_o;  // of the groups that the next faces belong to
 };
 
 [[noreturn]] void refuse(const std::string& file, int line, const std::string& reason) {
@@ -154,6 +156,11 @@ int vertex_index(const Cursor& cursor, std::string_view word, size_t vertices) {
   return int(long(vertices) + index);
 }
 
+/// A face may be of an object and of a group of one name.
+void add_once(int triangle, std::vector<int>& group) {
+  if (group.empty() || group.back() != triangle) group.push_back(triangle);
+}
+
 void read_face(Cursor& cursor, Contents& contents) {
   const int line = cursor.line;
   Triangle fan{};
@@ -165,9 +172,20 @@ void read_face(Cursor& cursor, Contents& contents) {
     if (count < 2) continue;
     contents.triangles.push_back(fan);
     contents.origin.triangle_lines.push_back(line);
+    for (const auto* names : {&contents.names_g, &contents.names_o})
+      for (const std::string& name : *names)
+        add_once(int(contents.triangles.size()) - 1, contents.groups[name]);
   }
   if (count < 3)
     refuse(cursor.file, line, "a face of " + std::to_string(count) + " vertices; give at least three");
+}
+
+/// The words of a record, each once.
+std::vector<std::string> read_names(Cursor& cursor) {
+  std::vector<std::string> names;
+  for (std::string_view word = next_word(cursor); !word.empty(); word = next_word(cursor))
+    if (std::ranges::find(names, word) == names.end()) names.emplace_back(word);
+  return names;
 }
 
 void refuse_missing_vertices(const Contents& contents) {
@@ -183,7 +201,7 @@ void refuse_missing_vertices(const Contents& contents) {
 }
 
 /// All records of a file, and no more.
-TriangleSoup soup_of(const std::string& path) {
+Contents contents_of(const std::string& path) {
   const std::string text = read_text(path);
   if (text.empty()) refuse(path, 1, "the file is empty; give v and f records");
   Contents contents;
@@ -194,12 +212,18 @@ TriangleSoup soup_of(const std::string& path) {
     const std::string_view record = next_word(cursor);
     if (record == "v") read_vertex(cursor, contents);
     if (record == "f") read_face(cursor, contents);
+    if (record == "g") contents.names_g = read_names(cursor);
+    if (record == "o") contents.names_o = read_names(cursor);
     skip_rest_of_record(cursor);
   }
   if (contents.triangles.empty())
     refuse(path, cursor.line - 1, "the file ends without a face; give f records");
   refuse_missing_vertices(contents);
+  return contents;
+}
 
+TriangleSoup soup_of(const std::string& path) {
+  Contents contents = contents_of(path);
   PerParticle3 rest(3, contents.vertices.size());
   for (size_t v = 0; v < contents.vertices.size(); ++v) rest.col(v) = contents.vertices[v];
   return {std::move(rest), std::move(contents.triangles), std::move(contents.origin)};
@@ -211,6 +235,8 @@ TriangleMesh read_obj(const std::string& path) {
   TriangleSoup soup = soup_of(path);
   return make_triangle_mesh(std::move(soup.rest), std::move(soup.triangles), soup.origin);
 }
+
+FaceGroups read_obj_groups(const std::string& path) { return contents_of(path).groups; }
 
 TriangleSoup read_obj_soup(const std::string& path) {
   TriangleSoup soup = soup_of(path);

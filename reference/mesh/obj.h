@@ -1,6 +1,7 @@
 // Wavefront OBJ files: triangle meshes in and out.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,11 @@ TriangleMesh read_obj(const std::string& path);
 /// The same file, its triangles as they come: nothing of what make_triangle_mesh refuses is looked at but
 /// coordinates that are not finite.
 TriangleSoup read_obj_soup(const std::string& path);
+
+/// Triangles by the name of their group, as read_obj numbers them: those of the faces after 'g NAME ...' or 'o NAME', until
+/// the next record of the same letter. A name that stands twice is one group; a face may be of several.
+using FaceGroups = std::map<std::string, std::vector<int>>;
+FaceGroups read_obj_groups(const std::string& path);
 
 /// Writes positions (3 x N [m]) and triangles. With 17 significant digits read_obj gets every bit back.
 /// Throws InputError: a file that cannot be written, a triangle with an index outside 0 .. N - 1.

@@ -1,5 +1,6 @@
 #include "reference/scene/scene.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "reference/level_set/self_intersection.h"
@@ -38,6 +39,7 @@ System build_system(const Scene& scene) {
   if (scene.gravity) system.forces.push_back(Gravity{*scene.gravity, system.mass});
   if (scene.stretch) system.forces.push_back(make_springs(scene.mesh, *scene.stretch));
   if (scene.bending) system.forces.push_back(make_bending(scene.mesh, *scene.bending, scene.rest_angles));
+  if (!scene.sticky.empty()) system.forces.push_back(Sticking{scene.sticky});
   for (const PrescribedParticle& particle : scene.led) prescribe(system, particle);
   if (!scene.objects.empty()) system.filters.push_back(object_collision(scene, system.inverse_mass));
   if (scene.self_collision) system.filters.push_back(self_collision(scene, system));
@@ -51,6 +53,21 @@ PerParticle3 surface_at(const SceneObject& part, double t) {
   PerParticle3 x(3, part.vertices.cols());
   for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) = placed(pose, part.vertices.col(i));
   return x;
+}
+
+PerParticle3 surface_velocity_at(const SceneObject& part, double t) {
+  PerParticle3 v = PerParticle3::Zero(3, part.vertices.cols());
+  if (part.animation) {
+    const std::vector<double>& times = part.animation->times;
+    const auto next = size_t(std::ranges::upper_bound(times, t) - times.begin());
+    if (next == 0 || next == times.size()) return v;
+    const std::vector<PerParticle3>& x = part.animation->positions;
+    return (x[next] - x[next - 1]) / (times[next] - times[next - 1]);
+  }
+  const PerParticle3 x = surface_at(part, t);
+  const RigidMotion& motion = std::get<RigidObject>(part.object.body).motion;
+  for (Eigen::Index i = 0; i < v.cols(); ++i) v.col(i) = velocity_at(motion, x.col(i), t);
+  return v;
 }
 
 State start_state(const Scene& scene) {
@@ -75,6 +92,12 @@ std::string described(const SceneObject& part) {
   const std::string frames =
       part.animation ? ", " + std::to_string(part.animation->times.size()) + " level sets" : "";
   return "object '" + part.object.name + "' (" + part.shape + frames + ", friction " + friction + ")";
+}
+
+std::string described(const StickyPatch& patch) {
+  return "sticky '" + patch.name + "' (" + std::to_string(patch.triangles.size()) + " triangles of " +
+         (patch.place ? "an object" : "the cloth") + ", " + std::to_string(patch.particles.size()) +
+         " particles that may stick)";
 }
 
 std::string described(const ObjectCollision& collision) {
@@ -106,6 +129,7 @@ std::vector<std::string> built_parts(const Scene& scene, const System& system) {
   if (!system.led.empty())
     parts.push_back(std::to_string(system.led.size()) + " particles with prescribed motion");
   for (const SceneObject& part : scene.objects) parts.push_back(described(part));
+  for (const StickyPatch& patch : scene.sticky) parts.push_back(described(patch));
   for (const Filter& filter : system.filters)
     if (const auto* collision = std::get_if<ObjectCollision>(&filter)) parts.push_back(described(*collision));
   for (const Filter& filter : system.filters)

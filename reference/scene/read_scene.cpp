@@ -5,8 +5,10 @@
 
 #include "reference/scene/key_values.h"
 #include "reference/scene/read_objects.h"
+#include "reference/scene/read_region.h"
 #include "reference/scene/read_self_collision.h"
 #include "reference/scene/read_start.h"
+#include "reference/scene/read_sticky.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/shapes_of.h"
 
@@ -51,18 +53,6 @@ std::vector<double> read_rest_angles(const KeyTable& keys, const TriangleMesh& m
   return hinge_angles(mesh, mesh.rest);
 }
 
-std::vector<int> particles_in_box(const KeyTable& keys, const PerParticle3& x) {
-  const std::vector<Vector3> box = keys.vectors("box");
-  if (box.size() != 2)
-    throw InputError(keys.where("box") +
-                     ": 'box' must be two points [[x, y, z], [x, y, z]], lowest and highest");
-  std::vector<int> chosen;
-  for (Eigen::Index i = 0; i < x.cols(); ++i)
-    if ((x.col(i).array() >= box[0].array()).all() && (x.col(i).array() <= box[1].array()).all())
-      chosen.push_back(int(i));
-  return chosen;
-}
-
 std::vector<int> particles_at_top(const KeyTable& keys, const PerParticle3& x) {
   const double fraction = positive(keys, "top");
   const double low = x.row(1).minCoeff(), high = x.row(1).maxCoeff();
@@ -72,22 +62,11 @@ std::vector<int> particles_at_top(const KeyTable& keys, const PerParticle3& x) {
   return chosen;
 }
 
-std::vector<int> particles_named(const KeyTable& keys, Eigen::Index count) {
-  std::vector<int> chosen;
-  for (long i : keys.integers("particles")) {
-    if (i < 0 || i >= count)
-      throw InputError(keys.where("particles") + ": particle " + std::to_string(i) +
-                       " does not exist; there are " + std::to_string(count));
-    chosen.push_back(int(i));
-  }
-  return chosen;
-}
-
 void read_hold(const KeyTable& keys, Scene& scene) {
   if (int(keys.has("particles")) + int(keys.has("box")) + int(keys.has("top")) != 1)
     throw InputError(keys.where() + ": [[hold]] needs one of 'particles', 'box', 'top'");
-  const std::vector<int> chosen = keys.has("particles") ? particles_named(keys, scene.x.cols())
-                                  : keys.has("box")     ? particles_in_box(keys, scene.x)
+  const std::vector<int> chosen = keys.has("particles") ? numbered(keys, "particles", scene.x.cols())
+                                  : keys.has("box")     ? in_box(keys, scene.x)
                                                         : particles_at_top(keys, scene.x);
   if (chosen.empty()) throw InputError(keys.where() + ": [[hold]] names no particle");
   const Motion motion = read_motion(keys);
@@ -150,6 +129,7 @@ Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSet
   read_objects(keys, {folder, scene.schedule.end, makers}, scene);
   if (const auto self = keys.table("self_collision"))
     scene.self_collision = read_self_collision(*self, scene.mesh);
+  read_sticky(keys, folder, scene);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
   if (const auto self = keys.table("self_collision")) refuse_tangled_start(*self, scene);
   keys.leave("expect");  // what must hold of the run: whoever judges it reads that table

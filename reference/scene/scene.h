@@ -31,6 +31,9 @@ struct SceneObject {
 /// The surface's vertices at time t [s], 3 x V [m].
 PerParticle3 surface_at(const SceneObject& part, double t);
 
+/// Their velocities, 3 x V [m/s]; where they jump the later ones.
+PerParticle3 surface_velocity_at(const SceneObject& part, double t);
+
 /// How cloth meets the objects.
 struct CollisionSettings {
   double forecast_time = 0;  // tau [s]; 0: the step
@@ -58,7 +61,7 @@ struct Scene {
   CollisionSettings collision;
   std::optional<StrainLimits> strain_limits;  // needs stretch
   std::optional<SelfCollisionSettings> self_collision;
-  std::vector<StickyPatch> sticky;
+  std::vector<StickyPatch> sticky;  // what cloth may stick to
 
   std::string integrator = "C";
   Schedule schedule;

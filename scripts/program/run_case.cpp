@@ -63,7 +63,8 @@ std::vector<std::string> shown_cases() {
   return {"hinge",        "hanging_sheet",  "flag_drop",      "rest_fold",
           "stiff_statue", "drape_sphere",   "drape_statue",   "spinning_sphere",
           "incline",      "incline_slides", "pinch",          "armpit",
-          "half_inside",  "stretched_body", "deforming_body", "hard/fast"};
+          "half_inside",  "stretched_body", "deforming_body", "hard/fast",
+          "grab"};
 }
 
 std::vector<std::string> hard_cases() {
@@ -71,7 +72,7 @@ std::vector<std::string> hard_cases() {
           "hard/slivers",           "hard/graded_mesh",       "hard/sharp_fold",
           "hard/inextensible",      "hard/flat_hanging",      "hard/flat_standing",
           "hard/strip_below_euler", "hard/strip_above_euler", "hard/hundred_thousand_steps",
-          "hard/reef_fold"};
+          "hard/reef_fold",         "hard/sticky_layers"};
 }
 
 std::vector<std::string> long_cases() {

@@ -189,8 +189,10 @@ void RunBook::enter(const Diagnostics& row, double end) {
   }
 }
 
-const std::vector<Quantity>& quantities() {
-  static const std::vector<Quantity> table = {
+namespace {
+
+std::vector<Quantity> own_quantities() {
+  return {
       {"runs_to_its_end", "stops", "The run reaches its end with finite values.", Sense::at_most, nullptr,
        stops, nullptr},
       {"takes_steps", "steps", "The run takes as many steps as it should.", Sense::at_least, nullptr, steps,
@@ -249,6 +251,16 @@ const std::vector<Quantity>& quantities() {
       {"comes_to_rest", "1", "At the end the kinetic energy is small, over its largest value.",
        Sense::at_most, nullptr, kinetic_at_end, nullptr},
   };
+}
+
+}  // namespace
+
+const std::vector<Quantity>& quantities() {
+  static const std::vector<Quantity> table = [] {
+    std::vector<Quantity> all = own_quantities();
+    for (const Quantity& more : sticking_quantities()) all.push_back(more);
+    return all;
+  }();
   return table;
 }
 

@@ -49,6 +49,9 @@ struct Quantity {
       const Scene& scene);  // why it makes no sense for the scene, or ""; nullptr: always does
 };
 
+/// The rows of cloth that sticks (sticking_quantities.cpp).
+std::vector<Quantity> sticking_quantities();
+
 /// The table of quantities.
 const std::vector<Quantity>& quantities();
 

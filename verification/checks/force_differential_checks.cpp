@@ -26,11 +26,40 @@ Matrix matrix_of(const ForceDifferential& differential, Eigen::Index particles) 
   return K;
 }
 
-Matrix derivative_of(const Specimen& specimen) {
-  const System system = build_system(specimen.scene);
-  Work uncounted;
-  return matrix_of(force_differential_at(system.forces, specimen.state, uncounted), specimen.state.x.cols());
+/// d(F + D v)/dx of the subject by central differences at fixed v, 3N x 3N [N/m].
+Matrix central_differences(const Probe& probe, const State& s, double step) {
+  const auto force = [&](const State& at) -> PerParticle3 {
+    return probe.elastic(at) + probe.damping(at, s.v);
+  };
+  Matrix K(s.x.size(), s.x.size());
+  State moved = s;
+  for (Eigen::Index k = 0; k < s.x.size(); ++k) {
+    moved.x.reshaped()[k] = s.x.reshaped()[k] + step;
+    const PerParticle3 ahead = force(moved);
+    moved.x.reshaped()[k] = s.x.reshaped()[k] - step;
+    const PerParticle3 column = (ahead - force(moved)) / (2 * step);
+    moved.x.reshaped()[k] = s.x.reshaped()[k];
+    K.col(k) = column.reshaped();
+  }
+  return K;
 }
+
+}  // namespace
+
+Matrix force_derivative(const Scene& scene, const State& s) {
+  const System system = build_system(scene);
+  Work uncounted;
+  return matrix_of(force_differential_at(system.forces, s, uncounted), s.x.cols());
+}
+
+Matrix differences_of_forces(const Probe& probe, const State& s, double step) {
+  const Matrix coarse = central_differences(probe, s, step), fine = central_differences(probe, s, step / 2);
+  return (4 * fine - coarse) / 3;
+}
+
+namespace {
+
+Matrix derivative_of(const Specimen& specimen) { return force_derivative(specimen.scene, specimen.state); }
 
 /// Both factors of the damping with both weightings, damping and stiffness of like size.
 std::vector<BendingMaterial> moving_materials() {
@@ -79,24 +108,6 @@ Finding spring_is_derivative(const Subject&) {
                          "a 3 x 3 matrix of a dozen products; length less rest length loses a few roundings");
 }
 
-/// d(F + D v)/dx of the subject by central differences at fixed v, 3N x 3N [N/m].
-Matrix central_differences(const Probe& probe, const State& s, double step) {
-  const auto force = [&](const State& at) -> PerParticle3 {
-    return probe.elastic(at) + probe.damping(at, s.v);
-  };
-  Matrix K(s.x.size(), s.x.size());
-  State moved = s;
-  for (Eigen::Index k = 0; k < s.x.size(); ++k) {
-    moved.x.reshaped()[k] = s.x.reshaped()[k] + step;
-    const PerParticle3 ahead = force(moved);
-    moved.x.reshaped()[k] = s.x.reshaped()[k] - step;
-    const PerParticle3 column = (ahead - force(moved)) / (2 * step);
-    moved.x.reshaped()[k] = s.x.reshaped()[k];
-    K.col(k) = column.reshaped();
-  }
-  return K;
-}
-
 Finding matches_differences(const Subject& subject) {
   Measured measured("largest difference over the largest entry", "1");
   for (Specimen sheet : small_crumpled_sheets())
@@ -104,10 +115,7 @@ Finding matches_differences(const Subject& subject) {
       sheet.scene.bending = material;
       sheet.scene.stretch = StretchMaterial{41, 0.31, 1.04};
       const Probe probe(subject, sheet.scene);
-      const double step = 1e-4 * extent(sheet.state.x);
-      const Matrix coarse = central_differences(probe, sheet.state, step),
-                   fine = central_differences(probe, sheet.state, step / 2);
-      const Matrix expected = (4 * fine - coarse) / 3;
+      const Matrix expected = differences_of_forces(probe, sheet.state, 1e-4 * extent(sheet.state.x));
       measured.see(described(sheet, material),
                    largest_entry(derivative_of(sheet) - expected) / largest_entry(expected));
     }

@@ -152,7 +152,7 @@ TEST_CASE("a ruling other than the recorded one fails; an open question stays op
   CHECK(outcome_of(ruled(small_claim(Standing::undecided, ""), {})) == "inconclusive");
 }
 
-TEST_CASE("the ledger has every claim of sections 3 and 4 once, and claims of section 5 in their order") {
+TEST_CASE("the ledger has every claim of sections 3, 4 and 6 once, and claims of section 5 in their order") {
   std::vector<std::string> ids, expected;
   std::vector<int> objects;
   for (const Claim& claim : all_claims())
@@ -160,6 +160,7 @@ TEST_CASE("the ledger has every claim of sections 3 and 4 once, and claims of se
   for (int k = 1; k <= 20; ++k)
     if (k != 11 && k != 12) expected.push_back("T" + std::to_string(k));  // strain limits: not built
   for (int k = 1; k <= 13; ++k) expected.push_back("B" + std::to_string(k));
+  for (int k = 1; k <= 6; ++k) expected.push_back("S" + std::to_string(k));
   CHECK(ids == expected);
   for (size_t k = 0; k < objects.size(); ++k) {
     CHECK((objects[k] >= 1 && objects[k] <= 17));

@@ -1,0 +1,19 @@
+// Which particles or triangles a table of a case names: by number, box, sphere or group.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/scene/key_file.h"
+
+namespace foldproof {
+
+/// Each takes x, where the things are (3 x N [m]), or their count N, and throws InputError "file:line: ..." for a value
+/// out of its range.
+std::vector<int> in_box(const KeyTable& keys, const PerParticle3& x);     // box = [[x, y, z], [x, y, z]]
+std::vector<int> in_sphere(const KeyTable& keys, const PerParticle3& x);  // sphere = { center, radius }
+
+/// The list under the key "particles" or "triangles".
+std::vector<int> numbered(const KeyTable& keys, const std::string& key, Eigen::Index count);
+
+}  // namespace foldproof

@@ -1,0 +1,16 @@
+// What is sticky, and what sticks to it: [[sticky]].
+#pragma once
+
+#include <string>
+
+#include "reference/scene/key_file.h"
+#include "reference/scene/scene.h"
+
+namespace foldproof {
+
+/// Reads [[sticky]] into the scene, whose cloth, schedule and objects are known.
+///   case_keys   of the whole file: OBJ files that [cloth] and [[object]] name are asked for their groups
+///   folder      where relative files of the case are looked for
+void read_sticky(const KeyTable& case_keys, const std::string& folder, Scene& scene);
+
+}  // namespace foldproof
