@@ -1,5 +1,9 @@
 #include "convergence/sticking_scenes.h"
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "convergence/stable_step.h"
 #include "convergence/step_matrix.h"
 #include "verification/checks/sticking_scenes.h"
@@ -56,12 +60,30 @@ Eigen::MatrixXd StuckParticle::step_matrix(double h) const {
   return matrix;
 }
 
+namespace {
+
+/// Two layers of soft cloth, the lower one held but for the particle nearest to its middle.
+Scene held_layers() {
+  constexpr double side = 0.2;
+  Scene scene = scene_of(two_sheets(2, side, 0.004), 0.2);
+  scene.stretch = StretchMaterial{0.3, 0, 1};
+  scene.bending = BendingMaterial{1e-4, 0, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  const Eigen::Index lower = scene.x.cols() / 2;
+  Eigen::Index middle = 0;
+  (scene.x.leftCols(lower).colwise() - Vector3(side / 2, side / 2, 0)).colwise().norm().minCoeff(&middle);
+  for (int i = 0; i < int(lower); ++i)
+    if (i != middle) scene.led.push_back({i, scene.x.col(i), Motion{}});
+  return scene;
+}
+
+}  // namespace
+
 double layers_radius(const Subject& subject, double omega_h, double share) {
-  constexpr double h = 0.01, density = 0.2, small = 1e-8;  // s, kg/m^2, m
-  const TriangleMesh mesh = two_sheets(2, 0.2, 0.004);
-  Scene scene = scene_of(mesh, density);
-  StickyPatch patch = layer_patch(mesh);
-  const double mass = lumped_masses(mesh, density).mean();
+  constexpr double h = 0.01, small = 1e-6;  // s, m
+  Scene scene = held_layers();
+  StickyPatch patch = layer_patch(scene.mesh);
+  const double mass = lumped_masses(scene.mesh, scene.density).mean();
   patch.stiffness = mass * omega_h * omega_h / (h * h);
   patch.forecast_time = share * h;
   patch.near = 0.02;
@@ -71,19 +93,24 @@ double layers_radius(const Subject& subject, double omega_h, double share) {
   const auto prepared = offered(subject.prepare, "prepare")(scene);
   const State rest = begun(subject, *prepared, start_state(scene));
 
-  const Eigen::Index n = rest.x.size();
+  std::vector<Eigen::Index> free;  // coordinates
+  for (Eigen::Index i = 0; i < rest.x.cols(); ++i)
+    if (std::ranges::none_of(scene.led, [&](const PrescribedParticle& p) { return p.particle == i; }))
+      for (Eigen::Index k = 0; k < 3; ++k) free.push_back(3 * i + k);
+  const Eigen::Index n = Eigen::Index(free.size());
   Eigen::MatrixXd matrix(2 * n, 2 * n);
   for (Eigen::Index j = 0; j < 2 * n; ++j) {
-    const auto stepped = [&](double by) {
+    const auto stepped = [&](double by) -> State {
       State s = rest;
-      if (j < n) s.x.reshaped()[j] += by;
-      if (j >= n) s.v.reshaped()[j - n] += by / h;
+      if (j < n) s.x.reshaped()[free[size_t(j)]] += by;
+      if (j >= n) s.v.reshaped()[free[size_t(j - n)]] += by / h;
       Work uncounted;
       return offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
     };
     const State ahead = stepped(small), behind = stepped(-small);
-    matrix.col(j) << (ahead.x - behind.x).reshaped() / (2 * small),
-        (ahead.v - behind.v).reshaped() * (h / (2 * small));
+    const Eigen::VectorXd x = (ahead.x - behind.x).reshaped() / (2 * small),
+                          v = (ahead.v - behind.v).reshaped() * (h / (2 * small));
+    matrix.col(j) << x(free), v(free);
   }
   return spectral_radius(matrix);
 }

@@ -29,8 +29,8 @@ class StuckParticle {
   State rest_;
 };
 
-/// The spectral radius of a step of scheme C of two loose layers, the upper one's particles stuck to the lower one's
-/// triangles with k = m (omega_h/h)^2 and the forecast time `share` of h.
+/// The spectral radius of a step of scheme C of two layers of soft cloth, the lower one held but for its middle, the upper
+/// one's particles stuck to the lower one's triangles with k = m (omega_h/h)^2 and the forecast time `share` of h.
 double layers_radius(const Subject& subject, double omega_h, double share);
 
 enum class StuckTo { nothing, surface, cloth };

@@ -61,7 +61,8 @@ Finding follows_finding(const Subject& subject) {
   const Scene scene = over_the_palm(motion);
   const StickyPatch& patch = scene.sticky[0];
   const double a = largest_acceleration(motion, scene.x), h = 0.0012;
-  const double soft = mass * a / patch.stiffness, late = h * patch.forecast_time * a / 2;
+  const double soft = mass * a / patch.stiffness, q = h * patch.forecast_time * patch.stiffness / (2 * mass);
+  const double late = soft * q * q / (1 + q);  // derived in convergence/sticking_lag.cpp
   const double part = (soft + late) / patch.far;
   Measured measured("largest distance from its place over what was derived", "1");
   for (const Integrator& integrator : paper_schemes()) {
@@ -84,7 +85,7 @@ Finding follows_finding(const Subject& subject) {
       1 / std::pow(1 - part * part, 2) * (1 + 0.01),
       "overdamped (omega tau_s/2 = 6.5), a spring lags by no more than the largest m a/k, k less than k0 by "
       "(1 - (lag/far)^2)^2 at most; scheme C, which moves with the target's velocity of the step's start, by "
-      "h tau_s a/2 more; a hundredth for the schemes' second order");
+      "q^2/(1 + q) of that more, q = h tau_s k/(2 m); a hundredth for the schemes' second order");
 }
 
 Finding lag_finding(const Subject& subject) {
