@@ -38,6 +38,10 @@ std::vector<Study> all_studies() {
           pointwise_contact(),
           self_collision_cost(),
           crossing_queries(),
+          strain_sweeps(),
+          strain_momentum(),
+          biphasic(),
+          folding(),
           sticking_lag()};
 }
 

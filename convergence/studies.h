@@ -43,6 +43,10 @@ Study self_collision_cost();     // self-collision-cost: search, zones, gaps at 
 Study pointwise_contact();     // pointwise-contact: what lies between particles that are held out
 Study crossing_queries();      // crossing-queries: moving features that meet, and whether that is noticed
 Study sticking_lag();  // sticking-lag: lag, limits and cost of what sticks, with forecasts and without
+Study strain_sweeps();         // strain-sweeps: sweeps of strain limiting over mesh and order
+Study strain_momentum();       // strain-momentum: angular momentum at the strain limits
+Study biphasic();              // biphasic: weak springs with limits under a growing load
+Study folding();               // folding: 0 % compression between ends that come together
 
 /// All of them, in the order in which they are reported.
 std::vector<Study> all_studies();

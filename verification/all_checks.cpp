@@ -15,6 +15,7 @@
 #include "verification/checks/self_collision_checks.h"
 #include "verification/checks/solver_checks.h"
 #include "verification/checks/sticking_checks.h"
+#include "verification/checks/strain_limit_checks.h"
 
 namespace foldproof {
 
@@ -24,7 +25,8 @@ std::vector<Check> all_checks() {
        {mesh_checks(), force_checks(), bending_checks(), differential_checks(), force_differential_checks(),
         solver_checks(), unsymmetric_solver_checks(), cached_terms_checks(), dynamics_checks(),
         contact_checks(), scene_checks(), level_set_checks(), projection_checks(), octree_checks(),
-        octree_union_checks(), deforming_checks(), self_collision_checks(), crossing_checks(), sticking_checks()})
+        octree_union_checks(), deforming_checks(), self_collision_checks(), crossing_checks(), sticking_checks(),
+        strain_limit_checks()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -1,9 +1,220 @@
 #include "reference/filters/strain_limit.h"
 
+#include <algorithm>
+#include <barrier>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <thread>
+
+#include <Eigen/Geometry>
+
 namespace foldproof {
 
-void StrainLimiter::correct(const Span&, const State&, PerParticle3&, Work&) const {
-  throw InputError("strain limits are not built yet");
+namespace {
+
+// A predicted length this near to a limit is at it: a corrected spring is, to rounding, and is not corrected again.
+constexpr double at_the_limit = 8 * std::numeric_limits<double>::epsilon();
+
+/// What the springs of a sweep were found to be, before they were corrected.
+struct Seen {
+  double violation = 0;  // the largest, over the rest length [1]
+  long corrected = 0, unreachable = 0;
+
+  void add(const Seen& part) {
+    keep_worst(violation, part.violation);
+    corrected += part.corrected;
+    unreachable += part.unreachable;
+  }
+};
+
+/// One spring beyond a limit: what an impulse along d has to do.
+struct Correction {
+  double violation = 0;  // over the rest length [1]
+  double share = 0;      // the change of h dv along d, over d [1]
+  bool is_reachable = true;
+};
+
+//   a ----- b    d = x_b - x_a, u = v_b - v_a;   p = d + h u is predicted, T is the limit that |p| is beyond
+//
+// Impulses along d change p to p + s d:   s^2 d.d + 2 s p.d + p.p - T^2 = 0,   with the roots
+//
+//   s = (-p.d +- r)/d.d,   r^2 = (p.d)^2 - d.d (p.p - T^2) = d.d T^2 - h^2 |d x u|^2
+//
+// We take that with +r: then (p + s d).d = r >= 0, the spring points the way it does now. It is written so that nothing
+// cancels. If the part of h u across d is longer than T, only beyond the upper limit, there is no root: r = 0 then gives the least length that can
+// be reached, to which the root tends when T is barely reached.
+Correction correction_of(const Vector3& d, const Vector3& u, double h, double limit) {
+  Correction result;
+  const Vector3 p = d + h * u;
+  const double dd = d.squaredNorm(), pd = p.dot(d);
+  const double squared_root = dd * limit * limit - h * h * d.cross(u).squaredNorm();
+  result.is_reachable = squared_root >= 0;
+  const double r = result.is_reachable ? std::sqrt(squared_root) : 0;
+  const bool cancels = pd > 0 && result.is_reachable;
+  result.share = cancels ? (limit * limit - p.squaredNorm()) / (r + pd) : (r - pd) / dd;
+  return result;
+}
+
+/// The springs of a call.
+class Sweeps {
+ public:
+  Sweeps(const StrainLimiter& limiter, double h, const PerParticle3& x, PerParticle3& v)
+      : limiter_(limiter),
+        h_(h),
+        x_(x),
+        v_(v),
+        lower_(1 - limiter.limits.compression),
+        upper_(1 + limiter.limits.extension),
+        lower_squared_(std::pow(lower_ * (1 - at_the_limit), 2)),
+        upper_squared_(std::pow(upper_ * (1 + at_the_limit), 2)) {}
+
+  /// number: of the sweep, from 0.
+  Seen sweep(int number) {
+    if (limiter_.limits.order == SweepOrder::jacobi) return all_at_once();
+    if (limiter_.limits.order == SweepOrder::coloured) return by_colours();
+    const bool backwards = limiter_.limits.order == SweepOrder::alternating && number % 2 == 1;
+    Seen seen;
+    if (backwards)
+      for (auto spring = limiter_.springs.rbegin(); spring != limiter_.springs.rend(); ++spring)
+        correct(*spring, seen);
+    else
+      for (const LimitedSpring& spring : limiter_.springs) correct(spring, seen);
+    return seen;
+  }
+
+  /// The largest violation now, over the rest length [1].
+  double left() const {
+    std::vector<double> worst(size_t(limiter_.limits.threads), 0);
+    on_threads([&](int thread) {
+      const auto [first, last] = part_of(0, int(limiter_.springs.size()), thread);
+      for (int i = first; i < last; ++i) {
+        const double violation = asked(limiter_.springs[size_t(i)]).violation;
+        keep_worst(worst[size_t(thread)], violation);
+      }
+    });
+    double largest = 0;
+    for (const double part : worst) keep_worst(largest, part);
+    return largest;
+  }
+
+ private:
+  /// What the spring needs; a violation of 0 if it is within its limits, which no square root is needed to see.
+  Correction asked(const LimitedSpring& spring) const {
+    const Vector3 d = x_.col(spring.b) - x_.col(spring.a), u = v_.col(spring.b) - v_.col(spring.a);
+    const double L0 = spring.rest_length, squared = (d + h_ * u).squaredNorm();
+    if (squared <= upper_squared_ * L0 * L0 && squared >= lower_squared_ * L0 * L0) return {};
+    const double strain = std::sqrt(squared) / L0;
+    const double limit = strain < lower_ ? lower_ : upper_;
+    Correction result = correction_of(d, u, h_, limit * L0);
+    result.violation = std::abs(strain - limit);
+    return result;
+  }
+
+  /// Adds the impulse that changes h dv by share * d.
+  void push(const LimitedSpring& spring, double share) {
+    const double wa = limiter_.inverse_mass[spring.a], wb = limiter_.inverse_mass[spring.b];
+    const Vector3 change = share / (h_ * (wa + wb)) * (x_.col(spring.b) - x_.col(spring.a));
+    if (wa > 0) v_.col(spring.a) -= wa * change;
+    if (wb > 0) v_.col(spring.b) += wb * change;
+  }
+
+  /// Counts what is asked for; false if there is nothing to be done: within the limits, both ends prescribed, or
+  /// without length, which has no direction.
+  bool enter(const LimitedSpring& spring, const Correction& needed, Seen& seen) const {
+    if (needed.violation == 0) return false;
+    keep_worst(seen.violation, needed.violation);
+    const bool is_held = limiter_.inverse_mass[spring.a] + limiter_.inverse_mass[spring.b] == 0;
+    if (!needed.is_reachable || is_held || !std::isfinite(needed.share)) ++seen.unreachable;
+    if (is_held || !std::isfinite(needed.share)) return false;
+    ++seen.corrected;
+    return true;
+  }
+
+  void correct(const LimitedSpring& spring, Seen& seen) {
+    const Correction needed = asked(spring);
+    if (enter(spring, needed, seen)) push(spring, needed.share);
+  }
+
+  Seen by_colours() {
+    std::vector<Seen> seen(size_t(limiter_.limits.threads));
+    std::barrier colour_done(limiter_.limits.threads);
+    on_threads([&](int thread) {
+      for (size_t c = 0; c + 1 < limiter_.colours.size(); ++c) {
+        const auto [first, last] = part_of(limiter_.colours[c], limiter_.colours[c + 1], thread);
+        for (int i = first; i < last; ++i) correct(limiter_.springs[size_t(i)], seen[size_t(thread)]);
+        colour_done.arrive_and_wait();
+      }
+    });
+    Seen sum;
+    for (const Seen& part : seen) sum.add(part);
+    return sum;
+  }
+
+  // Of n impulses that meet at a particle each gives an n-th, and the same at its other end, or momentum would not
+  // be kept. Near the limits a full impulse is a projection P_i, in the norm weighted with masses, that acts on two
+  // particles; so sum_i P_i/n_i is at most one and the sweep a mean of projections: it never leads away from
+  // velocities within the limits, and converges to such where there are any.
+  Seen all_at_once() {
+    const std::vector<LimitedSpring>& springs = limiter_.springs;
+    Seen seen;
+    std::vector<std::pair<int, double>> shares;  // of springs to be corrected
+    std::vector<int> meeting(size_t(v_.cols()), 0);
+    for (size_t i = 0; i < springs.size(); ++i) {
+      const Correction needed = asked(springs[i]);
+      if (!enter(springs[i], needed, seen)) continue;
+      shares.emplace_back(int(i), needed.share);
+      for (const int end : {springs[i].a, springs[i].b})
+        if (limiter_.inverse_mass[end] > 0) ++meeting[size_t(end)];
+    }
+    for (const auto& [i, share] : shares) {
+      const LimitedSpring& spring = springs[size_t(i)];
+      push(spring, share / std::max(meeting[size_t(spring.a)], meeting[size_t(spring.b)]));
+    }
+    return seen;
+  }
+
+  /// The part of [first, last) that falls to a thread.
+  std::pair<int, int> part_of(int first, int last, int thread) const {
+    const long count = last - first, threads = limiter_.limits.threads;
+    return {first + int(count * thread / threads), first + int(count * (thread + 1) / threads)};
+  }
+
+  void on_threads(const std::function<void(int)>& run) const {
+    std::vector<std::jthread> others;
+    for (int thread = 1; thread < limiter_.limits.threads; ++thread) others.emplace_back(run, thread);
+    run(0);
+  }
+
+  const StrainLimiter& limiter_;
+  double h_;
+  const PerParticle3& x_;
+  PerParticle3& v_;
+  double lower_, upper_, lower_squared_, upper_squared_;  // over the rest length and its square [1]
+};
+
+}  // namespace
+
+StrainSweeps limit_strain(const StrainLimiter& limiter, double h, const PerParticle3& x, PerParticle3& v) {
+  Sweeps sweeps(limiter, h, x, v);
+  StrainSweeps done;
+  while (true) {
+    const Seen seen = sweeps.sweep(done.sweeps);
+    ++done.sweeps;
+    done.unreachable = seen.unreachable;
+    done.left = seen.violation;
+    if (seen.corrected == 0) return done;
+    const bool is_last = done.sweeps >= limiter.limits.sweeps;
+    if (!is_last && !(seen.violation <= limiter.limits.tolerance)) continue;
+    done.left = sweeps.left();
+    if (is_last || done.left <= limiter.limits.tolerance) return done;
+  }
+}
+
+void StrainLimiter::correct(const Span& span, const State& s, PerParticle3& v, Work& work) const {
+  const StrainSweeps done = limit_strain(*this, span.step, s.x, v);
+  work.strain_sweeps += done.sweeps;
+  keep_worst(work.strain_left, done.left);
 }
 
 }  // namespace foldproof

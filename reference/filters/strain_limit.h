@@ -10,9 +10,13 @@
 
 namespace foldproof {
 
-/// The order in which springs are corrected: one after the other in a fixed order; colour by colour, no two springs
-/// of a colour sharing a particle, so that threads may share a colour; or all from the same velocities.
-enum class SweepOrder { gauss_seidel, coloured, jacobi };
+/// In which order springs are corrected.
+enum class SweepOrder {
+  gauss_seidel,  // one after the other, by the particles that they join
+  alternating,   // the same, every other sweep backwards
+  coloured,  // colour by colour, no two springs of a colour sharing a particle: threads may share a colour
+  jacobi  // all from the same velocities, each impulse divided by the number of those that meet at its ends
+};
 
 struct StrainLimits {
   double extension = 0.10, compression = 0;  // share of the rest length [1]
@@ -22,13 +26,39 @@ struct StrainLimits {
   int threads = 1;          // of coloured sweeps; the result does not depend on it
 };
 
-/// The filter.
+/// What sweeps need to know of a spring: 16 bytes.
+struct LimitedSpring {
+  int a, b;
+  double rest_length;  // L0 [m]
+};
+
+/// The filter: for each spring the length that velocities predict for the end of a step, |d + h dv|, is brought back to the
+/// limit that it is beyond, by equal and opposite impulses along the current d. So one call keeps linear and
+/// angular momentum, to rounding; prescribed particles, and springs within rounding of their limits, it leaves bit for bit as they are.
 struct StrainLimiter {
   StrainLimits limits;
-  std::vector<Spring> springs;
+  std::vector<LimitedSpring>
+      springs;               // sorted by (colour, a, b); there is one colour if the order is not coloured
+  std::vector<int> colours;  // where in `springs` each colour begins, and their number at the end
   PerParticle inverse_mass;  // N [1/kg], 0 for prescribed particles
 
+  /// A velocity that only ends a step is limited over the coming one, taken to be as long.
   void correct(const Span& span, const State& s, PerParticle3& v, Work& work) const;
 };
+
+/// Sorts and colours the springs. Throws InputError for limits that make no sense.
+StrainLimiter make_strain_limiter(const StrainLimits& limits, const std::vector<Spring>& springs,
+                                  const PerParticle& inverse_mass);
+
+/// What a call did.
+struct StrainSweeps {
+  int sweeps = 0;  // the one that found nothing to do included
+  double left =
+      0;  // largest violation of a limit, over the rest length; <= the tolerance unless sweeps ran out [1]
+  long unreachable = 0;  // springs of the last sweep that no impulse along them brings within their limits
+};
+
+/// Corrects v (3 x N [m/s]), which moves x (3 x N [m]) for a step of h [s].
+StrainSweeps limit_strain(const StrainLimiter& limiter, double h, const PerParticle3& x, PerParticle3& v);
 
 }  // namespace foldproof

@@ -32,6 +32,12 @@ SelfCollision self_collision(const Scene& scene, const System& system) {
           self_intersections(start_state(scene).x, scene.mesh.triangles)};
 }
 
+StrainLimiter strain_limiter(const Scene& scene, const PerParticle& inverse_mass) {
+  if (!scene.stretch) throw InputError("strain limits limit springs; the scene has none");
+  return make_strain_limiter(*scene.strain_limits, make_springs(scene.mesh, *scene.stretch).springs,
+                             inverse_mass);
+}
+
 }  // namespace
 
 System build_system(const Scene& scene) {
@@ -41,6 +47,7 @@ System build_system(const Scene& scene) {
   if (scene.bending) system.forces.push_back(make_bending(scene.mesh, *scene.bending, scene.rest_angles));
   if (!scene.sticky.empty()) system.forces.push_back(Sticking{scene.sticky});
   for (const PrescribedParticle& particle : scene.led) prescribe(system, particle);
+  if (scene.strain_limits) system.filters.push_back(strain_limiter(scene, system.inverse_mass));
   if (!scene.objects.empty()) system.filters.push_back(object_collision(scene, system.inverse_mass));
   if (scene.self_collision) system.filters.push_back(self_collision(scene, system));
   system.solver = scene.solver;
@@ -100,6 +107,17 @@ std::string described(const StickyPatch& patch) {
          " particles that may stick)";
 }
 
+std::string described(const StrainLimiter& limiter) {
+  const StrainLimits& limits = limiter.limits;
+  char range[80];
+  std::snprintf(range, sizeof range, "%.6g to %.6g", 1 - limits.compression, 1 + limits.extension);
+  const std::string colours = limits.order == SweepOrder::coloured
+                                  ? " in " + std::to_string(limiter.colours.size() - 1) + " colours"
+                                  : "";
+  return std::to_string(limiter.springs.size()) + " springs" + colours + " limited to " + range +
+         " of their rest lengths, in at most " + std::to_string(limits.sweeps) + " sweeps";
+}
+
 std::string described(const ObjectCollision& collision) {
   return std::to_string(collision.points.size()) + " points held out of objects, response '" +
          std::string(collision.response.name) + "'";
@@ -130,6 +148,8 @@ std::vector<std::string> built_parts(const Scene& scene, const System& system) {
     parts.push_back(std::to_string(system.led.size()) + " particles with prescribed motion");
   for (const SceneObject& part : scene.objects) parts.push_back(described(part));
   for (const StickyPatch& patch : scene.sticky) parts.push_back(described(patch));
+  for (const Filter& filter : system.filters)
+    if (const auto* limiter = std::get_if<StrainLimiter>(&filter)) parts.push_back(described(*limiter));
   for (const Filter& filter : system.filters)
     if (const auto* collision = std::get_if<ObjectCollision>(&filter)) parts.push_back(described(*collision));
   for (const Filter& filter : system.filters)

@@ -9,6 +9,7 @@
 #include "reference/scene/read_self_collision.h"
 #include "reference/scene/read_start.h"
 #include "reference/scene/read_sticky.h"
+#include "reference/scene/read_strain.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/shapes_of.h"
 
@@ -120,6 +121,7 @@ Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSet
   if (const auto gravity = keys.table("gravity"))
     scene.gravity = gravity->vector_or("acceleration", {0, -9.80665, 0});
   if (const auto stretch = keys.table("stretch")) scene.stretch = read_stretch(*stretch);
+  read_strain_limits(keys, scene);
   if (const auto bending = keys.table("bending")) {
     scene.bending = read_bending(*bending);
     scene.rest_angles = read_rest_angles(*bending, scene.mesh);

@@ -198,6 +198,7 @@ RunRecord bench(int most_particles) {
       if (n == 315) {
         megabytes = resident_megabytes("VmHWM");
         contact.push_back(contact_rate(load.scene, load.limit / 2, all.back().step));
+        contact.push_back(strain_rate(load.scene, load.limit / 2, all.back().step));
       }
       progress.show(double(n + 1) * (n + 1) / most_particles);
     }

@@ -34,6 +34,9 @@ Record rate(const std::string& name, const std::string& claim, double measured, 
 /// bench_contact.cpp: a scene's particles on an object, against a step of its own [s] that takes step_seconds.
 Record contact_rate(const Scene& scene, double step, double step_seconds);
 
+/// bench_strain.cpp: a sweep of strain limits over the scene's springs, likewise.
+Record strain_rate(const Scene& scene, double step, double step_seconds);
+
 Record self_collision_rate();           // bench_self.cpp: a step of cloth that lies on itself
 Record crossing_rate();                 // bench_crossings.cpp: the test for crossings of moving features
 std::vector<Record> octree_rates();     // bench_octree.cpp: an octree of a mesh, queries

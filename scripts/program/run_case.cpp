@@ -72,7 +72,7 @@ std::vector<std::string> hard_cases() {
           "hard/slivers",           "hard/graded_mesh",       "hard/sharp_fold",
           "hard/inextensible",      "hard/flat_hanging",      "hard/flat_standing",
           "hard/strip_below_euler", "hard/strip_above_euler", "hard/hundred_thousand_steps",
-          "hard/reef_fold",         "hard/sticky_layers"};
+          "hard/reef_fold",         "hard/sticky_layers",      "hard/biphasic_pull", "hard/buckle"};
 }
 
 std::vector<std::string> long_cases() {

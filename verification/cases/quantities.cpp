@@ -259,6 +259,7 @@ const std::vector<Quantity>& quantities() {
   static const std::vector<Quantity> table = [] {
     std::vector<Quantity> all = own_quantities();
     for (const Quantity& more : sticking_quantities()) all.push_back(more);
+    for (const Quantity& more : strain_quantities()) all.push_back(more);
     return all;
   }();
   return table;

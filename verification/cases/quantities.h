@@ -52,6 +52,9 @@ struct Quantity {
 /// The rows of cloth that sticks (sticking_quantities.cpp).
 std::vector<Quantity> sticking_quantities();
 
+/// The rows of cloth with strain limits, and of its extension and area (strain_quantities.cpp).
+std::vector<Quantity> strain_quantities();
+
 /// The table of quantities.
 const std::vector<Quantity>& quantities();
 

@@ -1,0 +1,280 @@
+// biphasic: a strip under a growing load, of weak springs with strain limits and of springs without.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "convergence/studies.h"
+#include "reference/mesh/shapes.h"
+#include "reference/scene/scene.h"
+#include "verification/checks/measured.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double length = 0.5, density = 0.2;  // m, kg/m^2
+constexpr double weak = 10;                    // Y [N/m]
+constexpr double limit = 0.1;                  // extension [1]
+constexpr double locking =
+    limit * weak;                 // load at the clamp that stretches a spring there to the limit [N/m]
+constexpr double most = 4;        // largest load over that [1]
+constexpr double duration = 1.5;  // s
+
+/// The strip's end is pulled with an acceleration that grows from 0 to this, as a quarter of a sine [m/s^2].
+constexpr double fastest = most * locking / (density * length);
+constexpr double frequency = 1 / (4 * duration);  // Hz
+
+/// Load at the clamp that pulls the strip's mass along [N/m].
+double load_at(double t) { return density * length * fastest * std::sin(2 * M_PI * frequency * t); }
+
+/// Mean extension of a bar with strain load s/(length Y), s from its free end, until that is the limit.
+double bar_extension(double load, double young, double limit_of_strain) {
+  const double full = limit_of_strain * young;
+  if (load <= full) return load / (2 * young);
+  return limit_of_strain * (1 - full / (2 * load));
+}
+
+struct Springs {
+  std::string name;
+  double young;  // N/m
+  bool is_limited;
+  int columns = 10;  // of the strip, which is a fifth as wide as long
+};
+
+/// Edges along the pull, so that the strip's modulus is Y, and only edges along it are stretched.
+Scene strip(const Springs& springs) {
+  Scene scene = scene_of(
+      make_sheet({SheetPattern::equilateral, length, 0, springs.columns, springs.columns / 5}), density);
+  scene.stretch = StretchMaterial{springs.young, 0.03 * springs.young, 1};
+  if (springs.is_limited) {
+    StrainLimits limits;
+    limits.order = SweepOrder::alternating;
+    limits.sweeps = 400;
+    scene.strain_limits = limits;
+  }
+  Motion pull;
+  const double turn = 2 * M_PI * frequency;  // 1/s
+  pull.velocity = Vector3(-fastest / turn, 0, 0);
+  pull.amplitude = Vector3(fastest / (turn * turn), 0, 0);
+  pull.frequency = frequency;
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
+    if (scene.x(0, i) < 1e-9) scene.led.push_back({int(i), scene.x.col(i), pull});
+  scene.schedule.end = duration;
+  scene.schedule.frame_interval = duration / 80;
+  return scene;
+}
+
+/// What a run shows.
+struct Pulled {
+  Springs springs;
+  std::vector<double> loads, extensions;  // N/m, 1
+  double steps = 0, sweeps = 0, seconds = 0, step_limit = 0, largest_strain = 0;
+};
+
+Pulled pulled(const Springs& springs) {
+  const Scene scene = strip(springs);
+  const System system = build_system(scene);
+  Pulled result{springs, {}, {}};
+  result.step_limit = elastic_limit(system, start_state(scene));
+  const auto frame = [&](const State& s) {
+    double ends = 0, count = 0;  // m
+    for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
+      if (scene.mesh.rest(0, i) < length - 1e-9) continue;
+      ends += s.x(0, i);
+      ++count;
+    }
+    for (const Edge& edge : scene.mesh.edges) {
+      const double rest = (scene.mesh.rest.col(edge.b) - scene.mesh.rest.col(edge.a)).norm();
+      keep_worst(result.largest_strain, (s.x.col(edge.b) - s.x.col(edge.a)).norm() / rest - 1);
+    }
+    result.loads.push_back(load_at(s.time));
+    result.extensions.push_back((ends / count - s.x(0, scene.led.front().particle)) / length - 1);
+  };
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome outcome =
+      simulate(system, integrator_named(scene.integrator), start_state(scene), scene.schedule, {frame, {}});
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.steps = double(outcome.steps);
+  result.sweeps = double(outcome.work.strain_sweeps) / result.steps;
+  if (outcome.stop) result.extensions.assign(result.extensions.size(), nan);
+  return result;
+}
+
+/// Slope of extension over load between two loads, by least squares [m/N].
+double compliance(const Pulled& run, double low, double high) {
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (size_t k = 0; k < run.loads.size(); ++k) {
+    const double x = run.loads[k], y = run.extensions[k];
+    if (!(x >= low && x <= high)) continue;
+    n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+/// How much less the strip gives way once springs are at their limits.
+double late_over_early(const Pulled& run) {
+  return compliance(run, 3 * locking, most * locking) / compliance(run, 0.1 * locking, 0.9 * locking);
+}
+
+std::vector<Column> evidence_of(const Pulled& run) {
+  std::vector<double> bar;
+  for (const double load : run.loads)
+    bar.push_back(bar_extension(load, run.springs.young, run.springs.is_limited ? limit : INFINITY));
+  return {{"load", "N/m", run.loads}, {"extension", "1", run.extensions}, {"of the bar", "1", bar}};
+}
+
+NamedFinding bar_finding(const Pulled& run) {
+  Worst worst;
+  std::vector<Column> evidence = evidence_of(run);
+  const auto& bar = std::get<0>(evidence[2].values);
+  for (size_t k = 0; k < bar.size(); ++k) worst.see(std::abs(run.extensions[k] - bar[k]) / limit);
+  return {"biphasic.extension-is-the-bars",
+          "A strip of weak springs with a limit of +10 % is extended by its load as a bar whose strain grows "
+          "with the load to "
+          "10 % and no further.",
+          {{worst.value(), 0.06, 0, "of the limit",
+            "the load takes five periods of the strip's slowest wave to grow; what lags behind it at the "
+            "start, as long as that "
+            "wave is damped away, is its growth in a sixth of a period, a few hundredths of the limit"},
+           std::move(evidence),
+           ""}};
+}
+
+NamedFinding phases_finding(const Pulled& run) {
+  return {"biphasic.gives-way-then-holds",
+          "Beyond three times the load at which it begins to reach its limits, the strip gives way a twelfth "
+          "as much as it did before.",
+          {{late_over_early(run), 0.125, 0, "1",
+            "a bar gives way (full load/load)^2 as much: between 1/9 and 1/16, 1/12 on average; half as much "
+            "again"},
+           evidence_of(run),
+           "measured is the slope of extension over load from 3 to 4 times that load, over the slope up to "
+           "0.9 times it"}};
+}
+
+NamedFinding one_phase_finding(const std::vector<Pulled>& runs) {
+  Measured measured("|slope late over early - 1|", "1");
+  for (const Pulled& run : runs)
+    if (!run.springs.is_limited) measured.see(run.springs.name, std::abs(late_over_early(run) - 1));
+  return {
+      "biphasic.springs-alone-have-one-phase",
+      "Without limits a strip gives way to the last as it did at first, weak or stiff springs.",
+      measured.judged(
+          0.25,
+          "springs are linear, the load's way into the strip is not quite slow: far from the twelfth of a "
+          "strip with limits")};
+}
+
+NamedFinding steps_finding(const Pulled& limited, const Pulled& stiff) {
+  const double ratio = stiff.steps / limited.steps;
+  return {"biphasic.steps-are-larger",
+          "Springs that need no limit to stay within 10 % under the largest load are four times as stiff, "
+          "and take twice as many "
+          "steps.",
+          {{std::abs(ratio / std::sqrt(most) - 1), 0.05, 0, "1",
+            "the elastic limit is proportional to one over the square root of the stiffness; steps are "
+            "fitted to frames"},
+           {{"springs", "", std::vector<std::string>{limited.springs.name, stiff.springs.name}},
+            {"elastic limit", "s", std::vector<double>{limited.step_limit, stiff.step_limit}},
+            {"steps", "1", std::vector<double>{limited.steps, stiff.steps}},
+            {"largest strain", "1", std::vector<double>{limited.largest_strain, stiff.largest_strain}}},
+           ""}};
+}
+
+NamedFinding sweeps_finding(const Pulled& coarse, const Pulled& fine) {
+  return {
+      "biphasic.sweeps-grow-with-the-mesh",
+      "Cells half as wide need half as many sweeps again in every step, in half the step: the finer the "
+      "mesh, the less the larger "
+      "steps are worth.",
+      {{1.5 * coarse.sweeps / fine.sweeps, 1, 0, "1",
+        "measured is one and a half times the sweeps a step on the coarse mesh, over those on the fine one"},
+       {{"columns", "1", std::vector<double>{double(coarse.springs.columns), double(fine.springs.columns)}},
+        {"sweeps a step", "1", std::vector<double>{coarse.sweeps, fine.sweeps}}},
+       ""}};
+}
+
+Figure figure_of(const std::vector<Pulled>& runs) {
+  Figure figure{"curve",
+                "Extension of a strip under a growing load",
+                {"load at the clamp", "N/m", Scale::linear},
+                {"mean extension", "1", Scale::linear},
+                nan,
+                "A strip pulled by one end, ever faster. The bar: strain proportional to the load beyond, "
+                "until it is the limit.",
+                {}};
+  for (const Pulled& run : runs)
+    figure.curves.push_back({run.springs.name, run.loads, run.extensions, nan, {}});
+  const std::vector<Column> evidence = evidence_of(runs.front());
+  figure.curves.push_back({"bar with a limit", runs.front().loads, std::get<0>(evidence[2].values), nan, {}});
+  return figure;
+}
+
+Table table_of(const std::vector<Pulled>& runs) {
+  std::vector<std::string> names;
+  std::vector<double> columns, limits, steps, sweeps, seconds, strains;
+  for (const Pulled& run : runs) {
+    names.push_back(run.springs.name);
+    columns.push_back(run.springs.columns);
+    limits.push_back(1e3 * run.step_limit);
+    steps.push_back(run.steps);
+    sweeps.push_back(run.sweeps);
+    seconds.push_back(run.seconds);
+    strains.push_back(run.largest_strain);
+  }
+  return {"runs",
+          "What the same load costs",
+          {{"springs", "", names},
+           {"columns", "1", columns},
+           {"elastic limit", "ms", limits},
+           {"steps", "1", steps},
+           {"sweeps a step", "1", sweeps},
+           {"seconds", "s", seconds},
+           {"largest strain", "1", strains}}};
+}
+
+StudyResult run(const Subject&, Tier tier, const Progress& progress) {
+  std::vector<Springs> all = {{"weak, limits", weak, true},
+                              {"weak", weak, false},
+                              {"stiff", most * weak, false},
+                              {"weak, limits, finer mesh", weak, true, 20}};
+  if (tier == Tier::full) {
+    all.push_back({"stiff, finer mesh", most * weak, false, 20});
+    all.push_back({"weak, limits, finest mesh", weak, true, 40});
+    all.push_back({"stiff, finest mesh", most * weak, false, 40});
+  }
+  std::vector<Pulled> runs;
+  for (const Springs& springs : all) {
+    runs.push_back(pulled(springs));
+    progress(double(runs.size()) / double(all.size()));
+  }
+  return {{bar_finding(runs[0]), phases_finding(runs[0]), one_phase_finding({runs[1], runs[2]}),
+           steps_finding(runs[0], runs[2]), sweeps_finding(runs[0], runs[3])},
+          {figure_of({runs[0], runs[1], runs[2]})},
+          {},
+          {table_of(runs)}};
+}
+
+}  // namespace
+
+Study biphasic() {
+  return {"biphasic",
+          "Weak springs with limits give way to a load at first and then no more, in steps that springs "
+          "without limits, "
+          "as stiff as they have to be, cannot take.",
+          "BMF03 section 3, after Provot 1995",
+          "A strip without weight is pulled by one end with an acceleration that grows from nothing: the "
+          "load at its "
+          "clamp is its mass times that. Its largest load is four times what stretches a spring by the 10 % "
+          "of the limit. Three "
+          "strips: weak springs with limits, the same without, and springs four times as stiff, which the "
+          "largest load stretches "
+          "by 10 %. A strip pulled by both ends beyond its limits has no answer, and no force that could be "
+          "measured: hence "
+          "the free end.",
+          run};
+}
+
+}  // namespace foldproof

@@ -1,0 +1,194 @@
+// folding: a strip between two ends that are led together, with and without a limit on compression.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "convergence/section_profile.h"
+#include "convergence/studies.h"
+#include "convergence/wrinkle_measure.h"
+#include "reference/mesh/shapes.h"
+#include "reference/scene/scene.h"
+#include "verification/checks/moving_scenes.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr int columns = 12;
+constexpr double length = 0.2, edge = length / columns;  // of the strip and of its edges [m]
+constexpr double clear =
+    length - 1.5 * edge;  // between the clamps: from the middle of two columns, offset rows on average [m]
+constexpr double nearer = 0.04;     // by how much the clamps come together [m]
+constexpr double duration = 0.5;    // s
+constexpr double tolerance = 1e-3;  // of the sweeps, in rest lengths [1]
+
+struct Hinges {
+  std::string name;
+  double stiffness;  // ke [J]
+};
+
+Scene strip(const Hinges& hinges, bool is_limited) {
+  Scene scene = scene_of(make_sheet({SheetPattern::equilateral, length, 0, columns, 5}), 0.2);
+  scene.stretch = StretchMaterial{5, 0.002, 1};
+  scene.bending = BendingMaterial{hinges.stiffness, 0.005 * hinges.stiffness, Weighting::rest,
+                                  DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  if (is_limited) {
+    StrainLimits limits;
+    limits.order = SweepOrder::alternating;
+    limits.sweeps = 100;
+    limits.tolerance = tolerance;
+    scene.strain_limits = limits;
+  }
+  Motion inwards;
+  inwards.velocity = Vector3(nearer / duration, 0, 0);
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    if (scene.x(0, i) < 1.01 * edge) scene.led.push_back({int(i), scene.x.col(i), inwards});
+    if (scene.x(0, i) > length - 1.01 * edge) scene.led.push_back({int(i), scene.x.col(i), Motion{}});
+  }
+  Random random(8);
+  scene.x += random.vectors(scene.x.cols(), 1e-6);
+  for (PrescribedParticle& p : scene.led) p.start = scene.x.col(p.particle);
+  scene.schedule.end = duration;
+  scene.schedule.frame_interval = duration / 10;
+  return scene;
+}
+
+/// A run's last state.
+struct Folded {
+  std::string name;
+  bool is_limited;
+  double area_lost = nan;                        // over that at rest [1]
+  double height = nan;                           // between the highest and the lowest particle [m]
+  double wavelength = nan;                       // along the strip's middle, at rest [m]
+  double steps = nan, sweeps = nan, left = nan;  // 1, 1 a step, over the rest length
+};
+
+Folded folded(const Hinges& hinges, bool is_limited) {
+  const Scene scene = strip(hinges, is_limited);
+  Folded result{hinges.name, is_limited};
+  const Outcome outcome =
+      simulate(build_system(scene), integrator_named("C"), start_state(scene), scene.schedule, {});
+  if (outcome.stop) return result;
+  const PerParticle3& x = outcome.last.x;
+  const double at_rest = triangle_areas(scene.mesh.triangles, scene.mesh.rest).sum();
+  const PerParticle z = x.row(2).transpose();
+  constexpr int samples = 80;
+  result.area_lost = 1 - triangle_areas(scene.mesh.triangles, x).sum() / at_rest;
+  result.height = z.maxCoeff() - z.minCoeff();
+  result.wavelength =
+      dominant_wavelength(along(section_of(scene.mesh, 1), z, samples), length / (samples - 1));
+  result.steps = double(outcome.steps);
+  result.sweeps = double(outcome.work.strain_sweeps) / result.steps;
+  result.left = outcome.work.strain_left;
+  return result;
+}
+
+std::vector<Column> evidence_of(const std::vector<Folded>& runs) {
+  std::vector<std::string> hinges, limits;
+  std::vector<double> area, height, wavelength, steps, sweeps, left;
+  for (const Folded& run : runs) {
+    hinges.push_back(run.name);
+    limits.push_back(run.is_limited ? "0 %" : "none");
+    area.push_back(run.area_lost);
+    height.push_back(1e3 * run.height);
+    wavelength.push_back(1e3 * run.wavelength);
+    steps.push_back(run.steps);
+    sweeps.push_back(run.sweeps);
+    left.push_back(run.left);
+  }
+  return {{"hinges", "", hinges},         {"limit on compression", "", limits}, {"area lost", "1", area},
+          {"height", "mm", height},       {"wavelength", "mm", wavelength},     {"steps", "1", steps},
+          {"sweeps a step", "1", sweeps}, {"violation left", "1", left}};
+}
+
+NamedFinding area_finding(const std::vector<Folded>& runs) {
+  Worst worst;
+  for (const Folded& run : runs)
+    if (run.is_limited) worst.see(run.area_lost);
+  return {"folding.area-is-kept",
+          "With 0 % compression, a strip between ends that are led together keeps its area.",
+          {{worst.value(), 2 * tolerance, 0, "of the area",
+            "a triangle whose edges are no shorter than at rest, and no longer than by a tenth, is no "
+            "smaller; each edge may lack "
+            "the tolerance of the sweeps"},
+           evidence_of(runs),
+           ""}};
+}
+
+NamedFinding lost_finding(const std::vector<Folded>& runs) {
+  const Folded& run = runs[1];  // stiff hinges, no limit
+  const double least = 0.5 * nearer / length;
+  return {"folding.area-is-lost-without",
+          "Without the limit, a strip whose hinges are stiff beside its springs stays in its plane and is "
+          "compressed.",
+          {{least / run.area_lost, 1, 0, "1",
+            "measured is half the share by which the clamps come together, over the area lost: Poisson's "
+            "ratio gives back a third "
+            "of it"},
+           evidence_of({run}),
+           ""}};
+}
+
+/// Half the height of a cosine wave of this length [m] whose ends have come nearer by so much [m], by bisection on its arc.
+double cosine_height(double arc, double shortening) {
+  const double span = arc - shortening;
+  double low = 0, high = arc;
+  for (int i = 0; i < 60; ++i) {
+    const double height = (low + high) / 2;
+    double sum = 0;
+    constexpr int parts = 2000;
+    for (int k = 0; k < parts; ++k)
+      sum += std::hypot(1, M_PI * height / span * std::sin(2 * M_PI * (k + 0.5) / parts)) * span / parts;
+    (sum < arc ? low : high) = height;
+  }
+  return (low + high) / 2;
+}
+
+NamedFinding height_finding(const std::vector<Folded>& runs) {
+  const Folded& run = runs[0];  // stiff hinges, 0 %
+  const double expected = cosine_height(clear, nearer);
+  return {"folding.one-arc-is-as-high-as-its-length-says",
+          "With 0 % compression, a strip of stiff hinges rises in one arc, as high as one that is as long as "
+          "the strip at rest.",
+          {{std::abs(run.height / expected - 1), 0.15, 0, "1",
+            "the arc is taken for a cosine between clamps of two columns, of which half an edge, an eighth "
+            "of the clear length's "
+            "shortening, may bend; a strip that is compressed stays flat"},
+           evidence_of({run}),
+           ""}};
+}
+
+StudyResult run(const Subject&, Tier tier, const Progress& progress) {
+  std::vector<Hinges> all = {{"stiff", 4.1e-3}, {"soft", 1e-6}};
+  if (tier == Tier::full) all.push_back({"hardly any", 1e-8});
+  std::vector<Folded> runs;
+  for (const Hinges& hinges : all)
+    for (const bool is_limited : {true, false}) {
+      runs.push_back(folded(hinges, is_limited));
+      progress(double(runs.size()) / double(2 * all.size()));
+    }
+  return {{area_finding(runs), lost_finding(runs), height_finding(runs)},
+          {},
+          {},
+          {{"strips", "What becomes of a strip whose ends are led together by a fifth", evidence_of(runs)}}};
+}
+
+}  // namespace
+
+Study folding() {
+  return {"folding",
+          "Cloth that may not be compressed folds, and keeps its area; without the limit it is compressed "
+          "where its hinges "
+          "are stiffer than its springs.",
+          "BMF03 section 3, after Provot 1995",
+          "The clamped ends of a strip are led together by a fifth of its length within half a second. With "
+          "stiff hinges Euler's "
+          "strain 4 pi^2 D/(Y L^2) is a quarter: the strip would rather be compressed. With soft ones it "
+          "folds anyway. Wavelengths "
+          "are those of the largest Fourier coefficient along the middle of the strip, in lengths at rest.",
+          run};
+}
+
+}  // namespace foldproof

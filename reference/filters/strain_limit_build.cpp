@@ -1,0 +1,70 @@
+// How a strain limiter is made: its springs sorted, and coloured for threads.
+#include <algorithm>
+#include <string>
+#include <tuple>
+
+#include "reference/filters/strain_limit.h"
+
+namespace foldproof {
+
+namespace {
+
+void check(const StrainLimits& limits) {
+  const auto refuse = [](const std::string& why) { throw InputError("strain limits: " + why); };
+  if (!(limits.extension >= 0)) refuse("extension must be a number >= 0");
+  if (!(limits.compression >= 0 && limits.compression < 1)) refuse("compression must lie in [0, 1)");
+  if (!(limits.tolerance > 0)) refuse("tolerance must be > 0");
+  if (limits.sweeps < 1) refuse("at least one sweep is needed");
+  if (!(limits.threads >= 1 && limits.threads <= 256)) refuse("threads must lie in 1 .. 256");
+}
+
+/// The first colour that no spring before it has at either end, for each spring.
+std::vector<int> colours_of(const std::vector<LimitedSpring>& springs, Eigen::Index particles) {
+  std::vector<std::vector<bool>> taken;  // by particle and colour
+  taken.resize(size_t(particles));
+  std::vector<int> colours;
+  for (const LimitedSpring& spring : springs) {
+    auto &at_a = taken[size_t(spring.a)], &at_b = taken[size_t(spring.b)];
+    size_t colour = 0;
+    while ((colour < at_a.size() && at_a[colour]) || (colour < at_b.size() && at_b[colour])) ++colour;
+    for (auto* at : {&at_a, &at_b}) {
+      if (at->size() <= colour) at->resize(colour + 1, false);
+      (*at)[colour] = true;
+    }
+    colours.push_back(int(colour));
+  }
+  return colours;
+}
+
+/// Sorts the springs by colour, keeps their order within each, and says where each begins.
+void group_by_colour(StrainLimiter& limiter) {
+  const std::vector<int> colour_of = colours_of(limiter.springs, limiter.inverse_mass.size());
+  const int count = colour_of.empty() ? 0 : 1 + *std::max_element(colour_of.begin(), colour_of.end());
+  std::vector<LimitedSpring> grouped;
+  limiter.colours = {0};
+  for (int colour = 0; colour < count; ++colour) {
+    for (size_t i = 0; i < limiter.springs.size(); ++i)
+      if (colour_of[i] == colour) grouped.push_back(limiter.springs[i]);
+    limiter.colours.push_back(int(grouped.size()));
+  }
+  limiter.springs = std::move(grouped);
+}
+
+}  // namespace
+
+StrainLimiter make_strain_limiter(const StrainLimits& limits, const std::vector<Spring>& springs,
+                                  const PerParticle& inverse_mass) {
+  check(limits);
+  StrainLimiter limiter{limits, {}, {}, inverse_mass};
+  for (const Spring& spring : springs) limiter.springs.push_back({spring.a, spring.b, spring.rest_length});
+  const auto places = [](const LimitedSpring& s) { return std::tuple(s.a, s.b); };
+  std::stable_sort(limiter.springs.begin(), limiter.springs.end(),
+                   [&](const auto& one, const auto& other) { return places(one) < places(other); });
+  if (limits.order == SweepOrder::coloured)
+    group_by_colour(limiter);
+  else
+    limiter.colours = {0, int(limiter.springs.size())};
+  return limiter;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,12 @@
+// The strain limits of a case: [strain_limits].
+#pragma once
+
+#include "reference/scene/key_file.h"
+#include "reference/scene/scene.h"
+
+namespace foldproof {
+
+/// Reads the table, if the case has one, into the scene, whose springs are known.
+void read_strain_limits(const KeyTable& keys, Scene& scene);
+
+}  // namespace foldproof

@@ -1,0 +1,72 @@
+// Quantities of cloth that is stretched or compressed: springs against their limits, length, area.
+#include <algorithm>
+#include <string>
+
+#include "verification/cases/quantities.h"
+
+namespace foldproof {
+
+namespace {
+
+/// Length over rest length, less 1, of each spring.
+std::vector<double> strains(const Scene& scene, const State& s) {
+  const Eigen::VectorXd lengths = scene.stretch->rest_length_scale * rest_lengths(scene.mesh);
+  std::vector<double> values;
+  for (size_t e = 0; e < scene.mesh.edges.size(); ++e) {
+    const Edge& edge = scene.mesh.edges[e];
+    values.push_back((s.x.col(edge.b) - s.x.col(edge.a)).norm() / lengths[Eigen::Index(e)] - 1);
+  }
+  return values;
+}
+
+double violation(const Scene& scene, const State& s) {
+  Worst worst;
+  for (const double strain : strains(scene, s)) {
+    worst.see(strain - scene.strain_limits->extension);
+    worst.see(-strain - scene.strain_limits->compression);
+  }
+  return worst.value();
+}
+
+double largest_extension(const Scene& scene, const State& s) {
+  Worst worst;
+  for (const double strain : strains(scene, s)) worst.see(strain);
+  return worst.value();
+}
+
+double lengthening(const Scene& scene, const State& s) {
+  const auto extents = [](const PerParticle3& x) -> Vector3 {
+    return x.rowwise().maxCoeff() - x.rowwise().minCoeff();
+  };
+  Eigen::Index axis = 0;
+  const double at_rest = extents(scene.mesh.rest).maxCoeff(&axis);
+  return extents(s.x)[axis] / at_rest - 1;
+}
+
+double area_lost(const Scene& scene, const State& s) {
+  const double at_rest = triangle_areas(scene.mesh.triangles, scene.mesh.rest).sum();
+  return 1 - triangle_areas(scene.mesh.triangles, s.x).sum() / at_rest;
+}
+
+std::string without_limits(const Scene& scene) {
+  return scene.strain_limits ? "" : "the case has no [strain_limits]";
+}
+
+std::string without_springs(const Scene& scene) { return scene.stretch ? "" : "the case has no [stretch]"; }
+
+}  // namespace
+
+std::vector<Quantity> strain_quantities() {
+  return {
+      {"keeps_its_limits", "1", "No spring is farther beyond a strain limit than this, over its rest length.",
+       Sense::at_most, violation, nullptr, without_limits},
+      {"stretches_to", "1", "Some spring is stretched by this share of its rest length.", Sense::at_least,
+       largest_extension, nullptr, without_springs},
+      {"lengthens_by", "1", "The cloth's longest extent grows by this share of that at rest.",
+       Sense::at_least, lengthening, nullptr, nullptr},
+      {"keeps_its_area", "1", "The cloth loses no more than this share of its area.", Sense::at_most,
+       area_lost, nullptr, nullptr},
+  };
+}
+
+}  // namespace foldproof

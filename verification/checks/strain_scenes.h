@@ -1,0 +1,38 @@
+// Cloth with strain limits, in states and motions to try them on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/scene/scene.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/moving_scenes.h"
+
+namespace foldproof {
+
+/// A scene with springs and strain limits, within which its state is; its motion is not.
+struct LimitedCloth {
+  std::string name;
+  Scene scene;
+  State state;
+  double step;  // in which springs would leave their limits [s]
+};
+
+/// Crumpled sheets of every pattern, a disc and a sphere, each twice: as they are, with limits just outside of their strains, and nearly
+/// flat, stretched by 5 %, with limits of +10 % and 0 %. Random velocities change lengths by up to half in a step. Free of anything else.
+std::vector<LimitedCloth> limited_cloths(SweepOrder order);
+
+/// The four orders with the names that case files give them.
+struct NamedOrder {
+  std::string name;
+  SweepOrder order;
+};
+const std::vector<NamedOrder>& sweep_orders();
+
+/// The largest violation of the scene's strain limits at the positions x (3 x N [m]), over rest lengths [1]; negative: all are within.
+double strain_violation(const Scene& scene, const PerParticle3& x);
+
+/// The velocities that the subject's strain limits make of v (3 x N [m/s]) for the cloth's step.
+PerParticle3 strain_limited(const Subject& subject, const LimitedCloth& cloth, const PerParticle3& v);
+
+}  // namespace foldproof
