@@ -131,7 +131,8 @@ NamedFinding lost_finding(const std::vector<Folded>& runs) {
            ""}};
 }
 
-/// Half the height of a cosine wave of this length [m] whose ends have come nearer by so much [m], by bisection on its arc.
+/// Half the height of a cosine wave of this length [m] whose ends have come nearer by so much [m], by
+/// bisection on its arc.
 double cosine_height(double arc, double shortening) {
   const double span = arc - shortening;
   double low = 0, high = arc;
@@ -152,10 +153,10 @@ NamedFinding height_finding(const std::vector<Folded>& runs) {
   return {"folding.one-arc-is-as-high-as-its-length-says",
           "With 0 % compression, a strip of stiff hinges rises in one arc, as high as one that is as long as "
           "the strip at rest.",
-          {{std::abs(run.height / expected - 1), 0.15, 0, "1",
-            "the arc is taken for a cosine between clamps of two columns, of which half an edge, an eighth "
-            "of the clear length's "
-            "shortening, may bend; a strip that is compressed stays flat"},
+          {{std::abs(run.height / expected - 1), edge / (2 * clear), 0, "1",
+            "the clamps, two columns of offset rows, leave the clear length open by half an edge; the arc is "
+            "taken for a cosine. "
+            "A strip that is compressed stays flat"},
            evidence_of({run}),
            ""}};
 }

@@ -19,8 +19,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double end = 0.24;  // s
 constexpr int coarsest = 60;  // steps
 
-/// A jittered sheet that spins so fast, and flaps so wildly, that its weak, undamped springs are at their limits most of the time;
-/// it starts within them.
+/// A jittered sheet that spins so fast, and flaps so wildly, that its weak, undamped springs are at their
+/// limits most of the time; it starts within them.
 Scene spinning_sheet() {
   Scene scene = scene_of(make_sheet({SheetPattern::jittered, 0.53, 0, 5, 4, 0.23, 11}), 0.17);
   scene.stretch = StretchMaterial{3, 0, 1};

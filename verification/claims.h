@@ -47,6 +47,7 @@ struct ClaimRecord {
 /// All claims, in the order of their ids.
 std::vector<Claim> all_claims();
 std::vector<Claim> time_claims();       // claims_time.cpp: BMF03 section 3
+std::vector<Claim> strain_claims();     // claims_constraints.cpp: T11 and T12, part of time_claims
 std::vector<Claim> bending_claims();    // claims_bending.cpp: BMF03 section 4
 std::vector<Claim> level_set_claims();  // claims_level_sets.cpp: BMF03 section 5.1, part of object_claims
 std::vector<Claim> object_claims();     // claims_objects.cpp: BMF03 section 5, objects

@@ -357,8 +357,8 @@ std::vector<Claim> cost_and_momentum() {
 std::vector<Claim> time_claims() {
   std::vector<Claim> claims;
   for (const auto& part : {orders_and_limits(), limits_of_explicit_methods(), damping_of_modes(),
-                           linear_solve(), cached_terms_and_filters(), overshooting_methods(),
-                           monotone_methods(), variable_steps(), cost_and_momentum()})
+                           linear_solve(), cached_terms_and_filters(), strain_claims(),
+                           overshooting_methods(), monotone_methods(), variable_steps(), cost_and_momentum()})
     claims.insert(claims.end(), part.begin(), part.end());
   return claims;
 }

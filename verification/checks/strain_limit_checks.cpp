@@ -64,8 +64,8 @@ OneSpring one_spring(const SpringDraw& draw, Random& random) {
   return {{"", std::move(scene), std::move(state), h}, input, limited_spring(input)};
 }
 
-/// Distance from the oracle's velocities, in roundings of what they are computed from; infinite if they are not the same at the far
-/// corner, bit for bit.
+/// Distance from the oracle's velocities, in roundings of what they are computed from; infinite if they are
+/// not the same at the far corner, bit for bit.
 double error_of(const Subject& subject, const OneSpring& spring) {
   const PerParticle3 v = strain_limited(subject, spring.cloth, spring.cloth.state.v);
   if (!(v.col(2) == spring.cloth.state.v.col(2))) return INFINITY;
@@ -185,7 +185,8 @@ PerParticle3 gentle(const LimitedCloth& cloth) {
   return v;
 }
 
-/// Gentle velocities, but for the last particle's, which is fast: those that share no triangle with it are to be left.
+/// Gentle velocities, but for the last particle's, which is fast: those that share no triangle with it are to
+/// be left.
 Finding untouched_finding(const Subject& subject) {
   Measured measured("numbers that differ", "numbers");
   for (const NamedOrder& named : sweep_orders())

@@ -18,8 +18,9 @@ struct LimitedCloth {
   double step;  // in which springs would leave their limits [s]
 };
 
-/// Crumpled sheets of every pattern, a disc and a sphere, each twice: as they are, with limits just outside of their strains, and nearly
-/// flat, stretched by 5 %, with limits of +10 % and 0 %. Random velocities change lengths by up to half in a step. Free of anything else.
+/// Crumpled sheets of every pattern, a disc and a sphere, each twice: as they are, with limits just outside
+/// of their strains, and nearly flat, stretched by 5 %, with limits of +10 % and 0 %. Random velocities
+/// change lengths by up to half in a step. Free of anything else.
 std::vector<LimitedCloth> limited_cloths(SweepOrder order);
 
 /// The four orders with the names that case files give them.
@@ -29,7 +30,8 @@ struct NamedOrder {
 };
 const std::vector<NamedOrder>& sweep_orders();
 
-/// The largest violation of the scene's strain limits at the positions x (3 x N [m]), over rest lengths [1]; negative: all are within.
+/// The largest violation of the scene's strain limits at the positions x (3 x N [m]), over rest lengths [1];
+/// negative: all are within.
 double strain_violation(const Scene& scene, const PerParticle3& x);
 
 /// The velocities that the subject's strain limits make of v (3 x N [m/s]) for the cloth's step.

@@ -22,9 +22,9 @@ struct LimitedSpringAnswer {
       1;  // change of the answer along d over that of the given motion across it, at least 1 [1]
 };
 
-/// Equal and opposite impulses along d = x_b - x_a that take |d + h (v_b - v_a)| to the limit that it is beyond
-/// (BMF03 section 3, after Provot 1995), or as near to it as they can, with (d + h dv).d >= 0 afterwards. By Pythagoras in 50 digits: the
-/// part across d stays, the part along d becomes the other leg.
+/// Equal and opposite impulses along d = x_b - x_a that take |d + h (v_b - v_a)| to the limit that it is
+/// beyond (BMF03 section 3, after Provot 1995), or as near to it as they can, with (d + h dv).d >= 0
+/// afterwards. By Pythagoras in 50 digits: the part across d stays, the part along d becomes the other leg.
 LimitedSpringAnswer limited_spring(const LimitedSpringInput& input);
 
 }  // namespace foldproof::oracles
