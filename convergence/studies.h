@@ -39,14 +39,14 @@ Study sharp_edges();           // sharp-edges: normals of samples next to a body
 Study folds_inside();          // folds-inside: folds of cloth that may stay inside of an object
 Study forecast_time_study();   // forecast-time: where a point is after its forecast, and what tau does
 Study resting_contact();       // resting-contact: what keeps moving under each response
-Study self_collision_cost();     // self-collision-cost: search, zones, gaps at rest
+Study self_collision_cost();   // self-collision-cost: search, zones, gaps at rest
 Study pointwise_contact();     // pointwise-contact: what lies between particles that are held out
 Study crossing_queries();      // crossing-queries: moving features that meet, and whether that is noticed
-Study sticking_lag();  // sticking-lag: lag, limits and cost of what sticks, with forecasts and without
-Study strain_sweeps();         // strain-sweeps: sweeps of strain limiting over mesh and order
-Study strain_momentum();       // strain-momentum: angular momentum at the strain limits
-Study biphasic();              // biphasic: weak springs with limits under a growing load
-Study folding();               // folding: 0 % compression between ends that come together
+Study sticking_lag();     // sticking-lag: lag, limits and cost of what sticks, with forecasts and without
+Study strain_sweeps();    // strain-sweeps: sweeps of strain limiting over mesh and order
+Study strain_momentum();  // strain-momentum: angular momentum at the strain limits
+Study biphasic();         // biphasic: weak springs with limits under a growing load
+Study folding();          // folding: 0 % compression between ends that come together
 
 /// All of them, in the order in which they are reported.
 std::vector<Study> all_studies();

@@ -21,12 +21,26 @@ namespace foldproof {
 
 std::vector<Check> all_checks() {
   std::vector<Check> all;
-  for (const auto& part :
-       {mesh_checks(), force_checks(), bending_checks(), differential_checks(), force_differential_checks(),
-        solver_checks(), unsymmetric_solver_checks(), cached_terms_checks(), dynamics_checks(),
-        contact_checks(), scene_checks(), level_set_checks(), projection_checks(), octree_checks(),
-        octree_union_checks(), deforming_checks(), self_collision_checks(), crossing_checks(), sticking_checks(),
-        strain_limit_checks()})
+  for (const auto& part : {mesh_checks(),
+                           force_checks(),
+                           bending_checks(),
+                           differential_checks(),
+                           force_differential_checks(),
+                           solver_checks(),
+                           unsymmetric_solver_checks(),
+                           cached_terms_checks(),
+                           dynamics_checks(),
+                           contact_checks(),
+                           scene_checks(),
+                           level_set_checks(),
+                           projection_checks(),
+                           octree_checks(),
+                           octree_union_checks(),
+                           deforming_checks(),
+                           self_collision_checks(),
+                           crossing_checks(),
+                           sticking_checks(),
+                           strain_limit_checks()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

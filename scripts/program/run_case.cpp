@@ -60,19 +60,18 @@ std::vector<Record> judge_case(const Case& shown, const Progress& progress) {
 }
 
 std::vector<std::string> shown_cases() {
-  return {"hinge",        "hanging_sheet",  "flag_drop",      "rest_fold",
-          "stiff_statue", "drape_sphere",   "drape_statue",   "spinning_sphere",
-          "incline",      "incline_slides", "pinch",          "armpit",
-          "half_inside",  "stretched_body", "deforming_body", "hard/fast",
-          "grab"};
+  return {"hinge",        "hanging_sheet", "flag_drop",       "rest_fold",      "stiff_statue",
+          "drape_sphere", "drape_statue",  "spinning_sphere", "incline",        "incline_slides",
+          "pinch",        "armpit",        "half_inside",     "stretched_body", "deforming_body",
+          "hard/fast",    "grab"};
 }
 
 std::vector<std::string> hard_cases() {
-  return {"hard/stiff_bending",     "hard/soft_bending",      "hard/heavy_damping",
-          "hard/slivers",           "hard/graded_mesh",       "hard/sharp_fold",
-          "hard/inextensible",      "hard/flat_hanging",      "hard/flat_standing",
-          "hard/strip_below_euler", "hard/strip_above_euler", "hard/hundred_thousand_steps",
-          "hard/reef_fold",         "hard/sticky_layers",      "hard/biphasic_pull", "hard/buckle"};
+  return {
+      "hard/stiff_bending", "hard/soft_bending",      "hard/heavy_damping",     "hard/slivers",
+      "hard/graded_mesh",   "hard/sharp_fold",        "hard/inextensible",      "hard/flat_hanging",
+      "hard/flat_standing", "hard/strip_below_euler", "hard/strip_above_euler", "hard/hundred_thousand_steps",
+      "hard/reef_fold",     "hard/sticky_layers",     "hard/biphasic_pull",     "hard/buckle"};
 }
 
 std::vector<std::string> long_cases() {

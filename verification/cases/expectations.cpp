@@ -65,8 +65,8 @@ Case with_usual_expectations(Case shown) {
   const Scene& scene = shown.scene;
   add_unless_stated({"runs_to_its_end", 0, "a shipped case must not stop early"}, shown.expectations);
   const bool has_energy = !scene.bending || scene.bending->weighting == Weighting::rest;
-  if (has_energy && scene.objects.empty() && scene.sticky.empty() && !scene.strain_limits && !scene.self_collision &&
-      !is_driven(scene))
+  if (has_energy && scene.objects.empty() && scene.sticky.empty() && !scene.strain_limits &&
+      !scene.self_collision && !is_driven(scene))
     add_unless_stated(
         {"energy_is_accounted_for", 0.01,
          "schemes of second order at half the elastic limit: an oscillation of (omega h)^2/8 in "
