@@ -10,8 +10,8 @@ namespace foldproof {
 namespace {
 
 // Edges whose directions differ by less than this, squared sine, are taken for parallel; triangles whose area is less
-// than this share of what their sides could span, squared, for lines. What that hides is 1e-10 of their size.
-constexpr double nearly_parallel = 1e-20;
+// than this share of what their sides could span, squared, for lines. What that hides is 1e-9 of their size.
+constexpr double nearly_parallel = 1e-18;
 
 /// Where along the edge from a to b the point p is nearest: 0 at a, 1 at b.
 double nearest_along(const Vector3& p, const Vector3& a, const Vector3& b) {

@@ -69,7 +69,8 @@ std::vector<FileQuery> read_queries(const std::string& file) {
 }
 
 double nearest_double(const Fraction& f) {
-  return (oracles::Digits50(f.numerator) / oracles::Digits50(f.denominator)).convert_to<double>();
+  const oracles::Digits50 quotient = oracles::Digits50(f.numerator) / oracles::Digits50(f.denominator);
+  return quotient.convert_to<double>();
 }
 
 /// The four points at the start (from = 0) or at the end (from = 4).

@@ -109,7 +109,7 @@ Finding thin_ones_are_as_good(const Subject&) {
       measured.see(name_of(kind) + fmt::format(", sine {:.0e}", s), {worst.value(), uncertainty.value()});
     }
   return measured.judged(
-      1e-10,
+      1e-9,
       "features thinner or more parallel than that are asked at their sides and ends only, which "
       "hides as much of their extent");
 }
