@@ -21,7 +21,7 @@ std::vector<Claim> strain_claims() {
        "where the sweeps that keep the limits are few: what larger steps save, sweeps may cost. When the "
        "whole cloth is jerked, "
        "their number grows as the square of the cells along a side",
-       "A strip of weak springs with limits follows a bar that gives way up to 10 % and no further, to "
+       "A strip of weak springs with limits follows a bar that gives way up to its limit and no further, to "
        "{biphasic.extension-is-the-bars}: between three and four times the load at which it "
        "begins to hold, it "
        "gives way {bare: biphasic.gives-way-then-holds} times as much as at first, while springs without "
@@ -48,7 +48,8 @@ std::vector<Claim> strain_claims() {
        "",
        "A strip with stiff hinges and weak springs, whose ends are led together by a fifth of its "
        "length, is compressed in its "
-       "plane and loses {folding.area-is-lost-without|area lost|first} of its area. With 0 % compression "
+       "plane and loses {folding.area-is-lost-without|area lost|first} of its area. With compression "
+       "forbidden "
        "it rises in an arc "
        "whose height is that of a cosine as long as the strip, to "
        "{folding.one-arc-is-as-high-as-its-length-says}, and loses "

@@ -12,10 +12,8 @@ namespace foldproof {
 namespace {
 
 constexpr double kept_share = 0.1;  // of the thickness: the distance that no motion may undercut
-constexpr double untangled_share =
-    0.1;  // of the thickness, a step: by which what pierces is moved against what it pierces
-
-/// The motion of one step, and what is done to keep it free of crossings.
+constexpr double untangling_time =
+    0.01;  // s: in it what pierces moves by a thickness against what it pierces
 struct Step {
   const SelfCollision& filter;
   const PerParticle3& x;
@@ -113,8 +111,7 @@ void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, W
     const CrossingTriangles crossing = self_intersections(s.x, cloth.triangles);
     if (!crossing.empty()) tangled = tangled_particles(crossing, cloth.triangles, s.x.cols());
     if (!crossing.empty()) leave_out_tangled(tangled, close);
-    push_out_of_tangle(crossing, cloth.triangles, s.x, untangled_share * settings.thickness / h, inverse_mass,
-                       v);
+    push_out_of_tangle(crossing, cloth.triangles, s.x, settings.thickness / untangling_time, inverse_mass, v);
   }
   work.close_pairs += repel(close, s.x, settings, h, inverse_mass, v);
   if (!(span.end > span.start)) return;

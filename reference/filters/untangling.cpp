@@ -40,14 +40,18 @@ void add_piercings(const PerParticle3& x, const Triangle& s, const Triangle& t,
   }
 }
 
+/// Raises their speed against each other to `speed`, where it is less.
 void push(const Piercing& at, double speed, const PerParticle& inverse_mass, PerParticle3& v) {
   const std::array<int, 5> particles = {at.a, at.b, at.triangle[0], at.triangle[1], at.triangle[2]};
   const std::array<double, 5> weights = {1 - at.along, at.along, -at.w[0], -at.w[1], -at.w[2]};
-  double yields = 0;  // 1/kg
-  for (size_t k = 0; k < 5; ++k) yields += weights[k] * weights[k] * inverse_mass[particles[k]];
-  if (!(yields > 0)) return;
+  double yields = 0, now = 0;  // 1/kg, m/s
+  for (size_t k = 0; k < 5; ++k) {
+    yields += weights[k] * weights[k] * inverse_mass[particles[k]];
+    now += weights[k] * v.col(particles[k]).dot(at.shorter);
+  }
+  if (!(yields > 0) || !(now < speed)) return;
   for (size_t k = 0; k < 5; ++k)
-    v.col(particles[k]) += weights[k] * inverse_mass[particles[k]] / yields * speed * at.shorter;
+    v.col(particles[k]) += weights[k] * inverse_mass[particles[k]] / yields * (speed - now) * at.shorter;
 }
 
 }  // namespace

@@ -16,8 +16,13 @@ namespace {
 //          ______)   ^ up
 //   start            |    -> along
 struct Serpentine {
-  double run, gap;   // length of a straight run, distance between two [m]
-  double last, dip;  // runs before the last, and by how much that sinks towards its end [m]
+  double run, gap;  // length of a straight run, distance between two [m]
+  double last;      // number of runs before the last
+
+  /// How far along its last run the point at the arc length s [m] is: 0 before it, 1 at its end.
+  double along_last(double s) const {
+    return std::max(0.0, (s - last * (run + std::numbers::pi * gap / 2)) / run);
+  }
 
   /// Where the point at the arc length s [m] lies: along, up [m].
   Eigen::Vector2d at(double s) const {
@@ -31,8 +36,7 @@ struct Serpentine {
       across = run + radius * std::sin(angle);
       height = radius * (1 - std::cos(angle));
     }
-    const double sunk = below == last ? dip * std::min(1.0, into / run) : 0;
-    return {forth ? across : run - across, below * gap + height - sunk};
+    return {forth ? across : run - across, below * gap + height};
   }
 };
 
@@ -51,13 +55,16 @@ void fold(const KeyTable& keys, PerParticle3& x) {
                turns = double(layers - 1) * std::numbers::pi * gap / 2;
   if (!(height.maxCoeff() - height.minCoeff() <= 1e-6 * length))
     throw InputError(keys.where() + ": the cloth must lie flat, square to 'up', before it is folded");
-  const Serpentine serpentine{(length - turns) / double(layers), gap, double(layers - 1),
-                              keys.number_or("dip", 0)};
+  const Serpentine serpentine{(length - turns) / double(layers), gap, double(layers - 1)};
   if (!(serpentine.run > gap))
     throw InputError(keys.where("layers") + ": the cloth is too short for so many layers with that gap");
+  const double dip = keys.number_or("dip", 0);
+  const Eigen::RowVectorXd across = along.cross(up).transpose() * x;
+  const double width = across.maxCoeff() - across.minCoeff();
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const Eigen::Vector2d place = serpentine.at(s[i] - start);
-    x.col(i) += (start + place[0] - s[i]) * along + place[1] * up;
+    const double to_corner = serpentine.along_last(s[i] - start) * (across[i] - across.minCoeff()) / width;
+    x.col(i) += (start + place[0] - s[i]) * along + (place[1] - dip * to_corner) * up;
   }
 }
 
