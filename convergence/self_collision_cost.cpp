@@ -145,7 +145,7 @@ void add_rest(const Subject& subject, StudyResult& result) {
   Worst spread, outside;
   for (const double thickness : {0.002, 0.003, 0.004}) {
     double least = INFINITY, most = 0;
-    for (const double h : {0.0005, 0.001, 0.002}) {
+    for (const double h : {0.001, 0.002}) {
       const double gap = resting_gap(subject, thickness, h);
       thicknesses.push_back(thickness);
       steps.push_back(h);

@@ -175,10 +175,12 @@ void add_readers(CLI::App& app, Options& options) {
       "Moving features that meet, or not: the reference and the exact judge against a file's word",
       evaluate_queries);
   queries->footer(queries_help);
-  queries->add_option("FILE", options.file, "CSV, 7 columns, 8 rows a query")->required();
-  queries->add_option("--kind", options.kind, "vertex-face or edge-edge")
-      ->check(CLI::IsMember({"vertex-face", "edge-edge"}))
+  queries
+      ->add_option("FILE,--ccd-data", options.file,
+                   "CSV, 7 columns, 8 rows a query, or a folder of such files")
       ->required();
+  queries->add_option("--kind", options.kind, "vertex-face or edge-edge; without it the path says which")
+      ->check(CLI::IsMember({"vertex-face", "edge-edge"}));
   queries->add_option("--keep", options.keep, "What the reference is to keep apart [m]")
       ->capture_default_str();
 }

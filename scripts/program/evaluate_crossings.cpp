@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <vector>
@@ -91,13 +92,18 @@ struct Account {
   }
 };
 
-}  // namespace
+/// What the queries of a file are about: as given, or as its path says.
+std::string kind_of(const std::string& file, const std::string& given) {
+  if (!given.empty()) return given;
+  for (const char* kind : {"vertex-face", "edge-edge"})
+    if (file.find(kind) != std::string::npos) return kind;
+  throw InputError(file + ": say --kind vertex-face or --kind edge-edge, or have it in the path");
+}
 
-bool evaluate_crossings(const std::string& file, const std::string& kind, double keep) {
-  const bool is_vertex = kind == "vertex-face";
+bool evaluate_file(const std::string& file, const std::string& given, double keep) {
+  const bool is_vertex = kind_of(file, given) == "vertex-face";
   const PairKind pair = is_vertex ? PairKind::vertex_triangle : PairKind::edge_edge;
   const auto features = is_vertex ? oracles::Features::vertex_and_triangle : oracles::Features::edge_and_edge;
-  if (!(keep > 0)) throw InputError("--keep must be a distance > 0");
   Account reference, exact;
   long meetings = 0;
   const std::vector<FileQuery> queries = read_queries(file);
@@ -112,6 +118,21 @@ bool evaluate_crossings(const std::string& file, const std::string& kind, double
              reference.alarms);
   fmt::print("exact judge: {} missed, {} told though apart\n", exact.misses, exact.alarms);
   return reference.misses == 0 && exact.misses == 0 && exact.alarms == 0;
+}
+
+}  // namespace
+
+bool evaluate_crossings(const std::string& path, const std::string& kind, double keep) {
+  if (!(keep > 0)) throw InputError("--keep must be a distance > 0");
+  if (!std::filesystem::is_directory(path)) return evaluate_file(path, kind, keep);
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
+    if (entry.path().extension() == ".csv") files.push_back(entry.path().string());
+  if (files.empty()) throw InputError(path + ": there is no .csv file in this folder");
+  std::sort(files.begin(), files.end());
+  bool all = true;
+  for (const std::string& file : files) all = evaluate_file(file, kind, keep) && all;
+  return all;
 }
 
 }  // namespace foldproof
