@@ -169,10 +169,9 @@ void add_rest(const Subject& subject, StudyResult& result) {
   result.findings.push_back(
       {"self-collision-cost.the-gap-does-not-depend-on-the-step",
        "The gap at which a sheet rests on another does not depend on the step.",
-       {{spread.value(), 0.25, 0, "1",
-         "a step takes away at most a tenth of the overlap, so that what a step's fall adds is carried "
-         "within a few steps: differences of the order of (g h^2) over the thickness, and of where in its "
-         "last bounce the sheet is"},
+       {{spread.value(), 0.05, 0, "1",
+         "what one step's fall adds is g h^2, .02 of the least thickness for the longest step; "
+         "twice that, for where in its last bounce the sheet is"},
         evidence,
         ""}});
 }
