@@ -2,7 +2,6 @@
 // a hundred periods.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "convergence/long_vibration.h"
@@ -16,7 +15,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<double, 3> parts_of_limit = {1. / 4, 1. / 8, 1. / 16};  // steps over 2/omega_max
 
 // ---- every mode against the derived factors
@@ -184,7 +182,7 @@ void add_responses(const Subject& subject, const VibratingSheet& sheet, StudyRes
   result.figures.push_back(decay_figure(sheet, responses));
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_artificial_damping(const Subject& subject, Tier tier, const Progress& progress) {
   const VibratingSheet sheet = make_vibrating_sheet(tier == Tier::quick ? 3 : 6);
   StudyResult result;
   add_responses(subject, sheet, result);
@@ -206,7 +204,7 @@ Study artificial_damping() {
           "All vibrations of a flat, free sheet are excited at once, and what a step of each method makes of "
           "each of them is held against the factor derived from the method. Then a crumpling sheet vibrates "
           "for a hundred periods of its slowest mode: does its energy have a trend?",
-          run};
+          run_artificial_damping};
 }
 
 }  // namespace foldproof

@@ -10,22 +10,22 @@ namespace foldproof {
 namespace {
 
 /// The hinge's corner without any force: x'' = 0.
-Stepper bdf2_without_forces(const Subject& subject) {
+SteppedMotion bdf2_without_forces(const Subject& subject) {
   SmallMotion motion = hinge_oscillator(0);
   motion.scene.bending.reset();
   motion.scene.rest_angles.clear();
-  return stepper(subject, std::move(motion), "BDF2");
+  return stepped_motion(subject, std::move(motion), "BDF2");
 }
 
 /// What multiplies the difference of the two latest velocities in one step of ratio times the one before.
-double difference_factor(const Stepper& of, double ratio) {
+double difference_factor(const SteppedMotion& of, double ratio) {
   const double h = 1 / of.motion.omega0;
   const Eigen::MatrixXd matrix = step_matrix(of, {ratio * h, h});
   return -matrix(3, 1);  // v'' = (1 + p) v' - p v
 }
 
 NamedFinding zero_stability(const Subject& subject) {
-  const Stepper of = bdf2_without_forces(subject);
+  const SteppedMotion of = bdf2_without_forces(subject);
   double below = 1, above = 5;
   for (int i = 0; i < 45; ++i) {
     const double middle = (below + above) / 2;
@@ -44,7 +44,7 @@ NamedFinding zero_stability(const Subject& subject) {
 
 /// A corner in flight at v0, whose second state is disturbed: what comes of the disturbance after steps that grow
 /// by `ratio` up to omega h = .001, over the disturbance.
-double amplification(const Stepper& of, double ratio) {
+double amplification(const SteppedMotion& of, double ratio) {
   constexpr int steps = 600;
   double h = 1e-3 / of.motion.omega0 * std::pow(ratio, -steps);
   State first = start_state(of.motion.scene), second = first;
@@ -61,7 +61,7 @@ double amplification(const Stepper& of, double ratio) {
   return std::abs(past[1].v(2, 0)) / size;
 }
 
-std::vector<NamedFinding> growing_steps(const std::string& where, const Stepper& of) {
+std::vector<NamedFinding> growing_steps(const std::string& where, const SteppedMotion& of) {
   constexpr double below = 2.40, above = 2.43;
   const auto factor = [](double r) { return r * r / (1 + 2 * r); };
   const double kept = amplification(of, below), grown = amplification(of, above);
@@ -88,7 +88,7 @@ std::vector<NamedFinding> bdf2_growing_steps(const Subject& subject) {
   std::vector<NamedFinding> findings = {zero_stability(subject)};
   for (NamedFinding& finding : growing_steps("free-flight", bdf2_without_forces(subject)))
     findings.push_back(std::move(finding));
-  for (NamedFinding& finding : growing_steps("the-hinge", stepper(subject, hinge_oscillator(0), "BDF2")))
+  for (NamedFinding& finding : growing_steps("the-hinge", stepped_motion(subject, hinge_oscillator(0), "BDF2")))
     findings.push_back(std::move(finding));
   return findings;
 }

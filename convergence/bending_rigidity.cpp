@@ -2,7 +2,6 @@
 // size.
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "convergence/irregular_rigidity.h"
@@ -15,7 +14,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double ke = 0.0043;    // J
 constexpr double width = 0.013;  // of a cell [m]
 constexpr double gentle = 1e-3;  // curvature times the width of a cell, where its error is far below 1e-5 [1]
@@ -238,7 +236,7 @@ Figure direction_figure(const std::vector<Rigidity>& all) {
   return figure;
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_bending_rigidity(const Subject& subject, Tier tier, const Progress& progress) {
   const int levels = tier == Tier::quick ? 5 : 7;
   StudyResult result;
   std::vector<Rigidity> all;
@@ -292,7 +290,7 @@ Study bending_rigidity_study() {
           "flexural rigidity D. The oracle knows only how a hinge is defined: it adds up the hinges of one "
           "cell. Regular patterns keep their rigidity at every size; what it is depends on the pattern and "
           "the direction, from 0.13 to 2.8 ke.",
-          run};
+          run_bending_rigidity};
 }
 
 }  // namespace foldproof

@@ -1,7 +1,6 @@
 // bending-scaling: is the bending damping a property of the material? Dissipation at a given rate of
 // curvature under refinement.
 #include <cmath>
-#include <limits>
 
 #include "convergence/order.h"
 #include "convergence/studies.h"
@@ -12,7 +11,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double width = 0.37;      // m
 constexpr double curvature = 2.3;   // 1/m
 constexpr double rate = 0.9;        // of the curvature [1/(m s)]
@@ -75,7 +73,7 @@ NamedFinding finding_of(const Factor& factor, const Convergence& measured) {
   return {"bending-scaling." + factor.name, claim, std::move(finding)};
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_bending_scaling(const Subject& subject, Tier tier, const Progress& progress) {
   const int finest = tier == Tier::quick ? 96 : 192;
   StudyResult result;
   Figure figure{"dissipation",
@@ -111,7 +109,7 @@ Study bending_scaling() {
           "A square sheet is rolled on a cylinder whose curvature grows at a given rate, so that every mesh "
           "deforms alike. The "
           "power that the bending damping takes is compared between meshes, for both factors.",
-          run};
+          run_bending_scaling};
 }
 
 }  // namespace foldproof

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "convergence/studies.h"
 #include "reference/mesh/shapes.h"
@@ -13,7 +12,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double length = 0.5, density = 0.2;  // m, kg/m^2
 constexpr double weak = 10;                    // Y [N/m]
 constexpr double limit = 0.1;                  // extension [1]
@@ -228,7 +226,7 @@ Table table_of(const std::vector<Pulled>& runs) {
            {"largest strain", "1", strains}}};
 }
 
-StudyResult run(const Subject&, Tier tier, const Progress& progress) {
+StudyResult run_biphasic(const Subject&, Tier tier, const Progress& progress) {
   std::vector<Springs> all = {
       {"weak, limits", weak, true}, {"weak", weak, false}, {"stiff", most * weak, false}};
   if (tier == Tier::full)
@@ -265,7 +263,7 @@ Study biphasic() {
           "by 10 %. A strip pulled by both ends beyond its limits has no answer, and no force that could be "
           "measured: hence "
           "the free end.",
-          run};
+          run_biphasic};
 }
 
 }  // namespace foldproof

@@ -1,6 +1,5 @@
 // buckling: the load at which a compressed strip leaves its plane, and how fast it does so beyond.
 #include <cmath>
-#include <limits>
 
 #include "convergence/studies.h"
 #include "reference/mesh/shapes.h"
@@ -11,7 +10,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double edge = 0.01;        // m
 constexpr double young = 100;        // Y [N/m]
 constexpr double bending = 1.37e-3;  // ke [J]
@@ -197,7 +195,7 @@ NamedFinding growth_finding(const Growth& growth) {
        "measured is the relative error of the rate"}};
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& progress) {
   std::vector<int> meshes = {10, 20};
   if (tier == Tier::full) meshes.push_back(40);
   StudyResult result;
@@ -243,7 +241,7 @@ Study buckling() {
           "die out, none leaves it. Central differences of the forces across the plane give the stiffness "
           "against buckling, and the strain at which it vanishes; the clamp's force there is the critical "
           "load.",
-          run};
+          run_buckling};
 }
 
 }  // namespace foldproof

@@ -1,6 +1,5 @@
 // cantilever: a clamped strip under its own weight or a load on its tip, against the elastica.
 #include <cmath>
-#include <limits>
 
 #include "convergence/order.h"
 #include "convergence/row_strip.h"
@@ -12,7 +11,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double stretch_share = 1e-8;  // strain under the whole load that the springs are made for [1]
 
 /// Weight or tip load, and what the elastica says.
@@ -219,7 +217,7 @@ void show(const Refined& refined, Figure& figure) {
   figure.curves.push_back({refined.load.words, tip.steps, tip.errors, tip.floor, pair_orders(tip)});
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_cantilever(const Subject& subject, Tier tier, const Progress& progress) {
   std::vector<int> sizes = {8, 16, 32};
   if (tier == Tier::full) sizes.insert(sizes.end(), {64, 128});
   StudyResult result;
@@ -259,7 +257,7 @@ Study cantilever_study() {
       "below the errors shown. Equilibrium is found by Newton's method; the elastica by GSL, and, for "
       "the tip load, by elliptic integrals. gamma is weight per area times L^3 over D, alpha load per "
       "width times L^2 over D.",
-      run};
+      run_cantilever};
 }
 
 }  // namespace foldproof

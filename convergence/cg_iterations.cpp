@@ -14,7 +14,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr Setting typical = {1e-4, 0.1, 0.5, 24, ResidualScale::momentum};
 
 /// One thing is varied, the others stay as they are.
@@ -216,7 +215,7 @@ std::vector<Figure> figures_of(const std::vector<Sweep>& measured) {
   return figures;
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_cg_iterations(const Subject& subject, Tier tier, const Progress& progress) {
   std::vector<Sweep> measured;
   for (ResidualScale scale : {ResidualScale::momentum, ResidualScale::initial_residual})
     for (Sweep& sweep : sweeps(tier, scale)) measured.push_back(std::move(sweep));
@@ -249,7 +248,7 @@ Study cg_iterations() {
           "which has one a step; C has both. Tolerance, damping, step and mesh size are varied one at a "
           "time. The damping ratio is zeta = (damping/stiffness) omega/2, for springs kd_s/Y and for hinges "
           "kd |E|/(ke c/2), with omega from the elastic limit of the step.",
-          run};
+          run_cg_iterations};
 }
 
 }  // namespace foldproof

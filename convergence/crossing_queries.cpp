@@ -1,6 +1,5 @@
 // Does the test for crossings miss one? Asked of many motions whose truth is known.
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "convergence/crossing_families.h"
@@ -12,7 +11,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kept = 1e-6;  // of coordinates up to 60 [m]
 
 /// What came of the queries of one family.
@@ -223,7 +221,7 @@ Figure alarms_figure(const std::vector<Alarms>& all) {
   return figure;
 }
 
-StudyResult run(const Subject&, Tier tier, const Progress& progress) {
+StudyResult run_crossing_queries(const Subject&, Tier tier, const Progress& progress) {
   const bool full = tier == Tier::full;
   const Tallies tallies = full ? all_tallies(100000, 10000, progress) : all_tallies(8000, 1000, progress);
   std::vector<Tally> all = tallies.random;
@@ -254,7 +252,7 @@ Study crossing_queries() {
           "Whether they ever meet is decided in whole numbers by the signs of polynomials, and compared with "
           "what the "
           "reference says. What it reports although they stay apart came near.",
-          run};
+          run_crossing_queries};
 }
 
 }  // namespace foldproof

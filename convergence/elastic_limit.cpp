@@ -1,7 +1,6 @@
 // elastic-limit: the largest stable step of undamped motion, and how it shrinks with the cells.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convergence/order.h"
 #include "convergence/stable_step.h"
@@ -12,8 +11,6 @@
 namespace foldproof {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// What resists: springs or hinges, and the exponent of the cells' width that follows for the step.
 struct Regime {
@@ -127,7 +124,7 @@ NamedFinding scheme_limit(const Subject& subject, const Regime& regime, const In
           {verdict, {{"largest stable step over 2/omega", "1", std::vector<double>{ratio}}}, ""}};
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_elastic_limit(const Subject& subject, Tier tier, const Progress& progress) {
   std::vector<int> meshes = {4, 8, 16, 32};
   if (tier == Tier::full) meshes.push_back(64);
   StudyResult result;
@@ -175,7 +172,7 @@ Study elastic_limit_study() {
           "on the elastic forces, the largest stable step of each scheme by bisection on runs that stay "
           "bounded or do not. The paper gives the limit as proportional to the width; hinges alone make it "
           "fall with the square.",
-          run};
+          run_elastic_limit};
 }
 
 }  // namespace foldproof

@@ -1,7 +1,6 @@
 // eps-needed: how far out must the deepest points go, for no triangle between them to cut into the object?
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "convergence/order.h"
@@ -14,7 +13,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double root3 = 1.7320508075688772;
 const Vector3 half_extents(0.3125, 0.40625, 0.28125);  // of the box [m]
 
@@ -156,7 +154,7 @@ NamedFinding bound_finding(const Body& body, const Range& range) {
            ""}};
 }
 
-StudyResult run(const Subject&, Tier tier, const Progress& progress) {
+StudyResult run_eps_needed(const Subject&, Tier tier, const Progress& progress) {
   StudyResult result;
   Figure figure{
       "eps",
@@ -190,7 +188,7 @@ Study eps_needed() {
           "Sheets of equilateral triangles are sunk into a body and projected plainly, their particles to "
           "eps outside. The least eps is sought with which no triangle has a point in common with the body; "
           "that is decided in whole numbers, without a distance field.",
-          run};
+          run_eps_needed};
 }
 
 }  // namespace foldproof

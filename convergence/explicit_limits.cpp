@@ -1,7 +1,6 @@
 #include "convergence/explicit_limits.h"
 
 #include <cmath>
-#include <limits>
 
 #include "convergence/order.h"
 #include "convergence/stable_step.h"
@@ -13,8 +12,6 @@
 namespace foldproof {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Scene damped_sheet(int cells, const Damping& damping) {
   Scene scene = flat_sheet(cells);
@@ -162,7 +159,7 @@ NamedFinding by_trying(const Subject& subject, const Integrator& integrator, dou
   if (integrator.family == Family::mixed) {
     const double h = 1 / expected;
     steps = 1 / largest_constant_step(
-                    stepper(subject, motion_along(scene, mode.shape, mode.omega), integrator.name),
+                    stepped_motion(subject, motion_along(scene, mode.shape, mode.omega), integrator.name),
                     {0.5 * h, 4 * h, 1e-6, 14});
   } else {
     scene.integrator = std::string(integrator.name);

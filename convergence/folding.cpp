@@ -1,7 +1,6 @@
 // folding: a strip between two ends that are led together, with and without a limit on compression.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convergence/section_profile.h"
 #include "convergence/studies.h"
@@ -14,7 +13,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int columns = 12;
 constexpr double length = 0.2, edge = length / columns;  // of the strip and of its edges [m]
 constexpr double clear =
@@ -161,7 +159,7 @@ NamedFinding height_finding(const std::vector<Folded>& runs) {
            ""}};
 }
 
-StudyResult run(const Subject&, Tier tier, const Progress& progress) {
+StudyResult run_folding(const Subject&, Tier tier, const Progress& progress) {
   std::vector<Hinges> all = {{"stiff", 4.1e-3}, {"soft", 1e-6}};
   if (tier == Tier::full) all.push_back({"hardly any", 1e-8});
   std::vector<Folded> runs;
@@ -189,7 +187,7 @@ Study folding() {
           "strain 4 pi^2 D/(Y L^2) is a quarter: the strip would rather be compressed. With soft ones it "
           "folds anyway. Wavelengths "
           "are those of the largest Fourier coefficient along the middle of the strip, in lengths at rest.",
-          run};
+          run_folding};
 }
 
 }  // namespace foldproof

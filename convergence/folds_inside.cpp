@@ -1,7 +1,6 @@
 // folds-inside: are there more folds where points may stay inside of an object?
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convergence/contact_runs.h"
 #include "convergence/studies.h"
@@ -13,7 +12,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double radius = 0.2, length = 0.3;  // of the tube [m]
 constexpr int around = 48, along = 13;
 constexpr double band = 0.01;         // tau of the projection [m]
@@ -161,7 +159,7 @@ Scene sheet_over_ball(int n) {
   return scene;
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_folds_inside(const Subject& subject, Tier tier, const Progress& progress) {
   const bool full = tier == Tier::full;
   const Folds tube =
       folds_of(subject, tube_on_drum(), 0.3,
@@ -181,7 +179,7 @@ Study folds_inside() {
           "A tube that starts inside of a drum is pushed together, and a sheet falls on a ball: how many "
           "folds have "
           "they with forecast times from a step to far longer than the run?",
-          run};
+          run_folds_inside};
 }
 
 }  // namespace foldproof

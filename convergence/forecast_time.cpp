@@ -14,7 +14,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double radius = 0.3;  // of the ball [m]
 
@@ -149,7 +148,7 @@ NamedFinding next_step_finding(const Subject& subject) {
            "measured is the height with the next step's object over that with the forecast"}};
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress& progress) {
   StudyResult result;
   result.findings.push_back(flat_finding(subject));
   std::vector<double> steps = {0.016, 0.008, 0.004, 0.002, 0.001};
@@ -212,7 +211,7 @@ Study forecast_time_study() {
           "that time is another matter: the surface curves away under a point that slides, and the object's "
           "normals turn. And the forecast time need not be the step: it is the time in which a point comes "
           "to the surface.",
-          run};
+          run_forecast_time};
 }
 
 }  // namespace foldproof

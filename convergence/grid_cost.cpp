@@ -1,7 +1,6 @@
 #include "convergence/grid_cost.h"
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "reference/level_set/narrow_band.h"
@@ -13,7 +12,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int points = 4000;
 
 /// A grid of a mesh: what it holds, how long it took, how far it errs.

@@ -2,7 +2,6 @@
 // schemes.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convergence/ranges.h"
 #include "convergence/sliver_collapse.h"
@@ -17,7 +16,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double density = 0.2;  // kg/m^2
 constexpr double stretch = 50;   // Y [N/m]
 
@@ -138,7 +136,7 @@ double damped_limit(const Subject& subject, const Damped& limit) {
     return largest_stable_step(subject, scene, mode.omega,
                                {0.9 * limit.expected, 1.1 * limit.expected, 7, 2000});
   const double expected = limit.expected * 2 / mode.omega;
-  return largest_constant_step(stepper(subject, motion_along(scene, mode.shape, mode.omega), limit.scheme),
+  return largest_constant_step(stepped_motion(subject, motion_along(scene, mode.shape, mode.omega), limit.scheme),
                                {expected / 2, 4 * expected, growth, 9}) *
          mode.omega / 2;
 }
@@ -219,7 +217,7 @@ Figure damping_figure(const std::vector<Damped>& limits, const std::vector<doubl
   return figure;
 }
 
-StudyResult run(const Subject& subject, Tier, const Progress& progress) {
+StudyResult run_hard_limits(const Subject& subject, Tier, const Progress& progress) {
   StudyResult result;
   const std::vector<HardSheet> sheets = hard_sheets();
   const std::vector<Damped> damped = damped_limits();
@@ -260,7 +258,7 @@ Study hard_limits() {
       "found by power iteration on the elastic forces, the largest stable step of each scheme by bisection "
       "on runs that stay bounded or do not, with heavy damping on the spectral radius of the fastest mode's "
       "step, and compared with what the oscillator's step matrices say.",
-      run};
+      run_hard_limits};
 }
 
 }  // namespace foldproof

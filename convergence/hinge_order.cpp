@@ -76,7 +76,7 @@ std::vector<ObservedMethod> methods(Tier tier) {
   return all;
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_hinge_order(const Subject& subject, Tier tier, const Progress& progress) {
   const Scene scene = driven_scene();
   const ExactEnd exact = exact_end(scene, driven_oracle(scene), end, tolerance);
   return time_order(
@@ -97,7 +97,7 @@ Study hinge_time_order() {
           "large part of its range, so that nothing is linear and the forces depend on time. Each scheme "
           "runs with constant, alternating and random steps; a finer level halves every step of the coarser "
           "one. The end is compared with a solution by GSL, which shares no formula with the solver.",
-          run};
+          run_hinge_order};
 }
 
 }  // namespace foldproof

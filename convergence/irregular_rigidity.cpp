@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "convergence/gentle_sheet.h"
@@ -12,7 +11,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double equilateral = 0.25;  // D/ke without disorder: the homogenised cell says so
 
 /// How a mesh is made irregular.

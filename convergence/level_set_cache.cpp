@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <limits>
 
 #include "convergence/kept_level_sets.h"
 #include "convergence/studies.h"
@@ -173,7 +172,7 @@ NamedFinding unfit_files_are_refused() {
            ""}};
 }
 
-StudyResult run(const Subject&, Tier, const Progress& progress) {
+StudyResult run_level_set_cache(const Subject&, Tier, const Progress& progress) {
   Costs costs{};
   StudyResult result;
   result.findings.push_back(loaded_is_the_same(costs));
@@ -192,7 +191,7 @@ Study level_set_cache() {
   return {"level-set-cache", "Level sets computed beforehand serve many runs.", "BMF03 section 5.1",
           "A whole animation's level sets are stored in a file with the key of what they were computed from. "
           "What does a second run pay, and can it be fooled?",
-          run};
+          run_level_set_cache};
 }
 
 }  // namespace foldproof

@@ -1,6 +1,5 @@
 // level-set-resolution: errors of distance and direction on grids against their spacing; what the crude start costs.
 #include <cmath>
-#include <limits>
 
 #include "convergence/grid_cost.h"
 #include "convergence/grid_errors.h"
@@ -11,7 +10,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int points = 4000;  // between nodes
 
 /// A column of numbers over the levels, and its order.
@@ -216,7 +214,7 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
   result.tables.push_back(contour_table(crude, exact));
 }
 
-StudyResult run(const Subject&, Tier tier, const Progress& progress) {
+StudyResult run_level_set_resolution(const Subject&, Tier tier, const Progress& progress) {
   const std::vector<int> cells =
       tier == Tier::quick ? std::vector<int>{16, 32, 64} : std::vector<int>{16, 32, 64, 128};
   StudyResult result;
@@ -243,7 +241,7 @@ Study level_set_resolution() {
           "form are put on grids whose spacing is halved. Measured are the distance at the nodes after fast "
           "marching of both orders, what trilinear interpolation and two kinds of gradients add between "
           "exact nodes, and the surface and the normals that a start from sides alone leaves behind.",
-          run};
+          run_level_set_resolution};
 }
 
 }  // namespace foldproof

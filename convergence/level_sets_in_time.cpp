@@ -1,7 +1,6 @@
 // level-sets-in-time: what lies between two stored level sets of a body that deforms, and what a frame costs.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "convergence/order.h"
@@ -14,7 +13,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double radius = 0.15;       // of the body at rest [m]
 constexpr double tolerance = 1.5e-4;  // of the octrees [m]
 constexpr double middle = 0.31;       // the time that is looked at [s]
@@ -177,7 +175,7 @@ Table table_of(const std::vector<Pair>& pairs) {
            {"nodes that keep their nearest point", "1", column(pairs, &Pair::kept)}}};
 }
 
-StudyResult run(const Subject&, Tier tier, const Progress& progress) {
+StudyResult run_level_sets_in_time(const Subject&, Tier tier, const Progress& progress) {
   const int depth = tier == Tier::quick ? 7 : 8;
   const TriangleMesh ball = make_icosphere(radius, tier == Tier::quick ? 3 : 4);
   const MeshSequence then = deformed_mesh(ball, deformed, {middle});
@@ -205,7 +203,7 @@ Study level_sets_in_time() {
           "BMF03 section 5.1",
           "How many frames must be stored? A body deforms smoothly; two frames of it lie about one time, "
           "ever closer, and phi between them is held against the exact distance to the mesh at that time.",
-          run};
+          run_level_sets_in_time};
 }
 
 }  // namespace foldproof

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "convergence/sheet_modes.h"
@@ -14,7 +13,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double periods = 100;        // of the slowest mode
 constexpr double part_of_limit = 0.5;  // equal step: of 2/omega_max
 constexpr double blown_up = 10;        // times the energy at the start: the run is over

@@ -12,7 +12,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double width = 0.83, height = 0.71;  // m
 constexpr double end = 0.15;                   // s
@@ -183,7 +182,7 @@ Figure figure_of(const std::vector<MeshRun>& meshes, const Convergence& errors,
   return figure;
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_mesh_error(const Subject& subject, Tier tier, const Progress& progress) {
   const int levels = tier == Tier::quick ? 4 : 5;
   std::vector<MeshRun> meshes;
   for (int level = 0; level < levels; ++level) {
@@ -211,7 +210,7 @@ Study mesh_error() {
       "of the step from two steps on one mesh. Where springs decide on the elastic limit it is proportional "
       "to the cells' width, so that with second order in both, the ratio of the two errors is the same on "
       "every mesh.",
-      run};
+      run_mesh_error};
 }
 
 }  // namespace foldproof

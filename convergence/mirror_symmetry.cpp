@@ -11,7 +11,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double side = 0.5;           // m: with eight columns, every x is exact
 constexpr double disturbance = 1e-10;  // m
@@ -111,7 +110,7 @@ NamedFinding finding_of(const History& rounding, const History& seeded) {
        "the disturbance grows by " + std::to_string(growth_rate(seeded)) + " per second in the exponent"}};
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_mirror_symmetry(const Subject& subject, Tier tier, const Progress& progress) {
   const double end = tier == Tier::quick ? 1.2 : 2;  // s
   const Scene scene = falling_sheet();
   const History rounding = asymmetry_of_run(subject, scene, end);
@@ -140,7 +139,7 @@ Study mirror_symmetry() {
           "A sheet with a plane of symmetry, held at two corners, falls from the horizontal, swings and "
           "crumples. The balance of its two halves is unstable, so that rounding grows; the same run with a "
           "small random disturbance shows how fast.",
-          run};
+          run_mirror_symmetry};
 }
 
 }  // namespace foldproof

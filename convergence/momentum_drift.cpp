@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convergence/order.h"
 #include "convergence/studies.h"
@@ -15,7 +14,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double end = 0.24;   // s
 constexpr int coarsest = 120;  // steps
 constexpr int pairs_judged = 3;
@@ -252,7 +250,7 @@ void add_paper_findings(const Drifts& drifts, StudyResult& result) {
   result.findings.push_back(drift_is_real(drifts.damped));
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_momentum_drift(const Subject& subject, Tier tier, const Progress& progress) {
   std::vector<Drifts> all;
   for (const Integrator& method : integrators()) {
     const int levels = (method.family == Family::mixed ? 5 : 3) + (tier == Tier::quick ? 0 : 2);
@@ -292,7 +290,7 @@ Study momentum_drift() {
           "forces keep angular momentum call by call; a method keeps it only if the velocity that moves the "
           "positions is parallel in sum to the one that carries the momentum. The drift from start to end is "
           "measured while the step is halved.",
-          run};
+          run_momentum_drift};
 }
 
 }  // namespace foldproof

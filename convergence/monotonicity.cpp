@@ -207,7 +207,7 @@ std::vector<NamedFinding> bdf2_findings(const Subject& subject, const DampedMoti
            {{error.value(), rounding, 0, "of the way", why_rounding}, rows.columns(), ""}}};
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& progress) {
   const DampedMotions motions{expanding_triangle(), folding_hinge(),
                               sheet_in_plane(tier == Tier::quick ? 3 : 6)};
   StudyResult result;
@@ -244,7 +244,7 @@ Study monotonicity() {
           "a hinge that folds (nonlinear, known by an oracle), a sheet whose modes all move. How far does "
           "each method go over the way, and does it turn back? c is the damping rate of the fastest motion, "
           "h the step.",
-          run};
+          run_monotonicity};
 }
 
 }  // namespace foldproof

@@ -1,7 +1,6 @@
 #include "convergence/monotonicity_figures.h"
 
 #include <cmath>
-#include <limits>
 
 #include "reference/dynamics/integrator.h"
 
@@ -9,7 +8,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double least_shown = 1e-6;  // of the way
 
 std::vector<double> ratios(double from, double to, int count) {

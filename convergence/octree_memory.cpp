@@ -1,7 +1,6 @@
 // octree-memory: what an octree saves against a regular grid of the same error.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <random>
 
@@ -16,7 +15,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double band_cells = 3;  // of the grid, to each side of the surface
 
 struct Body {
@@ -229,7 +227,7 @@ Map slice_of(const Body& body) {
   return map;
 }
 
-StudyResult run(const Subject&, Tier tier, const Progress& progress) {
+StudyResult run_octree_memory(const Subject&, Tier tier, const Progress& progress) {
   std::vector<Balance> all;
   const std::vector<Body> measured = bodies();
   for (std::size_t i = 0; i < measured.size(); ++i) {
@@ -254,7 +252,7 @@ Study octree_memory() {
           "How much does adaptive sampling save? For bodies with even curvature, sharp edges and bumps, a "
           "regular grid and the coarsest octree that misses by no more, both in double precision. The octree "
           "may use cells of half the grid's width where it needs them.",
-          run};
+          run_octree_memory};
 }
 
 }  // namespace foldproof

@@ -2,7 +2,6 @@
 #include "convergence/overdamped.h"
 
 #include <cmath>
-#include <limits>
 
 #include "convergence/overdamped_motion.h"
 #include "reference/dynamics/integrator.h"
@@ -11,7 +10,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double least_shown = 1e-6;  // of the way
 constexpr double most_shown = 1e6;    // ways
 constexpr double turning = 1e-5;      // of the way

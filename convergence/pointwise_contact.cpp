@@ -95,7 +95,7 @@ NamedFinding spike_finding(const Subject& subject) {
            "measured is the sheet's mean height over the pin's tip"}};
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_pointwise_contact(const Subject& subject, Tier tier, const Progress& progress) {
   std::vector<int> meshes = {4, 6, 9, 13};
   if (tier == Tier::full) meshes.push_back(20);
   const Cut particles = cuts(subject, meshes, PointKind::particles);
@@ -127,7 +127,7 @@ Study pointwise_contact() {
   return {"pointwise-contact", "Particles alone are enough where the cloth is dense.", "BMF03 section 5.2",
           "The response holds points out of objects. What lies between the points is held out only as far as "
           "the object is flat from one point to the next.",
-          run};
+          run_pointwise_contact};
 }
 
 }  // namespace foldproof

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "verification/checks/processor_time.h"
 
@@ -10,7 +9,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double coarsest = 1. / 8;      // steps of the first run over those at the elastic limit
 constexpr double far_away = 20;          // displacement over the motion beyond which a run is stopped [1]
 constexpr int most_repeats = 4;          // of a run that is timed

@@ -1,6 +1,5 @@
 // resting-contact: cloth comes to rest on a ball under each response: what keeps moving, and what lies inside.
 #include <cmath>
-#include <limits>
 
 #include "convergence/contact_runs.h"
 #include "convergence/studies.h"
@@ -9,7 +8,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double end = 1.1, settled = 0.9;  // of the run, and from when on it should be still [s]
 
 /// What one response makes of the same fall.
@@ -84,7 +82,7 @@ NamedFinding alike(const Rest& forecast, const Rest& projection) {
            what_is_measured}};
 }
 
-StudyResult run(const Subject& subject, Tier, const Progress& progress) {
+StudyResult run_resting_contact(const Subject& subject, Tier, const Progress& progress) {
   StudyResult result;
   std::vector<Rest> rests;
   Figure figure{"speed",
@@ -123,7 +121,7 @@ Study resting_contact() {
   return {"resting-contact", "Forecasting lets cloth come to rest.", "BMF03 section 5.2",
           "A sheet falls on a ball and hangs over it. The paper's response corrects velocities before the "
           "cloth moves; the two it is compared with look at where the cloth has come to.",
-          run};
+          run_resting_contact};
 }
 
 }  // namespace foldproof

@@ -12,8 +12,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// Flat sheets above each other, within the thickness, n x n particles each, cells of 1 cm.
 TriangleMesh stacked_sheets(int n, int layers, double gap) {
   Sheet sheet;

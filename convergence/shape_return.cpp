@@ -1,6 +1,5 @@
 // shape-return: a sculpted shell is pulled out of shape, let go, and damped until it rests.
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "convergence/studies.h"
@@ -14,7 +13,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double size = 0.11;    // radius of the ball, half of the figure's height [m]
 constexpr double young = 40;     // Y [N/m]
 constexpr double density = 0.2;  // kg/m^2
@@ -146,7 +144,7 @@ NamedFinding angles_matter(const Shell& shell, const Return& own, const Return& 
            ""}};
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_shape_return(const Subject& subject, Tier tier, const Progress& progress) {
   std::vector<Shell> shells = {bumpy_ball(1), bumpy_ball(2)};
   if (tier == Tier::full) shells.push_back(statue());
   StudyResult result;
@@ -180,7 +178,7 @@ Study shape_return_study() {
       "A closed shell with bumps is squeezed, sheared and dented by about a tenth of its size, let go and "
       "damped. Its distance from the rest shape falls until nothing is left to see, on coarse and fine "
       "meshes alike; with flat rest angles it settles elsewhere.",
-      run};
+      run_shape_return};
 }
 
 }  // namespace foldproof

@@ -14,7 +14,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double told_apart = 1;       // degrees
 constexpr double cells_looked_at = 6;  // from the edge
 
@@ -166,7 +165,7 @@ Figure figure_of(const std::vector<Sampling>& samplings) {
   return figure;
 }
 
-StudyResult run(const Subject&, Tier tier, const Progress& progress) {
+StudyResult run_sharp_edges(const Subject&, Tier tier, const Progress& progress) {
   const Askew body;
   const int finest = tier == Tier::full ? 8 : 7;
   Sampling grids{
@@ -206,7 +205,7 @@ Study sharp_edges() {
           "BMF03 section 5.1",
           "How far from an edge is N not the face's, and how much does refinement help? A box askew to the "
           "samples, exact values at the nodes.",
-          run};
+          run_sharp_edges};
 }
 
 }  // namespace foldproof

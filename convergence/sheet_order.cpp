@@ -46,7 +46,7 @@ Scene hanging_scene() {
   return scene;
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_sheet_order(const Subject& subject, Tier tier, const Progress& progress) {
   const Scene scene = hanging_scene();
   const double tolerance = tier == Tier::quick ? 1e-10 : 1e-12;
   const ExactEnd exact = exact_end(scene, oracle_of(scene), end, tolerance);
@@ -68,7 +68,7 @@ Study sheet_time_order() {
           "are led to and fro. It is released from a wavy shape with a wavy velocity; springs and bending "
           "are both damped. Everything else is as in the study of the hinge, with the solution by GSL over "
           "all free particles.",
-          run};
+          run_sheet_order};
 }
 
 }  // namespace foldproof

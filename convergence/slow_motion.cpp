@@ -1,7 +1,6 @@
 #include "convergence/slow_motion.h"
 
 #include <cmath>
-#include <limits>
 
 #include "convergence/order.h"
 #include "convergence/step_matrix.h"
@@ -11,7 +10,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double zeta = 20;  // damping ratio
 constexpr int levels = 8;    // steps, each half of the one before
 constexpr double most = 32;  // h c/2 of the longest step, which is 0.8 of 2/omega
@@ -29,7 +27,7 @@ Creeping creeping(double omega) {
 /// Relative errors of the rate over the steps h [s]: -ln(mu)/(rate h) - 1, mu the step matrix's eigenvalue next to
 /// exp(-rate h).
 Convergence rate_errors(const Subject& subject, const std::string& scheme) {
-  const Stepper of = stepper(subject, hinge_oscillator(zeta), scheme);
+  const SteppedMotion of = stepped_motion(subject, hinge_oscillator(zeta), scheme);
   const Creeping motion = creeping(of.motion.omega0);
   Convergence errors;
   for (int level = 0; level < levels; ++level) {

@@ -12,7 +12,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double exact = 1e-14;        // tolerance that stands for exact solves
 constexpr double of_the_cases = 1e-8;  // the shipped cases' usual tolerance
@@ -193,7 +192,7 @@ Figure figure_of(const std::vector<SchemeRuns>& schemes) {
   return figure;
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_solve_tolerance(const Subject& subject, Tier tier, const Progress& progress) {
   const PrecisionProblem problem = damped_sheet(tier);
   const PrecisionTruth truth = truth_of(subject, problem);
   std::vector<SchemeRuns> schemes;
@@ -225,7 +224,7 @@ Study solve_tolerance() {
       "A, B and C at half, a quarter and an eighth of the elastic limit while the relative residual at which "
       "conjugate gradients stop goes from a tenth down to rounding. Errors are against an extrapolated RK4, "
       "which solves nothing.",
-      run};
+      run_solve_tolerance};
 }
 
 }  // namespace foldproof

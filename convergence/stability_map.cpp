@@ -1,7 +1,6 @@
 #include "convergence/stability_map.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "convergence/ranges.h"
@@ -15,7 +14,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double bending = 0.0071;  // ke [J]
 constexpr int coarsest = 4;  // cells a side, of the mesh on which a material's damping ratio is counted
 
@@ -79,7 +77,7 @@ double tried_ratio(const Subject& subject, const Integrator& method, Scene scene
   constexpr double growth = 1e-6;
   const double h = expected * 2 / mode.omega;
   return largest_constant_step(
-             stepper(subject, motion_along(std::move(scene), mode.shape, mode.omega), method.name),
+             stepped_motion(subject, motion_along(std::move(scene), mode.shape, mode.omega), method.name),
              {h / 2, 4 * h, growth, 9}) *
          mode.omega / 2;
 }

@@ -14,7 +14,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double threshold = 1e-8;
 
 /// What is known of omega times the largest stable step: infinite for methods without limit.
@@ -30,13 +29,13 @@ double known_limit(const Integrator& integrator, double zeta) {
   return std::numeric_limits<double>::infinity();
 }
 
-double spectral_radius_at(const Stepper& of, double omega_h) {
+double spectral_radius_at(const SteppedMotion& of, double omega_h) {
   const double h = omega_h / of.motion.omega0;
   return spectral_radius(step_matrix(of, {h, h}));
 }
 
 /// omega h of the first step that grows, from a twentieth of the known limit on.
-double measured_limit(const Stepper& of, double known) {
+double measured_limit(const SteppedMotion& of, double known) {
   const double omega = of.motion.omega0;
   return omega * largest_constant_step(of, {known / 20 / omega, known * 20 / omega, threshold});
 }
@@ -53,7 +52,7 @@ LimitRow limit_row(const Subject& subject, const Integrator& integrator, const s
     if (!(known > 0)) continue;  // unstable at every step: judged by itself
     row.zeta.push_back(zeta);
     row.known.push_back(known);
-    row.measured.push_back(measured_limit(stepper(subject, hinge_oscillator(zeta), integrator.name), known));
+    row.measured.push_back(measured_limit(stepped_motion(subject, hinge_oscillator(zeta), integrator.name), known));
   }
   return row;
 }
@@ -79,7 +78,7 @@ NamedFinding limit_finding(const Integrator& integrator, const LimitRow& row) {
 
 /// Methods that leave the imaginary axis at once: first and second order.
 NamedFinding undamped_growth(const Subject& subject, const Integrator& integrator) {
-  const Stepper of = stepper(subject, hinge_oscillator(0), integrator.name);
+  const SteppedMotion of = stepped_motion(subject, hinge_oscillator(0), integrator.name);
   const std::vector<double> steps = {0.05, 0.13, 0.37, 0.9};
   const int power = integrator.order == 1 ? 2 : 4;  // |R(iy)|^2 = 1 + y^2, 1 + y^4/4
   Worst worst;
@@ -102,7 +101,7 @@ NamedFinding unlimited(const Subject& subject, const Integrator& integrator) {
   Worst worst;
   std::vector<double> ratios, largest;
   for (const double zeta : {0.0, 0.01, 0.1, 0.5, 1.0, 10.0}) {
-    const Stepper of = stepper(subject, hinge_oscillator(zeta), integrator.name);
+    const SteppedMotion of = stepped_motion(subject, hinge_oscillator(zeta), integrator.name);
     Worst here;
     for (const double omega_h : in_decades(0.01, 1000, 26)) here.see(spectral_radius_at(of, omega_h));
     ratios.push_back(zeta);
@@ -140,7 +139,7 @@ Map radius_map(const Subject& subject, const Integrator& integrator, int finenes
           "Above 1 a disturbance grows from step to step.",
           {}};
   for (const double zeta : map.y_values) {
-    const Stepper of = stepper(subject, hinge_oscillator(zeta), name);
+    const SteppedMotion of = stepped_motion(subject, hinge_oscillator(zeta), name);
     for (const double omega_h : map.x_values) map.values.push_back(spectral_radius_at(of, omega_h));
   }
   if (integrator.family != Family::fully_implicit) {
@@ -152,7 +151,7 @@ Map radius_map(const Subject& subject, const Integrator& integrator, int finenes
   return map;
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Progress& progress) {
   std::vector<double> ratios = {0, 0.03, 0.1, 0.3, 0.7, 1, 1.7, 5, 10};
   if (tier == Tier::full) ratios.insert(ratios.end(), {0.01, 0.02, 0.2, 0.5, 0.9, 1.1, 3, 30, 100});
   std::sort(ratios.begin(), ratios.end());
@@ -199,7 +198,7 @@ Study stability_oscillator() {
           "damping follow by hand. Two unit disturbances, stepped once, make the matrix of a method's step "
           "(four for BDF2, which looks back two states); its spectral radius is bisected for the step at "
           "which it leaves 1, and compared with what is known of each method.",
-          run};
+          run_stability_oscillator};
 }
 
 }  // namespace foldproof

@@ -1,7 +1,6 @@
 // stability-sheet: the largest stable step of a sheet over damping and resolution: what is implicit in the damping
 // and what is not.
 #include <cmath>
-#include <limits>
 
 #include "convergence/order.h"
 #include "convergence/explicit_limits.h"
@@ -15,8 +14,6 @@
 namespace foldproof {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Flat, springs resist in the plane alone and hinges across it: with one of them damped some modes are not.
 bool damps_all(const Damping& damping) { return damping.springs > 0 && damping.bending > 0; }
@@ -55,7 +52,7 @@ DampedLimits damped_limits(const Subject& subject, const Integrator& integrator,
     limits.times.push_back(times);
     limits.known.push_back(known);
     limits.elastic.push_back(oracles::largest_leapfrog_step(forces.stiffness).value);
-    limits.measured.push_back(largest_constant_step(stepper(subject, motion, integrator.name),
+    limits.measured.push_back(largest_constant_step(stepped_motion(subject, motion, integrator.name),
                                                     {known / 2, known * 4, threshold, 11}));
   }
   return limits;
@@ -146,7 +143,7 @@ void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progre
   }
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_stability_sheet(const Subject& subject, Tier tier, const Progress& progress) {
   StudyResult result;
   add_clamped_sheet(subject, tier, progress, result);
   add_refinement(subject, tier, result);
@@ -171,7 +168,7 @@ Study stability_sheet() {
       "whole step, whose spectral radius is bisected while the damping rises by 1e4. Under refinement the "
       "largest rate of the damping is found by power iteration. The paper's example, cells of a tenth, is "
       "counted out and confirmed by runs.",
-      run};
+      run_stability_sheet};
 }
 
 }  // namespace foldproof

@@ -1,7 +1,6 @@
 #include "convergence/stable_step.h"
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <random>
 
@@ -94,8 +93,7 @@ FastestMode fastest_mode(const Subject& subject, const Scene& scene) {
 
 double largest_stable_step(const Subject& subject, const Scene& scene, double omega,
                            const StepSearch& search) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
+    const auto prepared = offered(subject.prepare, "prepare")(scene);
   offered(subject.step, "step");
   const Trial trial{subject, scene, *prepared, search.steps};
   double below = search.low, above = search.high;

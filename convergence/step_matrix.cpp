@@ -41,7 +41,7 @@ Eigen::VectorXd coordinates(const SmallMotion& motion, const PerParticle3& diffe
 double unit_of(const SmallMotion& motion) { return motion.disturbance / motion.shapes.cwiseAbs().maxCoeff(); }
 
 /// The state after one step from the disturbances y of the latest states.
-State stepped(const Stepper& of, const Eigen::VectorXd& y, Steps steps, double unit) {
+State stepped(const SteppedMotion& of, const Eigen::VectorXd& y, Steps steps, double unit) {
   const Eigen::Index size = 2 * of.motion.shapes.cols();
   std::vector<State> past;
   for (int i = 0; i < of.history; ++i)
@@ -124,7 +124,7 @@ LinearForces linear_forces(const Subject& subject, const SmallMotion& motion) {
   return forces;
 }
 
-Stepper stepper(const Subject& subject, SmallMotion motion, std::string_view integrator) {
+SteppedMotion stepped_motion(const Subject& subject, SmallMotion motion, std::string_view integrator) {
   motion.scene.integrator = std::string(integrator);
   motion.scene.solver.tolerance = tight;
   offered(subject.step, "step");
@@ -132,7 +132,7 @@ Stepper stepper(const Subject& subject, SmallMotion motion, std::string_view int
   return {subject, std::move(motion), integrator_named(integrator).history, std::move(prepared)};
 }
 
-Eigen::MatrixXd step_matrix(const Stepper& of, Steps steps) {
+Eigen::MatrixXd step_matrix(const SteppedMotion& of, Steps steps) {
   const Eigen::Index n = of.motion.shapes.cols(), size = 2 * n * of.history;
   const double unit = unit_of(of.motion);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
@@ -146,7 +146,7 @@ Eigen::MatrixXd step_matrix(const Stepper& of, Steps steps) {
   return matrix;
 }
 
-Eigen::MatrixXd pair_matrix(const Stepper& of, double first, double second) {
+Eigen::MatrixXd pair_matrix(const SteppedMotion& of, double first, double second) {
   return step_matrix(of, {second, first}) * step_matrix(of, {first, second});
 }
 
@@ -165,7 +165,7 @@ double spectral_radius(const Eigen::MatrixXd& matrix) {
   return worst.value();
 }
 
-double largest_constant_step(const Stepper& of, const StepRange& range) {
+double largest_constant_step(const SteppedMotion& of, const StepRange& range) {
   const auto stays = [&](double h) {
     return spectral_radius(step_matrix(of, {h, h})) <= 1 + range.threshold;
   };

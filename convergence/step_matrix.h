@@ -41,7 +41,7 @@ struct LinearForces {
 LinearForces linear_forces(const Subject& subject, const SmallMotion& motion);
 
 /// A motion as the subject has made it ready for one of the reference's methods.
-struct Stepper {
+struct SteppedMotion {
   const Subject& subject;
   SmallMotion motion;
   int history;  // states that the method looks back on
@@ -49,7 +49,7 @@ struct Stepper {
 };
 
 /// Throws NotOffered if the subject does not step.
-Stepper stepper(const Subject& subject, SmallMotion motion, std::string_view integrator);
+SteppedMotion stepped_motion(const Subject& subject, SmallMotion motion, std::string_view integrator);
 
 /// A step and the one before it, which methods without history do not see [s].
 struct Steps {
@@ -58,10 +58,10 @@ struct Steps {
 
 /// Takes the latest `history` disturbances, the oldest first, to those one step later; 2 n history square,
 /// by central differences.
-Eigen::MatrixXd step_matrix(const Stepper& of, Steps steps);
+Eigen::MatrixXd step_matrix(const SteppedMotion& of, Steps steps);
 
 /// Two steps, first and then second, again and again: the matrix of one such pair.
-Eigen::MatrixXd pair_matrix(const Stepper& of, double first, double second);
+Eigen::MatrixXd pair_matrix(const SteppedMotion& of, double first, double second);
 
 /// The paper's scheme of that name, A, B or C, for the oracles.
 oracles::Scheme derived_scheme(std::string_view integrator);
@@ -78,7 +78,7 @@ struct StepRange {
 
 /// The first step from low on, in strides of a seventh, whose matrix grows, bisected [s]. 0 if `low` grows,
 /// infinite if nothing up to `high` does.
-double largest_constant_step(const Stepper& of, const StepRange& range);
+double largest_constant_step(const SteppedMotion& of, const StepRange& range);
 
 /// The largest norm of the powers 1 to `powers` of a matrix: how much of a disturbance can come of it on the
 /// way, stable or not. At least 1, its power 0.

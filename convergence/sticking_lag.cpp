@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <complex>
-#include <limits>
 
 #include "convergence/ranges.h"
 #include "convergence/sticking_scenes.h"
@@ -15,8 +14,6 @@
 namespace foldproof {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // ---- lag on a turntable
 
@@ -283,7 +280,7 @@ void add_cost(const Subject& subject, Tier tier, StudyResult& result) {
         "spectrum, and cost more"}});
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_sticking_lag(const Subject& subject, Tier tier, const Progress& progress) {
   StudyResult result;
   add_lags(subject, tier, result);
   add_lags_of_long_steps(subject, result);
@@ -308,7 +305,7 @@ Study sticking_lag() {
           "both adds a damping of their relative velocity, which the schemes take implicitly: against a "
           "plain spring "
           "it neither lags more nor less, but it comes to rest, and in scheme C it is stable however stiff.",
-          run};
+          run_sticking_lag};
 }
 
 }  // namespace foldproof

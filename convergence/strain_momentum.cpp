@@ -2,7 +2,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convergence/order.h"
 #include "convergence/studies.h"
@@ -15,7 +14,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double end = 0.24;  // s
 constexpr int coarsest = 60;  // steps
 
@@ -99,7 +97,7 @@ NamedFinding drifts(const Drift& drift) {
            "measured is |order - 1| of the line through all levels"}};
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_strain_momentum(const Subject& subject, Tier tier, const Progress& progress) {
   const int levels = tier == Tier::quick ? 5 : 7;
   StudyResult result;
   Figure figure{"drift",
@@ -141,7 +139,7 @@ Study strain_momentum() {
           "go. Impulses that hold against a force are of the order of h, so a step errs by h^2, and a run by "
           "h. B carries on "
           "the velocity that it moved with.",
-          run};
+          run_strain_momentum};
 }
 
 }  // namespace foldproof

@@ -2,7 +2,6 @@
 // meshes.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convergence/order.h"
 #include "convergence/studies.h"
@@ -15,7 +14,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double tolerance = 1e-3;  // violation over the rest length at which sweeps are counted [1]
 constexpr double fall = 0.08;       // of the sheet's height, in one step [1]
 
@@ -220,7 +218,7 @@ Table brought_back() {
            {"sweeps", "1", sweeps}}};
 }
 
-StudyResult run(const Subject&, Tier tier, const Progress& progress) {
+StudyResult run_strain_sweeps(const Subject&, Tier tier, const Progress& progress) {
   std::vector<int> meshes = {6, 12, 24};
   if (tier == Tier::full) meshes.push_back(48);
   StudyResult result;
@@ -267,7 +265,7 @@ Study strain_sweeps() {
           "all at once are "
           "counted until no violation exceeds a thousandth of a rest length. It measures the reference's own "
           "sweeps.",
-          run};
+          run_strain_sweeps};
 }
 
 }  // namespace foldproof

@@ -1,7 +1,6 @@
 // strip-vibration: the lowest frequencies of a clamped strip, from its stiffness and from its steps.
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "convergence/order.h"
@@ -16,7 +15,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double disturbance = 1e-6;  // of the flat strip [m]: linear, and large enough for differences
 
 /// beta L of the n-th mode of a clamped-free beam (n = 1, 2): cos(beta L) cosh(beta L) = -1.
@@ -202,7 +200,7 @@ NamedFinding steps_keep_the_frequency(const Subject& subject) {
        "periods"}};
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_strip_vibration(const Subject& subject, Tier tier, const Progress& progress) {
   std::vector<int> sizes = {8, 16, 32, 64};
   if (tier == Tier::full) sizes.push_back(128);
   StudyResult result;
@@ -248,7 +246,7 @@ Study strip_vibration_study() {
       "The stiffness across a strip held cylindrical is taken from differences of the solver's forces, "
       "its masses from the area; the two lowest frequencies are compared with beta^2 sqrt(D/rho). A strip "
       "that is free to twist is released in one of its own modes and stepped by each scheme.",
-      run};
+      run_strip_vibration};
 }
 
 }  // namespace foldproof

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "convergence/order.h"
@@ -12,7 +11,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int pairs_judged = 3;
 constexpr double bound = 0.1;
 constexpr const char* why_bound =

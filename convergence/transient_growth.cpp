@@ -1,6 +1,5 @@
 // transient-growth: how far a stable scheme can carry a disturbance before it decays, in the norm of the energy.
 #include <cmath>
-#include <limits>
 
 #include "convergence/order.h"
 #include "convergence/ranges.h"
@@ -13,7 +12,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int powers = 60;  // steps looked ahead; the largest growth comes within a period of the slowest
 
 const std::vector<std::string>& schemes() {
@@ -24,7 +22,7 @@ const std::vector<std::string>& schemes() {
 // ---- one oscillator: a = h c/2 = zeta omega h
 
 double oscillator_growth(const Subject& subject, const std::string& scheme, double omega_h, double a) {
-  const Stepper of = stepper(subject, hinge_oscillator(a / omega_h), scheme);
+  const SteppedMotion of = stepped_motion(subject, hinge_oscillator(a / omega_h), scheme);
   const double h = omega_h / of.motion.omega0;
   return transient_growth(step_matrix(of, {h, h}), powers);
 }
@@ -158,7 +156,7 @@ SheetGrowth sheet_growth(const Subject& subject, int points) {
     const Eigen::MatrixXd stiffness = linear_forces(subject, motion).stiffness;
     const double h = part_of_limit * oracles::largest_leapfrog_step(stiffness).value;
     for (size_t i = 0; i < schemes().size(); ++i) {
-      const Eigen::MatrixXd matrix = step_matrix(stepper(subject, motion, schemes()[i]), {h, h});
+      const Eigen::MatrixXd matrix = step_matrix(stepped_motion(subject, motion, schemes()[i]), {h, h});
       found.growth[i].push_back(transient_growth(in_energy_norm(matrix, stiffness, motion.omega0), powers));
     }
   }
@@ -199,7 +197,7 @@ void add_sheet(const Subject& subject, int points, StudyResult& result) {
   result.figures.push_back(std::move(figure));
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_transient_growth(const Subject& subject, Tier tier, const Progress& progress) {
   const bool quick = tier == Tier::quick;
   StudyResult result;
   Figure figure{"oscillator",
@@ -243,7 +241,7 @@ Study transient_growth_study() {
       "orthogonal. Measured is the largest norm of the first powers of the step matrix in the norm of the "
       "energy, in which exact motion never grows: on an oscillator, over step and damping, and on a small "
       "clamped sheet whose springs and hinges are damped out of proportion to their stiffness.",
-      run};
+      run_transient_growth};
 }
 
 }  // namespace foldproof

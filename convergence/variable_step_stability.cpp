@@ -1,6 +1,5 @@
 // variable-step-stability: steps that are stable each by itself need not be so in turn.
 #include <cmath>
-#include <limits>
 
 #include "convergence/bdf2_growing_steps.h"
 #include "convergence/ranges.h"
@@ -15,7 +14,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double short_step = 0.69, long_step = 1.99;  // omega h of the worst pair of stable steps
 
 /// Spectral radius of two steps in turn, by the derived matrices.
@@ -26,14 +24,14 @@ double exact_radius(std::string_view scheme, double zeta, double first, double s
 }
 
 /// The same by stepping; first and second are omega h.
-double stepped_radius(const Stepper& of, double first, double second) {
+double stepped_radius(const SteppedMotion& of, double first, double second) {
   return spectral_radius(pair_matrix(of, first / of.motion.omega0, second / of.motion.omega0));
 }
 
 // ---- one oscillator
 
 NamedFinding resonance_finding(const Subject& subject, const std::string& scheme) {
-  const Stepper of = stepper(subject, hinge_oscillator(0), scheme);
+  const SteppedMotion of = stepped_motion(subject, hinge_oscillator(0), scheme);
   const double pair = stepped_radius(of, short_step, long_step);
   const std::vector<double> alone = {stepped_radius(of, short_step, short_step),
                                      stepped_radius(of, long_step, long_step)};
@@ -55,7 +53,7 @@ NamedFinding damped_finding(const Subject& subject, const std::string& scheme) {
   std::vector<double> ratios = {0.5, 0.7, 1, 2, 5, 20}, radii;
   Worst worst;
   for (const double zeta : ratios) {
-    radii.push_back(stepped_radius(stepper(subject, hinge_oscillator(zeta), scheme), short_step, long_step));
+    radii.push_back(stepped_radius(stepped_motion(subject, hinge_oscillator(zeta), scheme), short_step, long_step));
     worst.see(radii.back());
   }
   return {
@@ -92,7 +90,7 @@ Map ratio_map(const Subject& subject, const std::string& method, int fineness) {
           "Above 1 a disturbance grows from pair to pair, though each step alone is stable.",
           {}};
   for (const double zeta : map.y_values) {
-    const Stepper of = stepper(subject, hinge_oscillator(zeta), method);
+    const SteppedMotion of = stepped_motion(subject, hinge_oscillator(zeta), method);
     for (const double ratio : map.x_values)
       map.values.push_back(stepped_radius(of, ratio * long_step, long_step));
   }
@@ -143,7 +141,7 @@ Map both_steps_map(const Subject& subject, int fineness) {
       "Schemes A, B and C agree without damping. Each of these steps alone is stable; off the diagonal some "
       "pairs resonate, most of all with a step near the limit.",
       {}};
-  const Stepper of = stepper(subject, hinge_oscillator(0), "A");
+  const SteppedMotion of = stepped_motion(subject, hinge_oscillator(0), "A");
   for (const double second : map.y_values)
     for (const double first : map.x_values) map.values.push_back(stepped_radius(of, first, second));
   return map;
@@ -196,7 +194,7 @@ void add_sheet_findings(const Subject& subject, const std::string& scheme, Study
         "measured is the growth over ten"}});
 }
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_variable_step_stability(const Subject& subject, Tier tier, const Progress& progress) {
   const int fineness = tier == Tier::quick ? 3 : 10;
   StudyResult result;
   double done = 0;
@@ -230,7 +228,7 @@ Study variable_step_stability() {
       "matrices, found by stepping a hinge whose corner is an oscillator, and compared with the derived "
       "ones; the same steps are then taken on a sheet. BDF2 has a limit of its own: steps must not grow "
       "by more than 1 + sqrt(2) each.",
-      run};
+      run_variable_step_stability};
 }
 
 }  // namespace foldproof

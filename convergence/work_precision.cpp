@@ -10,7 +10,7 @@ namespace foldproof {
 
 namespace {
 
-StudyResult run(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_work_precision(const Subject& subject, Tier tier, const Progress& progress) {
   const std::vector<PrecisionProblem> problems = precision_problems(tier);
   const double parts = double(problems.size()) * double(integrators().size() + 1);
   // the full tier's figures show how curves go on below the least error that is asked for
@@ -59,7 +59,7 @@ Study work_precision() {
       "not equally dear, so seconds of the processor stand beside them, the least of a few runs. Solves stop at 1e-8. A step beyond the elastic limit "
       "can be cheap on a short and damped motion, in which instability has no time to grow; do not take it "
       "for a long one.",
-      run};
+      run_work_precision};
 }
 
 }  // namespace foldproof

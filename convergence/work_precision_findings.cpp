@@ -1,15 +1,12 @@
 // What the runs of the work-precision study decide.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convergence/work_precision.h"
 
 namespace foldproof {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A tenth of the finest error that prices are read off at.
 NamedFinding reference_is_known(const PrecisionScene& scene) {

@@ -1,7 +1,6 @@
 // Figures and tables of the work-precision study.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convergence/work_precision.h"
 
@@ -9,7 +8,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double percent = 100;
 
 /// What a run is drawn against. A run that diverged on the way stands where all of its steps would have cost as much

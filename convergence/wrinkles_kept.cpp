@@ -1,7 +1,6 @@
 // wrinkles-kept: how much of the wrinkles inside an object survives the projection?
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 
@@ -16,7 +15,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double width = 0.4, height = 0.06;            // of the sheet [m]
 constexpr int columns = 240, rows = 6;                  // of its cells
 constexpr double wavelength = 0.04, amplitude = 0.006;  // of the wrinkles [m]
@@ -274,7 +272,7 @@ Map slice_of_union() {
   return map;
 }
 
-StudyResult run(const Subject&, Tier tier, const Progress& progress) {
+StudyResult run_wrinkles_kept(const Subject&, Tier tier, const Progress& progress) {
   const TriangleMesh sheet = make_sheet({SheetPattern::one_diagonal, width, height, columns, rows});
   const std::vector<Sunk> sheets = sunk_sheets(sheet);
   std::vector<double> reaches;
@@ -311,7 +309,7 @@ Study wrinkles_kept() {
       "a range of tau. Of the particles that were inside, the standard deviation of the signed distance is "
       "compared before and after; the wavelength is where the spectrum of the distances along the strip's "
       "middle is largest.",
-      run};
+      run_wrinkles_kept};
 }
 
 }  // namespace foldproof

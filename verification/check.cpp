@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <stdexcept>
 
 namespace foldproof {
@@ -21,7 +20,6 @@ class Clock {
 };
 
 Finding broken(const std::string& what) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   return {{nan, nan, nan, "1", "it must run to its end"}, {}, "stopped by an error: " + what};
 }
 

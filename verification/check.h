@@ -72,13 +72,16 @@ enum class Mark { measured, unfinished, diverged };
 
 std::string_view name_of(Mark mark);  // "measured", "unfinished", "diverged"
 
+/// A number that is not there: no floor, no slope, a gap in a curve.
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
 /// A curve of a figure; floor is the level below which its y means nothing (NaN: none).
 struct Curve {
   std::string label;
   std::vector<double> x, y;
   double floor;
   std::vector<double> pair_orders;  // observed order of each neighbouring pair; empty if orders make no sense
-  double slope = std::numeric_limits<double>::quiet_NaN();  // expected of this curve in log-log, NaN: none
+  double slope = nan;  // expected of this curve in log-log, NaN: none
   std::vector<Mark> marks = {};                             // one a point; empty: all measured
 };
 

@@ -31,7 +31,7 @@ void keep_nearer(Nearness& nearest, const Corners4& x, const Eigen::Vector4d& we
   if (!(nearest.distance <= other.distance)) nearest = other;
 }
 
-Nearness nowhere() { return {std::numeric_limits<double>::quiet_NaN(), Vector3(), Eigen::Vector4d()}; }
+Nearness no_nearness() { return {std::numeric_limits<double>::quiet_NaN(), Vector3(), Eigen::Vector4d()}; }
 
 //        x3           The vertex x0 over the triangle. The foot of its perpendicular has the weights w2, w3 (and
 //       /  \          w1 = 1 - w2 - w3); a negative weight says that it lies beyond the side across from that corner,
@@ -52,7 +52,7 @@ Nearness vertex_triangle(const Corners4& x) {
     w[0] = 1 - w[1] - w[2];
     if (w.minCoeff() >= 0) return nearness_at(x, {1, -w[0], -w[1], -w[2]});
   }
-  Nearness nearest = nowhere();
+  Nearness nearest = no_nearness();
   for (int corner = 0; corner < 3; ++corner) {
     if (w[corner] >= 0) continue;
     const int a = (corner + 1) % 3, b = (corner + 2) % 3;
@@ -81,7 +81,7 @@ Nearness edge_edge(const Corners4& x) {
       return nearness_at(x, edge_weights(nearest_along(x.col(2) + foot * e, x.col(0), x.col(1)), foot));
     }
   }
-  Nearness nearest = nowhere();
+  Nearness nearest = no_nearness();
   for (int end = 0; end < 2; ++end) {
     keep_nearer(nearest, x, edge_weights(end, nearest_along(x.col(end), x.col(2), x.col(3))));
     keep_nearer(nearest, x, edge_weights(nearest_along(x.col(2 + end), x.col(0), x.col(1)), end));

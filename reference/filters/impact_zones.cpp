@@ -1,10 +1,11 @@
 #include "reference/filters/impact_zones.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <numeric>
+
+#include "reference/forces/symmetric_modes.h"
 
 namespace foldproof {
 
@@ -108,18 +109,18 @@ struct Solved {
 };
 
 Solved solve(const Matrix6& left, const Motion6& right, double scale) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6> modes(left);
+  const SymmetricModes modes = symmetric_modes(left);
   const double cut = no_motion * scale;
   Solved solved{Motion6::Zero(), {}};
   int open = 0;
   for (int k = 0; k < 6; ++k) {
-    const Motion6 mode = modes.eigenvectors().col(k);
-    if (modes.eigenvalues()[k] > cut)
-      solved.motion += mode.dot(right) / modes.eigenvalues()[k] * mode;
+    const Motion6 mode = modes.vectors.col(k);
+    if (modes.values[k] > cut)
+      solved.motion += mode.dot(right) / modes.values[k] * mode;
     else
       ++open;  // eigenvalues ascend
   }
-  solved.open = modes.eigenvectors().leftCols(open);
+  solved.open = modes.vectors.leftCols(open);
   return solved;
 }
 

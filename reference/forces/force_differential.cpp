@@ -1,6 +1,6 @@
 #include "reference/forces/force_differential.h"
 
-#include <Eigen/Eigenvalues>
+#include "reference/forces/symmetric_modes.h"
 
 namespace foldproof {
 
@@ -33,9 +33,13 @@ void ForceDifferential::add_product(const PerParticle3& dx, PerParticle3& df) co
 }
 
 Matrix12 negative_part(const Matrix12& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Matrix12> modes(matrix);
-  const Vector12 kept = modes.eigenvalues().cwiseMin(0.0);
-  return modes.eigenvectors() * kept.asDiagonal() * modes.eigenvectors().transpose();
+  const SymmetricModes modes = symmetric_modes(matrix);
+  Matrix12 kept = Matrix12::Zero();
+  for (int k = 0; k < 12 && modes.values[k] < 0; ++k) {  // they ascend
+    const Vector12 mode = modes.vectors.col(k);
+    kept += modes.values[k] * mode * mode.transpose();
+  }
+  return kept;
 }
 
 }  // namespace foldproof

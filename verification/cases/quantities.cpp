@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double degrees_per_radian = 180 / 3.14159265358979323846;
 
 // ---- of the whole run
@@ -161,9 +159,10 @@ std::string without_bending(const Scene& scene) { return scene.bending ? "" : "t
 std::string without_objects(const Scene& scene) {
   return scene.objects.empty() ? "the case has no [[object]]" : "";
 }
-std::string without_springs(const Scene& scene) { return scene.stretch ? "" : "the case has no [stretch]"; }
 
 }  // namespace
+
+std::string without_springs(const Scene& scene) { return scene.stretch ? "" : "the case has no [stretch]"; }
 
 void RunBook::enter(const Diagnostics& row, double end) {
   if (!is_begun_) start = row;

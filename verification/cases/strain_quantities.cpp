@@ -52,8 +52,6 @@ std::string without_limits(const Scene& scene) {
   return scene.strain_limits ? "" : "the case has no [strain_limits]";
 }
 
-std::string without_springs(const Scene& scene) { return scene.stretch ? "" : "the case has no [stretch]"; }
-
 }  // namespace
 
 std::vector<Quantity> strain_quantities() {

@@ -74,15 +74,6 @@ std::vector<BadSolid> bad_solids() {
        {":" + std::to_string(2 + 2 * 162 + 320) + ":", "inward"}}};
 }
 
-std::string refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 Finding bad_solids_are_refused(const Subject&) {
   const ScratchFolder folder;
   const std::string path = folder.file("bad.obj");

@@ -236,16 +236,6 @@ Finding rests_outside_its_frames(const Subject&) {
   return measured.judged(0, "no arithmetic: the first frame's and the last one's own values");
 }
 
-template <class Act>
-std::string refusal(const Act& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 Finding sequences_are_read(const Subject&) {
   Measured measured("differences, and refusals without their reason", "1");
   const ScratchFolder folder;

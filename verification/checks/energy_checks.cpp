@@ -6,18 +6,12 @@
 #include "reference/dynamics/simulate.h"
 #include "verification/checks/dynamics_checks.h"
 #include "verification/checks/moving_scenes.h"
+#include "verification/checks/specimens.h"
 #include "verification/oracles/definitions.h"
 
 namespace foldproof {
 
 namespace {
-
-using Corners = std::array<Vector3, 4>;
-
-Corners corners_of(const Hinge& hinge, const PerParticle3& x) {
-  const auto [i1, i2, i3, i4] = hinge.particles;
-  return {x.col(i1), x.col(i2), x.col(i3), x.col(i4)};
-}
 
 double rest_area(const Scene& scene, int triangle) {
   const auto [a, b, c] = scene.mesh.triangles[size_t(triangle)];

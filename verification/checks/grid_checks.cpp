@@ -30,7 +30,7 @@ Vector3 inside(Random& random, const Lattice& lattice, double inset) {
 }
 
 // phi = c0 + c1 x + c2 y + c3 z + c4 x y + c5 y z + c6 z x + c7 x y z, about the lattice's origin
-struct Trilinear {
+struct Multilinear {
   std::array<double, 8> c;
   double value(const Vector3& q) const {
     return c[0] + c[1] * q.x() + c[2] * q.y() + c[3] * q.z() + c[4] * q.x() * q.y() + c[5] * q.y() * q.z() +
@@ -44,7 +44,7 @@ struct Trilinear {
 };
 
 Finding cell_is_trilinear(const Subject&) {
-  const Trilinear truth{{0.3, -1.1, 0.7, 1.7, 2.3, -3.1, 1.3, 5.9}};
+  const Multilinear truth{{0.3, -1.1, 0.7, 1.7, 2.3, -3.1, 1.3, 5.9}};
   const Vector3 origin = odd_lattice.origin;
   const Grid grid = sampled(odd_lattice, [&](const Vector3& p) { return truth.value(p - origin); });
   Random random(79);

@@ -16,7 +16,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr double step = 0.004;  // s
+constexpr double span = 0.004;  // s
 
 /// Layers that would pass through each other in a step, answered by impulses or, with hardly any rounds of these, by zones.
 std::vector<std::pair<std::string, Layered>> fast_layers() {
@@ -37,7 +37,7 @@ bool boxes_meet(const Corners4& a, const Corners4& b, int first) {
 
 /// Pairs that the velocities v take through each other on the way to x + h v, as it is rounded.
 double meetings(const Scene& scene, const PerParticle3& v) {
-  const PerParticle3 end = scene.x + step * v;
+  const PerParticle3 end = scene.x + span * v;
   double count = 0;
   for (const FeaturePair& pair : all_pairs(scene.mesh)) {
     const Corners4 from = corners_of(pair, scene.x), to = corners_of(pair, end);
@@ -56,7 +56,7 @@ Finding free_finding(const Subject& subject) {
     const Scene scene = layered_scene(wanted);
     const double unanswered = meetings(scene, scene.v);
     measured.see(name + " (" + std::to_string(int(unanswered)) + " without)",
-                 unanswered > 20 ? meetings(scene, kept_apart(subject, scene, {step, true})) : NAN);
+                 unanswered > 20 ? meetings(scene, kept_apart(subject, scene, {span, true})) : NAN);
   }
   return measured.judged(0, "all pairs of features, neighbours aside, asked in exact arithmetic");
 }
@@ -67,7 +67,7 @@ Finding distance_finding(const Subject& subject) {
   for (const auto& [name, wanted] : fast_layers()) {
     const Scene scene = layered_scene(wanted);
     const double kept = 0.1 * wanted.settings.thickness;
-    const PerParticle3 end = scene.x + step * kept_apart(subject, scene, {step, true});
+    const PerParticle3 end = scene.x + span * kept_apart(subject, scene, {span, true});
     double least = INFINITY;
     for (const FeaturePair& pair : all_pairs(scene.mesh))
       if (nearness(pair.kind, corners_of(pair, scene.x)).distance > kept)
@@ -87,7 +87,7 @@ Finding energy_finding(const Subject& subject) {
     const Scene scene = layered_scene(wanted);
     const PerParticle mass = lumped_masses(scene.mesh, scene.density);
     measured.see(name,
-                 kinetic_of(mass, kept_apart(subject, scene, {step, true})) / kinetic_of(mass, scene.v));
+                 kinetic_of(mass, kept_apart(subject, scene, {span, true})) / kinetic_of(mass, scene.v));
   }
   return measured.judged(
       1,
@@ -179,7 +179,7 @@ Finding forced_finding(const Subject& subject) {
   }
   double accepted = 1;
   try {
-    kept_apart(subject, scene, {step, true});
+    kept_apart(subject, scene, {span, true});
   } catch (const DegenerateElement&) {
     accepted = 0;
   }
@@ -191,11 +191,11 @@ Finding forced_finding(const Subject& subject) {
 Finding same_bits_finding(const Subject& subject) {
   Measured measured("velocities that differ", "velocities");
   const Scene scene = layered_scene(fast_layers()[1].second);
-  const PerParticle3 alone = kept_apart(subject, scene, {step, true});
+  const PerParticle3 alone = kept_apart(subject, scene, {span, true});
   std::vector<PerParticle3> answers(3);
   std::vector<std::thread> threads;
   for (PerParticle3& answer : answers)
-    threads.emplace_back([&] { answer = kept_apart(subject, scene, {step, true}); });
+    threads.emplace_back([&] { answer = kept_apart(subject, scene, {span, true}); });
   for (std::thread& thread : threads) thread.join();
   double differ = 0;
   for (const PerParticle3& answer : answers) differ += double((answer.array() != alone.array()).count());

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 #include "verification/checks/moving_scenes.h"
@@ -47,6 +48,17 @@ double signed_largest(const std::vector<double>& values) {
   for (const double value : values)
     if (!std::isnan(largest) && !(value <= largest)) largest = value;
   return largest;
+}
+
+std::string refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    return error.what();
+  } catch (const std::exception&) {
+    return "";
+  }
+  return "";
 }
 
 State still_at(PerParticle3 x) {

@@ -1,6 +1,7 @@
 // How the checks of forces ask a subject and how they put their numbers together.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ Measured roundings_of(const std::string& scale);
 
 /// The largest value with its sign; NaN if any is, or if there is none.
 double signed_largest(const std::vector<double>& values);
+
+/// The message with which `act` refuses; empty if it does not, or by anything but InputError.
+std::string refusal(const std::function<void()>& act);
 
 /// The positions x (3 x N [m]) without motion.
 State still_at(PerParticle3 x);

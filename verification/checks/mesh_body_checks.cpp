@@ -19,13 +19,8 @@ std::string body(const std::string& file, const std::string& keys) {
   return "[[object]]\nmesh = \"" + file + "\"\n" + keys + "\n";
 }
 
-std::string refusal(const std::string& tables) {
-  try {
-    read_case(tables);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+std::string case_refusal(const std::string& tables) {
+  return refusal([&] { read_case(tables); });
 }
 
 /// The direction of the triangles that are left out first [1].
@@ -49,7 +44,7 @@ Finding open_bodies_are_refused(const Subject&) {
   Measured measured("file, reason or remedy missing from the refusal", "1");
   const auto see = [&](const std::string& name, const std::string& file, const std::string& keys,
                        const std::vector<std::string>& parts) {
-    const std::string message = refusal(body(file, keys));
+    const std::string message = case_refusal(body(file, keys));
     int missing = 0;
     for (const std::string& part : parts) missing += message.find(part) == std::string::npos;
     measured.see(name, missing);

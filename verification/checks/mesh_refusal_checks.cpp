@@ -46,19 +46,6 @@ std::vector<BadFile> bad_files() {
       {"nothing", "", 1, "empty"}};
 }
 
-/// The message with which `act` refuses; empty if it does not, or by anything but InputError.
-template <class Act>
-std::string refusal(const Act& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  } catch (const std::exception&) {
-    return "";
-  }
-  return "";
-}
-
 bool holds(const std::string& message, const std::string& part) {
   return message.find(part) != std::string::npos;
 }

@@ -182,16 +182,6 @@ Finding rides_with_its_body(const Subject&) {
   return measured.judged(2, "as at rest: a rigid motion changes no distance");
 }
 
-template <class Act>
-std::string refusal(const Act& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 Finding refuses_bad_settings(const Subject&) {
   Measured measured("refusals without the reason", "1");
   struct Bad {

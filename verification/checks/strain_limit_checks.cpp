@@ -187,7 +187,7 @@ PerParticle3 gentle(const LimitedCloth& cloth) {
 
 /// Gentle velocities, but for the last particle's, which is fast: those that share no triangle with it are to
 /// be left.
-Finding untouched_finding(const Subject& subject) {
+Finding untouched_within_limits_finding(const Subject& subject) {
   Measured measured("numbers that differ", "numbers");
   for (const NamedOrder& named : sweep_orders())
     for (LimitedCloth& cloth : limited_cloths(named.order)) {
@@ -238,7 +238,7 @@ std::vector<Check> strain_limit_checks() {
             held_finding},
            {"strain.springs-within-limits-are-left-alone",
             "Where no spring would leave its limits, velocities are left as they are, bit for bit.", source,
-            untouched_finding}})
+            untouched_within_limits_finding}})
     list.push_back(check);
   for (const Check& check : strain_step_checks()) list.push_back(check);
   return list;

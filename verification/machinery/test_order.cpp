@@ -1,7 +1,6 @@
 // The arithmetic of observed orders, on errors whose order is known.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "convergence/order.h"
@@ -12,7 +11,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Errors c h^order + d h^(order + 1) at steps 0.3, 0.15, ...
 Convergence power_law(double order, double c, double d, int levels) {
