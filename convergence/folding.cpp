@@ -83,6 +83,95 @@ Folded folded(const Hinges& hinges, bool is_limited) {
   return result;
 }
 
+// ---- wrinkles: the same on an elastic bed, which lets cloth rise in short waves only
+
+constexpr double bed_length = 0.3, bed_edge = bed_length / 36;  // of the strip on the bed [m]
+
+/// A bed of springs under a long narrow strip, and the waves that it is pushed into.
+struct Wrinkled {
+  double bed = nan;         // K [N/m^3]
+  double wavelength = nan;  // along the strip's middle, at rest [m]
+  double expected = nan;    // 2 pi (D/K)^(1/4) [m]
+  double height = nan;      // between the highest and the lowest particle [m]
+};
+
+Wrinkled wrinkled(double wavelength) {
+  constexpr double ke = 1e-4, density = 0.2, shorter = 0.05, seconds = 0.4;
+  constexpr double rigidity = 2. / 9 * ke;  // of a narrow strip of equilateral triangles [J]
+  Wrinkled result;
+  result.expected = wavelength;
+  result.bed = rigidity * std::pow(2 * M_PI / wavelength, 4);
+  Scene scene = scene_of(make_sheet({SheetPattern::equilateral, bed_length, 0, 36, 3}), density);
+  scene.stretch = StretchMaterial{1, 0.001, 1};
+  scene.bending = BendingMaterial{ke, 0.002 * ke, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  StrainLimits limits;
+  limits.order = SweepOrder::alternating;
+  limits.sweeps = 100;
+  limits.tolerance = tolerance;
+  scene.strain_limits = limits;
+  Motion inwards;
+  inwards.velocity = Vector3(shorter * bed_length / seconds, 0, 0);
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    if (scene.x(0, i) < 1.01 * bed_edge) scene.led.push_back({int(i), scene.x.col(i), inwards});
+    if (scene.x(0, i) > bed_length - 1.01 * bed_edge) scene.led.push_back({int(i), scene.x.col(i), Motion{}});
+  }
+  Random random(8);
+  scene.x += random.vectors(scene.x.cols(), 1e-5);
+  for (PrescribedParticle& p : scene.led) p.start = scene.x.col(p.particle);
+  scene.schedule.end = seconds;
+  scene.schedule.frame_interval = seconds;
+
+  System system = build_system(scene);
+  const PerParticle pull = result.bed / density * system.mass;  // a particle [N/m]
+  const PerParticle drag =
+      2 * std::sqrt(result.bed / density) * system.mass;  // critical for the bed alone [N s/m]
+  CustomForce bed;
+  bed.elastic = [pull](const State& s, PerParticle3& f) {
+    f.row(2) -= (pull.array() * s.x.row(2).transpose().array()).matrix().transpose();
+  };
+  bed.damping = [drag](const State&, const PerParticle3& v, PerParticle3& f) {
+    f.row(2) -= (drag.array() * v.row(2).transpose().array()).matrix().transpose();
+  };
+  system.forces.push_back(bed);
+  const Outcome outcome = simulate(system, integrator_named("C"), start_state(scene), scene.schedule, {});
+  if (outcome.stop) return result;
+  const PerParticle z = outcome.last.x.row(2).transpose();
+  constexpr int samples = 120;
+  result.height = z.maxCoeff() - z.minCoeff();
+  result.wavelength =
+      dominant_wavelength(along(section_of(scene.mesh, 1), z, samples), bed_length / (samples - 1));
+  return result;
+}
+
+std::vector<Column> evidence_of(const std::vector<Wrinkled>& runs) {
+  std::vector<double> bed, wavelength, expected, height;
+  for (const Wrinkled& run : runs) {
+    bed.push_back(run.bed);
+    wavelength.push_back(1e3 * run.wavelength);
+    expected.push_back(1e3 * run.expected);
+    height.push_back(1e3 * run.height);
+  }
+  return {{"bed", "N/m^3", bed},
+          {"wavelength", "mm", wavelength},
+          {"2 pi (D/K)^(1/4)", "mm", expected},
+          {"height", "mm", height}};
+}
+
+NamedFinding wavelength_finding(const std::vector<Wrinkled>& runs) {
+  Worst worst;
+  for (const Wrinkled& run : runs)
+    worst.see(run.height > 1e-3 ? std::abs(run.wavelength / run.expected - 1) : nan);
+  return {
+      "folding.wrinkles-are-as-long-as-rigidity-and-bed-say",
+      "With 0 % compression, a strip on an elastic bed folds into waves of length 2 pi (D/K)^(1/4), those of "
+      "the least energy.",
+      {{worst.value(), 0.125, 0, "1",
+        "the spectrum knows whole waves only, six and four of them in the strip: half a wave in four"},
+       evidence_of(runs),
+       "waves lower than a millimetre count as none"}};
+}
+
 std::vector<Column> evidence_of(const std::vector<Folded>& runs) {
   std::vector<std::string> hinges, limits;
   std::vector<double> area, height, wavelength, steps, sweeps, left;
@@ -168,10 +257,13 @@ StudyResult run_folding(const Subject&, Tier tier, const Progress& progress) {
       runs.push_back(folded(hinges, is_limited));
       progress(double(runs.size()) / double(2 * all.size()));
     }
-  return {{area_finding(runs), lost_finding(runs), height_finding(runs)},
+  std::vector<Wrinkled> waves;
+  for (const double wavelength : {0.05, 0.075}) waves.push_back(wrinkled(wavelength));
+  return {{area_finding(runs), lost_finding(runs), height_finding(runs), wavelength_finding(waves)},
           {},
           {},
-          {{"strips", "What becomes of a strip whose ends are led together by a fifth", evidence_of(runs)}}};
+          {{"wrinkles", "What becomes of a long strip on an elastic bed", evidence_of(waves)},
+           {"strips", "What becomes of a strip whose ends are led together by a fifth", evidence_of(runs)}}};
 }
 
 }  // namespace

@@ -79,12 +79,9 @@ int report_on(const std::string& folder, const char* figures) {
   return all_hold;
 }
 
-/// Of the quick tier: cases of the full tier take too long to be tried on every fault.
 std::vector<std::string> names_of_case_findings() {
   std::vector<std::string> names;
-  std::vector<std::string> quick = shown_cases();
-  for (const std::string& name : hard_cases()) quick.push_back(name);
-  for (const std::string& name : quick) {
+  for (const std::string& name : built_in_cases()) {
     const Case shown = built_in_case(name);
     for (const Expectation& expectation : shown.expectations)
       names.push_back(finding_name(shown.scene, expectation));

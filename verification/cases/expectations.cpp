@@ -73,12 +73,13 @@ Case with_usual_expectations(Case shown) {
          "energy where the stiffest modes carry a small part of it; one percent leaves no room "
          "for a force that is not the gradient of its energy"},
         shown.expectations);
-  if (scene.self_collision)
-    add_unless_stated(
-        {"crosses_itself", 0,
-         "what starts free of crossings stays free of them: repulsion and impulses may fail, impact "
-         "zones may not"},
-        shown.expectations);
+  add_unless_stated(
+      {"crosses_itself", 0,
+       scene.self_collision ? "what starts free of crossings stays free of them: repulsion and impulses may "
+                              "fail, impact zones may not"
+                            : "no part of the scene keeps the cloth from itself, and none has to: cloth that "
+                              "would pass through itself needs [self_collision]"},
+      shown.expectations);
   return shown;
 }
 
