@@ -5,6 +5,7 @@
 #include "scripts/program/commands.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
+#include "verification/golden.h"
 
 namespace foldproof {
 namespace {
@@ -30,6 +31,11 @@ constexpr const char* evaluate_help =
   x1 x2 x3 x4 (12 position components [m]), v1 v2 v3 v4 (12 velocity components [m/s]), ke [J], kd [N s], theta0 [rad].
 Output: 12 elastic and 12 damping force components [N] in 17 digits. The weight |E|^2/(|N1|+|N2|) is taken at the current positions, or, with --rest, at
 the rest positions: rows of 12 numbers.)";
+
+constexpr const char* golden_help =
+    R"(Prints a heading, then rows of numbers in 17 digits; vectors are three columns, NAME_x, NAME_y, NAME_z. With --json also what each column
+is, its unit, and the formula. All outputs were computed with 50 digits and rounded once. verification/README.md has examples in Python
+and C++.)";
 
 constexpr const char* queries_help =
     R"(A row of FILE is a point: numerator and denominator of x, y and z, and 1 if the query meets, else 0, all whole numbers. Eight rows are a query: four
@@ -163,6 +169,16 @@ void add_readers(CLI::App& app, Options& options) {
   crossings->add_option("FILE", options.names, "Stored runs (.h5), or meshes (.obj), each a frame")
       ->required();
   add_json(crossings, options);
+  CLI::App* golden = add_command(app, options, "golden",
+                                 "Inputs and outputs of a formula, right to the last digit, for unit tests of yours",
+                                 print_golden_values);
+  golden->footer(golden_help);
+  golden->add_option("TABLE", options.file, "bending, springs, integrator, forecast, friction, projection, sticking")
+      ->required()
+      ->check(CLI::IsMember(golden_names()));
+  golden->add_option("--count", options.count, "Rows")->check(CLI::PositiveNumber)->capture_default_str();
+  golden->add_option("--seed", options.seed, "The same rows for the same number")->capture_default_str();
+  add_json(golden, options);
   CLI::App* evaluate = app.add_subcommand("evaluate", "Evaluate a formula on your numbers");
   evaluate->require_subcommand(1);
   CLI::App* bending =

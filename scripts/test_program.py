@@ -2,8 +2,10 @@
 """Tests of the program as a user meets it: commands, exit codes, messages, files."""
 
 import json
+import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -215,6 +217,35 @@ step = 0.001
         with h5py.File(self.path / "out/run.h5") as file:
             self.assertEqual(file["claims/B10"].attrs["ruling"], "refuted")
             self.assertEqual(list(file["claims/B10"].attrs["roles"].astype(str)), ["contradicts"])
+
+    def test_golden_values_are_printed_as_csv_and_json(self) -> None:
+        for table in ("bending", "springs", "integrator", "forecast", "friction", "projection", "sticking"):
+            lines = run("golden", table, "--count", "4", "--seed", "3").stdout.splitlines()
+            told = json.loads(run("golden", table, "--count", "4", "--seed", "3", "--json").stdout)
+            self.assertEqual(lines[0].split(","), [column["name"] for column in told["columns"]])
+            self.assertEqual([[float(x) for x in line.split(",")] for line in lines[1:]], told["rows"])
+        self.assertEqual(run("golden", "bend").returncode, 2)
+        forces = run("golden", "bending", "--count", "5").stdout.splitlines()
+        hinges = self.write("hinges.csv", "\n".join(",".join(line.split(",")[:27]) for line in forces[1:]))
+        evaluated = run("evaluate", "bending", hinges).stdout.splitlines()[1:]
+        names = forces[0].split(",")
+        first = names.index("elastic_current_weighted1_x")
+        for mine, golden in zip(evaluated, forces[1:], strict=True):
+            wanted = [float(x) for x in golden.split(",")[first : first + 24]]
+            size = max(map(abs, wanted))
+            for a, b in zip(map(float, mine.split(",")), wanted, strict=True):
+                self.assertLess(abs(a - b), 1e-12 * size)
+
+    def test_the_examples_of_golden_values_run_as_they_are_printed(self) -> None:
+        readme = (ROOT / "verification/README.md").read_text(encoding="utf-8")
+        python = re.search(r"```python\n(import csv.*?)```", readme, re.S).group(1)
+        ran = subprocess.run([sys.executable, "-c", python], cwd=ROOT, capture_output=True, text=True, check=True)
+        self.assertLess(float(ran.stdout.split()[-1]), 1e-12)
+        cpp = re.search(r"```cpp\n(// build/foldproof golden.*?)```", readme, re.S).group(1)
+        subprocess.run(["c++", self.write("a.cpp", cpp), "-o", str(self.path / "a.out")], check=True)
+        command = cpp.splitlines()[0].removeprefix("// ").replace("./a.out", f"'{self.path}/a.out'")
+        ran = subprocess.run(command, shell=True, cwd=ROOT, capture_output=True, text=True, check=True)
+        self.assertEqual(ran.stdout, "0 of 100 rows differ\n")
 
     def test_evaluate_bending(self) -> None:
         row = HINGE_ROW + [0.1, -0.2, 0.3, 0.2, 0.1, -0.1, 0, 0, 0.05, 0.02, 0, 0] + [2e-3, 3e-4, 0.4]

@@ -14,6 +14,7 @@ int run_studies(const Options& options);
 int verify(const Options& options);
 int make_report(const Options& options);
 int evaluate_hinges(const Options& options);
+int print_golden_values(const Options& options);
 int run_bench(const Options& options);
 int show_crossings(const Options& options);  // crossings_command.cpp
 int evaluate_queries(const Options& options);

@@ -21,6 +21,8 @@ struct Options {
   double deepest = std::numeric_limits<double>::quiet_NaN();  // of project [m]; NaN: the deepest in the run
   std::string kind;                                           // of evaluate crossings: of pair
   double keep = 1e-6;                                         // of evaluate crossings [m]
+  int count = 10;                                             // of golden: rows
+  unsigned seed = 1;                                          // of golden
   int cells = 64;                                             // of inspect: along the longest side
   int levels = 0;                                             // of project: of subdivision
   bool json = false, quick = false, no_report = false;

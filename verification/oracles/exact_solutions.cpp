@@ -44,12 +44,33 @@ StepLetters step_letters(const Oscillator& oscillator, double h) {
   return {step * oscillator.damping / 2, step * step * oscillator.stiffness / 2, step};
 }
 
-Eigen::Matrix2d rounded_matrix(const Digits50& xx, const Digits50& xv, const Digits50& vx,
-                               const Digits50& vv) {
-  Eigen::Matrix2d matrix;
-  matrix << xx.convert_to<double>(), xv.convert_to<double>(), vx.convert_to<double>(),
-      vv.convert_to<double>();
-  return matrix;
+/// The entries of a step's matrix.
+struct StepEntries {
+  Digits50 xx, xv, vx, vv;
+};
+
+// One step by hand; every half kick is h/2 (-k x - c v) = -(b/h) x - a v.
+//   A  v*   = (1 - a) v - (b/h) x              explicit half kick
+//      x'   = x + h v*
+//      v'   = (v* - (b/h) x')/(1 + a)          implicit half kick
+//   B  v*   = (v - (b/h) x)/(1 + a)            implicit
+//      x'   = x + h v*
+//      v'   = (1 - a) v* - (b/h) x'            explicit
+//   C  x' as in B, then v' as in A from that x': v' = ((1 - a) v - (b/h) x - (b/h) x')/(1 + a)
+StepEntries step_entries(Scheme scheme, const Oscillator& oscillator, double h) {
+  require_oscillator(oscillator);
+  require(h > 0 && std::isfinite(h), "step_matrix: h must be positive");
+  const auto [a, b, step] = step_letters(oscillator, h);
+  const Digits50 p = 1 + a;
+  switch (scheme) {
+    case Scheme::mixed:
+      return {1 - b, step * (1 - a), -b / step * (2 - b) / p, (1 - a) * (1 - b) / p};
+    case Scheme::central_newmark:
+      return {(p - b) / p, step / p, -b / step * (2 - b) / p, (1 - a - b) / p};
+    case Scheme::variable_step_newmark:
+      return {(p - b) / p, step / p, -b / step * (2 * p - b) / (p * p), ((1 - a) * p - b) / (p * p)};
+  }
+  throw InputError("oracle exact_solutions: step_matrix: no such scheme");
 }
 
 }  // namespace
@@ -81,29 +102,18 @@ OscillatorEstimate verlet_oscillator(const Oscillator& oscillator, double h, lon
           rounded(v0 * cos(angle) - x0 * speed * sin(angle))};
 }
 
-// One step by hand; every half kick is h/2 (-k x - c v) = -(b/h) x - a v.
-//   A  v*   = (1 - a) v - (b/h) x              explicit half kick
-//      x'   = x + h v*
-//      v'   = (v* - (b/h) x')/(1 + a)          implicit half kick
-//   B  v*   = (v - (b/h) x)/(1 + a)            implicit
-//      x'   = x + h v*
-//      v'   = (1 - a) v* - (b/h) x'            explicit
-//   C  x' as in B, then v' as in A from that x': v' = ((1 - a) v - (b/h) x - (b/h) x')/(1 + a)
 Eigen::Matrix2d step_matrix(Scheme scheme, const Oscillator& oscillator, double h) {
-  require_oscillator(oscillator);
-  require(h > 0 && std::isfinite(h), "step_matrix: h must be positive");
-  const auto [a, b, step] = step_letters(oscillator, h);
-  const Digits50 p = 1 + a;
-  switch (scheme) {
-    case Scheme::mixed:
-      return rounded_matrix(1 - b, step * (1 - a), -b / step * (2 - b) / p, (1 - a) * (1 - b) / p);
-    case Scheme::central_newmark:
-      return rounded_matrix((p - b) / p, step / p, -b / step * (2 - b) / p, (1 - a - b) / p);
-    case Scheme::variable_step_newmark:
-      return rounded_matrix((p - b) / p, step / p, -b / step * (2 * p - b) / (p * p),
-                            ((1 - a) * p - b) / (p * p));
-  }
-  throw InputError("oracle exact_solutions: step_matrix: no such scheme");
+  const StepEntries m = step_entries(scheme, oscillator, h);
+  Eigen::Matrix2d matrix;
+  matrix << m.xx.convert_to<double>(), m.xv.convert_to<double>(), m.vx.convert_to<double>(),
+      m.vv.convert_to<double>();
+  return matrix;
+}
+
+OscillatorEstimate stepped_oscillator(Scheme scheme, const Oscillator& oscillator, double h) {
+  const StepEntries m = step_entries(scheme, oscillator, h);
+  return {rounded(m.xx * oscillator.x0 + m.xv * oscillator.v0),
+          rounded(m.vx * oscillator.x0 + m.vv * oscillator.v0)};
 }
 
 // A and B: b = 2. C: b = 2 (1 + a), that is k h^2 - 2 c h - 4 = 0.

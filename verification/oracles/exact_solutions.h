@@ -40,6 +40,9 @@ enum class Scheme { mixed, central_newmark, variable_step_newmark };
 /// v0 are not used. Derived by hand from the lines of the scheme; rounded to double at the end.
 Eigen::Matrix2d step_matrix(Scheme scheme, const Oscillator& oscillator, double h);
 
+/// x and v after one step h [s] > 0 of the scheme from the oscillator's x0, v0.
+OscillatorEstimate stepped_oscillator(Scheme scheme, const Oscillator& oscillator, double h);
+
 /// The step h [s] at which the spectral radius of step_matrix leaves 1: 2/omega for A and B,
 /// (c + sqrt(c^2 + 4 k))/k for C. Needs stiffness > 0.
 Estimate largest_stable_step(Scheme scheme, const Oscillator& oscillator);
