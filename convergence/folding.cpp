@@ -35,7 +35,7 @@ Scene strip(const Hinges& hinges, bool is_limited) {
   if (is_limited) {
     StrainLimits limits;
     limits.order = SweepOrder::alternating;
-    limits.sweeps = 100;
+    limits.sweeps = 1000;
     limits.tolerance = tolerance;
     scene.strain_limits = limits;
   }
@@ -195,11 +195,10 @@ NamedFinding area_finding(const std::vector<Folded>& runs) {
   for (const Folded& run : runs)
     if (run.is_limited) worst.see(run.area_lost);
   return {"folding.area-is-kept",
-          "With 0 % compression, a strip between ends that are led together keeps its area.",
+          "With 0 % compression, a strip between ends that are led together loses none of its area.",
           {{worst.value(), 2 * tolerance, 0, "of the area",
-            "a triangle whose edges are no shorter than at rest, and no longer than by a tenth, is no "
-            "smaller; each edge may lack "
-            "the tolerance of the sweeps"},
+            "an acute triangle whose edges are no shorter than at rest, and no longer by more than a tenth, "
+            "is no smaller; each edge may lack the tolerance of the sweeps"},
            evidence_of(runs),
            ""}};
 }

@@ -168,8 +168,8 @@ void add_rest(const Subject& subject, StudyResult& result) {
       {"self-collision-cost.the-gap-does-not-depend-on-the-step",
        "The gap at which a sheet rests on another does not depend on the step.",
        {{spread.value(), 0.05, 0, "1",
-         "what one step's fall adds is g h^2, .02 of the least thickness for the longest step; "
-         "twice that, for where in its last bounce the sheet is"},
+         "what one step's fall adds is g h^2, .02 of the least thickness for the longest step; with that and "
+         "again as much for where in its last bounce the sheet is it is .04, rounded up"},
         evidence,
         ""}});
 }

@@ -34,26 +34,30 @@ std::vector<Claim> strain_claims() {
        "of "
        "{bare: strain-sweeps.grow-as-the-square.gauss_seidel|cells along a side|last} cells along a side "
        "that is jerked "
-       "{bare: strain-sweeps.grow-as-the-square.gauss_seidel|sweeps|last} sweeps, one of half as many cells "
-       "{bare: strain-sweeps.grow-as-the-square.gauss_seidel|sweeps|2}."},
+       "{bare: strain-sweeps.grow-as-the-square.gauss_seidel|sweeps|last} sweeps, one of {bare: "
+       "strain-sweeps.grow-as-the-square.gauss_seidel|cells along a side|first} cells {bare: "
+       "strain-sweeps.grow-as-the-square.gauss_seidel|sweeps|first}. All in all the steps with limits took "
+       "{biphasic.steps-are-larger|seconds|first}, those of stiff springs "
+       "{biphasic.steps-are-larger|seconds|last}."},
       {"T12",
        "3",
        "Cloth whose springs may not be compressed buckles and folds instead.",
        {{"folding.area-is-kept", Role::supports},
         {"folding.area-is-lost-without", Role::supports},
         {"folding.one-arc-is-as-high-as-its-length-says", Role::supports},
+        {"folding.wrinkles-are-as-long-as-rigidity-and-bed-say", Role::supports},
         {"case.buckle.keeps-its-area", Role::supports},
         {"case.buckle.leaves-its-plane", Role::supports}},
        Standing::confirmed,
        "",
-       "A strip with stiff hinges and weak springs, whose ends are led together by a fifth of its "
-       "length, is compressed in its "
-       "plane and loses {folding.area-is-lost-without|area lost|first} of its area. With compression "
+       "A strip with stiff hinges and weak springs, whose ends are led together by a fifth of its length, is "
+       "compressed in its plane and loses {folding.area-is-lost-without|area lost|first} of its area. With "
+       "compression "
        "forbidden "
        "it rises in an arc "
        "whose height is that of a cosine as long as the strip, to "
-       "{folding.one-arc-is-as-high-as-its-length-says}, and loses "
-       "nothing."}};
+       "{folding.one-arc-is-as-high-as-its-length-says}, and loses none; on an elastic bed it folds into "
+       "waves of the length of least energy, to {folding.wrinkles-are-as-long-as-rigidity-and-bed-say}."}};
 }
 
 }  // namespace foldproof

@@ -247,7 +247,7 @@ std::vector<Claim> what_comes_last() {
            "decided without "
            "rounding by a judge that shares no code with the method; the deepest particle is "
            "{case.fast.stays-outside} inside "
-           "the ball, less than the thickness of .002 m, until the next correction takes it out."}};
+           "the ball; nothing in the method bounds that but the sheets' thrust."}};
 }
 
 }  // namespace

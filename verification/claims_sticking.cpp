@@ -95,6 +95,7 @@ std::vector<Claim> what_ends_bonds() {
         {"sticking.steps-end-at-its-times", Role::supports},
         {"case.grab.sticks", Role::supports},
         {"case.grab.is-lifted", Role::supports},
+        {"case.grab.is-carried-aside", Role::supports},
         {"case.grab.lets-go", Role::supports}},
        Standing::confirmed,
        "",

@@ -77,9 +77,10 @@ void put_corners(RowMaker& row, const std::string& name, const std::string& unit
 /// A hinge of edges of some centimetres: x1 and x2 on either side of the edge from x3 to x4, folded by any angle.
 Corners hinge_corners(Draw& draw) {
   const double angle = draw.between(-2.9, 2.9), length = draw.between(0.01, 0.05);
-  const Vector3 along(0, length, 0), out(draw.between(0.005, 0.05), draw.between(-0.01, 0.06), 0);
-  const double width = draw.between(0.005, 0.05);
-  const Vector3 other(-width * std::cos(angle), draw.between(-0.01, 0.06), width * std::sin(angle));
+  const double width1 = draw.between(0.005, 0.05), foot1 = draw.between(-0.01, 0.06);
+  const double width2 = draw.between(0.005, 0.05), foot2 = draw.between(-0.01, 0.06);
+  const Vector3 along(0, length, 0), out(width1, foot1, 0);
+  const Vector3 other(-width2 * std::cos(angle), foot2, width2 * std::sin(angle));
   const Vector3 place = draw.vector(0.3), noise = draw.vector(0.001);
   return {place + out + noise, place + other, place, place + along};
 }
@@ -192,12 +193,17 @@ void projection_row(Draw& draw, RowMaker& row) {
 
 void sticking_row(Draw& draw, RowMaker& row) {
   oracles::StuckParticle stuck;
-  const Vector3 place = draw.vector(0.3);
-  stuck.corners = {{place, place + draw.vector(0.03), place + draw.vector(0.03)}};
-  stuck.places = {{draw.between(0, 0.5), draw.between(0, 0.5), draw.between(0, 0.01)}};
+  const Vector3 a = draw.vector(0.3), ab = draw.vector(0.03), ac = draw.vector(0.03);
+  const double weight_b = draw.between(0, 0.5), weight_c = draw.between(0, 0.5),
+               height = draw.between(0, 0.01);
+  stuck.corners = {{a, a + ab, a + ac}};
+  stuck.places = {{weight_b, weight_c, height}};
   stuck.stiffness = draw.between(1, 1000);
   stuck.far = draw.between(0.01, 0.05);
-  stuck.x = place + draw.vector(0.01);
+  // within the distance at which bonds break
+  const Vector3 aside = draw.direction();
+  const double distance = stuck.far * draw.between(0.01, 0.95);
+  stuck.x = a + weight_b * ab + weight_c * ac + height * ab.cross(ac).normalized() + distance * aside;
   const oracles::StickingAnswer answer = oracles::sticking_answer(stuck);
   row.input("x", "m", stuck.x);
   row.input("a", "m", stuck.corners[0][0]);

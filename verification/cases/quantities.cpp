@@ -146,6 +146,12 @@ double shift(const Scene& scene, const State& s) {
   return (s.x.rowwise().mean() - scene.x.rowwise().mean()).norm();
 }
 
+/// Across gravity.
+double shift_aside(const Scene& scene, const State& s) {
+  const Vector3 moved = s.x.rowwise().mean() - scene.x.rowwise().mean(), down = scene.gravity->normalized();
+  return (moved - moved.dot(down) * down).norm();
+}
+
 // ---- refusals
 
 std::string without_plane(const Scene& scene) {
@@ -161,6 +167,10 @@ std::string without_objects(const Scene& scene) {
 }
 
 }  // namespace
+
+std::string without_gravity(const Scene& scene) {
+  return scene.gravity && scene.gravity->norm() > 0 ? "" : "the case has no [gravity]";
+}
 
 std::string without_springs(const Scene& scene) { return scene.stretch ? "" : "the case has no [stretch]"; }
 
@@ -244,6 +254,8 @@ std::vector<Quantity> own_quantities() {
        nullptr, nullptr},
       {"is_carried", "m", "The mean of all particles is carried away from where it was.", Sense::at_least,
        shift, nullptr, nullptr},
+      {"is_carried_aside", "m", "The mean of all particles is carried aside, across gravity.",
+       Sense::at_least, shift_aside, nullptr, without_gravity},
       {"slower_than", "m/s", "No particle is faster than this.", Sense::at_most, fastest, nullptr, nullptr},
       {"turns_at", "degrees/s", "The cloth comes to turn about the vertical axis at this rate.",
        Sense::at_least, turning_rate, nullptr, nullptr},

@@ -58,8 +58,9 @@ std::vector<Quantity> strain_quantities();
 /// The table of quantities.
 const std::vector<Quantity>& quantities();
 
-/// Why a quantity of springs makes no sense for the scene, or "".
+/// Why a quantity of springs, or of the vertical, makes no sense for the scene, or "".
 std::string without_springs(const Scene& scene);
+std::string without_gravity(const Scene& scene);
 
 /// The row of the key; nullptr if there is none.
 const Quantity* find_quantity(std::string_view key);

@@ -32,10 +32,6 @@ std::string without_sticky(const Scene& scene) {
   return scene.sticky.empty() ? "the case has no [[sticky]]" : "";
 }
 
-std::string without_gravity(const Scene& scene) {
-  return scene.gravity && scene.gravity->norm() > 0 ? "" : "the case has no [gravity]";
-}
-
 }  // namespace
 
 std::vector<Quantity> sticking_quantities() {

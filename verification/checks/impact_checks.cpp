@@ -242,7 +242,8 @@ std::vector<Check> impact_checks() {
        "Prescribed motion that takes cloth through itself stops the run.", "ours", forced_finding},
       {"self-collision.same-bits-every-time",
        "The same cloth gets the same answer to the bit, alone or beside others.", "ours", same_bits_finding},
-      {"self-collision.tangles-come-apart", "Cloth that starts crossing itself is pushed out of the tangle.",
+      {"self-collision.tangles-come-apart",
+       "Cloth that starts crossing itself along a line that cuts off a corner is pushed out of the tangle.",
        "Volino and Magnenat-Thalmann 2006", untangle_finding},
   };
 }

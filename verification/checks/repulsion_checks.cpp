@@ -295,8 +295,8 @@ std::vector<Check> repulsion_checks() {
        "The search by boxes finds every pair of features that comes near, once, and no neighbours.",
        "Bridson, Fedkiw, Anderson 2002 section 6", pairs_finding},
       {"self-collision.a-stack-on-a-slope-follows-coulomb",
-       "A stack of sheets on a slope holds where tan(angle) is below the friction, and slides as Coulomb "
-       "says where it is not.",
+       "Where tan(angle) is below the friction, sheets of a stack on a slope slip by less than a tenth of a "
+       "fall without friction; where it is not, the stack slides as Coulomb says, to a tenth.",
        "BMF03 section 5.2; Bridson, Fedkiw, Anderson 2002 section 7.1", slope_finding},
   };
 }
