@@ -26,13 +26,26 @@ struct Hinges {
   double stiffness;  // ke [J]
 };
 
-Scene strip(const Hinges& hinges, bool is_limited) {
-  Scene scene = scene_of(make_sheet({SheetPattern::equilateral, length, 0, columns, 5}), 0.2);
-  scene.stretch = StretchMaterial{5, 0.002, 1};
-  scene.bending = BendingMaterial{hinges.stiffness, 0.005 * hinges.stiffness, Weighting::rest,
-                                  DampingFactor::edge, "sine"};
+/// A strip of equilateral triangles whose clamped ends come together.
+struct Strip {
+  double length;  // m
+  int columns, rows;
+  StretchMaterial stretch;
+  double ke, relaxation;   // J, s: of the hinges, kd = ke relaxation
+  double nearer, seconds;  // by how much, within which time [m], [s]
+  double noise;            // m
+  bool is_limited;         // to 0 % compression
+};
+
+Scene scene_of_strip(const Strip& strip) {
+  const double edge = strip.length / strip.columns;
+  Scene scene =
+      scene_of(make_sheet({SheetPattern::equilateral, strip.length, 0, strip.columns, strip.rows}), 0.2);
+  scene.stretch = strip.stretch;
+  scene.bending =
+      BendingMaterial{strip.ke, strip.relaxation * strip.ke, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
-  if (is_limited) {
+  if (strip.is_limited) {
     StrainLimits limits;
     limits.order = SweepOrder::alternating;
     limits.sweeps = 1000;
@@ -40,16 +53,16 @@ Scene strip(const Hinges& hinges, bool is_limited) {
     scene.strain_limits = limits;
   }
   Motion inwards;
-  inwards.velocity = Vector3(nearer / duration, 0, 0);
+  inwards.velocity = Vector3(strip.nearer / strip.seconds, 0, 0);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     if (scene.x(0, i) < 1.01 * edge) scene.led.push_back({int(i), scene.x.col(i), inwards});
-    if (scene.x(0, i) > length - 1.01 * edge) scene.led.push_back({int(i), scene.x.col(i), Motion{}});
+    if (scene.x(0, i) > strip.length - 1.01 * edge) scene.led.push_back({int(i), scene.x.col(i), Motion{}});
   }
   Random random(8);
-  scene.x += random.vectors(scene.x.cols(), 1e-6);
+  scene.x += random.vectors(scene.x.cols(), strip.noise);
   for (PrescribedParticle& p : scene.led) p.start = scene.x.col(p.particle);
-  scene.schedule.end = duration;
-  scene.schedule.frame_interval = duration / 10;
+  scene.schedule.end = strip.seconds;
+  scene.schedule.frame_interval = strip.seconds / 10;
   return scene;
 }
 
@@ -64,7 +77,8 @@ struct Folded {
 };
 
 Folded folded(const Hinges& hinges, bool is_limited) {
-  const Scene scene = strip(hinges, is_limited);
+  const Scene scene = scene_of_strip(
+      {length, columns, 5, {5, 0.002, 1}, hinges.stiffness, 0.005, nearer, duration, 1e-6, is_limited});
   Folded result{hinges.name, is_limited};
   const Outcome outcome =
       simulate(build_system(scene), integrator_named("C"), start_state(scene), scene.schedule, {});
@@ -85,7 +99,7 @@ Folded folded(const Hinges& hinges, bool is_limited) {
 
 // ---- wrinkles: the same on an elastic bed, which lets cloth rise in short waves only
 
-constexpr double bed_length = 0.3, bed_edge = bed_length / 36;  // of the strip on the bed [m]
+constexpr double bed_length = 0.3;  // of the strip on the bed [m]
 
 /// A bed of springs under a long narrow strip, and the waves that it is pushed into.
 struct Wrinkled {
@@ -95,45 +109,29 @@ struct Wrinkled {
   double height = nan;      // between the highest and the lowest particle [m]
 };
 
+/// -K z and critical drag for the bed alone, on each particle's part of the cloth. bed: K [N/m^3].
+CustomForce elastic_bed(double bed, double density, const PerParticle& mass) {
+  const PerParticle pull = bed / density * mass;                 // N/m
+  const PerParticle drag = 2 * std::sqrt(bed / density) * mass;  // N s/m
+  CustomForce force;
+  force.elastic = [pull](const State& s, PerParticle3& f) {
+    f.row(2) -= (pull.array() * s.x.row(2).transpose().array()).matrix().transpose();
+  };
+  force.damping = [drag](const State&, const PerParticle3& v, PerParticle3& f) {
+    f.row(2) -= (drag.array() * v.row(2).transpose().array()).matrix().transpose();
+  };
+  return force;
+}
+
 Wrinkled wrinkled(double wavelength) {
-  constexpr double ke = 1e-4, density = 0.2, shorter = 0.05, seconds = 0.4;
-  constexpr double rigidity = 2. / 9 * ke;  // of a narrow strip of equilateral triangles [J]
+  constexpr double ke = 1e-4, rigidity = 2. / 9 * ke;  // of a narrow strip of equilateral triangles [J]
   Wrinkled result;
   result.expected = wavelength;
   result.bed = rigidity * std::pow(2 * M_PI / wavelength, 4);
-  Scene scene = scene_of(make_sheet({SheetPattern::equilateral, bed_length, 0, 36, 3}), density);
-  scene.stretch = StretchMaterial{1, 0.001, 1};
-  scene.bending = BendingMaterial{ke, 0.002 * ke, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
-  StrainLimits limits;
-  limits.order = SweepOrder::alternating;
-  limits.sweeps = 100;
-  limits.tolerance = tolerance;
-  scene.strain_limits = limits;
-  Motion inwards;
-  inwards.velocity = Vector3(shorter * bed_length / seconds, 0, 0);
-  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-    if (scene.x(0, i) < 1.01 * bed_edge) scene.led.push_back({int(i), scene.x.col(i), inwards});
-    if (scene.x(0, i) > bed_length - 1.01 * bed_edge) scene.led.push_back({int(i), scene.x.col(i), Motion{}});
-  }
-  Random random(8);
-  scene.x += random.vectors(scene.x.cols(), 1e-5);
-  for (PrescribedParticle& p : scene.led) p.start = scene.x.col(p.particle);
-  scene.schedule.end = seconds;
-  scene.schedule.frame_interval = seconds;
-
+  const Scene scene =
+      scene_of_strip({bed_length, 36, 3, {1, 0.001, 1}, ke, 0.002, 0.05 * bed_length, 0.4, 1e-5, true});
   System system = build_system(scene);
-  const PerParticle pull = result.bed / density * system.mass;  // a particle [N/m]
-  const PerParticle drag =
-      2 * std::sqrt(result.bed / density) * system.mass;  // critical for the bed alone [N s/m]
-  CustomForce bed;
-  bed.elastic = [pull](const State& s, PerParticle3& f) {
-    f.row(2) -= (pull.array() * s.x.row(2).transpose().array()).matrix().transpose();
-  };
-  bed.damping = [drag](const State&, const PerParticle3& v, PerParticle3& f) {
-    f.row(2) -= (drag.array() * v.row(2).transpose().array()).matrix().transpose();
-  };
-  system.forces.push_back(bed);
+  system.forces.push_back(elastic_bed(result.bed, scene.density, system.mass));
   const Outcome outcome = simulate(system, integrator_named("C"), start_state(scene), scene.schedule, {});
   if (outcome.stop) return result;
   const PerParticle z = outcome.last.x.row(2).transpose();

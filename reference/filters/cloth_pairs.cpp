@@ -9,11 +9,11 @@ namespace {
 constexpr int triangles_per_leaf = 4;
 
 /// A vertex or an edge: one or two particles.
-struct Boxed {
+struct VertexOrEdge {
   int a, b;
 };
 
-bool share_a_particle(const Boxed& f, const Triangle& t) {
+bool share_a_particle(const VertexOrEdge& f, const Triangle& t) {
   return std::find(t.begin(), t.end(), f.a) != t.end() || std::find(t.begin(), t.end(), f.b) != t.end();
 }
 
@@ -37,7 +37,7 @@ struct Search {
   void between_leaves(const BoxNode& a, const BoxNode& b);
   void compare(int s, int t);
   void add_vertex(int vertex, int triangle);
-  void add_edges(const Boxed& e, const Boxed& f);
+  void add_edges(const VertexOrEdge& e, const VertexOrEdge& f);
   bool has_moved(const FeaturePair& pair) const;
 };
 
@@ -142,7 +142,7 @@ void Search::add_vertex(int vertex, int triangle) {
   if (has_moved(pair)) found.push_back(pair);
 }
 
-void Search::add_edges(const Boxed& e, const Boxed& f) {
+void Search::add_edges(const VertexOrEdge& e, const VertexOrEdge& f) {
   if (e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b) return;
   const Bounds box = particles[size_t(e.a)].merged(particles[size_t(e.b)]);
   if (!box.intersects(particles[size_t(f.a)].merged(particles[size_t(f.b)]))) return;

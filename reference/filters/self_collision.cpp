@@ -14,6 +14,8 @@ namespace {
 constexpr double kept_share = 0.1;  // of the thickness: the distance that no motion may undercut
 constexpr double untangling_time =
     0.01;  // s: in it what pierces moves by a thickness against what it pierces
+
+/// The motion of one step, and what is done to keep it free of crossings.
 struct Step {
   const SelfCollision& filter;
   const PerParticle3& x;

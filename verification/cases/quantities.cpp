@@ -200,7 +200,7 @@ void RunBook::enter(const Diagnostics& row, double end) {
 
 namespace {
 
-std::vector<Quantity> own_quantities() {
+std::vector<Quantity> quantities_of_the_run() {
   return {
       {"runs_to_its_end", "stops", "The run reaches its end with finite values.", Sense::at_most, nullptr,
        stops, nullptr},
@@ -221,6 +221,11 @@ std::vector<Quantity> own_quantities() {
       {"angular_momentum_is_kept", "1",
        "Angular momentum about the origin stays what it was, over the cloth's reach times sqrt(2 m E_kin).",
        Sense::at_most, nullptr, angular_change, nullptr},
+  };
+}
+
+std::vector<Quantity> quantities_of_shape_and_place() {
+  return {
       {"stays_flat", "m", "No particle leaves the plane of constant z in which the cloth lies.",
        Sense::at_most, distance_from_plane, nullptr, without_plane},
       {"leaves_its_plane", "m", "Some particle leaves the plane of constant z in which the cloth lies.",
@@ -268,7 +273,8 @@ std::vector<Quantity> own_quantities() {
 
 const std::vector<Quantity>& quantities() {
   static const std::vector<Quantity> table = [] {
-    std::vector<Quantity> all = own_quantities();
+    std::vector<Quantity> all = quantities_of_the_run();
+    for (const Quantity& more : quantities_of_shape_and_place()) all.push_back(more);
     for (const Quantity& more : sticking_quantities()) all.push_back(more);
     for (const Quantity& more : strain_quantities()) all.push_back(more);
     return all;
