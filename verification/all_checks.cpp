@@ -9,6 +9,7 @@
 #include "verification/checks/force_checks.h"
 #include "verification/checks/level_set_checks.h"
 #include "verification/checks/mesh_checks.h"
+#include "verification/checks/oracle_checks.h"
 #include "verification/checks/projection_checks.h"
 #include "verification/checks/octree_checks.h"
 #include "verification/checks/scene_checks.h"
@@ -21,7 +22,8 @@ namespace foldproof {
 
 std::vector<Check> all_checks() {
   std::vector<Check> all;
-  for (const auto& part : {mesh_checks(),
+  for (const auto& part : {oracle_checks(),
+                           mesh_checks(),
                            force_checks(),
                            bending_checks(),
                            differential_checks(),

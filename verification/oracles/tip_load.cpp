@@ -18,12 +18,14 @@ void require_moderate(double alpha) {
 
 /// The integrals of one slope of the tip.
 struct Elliptic {
-  double first, second;  // K(k) - F(phi, k), E(k) - E(phi, k)
+  long double first, second;  // K(k) - F(phi, k), E(k) - E(phi, k)
 };
 
-/// The slope of the tip is pi/2 - 2 eta. Then k = cos(eta), and 1 - k^2 = sin(eta)^2.
+/// The slope of the tip is pi/2 - 2 eta. Then k = cos(eta), and 1 - k^2 = sin(eta)^2. In extended precision: the
+/// library's integrals are good to a thousand roundings only.
 Elliptic elliptic(double eta) {
-  const double k = std::cos(eta), phi = std::asin(std::min(1.0, 1 / (k * std::numbers::sqrt2)));
+  const long double k = std::cos((long double)eta);
+  const long double phi = std::asin(std::min(1.0L, 1 / (k * std::numbers::sqrt2_v<long double>)));
   return {std::comp_ellint_1(k) - std::ellint_1(k, phi), std::comp_ellint_2(k) - std::ellint_2(k, phi)};
 }
 
@@ -44,11 +46,11 @@ ReferenceSolution shoot(double alpha, double curvature) {
 LoadedTip tip_load(double alpha) {
   require_moderate(alpha);
   const double wanted = std::sqrt(alpha);
-  const auto miss = [wanted](double eta) { return elliptic(eta).first - wanted; };
+  const auto miss = [wanted](double eta) { return double(elliptic(eta).first - wanted); };
   const Estimate eta = bracketed_root(miss, 1e-7, std::numbers::pi / 4, 0);
   // the integrals are good to some roundings; near eta = pi/4 a rounding of k moves phi by its root
   const auto tip = [wanted](double at) {
-    return std::array<double, 2>{1 - 2 * elliptic(at).second / wanted,
+    return std::array<double, 2>{double(1 - 2 * elliptic(at).second / wanted),
                                  std::sqrt(2 * std::cos(2 * at)) / wanted};
   };
   const double change = 1e-7;
