@@ -26,6 +26,7 @@ from page import CaseView, Page, StudyView, faults_of, findings_by_section, rend
 from plot_style import use_style  # noqa: E402
 from results import CaseEntry, Run, Study, case_entry_of_file, load_case, load_run  # noqa: E402
 from study_plots import plot_study_figure  # noqa: E402
+from trust import load_coverage, tolerances_of, unended_run  # noqa: E402
 
 Job = tuple[Callable[..., Any], tuple[Any, ...]]
 
@@ -57,6 +58,8 @@ def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = True)
     figures.mkdir(parents=True, exist_ok=True)
     out.parent.mkdir(parents=True, exist_ok=True)
     page = draw(run, bench, figures, for_papers)
+    page.coverage = load_coverage(folder / "coverage.json")
+    page.unended = unended_run(folder / "verdicts.json")
     unfinished = out.with_name(out.name + ".unfinished")
     unfinished.write_text(render(page), encoding="utf-8")
     os.replace(unfinished, out)
@@ -93,7 +96,8 @@ def draw(run: Run, bench: Run | None, figures: Path, for_papers: bool) -> Page:
         view.foreign = origin_differs(view, run)
     return Page(provenance=run.provenance, claims=claim_views(run.claims, everything), checks=checks, studies=studies[:len(run.studies)],
                 other_findings=others, cases=cases, rates=rates, bench_studies=studies[len(run.studies):],
-                bench_provenance=bench.provenance if bench else {}, faults=faults_of(run))
+                bench_provenance=bench.provenance if bench else {}, faults=faults_of(run),
+                tolerances=tolerances_of(run.findings))
 
 
 def run_jobs(jobs: list[Job], for_papers: bool) -> list[Any]:

@@ -22,6 +22,7 @@ from plot_style import Plot, level_text
 from point_marks import has_mark
 from results import Case, CaseEntry, Column, Fault, Finding, Run, Study, StudyFigure
 from study_plots import choose_pens, floors_below, key_svg, points_left_out
+from trust import Coverage, Tolerances
 
 FOLDER = Path(__file__).resolve().parent
 OUTCOMES = ("holds", "fails", "inconclusive", "not applicable")
@@ -66,6 +67,9 @@ class Page:
     bench_studies: list[StudyView]
     bench_provenance: dict[str, Any]
     faults: list[Fault]
+    tolerances: Tolerances
+    coverage: Coverage | None = None
+    unended: str = ""               # why this is not what was run last
 
     def first_studies(self) -> list[StudyView]:
         """The studies that help to choose an integrator, in the order of FIRST_STUDIES."""

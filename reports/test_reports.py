@@ -2,6 +2,7 @@
 """Tests of the report generator on small made-up runs: reports/test_reports.py"""
 from __future__ import annotations
 
+import json
 import re
 import sys
 import tempfile
@@ -25,6 +26,7 @@ from page import Anchors, margin_percent, shown_rows  # noqa: E402
 from quantities import number_text, quantity_html, seconds_html, unit_text  # noqa: E402
 from results import Column, load_case, load_run  # noqa: E402
 from study_plots import spread  # noqa: E402
+from trust import tolerances_of  # noqa: E402
 
 
 class Seen(HTMLParser):
@@ -187,6 +189,36 @@ class PartsMissing(unittest.TestCase):
         row = text[text.index(f'id="{NAMES[0]}"'):]
         self.assertEqual(re.search(r'data-label="faults">(.*?)</span>', row)[1], "1")
         self.assertEqual(len(re.findall(r"[Nn]ot run", text)), 1)
+
+    def test_a_run_that_never_ended_is_not_taken_for_the_one_before(self) -> None:
+        put_run(self.root)
+        self.assertNotIn("did not come to its end", self.made())
+        findings = [{"name": "a", "outcome": "did not run"}, {"name": "b", "outcome": "did not run"}]
+        told = {"program": {"date": HOSTILE}, "findings": findings}
+        (self.root / "verdicts.json").write_text(json.dumps(told))
+        self.assertIn("did not come to its end: 2 checks, studies and cases", self.made())
+        Seen(self.made())
+
+    def test_coverage_is_shown_with_the_lines_that_never_ran(self) -> None:
+        put_run(self.root)
+        self.assertNotIn('id="coverage"', self.made())
+        row = {"lines": 40, "lines_reached": 36, "branches": 10, "branches_taken": 5}
+        file = {**row, "file": "reference/" + HOSTILE, "lines_missed": [3, 4, 5, 9]}
+        told = {"commit": "abc", "ran": "checks", "least": 95.0, "total": row, "files": [file]}
+        (self.root / "coverage.json").write_text(json.dumps(told))
+        text = self.made()
+        self.assertIn("90.0 % of 40 lines", text)
+        self.assertIn("3–5, 9", text)
+        Seen(text)
+
+    def test_tolerances_begin_with_the_tightest(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            put_run(Path(folder))
+            findings = load_run(Path(folder) / "run.h5").findings
+        ranked = tolerances_of(findings).ranked
+        self.assertEqual([entry.used for entry in ranked], sorted((entry.used for entry in ranked), reverse=True))
+        self.assertTrue(all(entry.finding.outcome != "measured" for entry in ranked))
+        self.assertNotIn(NAMES[1], [entry.finding.name for entry in ranked])  # NaN has no margin
 
     def test_bench_alone(self) -> None:
         with h5py.File(self.root / "bench.h5", "w") as file:

@@ -107,6 +107,7 @@ void add_runs(CLI::App& app, Options& options) {
   CLI::App* everything = add_command(app, options, "verify",
                                      "All checks, studies and cases, the claims, and the report", verify);
   everything->add_flag("--no-report", options.no_report, "Write the results only");
+  everything->add_flag("--no-bench", options.no_bench, "Measure no speeds");
   add_tier(everything, options);
   CLI::App* speed =
       add_command(app, options, "bench", "Measure speed and memory; writes bench.h5", run_bench);

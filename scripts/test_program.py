@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -270,6 +271,18 @@ step = 0.001
         done = run("check", "bending.forces-sum-to-zer")
         self.assertEqual(done.returncode, 2)
         self.assertIn("bending.forces-sum-to-zero", done.stderr)
+
+    def test_a_run_that_is_killed_leaves_no_verdict(self) -> None:
+        out = self.path / "out"
+        command = [str(PROGRAM), "verify", "--no-report", "--no-bench", "--out", str(out)]
+        running = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not (out / "junit.xml").is_file() and running.poll() is None:
+            time.sleep(0.05)
+        running.kill()
+        running.wait()
+        outcomes = {finding["outcome"] for finding in json.loads((out / "verdicts.json").read_text())["findings"]}
+        self.assertEqual(outcomes, {"did not run"})
+        self.assertRegex((out / "junit.xml").read_text(), r'errors="[1-9][0-9]*"')
 
     def test_a_check_writes_its_results(self) -> None:
         done = run("check", "bending.forces-sum-to-zero", "--json", "--out", str(self.path / "out"))

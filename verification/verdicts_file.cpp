@@ -83,7 +83,9 @@ std::string junit_case(const Record& record) {
       escaped(fmt::format("measured {:.6g}, uncertainty {:.3g}, bound {:.6g} [{}]. {} {}", v.measured,
                           v.uncertainty, v.bound, v.unit, record.claim, record.finding.note));
   if (record.outcome == "holds" || record.outcome == "measured") return text + "/>\n";
-  const char* kind = record.outcome == "not applicable" ? "skipped" : "failure";
+  const char* kind = record.outcome == "not applicable" ? "skipped"
+                     : record.outcome == "did not run"  ? "error"
+                                                        : "failure";
   return text +
          fmt::format(">\n    <{0} message=\"{1}: {2}\"/>\n  </testcase>\n", kind, record.outcome, message);
 }
@@ -99,10 +101,11 @@ std::string junit_case(const ClaimRecord& record) {
 }
 
 std::string junit_xml(const RunRecord& run) {
-  size_t failures = 0, skipped = 0;
+  size_t failures = 0, errors = 0, skipped = 0;
   std::string cases;
   for (const Record& record : run.records) {
     failures += record.outcome == "fails" || record.outcome == "inconclusive";
+    errors += record.outcome == "did not run";
     skipped += record.outcome == "not applicable";
     cases += junit_case(record);
   }
@@ -113,10 +116,10 @@ std::string junit_xml(const RunRecord& run) {
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"foldproof\" tests=\"{}\" "
-      "failures=\"{}\" "
+      "failures=\"{}\" errors=\"{}\" "
       "skipped=\"{}\" time=\"{:.3f}\" timestamp=\"{}\">\n{}</testsuite>\n",
-      run.records.size() + run.claims.size(), failures, skipped, run.seconds, escaped(run.provenance.date),
-      cases);
+      run.records.size() + run.claims.size(), failures, errors, skipped, run.seconds,
+      escaped(run.provenance.date), cases);
 }
 
 }  // namespace

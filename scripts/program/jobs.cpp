@@ -43,9 +43,10 @@ class Queue {
     for (size_t i = 0; take(i);) {
       try {
         parts_[i] = jobs_[i].run([&, i](double part) { show(i, part); });
-      } catch (...) {
-        const std::lock_guard held(mutex_);
-        if (!error_) error_ = std::current_exception();
+      } catch (const std::exception& error) {
+        parts_[i] = {};
+        parts_[i].records = {
+            unfinished(jobs_[i].name, "fails", std::string("stopped by an error: ") + error.what())};
       }
       show(i, 1);
       const std::lock_guard held(mutex_);
@@ -54,7 +55,6 @@ class Queue {
   }
 
   void gather(RunRecord& run) {
-    if (error_) std::rethrow_exception(error_);
     for (RunRecord& part : parts_) {
       append(part.records, run.records);
       append(part.studies, run.studies);
@@ -83,12 +83,21 @@ class Queue {
   std::vector<size_t> waiting_;
   std::vector<double> done_;  // the part of each job
   std::vector<RunRecord> parts_;
-  std::exception_ptr error_;
   double whole_ = 0, total_ = 0;
   ProgressLine progress_;
 };
 
 }  // namespace
+
+Record unfinished(const std::string& name, const std::string& outcome, const std::string& note) {
+  Record record;
+  record.name = name;
+  record.kind = "check";
+  record.claim = "It runs to its end.";
+  record.finding = {{nan, nan, nan, "1", "without an end there is nothing to judge"}, {}, note};
+  record.outcome = outcome;
+  return record;
+}
 
 void run_jobs(const std::vector<Job>& jobs, const std::string& label, RunRecord& run) {
   Queue queue(jobs, label);

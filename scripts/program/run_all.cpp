@@ -88,7 +88,7 @@ std::vector<Record> wanted_of(std::vector<Record> records, const std::vector<std
 }
 
 Job job_of(const Check& check, const Subject& subject) {
-  return {1, [check, &subject](const Progress&) {
+  return {check.name, 1, [check, &subject](const Progress&) {
             RunRecord part;
             part.records = {run_check(check, subject)};
             return part;
@@ -96,7 +96,7 @@ Job job_of(const Check& check, const Subject& subject) {
 }
 
 Job job_of(const Study& study, const Subject& subject, Tier tier, const std::vector<std::string>& wanted) {
-  return {30, [study, &subject, tier, wanted](const Progress& progress) {
+  return {study.name, 30, [study, &subject, tier, wanted](const Progress& progress) {
             auto [records, whole] = run_study(study, subject, tier, progress);
             RunRecord part;
             part.records = wanted_of(std::move(records), wanted, study.name);
@@ -106,7 +106,7 @@ Job job_of(const Study& study, const Subject& subject, Tier tier, const std::vec
 }
 
 Job job_of(const Case& shown, const std::vector<std::string>& wanted) {
-  return {60, [shown, wanted](const Progress& progress) {
+  return {"case." + shown.scene.name, 60, [shown, wanted](const Progress& progress) {
             RunRecord part;
             part.records = wanted_of(judge_case(shown, progress), wanted, "");
             return part;
