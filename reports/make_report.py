@@ -20,6 +20,7 @@ sys.dont_write_bytecode = True
 from case_pictures import make_pictures  # noqa: E402
 from case_plots import plot_diagnostics  # noqa: E402
 from contact_maps import plot_contacts  # noqa: E402
+from kill_matrix import load_mutation  # noqa: E402
 from ledger import claim_views  # noqa: E402
 from map_plots import plot_study_map  # noqa: E402
 from page import CaseView, Page, StudyView, faults_of, findings_by_section, render  # noqa: E402
@@ -93,7 +94,8 @@ def draw(run: Run, bench: Run | None, figures: Path, for_papers: bool) -> Page:
         view.foreign = origin_differs(view, run)
     return Page(provenance=run.provenance, claims=claim_views(run.claims, everything), checks=checks, studies=studies[:len(run.studies)],
                 other_findings=others, cases=cases, rates=rates, bench_studies=studies[len(run.studies):],
-                bench_provenance=bench.provenance if bench else {}, faults=faults_of(run))
+                bench_provenance=bench.provenance if bench else {}, faults=faults_of(run),
+                mutation=load_mutation(run.path.parent / "mutation.json") if run.path else None)
 
 
 def run_jobs(jobs: list[Job], for_papers: bool) -> list[Any]:

@@ -145,7 +145,8 @@ def of_name(text: str, tokens: list[Token], k: int) -> Iterator[Change]:
     """A name taken for its neighbour: min for max, x1 for x2 where there is an x2. Not where it is declared."""
     token = tokens[k]
     before = tokens[k - 1] if k > 0 else token
-    declares = before.kind == "word" and before.text not in ("return", "throw")
+    follows = tokens[k + 1].text if k + 1 < len(tokens) else ""
+    declares = (before.kind == "word" and before.text not in ("return", "throw")) or (before.text == "," and follows == "=") or is_bound(tokens, k)
     if token.kind != "word" or declares or (before.text in ("&", "&&", "*") and not is_spaced(text, before)):
         return
     known = {other.text for other in tokens}
@@ -155,6 +156,16 @@ def of_name(text: str, tokens: list[Token], k: int) -> Iterator[Change]:
     for after in others:
         if after in known or token.text in ("min", "max", "sin", "cos", "asin", "acos", "true", "false", "break", "continue"):
             yield Change(token.at, token.text, after, "name")
+
+
+def is_bound(tokens: list[Token], k: int) -> bool:
+    """Is tokens[k] one of the names of `auto [a, b]`?"""
+    for i in range(k - 1, 0, -1):
+        if tokens[i].text == "[":
+            return tokens[i - 1].text in ("auto", "&") and tokens[i - 2].text != ")"
+        if tokens[i].kind != "word" and tokens[i].text != ",":
+            return False
+    return False
 
 
 def of_bounds(tokens: list[Token]) -> Iterator[Change]:
