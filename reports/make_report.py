@@ -20,6 +20,7 @@ sys.dont_write_bytecode = True
 from case_pictures import make_pictures  # noqa: E402
 from case_plots import plot_diagnostics  # noqa: E402
 from contact_maps import plot_contacts  # noqa: E402
+from kill_matrix import load_mutation  # noqa: E402
 from ledger import claim_views  # noqa: E402
 from map_plots import plot_study_map  # noqa: E402
 from page import CaseView, Page, StudyView, faults_of, findings_by_section, render  # noqa: E402
@@ -59,6 +60,7 @@ def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = True)
     out.parent.mkdir(parents=True, exist_ok=True)
     page = draw(run, bench, figures, for_papers)
     page.coverage = load_coverage(folder / "coverage.json")
+    page.mutation = load_mutation(folder / "mutation.json")
     page.unended = unended_run(folder / "verdicts.json")
     unfinished = out.with_name(out.name + ".unfinished")
     unfinished.write_text(render(page), encoding="utf-8")

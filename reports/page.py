@@ -16,6 +16,7 @@ from markupsafe import Markup
 import ledger
 import quantities
 from case_pictures import PictureRow, length_text
+from kill_matrix import Mutation, kill_tables
 from ledger import ClaimView
 from map_plots import map_notes
 from plot_style import Plot, level_text
@@ -70,6 +71,7 @@ class Page:
     tolerances: Tolerances
     coverage: Coverage | None = None
     unended: str = ""               # why this is not what was run last
+    mutation: Mutation | None = None   # what scripts/mutate found, where that lies beside the run
 
     def first_studies(self) -> list[StudyView]:
         """The studies that help to choose an integrator, in the order of FIRST_STUDIES."""
@@ -93,6 +95,7 @@ def render(page: Page) -> str:
         table=shown_rows, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE, orders=order_table, keys=figure_keys, notes=figure_notes, map_notes=map_notes,
         rulings=ledger.ruling_counts, sections=ledger.by_section, style=Markup(_style()),
         known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
+        kill_tables=kill_tables(page.faults),
         known_findings={finding.name for finding in _all_findings(page)})
     return environment.get_template("page.html.j2").render(page=page, said=page.provenance)
 

@@ -122,6 +122,16 @@ class Claim:
 
 
 @dataclass
+class FaultCheck:
+    """What one check or test said of a program with a fault in it. Tests measure nothing: NaN."""
+    name: str
+    outcome: str
+    measured: float
+    bound: float
+    margin: float      # measured/bound
+
+
+@dataclass
 class Fault:
     """A seeded fault: one edit of one file, the law that it breaks, and who must notice."""
     name: str
@@ -131,6 +141,8 @@ class Fault:
     law: str
     caught_by: list[str]
     outcome: str       # "caught" | "SURVIVED" | "not run"
+    caught_by_tests: list[str] = field(default_factory=list)   # names of test cases
+    checks: list[FaultCheck] = field(default_factory=list)     # of those that are named; empty if it was not run
 
 
 @dataclass
@@ -333,15 +345,23 @@ def _with_outcomes(faults: list[Fault], file: Path) -> list[Fault]:
     """Outcomes of `scripts/faults --out DIR/faults.json`, if that was run for this folder."""
     if not file.is_file():
         return faults
-    outcomes = {row["name"]: row["outcome"] for row in json.loads(file.read_text())["faults"]}
-    return [replace(fault, outcome=outcomes.get(fault.name, fault.outcome)) for fault in faults]
+    rows = {row["name"]: row for row in json.loads(file.read_text(encoding="utf-8"))["faults"]}
+    return [_with_outcome(fault, rows[fault.name]) if fault.name in rows else fault for fault in faults]
+
+
+def _with_outcome(fault: Fault, row: dict[str, Any]) -> Fault:
+    def number(value: float | None) -> float:
+        return float("nan") if value is None else value
+    checks = [FaultCheck(said["name"], said["outcome"], *(number(said[key]) for key in ("measured", "bound", "margin")))
+              for said in row.get("checks", [])]
+    return replace(fault, outcome=row["outcome"], checks=checks)
 
 
 def _faults(file: h5py.File) -> list[Fault]:
     columns = {column.name: [str(value) for value in column.values]
                for column in columns_of(file.get("faults"))}
-    keys = ("name", "file", "find", "replace", "law", "caught_by", "outcome")
+    keys = ("name", "file", "find", "replace", "law", "caught_by", "outcome", "caught_by_tests")
     rows = zip(*(columns.get(key, [""] * len(columns.get("name", []))) for key in keys))
     return [Fault(name, where, find, replace, law,
-                  [part.strip() for part in caught.split(",") if part.strip()], outcome)
-            for name, where, find, replace, law, caught, outcome in rows]
+                  [part.strip() for part in caught.split(",") if part.strip()], outcome, [test for test in tests.split("\n") if test])
+            for name, where, find, replace, law, caught, outcome, tests in rows]

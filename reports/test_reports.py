@@ -220,6 +220,36 @@ class PartsMissing(unittest.TestCase):
         self.assertTrue(all(entry.finding.outcome != "measured" for entry in ranked))
         self.assertNotIn(NAMES[1], [entry.finding.name for entry in ranked])  # NaN has no margin
 
+    def put_outcomes(self) -> None:
+        """Outcomes as scripts/faults and scripts/mutate write them."""
+        said = [dict(name=NAMES[0], outcome="fails", measured=3.0, bound=0.5, margin=6.0),
+                dict(name=NAMES[1], outcome="holds", measured=0.1, bound=0.5, margin=0.2),
+                dict(name=f"a test {HOSTILE}", outcome="fails", measured=None, bound=None, margin=None)]
+        rows = [dict(name="flipped-sign", outcome="SURVIVED", seconds=1, checks=said)]
+        (self.root / "faults.json").write_text(json.dumps({"faults": rows}))
+        counts = dict(mutants=9, not_compiled=1, same_code=2, killed=5, by={"check": 4, "clock": 1}, survived=1, equivalent=0, score=5 / 6)
+        mutant = dict(file="a.cpp", line=7, kind="operator", before=HOSTILE, after="a - b", outcome="SURVIVED", by="", what="", seconds=1)
+        (self.root / "mutation.json").write_text(json.dumps({"seed": 3, "files": [{"file": "a.cpp"} | counts], "mutants": [mutant]}))
+
+    def test_the_kill_matrix_shows_what_failed_and_by_how_much(self) -> None:
+        put_run(self.root)
+        self.assertNotIn('id="kill-matrix"', self.made())
+        self.put_outcomes()
+        text = self.made()
+        self.assertNotIn("<script>alert", text)
+        matrix = text[text.index('id="kill-matrix"'):]
+        self.assertRegex(matrix, r'<td class="num missed" title="[^"]*fails, [^"]*holds">1<small>[^/]*6[^/]*</')
+        self.assertRegex(matrix, r'<td class="num" title="a test [^"]*: fails">1</td>')
+
+    def test_the_mutation_score_is_shown_where_it_is_known(self) -> None:
+        put_run(self.root)
+        self.assertNotIn('id="mutation"', self.made())
+        self.put_outcomes()
+        text = self.made()
+        self.assertIn("check 4, clock 1", text)
+        self.assertIn("83.3 %", text)
+        self.assertIn("a.cpp:7", text)
+
     def test_bench_alone(self) -> None:
         with h5py.File(self.root / "bench.h5", "w") as file:
             put_finding(file, 1, NAMES[4], "bench", outcome="measured", better="lower")

@@ -1,5 +1,8 @@
 #!/usr/bin/python3
-"""Tests of the program as a user meets it: commands, exit codes, messages, files."""
+"""Tests of the program as a user meets it: commands, exit codes, messages, files.
+
+scripts/test_program.py [--program FILE] [ProgramTest.test_...]      --program: another than build/foldproof
+"""
 
 import json
 import re
@@ -15,7 +18,7 @@ import h5py
 import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
-PROGRAM = ROOT / "build" / "foldproof"
+PROGRAM = Path(sys.argv.pop(2)) if sys.argv[1:2] == ["--program"] else ROOT / "build" / "foldproof"
 
 HINGE_ROW = [0.03, 0.12, 0.01, 0.05, -0.09, 0.04, 0, 0, 0, 0.11, 0.005, -0.003]  # x1 x2 x3 x4
 
@@ -296,4 +299,6 @@ step = 0.001
 
 
 if __name__ == "__main__":
+    if sys.argv[1:2] == ["--program"]:
+        del sys.argv[1]  # its file is taken out above
     unittest.main()

@@ -44,6 +44,10 @@ Record judged(Record record, const Run& run) {
 
 }  // namespace
 
+void Worst::see(double value) {
+  if (!std::isnan(worst_) && !(value <= worst_)) worst_ = value;
+}
+
 std::string_view name_of(Mark mark) {
   switch (mark) {
     case Mark::measured:

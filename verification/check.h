@@ -44,9 +44,7 @@ struct Finding {
 /// A maximum that keeps NaN: once a NaN was seen, it stays.
 class Worst {
  public:
-  void see(double value) {
-    if (!std::isnan(worst_) && !(value <= worst_)) worst_ = value;
-  }
+  void see(double value);
   double value() const { return worst_; }  // 0 if nothing was seen
 
  private:

@@ -10,11 +10,17 @@ std::vector<Fault> read_faults(const std::string& path) {
   const auto root = parse_keys(read_text(path), path);
   std::vector<Fault> faults;
   for (const auto& row : root->tables("fault")) {
-    Fault fault{
-        row->text("name"), row->text("file"), row->text("find"), row->text("replace"), row->text("law"), {},
-        "not run"};
+    Fault fault{row->text("name"),
+                row->text("file"),
+                row->text("find"),
+                row->text("replace"),
+                row->text("law"),
+                {},
+                {},
+                "not run"};
     if (row->has("equivalent")) fault.outcome = "equivalent: " + row->text("equivalent");
     if (row->has("caught_by")) fault.caught_by = row->texts("caught_by");
+    if (row->has("caught_by_tests")) fault.caught_by_tests = row->texts("caught_by_tests");
     for (const char* mark : {"fast", "loops", "crash"}) row->flag_or(mark, false);  // for the runner alone
     faults.push_back(std::move(fault));
   }

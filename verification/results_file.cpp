@@ -26,7 +26,7 @@ void write_cases(const Hdf5& file, const std::vector<CaseRecord>& cases) {
 }
 
 void write_faults(const Hdf5& file, const std::vector<Fault>& faults) {
-  std::vector<std::string> name, path, find, replace, law, caught_by, outcome;
+  std::vector<std::string> name, path, find, replace, law, caught_by, caught_by_tests, outcome;
   for (const Fault& fault : faults) {
     name.push_back(fault.name);
     path.push_back(fault.file);
@@ -34,6 +34,7 @@ void write_faults(const Hdf5& file, const std::vector<Fault>& faults) {
     replace.push_back(fault.replace);
     law.push_back(fault.law);
     caught_by.push_back(fmt::format("{}", fmt::join(fault.caught_by, ", ")));
+    caught_by_tests.push_back(fmt::format("{}", fmt::join(fault.caught_by_tests, "\n")));
     outcome.push_back(fault.outcome);
   }
   write_columns(file.group("faults"), {{"name", "", name},
@@ -42,6 +43,7 @@ void write_faults(const Hdf5& file, const std::vector<Fault>& faults) {
                                        {"replace", "", replace},
                                        {"law", "", law},
                                        {"caught_by", "", caught_by},
+                                       {"caught_by_tests", "", caught_by_tests},
                                        {"outcome", "", outcome}});
 }
 

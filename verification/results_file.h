@@ -16,11 +16,12 @@ struct CaseRecord {
   std::string stopped;  // "" or the reason
 };
 
-/// A seeded fault: a textual edit of the reference, and what must notice it.
+/// A seeded fault: a textual edit of one file, and who must notice it.
 struct Fault {
   std::string name, file, find, replace, law;
-  std::vector<std::string> caught_by;
-  std::string outcome;  // "caught", "SURVIVED", ..., or "not run"
+  std::vector<std::string> caught_by;        // findings
+  std::vector<std::string> caught_by_tests;  // test cases
+  std::string outcome;                       // "caught", "SURVIVED", ..., or "not run"
 };
 
 struct RunRecord {

@@ -149,6 +149,7 @@ int list(const Options& options) {
   for (const Study& study : all_studies())
     json["studies"].push_back({{"name", study.name}, {"claim", study.claim}, {"source", study.source}});
   json["cases"] = built_in_cases();
+  json["long_cases"] = long_cases();
   json["case_findings"] = names_of_case_findings();
   json["integrators"] = nlohmann::json::array();
   for (const Integrator& i : integrators())

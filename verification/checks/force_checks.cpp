@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "reference/dynamics/system.h"
+#include "reference/forces/bending.h"
+#include "verification/checks/differential_checks.h"
 #include "verification/checks/measured.h"
 #include "verification/checks/specimens.h"
 #include "verification/oracles/dense_algebra.h"
@@ -142,6 +144,94 @@ Finding bound_is_a_bound(const Subject& subject) {
   return finding;
 }
 
+/// Hinges far from their rest angles, whose forces change by their size more than by their angle: at half a turn the
+/// sine's slope is nothing.
+std::vector<Specimen> far_from_rest() {
+  std::vector<Specimen> cases;
+  unsigned seed = 340;
+  for (const double angle : {3.1415, -3.14, 2.9, -1.7, 0.6})
+    for (const BendingMaterial& material : {bending_variants()[0], bending_variants()[2]}) {
+      Specimen hinge = random_hinge(seed++, angle);
+      hinge.scene.bending = material;
+      hinge.scene.rest_angles = {angle > 0 ? -2.8 : 2.7};
+      hinge.name += ", " + std::string(material.law) + " at " + std::to_string(angle) + " rad, far from rest";
+      cases.push_back(hinge);
+    }
+  return cases;
+}
+
+/// What the springs and hinges say of each particle's row [N/m].
+PerParticle row_bounds(const Specimen& specimen) {
+  const System system = build_system(specimen.scene);
+  PerParticle rows = PerParticle::Zero(specimen.state.x.cols());
+  for (const Force& force : system.forces) {
+    if (const auto* springs = std::get_if<StretchSprings>(&force))
+      springs->add_stiffness_bound(specimen.state, rows);
+    if (const auto* bending = std::get_if<Bending>(&force))
+      bending->add_stiffness_bound(specimen.state, rows);
+  }
+  return rows;
+}
+
+/// The sums over each row of the reference's derivative, particle by particle, of what a 3 x 3 block stretches at most
+/// [N/m].
+PerParticle row_sums(const Specimen& specimen) {
+  const Eigen::MatrixXd K = force_derivative(specimen.scene, specimen.state);
+  PerParticle sums = PerParticle::Zero(specimen.state.x.cols());
+  for (Eigen::Index i = 0; i < sums.size(); ++i)
+    for (Eigen::Index j = 0; j < sums.size(); ++j) {
+      const Eigen::MatrixXd block = K.block<3, 3>(3 * i, 3 * j);
+      sums[i] += std::sqrt(oracles::symmetric_eigenvalues(block * block.transpose()).maxCoeff());
+    }
+  return sums;
+}
+
+Finding rows_are_covered(const Subject&) {
+  Measured measured("largest sum of a row over its bound", "1");
+  std::vector<Specimen> cases = stiff_cases();
+  for (const Specimen& specimen : far_from_rest()) cases.push_back(specimen);
+  for (Specimen& specimen : cases) {
+    if (specimen.scene.bending) specimen.scene.bending->damping = 0;
+    const PerParticle share = row_sums(specimen).cwiseQuotient(row_bounds(specimen));
+    measured.see(specimen.name, share.maxCoeff<Eigen::PropagateNaN>());
+  }
+  return measured.judged(1 + 1e-9, "an upper bound may not be exceeded, but for rounding in thin triangles");
+}
+
+/// Hinges in their rest shape, where only the rank-one part is left: there the bound is the sum.
+Finding rows_are_reached(const Subject&) {
+  Measured measured("largest |sum of a row over its bound - 1|", "1");
+  std::vector<Specimen> cases;
+  unsigned seed = 370;
+  for (const double angle : {0.3, -1.9, 2.6}) {
+    cases.push_back(random_hinge(seed++, angle));
+    cases.back().scene.bending = bending_variants()[0];
+    cases.back().scene.bending->damping = 0;
+    cases.back().scene.rest_angles = hinge_angles(cases.back().scene.mesh, cases.back().state.x);
+  }
+  for (const Specimen& specimen : cases) {
+    const PerParticle share = row_sums(specimen).cwiseQuotient(row_bounds(specimen));
+    measured.see(specimen.name, (share.array() - 1).abs().maxCoeff<Eigen::PropagateNaN>());
+  }
+  return measured.judged(
+      1e-7,
+      "a rest angle is met to a rounding, which thin triangles magnify; a missing term or a "
+      "wrong factor is of order 1");
+}
+
+Finding unknown_laws_are_refused(const Subject&) {
+  Measured measured("names that are taken or refused wrongly", "1");
+  for (const BendingLaw& law : bending_laws())
+    measured.see(std::string(law.name), bending_law(law.name).magnitude == law.magnitude ? 0 : 1);
+  for (const std::string name : {"square", "", "sin", "Sine"}) {
+    const std::string said = refusal([&] { bending_law(name); });
+    const bool is_told =
+        said.find("'" + name + "'") != std::string::npos && said.ends_with("known: sine, cubic");
+    measured.see("'" + name + "'", is_told ? 0 : 1);
+  }
+  return measured.judged(0, "a law is one of the list, or refused with its name and the list");
+}
+
 }  // namespace
 
 std::vector<Check> force_checks() {
@@ -154,7 +244,18 @@ std::vector<Check> force_checks() {
       {"forces.frequency-bound-is-a-bound",
        "The reference's bound on the elastic frequency exceeds the largest frequency of crumpled sheets and "
        "sharp folds.",
-       "Gershgorin's theorem; the automatic step rests on it", bound_is_a_bound}};
+       "Gershgorin's theorem; the automatic step rests on it", bound_is_a_bound},
+      {"bending.unknown-laws-are-refused",
+       "A bending law that the reference does not know is refused by name.",
+       "a rule of this suite: bad input is refused in words", unknown_laws_are_refused},
+      {"forces.row-bounds-cover-every-row",
+       "What the reference's springs and hinges say of a particle's row of the stiffness matrix is not "
+       "exceeded by "
+       "any row, however far a hinge is from its rest angle.",
+       "Gershgorin's theorem; the automatic step rests on it", rows_are_covered},
+      {"forces.row-bounds-are-reached-at-rest",
+       "At a hinge's rest angle the bound on each particle's row is the row's own sum.",
+       "calculus: there the matrix is -ke c u u^T / 2", rows_are_reached}};
   checks.insert(checks.end(), own.begin(), own.end());
   return checks;
 }

@@ -1,6 +1,9 @@
 // The derivative of all forces by the positions while the velocities stay, which Newton's method needs on damped cloth.
 #include <cmath>
+#include <optional>
 
+#include "reference/dynamics/system.h"
+#include "reference/forces/springs.h"
 #include "verification/checks/differential_checks.h"
 #include "verification/checks/measured.h"
 #include "verification/checks/specimens.h"
@@ -125,22 +128,87 @@ Finding matches_differences(const Subject& subject) {
       "triangle's height, about 1e-6; a missing or wrong term is of order 1");
 }
 
+/// Damping force and derivative of these springs at s, side by side: 3N x (3N + 1).
+Matrix damped_answers(const StretchSprings& springs, const State& s) {
+  DampingOperator damping;
+  springs.prepare_damping(s, damping);
+  PerParticle3 force = PerParticle3::Zero(3, s.x.cols());
+  damping.add_product(s.v, force);
+  ForceDifferential differential;
+  springs.add_force_differential(s, differential);
+  Matrix answers(s.x.size(), s.x.size() + 1);
+  answers << matrix_of(differential, s.x.cols()), force.reshaped();
+  return answers;
+}
+
+Finding springs_answer_for_themselves(const Subject&) {
+  Measured measured = roundings_of("the largest entry");
+  Random random(71);
+  const StretchSprings all{{{0, 1, 0.31, 7.9, 0.59}, {1, 2, 0.23, 5.3, 0}, {2, 3, 0.37, 3.1, 0.83}}};
+  for (int k = 0; k < 4; ++k) {
+    State s = still_at(random.vectors(4, 0.4));
+    s.v = random.vectors(4, 1.3);
+    Matrix sum = Matrix::Zero(12, 13);
+    for (const Spring& one : all.springs) sum += damped_answers({{one}}, s);
+    measured.see("three springs, place " + std::to_string(k + 1),
+                 largest_entry(damped_answers(all, s) - sum) / (epsilon * largest_entry(sum)));
+  }
+  return measured.judged(8, "the same terms, added in another order");
+}
+
+struct Variant {
+  std::string name;
+  std::optional<StretchMaterial> stretch;
+  std::optional<BendingMaterial> bending;
+};
+
+Finding flag_is_right(const Subject&) {
+  Measured measured("derivatives that are called symmetric and are not, or are and are not called so", "1");
+  const BendingMaterial plain{0.0037, 0, Weighting::rest, DampingFactor::edge, "sine"};
+  const std::vector<Variant> variants = {{"springs", StretchMaterial{41, 0, 1.04}, {}},
+                                         {"damped springs", StretchMaterial{41, 0.31, 1.04}, {}},
+                                         {"hinges", {}, plain},
+                                         {"damped hinges", {}, moving_materials()[0]},
+                                         {"hinges by their current weights", {}, bending_variants()[1]}};
+  for (const Specimen& sheet : small_crumpled_sheets())
+    for (const Variant& variant : variants) {
+      Scene scene = sheet.scene;
+      scene.stretch = variant.stretch;
+      scene.bending = variant.bending;
+      const Matrix K = force_derivative(scene, sheet.state);
+      const bool is_symmetric = largest_entry(K - K.transpose()) <= 1e-9 * largest_entry(K);
+      const System system = build_system(scene);
+      Work uncounted;
+      const bool is_called = force_differential_at(system.forces, sheet.state, uncounted).symmetric;
+      measured.see(sheet.name + ", " + variant.name, is_called == is_symmetric ? 0 : 1);
+    }
+  return measured.judged(0, "which solver is taken hangs on it: conjugate gradients need a symmetric matrix");
+}
+
 }  // namespace
 
 std::vector<Check> force_differential_checks() {
   const std::string what = "calculus; the methods BMF03 section 3 compares its schemes with need it";
-  return {{"force-differential.hinge-is-derivative",
-           "How the reference's elastic and damping forces of a hinge change with the positions at given "
-           "velocities is their derivative: 50 digits, autodiff, every angle, both factors, both weightings.",
-           what, hinge_is_derivative},
-          {"force-differential.spring-is-derivative",
-           "How the reference's elastic and damping forces of a spring change with the positions at given "
-           "velocities is their derivative: 50 digits, autodiff.",
-           what, spring_is_derivative},
-          {"force-differential.matches-force-differences",
-           "The reference's derivative of all forces at given velocities is that of the subject's forces, on "
-           "sheets of damped springs and hinges.",
-           what, matches_differences}};
+  return {
+      {"force-differential.hinge-is-derivative",
+       "How the reference's elastic and damping forces of a hinge change with the positions at given "
+       "velocities is their derivative: 50 digits, autodiff, every angle, both factors, both weightings.",
+       what, hinge_is_derivative},
+      {"force-differential.spring-is-derivative",
+       "How the reference's elastic and damping forces of a spring change with the positions at given "
+       "velocities is their derivative: 50 digits, autodiff.",
+       what, spring_is_derivative},
+      {"force-differential.springs-answer-for-themselves",
+       "Damping and derivative of several springs, some of them without damping, are the sums of each one's.",
+       what, springs_answer_for_themselves},
+      {"force-differential.is-called-symmetric-where-it-is",
+       "The derivative is called symmetric where its matrix is: without damping and current weights, and not "
+       "with.",
+       what, flag_is_right},
+      {"force-differential.matches-force-differences",
+       "The reference's derivative of all forces at given velocities is that of the subject's forces, on "
+       "sheets of damped springs and hinges.",
+       what, matches_differences}};
 }
 
 }  // namespace foldproof

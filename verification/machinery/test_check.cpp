@@ -1,10 +1,15 @@
 // Verdicts: what holds, what fails, and that nothing that is NaN or stopped ever passes.
 #include <catch2/catch.hpp>
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 
+#include "reference/scene/key_file.h"
 #include "verification/check.h"
+#include "verification/checks/scratch_folder.h"
+#include "verification/faults_file.h"
 #include "verification/subject.h"
 #include "verification/verdicts_file.h"
 
@@ -64,6 +69,21 @@ TEST_CASE("a study that throws fails under its own name") {
   CHECK(records[0].outcome == "fails");
 }
 
+TEST_CASE("each finding of a study is judged by its own verdict") {
+  const Study study{"sums", "A sentence.", "", "", [](const Subject&, Tier, const Progress&) {
+                      StudyResult result;
+                      for (const double measured : {1.0, 3.0, 2.25, not_a_number})
+                        result.findings.push_back({"sums.one", "A sentence.", {{measured, 2, 0.5, "1", ""}, {}, ""}});
+                      return result;
+                    }};
+  const auto [records, whole] = run_study(study, reference_subject(), Tier::quick, [](double) {});
+  REQUIRE(records.size() == 4);
+  CHECK(records[0].outcome == "holds");
+  CHECK(records[1].outcome == "fails");
+  CHECK(records[2].outcome == "inconclusive");
+  CHECK(records[3].outcome == "fails");
+}
+
 TEST_CASE("an operation that a subject lacks is reported by name") {
   Subject subject = reference_subject();
   subject.step = nullptr;
@@ -80,6 +100,49 @@ TEST_CASE("verdicts as JSON: NaN becomes null, names stay") {
   const std::string json = verdicts_json(run);
   CHECK(json.find("\"measured\": null") != std::string::npos);
   CHECK(json.find("odd \\\"name\\\" <b>") != std::string::npos);
+}
+
+TEST_CASE("verdicts as JSON and XML: each outcome stands as it is, and none but what holds passes") {
+  RunRecord run;
+  for (const char* outcome : {"holds", "fails", "inconclusive", "not applicable"}) {
+    Record record;
+    record.name = std::string("that it ") + outcome;
+    record.outcome = outcome;
+    record.finding.note = "1 < 2 & 3";
+    run.records.push_back(record);
+  }
+  const std::string json = verdicts_json(run);
+  for (const Record& record : run.records) {
+    INFO(record.outcome);
+    CHECK(json.find("\"outcome\": \"" + record.outcome + "\"") != std::string::npos);
+  }
+  const ScratchFolder folder;
+  write_verdicts(folder.file("."), run);
+  const std::string xml = read_text(folder.file("junit.xml"));
+  CHECK(xml.find("tests=\"4\" failures=\"2\" skipped=\"1\"") != std::string::npos);
+  CHECK(xml.find("1 &lt; 2 &amp; 3") != std::string::npos);
+  CHECK(xml.find("1 < 2") == std::string::npos);
+}
+
+TEST_CASE("faults are read with who catches them, and a key that no one knows is refused") {
+  const ScratchFolder folder;
+  const std::string row =
+      "[[fault]]\nname = \"slip\"\nfile = \"a.cpp\"\nfind = \"+\"\nreplace = \"-\"\nlaw = \"sums\"\n";
+  const std::string path = folder.file("faults.toml");
+  std::ofstream(path) << row << "caught_by = [\"sums.add-up\"]\nfast = true\n"
+                      << "caught_by_tests = [\"one, and another\", \"test_sums\"]\n";
+  const std::vector<Fault> faults = read_faults(path);
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].caught_by == std::vector<std::string>{"sums.add-up"});
+  CHECK(faults[0].caught_by_tests == std::vector<std::string>{"one, and another", "test_sums"});
+  Record record;
+  record.name = "sums.add-up";
+  std::vector<Record> records = {record, {}};
+  name_faults(faults, records);
+  CHECK(records[0].faults == std::vector<std::string>{"slip"});
+  CHECK(records[1].faults.empty());
+  std::ofstream(path) << row << "caught_bye = [\"sums.add-up\"]\n";
+  CHECK_THROWS_WITH(read_faults(path), Catch::Contains("caught_bye"));
 }
 
 TEST_CASE("a map is written with one value for each of its points, or refused") {

@@ -40,6 +40,12 @@ TEST_CASE("pair orders do not need equal ratios of steps") {
   CHECK(fitted_order(convergence) == Approx(1.6).epsilon(1e-12));
 }
 
+TEST_CASE("the fitted order is the slope of least squares over all points") {
+  // log2 of the steps 0, -1, -2, -3, of the errors 0, -2, -4, -3: so the slope is (-.5 * 2 + .5 * 4 + 1.5 * 3)/5
+  const Convergence convergence{{1, 0.5, 0.25, 0.125}, {1, 0.25, 0.0625, 0.125}, 0};
+  CHECK(fitted_order(convergence) == Approx(1.1).epsilon(1e-12));
+}
+
 TEST_CASE("growing errors have negative orders") {
   CHECK(pair_orders({{0.2, 0.1}, {1e-5, 8e-5}, 0}).front() == Approx(-3).epsilon(1e-12));
 }

@@ -1,0 +1,235 @@
+"""Mutants: the program with one file edited. Shared by scripts/faults and scripts/mutate.
+
+An edited copy lies in a folder of its own, which comes first on the include path; what is made of the file is
+compiled anew and linked before the unedited libraries. The source tree is never touched.
+"""
+
+import collections
+import functools
+import hashlib
+import json
+import math
+import re
+import shlex
+import subprocess
+import threading
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build"
+PROGRAM = BUILD / "foldproof"
+TESTS = BUILD / "machinery"
+APART_FOLDER = BUILD / "faults" / "apart"
+CLOCK = 240  # s: how long a mutant may run
+
+
+class Unusable(Exception):
+    """Why nothing can be said: of one mutant when it is judged, else of all."""
+
+
+class DoesNotCompile(Unusable):
+    """The edit is no C++."""
+
+
+class Edit(NamedTuple):
+    name: str  # of the mutant's folder
+    file: str  # path from the repository's root
+    text: str  # of the whole edited file
+
+
+class Unit(NamedTuple):
+    command: list[str]  # one compilation, as ninja runs it in build/
+    object: str
+    made_from: set[Path]
+
+
+class Plan(NamedTuple):
+    units: list[Unit]
+    links: dict[str, list[str]]  # program: the command that links it, as ninja runs it in build/
+
+
+def run(command: list, folder: Path, clock: float | None = None) -> subprocess.CompletedProcess:
+    text = {"capture_output": True, "text": True, "errors": "replace"}
+    return subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, timeout=clock, **text)
+
+
+# ---- how the unedited program is made --------------------------------------------------------------------
+
+
+def read_plan(programs: list[str]) -> Plan:
+    """Brings the unedited programs up to date; returns their compilations and links, as ninja tells them."""
+    if not (BUILD / "build.ninja").is_file():
+        raise Unusable("there is no build; run scripts/setup first")
+    built = run(["ninja", *programs], BUILD)
+    if built.returncode:
+        raise Unusable(f"the unedited program does not build:\n{built.stdout}{built.stderr}")
+    made_from = files_by_object()
+    units, links = {}, {}
+    for program in programs:
+        lines = run(["ninja", "-t", "commands", program], BUILD).stdout.splitlines()
+        links[program] = shlex.split(lines[-1].removeprefix(": && ").split(" && ")[0])  # `: && c++ ... && :`
+        for words in map(shlex.split, lines):
+            if "-c" in words and "-o" in words and words[-1].endswith((".cpp", ".cxx")):
+                name = words[words.index("-o") + 1]
+                units[name] = Unit(words, name, made_from.get(name, set()))
+    return Plan(list(units.values()), links)
+
+
+def files_by_object() -> dict[str, set[Path]]:
+    """The files that each object was made from: ninja prints `object: #deps ...`, then indented paths."""
+    resolve = functools.cache(lambda path: (BUILD / path).resolve())
+    found: dict[str, set[Path]] = {}
+    for line in run(["ninja", "-t", "deps"], BUILD).stdout.splitlines():
+        if line.startswith(" "):
+            files.add(resolve(line.strip()))
+        elif line:
+            files = found.setdefault(line.rsplit(": #deps", 1)[0], set())
+    return found
+
+
+def sources_of(unit: Unit) -> list[Path]:
+    """The unit's source; or the sources that CMake has compiled as one, which it lists in a file of its own."""
+    source = Path(unit.command[-1])
+    if source.suffix != ".cxx":
+        return [source.resolve()]
+    listed = re.findall(r'^#include "(.+)"$', source.read_text(encoding="utf-8"), re.M)
+    return [Path(path).resolve() for path in listed]
+
+
+def key_of(plan: Plan) -> str:
+    """Changes with whatever can change an answer of the unedited programs: their code, but not the commit's name in
+    it, and the cases."""
+    objects = [BUILD / unit.object for unit in plan.units if not any(path.name == "build_facts.h" for path in unit.made_from)]
+    key = hashlib.sha256()
+    for path in objects + sorted((ROOT / "cases").rglob("*.*")):
+        key.update(path.read_bytes())
+    return key.hexdigest()
+
+
+# ---- making a mutant -------------------------------------------------------------------------------------
+
+
+def compile_mutant(plan: Plan, edit: Edit, overlay: Path) -> dict[str, list[Path]]:
+    """Compiles what is made of the edited file, into the empty folder `overlay`; the objects that take the place of
+    each of the program's own. Throws DoesNotCompile."""
+    original = (ROOT / edit.file).resolve()
+    copy = overlay / edit.file
+    copy.parent.mkdir(parents=True)
+    copy.write_text(edit.text, encoding="utf-8")
+    touched = [unit for unit in plan.units if original in unit.made_from]
+    if not touched:
+        raise Unusable(f"nothing in the program is made from {edit.file}")
+    objects = {}
+    for number, unit in enumerate(touched):
+        together = sources_of(unit)
+        objects[unit.object] = [overlay / f"{number}.o"]
+        source = copy if original in together else Path(unit.command[-1])
+        compile_unit(plan, unit, source, objects[unit.object][0], overlay)
+        if original in together:  # the others that are compiled as one with it, as they are
+            objects[unit.object] += [apart(plan, unit, other) for other in together if other != original]
+    return objects
+
+
+APART = collections.defaultdict(threading.Lock)
+
+
+def apart(plan: Plan, unit: Unit, source: Path) -> Path:
+    """The object of an unedited source by itself, made once after each change of what it is compiled with."""
+    target = APART_FOLDER / source.relative_to(ROOT).with_suffix(".o")
+    with APART[target]:
+        if not target.exists() or target.stat().st_mtime < (BUILD / unit.object).stat().st_mtime:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            compile_unit(plan, unit, source, target.with_suffix(".part"), target.parent)
+            target.with_suffix(".part").replace(target)
+    return target
+
+
+def compile_unit(plan: Plan, unit: Unit, source: Path, target: Path, overlay: Path) -> None:
+    """Compiles as the program's own build does, but with the overlay first on the include path, and the method for
+    a short compilation where the build has it for speed: the bits are the same."""
+    words = compiled_soon(plan, unit.command)
+    words[words.index("-MF") + 1] = f"{target}.d"  # ninja's own record of what was read stays as it is
+    words[words.index("-o") + 1] = str(target)
+    words[-1] = str(source)
+    first_option = next(place for place, word in enumerate(words) if word.startswith("-"))
+    words[first_option:first_option] = ["-I", str(overlay), "-w"]  # an edit may leave a variable unused
+    make(words, "does not compile", DoesNotCompile)
+
+
+def compiled_soon(plan: Plan, command: list[str]) -> list[str]:
+    """The command with -O1 in place of -O3, and with the precompiled header that was made with -O1."""
+    words = list(command)
+    if "-O3" not in words or "-O1" in words:
+        return words
+    header = next((unit.command for unit in plan.units if "-O1" in unit.command and "-include" in unit.command), None)
+    if header and "-include" in words:
+        words[words.index("-include") + 1] = header[header.index("-include") + 1]
+    words.insert(words.index("-c"), "-O1")  # the last one counts
+    return words
+
+
+def link_mutant(plan: Plan, objects: dict[str, list[Path]], program: str, overlay: Path) -> Path:
+    """Puts the mutant's objects in place of the program's own, or before the libraries with the originals.
+
+    The linker takes a member of a library only for a symbol still undefined, so the original stays out; if it
+    came in all the same, its symbols would be defined twice, which is a link error.
+    """
+    link = plan.links[program]
+    words = [str(path) for word in link for path in objects.get(word, [word])]
+    libraries = next((place for place, word in enumerate(words) if word.endswith(".a")), len(words))
+    in_library = [str(path) for name, paths in objects.items() if name not in link and is_of(link, name) for path in paths]
+    words[libraries:libraries] = in_library
+    words[words.index("-o") + 1] = str(overlay / program)
+    make([*words[:1], *LINKER, *words[1:]], "does not link", Unusable)
+    return overlay / program
+
+
+LINKER = ["-fuse-ld=gold"]
+
+
+def is_of(link: list[str], name: str) -> bool:
+    """Whether an object belongs to one of the libraries of a link, as CMake names them: `verification/
+    CMakeFiles/oracles.dir/...` is of `verification/liboracles.a`."""
+    folder, _, rest = name.partition("/CMakeFiles/")
+    return f"{folder}/lib{rest.partition('.dir/')[0]}.a" in link
+
+
+def make(words: list[str], failure: str, error: type[Unusable]) -> None:
+    made = run(words, BUILD)
+    if made.returncode:
+        lines = made.stderr.strip().splitlines() or ["no message"]
+        telling = (line for line in lines if re.search("error|multiple definition|undefined", line))
+        raise error(f"{failure}: {next(telling, lines[-1])}")
+
+
+# ---- asking a mutant -------------------------------------------------------------------------------------
+
+
+def ask(program: Path, arguments: list[str], key: str, clock: float | None = None) -> list[dict]:
+    """One list of the program's JSON answer; raises TimeoutExpired when the clock runs out, ChildProcessError when
+    it died of a signal."""
+    ran = run([program, *arguments, "--json"], ROOT, clock)
+    if ran.returncode < 0:
+        raise ChildProcessError(f"died of signal {-ran.returncode}")
+    try:
+        return json.loads(ran.stdout)[key]
+    except (ValueError, KeyError, TypeError) as error:
+        said = (ran.stderr or ran.stdout).strip()[-400:]
+        raise Unusable(f"`foldproof {arguments[0]}`: exit code {ran.returncode}, no {key}: {said}") from error
+
+
+def findings(program: Path, names: list[str], clock: float | None = None) -> list[dict]:
+    """What the program finds in checks, studies and cases of these names (all checks, if there are none): rows
+    with name, outcome, measured, bound, margin, seconds."""
+    rows = [row for row in ask(program, ["check", *names], "findings", clock) if row["kind"] != "claim"]
+    keys = ("name", "outcome", "measured", "bound", "seconds")
+    return [{key: row[key] for key in keys} | {"margin": margin_of(row)} for row in rows]
+
+
+def margin_of(row: dict) -> float | None:
+    """measured/bound; None where that says nothing."""
+    if row["measured"] is None or not row["bound"]:
+        return None
+    margin = row["measured"] / row["bound"]
+    return margin if math.isfinite(margin) else None

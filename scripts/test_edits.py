@@ -1,0 +1,90 @@
+#!/usr/bin/python3
+"""Tests of the mutator: what it edits, and what it leaves alone."""
+
+import sys
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+
+from edits import applied, changes_of, place_of, sample, tokens_of  # noqa: E402
+
+ROOT = Path(__file__).resolve().parent.parent
+KERNEL = (ROOT / "reference/forces/springs.cpp").read_text(encoding="utf-8")
+
+QUIET = r'''#include "a - b.h"
+#define TWICE(x) \
+  2 * (x) + 1
+// a + b < 1, and so on: x1 - x2
+/* 0.5 * min(a, b) */
+using Rows = Eigen::Matrix<double, 3, 12>;
+template <int N = 2, class T = std::array<double, 4>>
+void add(const std::vector<T>& rows, T&& last, const T* first);
+const char* text = "1 + 2 \" - 3" R"(4 * 5)";
+'''
+
+
+def code_of(text: str) -> list[str]:
+    return [token.text for token in tokens_of(text)]
+
+
+class EditsTest(unittest.TestCase):
+    def test_comments_texts_preprocessor_lines_and_template_arguments_are_left_alone(self) -> None:
+        self.assertEqual([place_of(QUIET, change) for change in changes_of(QUIET)], [])
+
+    def test_the_same_seed_gives_the_same_edits_and_none_twice(self) -> None:
+        changes = changes_of(KERNEL)
+        self.assertGreater(len(changes), 100)
+        self.assertEqual(sample(changes, 7), sample(changes_of(KERNEL), 7))
+        self.assertNotEqual(sample(changes, 7), sample(changes, 8))
+        self.assertEqual(sorted(sample(changes, 7)), changes)
+        edited = [applied(KERNEL, change) for change in changes]
+        self.assertEqual(len(edited), len(set(edited)))
+        self.assertFalse(KERNEL in edited)
+
+    def test_each_edit_changes_one_token_or_takes_out_one_statement(self) -> None:
+        original = code_of(KERNEL)
+        for change in changes_of(KERNEL):
+            edited = code_of(applied(KERNEL, change))
+            head = next(k for k, (a, b) in enumerate(zip([*original, ""], [*edited, None])) if a != b)
+            tail = next(k for k, (a, b) in enumerate(zip([*original[head:][::-1], ""], [*edited[head:][::-1], None])) if a != b)
+            gone = original[head:len(original) - tail]
+            if change.kind == "removal":
+                self.assertIn(";", code_of(change.before)[-1:], change)
+                self.assertLessEqual(len(gone), len(code_of(change.before)), change)
+            elif change.kind == "bound":
+                self.assertEqual((gone, edited[head:len(edited) - tail]), ([], ["-", "1"]), change)
+            else:
+                self.assertLessEqual(len(gone), 1, change)
+                self.assertLessEqual(len(edited[head:len(edited) - tail]), 1, change)
+
+    def test_every_kind_of_slip_is_made(self) -> None:
+        text = """
+double f(const Points& x, int n, double a, double b) {
+  double sum = -a;
+  for (int i = 0; i < n; ++i) {
+    if (x[i] > 0.5 && !skipped(i)) continue;
+    sum += std::min(a, 1e-9) * x1 - x2;
+    record(sum);
+  }
+  return sum;
+}
+"""
+        made = {(change.kind, change.before, change.after) for change in changes_of(text)}
+        expected = [("sign", "-", ""), ("number", "0", "1"), ("operator", "<", "<="), ("bound", "n", "n - 1"),
+                    ("sign", "++", "--"), ("operator", ">", "<"), ("number", "0.5", "0.6"), ("operator", "&&", "||"),
+                    ("sign", "!", ""), ("name", "continue", "break"), ("operator", "+=", "-="), ("name", "min", "max"),
+                    ("name", "a", "b"), ("number", "1e-9", "1e-06"), ("operator", "*", "/"), ("name", "x1", "x2"),
+                    ("operator", "-", "+"), ("removal", "record(sum);", ";"), ("removal", "continue;", ";"),
+                    ("removal", "if (x[i] > 0.5 && !skipped(i)) continue;", ";")]
+        for slip in expected:
+            self.assertIn(slip, made)
+        declared = [change for change in changes_of(text) if place_of(text, change)[0] == 2 and change.kind != "removal"]
+        self.assertEqual(declared, [])
+
+    def test_memory_that_is_asked_for_is_no_slip(self) -> None:
+        self.assertEqual(changes_of("void f() {\n  list.reserve(list.size() + n);\n}\n"), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
