@@ -2,6 +2,7 @@
 "" or NaN, an absent group an empty list."""
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,7 +24,7 @@ def columns_of(group: h5py.Group | None) -> list[Column]:
         return []
     sets = [(key, item) for key, item in group.items() if isinstance(item, h5py.Dataset)]
     sets.sort(key=_place)
-    return [Column(key, text_of(attributes_of(item), "unit"), _values(item)) for key, item in sets]
+    return [Column(plain(key), text_of(attributes_of(item), "unit"), _values(item)) for key, item in sets]
 
 
 def _values(data: h5py.Dataset) -> np.ndarray:
@@ -36,7 +37,7 @@ def _values(data: h5py.Dataset) -> np.ndarray:
 def in_order(group: h5py.Group, key: str) -> list[tuple[str, h5py.Group]]:
     """Names and groups inside group/key, in the order that they give."""
     inner = [(name, item) for name, item in group.get(key, {}).items() if isinstance(item, h5py.Group)]
-    return sorted(inner, key=_place)
+    return [(plain(name), item) for name, item in sorted(inner, key=_place)]
 
 
 def _place(entry: tuple[str, h5py.Group | h5py.Dataset]) -> tuple[float, str]:
@@ -46,12 +47,24 @@ def _place(entry: tuple[str, h5py.Group | h5py.Dataset]) -> tuple[float, str]:
 
 def attributes_of(item: h5py.Group | h5py.Dataset) -> dict[str, Any]:
     """All attributes, texts decoded."""
-    return {key: _decoded(value) for key, value in item.attrs.items()}
+    return {plain(key): _decoded(value) for key, value in item.attrs.items()}
+
+
+# What no XML may hold, so that no SVG and no page may: control characters, halves of surrogate pairs (which is how bytes
+# that are no UTF-8 come), and two that are no characters.
+_NO_TEXT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
+
+
+def plain(text: str) -> str:
+    """The text with U+FFFD for all that cannot be shown."""
+    return _NO_TEXT.sub("\ufffd", text)
 
 
 def _decoded(value: Any) -> Any:
     if isinstance(value, bytes):
-        return value.decode("utf-8", "replace")
+        return plain(value.decode("utf-8", "replace"))
+    if isinstance(value, str):
+        return plain(value)
     if isinstance(value, np.ndarray) and value.dtype.kind in "OSU":
         return [_decoded(entry) for entry in value.ravel()]
     return value

@@ -7,7 +7,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-HOSTILE = '<script>alert("1")</script> & <img src=x onerror=alert(1)>'
+HOSTILE = '<script>alert("1")</script> & <img src=x onerror=alert(1)> \' onload=alert(1) ]]> --> \x01\x1b\x7f\ufffe'
 NAMES = ("bending.forces-sum-to-zero", "bending.damping-dissipates", "springs.limit", "time-order.hinge.C.x",
          "bench.bending-elastic", "sticking.<img src=x onerror=alert(1)>")
 TEXT = h5py.string_dtype()
@@ -37,8 +37,8 @@ def put_study(file: h5py.File) -> None:
     study = file.create_group("studies/time-order")
     put(study, order=1, claim="Second order.", source="BMF03", about=HOSTILE, seconds=1.0)
     figure = file.create_group("studies/time-order/figures/x")
-    put(figure, order=1, title="Error of the position", x_label="step", x_unit="s", y_label="error $x$ <b>",
-        y_unit="m", x_scale="log", y_scale="log", slope=2.0, caption=HOSTILE)
+    put(figure, order=1, title=f"Error of the position {HOSTILE}", x_label=f"step {HOSTILE}", x_unit="s<b>\x02",
+        y_label="error $x$ <b>", y_unit="m", x_scale="log", y_scale="log", slope=2.0, caption=HOSTILE)
     h = 0.02 / 2.0 ** np.arange(5)
     for k in range(2):
         curve = figure.create_group(f"curves/{k}")
@@ -55,7 +55,7 @@ def put_map(file: h5py.File, study: str) -> None:
     put(file.require_group(f"studies/{study}"), order=9, claim="Stable.", source="BMF03", about="", seconds=0.004)
     group = file.create_group(f"studies/{study}/maps/radius")
     put(group, order=0, title="Radius", x_label="step", x_unit="s", x_scale="linear", y_label="damping", y_unit="1",
-        y_scale="log", quantity="spectral radius", unit="1", scale="log", caption=HOSTILE)
+        y_scale="log", quantity=f"spectral radius {HOSTILE}", unit="1", scale="log", caption=HOSTILE)
     values = np.linspace(0.5, 2.0, 20).reshape(4, 5)
     values[0, 1:3], values[3, 4] = np.nan, -1.0
     group["x"], group["y"], group["values"] = np.linspace(0.1, 0.5, 5), np.logspace(-2, 1, 4), values
@@ -97,7 +97,7 @@ def put_case(folder: Path, name: str) -> None:
     """Writes a case of two triangles that fold over a few frames."""
     with h5py.File(folder / f"{name}.h5", "w") as file:
         put(file, case_name=name, title=HOSTILE, about="", built=["4 particles", "gravity"],
-            case_text="[sheet]\n", stopped="", seconds=1.0, commit="abcdef",
+            case_text=f"[sheet]\n# {HOSTILE}\n", stopped="", seconds=1.0, commit="abcdef",
             command=f"build/foldproof run cases/{name}.toml")
         rest = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], dtype=float)
         file["mesh/triangles"] = np.array([[0, 1, 2], [1, 3, 2]], dtype=np.int32)
@@ -117,7 +117,7 @@ def put_run(folder: Path) -> None:
     """Writes a run with every kind of finding, a study, two cases (one missing) and faults."""
     with h5py.File(folder / "run.h5", "w") as file:
         put(file, schema=1, commit="abcdef", tree="dirty", cpu=HOSTILE, seconds=3.0,
-            command="build/foldproof verify")
+            command="build/foldproof verify", compiler=np.bytes_(b"g++ \xff\xfe<i>"))
         put_finding(file, 1, NAMES[0], "check")
         put_finding(file, 2, NAMES[1], "check", measured=np.nan, outcome="fails", note=HOSTILE)
         put_finding(file, 3, NAMES[2], "check", outcome="inconclusive", why_bound=HOSTILE)

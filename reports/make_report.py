@@ -12,6 +12,7 @@ import os
 import sys
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
 
@@ -25,9 +26,10 @@ from ledger import claim_views  # noqa: E402
 from map_plots import plot_study_map  # noqa: E402
 from page import CaseView, Page, StudyView, faults_of, findings_by_section, render  # noqa: E402
 from plot_style import use_style  # noqa: E402
-from results import CaseEntry, Run, Study, case_entry_of_file, load_case, load_run  # noqa: E402
+from results import CaseEntry, Run, Study, Unreadable, case_entry_of_file, load_case, load_run, told  # noqa: E402
 from study_plots import plot_study_figure  # noqa: E402
 from trust import load_coverage, tolerances_of, unended_run  # noqa: E402
+from whole_file import write_whole  # noqa: E402
 
 Job = tuple[Callable[..., Any], tuple[Any, ...]]
 
@@ -45,10 +47,10 @@ def main() -> int:
     try:
         out = make_report(said.dir, said.out or said.dir / "report.html",
                           said.figures or said.dir / "figures", for_papers=not said.svg_only)
-    except (OSError, KeyError) as error:
+    except (OSError, Unreadable, BrokenProcessPool) as error:
         print(f"make_report: {error}", file=sys.stderr)
         return 2
-    print(out)
+    sys.stdout.buffer.write(os.fsencode(out) + b"\n")  # a path may hold bytes that are no text
     return 0
 
 
@@ -62,9 +64,7 @@ def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = True)
     page.coverage = load_coverage(folder / "coverage.json")
     page.mutation = load_mutation(folder / "mutation.json")
     page.unended = unended_run(folder / "verdicts.json")
-    unfinished = out.with_name(out.name + ".unfinished")
-    unfinished.write_text(render(page), encoding="utf-8")
-    os.replace(unfinished, out)
+    write_whole(out, render(page).encode("utf-8"))
     return out
 
 
@@ -134,11 +134,14 @@ def draw_case(entry: CaseEntry, figures: Path) -> CaseView:
     view = CaseView(entry, f"case-{name}")
     try:
         view.case = load_case(entry.path)
-    except (OSError, KeyError) as error:
-        view.problem = f"{entry.path.name} could not be read: {error}"
-        return view
-    view.row = make_pictures(view.case, name, figures)
-    view.plots = plot_contacts(view.case, name, figures) + plot_diagnostics(view.case, name, figures)
+        view.row = make_pictures(view.case, name, figures)
+        view.plots = plot_contacts(view.case, name, figures) + plot_diagnostics(view.case, name, figures)
+    except Unreadable as error:
+        return CaseView(entry, view.anchor, problem=f"{entry.path.name} could not be read: {error}")
+    except Exception as error:  # a damaged file may hold anything
+        if isinstance(error, OSError) and error.errno is not None:
+            raise  # figures that cannot be written
+        return CaseView(entry, view.anchor, problem=f"{entry.path.name} could not be drawn: {told(error)}")
     return view
 
 
@@ -158,9 +161,9 @@ def origin_differs(view: CaseView, run: Run) -> str:
 
 
 def file_name(name: str) -> str:
-    """The name with all but letters, digits, dots, hyphens and underscores replaced, so that any file system
+    """The name with all but letters, digits, dots, hyphens and underscores replaced, and cut, so that any file system
     takes it."""
-    return "".join(c if c.isalnum() or c in ".-_" else "-" for c in name).strip(".-") or "unnamed"
+    return "".join(c if c.isascii() and c.isalnum() or c in ".-_" else "-" for c in name).strip(".-")[:100] or "unnamed"
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from io import StringIO
+from io import BytesIO, StringIO
 from pathlib import Path
 
 import matplotlib
@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
 from quantities import MINUS, is_count, number_text, superscript, unit_text
+from whole_file import write_whole
 
 INK, MUTED, GRID, BAND, PAPER = "#24292e", "#68707a", "#e4e6e9", "#eceef1", "#fefefe"
 COLOURS = ("#1562a8", "#c4501b", "#0b8268", "#8b3f94", "#a8780a", "#3597bf", "#bf4a7b", "#5b6068")
@@ -79,11 +80,14 @@ def finish(figure: Figure, name: str, folder: Path, description: str) -> Plot:
     """Writes name.svg, for papers name.pdf and name.png (200 dpi, white) too, into the folder and returns the SVG
     for the page."""
     text = svg_text(figure)
-    (folder / f"{name}.svg").write_text(text, encoding="utf-8")
+    write_whole(folder / f"{name}.svg", text.encode("utf-8"))
     if _for_papers:
-        figure.savefig(folder / f"{name}.pdf", metadata={"CreationDate": None, "Creator": None, "Producer": None})
-        figure.savefig(folder / f"{name}.png", dpi=200, transparent=False, facecolor="white",
+        pdf, png = BytesIO(), BytesIO()
+        figure.savefig(pdf, format="pdf", metadata={"CreationDate": None, "Creator": None, "Producer": None})
+        figure.savefig(png, format="png", dpi=200, transparent=False, facecolor="white",
                        metadata={"Software": None}, pil_kwargs={"compress_level": 3})
+        write_whole(folder / f"{name}.pdf", pdf.getvalue())
+        write_whole(folder / f"{name}.png", png.getvalue())
     return Plot(name, page_svg(text, name, description))
 
 

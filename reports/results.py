@@ -10,6 +10,8 @@ Reading never decides anything: outcomes are the strings that the program wrote.
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -17,6 +19,7 @@ from typing import Any
 import h5py
 import numpy as np
 
+from damage import why_unreadable
 from hdf5_values import Column, attributes_of, columns_of, in_order, number_of, text_of, texts_of
 
 
@@ -228,10 +231,32 @@ class Run:
     path: Path | None = None           # run.h5; None where a run is made up of case files alone
 
 
+class Unreadable(Exception):
+    """A file that is not there, not what it is taken for, or damaged."""
+
+
+def told(error: BaseException) -> str:
+    """An error in one line, with its kind where it says little itself."""
+    return " ".join(f"{type(error).__name__}: {error}".split())
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[None]:
+    """Whatever goes wrong inside is told as that the file cannot be read: a damaged one may hold anything."""
+    try:
+        if why := why_unreadable(path):
+            raise Unreadable(f"{path}: {why}")
+        yield
+    except Unreadable:
+        raise
+    except Exception as error:
+        raise Unreadable(f"{path}: {told(error)}") from error
+
+
 def load_run(path: str | Path) -> Run:
-    """Reads run.h5 or bench.h5. Throws OSError if it cannot be opened."""
+    """Reads run.h5 or bench.h5. Throws Unreadable naming the file if it cannot be opened, or is damaged."""
     path = Path(path)
-    with h5py.File(path, "r") as file:
+    with reading(path), h5py.File(path, "r") as file:
         return Run(path=path, provenance=attributes_of(file),
                    findings=[_finding(name, group) for name, group in in_order(file, "findings")],
                    studies=[_study(name, group) for name, group in in_order(file, "studies")],
@@ -241,9 +266,9 @@ def load_run(path: str | Path) -> Run:
 
 
 def load_case(path: str | Path) -> Case:
-    """Reads one simulation but its frames. Throws OSError or KeyError if the file is not one."""
+    """Reads one simulation but its frames. Throws Unreadable naming the file if it is not one, or is damaged."""
     path = Path(path)
-    with h5py.File(path, "r") as file:
+    with reading(path), h5py.File(path, "r") as file:
         particles = file["frames/positions"].shape[1]
         held = np.asarray(file["mesh/held"], dtype=bool) if "mesh/held" in file else np.zeros(particles, bool)
         return Case(path=path, about_run=attributes_of(file), held=held,
@@ -263,11 +288,11 @@ def _object(group: h5py.Group) -> CaseObject:
 def case_entry_of_file(path: Path) -> CaseEntry | None:
     """The entry of a case file that no run names; None if the file holds no frames."""
     try:
-        with h5py.File(path, "r") as file:
+        with reading(path), h5py.File(path, "r") as file:
             if "frames" not in file:
                 return None
             said = attributes_of(file)
-    except OSError:
+    except Unreadable:
         return None
     return CaseEntry(name=text_of(said, "case_name") or path.stem, title=text_of(said, "title") or path.stem,
                      about=text_of(said, "about"), seconds=number_of(said, "seconds"),
@@ -338,7 +363,7 @@ def _case_entry(name: str, group: h5py.Group, folder: Path) -> CaseEntry:
     said = attributes_of(group)
     return CaseEntry(name=name, title=text_of(said, "title") or name, about=text_of(said, "about"),
                      seconds=number_of(said, "seconds"), stopped=text_of(said, "stopped"),
-                     path=folder / (text_of(said, "file") or f"{name}.h5"))
+                     path=folder / Path(text_of(said, "file") or f"{name}.h5").name)
 
 
 def _with_outcomes(faults: list[Fault], file: Path) -> list[Fault]:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import json
 import re
+import resource
+import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree as ElementTree
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -20,11 +23,12 @@ from case_pictures import scenery_of  # noqa: E402
 from cloth_picture import BACK, FRONT, Scenery, picture_of  # noqa: E402
 from contact_maps import laid_flat  # noqa: E402
 from made_up_run import HOSTILE, NAMES, put, put_case, put_finding, put_run  # noqa: E402
+from hdf5_values import plain  # noqa: E402
 from make_report import make_report, read_folder  # noqa: E402
 from map_plots import edges_of, map_notes  # noqa: E402
 from page import Anchors, margin_percent, shown_rows  # noqa: E402
 from quantities import number_text, quantity_html, seconds_html, unit_text  # noqa: E402
-from results import Column, load_case, load_run  # noqa: E402
+from results import Column, Unreadable, load_case, load_run  # noqa: E402
 from study_plots import spread  # noqa: E402
 from trust import tolerances_of  # noqa: E402
 
@@ -77,6 +81,27 @@ class WholeReport(unittest.TestCase):
         self.assertNotIn("<script", self.text)
         self.assertNotIn("<img src=x", self.text)
         self.assertIn("&lt;script&gt;", self.text)
+
+    def test_what_no_xml_may_hold_is_in_no_page_and_no_figure(self) -> None:
+        no_text = "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ufffe\uffff]"
+        self.assertIsNone(re.search(no_text, self.text))
+        figures = list(self.figures.glob("*.svg"))
+        self.assertTrue(figures)
+        for path in figures:
+            text = path.read_text(encoding="utf-8")
+            self.assertIsNone(re.search(no_text, text), path.name)
+            tags = {element.tag.rpartition("}")[2] for element in ElementTree.fromstring(text.encode("utf-8")).iter()}
+            self.assertFalse({"script", "img", "b", "i"} & tags, path.name)
+
+    def test_bytes_that_are_no_text_are_shown_as_such(self) -> None:
+        self.assertEqual(plain("a\udcff\x00\ufffe\n"), "a\ufffd\ufffd\ufffd\n")
+        self.assertIn("g++ \ufffd\ufffd&lt;i&gt;", self.text)
+
+    def test_inline_figures_are_well_formed_and_hold_text_only(self) -> None:
+        for svg in re.findall(r"<svg.*?</svg>", self.text, re.S):
+            whole = svg.replace("<svg", '<svg xmlns:xlink="xlink"', 1)  # HTML knows the prefix by itself
+            names = {element.tag.rpartition("}")[2] for element in ElementTree.fromstring(whole).iter()}
+            self.assertFalse({"script", "img", "b", "i", "foreignObject"} & names)
 
     def test_every_finding_has_its_own_anchor(self) -> None:
         anchors = Anchors()
@@ -254,6 +279,37 @@ class PartsMissing(unittest.TestCase):
         with h5py.File(self.root / "bench.h5", "w") as file:
             put_finding(file, 1, NAMES[4], "bench", outcome="measured", better="lower")
         self.assertIn("not judged", self.made())
+
+    def test_a_file_name_in_a_run_leads_nowhere(self) -> None:
+        put_run(self.root)
+        with h5py.File(self.root / "run.h5", "r+") as file:
+            put(file["cases/gone"], file="../../../etc/passwd")
+        self.assertEqual({case.path.parent for case in load_run(self.root / "run.h5").cases}, {self.root})
+
+    def test_damaged_files_are_refused_or_named_on_the_page(self) -> None:
+        put_run(self.root)
+        (self.root / "fold.h5").write_bytes((self.root / "fold.h5").read_bytes()[:3000])
+        self.assertIn("fold.h5 could not be read", self.made())
+        put_case(self.root, "fold")
+        with h5py.File(self.root / "fold.h5", "r+") as file:
+            file["mesh/triangles"][0] = [0, 1, 1000]
+        self.assertIn("fold.h5 could not be drawn", self.made())
+        (self.root / "run.h5").write_bytes(b"no HDF5")
+        with self.assertRaises(Unreadable):
+            self.made()
+
+    def test_a_page_that_cannot_be_written_leaves_the_old_one(self) -> None:
+        put_run(self.root)
+        page = self.root / "report.html"
+        page.write_text("as it was")
+        limit = subprocess.run([sys.executable, str(Path(__file__).parent / "make_report.py"), str(self.root), "--svg-only"],
+                               capture_output=True, text=True, check=False,
+                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000)))
+        self.assertEqual(limit.returncode, 2)
+        self.assertEqual(len(limit.stderr.strip().splitlines()), 1, limit.stderr)
+        self.assertIn("File too large", limit.stderr)
+        self.assertEqual(page.read_text(), "as it was")
+        self.assertFalse(list(self.root.rglob("*.partial")))
 
     def test_empty_folder_is_refused(self) -> None:
         with self.assertRaises(FileNotFoundError):

@@ -2,6 +2,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <csignal>
+#include <cstdio>
+#include <new>
+
 #include "scripts/program/commands.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
@@ -104,6 +108,9 @@ void add_runs(CLI::App& app, Options& options) {
   simulate->add_option("CASE", options.file, "Case file, see cases/README.md")->required();
   simulate->add_option("--set", options.overrides, "Override a key: table.key=value")
       ->allow_extra_args(false);
+  simulate->add_flag(
+      "--resume", options.resumes,
+      "Go on from the last checkpoint of a run that was interrupted; the results are the same to the bit");
   CLI::App* everything = add_command(app, options, "verify",
                                      "All checks, studies and cases, the claims, and the report", verify);
   everything->add_flag("--no-report", options.no_report, "Write the results only");
@@ -170,11 +177,14 @@ void add_readers(CLI::App& app, Options& options) {
   crossings->add_option("FILE", options.names, "Stored runs (.h5), or meshes (.obj), each a frame")
       ->required();
   add_json(crossings, options);
-  CLI::App* golden = add_command(app, options, "golden",
-                                 "Inputs and outputs of a formula, right to the last digit, for unit tests of yours",
-                                 print_golden_values);
+  CLI::App* golden =
+      add_command(app, options, "golden",
+                  "Inputs and outputs of a formula, right to the last digit, for unit tests of yours",
+                  print_golden_values);
   golden->footer(golden_help);
-  golden->add_option("TABLE", options.file, "bending, springs, integrator, forecast, friction, projection, sticking")
+  golden
+      ->add_option("TABLE", options.file,
+                   "bending, springs, integrator, forecast, friction, projection, sticking")
       ->required()
       ->check(CLI::IsMember(golden_names()));
   golden->add_option("--count", options.count, "Rows")->check(CLI::PositiveNumber)->capture_default_str();
@@ -230,10 +240,16 @@ int run(int argc, char** argv) {
 }  // namespace foldproof
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file that may grow no further is an error like a full disk, and told like one
   try {
-    return foldproof::run(argc, argv);
+    const int code = foldproof::run(argc, argv);
+    if (std::fflush(stdout) == 0) return code;
+    foldproof::say("foldproof: standard output cannot be written; is the disk full?");
+  } catch (const std::bad_alloc&) {
+    foldproof::say("foldproof: this takes more memory than there is");
   } catch (const std::exception& error) {
     foldproof::say(std::string("foldproof: ") + error.what());
-    return foldproof::bad_input;
   }
+  return foldproof::bad_input;
 }

@@ -2,9 +2,14 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <mutex>
 #include <stdexcept>
 #include <type_traits>
+
+#include "verification/apart_file.h"
+#include "verification/whole_file.h"
 
 namespace foldproof {
 
@@ -16,6 +21,13 @@ namespace {
 
 /// The library serves one thread at a time: whatever calls it holds this.
 std::recursive_mutex library;
+
+/// Errors are thrown, not printed; and what could not be written is not tried again when the program ends.
+void begin() {
+  static const herr_t never_at_exit = H5dont_atexit();
+  static_cast<void>(never_at_exit);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 void succeed(herr_t result, const std::string& what) {
   if (result < 0) throw std::runtime_error("HDF5: cannot write " + what);
@@ -36,7 +48,7 @@ std::string without_slash(const std::string& name) {
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
-    succeed(id < 0 ? -1 : 0, "a description");
+    if (id < 0) throw std::runtime_error("HDF5: cannot make a description");
   }
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Handle& operator=(Handle&&) = delete;
@@ -112,17 +124,104 @@ Shape shape_of_space(hid_t space) {
   return shape;
 }
 
+/// How many numbers a dataset may claim. Without compression it is stored as it is, so that the file is larger; with it
+/// (other programs' files) this many are taken, 2 GB.
+constexpr unsigned long long most_unpacked = 1ULL << 28;
+
+unsigned long long most_values(hid_t set, std::size_t size_of_one) {
+  const Handle layout(H5Dget_create_plist(set), H5Pclose);
+  if (H5Pget_nfilters(layout) != 0) return most_unpacked;
+  const Handle file(H5Iget_file_id(set), H5Fclose);
+  hsize_t bytes = 0;
+  found(H5Fget_filesize(file, &bytes) >= 0, "the size of the file");
+  return bytes / size_of_one;
+}
+
+/// The number of values of the shape. Throws if there are more than `most`.
+unsigned long long count_of(const Shape& shape, unsigned long long most, const std::string& name) {
+  unsigned long long count = 1;
+  for (const auto length : shape) {
+    found(length == 0 || count <= most / length, name + ": it claims more than the file can hold");
+    count *= length;
+  }
+  return count;
+}
+
 /// All values of a dataset of this very type, row by row.
 template <class T>
 std::vector<T> read_values(hid_t parent, const std::string& name, hid_t type) {
   const Handle set = opened(parent, name);
   const Handle stored(H5Dget_type(set), H5Tclose);
   found(H5Tequal(stored, type) > 0, name + ": it has another type");
-  unsigned long long count = 1;
-  for (const auto length : shape_of_space(Handle(H5Dget_space(set), H5Sclose))) count *= length;
+  const Shape shape = shape_of_space(Handle(H5Dget_space(set), H5Sclose));
+  const auto count = count_of(shape, most_values(set, sizeof(T)), name);
   std::vector<T> values(count);
   if (count > 0) found(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
   return values;
+}
+
+constexpr hsize_t bytes_at_once = 1 << 24;
+
+/// Reads a dataset, as many rows at once as fit the memory; false if it cannot be read.
+bool is_readable(hid_t set) {
+  const Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
+  Shape shape = shape_of_space(space);
+  const std::size_t size = H5Tget_size(type);
+  if (size == 0) return false;
+  if (shape.empty()) shape = {1};
+  const hsize_t rows = shape.front(),
+                row = count_of({shape.begin() + 1, shape.end()}, most_unpacked, "a row");
+  if (rows == 0 || row == 0) return true;
+  count_of(shape, most_values(set, size), "a dataset");
+  const hsize_t step = std::max<hsize_t>(1, bytes_at_once / (row * size));
+  std::vector<char> values(std::min(rows, step) * row * size);
+  if (H5Sget_simple_extent_ndims(space) == 0)
+    return H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
+  for (hsize_t first = 0; first < rows; first += step) {
+    Shape start(shape.size(), 0), count = shape;
+    start[0] = first;
+    count[0] = std::min(step, rows - first);
+    if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0)
+      return false;
+    if (H5Dread(set, type, space_of(count), space, H5P_DEFAULT, values.data()) < 0) return false;
+  }
+  return true;
+}
+
+/// What the library calls back must not throw through it.
+template <class Act>
+herr_t guarded(const Act& act) {
+  try {
+    return act();
+  } catch (const std::exception&) {
+    return -1;
+  }
+}
+
+herr_t read_attribute(hid_t object, const char* name, const H5A_info_t*, void*) {
+  return guarded([&] {
+    const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+    const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+    const hssize_t count = H5Sget_simple_extent_npoints(space);
+    if (count < 0 || hsize_t(count) > bytes_at_once / std::max<std::size_t>(1, H5Tget_size(type))) return -1;
+    std::vector<char> values(std::size_t(count) * H5Tget_size(type));
+    return count == 0 ? 0 : H5Aread(attribute, type, values.data());
+  });
+}
+
+herr_t read_object(hid_t file, const char* name, const H5O_info_t* about, void*) {
+  return guarded([&] {
+    const Handle object(H5Oopen(file, name, H5P_DEFAULT), H5Oclose);
+    if (H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, read_attribute, nullptr) < 0) return -1;
+    return about->type != H5O_TYPE_DATASET || is_readable(object) ? 0 : -1;
+  });
+}
+
+/// Reads all that is in a file: groups, attributes, datasets. The library may crash or run without end where the structures
+/// of a file are damaged, so this is done apart; it takes no lock, which a copy of this process could not hold.
+bool all_is_readable(const std::string& path) {
+  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  return H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, read_object, nullptr) >= 0;
 }
 
 }  // namespace
@@ -138,7 +237,7 @@ Hdf5::~Hdf5() {
 
 Hdf5 Hdf5::create_file(const std::string& path) {
   const std::lock_guard held(library);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
+  begin();
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   if (file < 0) throw std::runtime_error(path + ": cannot be written; is the folder there and writable?");
   return {file, H5Fclose, path};
@@ -201,9 +300,10 @@ Hdf5 Hdf5::array(const std::string& name, const Shape& shape, const unsigned cha
 
 Hdf5 Hdf5::open_file(const std::string& path) {
   const std::lock_guard held(library);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  found(file >= 0, path + "; is it there, and a whole HDF5 file?");
+  begin();
+  const std::string fate = fate_apart(path, [&] { return all_is_readable(path); });
+  const hid_t file = fate.empty() ? H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT) : -1;
+  found(file >= 0, path + (fate.empty() ? "" : " (" + fate + ")") + "; is it there, and a whole HDF5 file?");
   return {file, H5Fclose, path};
 }
 
@@ -214,11 +314,18 @@ Hdf5 Hdf5::open_group(const std::string& name) const {
   return {group, H5Gclose, name};
 }
 
+bool Hdf5::has(const std::string& name) const {
+  const std::lock_guard held(library);
+  return H5Lexists(id_, without_slash(name).c_str(), H5P_DEFAULT) > 0;
+}
+
 std::string Hdf5::read_text(const std::string& attribute) const {
   const std::lock_guard held(library);
   const hid_t id = H5Aopen(id_, attribute.c_str(), H5P_DEFAULT);
   found(id >= 0, attribute);
-  const Handle open(id, H5Aclose);
+  const Handle open(id, H5Aclose), space(H5Aget_space(id), H5Sclose), type(H5Aget_type(id), H5Tclose);
+  found(H5Sget_simple_extent_npoints(space) == 1 && H5Tis_variable_str(type) > 0,
+        attribute + ": it is no text");
   char* text = nullptr;
   found(H5Aread(open, text_type(), &text) >= 0 && text, attribute);
   const std::string result = text;
@@ -245,6 +352,26 @@ Shape Hdf5::shape_of(const std::string& dataset) const {
 void Hdf5::flush() const {
   const std::lock_guard held(library);
   succeed(H5Fflush(id_, H5F_SCOPE_LOCAL), "what was buffered");
+}
+
+void Hdf5::close() {
+  const std::lock_guard held(library);
+  succeed(close_(std::exchange(id_, -1)), "what was buffered");
+}
+
+void write_hdf5(const std::string& path, const std::function<void(const Hdf5& file)>& write) {
+  const std::string partial = path + ".partial";
+  refuse_unless_replaceable(path);
+  try {
+    Hdf5 file = Hdf5::create_file(partial);
+    write(file);
+    file.flush();
+    file.close();
+  } catch (const std::runtime_error& error) {
+    std::remove(partial.c_str());
+    throw std::runtime_error(path + ": cannot be written (" + error.what() + ")");
+  }
+  rename_when_whole(partial, path);
 }
 
 GrowingDataset::GrowingDataset(const Hdf5& parent, const std::string& name, const std::string& unit,

@@ -9,7 +9,6 @@
 #include "reference/level_set/grid_content.h"
 #include "verification/hdf5_file.h"
 #include "verification/level_set_cache_file.h"
-#include "verification/whole_file.h"
 
 namespace foldproof {
 
@@ -18,9 +17,7 @@ namespace {
 const char* const grid_format = "foldproof grid 1";
 
 void write_grid(const std::string& path, const Grid& grid, const std::string& origin) {
-  const std::string partial = path + ".partial";
-  {
-    const Hdf5 file = Hdf5::create_file(partial);
+  write_hdf5(path, [&](const Hdf5& file) {
     file.attribute("format", std::string(grid_format));
     file.attribute("origin", origin);
     file.attribute("content", content_key(grid));
@@ -29,8 +26,7 @@ void write_grid(const std::string& path, const Grid& grid, const std::string& or
     file.array("corner", {3}, lattice.origin.data()).attribute("unit", std::string("m"));
     file.array("spacing", {1}, &lattice.spacing).attribute("unit", std::string("m"));
     file.array("phi", {grid.phi.size()}, grid.phi.data()).attribute("unit", std::string("m"));
-  }
-  rename_when_whole(partial, path);
+  });
 }
 
 /// Throws std::runtime_error saying why the file is refused.

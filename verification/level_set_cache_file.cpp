@@ -7,7 +7,6 @@
 
 #include "reference/level_set/deforming_content.h"
 #include "verification/hdf5_file.h"
-#include "verification/whole_file.h"
 
 namespace foldproof {
 
@@ -64,9 +63,7 @@ void require(bool is_met, const std::string& path, const std::string& why) {
 }  // namespace
 
 void write_level_sets(const std::string& path, const DeformingBody& body, const std::string& origin) {
-  const std::string partial = path + ".partial";
-  {
-    const Hdf5 file = Hdf5::create_file(partial);
+  write_hdf5(path, [&](const Hdf5& file) {
     file.attribute("format", std::string(file_format));
     file.attribute("origin", origin);
     file.attribute("content", content_key(body));
@@ -76,8 +73,7 @@ void write_level_sets(const std::string& path, const DeformingBody& body, const 
     const Hdf5 frames = file.group("frames");
     for (std::size_t k = 0; k < body.frames.size(); ++k)
       write_frame(frames.group(std::to_string(k)), body.frames[k]);
-  }
-  rename_when_whole(partial, path);
+  });
 }
 
 DeformingBody read_level_sets(const std::string& path, const std::string& origin,

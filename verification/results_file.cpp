@@ -5,7 +5,6 @@
 #include "verification/findings_file.h"
 #include "verification/hdf5_file.h"
 #include "verification/studies_file.h"
-#include "verification/whole_file.h"
 
 namespace foldproof {
 
@@ -74,9 +73,7 @@ void write_claims(const Hdf5& file, const std::vector<ClaimRecord>& claims) {
 }  // namespace
 
 void write_run(const std::string& path, const RunRecord& run) {
-  const std::string partial = path + ".partial";
-  {
-    const Hdf5 file = Hdf5::create_file(partial);
+  write_hdf5(path, [&](const Hdf5& file) {
     write_provenance(file, run.provenance);
     file.attribute("tier", run.tier);
     file.attribute("seed", 1);
@@ -88,8 +85,7 @@ void write_run(const std::string& path, const RunRecord& run) {
     write_cases(file, run.cases);
     write_claims(file, run.claims);
     if (!run.faults.empty()) write_faults(file, run.faults);
-  }
-  rename_when_whole(partial, path);
+  });
 }
 
 }  // namespace foldproof

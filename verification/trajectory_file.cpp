@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "verification/hdf5_file.h"
+#include "verification/verdicts_file.h"
 #include "verification/whole_file.h"
 
 namespace foldproof {
@@ -163,20 +163,14 @@ struct TrajectoryFile::Content {
     for (GrowingDataset& rows : distances) rows.add(phi.data());
   }
 
-  void write_xdmf() const {
-    const std::filesystem::path target(path);
-    const std::string name = std::filesystem::path(target).replace_extension(".xdmf").string();
-    std::ofstream out(name + ".partial");
-    out << xdmf_head;
+  std::string xdmf() const {
+    std::string text = xdmf_head;
     for (size_t k = 0; k < frame_times.size(); ++k)
-      out << fmt::format(fmt::runtime(xdmf_frame), fmt::arg("frame", k), fmt::arg("time", frame_times[k]),
-                         fmt::arg("triangles", triangles), fmt::arg("particles", particles),
-                         fmt::arg("frames", frame_times.size()),
-                         fmt::arg("file", target.filename().string()));
-    out << "    </Grid>\n  </Domain>\n</Xdmf>\n";
-    out.close();
-    if (!out) throw std::runtime_error(name + ": cannot be written");
-    rename_when_whole(name + ".partial", name);
+      text += fmt::format(fmt::runtime(xdmf_frame), fmt::arg("frame", k), fmt::arg("time", frame_times[k]),
+                          fmt::arg("triangles", triangles), fmt::arg("particles", particles),
+                          fmt::arg("frames", frame_times.size()),
+                          fmt::arg("file", xml_text(std::filesystem::path(path).filename().string())));
+    return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
   }
 };
 
@@ -208,11 +202,21 @@ constexpr Scalar scalars[] = {
     {"seconds", "s", [](const Diagnostics& d) { return d.seconds; }},
 };
 
+/// Writes; what cannot be written is told with the file's name.
+template <class Write>
+void named(const std::string& path, const Write& write) {
+  try {
+    write();
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": cannot be written (" + error.what() + "); is the disk full?");
+  }
+}
+
 }  // namespace
 
 TrajectoryFile::TrajectoryFile(const std::string& path, const Scene& scene, const System& system,
                                const Provenance& provenance)
-    : content_(std::make_unique<Content>(path, scene)) {
+    : content_((refuse_unless_replaceable(path), std::make_unique<Content>(path, scene))) {
   const Hdf5& file = content_->file;
   write_provenance(file, provenance);
   file.attribute("case_name", scene.name);
@@ -233,32 +237,41 @@ TrajectoryFile::TrajectoryFile(const std::string& path, const Scene& scene, cons
 TrajectoryFile::~TrajectoryFile() = default;
 
 void TrajectoryFile::add_frame(const State& s) {
-  content_->time.add(&s.time);
-  content_->positions.add(s.x.data());
-  content_->velocities.add(s.v.data());
-  if (!content_->solids.empty()) content_->add_distances(s);
-  for (ObjectRows& object : content_->objects) add_place(s.time, object);
-  for (BondRows& bonds : content_->bonds) bonds.add(s);
-  content_->frame_times.push_back(s.time);
-  content_->file.flush();
+  named(content_->path, [&] {
+    content_->time.add(&s.time);
+    content_->positions.add(s.x.data());
+    content_->velocities.add(s.v.data());
+    if (!content_->solids.empty()) content_->add_distances(s);
+    for (ObjectRows& object : content_->objects) add_place(s.time, object);
+    for (BondRows& bonds : content_->bonds) bonds.add(s);
+    content_->frame_times.push_back(s.time);
+    content_->file.flush();
+  });
 }
 
 void TrajectoryFile::add_diagnostics(const Diagnostics& row) {
-  for (size_t k = 0; k < std::size(scalars); ++k) {
-    const double value = scalars[k].of(row);
-    content_->rows[k].add(&value);
-  }
-  content_->linear.add(row.linear_momentum.data());
-  content_->angular.add(row.angular_momentum.data());
+  named(content_->path, [&] {
+    for (size_t k = 0; k < std::size(scalars); ++k) {
+      const double value = scalars[k].of(row);
+      content_->rows[k].add(&value);
+    }
+    content_->linear.add(row.linear_momentum.data());
+    content_->angular.add(row.angular_momentum.data());
+  });
 }
 
 void TrajectoryFile::finish(const std::string& stopped, double seconds) {
-  content_->file.attribute("stopped", stopped);
-  content_->file.attribute("seconds", seconds);
-  const std::string path = content_->path;
-  content_->write_xdmf();
-  content_.reset();
+  const std::string path = content_->path, xdmf = content_->xdmf();
+  named(path, [&] {
+    content_->file.attribute("stopped", stopped);
+    content_->file.attribute("seconds", seconds);
+    content_->file.flush();
+    Hdf5 file = std::move(content_->file);
+    content_.reset();  // what is open in the file is closed before it
+    file.close();
+  });
   rename_when_whole(path + ".partial", path);
+  write_text(std::filesystem::path(path).replace_extension(".xdmf").string(), xdmf);
 }
 
 }  // namespace foldproof

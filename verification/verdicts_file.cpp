@@ -54,34 +54,13 @@ nlohmann::json as_json(const ClaimRecord& record) {
           {"decided_by", deciders}};
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += (static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t') ? ' ' : c;
-    }
-  return out;
-}
-
 std::string junit_case(const Record& record) {
   const Verdict& v = record.finding.verdict;
   std::string text = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", record.kind,
-                                 escaped(record.name), record.seconds);
+                                 xml_text(record.name), record.seconds);
   const std::string message =
-      escaped(fmt::format("measured {:.6g}, uncertainty {:.3g}, bound {:.6g} [{}]. {} {}", v.measured,
-                          v.uncertainty, v.bound, v.unit, record.claim, record.finding.note));
+      xml_text(fmt::format("measured {:.6g}, uncertainty {:.3g}, bound {:.6g} [{}]. {} {}", v.measured,
+                           v.uncertainty, v.bound, v.unit, record.claim, record.finding.note));
   if (record.outcome == "holds" || record.outcome == "measured") return text + "/>\n";
   const char* kind = record.outcome == "not applicable" ? "skipped"
                      : record.outcome == "did not run"  ? "error"
@@ -97,7 +76,7 @@ std::string junit_case(const ClaimRecord& record) {
   if (outcome == name_of(Ruling::holds)) return text + "/>\n";
   return text + fmt::format(">\n    <{} message=\"ruling: {}; recorded: {}. {}\"/>\n  </testcase>\n",
                             outcome == name_of(Ruling::fails) ? "failure" : "skipped", name_of(record.ruling),
-                            name_of(record.claim.recorded), escaped(record.claim.statement));
+                            name_of(record.claim.recorded), xml_text(record.claim.statement));
 }
 
 std::string junit_xml(const RunRecord& run) {
@@ -119,7 +98,7 @@ std::string junit_xml(const RunRecord& run) {
       "failures=\"{}\" errors=\"{}\" "
       "skipped=\"{}\" time=\"{:.3f}\" timestamp=\"{}\">\n{}</testsuite>\n",
       run.records.size() + run.claims.size(), failures, errors, skipped, run.seconds,
-      escaped(run.provenance.date), cases);
+      xml_text(run.provenance.date), cases);
 }
 
 }  // namespace
@@ -142,7 +121,36 @@ std::string verdicts_json(const RunRecord& run) {
                          {"findings", nlohmann::json::array()}};
   for (const Record& record : run.records) json["findings"].push_back(as_json(record));
   for (const ClaimRecord& claim : run.claims) json["findings"].push_back(as_json(claim));
-  return json.dump(1) + "\n";
+  return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string xml_text(const std::string& text) {
+  using nlohmann::json;
+  const std::string quoted = json(text).dump(-1, ' ', false, json::error_handler_t::replace);
+  std::string out;
+  for (const char c : json::parse(quoted).get<std::string>()) switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&apos;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t' ? ' ' : c;
+    }
+  for (const char* const none : {"\uFFFE", "\uFFFF"})  // the two that are UTF-8 and no XML
+    for (std::size_t at = out.find(none); at != std::string::npos; at = out.find(none, at))
+      out.replace(at, 3, "\uFFFD");
+  return out;
 }
 
 void write_verdicts(const std::string& folder, const RunRecord& run) {

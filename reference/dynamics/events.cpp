@@ -53,7 +53,7 @@ std::vector<double> sticking_event_times(const System& system, double start) {
 }
 
 Events::Events(const System& system, double start, double tolerance)
-    : given_(system), times_(event_times(system.led, start)), tolerance_(tolerance) {
+    : given_(system), times_(event_times(system.led, start)), tolerance_(tolerance), last_(start) {
   if (!times_.empty()) {
     own_ = std::make_unique<System>(system);
     lead(start);
@@ -64,16 +64,25 @@ Events::Events(const System& system, double start, double tolerance)
   std::ranges::sort(times_);
 }
 
+Events::Events(const System& system, double start, double tolerance, double last)
+    : Events(system, start, tolerance) {
+  if (last > start) pass(last);
+}
+
 double Events::next() const {
   return times_.empty() ? std::numeric_limits<double>::infinity() : times_.front();
 }
 
 State Events::passed(State s) {
-  std::erase_if(times_, [&](double time) { return time <= s.time + tolerance_; });
-  if (!own_) return s;
-  lead(s.time);
-  impose(velocities_at(own_->led, s.time), s.v);
+  pass(s.time);
+  if (own_) impose(velocities_at(own_->led, s.time), s.v);
   return s;
+}
+
+void Events::pass(double t) {
+  last_ = t;
+  std::erase_if(times_, [&](double time) { return time <= t + tolerance_; });
+  if (own_) lead(t);
 }
 
 void Events::lead(double t) {

@@ -23,6 +23,12 @@ class Events {
   /// Of a run from `start` [s]. Events closer together than `tolerance` [s] are taken as one.
   Events(const System& system, double start, double tolerance);
 
+  /// Of the same run, from the time at which events were last passed (`last`) on.
+  Events(const System& system, double start, double tolerance, double last);
+
+  /// When events were last passed [s]; the start, if none was. What is led depends on it to the last bit.
+  double last() const { return last_; }
+
   /// When the next event is due [s]; infinite if there is none.
   double next() const;
 
@@ -34,11 +40,13 @@ class Events {
 
  private:
   void lead(double t);
+  void pass(double t);
 
   const System& given_;
   std::unique_ptr<System> own_;  // a copy, if led particles have any event
   std::vector<double> times_;    // still to come, ascending [s]
   double tolerance_;
+  double last_;  // s
 };
 
 }  // namespace foldproof

@@ -39,13 +39,16 @@ class History {
   /// Starts, or starts again after an event that no method must look across. length: most states kept, >= 1.
   History(State start, int length) : states_{std::move(start)}, length_(size_t(length)) {}
 
+  /// Goes on with states that a history of this length has kept, the latest last; at least one.
+  History(std::vector<State> states, int length) : states_(std::move(states)), length_(size_t(length)) {}
+
   /// Takes up the state that a step has made.
   void advance(State next) {
     states_.push_back(std::move(next));
     if (states_.size() > length_) states_.erase(states_.begin());
   }
 
-  std::span<const State> past() const { return states_; }
+  const std::vector<State>& past() const { return states_; }
   const State& now() const { return states_.back(); }
   State& now() { return states_.back(); }
 

@@ -63,13 +63,30 @@ std::optional<Stop> fault_in(const State& now, const State& next, double size, l
 
 class Watch {
  public:
-  Watch(const System& system, const Observer& observer, double size)
-      : system_(system), observer_(observer), size_(size), start_(std::chrono::steady_clock::now()) {}
+  /// from: where the run starts, or goes on.
+  Watch(const System& system, const Observer& observer, const Checkpoint& from)
+      : system_(system),
+        observer_(observer),
+        size_(from.size),
+        seconds_before_(from.seconds),
+        damping_work_(from.damping_work),
+        power_before_(from.damping_power) {}
 
   double size() const { return size_; }  // of the cloth at the start [m]
 
   void frame(const State& s) const {
     if (observer_.frame) observer_.frame(s);
+  }
+
+  /// Hands the run's checkpoint on, with what the watch itself remembers.
+  void checkpoint(const std::function<Checkpoint()>& of_run) const {
+    if (!observer_.checkpoint) return;
+    Checkpoint now = of_run();
+    now.size = size_;
+    now.damping_work = damping_work_;
+    now.damping_power = power_before_;
+    now.seconds = seconds();
+    observer_.checkpoint(now);
   }
 
   void step(const State& s, double h, const Work& work) {
@@ -93,11 +110,15 @@ class Watch {
     row.crossings = work.crossings;
     row.zone_particles = work.zone_particles;
     row.bonds = work.bonds;
-    row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    row.seconds = seconds();
     observer_.step(row);
   }
 
  private:
+  double seconds() const {  // since the start of the run
+    return seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
   double damping_power(const State& s) const {  // v.(D v) [W]
     Work uncounted;
     PerParticle3 force = PerParticle3::Zero(3, s.x.cols());
@@ -108,8 +129,9 @@ class Watch {
   const System& system_;
   const Observer& observer_;
   double size_;
-  std::chrono::steady_clock::time_point start_;
-  double damping_work_ = 0, power_before_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double seconds_before_;  // of clock time, in the part of the run before a checkpoint
+  double damping_work_, power_before_;
 };
 
 void add(Work& sum, const Work& part) {
@@ -143,7 +165,26 @@ struct Run {
   Events events;
   History history;
   Outcome outcome;
+
+  Checkpoint checkpoint(long frame, double start_time) const {
+    return {history.past(), frame, outcome.steps, outcome.work, start_time, 0, events.last(), 0, 0, 0};
+  }
 };
+
+/// A run as it is at the checkpoint.
+Run run_from(const Checkpoint& from, const System& system, const Integrator& integrator,
+             const Schedule& schedule, Watch& watch) {
+  const double tolerance = closest_event * schedule.frame_interval;
+  Outcome outcome;
+  outcome.steps = from.steps;
+  outcome.work = from.work;
+  return {integrator,
+          schedule,
+          watch,
+          {system, from.start_time, tolerance, from.event_time},
+          {from.past, integrator.history},
+          std::move(outcome)};
+}
 
 /// Advances the history to the time `target` without an event, or sets outcome.stop.
 void run_to(double target, Run& run) {
@@ -187,6 +228,21 @@ void run_across_events(double target, Run& run) {
   }
 }
 
+/// Runs on from this frame, of a run that began at `start` [s].
+Outcome run_to_end(long frame, double start, Run& run) {
+  const Schedule& schedule = run.schedule;
+  while (!run.outcome.stop && run.history.now().time < schedule.end) {
+    ++frame;
+    const double target = std::min(schedule.end, start + double(frame) * schedule.frame_interval);
+    run_across_events(target, run);
+    if (run.outcome.stop) break;
+    run.watch.frame(run.history.now());
+    run.watch.checkpoint([&] { return run.checkpoint(frame, start); });
+  }
+  run.outcome.last = run.history.now();
+  return run.outcome;
+}
+
 /// The automatic step before it is fitted to the frame [s].
 double limit_of(const System& system, const Integrator& integrator, const State& s, const StepRule& rule) {
   double limit = integrator.damping_widens_limit ? widened_limit(system, s) : elastic_limit(system, s);
@@ -218,27 +274,30 @@ double step_allowed(const System& system, const Integrator& integrator, std::spa
 Outcome simulate(const System& system, const Integrator& integrator, const State& start,
                  const Schedule& schedule, const Observer& observer) {
   check(schedule, start);
-  Watch watch(system, observer, size_of(start.x));
-  Run run{integrator,
-          schedule,
-          watch,
-          {system, start.time, closest_event * schedule.frame_interval},
-          History(start, integrator.history),
-          {}};
+  Checkpoint at_start;
+  at_start.past = {start};
+  at_start.start_time = at_start.event_time = start.time;
+  at_start.size = size_of(start.x);
+  Watch watch(system, observer, at_start);
+  Run run = run_from(at_start, system, integrator, schedule, watch);
   watch.frame(start);
   try {
     watch.step(start, 0, {});
   } catch (const DegenerateElement& error) {
     run.outcome.stop = Stop{error.what(), start.time, 0, error.particles.front()};
   }
+  if (!run.outcome.stop) watch.checkpoint([&] { return run.checkpoint(0, start.time); });
+  return run_to_end(0, start.time, run);
+}
 
-  for (long frame = 1; !run.outcome.stop && run.history.now().time < schedule.end; ++frame) {
-    const double target = std::min(schedule.end, start.time + double(frame) * schedule.frame_interval);
-    run_across_events(target, run);
-    if (!run.outcome.stop) watch.frame(run.history.now());
-  }
-  run.outcome.last = run.history.now();
-  return run.outcome;
+Outcome resume(const System& system, const Integrator& integrator, const Checkpoint& from,
+               const Schedule& schedule, const Observer& observer) {
+  if (from.past.empty() || from.past.back().x.cols() != system.mass.size())
+    throw InputError("a checkpoint without a state, or of another number of particles");
+  check(schedule, from.past.back());
+  Watch watch(system, observer, from);
+  Run run = run_from(from, system, integrator, schedule, watch);
+  return run_to_end(from.frame, from.start_time, run);
 }
 
 }  // namespace foldproof

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reference/dynamics/integrator.h"
 #include "reference/dynamics/system.h"
@@ -60,15 +61,36 @@ struct Outcome {
   std::optional<Stop> stop;  // empty when the end was reached
 };
 
+/// All that a run remembers at a frame beside its system, method and schedule: what it takes to go on to the same bits.
+struct Checkpoint {
+  std::vector<State> past;    // what the method looks back on; the latest is the frame's state
+  long frame = 0, steps = 0;  // so far; the start is frame 0
+  Work work;                  // of all steps so far
+  double start_time = 0;      // of the run [s]
+  double size = 0;            // of the cloth at the start, which leaps are held against [m]
+  double event_time = 0;      // when events were last passed; the start, if there was none [s]
+  double damping_work = 0;    // J
+  double damping_power = 0;   // at the frame [W]
+  double seconds = 0;         // clock time since the start of the run
+};
+
 /// Who watches. Empty functions are not called, and diagnostics that nobody watches are not computed.
 struct Observer {
   std::function<void(const State&)> frame;  // at 0, every frame interval, and the end
   std::function<void(const Diagnostics&)> step;
+  std::function<void(const Checkpoint&)> checkpoint = {};  // after each frame and its row of diagnostics
 };
 
 /// Throws InputError for a schedule that cannot be kept (end < start, interval <= 0, safety <= 0, ...).
 Outcome simulate(const System& system, const Integrator& integrator, const State& start,
                  const Schedule& schedule, const Observer& observer);
+
+/// Goes on from a checkpoint of a run of the same system, integrator and schedule that was watched by as many functions.
+/// Frames, diagnostics but for clock time, later checkpoints and the outcome are those of the uninterrupted run, to the
+/// bit; what was handed out up to the checkpoint is not handed out again. Throws InputError for one without a state, or
+/// of other particles.
+Outcome resume(const System& system, const Integrator& integrator, const Checkpoint& from,
+               const Schedule& schedule, const Observer& observer);
 
 /// The step [s] that the rule allows after these states, as an even part of the time `left` [s] to the next
 /// frame. No step exceeds the one before by more than the integrator's largest_growth.

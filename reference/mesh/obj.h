@@ -17,7 +17,8 @@ namespace foldproof {
 /// every locale, to the nearest double.
 /// Throws InputError "FILE:LINE: reason; what to do": a file that cannot be read or holds no face, a
 /// malformed number or index, a face with fewer than three vertices, an index that is 0 or out of range, and
-/// all that make_triangle_mesh refuses.
+/// all that make_triangle_mesh refuses; also a file beyond the limits of text_file.h, of more than 2 million vertices
+/// or 4 million triangles, or with faces of more than 16 groups of one letter.
 TriangleMesh read_obj(const std::string& path);
 
 /// The same file, its triangles as they come: nothing of what make_triangle_mesh refuses is looked at but

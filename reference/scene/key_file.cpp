@@ -3,8 +3,9 @@
 #include <toml++/toml.h>
 
 #include <cmath>
-#include <fstream>
 #include <sstream>
+
+#include "reference/mesh/text_file.h"
 
 namespace foldproof {
 
@@ -287,10 +288,9 @@ void set_key(KeyTable& root, const std::string& assignment) {
 }
 
 std::string read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!(text << file.rdbuf())) throw InputError(path + ": cannot be read, or is empty");
-  return text.str();
+  const std::string text = read_text_file(path, case_text_limits);
+  if (text.empty()) throw InputError(path + ": cannot be read, or is empty");
+  return text;
 }
 
 }  // namespace foldproof

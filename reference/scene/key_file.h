@@ -74,7 +74,7 @@ std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string&
 /// or a path through a value.
 void set_key(KeyTable& root, const std::string& assignment);
 
-/// The whole file. Throws InputError if it cannot be read.
+/// The whole file. Throws InputError if it cannot be read, is empty, or is longer than case_text_limits (mesh/text_file.h).
 std::string read_text(const std::string& path);
 
 }  // namespace foldproof

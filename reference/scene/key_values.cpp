@@ -1,5 +1,9 @@
 #include "reference/scene/key_values.h"
 
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+
 namespace foldproof {
 
 double positive(const KeyTable& keys, const std::string& key) {
@@ -47,6 +51,28 @@ Eigen::AngleAxisd read_turn(const KeyTable& keys) {
   const Vector3 axis = turn->vector("axis");
   if (!(axis.norm() > 0)) throw InputError(turn->where("axis") + ": 'axis' must not be zero");
   return {turn->number("angle") * radians_per_degree, axis.normalized()};
+}
+
+void refuse_outside(const std::string& file, const std::string& folder, const std::string& where) {
+  namespace fs = std::filesystem;
+  const fs::path inner = fs::weakly_canonical(fs::absolute(file));
+  const fs::path outer = fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder));
+  const auto [end, _] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
+  if (end == outer.end() || (std::next(end) == outer.end() && end->empty())) return;
+  throw InputError(where + ": '" + file +
+                   "' lies outside the case file's folder; put it there, or name it by --set");
+}
+
+std::string path_of(const KeyTable& keys, const std::string& key, const std::string& folder) {
+  const std::string where = keys.where(key);
+  const std::filesystem::path named = keys.text(key);
+  if (where == "--set" || named.empty()) return named.string();
+  const std::string file = (folder / named).string();
+  if (named.is_absolute() || std::ranges::find(named, "..") != named.end())
+    throw InputError(where + ": '" + named.string() +
+                     "' leaves the case file's folder; put the file there, or name it by --set");
+  refuse_outside(file, folder, where);
+  return file;
 }
 
 }  // namespace foldproof

@@ -61,13 +61,21 @@ void refuse_open_frame(const MeshSequence& animation, size_t k, const std::strin
   }
 }
 
+/// The folder lies within the case file's; so must what its links name.
+void refuse_links_outside(const std::string& folder, const std::string& case_folder,
+                          const std::string& where) {
+  std::error_code none;  // a folder that is not there is refused by who reads it
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    refuse_outside(entry.path().string(), case_folder, where);
+}
+
 MeshSequence read_frames(const KeyTable& keys, const CaseAround& around) {
   const std::string where = keys.where("frames");
-  std::filesystem::path folder = keys.text("frames");
-  if (folder.is_relative() && where != "--set") folder = around.folder / folder;
+  const std::string folder = path_of(keys, "frames", around.folder);
+  if (where != "--set") refuse_links_outside(folder, around.folder, where);
   MeshSequence animation;
   try {
-    animation = read_obj_sequence(folder.string(), positive_or(keys, "interval", 1.0 / 30));
+    animation = read_obj_sequence(folder, positive_or(keys, "interval", 1.0 / 30));
   } catch (const InputError& error) {
     throw InputError(where + ": " + error.what());
   }

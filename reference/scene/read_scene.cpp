@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -108,6 +109,23 @@ void read_solver(const KeyTable& keys, SolverSettings& solver) {
       {{"momentum", ResidualScale::momentum}, {"initial_residual", ResidualScale::initial_residual}});
 }
 
+constexpr size_t longest_name = 100;
+
+/// A case's name becomes a part of file names, and of names of findings: it must not lead anywhere, nor need quoting.
+void refuse_name(const std::string& name, const std::string& path) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  const bool is_good = !name.empty() && name.size() <= longest_name && std::ranges::all_of(name, is_plain) &&
+                       name.front() != '.' && name.front() != '-' && name.find("..") == std::string::npos;
+  if (!is_good)
+    throw InputError(
+        path + ": a case is named after its file, by at most " + std::to_string(longest_name) +
+        " letters a-z, digits and '_', '-', '.', the first no hyphen or dot and no two dots in a row; "
+        "rename the file");
+}
+
 Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSetMakers& makers) {
   const auto cloth = keys.table("cloth"), time = keys.table("time");
   if (!cloth || !time) throw InputError(keys.where() + ": a case needs the tables [cloth] and [time]");
@@ -143,9 +161,10 @@ Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSet
 
 Scene read_scene_text(const std::string& text, const std::string& path,
                       const std::vector<std::string>& overrides, const LevelSetMakers& makers) {
+  const std::filesystem::path file(path);
+  refuse_name(file.stem().string(), path);
   const auto keys = parse_keys(text, path);
   for (const std::string& assignment : overrides) set_key(*keys, assignment);
-  const std::filesystem::path file(path);
   Scene scene = scene_from(*keys, file.parent_path().string(), makers);
   scene.name = file.stem().string();
   scene.folder = file.parent_path().string();

@@ -117,14 +117,12 @@ void copy(const KeyTable& keys, PlacedMesh& cloth) {
 }  // namespace
 
 std::string mesh_file(const KeyTable& keys, const std::string& folder, const std::string& table) {
-  std::filesystem::path file = keys.text("mesh");
+  const std::string file = path_of(keys, "mesh", folder);
   const std::string where = keys.where("mesh");
   if (file.empty())
     throw InputError(where + ": this case takes a mesh of yours: --set " + table + ".mesh=FILE.obj");
-  if (file.is_relative() && where != "--set") file = folder / file;
-  if (!std::filesystem::exists(file))
-    throw InputError(where + ": there is no mesh file '" + file.string() + "'");
-  return file.string();
+  if (!std::filesystem::exists(file)) throw InputError(where + ": there is no mesh file '" + file + "'");
+  return file;
 }
 
 double fit_factor(const KeyTable& keys, const PerParticle3& x) {

@@ -1,12 +1,14 @@
 // foldproof claims: the ledger of a finished run, read from its verdicts.json.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "reference/mesh/text_file.h"
 #include "reference/types.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/json_text.h"
 
 namespace foldproof {
 
@@ -19,14 +21,20 @@ std::string text_of(const json& row, const char* key) { return row.value(key, st
 /// The findings of a finished run. Throws InputError if there is none, or it is of no use.
 json findings_of(const std::string& folder) {
   const std::string path = folder + "/verdicts.json";
-  std::ifstream file(path);
-  if (!file)
+  if (!std::filesystem::exists(path))
     throw InputError(path + ": there is no finished run; make one with `build/foldproof verify --out " +
                      folder + "`, or name its folder with --out");
-  const json whole = json::parse(file, nullptr, false);
+  const json whole =
+      json::parse(read_text_file(path, {table_text_limits.bytes, table_text_limits.bytes}), nullptr, false);
   if (!whole.is_object() || !whole.contains("findings"))
     throw InputError(path + ": not the verdicts of a run; make them anew with `build/foldproof verify`");
-  return whole["findings"];
+  const json& findings = whole["findings"];
+  const bool are_rows =
+      findings.is_array() && std::ranges::all_of(findings, [](const json& row) { return row.is_object(); });
+  if (!are_rows)
+    throw InputError(path +
+                     ": its findings are no list of findings; make them anew with `build/foldproof verify`");
+  return findings;
 }
 
 json claims_in(const json& findings, const std::string& folder) {
@@ -80,7 +88,7 @@ void print_whole(const json& claim, const json& findings) {
   if (!text_of(claim, "condition").empty()) fmt::print("\nCondition: {}.\n", text_of(claim, "condition"));
   if (!text_of(claim, "why").empty()) fmt::print("\n{}\n", text_of(claim, "why"));
   fmt::print("\n");
-  for (const json& decider : claim["decided_by"]) print_decider(decider, findings);
+  for (const json& decider : claim.value("decided_by", json::array())) print_decider(decider, findings);
 }
 
 }  // namespace
@@ -89,7 +97,7 @@ int show_claims(const Options& options) {
   const json findings = findings_of(options.out);
   const json claims = chosen_of(claims_in(findings, options.out), options.names);
   if (options.json) {
-    fmt::print("{}\n", claims.dump(1));
+    fmt::print("{}\n", json_text(claims));
     return all_hold;
   }
   for (const json& claim : claims) {

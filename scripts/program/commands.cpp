@@ -15,6 +15,7 @@
 #include "scripts/program/bench.h"
 #include "scripts/program/evaluate.h"
 #include "scripts/program/evaluate_crossings.h"
+#include "scripts/program/json_text.h"
 #include "scripts/program/ledger.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
@@ -38,12 +39,6 @@ RunRecord new_run(const Options& options) {
   run.subject = subject.name;
   run.subject_version = subject.version;
   return run;
-}
-
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(folder + ": cannot make this folder: " + error.message());
 }
 
 /// Names the faults, writes the files that were asked for, prints, and gives the exit code.
@@ -142,6 +137,12 @@ void announce(const std::vector<Job>& jobs, RunRecord begun, const std::string& 
 
 }  // namespace
 
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(folder + ": cannot make this folder: " + error.message());
+}
+
 int list(const Options& options) {
   nlohmann::json json = {{"checks", nlohmann::json::array()}, {"studies", nlohmann::json::array()}};
   for (const Check& check : all_checks())
@@ -156,7 +157,7 @@ int list(const Options& options) {
     json["integrators"].push_back(
         {{"name", i.name}, {"title", i.title}, {"source", i.source}, {"order", i.order}});
   if (options.json) {
-    fmt::print("{}\n", json.dump(1));
+    fmt::print("{}\n", json_text(json));
     return all_hold;
   }
   for (const char* kind : {"checks", "studies"}) {
@@ -179,12 +180,13 @@ int simulate_case(const Options& options) {
   say(fmt::format("{}: {}", scene.name, fmt::join(built_parts(scene, build_system(scene)), "; ")));
   ProgressLine line("simulate " + scene.name);
   const CaseRun run =
-      run_case(shown, options.out, provenance(options.command), [&](double part) { line.show(part); });
+      run_case_with_checkpoints(shown, options.out, options.resumes ? Start::last_checkpoint : Start::anew,
+                                provenance(options.command), [&](double part) { line.show(part); });
   const Work& work = run.outcome.work;
   RunRecord expected;
   expected.records = run.findings;
   if (options.json)
-    fmt::print("{}\n", told(run, options).dump(1));
+    fmt::print("{}\n", json_text(told(run, options)));
   else
     fmt::print("{}{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n",
                listing(expected), options.out, run.record.file, run.outcome.last.time, run.outcome.steps,

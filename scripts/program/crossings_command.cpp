@@ -5,6 +5,7 @@
 
 #include "reference/mesh/obj.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/json_text.h"
 #include "verification/oracles/exact_crossings.h"
 #include "verification/stored_run_file.h"
 
@@ -67,7 +68,7 @@ int show_crossings(const Options& options) {
   std::vector<FrameJudged> all;
   for (const std::string& file : options.names) judge_file(file, all);
   if (options.json)
-    fmt::print("{}\n", told(all).dump(1));
+    fmt::print("{}\n", json_text(told(all)));
   else
     print(all);
   for (const FrameJudged& frame : all)

@@ -4,16 +4,18 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <vector>
 
 #include "reference/forces/bending.h"
 #include "reference/forces/degenerate.h"
+#include "reference/mesh/text_file.h"
 
 namespace foldproof {
 
 namespace {
+
+constexpr size_t most_rows = 1'000'000;  // of 27 numbers: half a gigabyte of memory
 
 struct Row {
   std::string where;  // file:line
@@ -34,8 +36,7 @@ double parsed(const std::string& field, const std::string& where) {
 /// Rows of `columns` comma-separated numbers; lines that start with '#' or a letter (a heading) are passed
 /// over.
 std::vector<Row> read_rows(const std::string& file, size_t columns) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file + ": cannot be read");
+  std::istringstream in(read_text_file(file, table_text_limits));
   std::vector<Row> rows;
   int number = 0;
   for (std::string line; std::getline(in, line);) {
@@ -47,6 +48,8 @@ std::vector<Row> read_rows(const std::string& file, size_t columns) {
         !line.substr(first).starts_with("inf"))
       continue;  // a heading
     Row row{file + ":" + std::to_string(number), {}};
+    if (rows.size() == most_rows)
+      throw InputError(fmt::format("{}: more than {} rows, the most that is read", row.where, most_rows));
     std::istringstream fields(line);
     for (std::string field; std::getline(fields, field, ',');) row.values.push_back(parsed(field, row.where));
     if (row.values.size() != columns)

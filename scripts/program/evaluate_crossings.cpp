@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <vector>
 
 #include "reference/filters/approach.h"
+#include "reference/mesh/text_file.h"
 #include "verification/oracles/exact_crossing_times.h"
 
 namespace foldproof {
@@ -18,6 +18,8 @@ namespace {
 
 using oracles::Fraction;
 using oracles::Whole;
+
+constexpr std::size_t most_query_rows = 4'000'000;  // of six long whole numbers: a gigabyte of memory
 
 struct FileQuery {
   std::array<std::array<Fraction, 3>, 8> points;
@@ -49,8 +51,7 @@ std::array<Whole, 7> parsed_row(const std::string& line, const std::string& wher
 }
 
 std::vector<FileQuery> read_queries(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file + ": cannot be read");
+  std::istringstream in(read_text_file(file, table_text_limits));
   std::vector<FileQuery> queries;
   std::size_t rows = 0, number = 0;
   for (std::string line; std::getline(in, line);) {
@@ -58,6 +59,8 @@ std::vector<FileQuery> read_queries(const std::string& file) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::string where = fmt::format("{}:{}", file, number);
     const auto row = parsed_row(line, where);
+    if (rows == most_query_rows)
+      throw InputError(fmt::format("{}: more than {} rows, the most that is read", where, most_query_rows));
     if (rows % 8 == 0) queries.push_back({{}, row[6] == 1});
     if (queries.back().meets != (row[6] == 1))
       throw InputError(where + ": the rows of a query disagree on its truth");

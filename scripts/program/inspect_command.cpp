@@ -6,6 +6,7 @@
 #include "reference/level_set/mesh_inspection.h"
 #include "reference/mesh/obj.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/json_text.h"
 
 namespace foldproof {
 
@@ -53,7 +54,7 @@ nlohmann::json told(const std::string& file, const MeshInspection& found) {
 int inspect(const Options& options) {
   const MeshInspection found = inspect_mesh(read_obj_soup(options.file), options.cells);
   if (options.json)
-    fmt::print("{}\n", told(options.file, found).dump(1));
+    fmt::print("{}\n", json_text(told(options.file, found)));
   else
     print(options.file, found);
   return found.refusal.empty() && found.against_sign == 0 ? all_hold : some_fail;

@@ -25,7 +25,7 @@ struct Options {
   unsigned seed = 1;                                          // of golden
   int cells = 64;                                             // of inspect: along the longest side
   int levels = 0;                                             // of project: of subdivision
-  bool json = false, quick = false, no_report = false, no_bench = false;
+  bool json = false, quick = false, no_report = false, no_bench = false, resumes = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code
 };
 

@@ -14,6 +14,7 @@
 #include "reference/mesh/subdivision.h"
 #include "reference/post/fold_projection.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/json_text.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
@@ -192,10 +193,10 @@ nlohmann::json told(const Report& report, const std::string& folder) {
 }  // namespace
 
 int project_run(const Options& options) {
-  std::filesystem::create_directories(options.out);
+  make_folder(options.out);
   const Report report = project_all(source_of(options), options);
   if (options.json)
-    fmt::print("{}\n", told(report, options.out).dump(1));
+    fmt::print("{}\n", json_text(told(report, options.out)));
   else
     print(report, options.out);
   return report.unfinished == 0 ? all_hold : some_fail;

@@ -2,7 +2,11 @@
 
 #include <ctime>
 #include <fstream>
+#include <iterator>
 #include <thread>
+#include <vector>
+
+#include "reference/level_set/content_key.h"
 
 #include "build_facts.h"  // written by every build: commit, tree, compiler, flags
 
@@ -39,6 +43,14 @@ Provenance provenance(const std::string& command) {
   p.date = utc_now();
   p.command = command;
   return p;
+}
+
+std::string program_identity() {
+  std::ifstream code("/proc/self/exe", std::ios::binary);
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(code), std::istreambuf_iterator<char>()};
+  ContentKey key;
+  key.add(bytes);
+  return std::string(FOLDPROOF_VERSION) + ", commit " + FOLDPROOF_COMMIT + ", code " + key.text();
 }
 
 std::string project_folder() { return FOLDPROOF_FOLDER; }

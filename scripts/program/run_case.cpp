@@ -1,12 +1,17 @@
 #include "scripts/program/run_case.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <filesystem>
+#include <functional>
+#include <optional>
 
 #include "reference/level_set/makers.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/cases/judge.h"
+#include "verification/checkpoint_file.h"
 #include "verification/kept_level_sets_file.h"
 #include "verification/trajectory_file.h"
 
@@ -14,23 +19,88 @@ namespace foldproof {
 
 namespace {
 
+/// Makes a run happen before an observer.
+using Runner = std::function<Outcome(const Observer&)>;
+
+Runner from_the_start(const Scene& scene) {
+  return [&scene](const Observer& observer) {
+    return simulate(build_system(scene), integrator_named(scene.integrator), start_state(scene),
+                    scene.schedule, observer);
+  };
+}
+
+/// Watches as `observer` does and writes a checkpoint at every frame.
+Observer writing_checkpoints(const Observer& observer, const CheckpointFolder& checkpoints,
+                             std::vector<Diagnostics>& rows) {
+  return {observer.frame,
+          [&](const Diagnostics& row) {
+            rows.push_back(row);
+            observer.step(row);
+          },
+          [&](const Checkpoint& now) {
+            checkpoints.write({now, rows});
+            rows.clear();
+          }};
+}
+
+/// What was handed out up to the last checkpoint is handed out again; then the run goes on.
+Runner from_checkpoints(const Scene& scene, const CheckpointFolder& checkpoints, Start start) {
+  return [&scene, &checkpoints, start](const Observer& observer) {
+    std::optional<Checkpoint> last;
+    const auto replay = [&](const CheckpointRecord& record) {
+      for (const Diagnostics& row : record.rows) observer.step(row);
+      observer.frame(record.at.past.back());
+    };
+    if (start == Start::anew)
+      checkpoints.remove_from(0);
+    else
+      last = checkpoints.replay(replay, say);
+    if (start == Start::last_checkpoint)
+      say(last ? fmt::format("resumed from frame {}, t = {:.6g} s, after {} steps", last->frame,
+                             last->past.back().time, last->steps)
+               : "there is no checkpoint to resume from: started anew");
+    std::vector<Diagnostics> rows;
+    const Observer all = writing_checkpoints(observer, checkpoints, rows);
+    if (!last) return from_the_start(scene)(all);
+    return resume(build_system(scene), integrator_named(scene.integrator), *last, scene.schedule, all);
+  };
+}
+
 /// Runs the case; `also` watches beside the judge.
-std::vector<Record> judged_run(const Case& shown, const Observer& also, const Progress& progress,
-                               Outcome& outcome) {
-  const Scene& scene = shown.scene;
+std::vector<Record> judged_run(const Case& shown, const Runner& run, const Observer& also,
+                               const Progress& progress, Outcome& outcome) {
   CaseJudge judge(shown);
-  const Observer observer{[&](const State& s) {
-                            judge.enter(s);
-                            if (also.frame) also.frame(s);
-                          },
-                          [&](const Diagnostics& row) {
-                            judge.enter(row);
-                            if (also.step) also.step(row);
-                            progress(row.time / scene.schedule.end);
-                          }};
-  outcome = simulate(build_system(scene), integrator_named(scene.integrator), start_state(scene),
-                     scene.schedule, observer);
+  outcome = run({[&](const State& s) {
+                   judge.enter(s);
+                   if (also.frame) also.frame(s);
+                 },
+                 [&](const Diagnostics& row) {
+                   judge.enter(row);
+                   if (also.step) also.step(row);
+                   progress(row.time / shown.scene.schedule.end);
+                 }});
   return judge.judged(outcome);
+}
+
+std::string trajectory_path(const Scene& scene, const std::string& folder) {
+  return (std::filesystem::path(folder) / (scene.name + ".h5")).string();
+}
+
+CaseRun recorded_run(const Case& shown, const Runner& run, TrajectoryFile& trajectory,
+                     const Progress& progress) {
+  const Scene& scene = shown.scene;
+  const auto start = std::chrono::steady_clock::now();
+  CaseRun done;
+  done.findings = judged_run(shown, run,
+                             {[&](const State& s) { trajectory.add_frame(s); },
+                              [&](const Diagnostics& row) { trajectory.add_diagnostics(row); }},
+                             progress, done.outcome);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  done.record = {scene.name,  scene.name + ".h5",
+                 scene.title, scene.about,
+                 seconds,     done.outcome.stop ? described(*done.outcome.stop) : ""};
+  trajectory.finish(done.record.stopped, done.record.seconds);
+  return done;
 }
 
 }  // namespace
@@ -38,25 +108,24 @@ std::vector<Record> judged_run(const Case& shown, const Observer& also, const Pr
 CaseRun run_case(const Case& shown, const std::string& folder, const Provenance& provenance,
                  const Progress& progress) {
   const Scene& scene = shown.scene;
-  const std::string file = scene.name + ".h5";
-  TrajectoryFile trajectory((std::filesystem::path(folder) / file).string(), scene, build_system(scene),
-                            provenance);
-  const auto start = std::chrono::steady_clock::now();
-  CaseRun run;
-  run.findings = judged_run(shown,
-                            {[&](const State& s) { trajectory.add_frame(s); },
-                             [&](const Diagnostics& row) { trajectory.add_diagnostics(row); }},
-                            progress, run.outcome);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  run.record = {scene.name,  file,    scene.title,
-                scene.about, seconds, run.outcome.stop ? described(*run.outcome.stop) : ""};
-  trajectory.finish(run.record.stopped, run.record.seconds);
-  return run;
+  TrajectoryFile trajectory(trajectory_path(scene, folder), scene, build_system(scene), provenance);
+  return recorded_run(shown, from_the_start(scene), trajectory, progress);
+}
+
+CaseRun run_case_with_checkpoints(const Case& shown, const std::string& folder, Start start,
+                                  const Provenance& provenance, const Progress& progress) {
+  const Scene& scene = shown.scene;
+  const std::string kept = (std::filesystem::path(folder) / (scene.name + ".checkpoints")).string();
+  const CheckpointFolder checkpoints(kept, identity_of(scene, program_identity()));
+  TrajectoryFile trajectory(trajectory_path(scene, folder), scene, build_system(scene), provenance);
+  CaseRun done = recorded_run(shown, from_checkpoints(scene, checkpoints, start), trajectory, progress);
+  checkpoints.remove_from(0);
+  return done;
 }
 
 std::vector<Record> judge_case(const Case& shown, const Progress& progress) {
   Outcome outcome;
-  return judged_run(shown, {}, progress, outcome);
+  return judged_run(shown, from_the_start(shown.scene), {}, progress, outcome);
 }
 
 std::vector<std::string> shown_cases() {

@@ -19,6 +19,17 @@ struct CaseRun {
 CaseRun run_case(const Case& shown, const std::string& folder, const Provenance& provenance,
                  const Progress& progress);
 
+/// How a run is kept from being lost.
+enum class Start {
+  anew,  // checkpoints of an earlier run are removed
+  last_checkpoint
+};
+
+/// The same, and the same to the bit, with a checkpoint at every frame in <folder>/<name>.checkpoints, which is removed
+/// when the run's files are whole.
+CaseRun run_case_with_checkpoints(const Case& shown, const std::string& folder, Start start,
+                                  const Provenance& provenance, const Progress& progress);
+
 /// The same without files: what is expected, judged.
 std::vector<Record> judge_case(const Case& shown, const Progress& progress);
 

@@ -14,6 +14,7 @@ std::vector<Check>
 step_checks();  // step_checks.cpp: lines of the schemes, filters, prescribed particles, counts
 std::vector<Check> symmetry_checks();  // symmetry_checks.cpp: units, frames of reference, repetition
 std::vector<Check> run_checks();       // run_checks.cpp: frames, automatic steps, stops
+std::vector<Check> resume_checks();    // resume_checks.cpp: runs that go on from a checkpoint
 std::vector<Check> event_checks();     // event_checks.cpp: motions that start and stop
 std::vector<Check> method_checks();    // method_checks.cpp: what the paper's schemes are compared with
 std::vector<Check> energy_checks();    // energy_checks.cpp: diagnostics and the balance of energy

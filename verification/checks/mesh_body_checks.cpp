@@ -1,5 +1,6 @@
 // Checks of bodies that a case file takes from OBJ files.
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include "reference/mesh/obj.h"
@@ -16,11 +17,12 @@ namespace {
 constexpr double radius = 0.7;  // m
 
 std::string body(const std::string& file, const std::string& keys) {
-  return "[[object]]\nmesh = \"" + file + "\"\n" + keys + "\n";
+  return "[[object]]\nmesh = \"" + std::filesystem::path(file).filename().string() + "\"\n" + keys + "\n";
 }
 
-std::string case_refusal(const std::string& tables) {
-  return refusal([&] { read_case(tables); });
+/// A case that lies beside the file.
+Scene read_case_beside(const std::string& file, const std::string& keys) {
+  return read_case(body(file, keys), {}, std::filesystem::path(file).replace_filename("trial.toml").string());
 }
 
 /// The direction of the triangles that are left out first [1].
@@ -44,7 +46,7 @@ Finding open_bodies_are_refused(const Subject&) {
   Measured measured("file, reason or remedy missing from the refusal", "1");
   const auto see = [&](const std::string& name, const std::string& file, const std::string& keys,
                        const std::vector<std::string>& parts) {
-    const std::string message = case_refusal(body(file, keys));
+    const std::string message = refusal([&] { read_case_beside(file, keys); });
     int missing = 0;
     for (const std::string& part : parts) missing += message.find(part) == std::string::npos;
     measured.see(name, missing);
@@ -76,10 +78,10 @@ Finding bodies_are_solid(const Subject&) {
   const ScratchFolder folder;
   constexpr double cell = 2 * radius / 32;
   Measured measured("largest error of phi", "cells");
-  measured.see("whole, grid", error_of(read_case(body(written(folder, 0, 0), "cells = 32")), cell));
-  measured.see("whole, exact", error_of(read_case(body(written(folder, 0, 0), "field = \"exact\"")), cell));
+  measured.see("whole, grid", error_of(read_case_beside(written(folder, 0, 0), "cells = 32"), cell));
+  measured.see("whole, exact", error_of(read_case_beside(written(folder, 0, 0), "field = \"exact\""), cell));
   measured.see("four triangles missing, seven flipped",
-               error_of(read_case(body(written(folder, 4, 7), "cells = 32\nrepair = \"winding\"")), cell));
+               error_of(read_case_beside(written(folder, 4, 7), "cells = 32\nrepair = \"winding\""), cell));
   return measured.judged(
       1,
       "faces lie up to 0.15 cells within the ball; a hole of four triangles is three cells wide, "

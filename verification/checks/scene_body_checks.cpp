@@ -25,7 +25,12 @@ constexpr double degree = 3.14159265358979323846 / 180;  // rad
 std::string ball_body(const ScratchFolder& folder, const std::string& keys) {
   const TriangleMesh ball = make_icosphere(radius, 3);
   write_obj(folder.file("ball.obj"), ball.rest, ball.triangles);
-  return "[[object]]\nmesh = \"" + folder.file("ball.obj") + "\"\n" + keys + "\n";
+  return "[[object]]\nmesh = \"ball.obj\"\n" + keys + "\n";
+}
+
+/// A case in the folder.
+Scene read_case_in(const ScratchFolder& folder, const std::string& tables) {
+  return read_case(tables, {}, folder.file("trial.toml"));
 }
 
 const Octree& octree_of(const Scene& scene) {
@@ -47,9 +52,9 @@ double octree_miss(const Octree& tree) {
 
 Finding octree_finding(const Subject&) {
   const ScratchFolder folder;
-  const Octree coarse = octree_of(read_case(ball_body(folder, "field = \"octree\"\ncells = 23")));
+  const Octree coarse = octree_of(read_case_in(folder, ball_body(folder, "field = \"octree\"\ncells = 23")));
   const Octree given =
-      octree_of(read_case(ball_body(folder, "field = \"octree\"\ncells = 41\ntolerance = 5e-4")));
+      octree_of(read_case_in(folder, ball_body(folder, "field = \"octree\"\ncells = 41\ntolerance = 5e-4")));
   const auto cell = [](const Octree& tree) {
     return tree.settings.width / std::pow(2.0, tree.settings.depth);
   };
@@ -115,7 +120,7 @@ Finding deformation_finding(const Subject&) {
   Differences differences;
   const auto see = [&](const std::string& what, const std::string& parts, const Shaping& shaping,
                        double period) {
-    const Scene scene = read_case(ball_body(folder, keys + parts));
+    const Scene scene = read_case_in(folder, ball_body(folder, keys + parts));
     for (const double t : {0.0, 0.05, 0.2, 0.3})
       differences.see(what + " at " + std::to_string(t) + " s", surface_miss(scene, shaping, period, t), 1);
     const PerParticle3 between = (surface_at(scene.objects[0], 0.1) + surface_at(scene.objects[0], 0.15)) / 2;
@@ -146,21 +151,22 @@ Finding deformation_finding(const Subject&) {
       100, "sines, cosines and products of lengths below 1 m, with a few dozen roundings in either way");
 }
 
-/// Two frames of a ball in a folder.
+/// Two frames of a ball in a folder, whose name is returned.
 std::string written_frames(const ScratchFolder& folder) {
   const TriangleMesh ball = make_icosphere(radius, 2);
   const std::string frames = folder.file("frames");
   std::filesystem::create_directory(frames);
   write_obj(frames + "/b00.obj", ball.rest, ball.triangles);
   write_obj(frames + "/b01.obj", 1.1 * ball.rest, ball.triangles);
-  return frames;
+  return "frames";
 }
 
 Finding frames_finding(const Subject&) {
   const ScratchFolder folder;
   const std::string body = "[[object]]\nframes = \"" + written_frames(folder) +
                            "\"\ninterval = 0.07\nfit = 0.5\ncells = 12\nmove = [0.2, -0.1, 0.3]\n";
-  const Scene carried = read_case(body), blended = read_case(body + "between = \"blended\"\n");
+  const Scene carried = read_case_in(folder, body),
+              blended = read_case_in(folder, body + "between = \"blended\"\n");
   const PerParticle3 x = make_icosphere(radius, 2).rest;
   const double scale = 0.5 / (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
   const PerParticle3 first = (scale * x).colwise() + Vector3(0.2, -0.1, 0.3),
@@ -184,8 +190,9 @@ Finding surface_finding(const Subject&) {
   const ScratchFolder folder;
   Measured measured("largest distance of the drawn surface from the level set", "tolerances");
   for (const std::string kind : {"bend", "twist", "breathe"}) {
-    const Scene scene = read_case(ball_body(
-        folder, place + "cells = 16\ninterval = 0.02\n" + deform(kind, kind == "breathe" ? 0.3 : 40, 0.5)));
+    const Scene scene =
+        read_case_in(folder, ball_body(folder, place + "cells = 16\ninterval = 0.02\n" +
+                                                   deform(kind, kind == "breathe" ? 0.3 : 40, 0.5)));
     const auto& body = std::get<DeformingObject>(scene.objects.at(0).object.body);
     const double tolerance = body.body->frames.front().field.settings.tolerance;
     Worst worst;
@@ -232,7 +239,7 @@ std::vector<Refused> refusals(const ScratchFolder& folder) {
 
 Finding refusal_finding(const Subject&) {
   const ScratchFolder folder;
-  return refused_cases(refusals(folder));
+  return refused_cases(refusals(folder), folder.file("trial.toml"));
 }
 
 }  // namespace

@@ -117,11 +117,11 @@ Finding groups_finding(const Subject&) {
   differences.is("groups",
                  groups == FaceGroups{{"back", {1}}, {"front", {0}}, {"left", {0, 1}}, {"right", {0, 1}}});
   const std::string text =
-      "[cloth]\nmesh = \"" + file + "\"\ndensity = 0.2\n" + short_time +
+      "[cloth]\nmesh = \"grouped.obj\"\ndensity = 0.2\n" + short_time +
       "[[sticky]]\nsurface = { of = \"cloth\", group = \"front\" }\nparticles = { group = "
       "\"back\" }\n" +
       values;
-  const StickyPatch patch = read_scene_text(text, "trial.toml").sticky.at(0);
+  const StickyPatch patch = read_scene_text(text, folder.file("trial.toml")).sticky.at(0);
   differences.is("triangles of a group", patch.triangles == std::vector<Triangle>{{0, 1, 2}});
   differences.is("corners of a group", patch.particles == std::vector<int>{0, 2, 3});
   return differences.finding(0, "names are read as written");

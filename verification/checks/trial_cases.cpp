@@ -6,8 +6,9 @@
 
 namespace foldproof {
 
-Scene read_case(const std::string& tables, const std::vector<std::string>& overrides) {
-  return read_scene_text(small_sheet + tables + short_time, "trial.toml", overrides);
+Scene read_case(const std::string& tables, const std::vector<std::string>& overrides,
+                const std::string& path) {
+  return read_scene_text(small_sheet + tables + short_time, path, overrides);
 }
 
 PerParticle3 plain_positions() {
@@ -20,17 +21,17 @@ PerParticle3 plain_positions() {
   return make_sheet(sheet).rest;
 }
 
-Finding refused_cases(const std::vector<Refused>& cases) {
+Finding refused_cases(const std::vector<Refused>& cases, const std::string& path) {
   std::vector<std::string> messages, faults;
   for (const Refused& refused : cases) {
     std::string message;
     try {
-      read_case(refused.tables);
+      read_case(refused.tables, {}, path);
     } catch (const InputError& error) {
       message = error.what();
     }
     messages.push_back(message.empty() ? "accepted: " + refused.tables : message.substr(0, 200));
-    std::string lacks = message.starts_with("trial.toml:") ? "" : "file and line";
+    std::string lacks = message.starts_with(path + ":") ? "" : "file and line";
     for (const std::string& word : refused.words)
       if (message.find(word) == std::string::npos) lacks += " '" + word + "'";
     faults.push_back(lacks);

@@ -30,8 +30,9 @@ integrator = "A"
 step = 0.003
 )";
 
-/// The sheet, some tables, the time.
-Scene read_case(const std::string& tables, const std::vector<std::string>& overrides = {});
+/// The sheet, some tables, the time. path: of the case file, beside or below which its meshes lie.
+Scene read_case(const std::string& tables, const std::vector<std::string>& overrides = {},
+                const std::string& path = "trial.toml");
 
 /// Tables that have to be refused, and words of the message.
 struct Refused {
@@ -40,7 +41,7 @@ struct Refused {
 };
 
 /// How many are accepted, or refused without file and line or one of the words.
-Finding refused_cases(const std::vector<Refused>& cases);
+Finding refused_cases(const std::vector<Refused>& cases, const std::string& path = "trial.toml");
 
 /// The positions of that sheet, 3 x N [m].
 PerParticle3 plain_positions();

@@ -1,0 +1,293 @@
+#include "verification/checkpoint_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "reference/level_set/content_key.h"
+#include "verification/hdf5_file.h"
+
+namespace foldproof {
+
+namespace {
+
+const char* const checkpoint_format = "foldproof checkpoint 1";
+
+// A new field must be stored too: whoever adds one is stopped here.
+static_assert(sizeof(Work) == 20 * sizeof(double) && sizeof(Diagnostics) == 25 * sizeof(double) &&
+              sizeof(Energies) == 6 * sizeof(double));
+
+/// Writes numbers one after the other, or reads them back; one list of fields serves both ways.
+class Numbers64 {
+ public:
+  Numbers64() = default;
+  explicit Numbers64(std::vector<double> stored) : values_(std::move(stored)), reads_(true) {}
+
+  void pass(double& value) {
+    if (reads_)
+      value = next();
+    else
+      values_.push_back(value);
+  }
+  void pass(long& value) {  // exact up to 2^53
+    if (reads_)
+      value = long(next());
+    else
+      values_.push_back(double(value));
+  }
+  void pass(Vector3& value) {
+    for (double& component : value) pass(component);
+  }
+
+  const std::vector<double>& values() const { return values_; }
+  bool is_used_up() const { return at_ == values_.size(); }
+
+ private:
+  double next() {
+    if (at_ == values_.size()) throw std::runtime_error("it holds too few numbers");
+    return values_[at_++];
+  }
+
+  std::vector<double> values_;
+  std::size_t at_ = 0;
+  bool reads_ = false;
+};
+
+void pass(Work& w, Numbers64& numbers) {
+  for (long* count :
+       {&w.elastic_evaluations, &w.damping_preparations, &w.damping_products, &w.stiffness_preparations,
+        &w.stiffness_products, &w.newton_iterations, &w.solves, &w.cg_iterations, &w.object_queries,
+        &w.object_contacts, &w.strain_sweeps, &w.close_pairs, &w.crossing_queries, &w.crossings, &w.zones,
+        &w.zone_particles, &w.bonds, &w.unfinished_solves})
+    numbers.pass(*count);
+  for (double* worst : {&w.strain_left, &w.worst_residual}) numbers.pass(*worst);
+}
+
+void pass(Diagnostics& d, Numbers64& numbers) {
+  Energies& e = d.energy;
+  for (double* value :
+       {&d.time, &d.step, &e.kinetic, &e.stretch, &e.bending, &e.gravity, &e.custom, &e.sticking,
+        &d.damping_work, &d.cg_residual, &d.step_over_elastic_limit, &d.strain_left, &d.seconds})
+    numbers.pass(*value);
+  for (long* count :
+       {&d.cg_iterations, &d.object_contacts, &d.close_pairs, &d.crossings, &d.zone_particles, &d.bonds})
+    numbers.pass(*count);
+  for (Vector3* momentum : {&d.linear_momentum, &d.angular_momentum}) numbers.pass(*momentum);
+}
+
+/// All of a checkpoint but the states.
+void pass(Checkpoint& c, Numbers64& numbers) {
+  for (long* count : {&c.frame, &c.steps}) numbers.pass(*count);
+  for (double* value : {&c.start_time, &c.size, &c.event_time, &c.damping_work, &c.damping_power, &c.seconds})
+    numbers.pass(*value);
+  pass(c.work, numbers);
+}
+
+std::vector<double> numbers_of(const CheckpointRecord& record) {
+  Numbers64 numbers;
+  CheckpointRecord copy{record.at, record.rows};
+  pass(copy.at, numbers);
+  for (Diagnostics& row : copy.rows) pass(row, numbers);
+  return numbers.values();
+}
+
+/// A state as two arrays: time, positions, velocities, places of bonds; and patch, triangle and particle of each bond.
+struct StateArrays {
+  std::vector<double> numbers;
+  std::vector<int> bonds;
+};
+
+StateArrays arrays_of(const State& s) {
+  StateArrays arrays{{s.time}, {}};
+  for (const PerParticle3* part : {&s.x, &s.v})
+    arrays.numbers.insert(arrays.numbers.end(), part->data(), part->data() + part->size());
+  for (const Bond& bond : s.memory.bonds) {
+    arrays.numbers.insert(arrays.numbers.end(), bond.place.data(), bond.place.data() + 3);
+    arrays.bonds.insert(arrays.bonds.end(), {bond.patch, bond.triangle, bond.particle});
+  }
+  return arrays;
+}
+
+State state_of(const StateArrays& arrays) {
+  const std::size_t bonds = arrays.bonds.size() / 3, numbers = arrays.numbers.size();
+  if (arrays.bonds.size() % 3 != 0 || numbers < 1 + 3 * bonds || (numbers - 1 - 3 * bonds) % 6 != 0)
+    throw std::runtime_error("a state is not whole");
+  const auto particles = Eigen::Index((numbers - 1 - 3 * bonds) / 6);
+  const double* at = arrays.numbers.data();
+  State s;
+  s.time = *at++;
+  s.x = Eigen::Map<const PerParticle3>(at, 3, particles);
+  s.v = Eigen::Map<const PerParticle3>(at + 3 * particles, 3, particles);
+  at += 6 * particles;
+  for (std::size_t k = 0; k < bonds; ++k, at += 3) {
+    const int* names = arrays.bonds.data() + 3 * k;
+    s.memory.bonds.push_back({names[0], names[1], names[2], {at[0], at[1], at[2]}});
+  }
+  return s;
+}
+
+/// A checkpoint as it is stored.
+struct StoredCheckpoint {
+  RunIdentity identity;
+  std::vector<double> numbers;
+  std::vector<StateArrays> past;
+
+  std::string content_key() const {
+    ContentKey key;
+    for (const std::string* text : {&identity.case_text, &identity.meshes, &identity.program})
+      key.add(std::vector<char>(text->begin(), text->end()));
+    key.add(numbers);
+    for (const StateArrays& state : past) {
+      key.add(state.numbers);
+      key.add(state.bonds);
+    }
+    return key.text();
+  }
+};
+
+void write_stored(const Hdf5& file, const StoredCheckpoint& stored) {
+  file.attribute("format", std::string(checkpoint_format));
+  file.attribute("case_text", stored.identity.case_text);
+  file.attribute("meshes", stored.identity.meshes);
+  file.attribute("program", stored.identity.program);
+  file.attribute("content", stored.content_key());
+  file.dataset("numbers", stored.numbers);
+  const Hdf5 past = file.group("past");
+  for (std::size_t k = 0; k < stored.past.size(); ++k) {
+    const Hdf5 state = past.group(std::to_string(k));
+    state.dataset("numbers", stored.past[k].numbers);
+    state.array("bonds", {stored.past[k].bonds.size()}, stored.past[k].bonds.data());
+  }
+}
+
+/// Throws std::runtime_error if it is not what was written.
+StoredCheckpoint read_stored(const std::string& path) {
+  const Hdf5 file = Hdf5::open_file(path);
+  if (file.read_text("format") != checkpoint_format) throw std::runtime_error("it is of another version");
+  StoredCheckpoint stored{{file.read_text("case_text"), file.read_text("meshes"), file.read_text("program")},
+                          file.read_doubles("numbers"),
+                          {}};
+  const Hdf5 past = file.open_group("past");
+  for (int k = 0; past.has(std::to_string(k)); ++k) {
+    const Hdf5 state = past.open_group(std::to_string(k));
+    stored.past.push_back({state.read_doubles("numbers"), state.read_ints("bonds")});
+  }
+  if (stored.content_key() != file.read_text("content"))
+    throw std::runtime_error("its content is not what was written");
+  return stored;
+}
+
+CheckpointRecord record_of(const StoredCheckpoint& stored) {
+  CheckpointRecord record;
+  Numbers64 numbers(stored.numbers);
+  pass(record.at, numbers);
+  while (!numbers.is_used_up()) pass(record.rows.emplace_back(), numbers);
+  for (const StateArrays& state : stored.past) record.at.past.push_back(state_of(state));
+  if (record.at.past.empty()) throw std::runtime_error("it holds no state");
+  return record;
+}
+
+void refuse_other(const std::string& path, const RunIdentity& stored, const RunIdentity& mine) {
+  std::string what;
+  if (stored.case_text != mine.case_text) what = "another case text, or other overrides";
+  if (stored.meshes != mine.meshes) what += std::string(what.empty() ? "" : "; ") + "other meshes";
+  if (stored.program != mine.program)
+    what += std::string(what.empty() ? "" : "; ") + "another program (" + stored.program + ", this is " +
+            mine.program + ")";
+  if (!what.empty())
+    throw InputError(path + ": this checkpoint is of " + what +
+                     ". Resume with what it was made with, or start anew without --resume");
+}
+
+/// The number in the name of a checkpoint; -1 for other files.
+long number_in(const std::filesystem::path& file) {
+  const std::string stem = file.stem().string();
+  long number = -1;
+  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+  const bool is_one = error == std::errc() && end == stem.data() + stem.size() && number >= 0;
+  return is_one && file.extension() == ".h5" && stem.size() >= 6 ? number : -1;
+}
+
+void add(const PerParticle3& x, ContentKey& key) {
+  key.add(std::uint64_t(x.cols()));
+  key.add(x.data(), std::size_t(x.size()));
+}
+
+}  // namespace
+
+RunIdentity identity_of(const Scene& scene, const std::string& program) {
+  ContentKey key;
+  for (const PerParticle3* x : {&scene.mesh.rest, &scene.x, &scene.v}) add(*x, key);
+  key.add(scene.mesh.triangles);
+  for (const SceneObject& part : scene.objects) {
+    add(part.vertices, key);
+    key.add(part.triangles);
+    if (part.animation)
+      for (const PerParticle3& x : part.animation->positions) add(x, key);
+  }
+  for (const StickyPatch& patch : scene.sticky) {
+    key.add(patch.triangles);
+    key.add(patch.particles);
+  }
+  return {scene.text, key.text(), program};
+}
+
+CheckpointFolder::CheckpointFolder(std::string folder, RunIdentity identity)
+    : folder_(std::move(folder)), identity_(std::move(identity)) {}
+
+std::string CheckpointFolder::file(long frame) const { return fmt::format("{}/{:06}.h5", folder_, frame); }
+
+void CheckpointFolder::write(const CheckpointRecord& record) const {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) throw std::runtime_error(folder_ + ": cannot make this folder: " + error.message());
+  StoredCheckpoint stored{identity_, numbers_of(record), {}};
+  for (const State& s : record.at.past) stored.past.push_back(arrays_of(s));
+  write_hdf5(file(record.at.frame), [&](const Hdf5& made) { write_stored(made, stored); });
+}
+
+std::optional<Checkpoint> CheckpointFolder::replay(const std::function<void(const CheckpointRecord&)>& enter,
+                                                   const std::function<void(const std::string&)>& say) const {
+  std::optional<Checkpoint> last;
+  long frame = 0;
+  for (; std::filesystem::exists(file(frame)); ++frame) {
+    CheckpointRecord record;
+    try {
+      const StoredCheckpoint stored = read_stored(file(frame));
+      refuse_other(file(frame), stored.identity, identity_);
+      record = record_of(stored);
+      if (record.at.frame != frame) throw std::runtime_error("it is that of another frame");
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::exception& error) {
+      say(file(frame) + ": this checkpoint is damaged and left out: " + error.what());
+      break;
+    }
+    enter(record);
+    last = std::move(record.at);
+  }
+  remove_from(frame);
+  return last;
+}
+
+void CheckpointFolder::remove_from(long first) const {
+  std::vector<std::pair<long, std::filesystem::path>> found;
+  std::error_code ignored;  // a folder that is not there holds none
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored)) {
+    const std::filesystem::path path = entry.path();
+    const bool is_partial = path.extension() == ".partial";
+    const long number = number_in(is_partial ? path.parent_path() / path.stem() : path);
+    if (number >= first || (is_partial && number >= 0)) found.emplace_back(number, path);
+  }
+  std::ranges::sort(found, std::greater<>());
+  for (const auto& [number, path] : found)
+    if (!std::filesystem::remove(path, ignored) && ignored)
+      throw std::runtime_error(path.string() + ": cannot be removed: " + ignored.message());
+  std::filesystem::remove(folder_, ignored);  // if nothing is left in it
+}
+
+}  // namespace foldproof
