@@ -81,6 +81,7 @@ NAMES = [("min", "max"), ("sin", "cos"), ("asin", "acos"), ("true", "false"), ("
          ("exact", "semidefinite"), ("rest", "current"), ("break", "continue"), ("extension", "compression")]
 NEIGHBOURS = {name: other for pair in NAMES for name, other in (pair, pair[::-1])}
 VALUES = {"0": ["1"], "0.0": ["1.0"], "1": ["2", "0"], "2": ["1", "3"], "0.5": ["0.6"]}
+LANGUAGE = {"min", "max", "sin", "cos", "asin", "acos", "true", "false", "break", "continue"}  # there without being named
 UNARY_AFTER = {"(", ",", "=", "return", "[", "{", "?", ":", "&&", "||", "+", "*", "/", "<", ">", "<=", ">=", "+=", "-="}
 
 
@@ -146,7 +147,8 @@ def of_name(text: str, tokens: list[Token], k: int) -> Iterator[Change]:
     token = tokens[k]
     before = tokens[k - 1] if k > 0 else token
     follows = tokens[k + 1].text if k + 1 < len(tokens) else ""
-    declares = (before.kind == "word" and before.text not in ("return", "throw")) or (before.text == "," and follows == "=") or is_bound(tokens, k)
+    is_second = before.text == "," and follows == "="  # of several that one type declares
+    declares = (before.kind == "word" and before.text not in ("return", "throw")) or is_second or is_bound(tokens, k)
     if token.kind != "word" or declares or (before.text in ("&", "&&", "*") and not is_spaced(text, before)):
         return
     known = {other.text for other in tokens}
@@ -154,7 +156,7 @@ def of_name(text: str, tokens: list[Token], k: int) -> Iterator[Change]:
     others = [f"{numbered[1]}{(int(numbered[2]) + step)}" for step in (-1, 1)] if numbered else []
     others += [NEIGHBOURS[token.text]] if token.text in NEIGHBOURS else []
     for after in others:
-        if after in known or token.text in ("min", "max", "sin", "cos", "asin", "acos", "true", "false", "break", "continue"):
+        if after in known or token.text in LANGUAGE:
             yield Change(token.at, token.text, after, "name")
 
 
@@ -229,11 +231,11 @@ def statement_end(tokens: list[Token], k: int) -> int | None:
         depth += DEPTHS.get(tokens[i].text, 0)
         if depth < 0:
             return None
-        if depth == 0 and tokens[i].text == "}" and (i + 1 == len(tokens) or tokens[i + 1].text not in (";", ")", ",", ".")):
+        follows = tokens[i + 1].text if i + 1 < len(tokens) else ""
+        if depth == 0 and tokens[i].text == "}" and follows not in (";", ")", ",", "."):
             return None  # a block
         if depth == 0 and tokens[i].text == ";":
-            is_followed = i + 1 < len(tokens) and tokens[i + 1].text == "else"
-            return None if is_followed else i
+            return None if follows == "else" else i
     return None
 
 

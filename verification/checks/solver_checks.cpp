@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "reference/dynamics/system.h"
+#include "reference/mesh/shapes.h"
+#include "verification/checks/measured.h"
 #include "verification/checks/moving_scenes.h"
 #include "verification/checks/solver_problems.h"
 #include "verification/oracles/dense_algebra.h"
@@ -232,6 +234,41 @@ Finding rigid_finding(const Subject&) {
           ""};
 }
 
+/// |b - (M - s D) w| over |M w0|, weighted with the masses, of a problem without known velocities [1].
+double residual_left(const Problem& problem, double s, const PerParticle3& w) {
+  PerParticle3 damped = PerParticle3::Zero(3, w.cols());
+  problem.damping.add_product(w, damped);
+  const PerParticle& mass = problem.system.mass;
+  const PerParticle3 r = (problem.guess - w) * mass.asDiagonal() + s * damped;
+  const auto squared = [&](const PerParticle3& momentum) -> double {
+    return momentum.colwise().squaredNorm().dot(mass.cwiseInverse().transpose());
+  };
+  return std::sqrt(squared(r) / squared(problem.guess * mass.asDiagonal()));
+}
+
+Finding large_finding(const Subject&) {
+  constexpr double tolerance = 1e-7;
+  Measured measured("residual left", "of the tolerance");
+  for (const int cells :
+       {20, 22, 31, 45}) {  // 441, 529, 1024 and 2116 particles: less than one block, more, two, five
+    Scene scene = scene_of(make_sheet({SheetPattern::jittered, 0.7, 0.6, cells, cells, 0.2, 5}), 0.2);
+    scene.stretch = StretchMaterial{41, 0.053, 1};
+    scene.bending = BendingMaterial{0.0037, 0.00053, Weighting::rest, DampingFactor::edge, "sine"};
+    scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+    const Problem problem = make_problem(scene, 97);
+    PerParticle3 w = problem.guess;
+    Work work;
+    const SolverSettings settings{tolerance, 200, ResidualScale::momentum};
+    const Solve solve = solve_velocity(problem.damping, 3.1e-3, problem.system.mass,
+                                       problem.system.inverse_mass, settings, w, work);
+    measured.see(std::to_string(w.cols()) + " particles", residual_left(problem, 3.1e-3, w) / tolerance);
+    measured.see(std::to_string(w.cols()) + " particles, as returned",
+                 solve.converged ? solve.residual / tolerance : nan);
+  }
+  return measured.judged(1.05,
+                         "the tolerance, and what the iteration's residual and the true one drift apart");
+}
+
 }  // namespace
 
 std::vector<Check> solver_checks() {
@@ -249,6 +286,10 @@ std::vector<Check> solver_checks() {
       {"solver.iterations-are-the-number-of-distinct-eigenvalues",
        "The reference's solve takes as many iterations as the damping has distinct nonzero eigenvalues.",
        source, eigenvalue_finding},
+      {"solver.large-cloth-is-solved-too",
+       "Cloth of many particles, which the reference's solve takes block by block, is solved to the "
+       "tolerance.",
+       "algebra", large_finding},
       {"solver.cap-is-reported", "A solve of the reference that does not finish says so and is counted.",
        source, cap_finding},
       {"solver.operator-is-symmetric-positive-definite",

@@ -255,6 +255,45 @@ Finding memory_finding(const Subject& subject) {
   return measured.judged(0, "a step is a function of its states: bonds are in them and nowhere else");
 }
 
+/// A triangle that rests by itself, with particles about it, `distance` away on all six sides.
+struct Surrounded {
+  StickyPatch patch;
+  State state;
+};
+
+Surrounded surrounded(double near, double distance) {
+  Surrounded made;
+  made.patch.name = "triangle";
+  made.patch.triangles = {{0, 1, 2}};
+  made.patch.place = [](double) -> PerParticle3 {
+    return PerParticle3{{0.13, 0.93, 0.13}, {0.21, 0.21, 1.11}, {0.37, 0.37, 0.37}};
+  };
+  made.patch.particles = {0, 1, 2, 3, 4, 5};
+  made.patch.stiffness = 3.7;
+  made.patch.near = near;
+  made.patch.far = 0.3 * near;  // of what it sticks to where it is, a particle is no distance away
+  made.state = still_at(PerParticle3{{0.13 - distance, 0.93 + distance, 0.35, 0.13, 0.35, 0.35},
+                                     {0.41, 0.21, 0.21 - distance, 1.11 + distance, 0.41, 0.41},
+                                     {0.37, 0.37, 0.37, 0.37, 0.37 - distance, 0.37 + distance}});
+  return made;
+}
+
+Finding sides_finding(const Subject&) {
+  Measured measured("particles of six that stick wrongly", "1");
+  for (const double near : {0.051, 0.43})
+    for (const double part : {0.4, 0.99, 1.01}) {
+      Surrounded made = surrounded(near, part * near);
+      Sticking{{made.patch}}.renew_bonds(made.state);
+      const double expected = part < 1 ? 6 : 0;
+      measured.see(fmt::format("{} of near = {} m", part, near),
+                   std::abs(double(made.state.memory.bonds.size()) - expected));
+    }
+  return measured.judged(
+      0,
+      "a particle sticks just where its distance is at most `near`, on whatever side, however "
+      "soon bonds break");
+}
+
 }  // namespace
 
 std::vector<Check> sticking_bond_checks() {
@@ -263,6 +302,10 @@ std::vector<Check> sticking_bond_checks() {
            "A particle comes to stick, where it is, to every triangle of a patch within `near` that it is no "
            "corner of.",
            source, forms_finding},
+          {"sticking.forms-on-every-side",
+           "Particles stick to a surface that moves by itself within `near` of it on each of six sides, and "
+           "not beyond.",
+           source, sides_finding},
           {"sticking.renewing-twice-changes-nothing",
            "Bonds that were renewed stay as they are when renewed again.", "our reading of BMF03 section 6",
            renewal_finding},

@@ -2,9 +2,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "reference/dynamics/system.h"
+#include "reference/forces/degenerate.h"
 #include "verification/checks/differential_checks.h"
 #include "verification/checks/measured.h"
 #include "verification/checks/moving_scenes.h"
@@ -255,6 +258,55 @@ Finding bound_finding(const Subject& subject) {
       "particle shares a bond it is that sum, to roundings");
 }
 
+Finding beyond_reach_finding(const Subject& subject) {
+  Measured measured("largest force [N] or entry of its derivative [N/m]", "N or N/m");
+  for (StuckSpecimen specimen : stuck_layers()) {
+    specimen.scene.sticky[0].forecast_time = 0;
+    for (const std::vector<int>& bond : specimen.particles)
+      specimen.state.x.col(bond[0]) += 2.3 * specimen.patch().far * Vector3(0.6, 0.48, 0.64);
+    const PerParticle3 force = Probe(subject, specimen.scene).elastic(specimen.state);
+    measured.see(specimen.name + ", force", force.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
+    const Eigen::MatrixXd K = force_derivative(specimen.scene, specimen.state);
+    measured.see(specimen.name + ", derivative", K.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
+  }
+  return measured.judged(0, "beyond the distance at which bonds break the spring is none, not a weak one");
+}
+
+/// 0 if `act` throws DegenerateElement naming the particle, else 1.
+int is_silent(int particle, const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const DegenerateElement& error) {
+    return std::ranges::find(error.particles, particle) == error.particles.end();
+  }
+  return 1;
+}
+
+Finding lost_triangles_finding(const Subject& subject) {
+  Measured measured("questions answered without a report", "1");
+  for (StuckSpecimen specimen : stuck_layers()) {
+    const Probe probe(subject, specimen.scene);
+    const int particle = specimen.particles[0][0];
+    PerParticle3& x =
+        specimen.state.x;  // of the triangle that the first particle sticks to, two corners meet
+    x.col(specimen.particles[0][3]) = x.col(specimen.particles[0][1]);
+    measured.see(specimen.name + ", forces", is_silent(particle, [&] { probe.elastic(specimen.state); }));
+    measured.see(specimen.name + ", energy", is_silent(particle, [&] { probe.energy(specimen.state); }));
+  }
+  StickyPatch line;
+  line.name = "line";
+  line.triangles = {{0, 1, 2}};
+  line.place = [](double) -> PerParticle3 { return PerParticle3{{0.1, 0.3, 0.5}, {0, 0, 0}, {0, 0, 0}}; };
+  line.particles = {0};
+  line.stiffness = 3.7;
+  line.near = 0.05;
+  line.far = 0.09;
+  State s = still_at(PerParticle3{{0.2}, {0.01}, {0.02}});
+  measured.see("a bond about to form", is_silent(0, [&] { Sticking{{line}}.renew_bonds(s); }));
+  return measured.judged(
+      0, "forces, energy and new bonds must throw DegenerateElement naming the particle that sticks");
+}
+
 }  // namespace
 
 std::vector<Check> sticking_force_checks() {
@@ -287,6 +339,14 @@ std::vector<Check> sticking_force_checks() {
       {"sticking.differential-matches-forces",
        "The reference's derivative of sticking forces by the positions is that of the subject's forces.",
        "calculus; the fully implicit methods need it", derivative_finding},
+      {"sticking.ends-where-bonds-break",
+       "Farther from its target than the distance at which bonds break, a particle feels nothing, and its "
+       "force does "
+       "not change with its place.",
+       source, beyond_reach_finding},
+      {"sticking.lost-triangles-are-reported",
+       "A triangle that is stuck to and has lost its area is reported with the particle that sticks to it.",
+       "a rule of this suite: nothing fails in silence", lost_triangles_finding},
       {"sticking.bounds-hold",
        "The reference's bounds on frequencies and damping rates are bounds where cloth sticks.",
        "Gershgorin 1931", bound_finding}};
