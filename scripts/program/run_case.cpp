@@ -38,6 +38,7 @@ Observer writing_checkpoints(const Observer& observer, const CheckpointFolder& c
             observer.step(row);
           },
           [&](const Checkpoint& now) {
+            observer.checkpoint(now);
             checkpoints.write({now, rows});
             rows.clear();
           }};
@@ -50,6 +51,7 @@ Runner from_checkpoints(const Scene& scene, const CheckpointFolder& checkpoints,
     const auto replay = [&](const CheckpointRecord& record) {
       for (const Diagnostics& row : record.rows) observer.step(row);
       observer.frame(record.at.past.back());
+      observer.checkpoint(record.at);
     };
     if (start == Start::anew)
       checkpoints.remove_from(0);
@@ -78,6 +80,10 @@ std::vector<Record> judged_run(const Case& shown, const Runner& run, const Obser
                    judge.enter(row);
                    if (also.step) also.step(row);
                    progress(row.time / shown.scene.schedule.end);
+                 },
+                 [&](const Checkpoint& now) {
+                   judge.enter(now);
+                   if (also.checkpoint) also.checkpoint(now);
                  }});
   return judge.judged(outcome);
 }

@@ -74,6 +74,9 @@ Case with_usual_expectations(Case shown) {
          "for a force that is not the gradient of its energy"},
         shown.expectations);
   add_unless_stated(
+      {"repeats_itself", 0, "the same numbers in the same order give the same bits, whoever asks"},
+      shown.expectations);
+  add_unless_stated(
       {"crosses_itself", 0,
        scene.self_collision ? "what starts free of crossings stays free of them: repulsion and impulses may "
                               "fail, impact zones may not"

@@ -30,7 +30,7 @@ void CaseJudge::enter(const State& frame) {
 
 std::vector<Record> CaseJudge::judged(const Outcome& outcome) const {
   std::vector<Record> records;
-  const RunSeen run{case_.scene, book_, outcome};
+  const RunSeen run{case_.scene, book_, outcome, repetition_};
   for (size_t k = 0; k < seen_.size(); ++k) {
     const Expectation& expectation = case_.expectations[k];
     const Quantity& quantity = *find_quantity(expectation.key);

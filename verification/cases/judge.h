@@ -8,12 +8,16 @@
 
 namespace foldproof {
 
-/// Give it every row of diagnostics and every frame of the run; then ask.
+/// Give it every row of diagnostics, every frame and every checkpoint of the run; then ask.
 class CaseJudge {
  public:
-  explicit CaseJudge(const Case& of) : case_(of), seen_(of.expectations.size()) {}
+  explicit CaseJudge(const Case& of) : case_(of), repetition_(of.scene), seen_(of.expectations.size()) {}
 
-  void enter(const Diagnostics& row) { book_.enter(row, case_.scene.schedule.end); }
+  void enter(const Diagnostics& row) {
+    book_.enter(row, case_.scene.schedule.end);
+    repetition_.enter(row);
+  }
+  void enter(const Checkpoint& at) { repetition_.enter(at); }
   void enter(const State& frame);
 
   /// One record for each expectation, named finding_name(...). Of a run that stopped, all but
@@ -23,6 +27,7 @@ class CaseJudge {
  private:
   const Case& case_;
   RunBook book_;
+  Repetition repetition_;
   std::vector<Worst> seen_;  // largest over the frames, one for each expectation
 };
 

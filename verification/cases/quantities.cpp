@@ -152,6 +152,8 @@ double shift_aside(const Scene& scene, const State& s) {
   return (moved - moved.dot(down) * down).norm();
 }
 
+double repeated(const RunSeen& run) { return run.repetition.steps_that_differ(); }
+
 // ---- refusals
 
 std::string without_plane(const Scene& scene) {
@@ -204,6 +206,11 @@ std::vector<Quantity> quantities_of_the_run() {
   return {
       {"runs_to_its_end", "stops", "The run reaches its end with finite values.", Sense::at_most, nullptr,
        stops, nullptr},
+      {"repeats_itself", "steps",
+       "Ten steps after the start, after the middle frame and before the last have the same bits when they "
+       "are taken again, "
+       "in another thread.",
+       Sense::at_most, nullptr, repeated, nullptr},
       {"takes_steps", "steps", "The run takes as many steps as it should.", Sense::at_least, nullptr, steps,
        nullptr},
       {"solves_finish", "solves", "The linear solves keep their tolerance before their cap on iterations.",

@@ -7,6 +7,7 @@
 
 #include "reference/dynamics/simulate.h"
 #include "reference/scene/scene.h"
+#include "verification/cases/repetition.h"
 #include "verification/check.h"
 
 namespace foldproof {
@@ -34,6 +35,7 @@ struct RunSeen {
   const Scene& scene;
   const RunBook& book;
   const Outcome& outcome;
+  const Repetition& repetition;
 };
 
 enum class Sense { at_most, at_least };

@@ -66,19 +66,23 @@ TEST_CASE("expect: what is wrong is refused with its line") {
                     Contains("trial.toml:14") && Contains("no [bending]"));
 }
 
-TEST_CASE("expect: shipped cases must end, must not cross themselves, and account for their energy unless they say otherwise") {
+TEST_CASE(
+    "expect: shipped cases must end, must not cross themselves, and account for their energy unless they say "
+    "otherwise") {
   const Case usual = with_usual_expectations(trial(""));
-  REQUIRE(usual.expectations.size() == 3);
+  REQUIRE(usual.expectations.size() == 4);
   CHECK(usual.expectations[0].key == "runs_to_its_end");
   CHECK(usual.expectations[1].key == "energy_is_accounted_for");
-  CHECK(usual.expectations[2].key == "crosses_itself");
+  CHECK(usual.expectations[2].key == "repeats_itself");
   CHECK(usual.expectations[2].bound == 0);
+  CHECK(usual.expectations[3].key == "crosses_itself");
+  CHECK(usual.expectations[3].bound == 0);
   const Case own =
       with_usual_expectations(trial("[expect.energy_is_accounted_for]\nat_most = 0.3\nwhy = \"w\"\n"));
-  REQUIRE(own.expectations.size() == 3);
+  REQUIRE(own.expectations.size() == 4);
   CHECK(own.expectations[0].bound == 0.3);
   const Case driven = with_usual_expectations(trial("[[hold]]\nparticles = [0]\nvelocity = [0, 0, 1]\n"));
-  CHECK(driven.expectations.size() == 2);
+  CHECK(driven.expectations.size() == 3);
 }
 
 TEST_CASE("expect: what crosses is counted, and a case that keeps cloth from itself gives its own reason") {
@@ -92,9 +96,9 @@ TEST_CASE("expect: what crosses is counted, and a case that keeps cloth from its
   shown.scene.self_collision = SelfCollisionSettings{0.01, 1, 0, 8, true};
   shown.expectations.clear();
   const Case usual = with_usual_expectations(shown);
-  REQUIRE(usual.expectations.size() == 2);
-  CHECK(usual.expectations[1].key == "crosses_itself");
-  CHECK_THAT(usual.expectations[1].why, Contains("impact zones"));
+  REQUIRE(usual.expectations.size() == 3);
+  CHECK(usual.expectations[2].key == "crosses_itself");
+  CHECK_THAT(usual.expectations[2].why, Contains("impact zones"));
 }
 
 TEST_CASE("expect: a bound that is kept holds, one that is not fails, and a run that stops says nothing") {

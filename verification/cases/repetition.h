@@ -1,0 +1,35 @@
+// Does a run repeat itself to the bit? Parts of it are run again, in a thread of their own.
+#pragma once
+
+#include <vector>
+
+#include "reference/dynamics/simulate.h"
+#include "reference/scene/scene.h"
+
+namespace foldproof {
+
+/// Give it every checkpoint and every row of diagnostics of a run; then ask. It keeps the state at the start, in the
+/// middle and before the last frame, and the ten steps after each.
+class Repetition {
+ public:
+  /// scene: must outlive it.
+  explicit Repetition(const Scene& scene) : scene_(scene) {}
+
+  void enter(const Checkpoint& at);
+  void enter(const Diagnostics& row);
+
+  /// Goes on from the kept states anew, with a system built anew, and counts the steps whose diagnostics have other bits
+  /// than before, clock time apart, and those that are missing. NaN if no step was seen.
+  double steps_that_differ() const;
+
+ private:
+  struct Part {
+    Checkpoint from;
+    std::vector<Diagnostics> rows;
+  };
+
+  const Scene& scene_;
+  std::vector<Part> parts_;
+};
+
+}  // namespace foldproof
