@@ -1,4 +1,4 @@
-// Runs checks, studies and cases on all cores.
+// Runs checks, studies and cases on several cores.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,14 @@ struct Job {
       run;  // records, studies and cases, to be added to those of the others
 };
 
-/// Runs the jobs, the longest first, one a core; says a line about each finding that does not hold, and adds what they
-/// made to the run in the order of the jobs. What a job throws is thrown when all are done.
-void run_jobs(const std::vector<Job>& jobs, const std::string& label, RunRecord& run);
+/// In which way jobs are run. No number that a job measures depends on it, seconds excepted.
+struct Running {
+  unsigned threads = 0;  // jobs at a time; 0: one a core
+  unsigned order = 0;    // 0: the longest first; else shuffled, each number another order
+};
+
+/// Runs the jobs; says a line about each finding that does not hold, and adds what they made to the run in the order of
+/// the list. What a job throws is thrown when all are done.
+void run_jobs(const std::vector<Job>& jobs, const std::string& label, const Running& how, RunRecord& run);
 
 }  // namespace foldproof
