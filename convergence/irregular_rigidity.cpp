@@ -6,6 +6,7 @@
 
 #include "convergence/gentle_sheet.h"
 #include "reference/mesh/shapes.h"
+#include "verification/seeds.h"
 
 namespace foldproof {
 
@@ -60,7 +61,7 @@ struct Effort {
 };
 
 TriangleMesh mesh_of(const Disorder& disorder, int cells, unsigned seed) {
-  Sheet sheet{disorder.pattern, gentle_side, gentle_side, cells, cells, disorder.jitter, seed};
+  Sheet sheet{disorder.pattern, gentle_side, gentle_side, cells, cells, disorder.jitter, shifted(seed)};
   if (disorder.pattern == SheetPattern::jittered) {
     sheet.rows = int(std::lround(cells * 2 / std::numbers::sqrt3));
     sheet.height = 0;

@@ -8,6 +8,7 @@
 #include "reference/level_set/deforming.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/mesh/shapes.h"
+#include "verification/seeds.h"
 
 namespace foldproof {
 
@@ -30,7 +31,7 @@ OctreeSettings settings_to(int depth) {
 
 /// Points within 2 cm of the surface at the middle time.
 std::vector<Vector3> points_near(const MeshDistance& mesh) {
-  std::mt19937 random(33301);
+  std::mt19937 random(shifted(33301));
   std::uniform_real_distribution<double> along(-0.4, 0.4), height(-0.02, 0.02);
   std::vector<Vector3> points;
   while (points.size() < 1500) {

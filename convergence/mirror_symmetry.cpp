@@ -5,6 +5,7 @@
 
 #include "convergence/studies.h"
 #include "reference/mesh/shapes.h"
+#include "verification/seeds.h"
 #include "verification/subject.h"
 
 namespace foldproof {
@@ -71,7 +72,7 @@ History asymmetry_of_run(const Subject& subject, const Scene& scene, double end)
 }
 
 Scene disturbed(Scene scene) {
-  std::mt19937_64 random(77);
+  std::mt19937_64 random(shifted(77));
   for (double& component : scene.x.reshaped())
     component += disturbance * (2 * double(random() >> 11) * 0x1p-53 - 1);
   for (PrescribedParticle& p : scene.led) p.start = scene.x.col(p.particle);

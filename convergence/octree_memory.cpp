@@ -10,6 +10,7 @@
 #include "reference/level_set/octree_nodes.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/processor_time.h"
+#include "verification/seeds.h"
 
 namespace foldproof {
 
@@ -48,7 +49,7 @@ std::vector<Body> bodies() {
 
 /// Points within the band: from random ones down to the surface and out again along N.
 std::vector<Vector3> points_in_band(const Body& body, double band) {
-  std::mt19937 random(60013);
+  std::mt19937 random(shifted(60013));
   std::uniform_real_distribution<double> along(-0.5, 0.5), height(-band, band);
   std::vector<Vector3> points;
   while (points.size() < 8000) {

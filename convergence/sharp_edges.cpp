@@ -9,6 +9,7 @@
 #include "convergence/studies.h"
 #include "reference/level_set/grid.h"
 #include "reference/level_set/octree.h"
+#include "verification/seeds.h"
 
 namespace foldproof {
 
@@ -37,7 +38,7 @@ struct EdgePoint {
 };
 
 std::vector<EdgePoint> edge_points(const Askew& body, double h) {
-  std::mt19937_64 random(97);
+  std::mt19937_64 random(shifted(97));
   const auto unit = [&] { return double(random() >> 11) * 0x1p-53; };
   std::vector<EdgePoint> points;
   for (int i = 0; i < 6000; ++i) {

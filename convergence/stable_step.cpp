@@ -5,6 +5,7 @@
 #include <random>
 
 #include "reference/mesh/shapes.h"
+#include "verification/seeds.h"
 
 namespace foldproof {
 
@@ -37,7 +38,7 @@ Fate fate_of(const Trial& trial, double h) {
 }  // namespace
 
 PerParticle3 disturbance_shape(Eigen::Index n) {
-  std::mt19937_64 generator(6021);
+  std::mt19937_64 generator(shifted(6021));
   PerParticle3 values(3, n);
   for (Eigen::Index i = 0; i < values.size(); ++i)
     values.data()[i] = double(generator() >> 11) * 0x1p-53 - 0.5;
@@ -93,7 +94,7 @@ FastestMode fastest_mode(const Subject& subject, const Scene& scene) {
 
 double largest_stable_step(const Subject& subject, const Scene& scene, double omega,
                            const StepSearch& search) {
-    const auto prepared = offered(subject.prepare, "prepare")(scene);
+  const auto prepared = offered(subject.prepare, "prepare")(scene);
   offered(subject.step, "step");
   const Trial trial{subject, scene, *prepared, search.steps};
   double below = search.low, above = search.high;

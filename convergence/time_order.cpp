@@ -6,6 +6,7 @@
 
 #include "convergence/order.h"
 #include "reference/dynamics/integrator.h"
+#include "verification/seeds.h"
 
 namespace foldproof {
 
@@ -230,7 +231,7 @@ namespace {
 std::vector<double> random_steps(double ratio) {
   constexpr int length = 8;
   std::vector<double> steps;
-  std::mt19937_64 generator(20030726);
+  std::mt19937_64 generator(shifted(20030726));
   double sum = 0;
   for (int i = 0; i < length; ++i) {
     const double uniform = double(generator() >> 11) * 0x1p-53;

@@ -86,6 +86,18 @@ void add_cache(CLI::App* command, Options& options) {
       "Folder that keeps the level sets of meshes for later runs; the results are the same to the bit");
 }
 
+/// How checks, studies and cases are run, and on which samples.
+void add_running(CLI::App* command, Options& options) {
+  command
+      ->add_option("--seed", options.seed_shift,
+                   "Shifts the seeds of all random samples: 0 for those that the project is judged by")
+      ->check(CLI::Range(0, 1'000'000'000))
+      ->capture_default_str();
+  command->add_option("--threads", options.running.threads, "Jobs at a time (default: one a core)");
+  command->add_option("--order", options.running.order,
+                      "Shuffles the jobs, each number in another way (default: the longest first)");
+}
+
 /// check and study: they write files only if a folder is named.
 void add_selections(CLI::App& app, Options& options) {
   for (CLI::App* command :
@@ -97,6 +109,7 @@ void add_selections(CLI::App& app, Options& options) {
     command->parse_complete_callback([&options, command] {
       if (command->count("--out") == 0) options.out = "";
     });
+    add_running(command, options);
     add_tier(command, options);
     add_json(command, options);
   }
@@ -115,6 +128,7 @@ void add_runs(CLI::App& app, Options& options) {
                                      "All checks, studies and cases, the claims, and the report", verify);
   everything->add_flag("--no-report", options.no_report, "Write the results only");
   everything->add_flag("--no-bench", options.no_bench, "Measure no speeds");
+  add_running(everything, options);
   add_tier(everything, options);
   CLI::App* speed =
       add_command(app, options, "bench", "Measure speed and memory; writes bench.h5", run_bench);

@@ -22,6 +22,8 @@ PROGRAM = Path(sys.argv.pop(2)) if sys.argv[1:2] == ["--program"] else ROOT / "b
 
 HINGE_ROW = [0.03, 0.12, 0.01, 0.05, -0.09, 0.04, 0, 0, 0, 0.11, 0.005, -0.003]  # x1 x2 x3 x4
 
+SECONDS = ("solver.cached-terms-save-time",)  # checks that measure time, and so never the same
+
 
 def run(*arguments: str, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
     return subprocess.run([str(PROGRAM), *arguments], cwd=folder, capture_output=True, text=True, check=False)
@@ -269,6 +271,38 @@ step = 0.001
         done = run("evaluate", "bending", self.write("rows.csv", "# heading\n1,2,x\n"))
         self.assertEqual(done.returncode, 2)
         self.assertIn("rows.csv:2", done.stderr)
+
+    def test_evaluate_refuses_what_no_double_holds(self) -> None:
+        row = [1e160 * x for x in HINGE_ROW] + 12 * [0] + [1e300, 0, 0.4]
+        done = run("evaluate", "bending", self.write("huge.csv", ",".join(map(str, row)) + "\n"))
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("huge.csv:1", done.stderr)
+        large = "\n".join(["1" + 400 * "0" + ",1,0,1,0,1,0"] * 8)
+        done = run("evaluate", "crossings", self.write("large.csv", large), "--kind", "edge-edge")
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("large.csv:1: a coordinate does not fit a double", done.stderr)
+        long = large.replace("1" + 400 * "0", 1001 * "1")
+        done = run("evaluate", "crossings", self.write("long.csv", long), "--kind", "edge-edge")
+        self.assertIn("long.csv:1: a number has more than 1000 digits", done.stderr)
+
+    def test_checks_measure_the_same_on_any_number_of_threads_and_in_any_order(self) -> None:
+        def measured(*how: str) -> dict[str, tuple[float, float, float]]:
+            told = json.loads(run("check", *how, "--json").stdout)
+            rows = [row for row in told["findings"] if row["kind"] == "check" and row["name"] not in SECONDS]
+            return {row["name"]: (row["measured"], row["uncertainty"], row["bound"]) for row in rows}
+
+        alone = measured("--threads", "1")
+        self.assertGreater(len(alone), 300)
+        self.assertEqual(alone, measured("--threads", "2", "--order", "1"))
+        self.assertEqual(alone, measured("--threads", "2", "--order", "2"))
+
+    def test_a_shift_of_seeds_gives_other_samples_and_is_recorded(self) -> None:
+        told = [json.loads(run("check", "bending.forces-sum-to-zero", "--seed", seed, "--json", "--out",
+                               str(self.path / "out")).stdout) for seed in ("0", "7")]
+        self.assertEqual([one["program"]["seed"] for one in told], [0, 7])
+        self.assertNotEqual(*(one["findings"][0]["measured"] for one in told))
+        with h5py.File(self.path / "out/run.h5") as file:
+            self.assertEqual(file.attrs["seed"], 7)
 
     def test_an_unknown_check_is_refused_with_neighbours(self) -> None:
         done = run("check", "bending.forces-sum-to-zer")

@@ -76,7 +76,7 @@ void write_run(const std::string& path, const RunRecord& run) {
   write_hdf5(path, [&](const Hdf5& file) {
     write_provenance(file, run.provenance);
     file.attribute("tier", run.tier);
-    file.attribute("seed", 1);
+    file.attribute("seed", int(run.seed));
     file.attribute("subject", run.subject);
     file.attribute("subject_version", run.subject_version);
     file.attribute("seconds", run.seconds);

@@ -27,6 +27,7 @@ struct Fault {
 struct RunRecord {
   Provenance provenance;
   std::string tier, subject, subject_version;
+  unsigned seed = 0;  // by which the seeds of all samples were shifted (seeds.h)
   double seconds = 0;
   std::vector<Record> records;
   std::vector<StudyRecord> studies;

@@ -20,7 +20,7 @@ Scene scene_of_text(const std::string& text, const std::string& path, const Leve
     end = at;
     at = at == 0 ? std::string::npos : text.rfind(mark, at - 1);
   }
-  return read_scene_text(text.substr(0, end), path, overrides, makers);
+  return read_scene_text(text.substr(0, end), path, overrides, makers, {});
 }
 
 }  // namespace

@@ -117,6 +117,7 @@ std::string verdicts_json(const RunRecord& run) {
                            {"date", p.date},
                            {"command", p.command},
                            {"tier", run.tier},
+                           {"seed", run.seed},
                            {"subject", run.subject}}},
                          {"findings", nlohmann::json::array()}};
   for (const Record& record : run.records) json["findings"].push_back(as_json(record));

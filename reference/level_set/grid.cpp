@@ -104,9 +104,10 @@ Node Lattice::node(long index) const {
 Bounds Lattice::bounds() const { return {origin, position({nodes[0] - 1, nodes[1] - 1, nodes[2] - 1})}; }
 
 Lattice lattice_about(const Bounds& bounds, int cells, int margin) {
-  if (cells < 4 || margin < 1)
+  constexpr int most = 1 << 20;  // lattices that large have too many nodes, but their number is a long
+  if (cells < 4 || margin < 1 || cells > most || margin > most)
     throw InputError("grid: " + std::to_string(cells) + " cells along the longest side and a margin of " +
-                     std::to_string(margin) + "; give at least 4 and 1");
+                     std::to_string(margin) + "; give at least 4 and 1, and at most 2^20");
   const Vector3 sizes = bounds.sizes();
   if (!(sizes.maxCoeff() > 0) || !sizes.allFinite())
     throw InputError("grid: the bounds to be covered have no extent; give a surface with positions in m");

@@ -7,7 +7,8 @@ namespace foldproof {
 
 namespace {
 
-constexpr int centre = 13;  // of the nodes of a branch
+constexpr int centre = 13;                      // of the nodes of a branch
+constexpr std::size_t most_branches = 1 << 24;  // about 5 GB while they grow
 
 double cell_width(const OctreeSettings& settings, int level) { return std::ldexp(settings.width, -level); }
 
@@ -35,6 +36,8 @@ Samples sampled(OctreeGrowth& growth, const std::vector<int>& parts, const Octre
 }
 
 int add_branch(OctreeGrowth& growth, const OctreePlace& place, const Samples& samples) {
+  if (growth.branches.size() >= most_branches)
+    throw InputError("octree: more than 2^24 branches; give fewer cells, or a larger tolerance");
   const int channels = int(growth.part.size());
   growth.part.insert(growth.part.end(), samples.part.begin(), samples.part.end());
   growth.phi.insert(growth.phi.end(), samples.phi.begin(), samples.phi.end());

@@ -174,14 +174,15 @@ void read_face(Cursor& cursor, Contents& contents) {
     refuse(cursor.file, line, "a face of " + std::to_string(count) + " vertices; give at least three");
 }
 
-/// The words of a record, each once.
+/// The words of a record, each once. Every face that follows is entered under each of them, so that without a limit a
+/// file could ask for memory that grows as the square of its length.
 std::vector<std::string> read_names(Cursor& cursor) {
   std::vector<std::string> names;
   for (std::string_view word = next_word(cursor); !word.empty(); word = next_word(cursor)) {
     if (std::ranges::find(names, word) != names.end()) continue;
     if (names.size() == most_names)
       refuse(cursor.file, cursor.line,
-             "a face of more than " + std::to_string(most_names) + " groups at once");
+             "more than " + std::to_string(most_names) + " names of groups in a record; give fewer");
     names.emplace_back(word);
   }
   return names;
@@ -200,12 +201,11 @@ void refuse_missing_vertices(const Contents& contents) {
 }
 
 /// All records of a file, and no more.
-Contents contents_of(const std::string& path) {
-  const std::string text = read_text_file(path, table_text_limits);
-  if (text.empty()) refuse(path, 1, "the file is empty; give v and f records");
+Contents contents_of(std::string_view text, const std::string& file) {
+  if (text.empty()) refuse(file, 1, "the file is empty; give v and f records");
   Contents contents;
-  contents.origin.file = path;
-  Cursor cursor{text, path};
+  contents.origin.file = file;
+  Cursor cursor{text, file};
   if (cursor.text.starts_with("\xEF\xBB\xBF")) cursor.at = 3;  // the mark that some editors put before UTF-8
   while (cursor.at < text.size()) {
     const std::string_view record = next_word(cursor);
@@ -216,13 +216,13 @@ Contents contents_of(const std::string& path) {
     skip_rest_of_record(cursor);
   }
   if (contents.triangles.empty())
-    refuse(path, cursor.line - 1, "the file ends without a face; give f records");
+    refuse(file, cursor.line - 1, "the file ends without a face; give f records");
   refuse_missing_vertices(contents);
   return contents;
 }
 
-TriangleSoup soup_of(const std::string& path) {
-  Contents contents = contents_of(path);
+TriangleSoup soup_of(std::string_view text, const std::string& file) {
+  Contents contents = contents_of(text, file);
   PerParticle3 rest(3, contents.vertices.size());
   for (size_t v = 0; v < contents.vertices.size(); ++v) rest.col(v) = contents.vertices[v];
   return {std::move(rest), std::move(contents.triangles), std::move(contents.origin)};
@@ -230,20 +230,34 @@ TriangleSoup soup_of(const std::string& path) {
 
 }  // namespace
 
-TriangleMesh read_obj(const std::string& path) {
-  TriangleSoup soup = soup_of(path);
+TriangleMesh read_obj_text(std::string_view text, const std::string& file) {
+  TriangleSoup soup = soup_of(text, file);
   return make_triangle_mesh(std::move(soup.rest), std::move(soup.triangles), soup.origin);
 }
 
-FaceGroups read_obj_groups(const std::string& path) { return contents_of(path).groups; }
+FaceGroups read_obj_groups_text(std::string_view text, const std::string& file) {
+  return contents_of(text, file).groups;
+}
 
-TriangleSoup read_obj_soup(const std::string& path) {
-  TriangleSoup soup = soup_of(path);
+TriangleSoup read_obj_soup_text(std::string_view text, const std::string& file) {
+  TriangleSoup soup = soup_of(text, file);
   for (Eigen::Index v = 0; v < soup.rest.cols(); ++v) {
     if (!soup.rest.col(v).allFinite())
-      refuse(path, soup.origin.vertex_lines[v], "a coordinate is not finite; give numbers in m");
+      refuse(file, soup.origin.vertex_lines[v], "a coordinate is not finite; give numbers in m");
   }
   return soup;
+}
+
+TriangleMesh read_obj(const std::string& path) {
+  return read_obj_text(read_text_file(path, table_text_limits), path);
+}
+
+FaceGroups read_obj_groups(const std::string& path) {
+  return read_obj_groups_text(read_text_file(path, table_text_limits), path);
+}
+
+TriangleSoup read_obj_soup(const std::string& path) {
+  return read_obj_soup_text(read_text_file(path, table_text_limits), path);
 }
 
 void write_obj(const std::string& path, const PerParticle3& positions,

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reference/mesh/triangle_mesh.h"
@@ -28,7 +29,13 @@ TriangleSoup read_obj_soup(const std::string& path);
 /// Triangles by the name of their group, as read_obj numbers them: those of the faces after 'g NAME ...' or 'o NAME', until
 /// the next record of the same letter. A name that stands twice is one group; a face may be of several.
 using FaceGroups = std::map<std::string, std::vector<int>>;
+/// Throws InputError "FILE:LINE: ..." for what read_obj refuses of the text, and for more than 100 names in a record.
 FaceGroups read_obj_groups(const std::string& path);
+
+/// The same three of a file's text; `file` names it in messages.
+TriangleMesh read_obj_text(std::string_view text, const std::string& file);
+TriangleSoup read_obj_soup_text(std::string_view text, const std::string& file);
+FaceGroups read_obj_groups_text(std::string_view text, const std::string& file);
 
 /// Writes positions (3 x N [m]) and triangles. With 17 significant digits read_obj gets every bit back.
 /// Throws InputError: a file that cannot be written, a triangle with an index outside 0 .. N - 1.

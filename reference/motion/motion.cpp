@@ -44,7 +44,7 @@ std::vector<double> event_times(const std::vector<PrescribedParticle>& led, doub
     for (const double time : {p.motion.from, p.motion.until})
       if (time > start && std::isfinite(time)) times.push_back(time);
   std::ranges::sort(times);
-  times.erase(std::ranges::unique(times).begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }
 

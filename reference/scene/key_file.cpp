@@ -11,35 +11,46 @@ namespace foldproof {
 
 namespace {
 
+constexpr int most_nested = 32;  // tables and lists in each other
+constexpr int most_dots = 200;   // in a line
+
 std::string place(const std::string& file, const toml::source_region& source) {
   return source.begin.line == 0 || file.starts_with("--") ? file
                                                           : file + ":" + std::to_string(source.begin.line);
 }
 
-std::shared_ptr<KeyTable> converted(const toml::table& table, const std::string& name,
-                                    const std::string& file);
+/// What is converted: its full name, its file, and how many tables and lists it is in.
+struct Place {
+  std::string name;
+  const std::string& file;
+  int depth = 0;
+};
 
-KeyValue converted(const toml::node& node, const std::string& name, const std::string& file) {
-  const std::string where = place(file, node.source());
+std::shared_ptr<KeyTable> converted(const toml::table& table, const Place& at);
+
+KeyValue converted(const toml::node& node, const Place& at) {
+  const std::string &name = at.name, where = place(at.file, node.source());
+  if (at.depth > most_nested)
+    throw InputError(where + ": tables and lists in more than " + std::to_string(most_nested) + " others");
   if (const auto* value = node.as_boolean()) return {value->get(), where};
   if (const auto* value = node.as_integer()) return {long(value->get()), where};
   if (const auto* value = node.as_floating_point()) return {value->get(), where};
   if (const auto* value = node.as_string()) return {value->get(), where};
-  if (const auto* value = node.as_table()) return {converted(*value, name, file), where};
+  if (const auto* value = node.as_table()) return {converted(*value, at), where};
   if (const auto* list = node.as_array()) {
     std::vector<KeyValue> values;
-    for (const toml::node& entry : *list) values.push_back(converted(entry, name, file));
+    for (const toml::node& entry : *list) values.push_back(converted(entry, {name, at.file, at.depth + 1}));
     return {values, where};
   }
   throw InputError(where + ": '" + name + "' is a date or time, which no key takes");
 }
 
-std::shared_ptr<KeyTable> converted(const toml::table& table, const std::string& name,
-                                    const std::string& file) {
+std::shared_ptr<KeyTable> converted(const toml::table& table, const Place& at) {
+  const auto& [name, file, depth] = at;
   auto result = std::make_shared<KeyTable>(name, place(file, table.source()));
   for (const auto& [key, node] : table) {
     const std::string full = name.empty() ? std::string(key) : name + "." + std::string(key);
-    KeyValue value = converted(node, full, file);
+    KeyValue value = converted(node, {full, file, depth + 1});
     value.where = file.starts_with("--") ? file : file + ":" + std::to_string(key.source().begin.line);
     result->entries.emplace(std::string(key), std::move(value));
   }
@@ -221,9 +232,29 @@ void KeyTable::refuse_unused() const {
   }
 }
 
+namespace {
+
+/// A key of as many parts as a line has room for would nest as many tables, and the parser's stack with them: a line
+/// may have a few hundred dots, in whatever meaning.
+void refuse_long_keys(const std::string& text, const std::string& file) {
+  int line = 1, dots = 0;
+  for (const char c : text) {
+    if (c == '\n') {
+      ++line;
+      dots = 0;
+    }
+    if (c == '.' && ++dots > most_dots)
+      throw InputError(file + ":" + std::to_string(line) + ": more than " + std::to_string(most_dots) +
+                       " dots; break the line");
+  }
+}
+
+}  // namespace
+
 std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file) {
+  refuse_long_keys(text, file);
   try {
-    return converted(toml::parse(text, file), "", file);
+    return converted(toml::parse(text, file), Place{"", file});
   } catch (const toml::parse_error& error) {
     throw InputError(place(file, error.source()) + ": " + std::string(error.description()));
   }
@@ -233,7 +264,8 @@ namespace {
 
 KeyValue parsed_value(const std::string& text) {
   try {
-    return converted(*toml::parse("value = " + text).get("value"), "value", "--set");
+    const std::string file = "--set";
+    return converted(*toml::parse("value = " + text).get("value"), Place{"value", file});
   } catch (const toml::parse_error&) {
     return {text, "--set"};
   }
@@ -276,6 +308,9 @@ void set_key(KeyTable& root, const std::string& assignment) {
   for (std::string step; std::getline(steps, step, '.');) path.push_back(step);
   if (equals == std::string::npos || path.empty())
     throw InputError("--set " + assignment + ": write table.key=value");
+  if (path.size() > size_t(most_nested))
+    throw InputError("--set " + assignment + ": a key in more than " + std::to_string(most_nested) +
+                     " tables");
 
   KeyTable* table = &root;
   for (size_t k = 0; k + 1 < path.size(); ++k) {

@@ -1,8 +1,11 @@
 #include "reference/scene/key_values.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <iterator>
+
+#include "reference/scene/scene_limits.h"
 
 namespace foldproof {
 
@@ -27,6 +30,15 @@ long count_or(const KeyTable& keys, const std::string& key, long otherwise) {
   if (!(value >= 1 && value <= 1'000'000'000))
     throw InputError(keys.where(key) + ": '" + key + "' must lie in 1 .. 1,000,000,000");
   return value;
+}
+
+void refuse_many_triangles(const KeyTable& keys, const std::string& key, double triangles,
+                           const SceneLimits& limits) {
+  if (triangles <= limits.triangles) return;
+  char told[100];
+  std::snprintf(told, sizeof told, " asks for %.4g triangles; %.4g at most are made", triangles,
+                limits.triangles);
+  throw InputError(keys.where(key) + ": '" + key + "'" + told);
 }
 
 Motion read_motion(const KeyTable& keys) {

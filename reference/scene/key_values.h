@@ -32,6 +32,18 @@ Choice choice(const KeyTable& keys, const std::string& key,
   throw InputError(keys.where(key) + ": unknown " + key + " '" + wanted + "'; known: " + known);
 }
 
+/// What make() returns; a refusal that names no place gets this one.
+template <class Make>
+auto placed_refusal(const std::string& where, const Make& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    const std::string said = error.what(), file = where.substr(0, where.find(':'));
+    if (said.starts_with(file) || said.starts_with("--set")) throw;
+    throw InputError(where + ": " + said);
+  }
+}
+
 /// The closed-form motion of [[hold]] and [[object]]: velocity, amplitude, frequency, phase, center,
 /// angular_velocity. At rest if none is given.
 Motion read_motion(const KeyTable& keys);

@@ -68,8 +68,8 @@ ObjectSurface box_surface(const Vector3& half_extents) {
 }
 
 ObjectSurface sphere_surface(double radius) {
-  TriangleMesh mesh = make_icosphere(radius, subdivisions);
-  return {std::move(mesh.rest), std::move(mesh.triangles)};
+  static const TriangleMesh unit = make_icosphere(1, subdivisions);
+  return {radius * unit.rest, unit.triangles};
 }
 
 ObjectSurface capsule_surface(double radius, double half_length) {

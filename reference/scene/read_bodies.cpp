@@ -15,8 +15,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr long most_frames = 1000;
-
 TriangleSoup read_soup(const KeyTable& keys, const CaseAround& around) {
   TriangleSoup soup;
   if (keys.has("shape") && keys.text("shape") != "statue")
@@ -25,7 +23,11 @@ TriangleSoup read_soup(const KeyTable& keys, const CaseAround& around) {
   if (keys.has("mesh")) {
     soup = read_obj_soup(mesh_file(keys, around.folder, "object"));
   } else {
-    TriangleMesh statue = make_statue(positive(keys, "height"), int(count_or(keys, "subdivisions", 4)));
+    const int subdivisions = int(count_or(keys, "subdivisions", 4));
+    refuse_many_triangles(keys, "subdivisions", std::ldexp(20.0, std::min(2 * subdivisions, 2000)),
+                          around.limits);
+    TriangleMesh statue = placed_refusal(keys.where("shape"),
+                                         [&] { return make_statue(positive(keys, "height"), subdivisions); });
     soup = {std::move(statue.rest), std::move(statue.triangles), {}};
   }
   fit(keys, soup.rest);
@@ -42,8 +44,9 @@ double read_cell(const KeyTable& keys, const PerParticle3& x) {
 /// Cells that may hold the surface are no wider than four finest ones, and the band is three to either side.
 OctreeSettings read_octree(const KeyTable& keys, const Bounds& bounds, double cell) {
   const double least = bounds.sizes().maxCoeff() / cell + 8;
-  const int depth = std::max(2, int(std::ceil(std::log2(least))));
-  if (depth > 20) throw InputError(keys.where("cells") + ": 'cells' must be below 2^20 for an octree");
+  const double levels = std::ceil(std::log2(least));
+  if (!(levels <= 20)) throw InputError(keys.where("cells") + ": 'cells' must be below 2^20 for an octree");
+  const int depth = std::max(2, int(levels));
   const double width = std::ldexp(cell, depth);
   const Vector3 corner = bounds.center() - Vector3::Constant(width / 2);
   const double tolerance = positive_or(keys, "tolerance", cell / 10);
@@ -67,6 +70,18 @@ void refuse_links_outside(const std::string& folder, const std::string& case_fol
   std::error_code none;  // a folder that is not there is refused by who reads it
   for (const auto& entry : std::filesystem::directory_iterator(folder, none))
     refuse_outside(entry.path().string(), case_folder, where);
+}
+
+/// What a maker of level sets answers; its refusal of what `cells` asks for gets that key's place.
+template <class Make>
+auto made(const KeyTable& keys, const Make& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    const std::string said = error.what();
+    if (!said.starts_with("grid: ") && !said.starts_with("octree: ")) throw;
+    throw InputError(keys.where("cells") + ": " + said);
+  }
 }
 
 MeshSequence read_frames(const KeyTable& keys, const CaseAround& around) {
@@ -98,8 +113,8 @@ std::vector<double> read_times(const KeyTable& keys, const CaseAround& around) {
   const double interval = positive_or(keys, "interval", 1.0 / 30);
   const double until = positive_or(keys, "until", around.end);
   const double count = std::ceil(until / interval * (1 - 1e-9));
-  if (!(count < double(most_frames)))
-    throw InputError(keys.where("interval") + ": more than " + std::to_string(most_frames) +
+  if (!(count < around.limits.frames))
+    throw InputError(keys.where("interval") + ": more than " + std::to_string(long(around.limits.frames)) +
                      " level sets; a longer 'interval' or an earlier 'until' gives fewer");
   std::vector<double> times;
   for (long k = 0; k <= long(count); ++k) times.push_back(double(k) * interval);
@@ -136,7 +151,8 @@ BodyShape read_mesh_body(const KeyTable& keys, const CaseAround& around) {
   ObjectSurface surface{soup.rest, soup.triangles};
   if (field == Field::grid) {
     const GridMethod method{cells, 4, 3, MarchingOrder::second};
-    return {GridSolid{around.makers.make_level_set(soup, method, repair)}, std::move(surface)};
+    auto grid = made(keys, [&] { return around.makers.make_level_set(soup, method, repair); });
+    return {GridSolid{std::move(grid)}, std::move(surface)};
   }
   if (repair != Repair::refuse)
     throw InputError(
@@ -145,7 +161,8 @@ BodyShape read_mesh_body(const KeyTable& keys, const CaseAround& around) {
   const TriangleMesh mesh = make_closed_mesh(std::move(soup));
   if (field == Field::octree) {
     const OctreeSettings settings = read_octree(keys, bounds_of(mesh.rest), read_cell(keys, mesh.rest));
-    return {OctreeSolid{make_octree(around.makers, mesh.rest, mesh.triangles, settings)}, std::move(surface)};
+    auto octree = made(keys, [&] { return make_octree(around.makers, mesh.rest, mesh.triangles, settings); });
+    return {OctreeSolid{std::move(octree)}, std::move(surface)};
   }
   return {MeshSolid{std::make_shared<const MeshDistance>(make_mesh_distance(mesh.rest, mesh.triangles))},
           std::move(surface)};
@@ -169,8 +186,8 @@ DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, cons
     bounds.extend(bounds_of(animation.positions[k]));
   }
   const OctreeSettings settings = read_octree(keys, bounds, read_cell(keys, animation.positions.front()));
-  return {std::make_shared<const MeshSequence>(animation),
-          around.makers.make_deforming_body(animation, settings, between)};
+  auto body = made(keys, [&] { return around.makers.make_deforming_body(animation, settings, between); });
+  return {std::make_shared<const MeshSequence>(animation), std::move(body)};
 }
 
 }  // namespace foldproof

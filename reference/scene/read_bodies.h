@@ -9,6 +9,7 @@
 #include "reference/motion/pose.h"
 #include "reference/scene/key_file.h"
 #include "reference/scene/object_surface.h"
+#include "reference/scene/scene_limits.h"
 
 namespace foldproof {
 
@@ -17,6 +18,7 @@ struct CaseAround {
   std::string folder;  // where relative files of the case are looked for
   double end;          // of the run [s]
   const LevelSetMakers& makers;
+  const SceneLimits& limits;
 };
 
 /// A solid in its own frame, with its surface.

@@ -93,6 +93,8 @@ SceneObject read_object(const KeyTable& keys, const CaseAround& around, size_t n
   part.object.name = keys.text_or("name", part.shape + " " + std::to_string(number + 1));
   part.object.friction = not_negative_or(keys, "friction", 0);
   (is_deforming(keys) ? read_deforming : read_rigid)(keys, read_pose(keys), around, part);
+  if (!part.vertices.allFinite())
+    throw InputError(keys.where() + ": a place of its surface is not finite; give smaller lengths");
   return part;
 }
 

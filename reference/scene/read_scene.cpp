@@ -72,10 +72,11 @@ void read_hold(const KeyTable& keys, Scene& scene) {
                                                         : particles_at_top(keys, scene.x);
   if (chosen.empty()) throw InputError(keys.where() + ": [[hold]] names no particle");
   const Motion motion = read_motion(keys);
+  std::vector<char> is_held(size_t(scene.x.cols()), 0);
+  for (const PrescribedParticle& other : scene.led) is_held[size_t(other.particle)] = 1;
   for (int i : chosen) {
-    for (const PrescribedParticle& other : scene.led)
-      if (other.particle == i)
-        throw InputError(keys.where() + ": particle " + std::to_string(i) + " is held twice");
+    if (is_held[size_t(i)]++)
+      throw InputError(keys.where() + ": particle " + std::to_string(i) + " is held twice");
     scene.led.push_back({i, scene.x.col(i), motion});
   }
 }
@@ -126,16 +127,28 @@ void refuse_name(const std::string& name, const std::string& path) {
         "rename the file");
 }
 
-Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSetMakers& makers) {
+/// Numbers of a case can each be sound and yet come to more than a double holds, or to less.
+void refuse_overflow(const KeyTable& cloth, const Scene& scene) {
+  const State start = start_state(scene);
+  if (!start.x.allFinite() || !start.v.allFinite() || !scene.mesh.rest.allFinite())
+    throw InputError(cloth.where() + ": a place or velocity at the start, or at rest, is not finite");
+  const PerParticle masses = lumped_masses(scene.mesh, scene.density);
+  if (!(masses.minCoeff() > 0) || !masses.allFinite())
+    throw InputError(cloth.where() + ": a particle has the mass 0, or one that is not finite");
+}
+
+Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSetMakers& makers,
+                 const SceneLimits& limits) {
   const auto cloth = keys.table("cloth"), time = keys.table("time");
   if (!cloth || !time) throw InputError(keys.where() + ": a case needs the tables [cloth] and [time]");
-  PlacedMesh placed = read_cloth_mesh(*cloth, folder);
+  PlacedMesh placed = read_cloth_mesh(*cloth, folder, limits);
   Scene scene = scene_of(std::move(placed.mesh), positive(*cloth, "density"));
   scene.x = std::move(placed.start);
   scene.title = keys.text_or("title", "");
   scene.about = keys.text_or("about", "");
 
   if (const auto start = keys.table("start")) read_start(*start, scene);
+  refuse_overflow(*cloth, scene);
   if (const auto gravity = keys.table("gravity"))
     scene.gravity = gravity->vector_or("acceleration", {0, -9.80665, 0});
   if (const auto stretch = keys.table("stretch")) scene.stretch = read_stretch(*stretch);
@@ -145,8 +158,9 @@ Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSet
     scene.rest_angles = read_rest_angles(*bending, scene.mesh);
   }
   for (const auto& hold : keys.tables("hold")) read_hold(*hold, scene);
+  refuse_overflow(*cloth, scene);
   read_time(*time, scene);
-  read_objects(keys, {folder, scene.schedule.end, makers}, scene);
+  read_objects(keys, {folder, scene.schedule.end, makers, limits}, scene);
   if (const auto self = keys.table("self_collision"))
     scene.self_collision = read_self_collision(*self, scene.mesh);
   read_sticky(keys, folder, scene);
@@ -160,12 +174,13 @@ Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSet
 }  // namespace
 
 Scene read_scene_text(const std::string& text, const std::string& path,
-                      const std::vector<std::string>& overrides, const LevelSetMakers& makers) {
+                      const std::vector<std::string>& overrides, const LevelSetMakers& makers,
+                      const SceneLimits& limits) {
   const std::filesystem::path file(path);
   refuse_name(file.stem().string(), path);
   const auto keys = parse_keys(text, path);
   for (const std::string& assignment : overrides) set_key(*keys, assignment);
-  Scene scene = scene_from(*keys, file.parent_path().string(), makers);
+  Scene scene = scene_from(*keys, file.parent_path().string(), makers, limits);
   scene.name = file.stem().string();
   scene.folder = file.parent_path().string();
   scene.text = text;
@@ -175,13 +190,13 @@ Scene read_scene_text(const std::string& text, const std::string& path,
 
 Scene read_scene_text(const std::string& text, const std::string& path,
                       const std::vector<std::string>& overrides) {
-  return read_scene_text(text, path, overrides, computing_makers());
+  return read_scene_text(text, path, overrides, computing_makers(), {});
 }
 
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides,
                  const LevelSetMakers& makers) {
   if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": there is no such case file");
-  return read_scene_text(read_text(path), path, overrides, makers);
+  return read_scene_text(read_text(path), path, overrides, makers, {});
 }
 
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {

@@ -13,6 +13,7 @@
 #include "reference/forces/force.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/motion/motion.h"
+#include "reference/scene/scene_limits.h"
 #include "reference/types.h"
 
 namespace foldproof {
@@ -83,7 +84,8 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
 Scene read_scene_text(const std::string& text, const std::string& path,
                       const std::vector<std::string>& overrides = {});
 Scene read_scene_text(const std::string& text, const std::string& path,
-                      const std::vector<std::string>& overrides, const LevelSetMakers& makers);
+                      const std::vector<std::string>& overrides, const LevelSetMakers& makers,
+                      const SceneLimits& limits);
 
 /// Builds what the scene names, and nothing else.
 System build_system(const Scene& scene);

@@ -1,5 +1,6 @@
 #include "reference/scene/shapes_of.h"
 
+#include <cmath>
 #include <filesystem>
 
 #include "reference/mesh/obj.h"
@@ -39,43 +40,50 @@ int count(const KeyTable& keys, const std::string& key) {
   return int(value);
 }
 
-TriangleMesh read_sheet(const KeyTable& keys) {
+TriangleMesh read_sheet(const KeyTable& keys, const SceneLimits& limits) {
   Sheet sheet;
   sheet.pattern = read_pattern(keys);
   sheet.width = keys.number("width");
   sheet.height = keys.number("height");
   sheet.columns = count(keys, "columns");
   sheet.rows = count(keys, "rows");
+  const double in_a_cell = sheet.pattern == SheetPattern::criss_cross ? 4 : 3;  // three at most in the others
+  refuse_many_triangles(keys, "columns", in_a_cell * sheet.columns * sheet.rows, limits);
   sheet.jitter = keys.number_or("jitter", 0);
   sheet.seed = unsigned(keys.integer_or("seed", 1));
   sheet.grading = keys.number_or("grading", 1);
   return make_sheet(sheet);
 }
 
-TriangleMesh make_shape(const KeyTable& keys) {
+TriangleMesh read_disc(const KeyTable& keys, const SceneLimits& limits) {
+  const int rings = count(keys, "rings");
+  refuse_many_triangles(keys, "rings", 6.0 * rings * rings, limits);
+  return make_disc(keys.number("radius"), rings);
+}
+
+TriangleMesh read_cylinder(const KeyTable& keys, const SceneLimits& limits) {
+  const int around = count(keys, "around"), along = count(keys, "along");
+  refuse_many_triangles(keys, "around", 2.0 * around * along, limits);
+  return make_cylinder(keys.number("radius"), keys.number("height"), around, along);
+}
+
+/// Of a subdivided icosahedron.
+int read_subdivisions(const KeyTable& keys, const SceneLimits& limits) {
+  const int subdivisions = count(keys, "subdivisions");
+  refuse_many_triangles(keys, "subdivisions", std::ldexp(20.0, 2 * subdivisions), limits);
+  return subdivisions;
+}
+
+TriangleMesh make_shape(const KeyTable& keys, const SceneLimits& limits) {
   const std::string shape = keys.text("shape");
-  if (shape == "sheet") return read_sheet(keys);
-  if (shape == "disc") return make_disc(keys.number("radius"), count(keys, "rings"));
-  if (shape == "cylinder")
-    return make_cylinder(keys.number("radius"), keys.number("height"), count(keys, "around"),
-                         count(keys, "along"));
-  if (shape == "sphere") return make_icosphere(keys.number("radius"), count(keys, "subdivisions"));
-  if (shape == "statue") return make_statue(keys.number("height"), count(keys, "subdivisions"));
+  if (shape == "sheet") return read_sheet(keys, limits);
+  if (shape == "disc") return read_disc(keys, limits);
+  if (shape == "cylinder") return read_cylinder(keys, limits);
+  if (shape == "sphere") return make_icosphere(keys.number("radius"), read_subdivisions(keys, limits));
+  if (shape == "statue") return make_statue(keys.number("height"), read_subdivisions(keys, limits));
   if (shape == "hinge") return make_hinge(keys.number("length"), keys.number("angle") * radians_per_degree);
   throw InputError(keys.where("shape") + ": unknown shape '" + shape +
                    "'; known: sheet, disc, cylinder, sphere, statue, hinge");
-}
-
-/// What make() returns; a refusal that names no place gets this one.
-template <class Make>
-auto placed_refusal(const std::string& where, const Make& make) {
-  try {
-    return make();
-  } catch (const InputError& error) {
-    const std::string said = error.what(), file = where.substr(0, where.find(':'));
-    if (said.starts_with(file) || said.starts_with("--set")) throw;
-    throw InputError(where + ": " + said);
-  }
 }
 
 /// Scales, turns and moves the positions, in this order.
@@ -102,8 +110,9 @@ PerParticle3 repeated(const PerParticle3& x, int copies, const Eigen::Matrix3d& 
 }
 
 /// So many pieces of the cloth in place of one; rest shapes are moved, too, so that they lie apart.
-void copy(const KeyTable& keys, PlacedMesh& cloth) {
+void copy(const KeyTable& keys, const SceneLimits& limits, PlacedMesh& cloth) {
   const int copies = count(keys, "count"), n = cloth.mesh.particles();
+  refuse_many_triangles(keys, "count", double(copies) * double(cloth.mesh.triangles.size()), limits);
   const Vector3 move = keys.vector("move");
   const Eigen::Matrix3d turn = read_turn(keys).toRotationMatrix();
   std::vector<Triangle> triangles;
@@ -135,13 +144,13 @@ double fit_factor(const KeyTable& keys, const PerParticle3& x) {
 
 void fit(const KeyTable& keys, PerParticle3& x) { x *= fit_factor(keys, x); }
 
-PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder) {
+PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder, const SceneLimits& limits) {
   if (cloth.has("shape") == cloth.has("mesh"))
     throw InputError(cloth.where("mesh") +
                      ": [cloth] needs either 'shape' or 'mesh' (an OBJ file), and not both");
   PlacedMesh result{cloth.has("mesh")
                         ? read_obj(mesh_file(cloth, folder, "cloth"))
-                        : placed_refusal(cloth.where("shape"), [&] { return make_shape(cloth); }),
+                        : placed_refusal(cloth.where("shape"), [&] { return make_shape(cloth, limits); }),
                     {}};
 
   const auto pleats = cloth.table("pleats");
@@ -154,7 +163,8 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder) {
   }
   place(cloth, result.start);
   if (!pleats) result.mesh.rest = result.start;
-  if (const auto copies = cloth.table("copies")) copy(*copies, result);
+  if (const auto copies = cloth.table("copies"))
+    placed_refusal(cloth.where("copies"), [&] { copy(*copies, limits, result); });
   if (pleats && cloth.has("fit")) throw InputError(cloth.where("fit") + ": 'fit' does not go with pleats");
   return result;
 }

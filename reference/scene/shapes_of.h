@@ -5,6 +5,7 @@
 
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/scene/key_file.h"
+#include "reference/scene/scene_limits.h"
 
 namespace foldproof {
 
@@ -15,7 +16,7 @@ struct PlacedMesh {
 
 /// Reads the keys of [cloth] that say shape and place. folder: where relative files of the case are looked
 /// for.
-PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder);
+PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder, const SceneLimits& limits);
 
 /// Where the OBJ file is that the key 'mesh' names. table: its name in messages, "cloth" or "object".
 std::string mesh_file(const KeyTable& keys, const std::string& folder, const std::string& table);

@@ -23,6 +23,7 @@
 #include "scripts/program/run_case.h"
 #include "verification/all_checks.h"
 #include "verification/faults_file.h"
+#include "verification/seeds.h"
 #include "verification/verdicts_file.h"
 
 namespace foldproof {
@@ -36,6 +37,9 @@ RunRecord new_run(const Options& options) {
   run.provenance = provenance(options.command);
   run.tier = options.tier;
   const Subject subject = reference_subject();
+  seed_shift = options.seed_shift;
+  run.seed = options.seed_shift;
+  if (seed_shift > 0) say(fmt::format("the seeds of all samples are shifted by {}", seed_shift));
   run.subject = subject.name;
   run.subject_version = subject.version;
   return run;
@@ -200,14 +204,16 @@ int simulate_case(const Options& options) {
 
 int run_checks(const Options& options) {
   RunRecord run = new_run(options);
-  run_selection(select({options.names, {"check"}}), reference_subject(), tier_of(options), run);
+  run_selection(select({options.names, {"check"}}), reference_subject(), tier_of(options), options.running,
+                run);
   rule_covered_claims(run);
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
 }
 
 int run_studies(const Options& options) {
   RunRecord run = new_run(options);
-  run_selection(select({options.names, {"study"}}), reference_subject(), tier_of(options), run);
+  run_selection(select({options.names, {"study"}}), reference_subject(), tier_of(options), options.running,
+                run);
   if (options.names.empty()) refuse_claims_of_lost_findings(run);
   rule_covered_claims(run);
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
@@ -247,7 +253,7 @@ int verify(const Options& options) {
   std::vector<Job> jobs = jobs_of(select({{}, {"check", "study"}}), subject, tier_of(options));
   for (Job& job : jobs_of_built_in_cases(options, run.provenance)) jobs.push_back(std::move(job));
   announce(jobs, run, options.out);
-  run_jobs(jobs, "checks, studies and cases", run);
+  run_jobs(jobs, "checks, studies and cases", options.running, run);
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   rule_all_claims(run);
   run.faults = read_faults(faults_path());

@@ -35,8 +35,9 @@ double parsed(const std::string& field, const std::string& where) {
 
 /// Rows of `columns` comma-separated numbers; lines that start with '#' or a letter (a heading) are passed
 /// over.
-std::vector<Row> read_rows(const std::string& file, size_t columns) {
-  std::istringstream in(read_text_file(file, table_text_limits));
+std::vector<Row> read_rows(const NamedText& named, size_t columns) {
+  const std::string& file = named.name;
+  std::istringstream in(named.text);
   std::vector<Row> rows;
   int number = 0;
   for (std::string line; std::getline(in, line);) {
@@ -64,15 +65,17 @@ PerParticle3 four_columns(const std::vector<double>& values, size_t from) {
   return Eigen::Map<const PerParticle3>(values.data() + from, 3, 4);
 }
 
-void print_row(const PerParticle3& elastic, const PerParticle3& damping) {
+std::string told_row(const PerParticle3& elastic, const PerParticle3& damping) {
+  if (!elastic.allFinite() || !damping.allFinite())
+    throw InputError("a force is more than a double holds; give smaller numbers");
   std::string line;
   for (const PerParticle3* part : {&elastic, &damping})
     for (Eigen::Index k = 0; k < 12; ++k)
       line += fmt::format("{}{:.17g}", line.empty() ? "" : ",", part->data()[k]);
-  fmt::print("{}\n", line);
+  return line + "\n";
 }
 
-void evaluate_row(const Row& row, const PerParticle3& rest, Weighting weighting) {
+std::string evaluated_row(const Row& row, const PerParticle3& rest, Weighting weighting) {
   BendingMaterial material;
   material.stiffness = row.values[24];
   material.damping = row.values[25];
@@ -86,7 +89,7 @@ void evaluate_row(const Row& row, const PerParticle3& rest, Weighting weighting)
     DampingOperator terms;
     bending.prepare_damping(s, terms);
     terms.add_product(s.v, damping);
-    print_row(elastic, damping);
+    return told_row(elastic, damping);
   } catch (const DegenerateElement& error) {
     throw InputError(row.where + ": " + error.what());
   } catch (const InputError& error) {
@@ -96,25 +99,32 @@ void evaluate_row(const Row& row, const PerParticle3& rest, Weighting weighting)
 
 }  // namespace
 
-void evaluate_bending(const std::string& file, const std::string& rest_file) {
-  const std::vector<Row> rows = read_rows(file, 27);
+std::string bending_of_rows(const NamedText& named, const NamedText& rest_named) {
+  const std::vector<Row> rows = read_rows(named, 27);
   std::vector<Row> rest_rows;
-  if (!rest_file.empty()) {
-    rest_rows = read_rows(rest_file, 12);
+  if (!rest_named.text.empty()) {
+    rest_rows = read_rows(rest_named, 12);
     if (rest_rows.size() != rows.size())
-      throw InputError(
-          fmt::format("{}: {} rows, but {} has {}", rest_file, rest_rows.size(), file, rows.size()));
+      throw InputError(fmt::format("{}: {} rows, but {} has {}", rest_named.name, rest_rows.size(),
+                                   named.name, rows.size()));
   }
-  std::string heading;
+  std::string told;
   for (const char* kind : {"elastic", "damping"})
     for (int particle = 1; particle <= 4; ++particle)
       for (const char* axis : {"x", "y", "z"})
-        heading += fmt::format("{}{}_{}{}", heading.empty() ? "" : ",", kind, axis, particle);
-  fmt::print("{}\n", heading);
+        told += fmt::format("{}{}_{}{}", told.empty() ? "" : ",", kind, axis, particle);
+  told += "\n";
   for (size_t k = 0; k < rows.size(); ++k) {
     const PerParticle3 rest = four_columns(rest_rows.empty() ? rows[k].values : rest_rows[k].values, 0);
-    evaluate_row(rows[k], rest, rest_rows.empty() ? Weighting::current : Weighting::rest);
+    told += evaluated_row(rows[k], rest, rest_rows.empty() ? Weighting::current : Weighting::rest);
   }
+  return told;
+}
+
+void evaluate_bending(const std::string& file, const std::string& rest_file) {
+  const NamedText rest =
+      rest_file.empty() ? NamedText{} : NamedText{read_text_file(rest_file, table_text_limits), rest_file};
+  fmt::print("{}", bending_of_rows({read_text_file(file, table_text_limits), file}, rest));
 }
 
 }  // namespace foldproof

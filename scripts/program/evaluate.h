@@ -10,4 +10,12 @@ namespace foldproof {
 /// Throws InputError "file:line: ...".
 void evaluate_bending(const std::string& file, const std::string& rest_file);
 
+/// A file's text, and the name by which messages call it.
+struct NamedText {
+  std::string text, name;
+};
+
+/// What is printed of such rows: a heading, and 24 finite numbers for each. rest: no text means current weighting.
+std::string bending_of_rows(const NamedText& rows, const NamedText& rest);
+
 }  // namespace foldproof

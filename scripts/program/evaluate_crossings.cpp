@@ -20,10 +20,14 @@ using oracles::Fraction;
 using oracles::Whole;
 
 constexpr std::size_t most_query_rows = 4'000'000;  // of six long whole numbers: a gigabyte of memory
+// Of a number: exact arithmetic takes the time of their square, and a double has a numerator and a denominator of at
+// most 309 and 324.
+constexpr std::size_t most_digits = 1000;
 
 struct FileQuery {
   std::array<std::array<Fraction, 3>, 8> points;
-  bool meets;  // as the file says
+  bool meets;         // as the file says
+  std::string where;  // its first row
 };
 
 Whole parsed(const std::string& field, const std::string& where) {
@@ -32,6 +36,8 @@ Whole parsed(const std::string& field, const std::string& where) {
   const std::string digits = text.starts_with('-') ? text.substr(1) : text;
   if (digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos)
     throw InputError(where + ": '" + text + "' is not a whole number");
+  if (digits.size() > most_digits)
+    throw InputError(fmt::format("{}: a number has more than {} digits", where, most_digits));
   const std::size_t nonzero =
       std::min(digits.find_first_not_of('0'), digits.size() - 1);  // 012 would be octal
   const Whole size(digits.substr(nonzero));
@@ -50,8 +56,8 @@ std::array<Whole, 7> parsed_row(const std::string& line, const std::string& wher
   return row;
 }
 
-std::vector<FileQuery> read_queries(const std::string& file) {
-  std::istringstream in(read_text_file(file, table_text_limits));
+std::vector<FileQuery> read_queries(const std::string& text, const std::string& file) {
+  std::istringstream in(text);
   std::vector<FileQuery> queries;
   std::size_t rows = 0, number = 0;
   for (std::string line; std::getline(in, line);) {
@@ -61,7 +67,7 @@ std::vector<FileQuery> read_queries(const std::string& file) {
     const auto row = parsed_row(line, where);
     if (rows == most_query_rows)
       throw InputError(fmt::format("{}: more than {} rows, the most that is read", where, most_query_rows));
-    if (rows % 8 == 0) queries.push_back({{}, row[6] == 1});
+    if (rows % 8 == 0) queries.push_back({{}, row[6] == 1, where});
     if (queries.back().meets != (row[6] == 1))
       throw InputError(where + ": the rows of a query disagree on its truth");
     queries.back().points[rows % 8] = {Fraction{row[0], row[1]}, Fraction{row[2], row[3]},
@@ -77,23 +83,15 @@ double nearest_double(const Fraction& f) {
   return quotient.convert_to<double>();
 }
 
-/// The four points at the start (from = 0) or at the end (from = 4).
+/// The four points at the start (from = 0) or at the end (from = 4), finite.
 Corners4 corners_at(const FileQuery& query, std::size_t from) {
   Corners4 x;
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t axis = 0; axis < 3; ++axis)
       x(Eigen::Index(axis), Eigen::Index(k)) = nearest_double(query.points[from + k][axis]);
+  if (!x.allFinite()) throw InputError(query.where + ": a coordinate does not fit a double");
   return x;
 }
-
-struct Account {
-  long misses = 0, alarms = 0;
-
-  void enter(bool truth, bool said) {
-    misses += truth && !said;
-    alarms += !truth && said;
-  }
-};
 
 /// What the queries of a file are about: as given, or as its path says.
 std::string kind_of(const std::string& file, const std::string& given) {
@@ -104,19 +102,9 @@ std::string kind_of(const std::string& file, const std::string& given) {
 }
 
 bool evaluate_file(const std::string& file, const std::string& given, double keep) {
-  const bool is_vertex = kind_of(file, given) == "vertex-face";
-  const PairKind pair = is_vertex ? PairKind::vertex_triangle : PairKind::edge_edge;
-  const auto features = is_vertex ? oracles::Features::vertex_and_triangle : oracles::Features::edge_and_edge;
-  Account reference, exact;
-  long meetings = 0;
-  const std::vector<FileQuery> queries = read_queries(file);
-  for (const FileQuery& query : queries) {
-    meetings += query.meets;
-    const Corners4 start = corners_at(query, 0);
-    reference.enter(query.meets, first_approach(pair, start, corners_at(query, 4) - start, keep).has_value());
-    exact.enter(query.meets, oracles::ever_meet(features, oracles::motion_between(query.points)));
-  }
-  fmt::print("{}: {} queries, {} of which meet as the file says\n", file, queries.size(), meetings);
+  const auto [queries, meetings, reference, exact] =
+      judge_queries(read_text_file(file, table_text_limits), file, given, keep);
+  fmt::print("{}: {} queries, {} of which meet as the file says\n", file, queries, meetings);
   fmt::print("reference, keeping {:g} m: {} missed, {} told though apart\n", keep, reference.misses,
              reference.alarms);
   fmt::print("exact judge: {} missed, {} told though apart\n", exact.misses, exact.alarms);
@@ -124,6 +112,24 @@ bool evaluate_file(const std::string& file, const std::string& given, double kee
 }
 
 }  // namespace
+
+JudgedQueries judge_queries(const std::string& text, const std::string& name, const std::string& kind,
+                            double keep) {
+  const bool is_vertex = kind_of(name, kind) == "vertex-face";
+  const PairKind pair = is_vertex ? PairKind::vertex_triangle : PairKind::edge_edge;
+  const auto features = is_vertex ? oracles::Features::vertex_and_triangle : oracles::Features::edge_and_edge;
+  const std::vector<FileQuery> queries = read_queries(text, name);
+  JudgedQueries judged;
+  judged.queries = queries.size();
+  for (const FileQuery& query : queries) {
+    judged.meetings += query.meets;
+    const Corners4 start = corners_at(query, 0);
+    judged.reference.enter(query.meets,
+                           first_approach(pair, start, corners_at(query, 4) - start, keep).has_value());
+    judged.exact.enter(query.meets, oracles::ever_meet(features, oracles::motion_between(query.points)));
+  }
+  return judged;
+}
 
 bool evaluate_crossings(const std::string& path, const std::string& kind, double keep) {
   if (!(keep > 0)) throw InputError("--keep must be a distance > 0");

@@ -10,6 +10,27 @@ namespace foldproof {
 /// Of a folder, all .csv files below it. An empty kind: the path says which.
 /// Prints misses and false alarms of both against the file. keep [m], > 0: what the reference is to keep apart.
 /// Returns whether the reference misses none and the exact judge agrees. Throws InputError "file:line: ...".
+/// Numbers have at most 1000 digits.
 bool evaluate_crossings(const std::string& path, const std::string& kind, double keep);
+
+/// What was found against the truth that a file says.
+struct CrossingAccount {
+  long misses = 0, alarms = 0;
+
+  void enter(bool truth, bool said) {
+    misses += truth && !said;
+    alarms += !truth && said;
+  }
+};
+
+struct JudgedQueries {
+  size_t queries = 0;
+  long meetings = 0;  // as the file says
+  CrossingAccount reference, exact;
+};
+
+/// The same of a file's text; `name` is what messages call it.
+JudgedQueries judge_queries(const std::string& text, const std::string& name, const std::string& kind,
+                            double keep);
 
 }  // namespace foldproof

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <mutex>
 #include <numeric>
+#include <random>
 #include <thread>
 
 #include "scripts/program/progress.h"
@@ -27,14 +28,25 @@ void append(std::vector<T>& from, std::vector<T>& to) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
+/// Numbers of the jobs as they are to be taken, the first last.
+std::vector<size_t> taken_in(const std::vector<Job>& jobs, unsigned order) {
+  std::vector<size_t> numbers(jobs.size());
+  std::iota(numbers.begin(), numbers.end(), size_t(0));
+  std::ranges::stable_sort(numbers, {}, [&](size_t i) { return jobs[i].length; });
+  std::mt19937 random(order);
+  for (size_t k = numbers.size(); order > 0 && k > 1; --k) std::swap(numbers[k - 1], numbers[random() % k]);
+  return numbers;
+}
+
 /// The jobs that wait, and what came of those that are done. Shared by all threads.
 class Queue {
  public:
-  Queue(const std::vector<Job>& jobs, const std::string& label)
-      : jobs_(jobs), done_(jobs.size()), parts_(jobs.size()), progress_(label) {
-    waiting_.resize(jobs.size());
-    std::iota(waiting_.begin(), waiting_.end(), size_t(0));
-    std::ranges::stable_sort(waiting_, {}, [&](size_t i) { return jobs[i].length; });  // the longest last
+  Queue(const std::vector<Job>& jobs, const std::string& label, unsigned order)
+      : jobs_(jobs),
+        waiting_(taken_in(jobs, order)),
+        done_(jobs.size()),
+        parts_(jobs.size()),
+        progress_(label) {
     for (const Job& job : jobs) whole_ += job.length;
   }
 
@@ -99,12 +111,12 @@ Record unfinished(const std::string& name, const std::string& outcome, const std
   return record;
 }
 
-void run_jobs(const std::vector<Job>& jobs, const std::string& label, RunRecord& run) {
-  Queue queue(jobs, label);
+void run_jobs(const std::vector<Job>& jobs, const std::string& label, const Running& how, RunRecord& run) {
+  Queue queue(jobs, label, how.order);
   {
+    const size_t threads = how.threads > 0 ? how.threads : std::thread::hardware_concurrency();
     std::vector<std::jthread> others;
-    for (unsigned k = 1; k < std::min<size_t>(std::thread::hardware_concurrency(), jobs.size()); ++k)
-      others.emplace_back([&] { queue.work(); });
+    for (size_t k = 1; k < std::min(threads, jobs.size()); ++k) others.emplace_back([&] { queue.work(); });
     queue.work();
   }
   queue.gather(run);

@@ -1,4 +1,4 @@
-// Runs checks, studies and cases on all cores.
+// Runs checks, studies and cases on several cores.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,14 @@ struct Job {
 /// A record of this name that says nothing but that it did not run, or why it stopped.
 Record unfinished(const std::string& name, const std::string& outcome, const std::string& note);
 
-/// Runs the jobs, the longest first, one a core; says a line about each finding that does not hold, and adds what they
-/// made to the run in the order of the jobs. A job that throws becomes a finding of its name that fails and says why.
-void run_jobs(const std::vector<Job>& jobs, const std::string& label, RunRecord& run);
+/// In which way jobs are run. No number that a job measures depends on it, seconds excepted.
+struct Running {
+  unsigned threads = 0;  // jobs at a time; 0: one a core
+  unsigned order = 0;    // 0: the longest first; else shuffled, each number another order
+};
+
+/// Runs the jobs; says a line about each finding that does not hold, and adds what they made to the run in the order of
+/// the list. A job that throws becomes a finding of its name that fails and says why.
+void run_jobs(const std::vector<Job>& jobs, const std::string& label, const Running& how, RunRecord& run);
 
 }  // namespace foldproof

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scripts/program/jobs.h"
 #include "verification/check.h"
 
 namespace foldproof {
@@ -23,8 +24,10 @@ struct Options {
   double keep = 1e-6;                                         // of evaluate crossings [m]
   int count = 10;                                             // of golden: rows
   unsigned seed = 1;                                          // of golden
-  int cells = 64;                                             // of inspect: along the longest side
-  int levels = 0;                                             // of project: of subdivision
+  unsigned seed_shift = 0;  // of check, study and verify (verification/seeds.h)
+  Running running;          // of check, study and verify
+  int cells = 64;           // of inspect: along the longest side
+  int levels = 0;           // of project: of subdivision
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code
 };

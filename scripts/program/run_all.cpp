@@ -138,9 +138,10 @@ std::vector<Job> jobs_of(const Selection& selection, const Subject& subject, Tie
   return jobs;
 }
 
-void run_selection(const Selection& selection, const Subject& subject, Tier tier, RunRecord& run) {
+void run_selection(const Selection& selection, const Subject& subject, Tier tier, const Running& how,
+                   RunRecord& run) {
   run_jobs(jobs_of(selection, subject, tier), selection.studies.empty() ? "checks" : "checks and studies",
-           run);
+           how, run);
   for (const std::string& name : selection.findings)
     if (std::none_of(run.records.begin(), run.records.end(),
                      [&](const Record& r) { return chooses(name, r.name) || r.outcome == "fails"; }))

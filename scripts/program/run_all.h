@@ -34,7 +34,8 @@ Selection select(const Wanted& wanted);
 std::vector<Job> jobs_of(const Selection& selection, const Subject& subject, Tier tier);
 
 /// Runs the selection with progress, adds to the run, and says a line about each that does not hold.
-void run_selection(const Selection& selection, const Subject& subject, Tier tier, RunRecord& run);
+void run_selection(const Selection& selection, const Subject& subject, Tier tier, const Running& how,
+                   RunRecord& run);
 
 /// "121 hold, 0 fail, 0 inconclusive, 0 not applicable", and the claims if any were ruled.
 std::string summary(const RunRecord& run);

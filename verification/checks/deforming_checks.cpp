@@ -14,6 +14,7 @@
 #include "verification/checks/measured.h"
 #include "verification/checks/moving_scenes.h"
 #include "verification/checks/scratch_folder.h"
+#include "verification/seeds.h"
 
 namespace foldproof {
 
@@ -38,7 +39,7 @@ MeshSequence moving_ball(double way, std::vector<double> times) {
 
 /// Points about the centre, no farther than `reach`.
 std::vector<Vector3> points_about(const Vector3& centre, double reach) {
-  std::mt19937 random(7741);
+  std::mt19937 random(shifted(7741));
   std::uniform_real_distribution<double> along(-reach, reach);
   std::vector<Vector3> points;
   for (int i = 0; i < 2000; ++i) {

@@ -18,7 +18,7 @@ Sheet irregular_sheet() {
   sheet.height = 0.55;
   sheet.columns = 5;
   sheet.rows = 4;
-  sheet.seed = 31;
+  sheet.seed = shifted(31);
   return sheet;
 }
 
@@ -29,7 +29,7 @@ Sheet jittered_sheet() {
   sheet.columns = 5;
   sheet.rows = 4;
   sheet.jitter = 0.27;
-  sheet.seed = 17;
+  sheet.seed = shifted(17);
   return sheet;
 }
 

@@ -10,16 +10,17 @@
 
 #include "reference/scene/scene.h"
 #include "verification/check.h"
+#include "verification/seeds.h"
 #include "verification/subject.h"
 
 namespace foldproof {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// Uniform numbers, the same on every machine.
+/// Uniform numbers, the same on every machine for the same seed and shift of seeds.
 class Random {
  public:
-  explicit Random(unsigned seed) : bits_(seed) {}
+  explicit Random(unsigned seed) : bits_(shifted(seed)) {}
 
   double in(double low, double high) { return low + (high - low) * (double(bits_() >> 11) * 0x1p-53); }
   double in_decades(double low, double high);             // uniform in the logarithm; low > 0

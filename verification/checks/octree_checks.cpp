@@ -10,6 +10,7 @@
 #include "reference/level_set/octree_nodes.h"
 #include "verification/checks/measured.h"
 #include "verification/checks/moving_scenes.h"
+#include "verification/seeds.h"
 
 namespace foldproof {
 
@@ -17,7 +18,7 @@ namespace {
 
 /// Points of the cube, uniform at random; the seed is fixed.
 std::vector<Vector3> random_points(int count, double half_width) {
-  std::mt19937 random(90211);
+  std::mt19937 random(shifted(90211));
   std::uniform_real_distribution<double> along(-half_width, half_width);
   std::vector<Vector3> points;
   for (int i = 0; i < count; ++i) {
@@ -222,7 +223,7 @@ OctreeSettings sampling(int depth, double tolerance, HangingNodes hanging) {
 
 double largest_jump(const Octree& tree, int count) {
   const std::vector<OctreePlace> places = branch_places(tree);
-  std::mt19937 random(41177);
+  std::mt19937 random(shifted(41177));
   std::uniform_int_distribution<std::size_t> any_branch(0, places.size() - 1);
   std::uniform_int_distribution<int> any_axis(0, 2);
   std::uniform_real_distribution<double> along(0, 1);

@@ -6,6 +6,7 @@
 #include "verification/checks/measured.h"
 #include "verification/checks/moving_scenes.h"
 #include "verification/checks/octree_checks.h"
+#include "verification/seeds.h"
 
 namespace foldproof {
 
@@ -71,7 +72,7 @@ Finding nodes_know_their_part(const Subject&) {
 }
 
 std::vector<Vector3> points_near(const std::vector<DistanceFunction>& parts, double within) {
-  std::mt19937 random(5309);
+  std::mt19937 random(shifted(5309));
   std::uniform_real_distribution<double> along(-0.5, 0.5);
   std::vector<Vector3> points;
   while (points.size() < 20000) {

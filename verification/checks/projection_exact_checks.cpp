@@ -9,6 +9,7 @@
 #include "verification/checks/projection_checks.h"
 #include "verification/checks/projection_specimens.h"
 #include "verification/oracles/exact_geometry.h"
+#include "verification/seeds.h"
 
 namespace foldproof {
 
@@ -26,7 +27,7 @@ struct Sunk {
 Sunk sunk_sheet(double height, unsigned seed) {
   Sheet sheet{SheetPattern::jittered, 0.9, 0.8, 22, 22};
   sheet.jitter = 0.3;
-  sheet.seed = seed;
+  sheet.seed = shifted(seed);
   Sunk sunk{make_sheet(sheet), {}};
   sunk.x = sunk.mesh.rest;
   for (Eigen::Index i = 0; i < sunk.x.cols(); ++i) {

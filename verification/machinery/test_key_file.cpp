@@ -74,3 +74,19 @@ TEST_CASE("overrides change, add, and reach into lists") {
   CHECK_THROWS_WITH(set_key(*root, "title.more=1"), Contains("not a table"));
   CHECK_THROWS_WITH(set_key(*root, "hold.7.top=1"), Contains("no hold.7"));
 }
+
+TEST_CASE("tables nested deeper than anyone needs are refused with their line") {
+  std::string lists = "a = ", key = "a";
+  for (int depth = 0; depth < 40; ++depth) {
+    lists += "[";
+    key += ".a";
+  }
+  CHECK_THROWS_WITH(parse_keys("\n" + lists + std::string(40, ']'), "some.toml"),
+                    Contains("some.toml:2: tables and lists in more than 32 others"));
+  CHECK_THROWS_WITH(parse_keys(key + " = 1", "some.toml"), Contains("more than 32 others"));
+  for (int dots = 0; dots < 200; ++dots) key += ".a";
+  CHECK_THROWS_WITH(parse_keys("\n" + key + " = 1", "some.toml"),
+                    Contains("some.toml:2: more than 200 dots"));
+  const auto root = parse_keys("", "some.toml");
+  CHECK_THROWS_WITH(set_key(*root, key + "=1"), Contains("more than 32 tables"));
+}

@@ -1,0 +1,83 @@
+// Do two moving features meet? The reference's answer against the exact judge's: a meeting that is not told is a
+// finding, and so are a time outside the motion, a number that is none, and features that come nearer than promised.
+//
+// An input is a byte of kind, one of scale, one of what is to be kept, and 24 whole numbers of one byte or of two.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "reference/filters/approach.h"
+#include "verification/fuzz/finding.h"
+#include "verification/oracles/exact_crossing_times.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double rounding = std::numeric_limits<double>::epsilon();
+
+struct Query {
+  PairKind kind;
+  Corners4 x, way;  // m
+  double keep;      // m
+};
+
+/// Coordinates up to 128 or 32768 units of 2^-10 to 2^10 m, near the origin or up to 2^20 units away from it.
+bool read_query(const std::uint8_t* data, std::size_t size, Query& query) {
+  const std::size_t bytes = size >= 51 ? 2 : 1;
+  if (size < 3 + 24 * bytes) return false;
+  const double unit = std::ldexp(1.0, int(data[1] % 21) - 10), far = data[1] >= 128 ? 0x1p20 : 0;
+  std::array<double, 24> numbers;
+  for (std::size_t k = 0; k < 24; ++k) {
+    const std::uint8_t* at = data + 3 + k * bytes;
+    const int value = bytes == 1 ? std::int8_t(at[0]) : std::int16_t(at[0] | at[1] << 8);
+    numbers[k] = unit * (value + (k < 12 ? far : 0));
+  }
+  query.kind = data[0] % 2 == 0 ? PairKind::vertex_triangle : PairKind::edge_edge;
+  query.x = Eigen::Map<const Corners4>(numbers.data());
+  query.way = Eigen::Map<const Corners4>(numbers.data() + 12);
+  query.keep = unit * std::ldexp(1.0, int(data[2] % 32) - 24);
+  return true;
+}
+
+void require_told_well(const Query& query, const Approach& told, double noise) {
+  require(told.time >= 0 && told.time <= 1, "an approach is told at a time within the motion");
+  require(std::isfinite(told.at.distance) && told.at.distance >= 0, "its distance is a number");
+  require(told.at.weights.allFinite() && told.at.normal.allFinite(), "its place is a place");
+  const Corners4 then = query.x + told.time * query.way;
+  require(std::abs((then * told.at.weights).norm() - told.at.distance) <= noise,
+          "its weights lead over its distance");
+}
+
+/// Of features that are told not to come together: at some times, that they have not.
+void require_apart(const Query& query, double kept, double noise) {
+  for (const double t : {0.0, 0.25, 0.5, 0.8125, 1.0})
+    require(nearness(query.kind, query.x + t * query.way).distance >= kept - noise,
+            "features of which nothing is told stay farther apart than what is kept");
+}
+
+bool truly_meet(const Query& query, double until) {
+  const auto features = query.kind == PairKind::vertex_triangle ? oracles::Features::vertex_and_triangle
+                                                                : oracles::Features::edge_and_edge;
+  return oracles::ever_meet(features, oracles::until(oracles::exact_motion(query.x, query.way), until));
+}
+
+}  // namespace
+}  // namespace foldproof
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace foldproof;
+  Query query;
+  if (!read_query(data, size, query)) return -1;
+  const auto told = first_approach(query.kind, query.x, query.way, query.keep);
+  // rounding of coordinates in the sums of a few products that lead from them to a distance
+  const double noise = 64 * rounding * (query.x.cwiseAbs().maxCoeff() + query.way.cwiseAbs().maxCoeff());
+  if (told) require_told_well(query, *told, noise);
+  const double distance = nearness(query.kind, query.x).distance;
+  const double kept = distance > query.keep ? query.keep : distance / 2;
+  if (kept <= noise) return 0;  // not beyond rounding: nothing is promised
+  if (!told) require_apart(query, kept, noise);
+  if (!told) require(!truly_meet(query, 1), "no meeting is missed");
+  return 0;
+}
