@@ -2,8 +2,11 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "reference/mesh/text_file.h"
 
@@ -234,25 +237,54 @@ void KeyTable::refuse_unused() const {
 
 namespace {
 
-/// A key of as many parts as a line has room for would nest as many tables, and the parser's stack with them: a line
-/// may have a few hundred dots, in whatever meaning.
-void refuse_long_keys(const std::string& text, const std::string& file) {
-  int line = 1, dots = 0;
-  for (const char c : text) {
-    if (c == '\n') {
-      ++line;
-      dots = 0;
-    }
-    if (c == '.' && ++dots > most_dots)
-      throw InputError(file + ":" + std::to_string(line) + ": more than " + std::to_string(most_dots) +
-                       " dots; break the line");
+/// Behind the text in quotes that begins at `at`; at the end of the line or file in which it does not end.
+size_t behind_quotes(std::string_view text, size_t at) {
+  const std::string one(1, text[at]), three(3, text[at]);
+  const bool has_escapes = text[at] == '"', is_long = text.substr(at).starts_with(three);
+  const std::string& end = is_long ? three : one;
+  at += end.size();
+  while (at < text.size() && !text.substr(at).starts_with(end)) {
+    if (text[at] == '\n' && !is_long) return at;
+    at += has_escapes && text[at] == '\\' ? 2 : 1;
   }
+  at = std::min(at + end.size(), text.size());
+  while (is_long && at < text.size() && text[at] == one[0])
+    ++at;  // quotes of the text itself, before its end
+  return at;
+}
+
+struct Unbearable {
+  int line;
+  std::string why;
+};
+
+/// What the parser does not bear outside of comments and texts in quotes. A key of as many parts as a line has room for
+/// nests as many tables, and the parser's stack with them: a line may have a few hundred dots, in whatever meaning.
+/// Where toml++ 3.3 looks for blanks, letters outside ASCII lead it to where it must never come.
+std::optional<Unbearable> unbearable(std::string_view text) {
+  int line = 1, dots = 0;
+  size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // the mark that some editors put before UTF-8
+  while (at < text.size()) {
+    const size_t start = at;
+    const char c = text[at];
+    if (c == '"' || c == '\'') at = behind_quotes(text, at);
+    if (c == '#') at = std::min(text.find('\n', at), text.size());
+    if (at == start) ++at;
+    if (static_cast<unsigned char>(c) > 127)
+      return Unbearable{line, "a character outside ASCII; put texts into quotes"};
+    if (c == '.' && ++dots > most_dots)
+      return Unbearable{line, "more than " + std::to_string(most_dots) + " dots; break the line"};
+    if (c == '\n') dots = 0;
+    line += int(std::count(text.begin() + long(start), text.begin() + long(at), '\n'));
+  }
+  return {};
 }
 
 }  // namespace
 
 std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file) {
-  refuse_long_keys(text, file);
+  if (const auto found = unbearable(text))
+    throw InputError(file + ":" + std::to_string(found->line) + ": " + found->why);
   try {
     return converted(toml::parse(text, file), Place{"", file});
   } catch (const toml::parse_error& error) {
@@ -263,6 +295,7 @@ std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string&
 namespace {
 
 KeyValue parsed_value(const std::string& text) {
+  if (unbearable(text)) return {text, "--set"};
   try {
     const std::string file = "--set";
     return converted(*toml::parse("value = " + text).get("value"), Place{"value", file});

@@ -90,3 +90,18 @@ TEST_CASE("tables nested deeper than anyone needs are refused with their line") 
   const auto root = parse_keys("", "some.toml");
   CHECK_THROWS_WITH(set_key(*root, key + "=1"), Contains("more than 32 tables"));
 }
+
+TEST_CASE("letters outside ASCII stand in quotes and comments, and are refused elsewhere") {
+  const auto root = parse_keys(
+      "\xEF\xBB\xBF# gr\u00f6\u00dfe\na = \"\u0496 \\\" \u0496\"\nb = '''\n\u00b5''''\nc = '\u0496'\n",
+      "some.toml");
+  CHECK(root->text("a") == "\u0496 \" \u0496");
+  CHECK(root->text("b") == "\u00b5'");
+  CHECK(root->text("c") == "\u0496");
+  CHECK_THROWS_WITH(parse_keys("a = 1\n2\u0496", "some.toml"),
+                    Contains("some.toml:2: a character outside ASCII"));
+  CHECK_THROWS_WITH(parse_keys("b = \"\"\"\n\n\"\"\"\n\u00b5 = 1", "some.toml"),
+                    Contains("some.toml:4: a character"));
+  set_key(*root, "title=\u0496");
+  CHECK(root->text("title") == "\u0496");
+}
