@@ -46,6 +46,8 @@ std::shared_ptr<KeyTable> converted(const toml::table& table, const std::string&
   return result;
 }
 
+constexpr int most_dots = 4096;  // in a file, beside decimal points
+
 const double* as_number(const KeyValue& value, double& storage) {
   if (const auto* integer = std::get_if<long>(&value.data)) {
     storage = double(*integer);
@@ -218,6 +220,25 @@ void KeyTable::refuse_unused() const {
       for (const KeyValue& entry : *list)
         if (const auto* below = std::get_if<std::shared_ptr<KeyTable>>(&entry.data))
           (*below)->refuse_unused();
+  }
+}
+
+// Each level of nested keys is a level of recursion when their tables are taken apart, and takes a dot, but for one in two
+// (1.1 may be a key) and for what the parser bounds itself. So the dots bound what the stack has to bear.
+void refuse_deep_keys(const std::string& text, const std::string& file) {
+  const auto is_digit = [&](size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+  int dots = 0;
+  long line = 1;
+  for (size_t at = 0, last = std::string::npos; at < text.size(); ++at) {
+    line += text[at] == '\n';
+    if (text[at] != '.') continue;
+    size_t first = at;  // of the digits before the dot
+    while (first > 0 && is_digit(first - 1)) --first;
+    const bool is_decimal = first < at && is_digit(at + 1) && (first == 0 || first - 1 != last);
+    last = at;
+    if (!is_decimal && ++dots > most_dots)
+      throw InputError(file + ":" + std::to_string(line) + ": more than " + std::to_string(most_dots) +
+                       " dots that are no decimal points; keys nest no deeper");
   }
 }
 

@@ -66,6 +66,10 @@ class KeyTable {
   mutable std::set<std::string> asked_, left_;
 };
 
+/// For text from anyone: throws InputError "file:line: ..." if keys could nest so deep in it that parsing exhausts the
+/// stack, which is told by its dots: at most 4096 beside decimal points.
+void refuse_deep_keys(const std::string& text, const std::string& file);
+
 /// Parses TOML text; `file` names it in messages. Throws InputError "file:line: ..." for a syntax error.
 std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file);
 

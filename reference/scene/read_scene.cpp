@@ -163,6 +163,7 @@ Scene read_scene_text(const std::string& text, const std::string& path,
                       const std::vector<std::string>& overrides, const LevelSetMakers& makers) {
   const std::filesystem::path file(path);
   refuse_name(file.stem().string(), path);
+  refuse_deep_keys(text, path);
   const auto keys = parse_keys(text, path);
   for (const std::string& assignment : overrides) set_key(*keys, assignment);
   Scene scene = scene_from(*keys, file.parent_path().string(), makers);
