@@ -263,7 +263,9 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     foldproof::say("foldproof: this takes more memory than there is");
   } catch (const std::exception& error) {
-    foldproof::say(std::string("foldproof: ") + error.what());
+    const char* const where =
+        std::ferror(stdout) ? "foldproof: standard output cannot be written: " : "foldproof: ";
+    foldproof::say(std::string(where) + error.what());
   }
   return foldproof::bad_input;
 }

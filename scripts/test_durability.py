@@ -535,7 +535,10 @@ class Limits(DurabilityTest):
 
     def test_a_case_nested_without_end(self) -> None:
         for name, text in (("dots", "a" + ".a" * 30000 + " = 1\n"), ("lists", "a = " + "[" * 60000 + "\n"),
-                           ("tables", "a = " + "{b = " * 12000 + "\n"), ("headers", "[a" + ".a" * 30000 + "]\n")):
+                           ("tables", "a = " + "{b = " * 12000 + "\n"), ("headers", "[a" + ".a" * 30000 + "]\n"),
+                           ("quoted", "x = [ \"\"\"\n\"\"\", {" + '",".' * 12000 + "a = 1, b = \"\" } ]\n"),
+                           ("digits", "1.1" + " . 1.1" * 9000 + " = 1\n"),
+                           ("deepest", "[a" + ".a" * 2000 + "]\nb" + ".b" * 2000 + " = 1\nx\n")):
             with self.subTest(name):
                 self.soon_refused("simulate", self.write(f"{name}.toml", text), mentions=(f"{name}.toml",))
 
@@ -556,8 +559,8 @@ class Limits(DurabilityTest):
         for name in ("endless.obj", "endless.csv"):
             self.long_file(name, b"1.0 " * 10, 2_500_000, b"\n")
         self.soon_refused("inspect", str(self.path / "endless.obj"), mentions=("endless.obj:2", "65536 bytes"))
-        for kind in ("bending", "crossings"):
-            self.soon_refused("evaluate", kind, str(self.path / "endless.csv"), mentions=("endless.csv:2", "65536 bytes"))
+        for kind in (("bending",), ("crossings", "--kind", "edge-edge")):
+            self.soon_refused("evaluate", *kind, str(self.path / "endless.csv"), mentions=("endless.csv:2", "65536 bytes"))
         self.soon_refused("inspect", self.long_file("big.obj", b"# " + b"x" * 998 + b"\n", 300_000), mentions=("big.obj", "268435456 bytes"))
 
     def test_what_is_no_file(self) -> None:

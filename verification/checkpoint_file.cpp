@@ -276,7 +276,11 @@ std::optional<Checkpoint> CheckpointFolder::replay(const std::function<void(cons
 
 void CheckpointFolder::remove_from(long first) const {
   std::vector<std::pair<long, std::filesystem::path>> found;
-  std::error_code ignored;  // a folder that is not there holds none
+  std::error_code ignored;
+  const auto status = std::filesystem::status(folder_, ignored);
+  if (!std::filesystem::exists(status)) return;
+  if (!std::filesystem::is_directory(status))
+    throw std::runtime_error(folder_ + ": is no folder; checkpoints would come to lie there");
   for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored)) {
     const std::filesystem::path path = entry.path();
     const bool is_partial = path.extension() == ".partial";

@@ -60,6 +60,7 @@ std::shared_ptr<KeyTable> converted(const toml::table& table, const Place& at) {
   return result;
 }
 
+
 const double* as_number(const KeyValue& value, double& storage) {
   if (const auto* integer = std::get_if<long>(&value.data)) {
     storage = double(*integer);
