@@ -82,6 +82,30 @@ Finding no_point_is_left_inside(const Subject&) {
       "leaves one inside");
 }
 
+/// What must be said of a point that was at phi and is now at `after` [m].
+Fate expected_fate(const DepthMap& map, const FoldProjection& projection, double phi, double after) {
+  const double f = map.at(projection.band, phi);
+  if (!(f > phi)) return Fate::untouched;
+  return f <= after && after <= f + projection.tolerance ? Fate::moved : Fate::unfinished;
+}
+
+Finding fates_are_true(const Subject&) {
+  Measured measured("points with another fate than their distances say, or that are not moved to the end",
+                    "1");
+  for (const ProjectionCase& specimen : unpinched_cases()) {
+    for (const DepthMap& map : depth_maps()) {
+      const FoldProjection projection = projection_by(std::string(map.name));
+      const ProjectedCloth cloth = projected(specimen, projection);
+      double wrong = cloth.count(Fate::unfinished);
+      for (Eigen::Index i = 0; i < cloth.before.size(); ++i)
+        wrong += cloth.fates[size_t(i)] != expected_fate(map, projection, cloth.before[i], cloth.after[i]);
+      measured.see(with(specimen, map), wrong);
+    }
+  }
+  return measured.judged(
+      0, "where there is room every point is moved to the end, and what is told of it is true");
+}
+
 /// Pairs, neighbours in depth, that changed their order by more than the tolerance.
 double disorder(const PerParticle& before, const PerParticle& after) {
   std::vector<Eigen::Index> order(size_t(before.size()));
@@ -233,6 +257,11 @@ std::vector<Check> projection_checks() {
        ends_in_the_band},
       {"projection.no-point-is-left-inside", "No point that is not pinched is inside after the projection.",
        source, no_point_is_left_inside},
+      {"projection.fates-are-true",
+       "Each point is told to be untouched, or moved to where the map wants it, just as its distances say; "
+       "none is left "
+       "on the way.",
+       "the promise of the reference's header", fates_are_true},
       {"projection.order-of-depths-is-kept", "Of two points the deeper one stays the deeper.", source,
        order_of_depths_is_kept},
       {"projection.moves-along-the-normal", "Points go straight out along the object's normal.", source,
