@@ -89,6 +89,22 @@ Fate expected_fate(const DepthMap& map, const FoldProjection& projection, double
   return f <= after && after <= f + projection.tolerance ? Fate::moved : Fate::unfinished;
 }
 
+Finding one_move_is_enough(const Subject&) {
+  Measured measured("points that do not arrive", "1");
+  const ProjectionCase specimen = two_balls();
+  for (const DepthMap& map : depth_maps()) {
+    FoldProjection projection = projection_by(std::string(map.name));
+    projection.max_moves = 1;
+    projection.tolerance = 1e-9;
+    const ProjectedCloth cloth = projected(specimen, projection);
+    measured.see(with(specimen, map), cloth.count(Fate::unfinished));
+    measured.see(with(specimen, map) + ", questions",
+                 std::abs(double(cloth.object_queries - cloth.x.cols() - cloth.count(Fate::moved))));
+  }
+  return measured.judged(0,
+                         "along the normal of an exact distance the first move arrives, and it is allowed");
+}
+
 Finding fates_are_true(const Subject&) {
   Measured measured("points with another fate than their distances say, or that are not moved to the end",
                     "1");
@@ -257,6 +273,9 @@ std::vector<Check> projection_checks() {
        ends_in_the_band},
       {"projection.no-point-is-left-inside", "No point that is not pinched is inside after the projection.",
        source, no_point_is_left_inside},
+      {"projection.one-move-is-enough",
+       "Where distances are exact, a point needs one move, and as many are made as are allowed.", source,
+       one_move_is_enough},
       {"projection.fates-are-true",
        "Each point is told to be untouched, or moved to where the map wants it, just as its distances say; "
        "none is left "
