@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <string>
 
@@ -87,6 +88,24 @@ Fate expected_fate(const DepthMap& map, const FoldProjection& projection, double
   const double f = map.at(projection.band, phi);
   if (!(f > phi)) return Fate::untouched;
   return f <= after && after <= f + projection.tolerance ? Fate::moved : Fate::unfinished;
+}
+
+Finding senseless_ones_are_refused(const Subject&) {
+  Measured measured("projections that mean nothing and are not refused", "1");
+  const ProjectionCase specimen = two_balls();
+  const auto see = [&](const std::string& name, const std::function<void(FoldProjection&)>& spoil) {
+    FoldProjection projection = projection_by("plain");
+    spoil(projection);
+    measured.see(name, refusal([&] { projected(specimen, projection); }).empty() ? 1 : 0);
+  };
+  for (const double wrong : {0.0, -1e-9, double(NAN), double(INFINITY)})
+    see("tolerance " + std::to_string(wrong), [&](FoldProjection& p) { p.tolerance = wrong; });
+  for (const int wrong : {0, -3})
+    see(std::to_string(wrong) + " moves", [&](FoldProjection& p) { p.max_moves = wrong; });
+  see("tau below eps", [](FoldProjection& p) { p.band.reach = 0.5 * p.band.nearest; });
+  see("tau NaN", [](FoldProjection& p) { p.band.reach = NAN; });
+  see("no such map", [](FoldProjection& p) { p.map = "flat"; });
+  return measured.judged(0, "a tolerance and a cap above 0, a band and a map are needed");
 }
 
 Finding one_move_is_enough(const Subject&) {
@@ -273,6 +292,9 @@ std::vector<Check> projection_checks() {
        ends_in_the_band},
       {"projection.no-point-is-left-inside", "No point that is not pinched is inside after the projection.",
        source, no_point_is_left_inside},
+      {"projection.what-means-nothing-is-refused",
+       "A projection without a tolerance, a move, a band or a map is refused in words.",
+       "a rule of this suite: bad input is refused in words", senseless_ones_are_refused},
       {"projection.one-move-is-enough",
        "Where distances are exact, a point needs one move, and as many are made as are allowed.", source,
        one_move_is_enough},
