@@ -164,6 +164,39 @@ Finding solves_large_steps(const Subject& subject) {
                          "Newton's method with a line search has to arrive at any step that a user may try");
 }
 
+/// Shapes at rest far from the origin, held together by springs alone, or by hinges alone: all that pulls at them is
+/// how their places are rounded.
+std::vector<Specimen> shapes_at_rest() {
+  std::vector<Specimen> cases;
+  for (Specimen shape : curved_shapes())
+    for (const bool has_springs : {true, false}) {
+      Specimen rests = shape;
+      if (has_springs) rests.scene.stretch = StretchMaterial{2900, 0, 1};
+      if (!has_springs)
+        rests.scene.bending = BendingMaterial{0.37, 0, Weighting::rest, DampingFactor::edge, "sine"};
+      rests.state.x.colwise() += Vector3(57.3, -41.9, 23.1);
+      rests.state.v.setZero();
+      rests.scene.x = rests.state.x;
+      rests.scene.v = rests.state.v;
+      rests.name += has_springs ? ", springs" : ", hinges";
+      cases.push_back(rests);
+    }
+  return cases;
+}
+
+Finding rest_is_found(const Subject& subject) {
+  Measured measured("solves that missed their tolerance", "1");
+  for (const Specimen& shape : shapes_at_rest())
+    for (const std::string method : {"backward-euler", "implicit-midpoint"}) {
+      Stepper stepper(subject, shape.scene, method);
+      const double limit = elastic_limit(build_system(shape.scene), shape.state);
+      stepper.step(shape.state, 5 * limit);
+      measured.see(shape.name + ", " + method, double(stepper.work().unfinished_solves));
+    }
+  return measured.judged(
+      0, "what is at rest but for the rounding of its place needs no solve, nor can one improve it");
+}
+
 /// Sheets that turn and crumple against damping a hundred times their usual.
 Finding newton_is_quick(const Subject& subject) {
   Measured measured("Newton iterations of a step", "1");
@@ -276,6 +309,11 @@ std::vector<Check> method_checks() {
        "Newton's method solves steps up to fifty times the elastic limit of damped and heavily damped "
        "crumpled sheets, and of a compressed undamped one.",
        "what BMF03 section 3 expects of a fully implicit method", solves_large_steps},
+      {"methods.newton-knows-cloth-at-rest",
+       "A step of shapes at rest far from the origin is not called unfinished: no force is asked to vanish "
+       "below what "
+       "rounding makes of it.",
+       "floating-point arithmetic", rest_is_found},
       {"methods.newton-is-quick-on-damped-cloth",
        "Newton's method takes at most ten iterations a step on heavily damped cloth that turns and crumples, "
        "at steps up to five times the elastic limit.",

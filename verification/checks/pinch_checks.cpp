@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/filters/object_collision.h"
 #include "verification/checks/contact_checks.h"
 #include "verification/checks/contact_scenes.h"
 #include "verification/checks/measured.h"
@@ -153,6 +154,58 @@ Finding centres_finding(const Subject& subject) {
           "not a number if the particles alone keep the centre out"};
 }
 
+/// A triangle of unlike particles whose centre alone is to be kept out of a ball that it comes down on.
+struct ComingDown {
+  ObjectCollision filter;
+  State state;
+};
+
+ComingDown coming_down() {
+  const SceneObject ball =
+      object_at("ball", Sphere{0.21}, {Eigen::Quaterniond::Identity(), Vector3(0.02, -0.03, -0.22)});
+  CollisionPoint centre;
+  centre.particles = {2, 0, 1};
+  centre.count = 3;
+  centre.shares = Vector3(0.6, 1.5, 0.9);
+  ComingDown made{{{ball.object}, {centre}},
+                  still_at(PerParticle3{{0.3, -0.2, -0.1}, {0.1, 0.3, -0.4}, {0.01, 0, -0.01}})};
+  made.state.v = PerParticle3{{0.7, -0.4, 0.2}, {0.3, 0.9, -0.6}, {-3.1, -2.6, -3.7}};
+  return made;
+}
+
+Finding change_finding(const Subject&) {
+  Measured measured = roundings_of("1 m/s");
+  const ComingDown down = coming_down();
+  const CollisionPoint& centre = down.filter.points[0];
+  PerParticle3 v = down.state.v;
+  Work work;
+  down.filter.correct({0, 0.01, 0.01}, down.state, v, work);
+  const PerParticle3 change = v - down.state.v;
+  const Vector3 of_centre = centre.mean(change);
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 of_corner = change.col(centre.particles[size_t(k)]);
+    measured.see("corner " + std::to_string(k + 1),
+                 (of_corner - centre.shares[k] * of_centre).norm() / epsilon);
+  }
+  measured.see("the ball is met", of_centre.norm() > 0.1 ? 0 : nan);
+  return measured.judged(32, "velocities of a few m/s, a mean of three and a product");
+}
+
+Finding counts_finding(const Subject&) {
+  Measured measured("questions and contacts that are counted wrongly", "1");
+  const ComingDown down = coming_down();
+  const auto miscounted = [&](const Span& span, const PerParticle3& start, long contacts) {
+    PerParticle3 v = start;
+    Work work;
+    down.filter.correct(span, down.state, v, work);
+    return std::abs(double(work.object_queries - 1)) + std::abs(double(work.object_contacts - contacts));
+  };
+  measured.see("a move into the ball", miscounted({0, 0.01, 0.01}, down.state.v, 1));
+  measured.see("a velocity at the end of a step", miscounted({0.01, 0.01, 0.01}, down.state.v, 0));
+  measured.see("a move away", miscounted({0, 0.01, 0.01}, -down.state.v, 0));
+  return measured.judged(0, "one point, asked once; a contact is a move that was changed");
+}
+
 }  // namespace
 
 std::vector<Check> pinch_checks() {
@@ -171,6 +224,12 @@ std::vector<Check> pinch_checks() {
       {"contact.shares-are-the-least-impulses",
        "Midpoints and centres pass the change of their velocity on to their particles by the least impulses.",
        "mechanics", shares_finding},
+      {"contact.centres-pass-on-their-change-alone",
+       "Particles keep their velocities but for their shares of the change that the centre asks for.",
+       "mechanics", change_finding},
+      {"contact.contacts-are-counted",
+       "A point is asked once, and its contact counted where its move was changed.",
+       "our own: cases are judged by it", counts_finding},
       {"contact.centres-are-held-out",
        "With centres of triangles as points, a spike between the particles does not come through.",
        "BMF03 section 5.2", centres_finding},

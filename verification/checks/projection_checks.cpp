@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <string>
 
@@ -80,6 +81,64 @@ Finding no_point_is_left_inside(const Subject&) {
       0,
       "with eps = 0 too: arrived points lie on the outer side of f, so that not even a rounding "
       "leaves one inside");
+}
+
+/// What must be said of a point that was at phi and is now at `after` [m].
+Fate expected_fate(const DepthMap& map, const FoldProjection& projection, double phi, double after) {
+  const double f = map.at(projection.band, phi);
+  if (!(f > phi)) return Fate::untouched;
+  return f <= after && after <= f + projection.tolerance ? Fate::moved : Fate::unfinished;
+}
+
+Finding senseless_ones_are_refused(const Subject&) {
+  Measured measured("projections that mean nothing and are not refused", "1");
+  const ProjectionCase specimen = two_balls();
+  const auto see = [&](const std::string& name, const std::function<void(FoldProjection&)>& spoil) {
+    FoldProjection projection = projection_by("plain");
+    spoil(projection);
+    measured.see(name, refusal([&] { projected(specimen, projection); }).empty() ? 1 : 0);
+  };
+  for (const double wrong : {0.0, -1e-9, double(NAN), double(INFINITY)})
+    see("tolerance " + std::to_string(wrong), [&](FoldProjection& p) { p.tolerance = wrong; });
+  for (const int wrong : {0, -3})
+    see(std::to_string(wrong) + " moves", [&](FoldProjection& p) { p.max_moves = wrong; });
+  see("tau below eps", [](FoldProjection& p) { p.band.reach = 0.5 * p.band.nearest; });
+  see("tau NaN", [](FoldProjection& p) { p.band.reach = NAN; });
+  see("no such map", [](FoldProjection& p) { p.map = "flat"; });
+  return measured.judged(0, "a tolerance and a cap above 0, a band and a map are needed");
+}
+
+Finding one_move_is_enough(const Subject&) {
+  Measured measured("points that do not arrive", "1");
+  const ProjectionCase specimen = two_balls();
+  for (const DepthMap& map : depth_maps()) {
+    FoldProjection projection = projection_by(std::string(map.name));
+    projection.max_moves = 1;
+    projection.tolerance = 1e-9;
+    const ProjectedCloth cloth = projected(specimen, projection);
+    measured.see(with(specimen, map), cloth.count(Fate::unfinished));
+    measured.see(with(specimen, map) + ", questions",
+                 std::abs(double(cloth.object_queries - cloth.x.cols() - cloth.count(Fate::moved))));
+  }
+  return measured.judged(0,
+                         "along the normal of an exact distance the first move arrives, and it is allowed");
+}
+
+Finding fates_are_true(const Subject&) {
+  Measured measured("points with another fate than their distances say, or that are not moved to the end",
+                    "1");
+  for (const ProjectionCase& specimen : unpinched_cases()) {
+    for (const DepthMap& map : depth_maps()) {
+      const FoldProjection projection = projection_by(std::string(map.name));
+      const ProjectedCloth cloth = projected(specimen, projection);
+      double wrong = cloth.count(Fate::unfinished);
+      for (Eigen::Index i = 0; i < cloth.before.size(); ++i)
+        wrong += cloth.fates[size_t(i)] != expected_fate(map, projection, cloth.before[i], cloth.after[i]);
+      measured.see(with(specimen, map), wrong);
+    }
+  }
+  return measured.judged(
+      0, "where there is room every point is moved to the end, and what is told of it is true");
 }
 
 /// Pairs, neighbours in depth, that changed their order by more than the tolerance.
@@ -233,6 +292,17 @@ std::vector<Check> projection_checks() {
        ends_in_the_band},
       {"projection.no-point-is-left-inside", "No point that is not pinched is inside after the projection.",
        source, no_point_is_left_inside},
+      {"projection.what-means-nothing-is-refused",
+       "A projection without a tolerance, a move, a band or a map is refused in words.",
+       "a rule of this suite: bad input is refused in words", senseless_ones_are_refused},
+      {"projection.one-move-is-enough",
+       "Where distances are exact, a point needs one move, and as many are made as are allowed.", source,
+       one_move_is_enough},
+      {"projection.fates-are-true",
+       "Each point is told to be untouched, or moved to where the map wants it, just as its distances say; "
+       "none is left "
+       "on the way.",
+       "the promise of the reference's header", fates_are_true},
       {"projection.order-of-depths-is-kept", "Of two points the deeper one stays the deeper.", source,
        order_of_depths_is_kept},
       {"projection.moves-along-the-normal", "Points go straight out along the object's normal.", source,

@@ -222,6 +222,44 @@ Finding refused_finding(const Subject&) {
   });
 }
 
+/// v after the springs, in the order given, were corrected one after the other.
+PerParticle3 one_by_one(const StrainLimiter& limiter, const LimitedCloth& cloth, PerParticle3 v) {
+  for (const LimitedSpring& spring : limiter.springs)
+    limit_strain({{limiter.limits.extension, limiter.limits.compression, SweepOrder::gauss_seidel, 1},
+                  {spring},
+                  {0, 1},
+                  limiter.inverse_mass},
+                 cloth.step, cloth.state.x, v);
+  return v;
+}
+
+/// Springs of the cloth in their own order, for `sweeps` sweeps that nothing ends before.
+StrainLimiter limiter_of(const LimitedCloth& cloth, SweepOrder order, int sweeps) {
+  const System system = build_system(cloth.scene);
+  StrainLimits limits = *cloth.scene.strain_limits;
+  limits.order = order;
+  limits.sweeps = sweeps;
+  limits.tolerance = 1e-300;
+  return make_strain_limiter(limits, std::get<StretchSprings>(system.forces[0]).springs, system.inverse_mass);
+}
+
+Finding orders_finding(const Subject&) {
+  Measured measured("numbers that differ from springs taken one by one", "1");
+  for (const LimitedCloth& cloth : limited_cloths(SweepOrder::gauss_seidel)) {
+    for (const SweepOrder order : {SweepOrder::gauss_seidel, SweepOrder::alternating, SweepOrder::coloured}) {
+      StrainLimiter limiter = limiter_of(cloth, order, 2);
+      PerParticle3 v = cloth.state.v;
+      limit_strain(limiter, cloth.step, cloth.state.x, v);
+      PerParticle3 expected = one_by_one(limiter, cloth, cloth.state.v);
+      if (order == SweepOrder::alternating) std::ranges::reverse(limiter.springs);
+      expected = one_by_one(limiter, cloth, expected);
+      measured.see(cloth.name + ", order " + std::to_string(int(order)), numbers_that_differ(v, expected));
+    }
+  }
+  return measured.judged(
+      0, "two sweeps are two times all springs, the second time backwards where sweeps alternate");
+}
+
 }  // namespace
 
 std::vector<Check> strain_step_checks() {
@@ -239,6 +277,11 @@ std::vector<Check> strain_step_checks() {
             "On a line, a sweep leads no farther from any velocity within the limits, so it never adds "
             "kinetic energy.",
             "Bregman 1967", nearer_finding},
+           {"strain.sweeps-take-springs-in-order",
+            "A sweep corrects one spring after the other in the list's order, every other sweep backwards if "
+            "so asked, and "
+            "coloured ones in the order of the colours.",
+            source, orders_finding},
            {"strain.colours-share-no-particle",
             "No two springs of a colour share a particle, and none is lost.", "our own", colours_finding},
            {"strain.threads-do-not-matter", "Coloured sweeps give the same bits on any number of threads.",
