@@ -553,7 +553,7 @@ class Limits(DurabilityTest):
 
     def test_groups_without_end(self) -> None:
         names = " ".join(f"g{k}" for k in range(40))
-        self.soon_refused("inspect", self.write("groups.obj", f"g {names}\n{TRIANGLES}"), mentions=("groups.obj:1", "16 groups"))
+        self.soon_refused("inspect", self.write("groups.obj", f"g {names}\n{TRIANGLES}"), mentions=("groups.obj:1", "16 names of groups"))
 
     def test_lines_without_end(self) -> None:
         for name in ("endless.obj", "endless.csv"):

@@ -39,6 +39,18 @@ LimitedCloth limited(const std::string& name, const Specimen& specimen, const Pe
   return cloth;
 }
 
+/// The sheet stretched by 5 %, with a share of its displacements that leaves all springs within their limits: of 6 %,
+/// unless that shortens a short edge of a random mesh by more than it is stretched.
+LimitedCloth stretched(const Specimen& specimen, const StrainLimits& limits) {
+  const PerParticle3& rest = specimen.scene.mesh.rest;
+  for (double share = 0.06;; share *= 0.7) {
+    LimitedCloth cloth = limited(specimen.name + ", stretched", specimen,
+                                 1.05 * rest + share * (specimen.scene.x - rest), limits);
+    const double violation = strain_violation(cloth.scene, cloth.scene.x);
+    if (!(violation > -10 * limits.tolerance)) return cloth;
+  }
+}
+
 }  // namespace
 
 std::vector<LimitedCloth> limited_cloths(SweepOrder order) {
@@ -53,9 +65,7 @@ std::vector<LimitedCloth> limited_cloths(SweepOrder order) {
     crumpled.scene.strain_limits->extension = std::max(0.0, strains.largest) + 0.031;
     crumpled.scene.strain_limits->compression = std::max(0.0, -strains.least) + 0.017;
     cloths.push_back(std::move(crumpled));
-    const PerParticle3& rest = specimen.scene.mesh.rest;
-    cloths.push_back(limited(specimen.name + ", stretched", specimen,
-                             1.05 * rest + 0.06 * (specimen.scene.x - rest), limits));
+    cloths.push_back(stretched(specimen, limits));
   }
   return cloths;
 }
