@@ -60,7 +60,6 @@ std::shared_ptr<KeyTable> converted(const toml::table& table, const Place& at) {
   return result;
 }
 
-
 const double* as_number(const KeyValue& value, double& storage) {
   if (const auto* integer = std::get_if<long>(&value.data)) {
     storage = double(*integer);
@@ -268,7 +267,9 @@ std::optional<Unbearable> unbearable(std::string_view text) {
   while (at < text.size()) {
     const size_t start = at;
     const char c = text[at];
-    if (c == '"' || c == '\'') at = behind_quotes(text, at);
+    const bool may_begin =
+        start == 0 || std::string_view(" \t\r\n=,.[{").find(text[start - 1]) != std::string_view::npos;
+    if ((c == '"' || c == '\'') && may_begin) at = behind_quotes(text, at);
     if (c == '#') at = std::min(text.find('\n', at), text.size());
     if (at == start) ++at;
     if (static_cast<unsigned char>(c) > 127)
