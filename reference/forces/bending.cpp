@@ -119,8 +119,9 @@ HingeShape checked_shape_of(const BendingHinge& hinge, const PerParticle3& x) {
   return checked_shape_at(hinge, x);
 }
 
-double angle_of(const HingeShape& shape) {
-  return 2 * std::asin(std::min(1.0, std::max(-1.0, shape.sin_half)));
+double angle_of(const BendingHinge& hinge, const PerParticle3& x) {
+  const auto [i1, i2, i3, i4] = hinge.particles;
+  return hinge_angle(x.col(i1), x.col(i2), x.col(i3), x.col(i4));
 }
 
 double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting) {
@@ -141,8 +142,8 @@ void Bending::add_elastic(const State& s, PerParticle3& f) const {
   const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
   for (const BendingHinge& hinge : hinges) {
     const HingeShape shape = checked_shape_at(hinge, s.x);
-    const double magnitude =
-        is_sine ? shape.sin_half - hinge.sin_half_rest : law.magnitude(angle_of(shape), hinge.rest_angle);
+    const double magnitude = is_sine ? shape.sin_half - hinge.sin_half_rest
+                                     : law.magnitude(angle_of(hinge, s.x), hinge.rest_angle);
     add_forces(hinge.particles, shape,
                material.stiffness * weight_of(hinge, shape, material.weighting) * magnitude, f);
   }
@@ -153,9 +154,8 @@ double Bending::energy(const State& s) const {
   double sum = 0;
   for (const BendingHinge& hinge : hinges) {
     const HingeShape shape = checked_shape_at(hinge, s.x);
-    const auto [i1, i2, i3, i4] = hinge.particles;
-    const double theta = hinge_angle(s.x.col(i1), s.x.col(i2), s.x.col(i3), s.x.col(i4));
-    sum += weight_of(hinge, shape, material.weighting) * law.potential(theta, hinge.rest_angle);
+    sum +=
+        weight_of(hinge, shape, material.weighting) * law.potential(angle_of(hinge, s.x), hinge.rest_angle);
   }
   return material.stiffness * sum;
 }
@@ -209,7 +209,7 @@ void Bending::add_stiffness_bound(const State& s, PerParticle& rows) const {
   const BendingLaw& law = bending_law(material.law);
   for (const BendingHinge& hinge : hinges) {
     const HingeShape shape = checked_shape_at(hinge, s.x);
-    const double theta = angle_of(shape),
+    const double theta = angle_of(hinge, s.x),
                  weight = material.stiffness * weight_of(hinge, shape, material.weighting);
     const double slope = std::abs(law.slope(theta, hinge.rest_angle)),
                  magnitude = std::abs(law.magnitude(theta, hinge.rest_angle));

@@ -86,7 +86,8 @@ double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, cons
 /// its area.
 HingeShape checked_shape_of(const BendingHinge& hinge, const PerParticle3& x);
 
-double angle_of(const HingeShape& shape);                                                   // theta [rad]
+/// theta of the hinge's particles at x (3 x N [m]) [rad]; sin_half would not do near pi, where it hardly changes.
+double angle_of(const BendingHinge& hinge, const PerParticle3& x);
 double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting);  // c [1]
 
 /// u1, u2, u3, u4 as columns [1/m].

@@ -122,7 +122,7 @@ Finding solids_are_accepted(const Subject&) {
        joined(joined(ball(0.7), turned_round(ball(0.5)), {0.02, 0.01, 0}), ball(0.3), {0.05, -0.02, 0.01})}};
   for (const UglySolid& solid : ugly_solids()) good.emplace_back(solid.name, solid.soup);
   for (const auto& [name, soup] : good)
-    measured.see(name, refusal([&] { make_closed_mesh(soup); }).empty() ? 0 : 1);
+    measured.see(name, refusal([&soup = soup] { make_closed_mesh(soup); }).empty() ? 0 : 1);
   return measured.judged(0, "each of them parts inside from outside");
 }
 

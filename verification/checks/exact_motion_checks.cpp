@@ -60,7 +60,7 @@ TurningPair turning_pair() {
   turning.system = make_system(Eigen::Vector2d(pair.mass_a, pair.mass_b));
   const double stiffness = pair.young * pair.area / (pair.rest_length * pair.rest_length);
   const std::vector<Spring> springs = {{0, 1, pair.rest_length, stiffness, 0}};
-  turning.system.forces.emplace_back(std::in_place_type<StretchSprings>, springs);
+  turning.system.forces.push_back(StretchSprings{springs});
 
   const Vector3 direction = Vector3(0.3, -0.7, 0.5).normalized();
   const Vector3 spin = turning.omega * direction.cross(Vector3(0.9, 0.2, -0.4)).normalized();

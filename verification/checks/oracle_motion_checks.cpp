@@ -144,7 +144,7 @@ Agreement oscillators_agree() {
   Agreement agreement;
   const std::array<double, 2> times{.37, 2.9};
   for (const auto& [name, o] : oscillators()) {
-    const oracles::RightHandSide rhs = [&o](double, std::span<const double> y, std::span<double> dy) {
+    const oracles::RightHandSide rhs = [&o = o](double, std::span<const double> y, std::span<double> dy) {
       dy[0] = y[1];
       dy[1] = -o.stiffness * y[0] - o.damping * y[1];
     };
@@ -195,7 +195,7 @@ Agreement stable_steps_agree() {
     for (const auto& [scheme, name] : schemes) {
       const Estimate closed = oracles::largest_stable_step(scheme, o);
       // there the step's matrix has the eigenvalue -1
-      const auto determinant = [&](double h) {
+      const auto determinant = [&o, scheme = scheme](double h) {
         return (matrix_by_lines(scheme, o, h) + Eigen::Matrix2d::Identity()).determinant();
       };
       Estimate root = oracles::bracketed_root(determinant, .7 * closed.value, 1.4 * closed.value, 0);

@@ -39,6 +39,27 @@ LimitedCloth limited(const std::string& name, const Specimen& specimen, const Pe
   return cloth;
 }
 
+/// The limits just outside of the strains that the cloth has.
+void limit_about(LimitedCloth& cloth) {
+  const Strains strains = strains_of(cloth.scene, cloth.scene.x);
+  cloth.scene.strain_limits->extension = std::max(0.0, strains.largest) + 0.031;
+  cloth.scene.strain_limits->compression = std::max(0.0, -strains.least) + 0.017;
+}
+
+/// The sheet displaced as the specimen is, or by a share of it: on a random mesh a short edge must not be more than
+/// halved nor doubled.
+LimitedCloth crumpled(const Specimen& specimen, const StrainLimits& limits) {
+  const PerParticle3& rest = specimen.scene.mesh.rest;
+  for (double share = 1;; share *= 0.7) {
+    const PerParticle3 x = rest + share * (specimen.scene.x - rest);
+    LimitedCloth cloth = limited(specimen.name + ", crumpled", specimen, x, limits);
+    const Strains strains = strains_of(cloth.scene, x);
+    if (strains.least < -0.5 || strains.largest > 1) continue;
+    limit_about(cloth);
+    return cloth;
+  }
+}
+
 /// The sheet stretched by 5 %, with a share of its displacements that leaves all springs within their limits: of 6 %,
 /// unless that shortens a short edge of a random mesh by more than it is stretched.
 LimitedCloth stretched(const Specimen& specimen, const StrainLimits& limits) {
@@ -51,7 +72,38 @@ LimitedCloth stretched(const Specimen& specimen, const StrainLimits& limits) {
   }
 }
 
+/// The spring with the largest strain is pulled by a tenth of its length in a step: not all random motions break limits.
+void pull(LimitedCloth& cloth) {
+  const Edge* longest = nullptr;
+  double largest = -infinity;
+  for (const Edge& edge : cloth.scene.mesh.edges) {
+    const double rest = (cloth.scene.mesh.rest.col(edge.b) - cloth.scene.mesh.rest.col(edge.a)).norm();
+    const double strain = (cloth.state.x.col(edge.b) - cloth.state.x.col(edge.a)).norm() / rest;
+    if (strain > largest) largest = strain, longest = &edge;
+  }
+  const Vector3 d = cloth.state.x.col(longest->b) - cloth.state.x.col(longest->a);
+  const Vector3 mean = 0.5 * (cloth.state.v.col(longest->a) + cloth.state.v.col(longest->b));
+  cloth.state.v.col(longest->a) = mean - 0.05 / cloth.step * d;
+  cloth.state.v.col(longest->b) = mean + 0.05 / cloth.step * d;
+}
+
+/// Makes the step so short that the ends of a spring move against each other by .3 of its length at most; its motion
+/// breaks limits then, too.
+void moderate(LimitedCloth& cloth) {
+  cloth.step *= std::min(1.0, 0.3 / relative_motion(cloth, cloth.step));
+  if (strain_violation(cloth.scene, cloth.state.x + cloth.step * cloth.state.v) < 0.05) pull(cloth);
+}
+
 }  // namespace
+
+double relative_motion(const LimitedCloth& cloth, double h) {
+  double largest = 0;
+  for (const Edge& edge : cloth.scene.mesh.edges) {
+    const double length = (cloth.state.x.col(edge.b) - cloth.state.x.col(edge.a)).norm();
+    largest = std::max(largest, h * (cloth.state.v.col(edge.b) - cloth.state.v.col(edge.a)).norm() / length);
+  }
+  return largest;
+}
 
 std::vector<LimitedCloth> limited_cloths(SweepOrder order) {
   StrainLimits limits;
@@ -60,13 +112,10 @@ std::vector<LimitedCloth> limited_cloths(SweepOrder order) {
   limits.tolerance = 3e-4;
   std::vector<LimitedCloth> cloths;
   for (const Specimen& specimen : crumpled_sheets()) {
-    LimitedCloth crumpled = limited(specimen.name + ", crumpled", specimen, specimen.scene.x, limits);
-    const Strains strains = strains_of(crumpled.scene, crumpled.scene.x);
-    crumpled.scene.strain_limits->extension = std::max(0.0, strains.largest) + 0.031;
-    crumpled.scene.strain_limits->compression = std::max(0.0, -strains.least) + 0.017;
-    cloths.push_back(std::move(crumpled));
+    cloths.push_back(crumpled(specimen, limits));
     cloths.push_back(stretched(specimen, limits));
   }
+  for (LimitedCloth& cloth : cloths) moderate(cloth);
   return cloths;
 }
 

@@ -19,9 +19,12 @@ struct LimitedCloth {
 };
 
 /// Crumpled sheets of every pattern, a disc and a sphere, each twice: as they are, with limits just outside
-/// of their strains, and nearly flat, stretched by 5 %, with limits of +10 % and 0 %. Random velocities
-/// change lengths by up to half in a step. Free of anything else.
+/// of their strains, and nearly flat, stretched by 5 %, with limits of +10 % and 0 %. Random velocities move the ends of
+/// a spring against each other by up to .3 of its length in a step: at half, sweeps may lead ever farther from the limits.
 std::vector<LimitedCloth> limited_cloths(SweepOrder order);
+
+/// How far the ends of a spring move against each other in a step h [s], over its length: the largest [1].
+double relative_motion(const LimitedCloth& cloth, double h);
 
 /// The four orders with the names that case files give them.
 struct NamedOrder {

@@ -42,6 +42,24 @@ Integral trapezoidal(const Probe& probe, const Path& loop, int points) {
   return sum;
 }
 
+struct Refined {
+  Integral sum;
+  double change;  // from the rule with half as many points [J]
+};
+
+/// A rule with `parts` and twice as many, and so on until that changes no more than eight roundings of the scale, or
+/// `most` parts are reached.
+Refined refined(const std::function<Integral(int)>& rule, int parts, int most) {
+  Integral coarse = rule(parts);
+  while (true) {
+    parts *= 2;
+    const Integral fine = rule(parts);
+    const double change = std::abs(fine.work - coarse.work);
+    if (change <= 8 * epsilon * fine.scale || parts >= most) return {fine, change};
+    coarse = fine;
+  }
+}
+
 }  // namespace
 
 Path random_line(const PerParticle3& x, double size, unsigned seed) {
@@ -60,14 +78,14 @@ Path random_loop(const PerParticle3& x, double size, unsigned seed) {
 
 oracles::Estimate energy_against_work(const Probe& probe, const Path& path) {
   const double before = probe.energy(still_at(path.x(0))), after = probe.energy(still_at(path.x(1)));
-  const Integral coarse = gauss(probe, path, 8), fine = gauss(probe, path, 16);
-  const double unit = epsilon * (fine.scale + std::abs(before) + std::abs(after));
-  return {std::abs(after - before + fine.work) / unit, std::abs(fine.work - coarse.work) / unit};
+  const Refined line = refined([&](int panels) { return gauss(probe, path, panels); }, 8, 128);
+  const double unit = epsilon * (line.sum.scale + std::abs(before) + std::abs(after));
+  return {std::abs(after - before + line.sum.work) / unit, line.change / unit};
 }
 
 RoundTrip round_trip(const Probe& probe, const Path& loop) {
-  const Integral coarse = trapezoidal(probe, loop, 64), fine = trapezoidal(probe, loop, 128);
-  return {fine.work, std::abs(fine.work - coarse.work), fine.scale};
+  const Refined trip = refined([&](int points) { return trapezoidal(probe, loop, points); }, 64, 1024);
+  return {trip.sum.work, trip.change, trip.sum.scale};
 }
 
 }  // namespace foldproof
