@@ -160,15 +160,21 @@ void make_neighbours(OctreeGrowth& growth, const OctreePlace& place) {
   }
 }
 
+/// Nowhere farther at the nodes, and so nowhere between them.
+bool is_in_front(const BranchNodes<double>& one, const BranchNodes<double>& other) {
+  for (std::size_t n = 0; n < one.size(); ++n)
+    if (!(one[n] <= other[n])) return false;
+  return true;
+}
+
 }  // namespace
 
 bool is_kept(const std::vector<BranchNodes<double>>& phi, std::size_t part, double reach) {
-  for (int n = 0; n < 27; ++n) {
-    double nearest = phi[part][n];
-    for (const auto& other : phi) nearest = std::min(nearest, other[n]);
-    if (phi[part][n] <= std::max(nearest, reach)) return true;
-  }
-  return false;
+  const BranchNodes<double>& own = phi[part];
+  if (std::ranges::any_of(own, [&](double value) { return value <= reach; })) return true;
+  for (std::size_t other = 0; other < phi.size(); ++other)
+    if (other != part && is_in_front(phi[other], own) && (other < part || phi[other] != own)) return false;
+  return true;
 }
 
 OctreeGrowth grown_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings) {

@@ -31,7 +31,8 @@ OctreeGrowth grown_octree(const std::vector<DistanceFunction>& bodies, const Oct
 /// Splits leaves that touch, be it at a corner, cells more than one level finer.
 void balance(OctreeGrowth& growth);
 
-/// Is a part worth a channel: nearest at one of the nodes, or nearer than the reach?
+/// Is a part worth a channel: nearer than the reach at one of the nodes, or not behind one and the same other part at
+/// all of them? Behind it at the nodes it is so between them, where phi is interpolated, and on neighbours' faces too.
 bool is_kept(const std::vector<BranchNodes<double>>& phi, std::size_t part, double reach);
 
 }  // namespace foldproof

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "verification/checks/bending_checks.h"
 #include "verification/checks/measured.h"
@@ -20,7 +22,17 @@ std::vector<Specimen> specimens() {
 
 /// How far a path may lead from a specimen's state without folding a hinge through pi or losing a triangle
 /// [m].
-double excursion(const Specimen& specimen) { return 0.08 * rest_lengths(specimen.scene.mesh).minCoeff(); }
+double excursion(const Specimen& specimen) {
+  const PerParticle3& x = specimen.state.x;
+  const std::vector<Triangle>& triangles = specimen.scene.mesh.triangles;
+  const Eigen::VectorXd areas = triangle_areas(triangles, x);
+  double least = std::numeric_limits<double>::infinity();  // height
+  for (size_t t = 0; t < triangles.size(); ++t)
+    for (size_t k = 0; k < 3; ++k)
+      least = std::min(least, 2 * areas[Eigen::Index(t)] /
+                                  (x.col(triangles[t][k]) - x.col(triangles[t][(k + 1) % 3])).norm());
+  return 0.08 * least;
+}
 
 Finding force_is_minus_gradient(const Subject& subject) {
   Measured measured = roundings_of("(integral |F||dx| + |E|)");

@@ -54,9 +54,9 @@ Finding hinge_is_second_derivative(const Subject&) {
     measured.see(hinge.name, {largest_entry(difference) / scale, exact.uncertainty / scale});
   }
   return measured.judged(
-      64,
-      "an entry is a sum of four products of a dozen factors, each rounded; a normal's rounding "
-      "is magnified by the triangle's thinness, its derivative's once more");
+      16,
+      "an entry is a sum of four products of a dozen factors: 48 roundings of either sign add up to some 7, twice that "
+      "is allowed; a normal's rounding is magnified by the triangle's thinness, its derivative's once more");
 }
 
 /// Sheets and hinges with all that has a derivative: springs, both laws of bending, both at once.

@@ -83,9 +83,9 @@ Finding hinge_is_derivative(const Subject&) {
                    {largest_entry(difference) / scale, exact.uncertainty / scale});
     }
   return measured.judged(
-      128,
-      "an entry is a sum of eight products of a dozen factors, each rounded; a normal's rounding "
-      "is magnified by the triangle's thinness, its derivative's once more");
+      16,
+      "an entry is a sum of eight products of a dozen factors: a hundred roundings of either sign add up to some 10; a "
+      "normal's rounding is magnified by the triangle's thinness, its derivative's once more");
 }
 
 Finding spring_is_derivative(const Subject&) {

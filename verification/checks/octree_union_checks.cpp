@@ -129,8 +129,9 @@ Finding union_jumps_nowhere(const Subject&) {
   for (const double tolerance : {2.1e-3, 7e-4})
     measured.see("to " + std::to_string(tolerance) + " m",
                  largest_jump(make_octree(parts_of_a_body(), union_sampling(tolerance)), 20000) / epsilon);
-  return measured.judged(
-      32, "as for one body; a part that one side leaves out is nowhere nearest on their common face");
+  return measured.judged(32,
+                         "as for one body; a part that one side leaves out is behind another at all nodes of "
+                         "their common face, and so all over it");
 }
 
 }  // namespace

@@ -12,6 +12,8 @@ std::vector<Check>
 scene_place_checks();  // scene_place_checks.cpp: where the cloth is, how it starts and is held
 std::vector<Check> scene_object_checks();  // scene_object_checks.cpp: objects and how cloth meets them
 std::vector<Check> scene_body_checks();  // scene_body_checks.cpp: bodies of triangles, sampled and deforming
+std::vector<Check>
+scene_cloth_checks();  // scene_cloth_checks.cpp: shapes, copies, folds, cloth meeting itself
 
 /// All of the above.
 std::vector<Check> scene_checks();

@@ -25,7 +25,7 @@ State begun(const Subject& subject, const Scene& scene, const State& s) {
 
 /// A crumpled lower layer and particles all about it, all of which may stick to it, its own corners too.
 Scene crumpled_layers() {
-  Scene scene = scene_of(two_sheets(3, 0.3, 0.02), 0.2);
+  Scene scene = scene_of(two_sheets(4, 0.3, 0.02), 0.2);
   Random random(101);
   scene.x += random.vectors(scene.x.cols(), 0.03);
   StickyPatch patch = layer_patch(scene.mesh);
