@@ -221,8 +221,9 @@ OctreeSettings sampling(int depth, double tolerance, HangingNodes hanging) {
   return {Vector3::Constant(-0.5), 1, depth, 2, tolerance, 0.06, 0.1, 0, hanging};
 }
 
-double largest_jump(const Octree& tree, int count) {
-  const std::vector<OctreePlace> places = branch_places(tree);
+double largest_jump(const Octree& tree, int count, int deepest) {
+  std::vector<OctreePlace> places = branch_places(tree);
+  std::erase_if(places, [&](const OctreePlace& place) { return place.level == 0 || place.level > deepest; });
   std::mt19937 random(shifted(41177));
   std::uniform_int_distribution<std::size_t> any_branch(0, places.size() - 1);
   std::uniform_int_distribution<int> any_axis(0, 2);
@@ -230,7 +231,6 @@ double largest_jump(const Octree& tree, int count) {
   Worst worst;
   for (int i = 0; i < count; ++i) {
     const OctreePlace& place = places[any_branch(random)];
-    if (place.level == 0) continue;
     const Vector3 low = node_position(tree.settings, place, 0),
                   high = node_position(tree.settings, place, 26);
     const double x = along(random), y = along(random), z = along(random);

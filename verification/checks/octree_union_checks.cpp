@@ -124,11 +124,27 @@ Finding pinch_is_flagged(const Subject&) {
   return measured.judged(0, "points nearer to a decision than two tolerances are left out");
 }
 
+/// Small balls far from each other: in the wide cells between them one may be nearest where none of the nodes is.
+std::vector<DistanceFunction> scattered_balls() {
+  std::mt19937 random(shifted(5));
+  std::uniform_real_distribution<double> along(-0.4, 0.4);
+  std::vector<DistanceFunction> parts;
+  for (int k = 0; k < 9; ++k) {
+    const double x = along(random), y = along(random), z = along(random);
+    parts.push_back([=](const Vector3& p) { return Sphere{0.05}.at(p - Vector3(x, y, z)); });
+  }
+  return parts;
+}
+
 Finding union_jumps_nowhere(const Subject&) {
   Measured measured("largest jump", "epsilon of the cube's width");
   for (const double tolerance : {2.1e-3, 7e-4})
     measured.see("to " + std::to_string(tolerance) + " m",
                  largest_jump(make_octree(parts_of_a_body(), union_sampling(tolerance)), 20000) / epsilon);
+  const OctreeSettings sparse{
+      Vector3::Constant(-0.5), 1, 6, 2, 2.1e-3, 0.02, 0.3, 0, HangingNodes::constrained};
+  measured.see("scattered balls, wide cells",
+               largest_jump(make_octree(scattered_balls(), sparse), 200000, 3) / epsilon);
   return measured.judged(32,
                          "as for one body; a part that one side leaves out is behind another at all nodes of "
                          "their common face, and so all over it");
