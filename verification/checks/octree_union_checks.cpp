@@ -141,8 +141,8 @@ Finding union_jumps_nowhere(const Subject&) {
   for (const double tolerance : {2.1e-3, 7e-4})
     measured.see("to " + std::to_string(tolerance) + " m",
                  largest_jump(make_octree(parts_of_a_body(), union_sampling(tolerance)), 20000) / epsilon);
-  const OctreeSettings sparse{
-      Vector3::Constant(-0.5), 1, 6, 2, 2.1e-3, 0.02, 0.3, 0, HangingNodes::constrained};
+  const OctreeSettings sparse{Vector3::Constant(-0.5),  1, 6, 2, 2.1e-3, 0.02, 0.3, 0,
+                              HangingNodes::constrained};
   measured.see("scattered balls, wide cells",
                largest_jump(make_octree(scattered_balls(), sparse), 200000, 3) / epsilon);
   return measured.judged(32,
