@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "verification/checks/bending_checks.h"
 #include "verification/checks/measured.h"
@@ -23,15 +21,7 @@ std::vector<Specimen> specimens() {
 /// How far a path may lead from a specimen's state without folding a hinge through pi or losing a triangle
 /// [m].
 double excursion(const Specimen& specimen) {
-  const PerParticle3& x = specimen.state.x;
-  const std::vector<Triangle>& triangles = specimen.scene.mesh.triangles;
-  const Eigen::VectorXd areas = triangle_areas(triangles, x);
-  double least = std::numeric_limits<double>::infinity();  // height
-  for (size_t t = 0; t < triangles.size(); ++t)
-    for (size_t k = 0; k < 3; ++k)
-      least = std::min(least, 2 * areas[Eigen::Index(t)] /
-                                  (x.col(triangles[t][k]) - x.col(triangles[t][(k + 1) % 3])).norm());
-  return 0.08 * least;
+  return 0.08 * least_height(specimen.scene.mesh.triangles, specimen.state.x);
 }
 
 Finding force_is_minus_gradient(const Subject& subject) {

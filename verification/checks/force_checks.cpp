@@ -82,7 +82,7 @@ Eigen::MatrixXd scaled_stiffness(const Probe& probe, const State& s, const PerPa
 oracles::Estimate largest_frequency(const Probe& probe, const State& s, const PerParticle& mass) {
   std::array<double, 2> found{};
   for (int k = 0; k < 2; ++k) {
-    const Eigen::MatrixXd K = scaled_stiffness(probe, s, mass, 1e-6 * (2 - k));
+    const Eigen::MatrixXd K = scaled_stiffness(probe, s, mass, 2e-7 * (2 - k));
     found[k] = std::sqrt(oracles::symmetric_eigenvalues(0.5 * (K + K.transpose())).maxCoeff());
   }
   return {found[1], std::abs(found[1] - found[0])};

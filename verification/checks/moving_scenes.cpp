@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "reference/mesh/shapes.h"
 
@@ -33,14 +34,16 @@ Sheet jittered_sheet() {
   return sheet;
 }
 
-/// Displaces and sets in motion at random: a tenth of an edge in the plane, a third of one across it.
+/// Displaces and sets in motion at random: a tenth of an edge in the plane, a third of one across it, and less where
+/// triangles are thin: they are neither to be turned over nor folded back.
 void crumple(Scene& scene, unsigned seed) {
   Random random(seed);
   const Eigen::Index count = scene.x.cols();
-  PerParticle3 shift = random.vectors(count, 0.013);
+  const double size = std::min(0.013, 0.2 * least_height(scene.mesh.triangles, scene.mesh.rest));  // m
+  PerParticle3 shift = random.vectors(count, size);
   shift.row(2) *= 3;
   scene.x += shift;
-  scene.v = random.vectors(count, 0.31);
+  scene.v = random.vectors(count, size / 0.042);
   for (double& angle : scene.rest_angles) angle = random.in(-0.6, 0.7);
 }
 
@@ -140,6 +143,17 @@ double largest_difference(const PerParticle3& a, const PerParticle3& b) {
 
 double numbers_that_differ(const PerParticle3& a, const PerParticle3& b) {
   return double((a.array() != b.array()).count());
+}
+
+double least_height(const std::vector<Triangle>& triangles, const PerParticle3& x) {
+  const Eigen::VectorXd areas = triangle_areas(triangles, x);
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t t = 0; t < triangles.size(); ++t)
+    for (size_t k = 0; k < 3; ++k) {
+      const Vector3 side = x.col(triangles[t][k]) - x.col(triangles[t][(k + 1) % 3]);
+      least = std::min(least, 2 * areas[Eigen::Index(t)] / side.norm());
+    }
+  return least;
 }
 
 double extent(const PerParticle3& x) {
