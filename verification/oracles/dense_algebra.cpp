@@ -49,7 +49,7 @@ Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector
     return {0, axis.x(), axis.y(), axis.z()};
   }
   const Eigen::Vector3d v = a.cross(b) / (2 * half);
-  return {half, v.x(), v.y(), v.z()};
+  return Eigen::Quaterniond(half, v.x(), v.y(), v.z()).normalized();  // a small half is known to few digits
 }
 
 }  // namespace foldproof::oracles
