@@ -28,7 +28,7 @@ from page import CaseView, Page, StudyView, faults_of, findings_by_section, rend
 from plot_style import use_style  # noqa: E402
 from results import CaseEntry, Run, Study, Unreadable, case_entry_of_file, load_case, load_run, told  # noqa: E402
 from study_plots import plot_study_figure  # noqa: E402
-from trust import load_coverage, tolerances_of, unended_run  # noqa: E402
+from trust import load_coverage, load_variants, tolerances_of, unended_run  # noqa: E402
 from whole_file import write_whole  # noqa: E402
 
 Job = tuple[Callable[..., Any], tuple[Any, ...]]
@@ -62,6 +62,7 @@ def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = True)
     out.parent.mkdir(parents=True, exist_ok=True)
     page = draw(run, bench, figures, for_papers)
     page.coverage = load_coverage(folder / "coverage.json")
+    page.variants = load_variants(folder / "variants.json")
     page.mutation = load_mutation(folder / "mutation.json")
     page.unended = unended_run(folder / "verdicts.json")
     write_whole(out, render(page).encode("utf-8"))

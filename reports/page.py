@@ -23,7 +23,7 @@ from plot_style import Plot, level_text
 from point_marks import has_mark
 from results import Case, CaseEntry, Column, Fault, Finding, Run, Study, StudyFigure
 from study_plots import choose_pens, floors_below, key_svg, points_left_out
-from trust import Coverage, Tolerances
+from trust import Coverage, Tolerances, Variants
 
 FOLDER = Path(__file__).resolve().parent
 OUTCOMES = ("holds", "fails", "inconclusive", "not applicable")
@@ -70,6 +70,7 @@ class Page:
     faults: list[Fault]
     tolerances: Tolerances
     coverage: Coverage | None = None
+    variants: Variants | None = None
     unended: str = ""               # why this is not what was run last
     mutation: Mutation | None = None   # what scripts/mutate found, where that lies beside the run
 

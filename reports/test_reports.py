@@ -236,6 +236,17 @@ class PartsMissing(unittest.TestCase):
         self.assertIn("3–5, 9", text)
         Seen(text)
 
+    def test_variants_are_shown_with_their_false_alarms(self) -> None:
+        put_run(self.root)
+        self.assertNotIn('id="variants"', self.made())
+        runs = [{"variant": "clang", "options": ["check"], "findings": 7, "false_alarms": []},
+                {"variant": "seeds", "options": ["check", "--seed", "3"], "findings": 5, "false_alarms": [{"name": HOSTILE}]}]
+        (self.root / "variants.json").write_text(json.dumps({"commit": "abc", "runs": runs}))
+        text = self.made()
+        self.assertIn("2 runs with 12 findings (commit abc), 1 of which did not hold", text)
+        self.assertIn("<code>foldproof check --seed 3</code>", text)
+        Seen(text)
+
     def test_tolerances_begin_with_the_tightest(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             put_run(Path(folder))

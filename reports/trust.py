@@ -55,6 +55,28 @@ class Coverage:
     files: list[CoveredFile]   # the least covered first
 
 
+@dataclass
+class VariantRun:
+    """One correct variant of the program, and how many of its findings did not hold."""
+    variant: str               # "clang", "fma", "seeds", ...
+    asked: str                 # what was asked of it
+    findings: int
+    alarms: list[str]          # names of those that did not hold
+
+
+@dataclass
+class Variants:
+    """What scripts/variants found."""
+    commit: str
+    runs: list[VariantRun]
+
+    def findings(self) -> int:
+        return sum(run.findings for run in self.runs)
+
+    def alarms(self) -> int:
+        return sum(len(run.alarms) for run in self.runs)
+
+
 def tolerances_of(findings: Iterable[Finding]) -> Tolerances:
     """All findings that were judged against a bound."""
     judged = [finding for finding in findings if finding.outcome in ("holds", "fails", "inconclusive")]
@@ -79,6 +101,17 @@ def load_coverage(file: Path) -> Coverage | None:
     files = [_covered(row["file"], row, _ranges(row["lines_missed"])) for row in told["files"]]
     files.sort(key=lambda row: row.lines_reached / max(row.lines, 1))
     return Coverage(told["commit"], told["ran"], told["least"], _covered("all", told["total"], ""), files)
+
+
+def load_variants(file: Path) -> Variants | None:
+    """The outcomes of `scripts/variants --out DIR/variants.json`; None if there are none. Throws KeyError for another
+    file."""
+    if not file.is_file():
+        return None
+    told = json.loads(file.read_text(encoding="utf-8"))
+    runs = [VariantRun(row["variant"], " ".join(row["options"]), row["findings"],
+                       [alarm["name"] for alarm in row["false_alarms"]]) for row in told["runs"]]
+    return Variants(told["commit"], runs)
 
 
 def unended_run(file: Path) -> str:
