@@ -11,16 +11,18 @@ import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 from html.parser import HTMLParser
+from io import BytesIO
 from pathlib import Path
 
 sys.dont_write_bytecode = True
 
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
+from matplotlib import image  # noqa: E402
 
 from camera import choose_camera  # noqa: E402
 from case_pictures import scenery_of  # noqa: E402
-from cloth_picture import BACK, FRONT, Scenery, picture_of  # noqa: E402
+from cloth_picture import BACK, FRONT, Scenery, picture_of, webp_bytes  # noqa: E402
 from contact_maps import laid_flat  # noqa: E402
 from made_up_run import HOSTILE, NAMES, put, put_case, put_finding, put_run  # noqa: E402
 from hdf5_values import plain  # noqa: E402
@@ -72,7 +74,7 @@ class WholeReport(unittest.TestCase):
 
     def test_page_needs_nothing_beside_it(self) -> None:
         for reference in self.seen.references:
-            self.assertRegex(reference, r"^(#|data:image/png;base64,)")
+            self.assertRegex(reference, r"^(#|data:image/(webp|png);base64,)")
         self.assertNotRegex(self.text, r"url\((?!#)")
         self.assertNotIn("@import", self.text)
         self.assertFalse({"script", "link", "iframe", "object"} & set(self.seen.tags))
@@ -99,9 +101,33 @@ class WholeReport(unittest.TestCase):
 
     def test_inline_figures_are_well_formed_and_hold_text_only(self) -> None:
         for svg in re.findall(r"<svg.*?</svg>", self.text, re.S):
-            whole = svg.replace("<svg", '<svg xmlns:xlink="xlink"', 1)  # HTML knows the prefix by itself
-            names = {element.tag.rpartition("}")[2] for element in ElementTree.fromstring(whole).iter()}
+            names = {element.tag for element in ElementTree.fromstring(svg).iter()}
             self.assertFalse({"script", "img", "b", "i", "foreignObject"} & names)
+
+    def test_inline_figures_hold_nothing_that_no_reader_sees(self) -> None:
+        plots = re.findall(r'<svg class="plot".*?</svg>', self.text, re.S)
+        self.assertTrue(plots)
+        for svg in plots:
+            named = set(re.findall(r'(?:href="|url\()#([^")]+)', svg))
+            self.assertEqual(set(re.findall(r' id="([^"]+)"', svg)), named)
+            self.assertNotRegex(svg, r"<g>|<style|<metadata|<!--")
+            for key in ("d", "x", "y", "width", "height"):
+                self.assertNotRegex(svg, rf' {key}="[^"]*\.\d{{3}}')
+
+    def test_inline_figures_are_a_third_smaller_than_their_files(self) -> None:
+        plots = re.findall(r'<svg class="plot".*?</svg>', self.text, re.S)
+        drawn = [path for path in self.figures.glob("*.svg") if not path.stem.endswith("-pictures")]
+        self.assertEqual(len(plots), len(drawn))
+        without_images = [len(re.sub(r'"data:[^"]*"', "", text))
+                          for text in ("".join(plots), "".join(path.read_text(encoding="utf-8") for path in drawn))]
+        self.assertLess(without_images[0], 2 / 3 * without_images[1])
+
+    def test_pictures_of_a_case_lose_nothing_in_the_page(self) -> None:
+        picture = np.zeros((7, 5, 4), dtype=np.uint8)
+        picture[2:, 1:] = np.random.default_rng(11).integers(0, 256, (5, 4, 4)) | [0, 0, 0, 1]
+        read = np.asarray(image.imread(BytesIO(webp_bytes(picture)), format="webp"))
+        np.testing.assert_array_equal(read[2:, 1:], picture[2:, 1:])
+        self.assertFalse(read[:2, :, 3].any())
 
     def test_every_finding_has_its_own_anchor(self) -> None:
         anchors = Anchors()
