@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from camera import Camera, choose_camera
-from cloth_picture import Scenery, picture_of, png_bytes
+from cloth_picture import Scenery, picture_of, webp_bytes
 from plot_style import INK, finish, new_figure
 from quantities import number_text
 from results import Case
@@ -25,7 +25,7 @@ TEXT_HEIGHT = 0.34                  # below each picture of the strip [inch]
 class Picture:
     """One frame."""
     time: float        # [s]
-    uri: str           # PNG as a data URI
+    uri: str           # WebP as a data URI
     whole: bool        # false where particles are not finite or far outside the picture
 
 
@@ -138,7 +138,7 @@ def _cut(picture: np.ndarray) -> np.ndarray:
 
 
 def _uri(picture: np.ndarray) -> str:
-    return "data:image/png;base64," + b64encode(png_bytes(np.ascontiguousarray(picture))).decode("ascii")
+    return "data:image/webp;base64," + b64encode(webp_bytes(np.ascontiguousarray(picture))).decode("ascii")
 
 
 def _write_strip(drawn: list[np.ndarray], times: list[float], bar: float, camera: Camera, name: str,

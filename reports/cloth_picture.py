@@ -24,6 +24,7 @@ STUCK = np.array([0.60, 0.30, 0.01])        # particles that stick to something
 KEY_LIGHT = np.array([-0.50, 0.62, 0.60])   # in camera axes: right, up, toward the viewer
 FILL_LIGHT = np.array([0.85, -0.05, 0.50])
 SET_BACK = 0.008                            # of the picture's size: cloth that lies on an object stays visible
+WEBP_EFFORT = 40                            # of 100; 20 is a third faster and a tenth larger
 PAIRS_AT_ONCE = 1_500_000                   # rows of triangles treated together, to bound memory
 
 
@@ -71,10 +72,10 @@ def picture_of(x: np.ndarray, triangles: np.ndarray, held: np.ndarray, camera: C
     return _finished(colour)
 
 
-def png_bytes(picture: np.ndarray) -> bytes:
-    """The picture as a PNG file, without dates or the names of programs."""
+def webp_bytes(picture: np.ndarray) -> bytes:
+    """The picture as a WebP file, without a loss: what is seen of it is that of a PNG file nearly twice as large."""
     buffer = BytesIO()
-    image.imsave(buffer, picture, format="png", metadata={"Software": None}, pil_kwargs={"compress_level": 4})
+    image.imsave(buffer, picture, format="webp", pil_kwargs={"lossless": True, "method": 2, "quality": WEBP_EFFORT})
     return buffer.getvalue()
 
 

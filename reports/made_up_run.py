@@ -71,6 +71,26 @@ def put_claim(file: h5py.File, order: int, name: str, ruling: str, decided_by: l
         roles=["supports"] * len(decided_by))
 
 
+def made_up_verdicts() -> dict[str, Any]:
+    """What a verdicts.json holds: a finding of every outcome, one of them NaN, and two claims."""
+    program = dict(name="foldproof", version="0.1.0", commit="0123456789" * 4, tree="dirty", compiler="GNU 12.2.0",
+                   flags=" -O3", cpu=HOSTILE, date="2026-11-22T06:51:18Z", command="build/foldproof verify", tier="quick",
+                   seed=0, subject="foldproof reference")
+    usual = dict(kind="check", study="", claim=HOSTILE, source="", measured=3.2e-15, uncertainty=0, bound=4.4e-14,
+                 unit="N", why_bound="200 roundings", note="", seconds=0.1, faults=["flipped-sign"])
+    nothing = dict(measured=None, uncertainty=None, bound=None)
+    findings = [usual | dict(name="a", outcome="holds"), usual | nothing | dict(name="b", outcome="fails"),
+                usual | dict(name="c", outcome="inconclusive", kind="study", study="time-order"),
+                usual | dict(name="d", outcome="not applicable"), usual | nothing | dict(name="e", outcome="did not run"),
+                usual | dict(name="f", outcome="measured", kind="bench", measured=2e7, bound=1e7, unit="1/s")]
+    ruled = dict(kind="claim", section="3", source="BMF03 section 3", statement=HOSTILE, recorded="confirmed",
+                 condition="", why=HOSTILE, decided_by=[dict(finding="a", role="supports", outcome="holds")])
+    claims = [ruled | dict(name="claim.T1", id="T1", ruling="confirmed", outcome="holds"),
+              ruled | dict(name="claim.T2", id="T2", ruling="undecided", outcome="fails",
+                           decided_by=[dict(finding="g", role="limits", outcome="missing")])]
+    return {"schema": 1, "program": program, "findings": findings + claims}
+
+
 def put_object(file: h5py.File, frames: int) -> None:
     """Adds a tetrahedron that turns by 90 degrees about z and rises by 0.1 m a frame."""
     group = file.create_group("objects/0")
@@ -110,7 +130,8 @@ def put_case(folder: Path, name: str) -> None:
                                 gravity_energy=np.linspace(1, 0, 900), linear_momentum=np.ones((900, 3)),
                                 angular_momentum=np.zeros((900, 3)), cg_iterations=np.zeros(900),
                                 cg_residual=np.zeros(900)).items():
-            put(file.create_dataset(f"diagnostics/{key}", data=values), unit="1")
+            unit = {"time": "s", "linear_momentum": "kg m/s", "angular_momentum": "kg m^2/s"}.get(key, "1")
+            put(file.create_dataset(f"diagnostics/{key}", data=values), unit=unit)
 
 
 def put_run(folder: Path) -> None:

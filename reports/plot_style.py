@@ -5,7 +5,6 @@ Plots are drawn in the light palette. In the page each of its colours is replace
 """
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from io import BytesIO, StringIO
 from pathlib import Path
@@ -19,6 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
 from quantities import MINUS, is_count, number_text, superscript, unit_text
+from svg_in_page import page_svg
 from whole_file import write_whole
 
 INK, MUTED, GRID, BAND, PAPER = "#24292e", "#68707a", "#e4e6e9", "#eceef1", "#fefefe"
@@ -88,7 +88,7 @@ def finish(figure: Figure, name: str, folder: Path, description: str) -> Plot:
                        metadata={"Software": None}, pil_kwargs={"compress_level": 3})
         write_whole(folder / f"{name}.pdf", pdf.getvalue())
         write_whole(folder / f"{name}.png", png.getvalue())
-    return Plot(name, page_svg(text, name, description))
+    return Plot(name, page_svg(text, name, description, _VARIABLES))
 
 
 def svg_text(figure: Figure) -> str:
@@ -96,24 +96,6 @@ def svg_text(figure: Figure) -> str:
     text = StringIO()
     figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
     return text.getvalue()
-
-
-def page_svg(text: str, name: str, description: str) -> Markup:
-    """An SVG file's text made fit to stand in the page: no prolog, own ids, colours as variables, the page's
-    typeface."""
-    text = text[text.index("<svg"):]
-    text = re.sub(r"<!--.*?-->|<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
-    text = re.sub(r'\bid="([^"]+)"', rf'id="plot-{name}-\1"', text)
-    text = re.sub(r'xlink:href="#', f'href="#plot-{name}-', text)
-    text = text.replace("url(#", f"url(#plot-{name}-")
-    text = re.sub(r"font: (?:[a-z]+ )*([\d.]+)px [^;\"]*", r"font-size: \1px", text)
-    for colour, variable in _VARIABLES.items():
-        text = text.replace(colour, f"var({variable})")
-    view = re.search(r'viewBox="[^"]+"', text)
-    view_box = Markup(view[0] if view else "")
-    head = Markup('<svg class="plot" role="img" aria-label="{}" {}>').format(description, view_box)
-    body = re.sub(r"\n\s*", "\n", text[text.index(">") + 1:].strip())
-    return head + Markup(body)
 
 
 def variable_of(colour: str) -> str:

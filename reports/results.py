@@ -1,6 +1,5 @@
 """Reads what a run wrote (HDF5, layout in README.md) into plain dataclasses.
 
-    from results import load_run, load_case
     run = load_run("results/run.h5")
     case = load_case("results/hanging_sheet.h5"); x = case.positions(-1)     # N x 3 [m]
 
@@ -195,6 +194,13 @@ class Case:
             data = file["frames/positions"]
             return np.asarray(data[frame % data.shape[0]], dtype=float)
 
+    def every_frame(self, quantity: str) -> np.ndarray | None:
+        """The "positions" [m] or "velocities" [m/s] of all particles in all frames, T x N x 3; None if the file has
+        none."""
+        with h5py.File(self.path, "r") as file:
+            data = file.get(f"frames/{quantity}")
+            return None if data is None else np.asarray(data, dtype=float)
+
     def object_distances(self, frame: int) -> np.ndarray | None:
         """Signed distance of all particles to the objects in one frame, N [m]; None if the file has none."""
         with h5py.File(self.path, "r") as file:
@@ -249,6 +255,8 @@ def reading(path: Path) -> Iterator[None]:
         yield
     except Unreadable:
         raise
+    except FileNotFoundError as error:
+        raise Unreadable(f"{path}: there is no such file") from error
     except Exception as error:
         raise Unreadable(f"{path}: {told(error)}") from error
 
@@ -269,6 +277,9 @@ def load_case(path: str | Path) -> Case:
     """Reads one simulation but its frames. Throws Unreadable naming the file if it is not one, or is damaged."""
     path = Path(path)
     with reading(path), h5py.File(path, "r") as file:
+        for needed in ("mesh/triangles", "frames/time", "frames/positions"):
+            if needed not in file:
+                raise Unreadable(f"{path}: no simulation of foldproof: it has no /{needed}")
         particles = file["frames/positions"].shape[1]
         held = np.asarray(file["mesh/held"], dtype=bool) if "mesh/held" in file else np.zeros(particles, bool)
         return Case(path=path, about_run=attributes_of(file), held=held,
