@@ -111,7 +111,11 @@ NamedFinding sheet_swings(const Subject& subject, const DampedMotion& sheet, con
   return {"monotonicity.overdamped-sheet.swings." + scheme,
           "On an overdamped sheet with stiffness velocities change sign under " + scheme +
               " at steps with h c/2 > 2, by more than a tenth of those at the start.",
-          {{worst.value(), 1, 0, "1", "measured is a tenth over the largest swing"}, rows.columns(), ""}};
+          {{worst.value(), 1, 0, "1",
+            "each swing is to be a tenth of the velocity at the start or more: measured is a tenth over the "
+            "smallest of the four"},
+           rows.columns(),
+           ""}};
 }
 
 NamedFinding hinge_closes_monotonically(const Subject& subject, const DampedMotion& hinge,

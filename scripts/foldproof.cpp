@@ -20,7 +20,7 @@ constexpr const char* examples = R"(Examples:
   foldproof simulate cases/any_mesh.toml --set cloth.mesh=body.obj
   foldproof inspect body.obj                          is it closed, oriented, without intersections?
   foldproof simulate cases/drape_statue.toml --set object.mesh=body.obj --cache cache
-  foldproof crossings results/fold_stack.h5           does the cloth pass through itself? Of OBJ files, too
+  foldproof crossings results/fast.h5                 does the cloth pass through itself? Of OBJ files, too
   foldproof project results/half_inside.h5 --map blend --tau 0.01
   foldproof check bending                             all checks of bending
   foldproof check bending.forces-sum-to-zero --json   one of them, for another program

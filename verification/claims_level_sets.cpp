@@ -35,8 +35,8 @@ std::vector<Claim> storing_and_updating() {
        {{"level-set-cache.loaded-is-the-same", Role::supports},
         {"level-set-cache.loading-is-cheap", Role::supports},
         {"level-set-cache.unfit-files-are-refused", Role::supports}},
-       Standing::confirmed,
-       "",
+       Standing::conditional,
+       "but for loading them, which may take a tenth of what computing them takes",
        "Loading takes {level-set-cache.loading-is-cheap} of the time of computing and gives every bit back. "
        "Files that are cut, damaged, foreign or stale are refused."}};
 }

@@ -236,8 +236,7 @@ std::vector<Claim> overshooting_methods() {
        "A motion that is only damped overshoots its way and turns back under BDF2 once h c is large, as its "
        "recurrence says, to {monotonicity.way.BDF2}: by a tenth of the way at most, where A goes wrong by (h "
        "c/2)^2 ways. Under the implicit midpoint rule velocities on an overdamped sheet with stiffness swing "
-       "by up to {monotonicity.overdamped-sheet.swings.implicit-midpoint|velocities|last} of those at the "
-       "start."}};
+       "by up to {monotonicity.overdamped-sheet.swings.implicit-midpoint|velocities|last}."}};
 }
 
 std::vector<Claim> monotone_methods() {
@@ -281,8 +280,8 @@ std::vector<Claim> monotone_methods() {
        "{dynamics.pure-damping-displacement.B}, and no linear motion tried came further than "
        "{monotonicity.bounded.B}, however large the damping. For h c/2 below one it is monotone. On an "
        "overdamped sheet with stiffness positions overshoot by up to "
-       "{monotonicity.overdamped-sheet.bounded.B|positions|largest} of their way and velocities by "
-       "{monotonicity.overdamped-sheet.bounded.B|velocities|largest} of those at the start."}};
+       "{monotonicity.overdamped-sheet.bounded.B|positions|largest} and velocities by "
+       "{monotonicity.overdamped-sheet.bounded.B|velocities|largest}."}};
 }
 
 std::vector<Claim> variable_steps() {

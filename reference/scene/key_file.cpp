@@ -260,7 +260,7 @@ struct Unbearable {
 
 /// What the parser does not bear outside of comments and texts in quotes. A key of as many parts as a line has room for
 /// nests as many tables, and the parser's stack with them: a line may have a few hundred dots, in whatever meaning.
-/// Where toml++ 3.3 looks for blanks, letters outside ASCII lead it to where it must never come.
+/// Where toml++ 3.3 looks for blanks, letters outside ASCII lead it to where it must never come: in keys, too.
 std::optional<Unbearable> unbearable(std::string_view text) {
   int line = 1, dots = 0;
   size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // the mark that some editors put before UTF-8
@@ -282,13 +282,24 @@ std::optional<Unbearable> unbearable(std::string_view text) {
   return {};
 }
 
+/// Tried without its letters outside ASCII first: what is well formed has them in comments and texts alone, where the
+/// parser bears them. On the way to a complaint it does not.
+toml::table parsed(const std::string& text, const std::string& file) {
+  std::string plain = text;
+  const auto mark = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  std::replace_if(
+      plain.begin() + mark, plain.end(), [](char c) { return static_cast<unsigned char>(c) > 127; }, 'x');
+  if (plain != text) static_cast<void>(toml::parse(plain, file));
+  return toml::parse(text, file);
+}
+
 }  // namespace
 
 std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file) {
   if (const auto found = unbearable(text))
     throw InputError(file + ":" + std::to_string(found->line) + ": " + found->why);
   try {
-    return converted(toml::parse(text, file), Place{"", file});
+    return converted(parsed(text, file), Place{"", file});
   } catch (const toml::parse_error& error) {
     throw InputError(place(file, error.source()) + ": " + std::string(error.description()));
   }
@@ -300,7 +311,7 @@ KeyValue parsed_value(const std::string& text) {
   if (unbearable(text)) return {text, "--set"};
   try {
     const std::string file = "--set";
-    return converted(*toml::parse("value = " + text).get("value"), Place{"value", file});
+    return converted(*parsed("value = " + text, file).get("value"), Place{"value", file});
   } catch (const toml::parse_error&) {
     return {text, "--set"};
   }

@@ -133,8 +133,10 @@ Finding diagnostics_finding(const Subject&) {
       worst.see(NAN);
   }
   return {{worst.value(), 512, 0, "epsilon of the quantity",
-           "up to a hundred terms of ten roundings each, which cancel to a fifth of their size in the "
-           "momenta; energies of springs near their rest length lose a factor of 1/strain, about ten"},
+           "up to a hundred terms of ten roundings each, which add up like a random walk to a hundred and "
+           "cancel to a fifth "
+           "of their size in the momenta: 500; energies of springs near their rest length lose a factor of "
+           "1/strain, about ten"},
           {{"time", "s", times}, {"error", "epsilon of the quantity", errors}},
           "springs, hinges and dampers in 50 digits, masses and areas by a loop of our own"};
 }

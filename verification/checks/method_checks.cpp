@@ -91,7 +91,7 @@ Finding satisfies_its_equations(const Subject& subject, const std::string& metho
   return measured.judged(
       100 * tolerance,
       "the solver's tolerance is 1e-11 of the momentum at its guess, which may be some ten times what "
-      "the step changes");
+      "the step changes, and masses that differ by as much weigh it otherwise here");
 }
 
 /// One step of the linearised method against a dense solve of its equation, with the subject's forces.
@@ -123,7 +123,7 @@ Finding linearised_step(const Subject& subject) {
                  largest_difference(next, v.reshaped(3, next.cols())) / largest_speed(next));
   }
   return measured.judged(
-      1e-9,
+      1e-10,
       "the solver's tolerance is 1e-13 of the momentum, times the matrix's condition, at most some 1e3");
 }
 
@@ -226,8 +226,9 @@ Finding newton_is_quick(const Subject& subject) {
   }
   return measured.judged(
       10,
-      "solved to a thousandth, an exact step leaves a thousandth near the solution: four iterations for nine "
-      "digits, and as many again to come near; without the derivative of the damping each leaves a good "
+      "solved to a thousandth, an exact step leaves a thousandth near the solution: three iterations for "
+      "nine "
+      "digits, and we allow seven to come near; without the derivative of the damping each leaves a good "
       "part");
 }
 
@@ -275,7 +276,9 @@ Finding explicit_steps_respect_damping(const Subject&) {
     const double h = step_allowed(system, integrator, {&s, 1}, rule, 1e6 * limit);
     measured.see(std::string(integrator.name), std::abs(h / (rule.safety * limit) - 1));
   }
-  return measured.judged(1e-5, "a million even parts of the time left come within a millionth of the limit");
+  return measured.judged(
+      2e-6,
+      "a million even parts of the time left come within a millionth of the limit, or two by rounding up");
 }
 
 /// After a step of a hundredth of what is allowed, the next one.

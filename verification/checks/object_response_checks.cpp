@@ -28,6 +28,7 @@ double decided(double depth, double push) { return std::abs(depth) < 1e-12 ? NAN
 Finding response_finding(const Subject& subject, const std::string& response, bool moves, const Push& push) {
   Measured measured = roundings_of("speed");
   for (Contact contact : known_contacts()) {
+    if (contact.tau != contact.span.step) continue;  // these responses do not look ahead
     contact.scene.collision.response = response;
     if (!moves) contact.span.end = contact.span.start;
     const PerParticle3 after = avoided(subject, contact.scene, contact.span, contact.state);

@@ -67,7 +67,7 @@ Finding nodes_know_their_part(const Subject&) {
   measured.see("phi, bit for bit", wrong_value);
   measured.see("nearest part", wrong_part);
   measured.see("pinch flag", wrong_flag);
-  measured.see("no node is pinched", !(pinched > 100));
+  measured.see("fewer than 101 nodes are pinched", !(pinched > 100));
   return measured.judged(0, "free nodes hold what the parts say: comparisons, no arithmetic");
 }
 

@@ -108,7 +108,7 @@ Finding cholesky_finding(const Subject&) {
       errors.push_back(weighted_norm(error, dense.mass) / scale_of(dense, ResidualScale::momentum));
       worst.see(errors.back() / tolerance);
       for (const PrescribedParticle& p : problem.system.led)
-        worst.see((w.col(p.particle) - problem.guess.col(p.particle)).norm() / tolerance);
+        if (w.col(p.particle) != problem.guess.col(p.particle)) worst.see(INFINITY);
     }
   return {
       {worst.value(), 1.05, 0, "of the tolerance",
@@ -217,7 +217,8 @@ Finding operator_finding(const Subject& subject) {
   worst.see(asymmetry);
   worst.see(deficit);
   return {{worst.value(), 64, 0, "epsilon of the largest",
-           "an entry sums some twenty dampers of five roundings; the smallest eigenvalue, 1 but for "
+           "an entry sums some twenty dampers of five roundings, half an epsilon each: 50; the smallest "
+           "eigenvalue, 1 but for "
            "rounding, is found to about the square root of the matrix' size, 10, in epsilon of the largest"},
           {{"asymmetry", "epsilon of the largest entry", std::vector<double>{asymmetry}},
            {"smallest eigenvalue below 1", "epsilon of the largest", std::vector<double>{deficit}},
@@ -262,8 +263,8 @@ Finding large_finding(const Subject&) {
   constexpr double tolerance = 1e-7;
   Measured measured("residual left", "of the tolerance");
   for (const int cells :
-       {20, 22, 31, 45}) {  // 441, 529, 1024 and 2116 particles: less than one block, more, two, five
-    Scene scene = scene_of(make_sheet({SheetPattern::jittered, 0.7, 0.6, cells, cells, 0.2, 5}), 0.2);
+       {20, 22, 31, 45}) {  // 441, 529, 1024 and 2116 particles: less than one block, more, two blocks, five
+    Scene scene = scene_of(make_sheet({SheetPattern::one_diagonal, 0.7, 0.6, cells, cells}), 0.2);
     scene.stretch = StretchMaterial{41, 0.053, 1};
     scene.bending = BendingMaterial{0.0037, 0.00053, Weighting::rest, DampingFactor::edge, "sine"};
     scene.rest_angles.assign(scene.mesh.hinges.size(), 0);

@@ -30,6 +30,10 @@ LimitedCloth falling(LimitedCloth cloth) {
   scene.bending = BendingMaterial{3.1e-4, 2.3e-5, Weighting::rest, DampingFactor::edge, "sine"};
   Motion swing;
   swing.velocity = Vector3(0.11, -0.07, 0.19);
+  // limits that act from the first steps on: tight ones, and springs too weak to draw lengths away from them
+  scene.stretch->stiffness = 0.37;
+  StrainLimits& limits = *scene.strain_limits;
+  if (limits.compression > 0) limits.compression += 0.001 + strain_violation(scene, scene.x);
   const int far = farthest(scene.mesh.rest);
   scene.led = {{0, scene.x.col(0), Motion{}}, {far, scene.x.col(far), swing}};
   const double limit = elastic_limit(build_system(scene), cloth.state);
@@ -49,12 +53,14 @@ Finding steps_finding(const Subject& subject, const std::string& integrator) {
       const double violation = strain_violation(falls.scene, s.x);
       if (!(violation <= worst)) worst = violation;
     }
-    measured.see(cloth.name, worst / falls.scene.strain_limits->tolerance);
+    const double used = worst / falls.scene.strain_limits->tolerance;
+    measured.see(cloth.name, used > -5 ? used : NAN);
   }
   return measured.judged(
       1 + 1e-9,
       "x moves with the velocity that was limited, and nothing else moves it; a billionth for "
-      "the roundings of another sum");
+      "the roundings of another sum. Cloth that stays five tolerances from its limits tries nothing, and "
+      "counts as NaN");
 }
 
 Finding report_finding(const Subject& subject) {
@@ -65,7 +71,10 @@ Finding report_finding(const Subject& subject) {
     const State s = stepper.step(stepper.start(), cloth.step);
     const double left = std::max(0.0, strain_violation(cloth.scene, s.x));
     measured.see(cloth.name, std::abs(stepper.work().strain_left - left) / epsilon);
-    measured.see(cloth.name + ", sweeps", std::abs(double(stepper.work().strain_sweeps) - 2));
+    const long sweeps =
+        stepper.work().strain_sweeps;  // the second only where the first found something to correct
+    const bool plausible = sweeps == 2 || (sweeps == 1 && left == 0);
+    measured.see(cloth.name + ", sweeps", plausible ? 0 : INFINITY);
   }
   return measured.judged(
       64,

@@ -98,7 +98,9 @@ Finding units_finding(const Subject& subject, const std::string& integrator) {
   const double bound = 64 * steps * grown;
   return {{worst.value(), bound, 0, "epsilon of the extent",
            "20 steps of 64 roundings, those of the converted constants included, each grown at most as a "
-           "disturbance of the start grows; solves end at 1e-14 of the velocity, 45 epsilon"},
+           "disturbance of the start grows; solves end at 1e-14 of the velocity, 45 epsilon, and in C there "
+           "are two a "
+           "step: the growth, ten and more, covers them"},
           {{"growth", "1", std::vector<double>{grown}}},
           smallest_defect(bound, "extent")};
 }
@@ -107,8 +109,11 @@ Finding twice_finding(const Subject& subject) {
   double differing = 0;
   std::vector<std::string> names;
   std::vector<double> counts;
+  std::vector<State> firsts;
+  for (const Integrator& integrator : paper_schemes())
+    firsts.push_back(run_in({1, 1, 1}, subject, std::string(integrator.name), 1.3e-3, 23));
   for (const Integrator& integrator : paper_schemes()) {
-    const State first = run_in({1, 1, 1}, subject, std::string(integrator.name), 1.3e-3, 23);
+    const State& first = firsts[names.size()];
     const State second = run_in({1, 1, 1}, subject, std::string(integrator.name), 1.3e-3, 23);
     names.emplace_back(integrator.name);
     counts.push_back(numbers_that_differ(first.x, second.x) + numbers_that_differ(first.v, second.v));
@@ -117,7 +122,7 @@ Finding twice_finding(const Subject& subject) {
   }
   return {{differing, 0, 0, "numbers that differ", "a run is a function of its input"},
           {{"integrator", "1", names}, {"numbers that differ", "1", counts}},
-          "the second run begins after all others have been made and forgotten"};
+          "each second run is made after the first runs of all methods"};
 }
 
 Finding frame_finding(const Subject& subject, const std::string& integrator) {
