@@ -65,7 +65,7 @@ Record contact_rate(const Scene& load, double step, double step_seconds) {
   return rate(
       "contact-octree",
       fmt::format("The two corrections of a step against an octree of {:.0f} MB, over that step without "
-                  "objects: {} particles, {:.0f} % of them on the object, {:.1f} ms.",
+                  "objects: {} particles, {:.0f} % of them on the object; the corrections take {:.1f} ms.",
                   double(bytes(*std::get<OctreeSolid>(body.solid).tree)) / 1e6, s.x.cols(),
                   100.0 * double(counted.object_contacts) / double(s.x.cols()), 1e3 * seconds),
       seconds / step_seconds,

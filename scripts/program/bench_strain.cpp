@@ -27,7 +27,7 @@ Record strain_rate(const Scene& load, double step, double step_seconds) {
   return rate(
       "strain-sweep",
       fmt::format("One sweep of strain limits, and the look at what it left, over that step without limits: "
-                  "{} springs, {:.0f} % of them beyond a limit, {:.1f} ms.",
+                  "{} springs, {:.0f} % of them beyond a limit; the sweep takes {:.1f} ms.",
                   springs.springs.size(), 100.0 * double(beyond) / double(springs.springs.size()),
                   1e3 * seconds),
       seconds / step_seconds,

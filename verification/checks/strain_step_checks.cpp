@@ -84,8 +84,8 @@ Finding report_finding(const Subject& subject) {
 
 // ---- sweeps
 
-/// Particles on a line, springs between neighbours: there, lengths within limits are an interval for each
-/// velocity difference.
+/// Particles on a line, springs between neighbours or from the first to all others: there, lengths within limits are
+/// an interval for each velocity difference.
 struct Chain {
   StrainLimiter limiter;
   PerParticle3 x, v, within;  // 3 x N; `within`: velocities that keep the limits
@@ -93,7 +93,7 @@ struct Chain {
   double step;
 };
 
-Chain random_chain(SweepOrder order, unsigned seed) {
+Chain random_chain(SweepOrder order, bool bundle, unsigned seed) {
   constexpr int count = 23;
   Random random(seed);
   const Vector3 along = random.vectors(1, 1).col(0).normalized();
@@ -107,15 +107,19 @@ Chain random_chain(SweepOrder order, unsigned seed) {
       0.013};
   chain.mass = PerParticle(count);
   std::vector<Spring> springs;
-  double place = 0.2, later = 0.23;  // of a particle on the line, now and after a step within the limits [m]
+  std::vector<double> place(count, 0.2),
+      later(count, 0.23);  // on the line, now and after a step within limits [m]
   for (int i = 0; i < count; ++i) {
     const double L = random.in(0.03, 0.07);
-    if (i > 0) springs.push_back({i - 1, i, L, 0, 0});
-    place += i > 0 ? L * random.in(0.935, 1.115) : 0;
-    later += i > 0 ? L * random.in(0.935, 1.115) : 0;
+    if (i > 0) {
+      const int other = bundle ? 0 : i - 1;
+      springs.push_back({other, i, L, 0, 0});
+      place[size_t(i)] = place[size_t(other)] + L * random.in(0.935, 1.115);
+      later[size_t(i)] = later[size_t(other)] + L * random.in(0.935, 1.115);
+    }
     chain.mass[i] = random.in_decades(0.01, 1);
-    chain.x.col(i) = place * along;
-    chain.within.col(i) = (later - place) / chain.step * along;
+    chain.x.col(i) = place[size_t(i)] * along;
+    chain.within.col(i) = (later[size_t(i)] - place[size_t(i)]) / chain.step * along;
     chain.v.col(i) = random.in(-3, 3) * along;
   }
   chain.limiter = make_strain_limiter(limits, springs, chain.mass.cwiseInverse());
@@ -130,8 +134,9 @@ double size_of(const PerParticle& mass, const PerParticle3& v) {
 Finding nearer_finding(const Subject&) {
   Measured measured("growth in a sweep", "epsilon of sqrt(sum m |v|^2)");
   for (const NamedOrder& named : sweep_orders())
-    for (unsigned seed : {3u, 19u, 57u}) {
-      Chain chain = random_chain(named.order, seed);
+    for (unsigned seed : {3u, 19u, 57u, 58u}) {
+      const bool bundle = seed == 58;
+      Chain chain = random_chain(named.order, bundle, seed);
       const double size = size_of(chain.mass, chain.v) + size_of(chain.mass, chain.within);
       double grown = -INFINITY, energy = -INFINITY;
       for (int sweep = 0; sweep < 25; ++sweep) {
@@ -144,7 +149,7 @@ Finding nearer_finding(const Subject&) {
         grown = signed_largest({grown, change(chain.within)});
         energy = signed_largest({energy, change(PerParticle3::Zero(3, chain.v.cols()))});
       }
-      const std::string name = named.name + ", seed " + std::to_string(seed);
+      const std::string name = named.name + (bundle ? ", bundle" : ", chain " + std::to_string(seed));
       measured.see(name + ", distance", grown);
       measured.see(name + ", energy", energy);
     }
