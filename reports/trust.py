@@ -111,7 +111,7 @@ def load_variants(file: Path) -> Variants | None:
     told = json.loads(file.read_text(encoding="utf-8"))
     runs = [VariantRun(row["variant"], " ".join(row["options"]), row["findings"],
                        [alarm["name"] for alarm in row["false_alarms"]]) for row in told["runs"]]
-    return Variants(told["commit"], runs)
+    return Variants(told.get("commit", "not recorded"), runs)
 
 
 def unended_run(file: Path) -> str:

@@ -33,7 +33,7 @@ std::vector<Claim> storing_and_updating() {
        "Level sets of a whole animation, computed beforehand, serve many cloth simulations at no further "
        "cost.",
        {{"level-set-cache.loaded-is-the-same", Role::supports},
-        {"level-set-cache.loading-is-cheap", Role::supports},
+        {"level-set-cache.loading-is-cheap", Role::limits},
         {"level-set-cache.unfit-files-are-refused", Role::supports}},
        Standing::conditional,
        "but for loading them, which may take a tenth of what computing them takes",
