@@ -98,7 +98,7 @@ def load_coverage(file: Path) -> Coverage | None:
     if not file.is_file():
         return None
     told = json.loads(file.read_text(encoding="utf-8"))
-    files = [_covered(row["file"], row, _ranges(row["lines_missed"])) for row in told["files"]]
+    files = [_covered(row["file"], row, _ranges(row["lines_missed"])) for row in told["files"] if row["lines"]]
     files.sort(key=lambda row: row.lines_reached / max(row.lines, 1))
     return Coverage(told["commit"], told["ran"], told["least"], _covered("all", told["total"], ""), files)
 
