@@ -23,8 +23,8 @@ using Push = std::function<double(const Contact&, const Known&, const Vector3& v
 
 double decided(double depth, double push) { return std::abs(depth) < 1e-12 ? NAN : depth > 0 ? push : 0; }
 
-/// What a response makes of the particles of all contacts against what it should: they are asked about the objects at
-/// `asked` after having moved for as long.
+/// What a response makes of the particles of all contacts against what it should: `moves`: their
+/// velocity takes them through the step, or else it is the one that ends it.
 Finding response_finding(const Subject& subject, const std::string& response, bool moves, const Push& push) {
   Measured measured = roundings_of("speed");
   for (Contact contact : known_contacts()) {
