@@ -22,6 +22,7 @@ constexpr const char* examples = R"(Examples:
   foldproof simulate cases/drape_statue.toml --set object.mesh=body.obj --cache cache
   foldproof crossings results/fast.h5                 does the cloth pass through itself? Of OBJ files, too
   foldproof project results/half_inside.h5 --map blend --tau 0.01
+  foldproof ablate cases/grab.toml                    which of its parts does this scene need?
   foldproof check bending                             all checks of bending
   foldproof check bending.forces-sum-to-zero --json   one of them, for another program
   foldproof study time-order.hinge                    one study
@@ -45,6 +46,13 @@ constexpr const char* queries_help =
     R"(A row of FILE is a point: numerator and denominator of x, y and z, and 1 if the query meets, else 0, all whole numbers. Eight rows are a query: four
 points at the start of a motion in straight lines, the same four at its end. vertex-face: the vertex, then the triangle's corners. edge-edge: the ends of the
 first edge, then of the second. Exit code 1: the reference misses a meeting, or the exact judge does not agree with the file.)";
+
+constexpr const char* ablate_help =
+    R"(Runs the case as it is, with half the step, and with triangles of half the size: by how much that moves its particles is its own error. Then once
+without each part that it names, and once with each that it does not name and that needs no numbers from its author: self-collision, strain limits, points between
+particles. A part is needed, or missing, if without it particles move by more than the scene's own error, the run comes to no end, an expectation of the case
+fails, the cloth crosses itself, or lies deeper in an object by more than that error. The table [ablation] of a case file may say why a part is there, or left out,
+all the same. Exit code 1 (and a mark !): a part is not needed, or one is missing, and the case does not say why; or it says so needlessly.)";
 
 constexpr const char* project_help =
     R"(Prints how many points were moved, and of the last frame how much of the wrinkles is left: the standard deviation of the depths of points that were
@@ -138,6 +146,20 @@ void add_runs(CLI::App& app, Options& options) {
     add_folder(command, options, "Folder for results");
     add_json(command, options);
   }
+}
+
+void add_ablate(CLI::App& app, Options& options) {
+  CLI::App* ablate = add_command(app, options, "ablate",
+                                 "Which of its parts does a case need, which does it lack, and what does "
+                                 "each cost? Writes ablation.json",
+                                 ::foldproof::ablate);
+  ablate->footer(ablate_help);
+  ablate->add_option("CASE", options.names, "Case files (default: all shipped cases)");
+  ablate->add_option("--set", options.overrides, "Override a key: table.key=value")->allow_extra_args(false);
+  ablate->add_option("--threads", options.running.threads, "Runs at a time (default: one a core)");
+  add_cache(ablate, options);
+  add_folder(ablate, options, "Folder for ablation.json");
+  add_json(ablate, options);
 }
 
 void add_project(CLI::App& app, Options& options) {
@@ -240,6 +262,7 @@ int run(int argc, char** argv) {
   });
   add_readers(app, options);
   add_runs(app, options);
+  add_ablate(app, options);
   add_project(app, options);
   add_selections(app, options);
   try {
