@@ -84,9 +84,9 @@ Scene with_finer_mesh(const Scene& scene) {
   finer.led = led_with_middles(scene);
   if (scene.bending) finer.rest_angles = rest_angles_of_halves(scene, finer.mesh);
   for (StickyPatch& patch : finer.sticky) patch = finer_patch(scene.mesh, quarters.triangles, patch);
-  if (scene.self_collision &&
-      !(scene.self_collision->thickness < least_height(finer.mesh.triangles, finer.mesh.rest) / 2))
-    throw InputError("the cloth is thicker than half the least height of a triangle of the finer mesh");
+  if (scene.self_collision)
+    finer.self_collision->thickness =
+        std::min(finer.self_collision->thickness, 0.49 * least_height(finer.mesh.triangles, finer.mesh.rest));
   return finer;
 }
 

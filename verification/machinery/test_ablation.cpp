@@ -80,6 +80,13 @@ TEST_CASE("a finer mesh is the same cloth") {
   CHECK(lumped_masses(finer.mesh, finer.density).sum() ==
         Approx(lumped_masses(scene.mesh, scene.density).sum()).epsilon(1e-13));
   CHECK(energy_of(finer, finer.mesh.rest) < 1e-12 * energy_of(scene, scene.x));
+  CHECK(finer.self_collision->thickness == 0.004);
+  Scene thick = trial();
+  thick.self_collision->thickness = 0.017;  // of triangles 35 mm high
+  const Scene finer_thick = with_finer_mesh(thick);
+  CHECK(finer_thick.self_collision->thickness <
+        least_height(finer_thick.mesh.triangles, finer_thick.mesh.rest) / 2);
+  CHECK(finer_thick.self_collision->thickness > 0.008);
   CHECK(finer.led.size() == 7 + 6);  // a row of particles, and the middles of its edges
   for (const PrescribedParticle& p : finer.led) CHECK(p.start == finer.x.col(p.particle));
 }
