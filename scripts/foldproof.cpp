@@ -106,17 +106,21 @@ void add_running(CLI::App* command, Options& options) {
                       "Shuffles the jobs, each number in another way (default: the longest first)");
 }
 
+/// --out that has no value where it was not typed.
+void add_out_if_typed(CLI::App* command, Options& options, const std::string& what) {
+  command->add_option("--out", options.out, what);
+  command->parse_complete_callback([&options, command] {
+    if (command->count("--out") == 0) options.out = "";
+  });
+}
+
 /// check and study: they write files only if a folder is named.
 void add_selections(CLI::App& app, Options& options) {
   for (CLI::App* command :
        {add_command(app, options, "check", "Run checks (all, or those named)", run_checks),
         add_command(app, options, "study", "Run studies (all, or those named)", run_studies)}) {
     command->add_option("NAME", options.names, "Names or groups, as `foldproof list` shows them");
-    command->add_option("--out", options.out,
-                        "Also write run.h5, verdicts.json and junit.xml into this folder");
-    command->parse_complete_callback([&options, command] {
-      if (command->count("--out") == 0) options.out = "";
-    });
+    add_out_if_typed(command, options, "Also write run.h5, verdicts.json and junit.xml into this folder");
     add_running(command, options);
     add_tier(command, options);
     add_json(command, options);
@@ -187,6 +191,31 @@ void add_project(CLI::App& app, Options& options) {
   add_json(project, options);
 }
 
+/// What reports/ makes of stored results.
+void add_pages(CLI::App& app, Options& options) {
+  CLI::App* report =
+      add_command(app, options, "report",
+                  "Make DIR/report.html from stored results; of two folders, say what differs", make_report);
+  report->add_option("DIR", options.names, "Folder with run.h5 or case files; two of them are compared")
+      ->required()
+      ->expected(1, 2);
+  report->add_flag("--pdf", options.pdf, "Also DIR/report.pdf, printed by Chromium");
+  CLI::App* film =
+      add_command(app, options, "film", "Make a film of a stored run (MP4 and GIF, by ffmpeg)", make_film);
+  film->add_option("RUN.h5", options.file, "What `foldproof simulate` wrote")->required();
+  film->add_option("--field", options.field, "Colour the cloth by strain, angle, phi or speed");
+  film->add_option("--size", options.size, "Pixels, such as 1280x720");
+  film->add_option("--fps", options.fps, "Pictures a second");
+  add_out_if_typed(film, options, "FILE.mp4 or FILE.gif (default: both, beside RUN.h5)");
+  CLI::App* files = add_command(
+      app, options, "export", "Write the frames of a stored run as files for other programs", export_frames);
+  files->add_option("RUN.h5", options.file, "What `foldproof simulate` wrote")->required();
+  files->add_option("--format", options.kind, "obj, ply or xdmf")
+      ->check(CLI::IsMember({"obj", "ply", "xdmf"}))
+      ->required();
+  files->add_option("--out", options.out, "Folder for the files")->required();
+}
+
 void add_readers(CLI::App& app, Options& options) {
   add_json(add_command(app, options, "list", "What there is: checks, studies, cases, integrators", list),
            options);
@@ -195,9 +224,7 @@ void add_readers(CLI::App& app, Options& options) {
   claims->add_option("ID", options.names, "One claim, such as T17: why, and the findings that decide it");
   add_folder(claims, options, "Folder of the finished run");
   add_json(claims, options);
-  add_command(app, options, "report", "Make DIR/report.html from stored results", make_report)
-      ->add_option("DIR", options.file, "Folder with run.h5 or case files")
-      ->required();
+  add_pages(app, options);
   CLI::App* mesh = add_command(
       app, options, "inspect",
       "What a mesh is good for as a body; exit code 1: it is no solid, or opinions differ", inspect);
