@@ -24,6 +24,11 @@ class ClaimView:
     claim: Claim
     deciding: list[Deciding]
 
+    @property
+    def as_recorded(self) -> bool:
+        """False if another ruling was expected."""
+        return not self.claim.recorded or self.claim.recorded == self.claim.ruling
+
 
 def claim_views(claims: Iterable[Claim], findings: Iterable[Finding]) -> list[ClaimView]:
     """All rows of the ledger."""

@@ -21,6 +21,7 @@ sys.dont_write_bytecode = True
 from case_pictures import make_pictures  # noqa: E402
 from case_plots import plot_diagnostics  # noqa: E402
 from contact_maps import plot_contacts  # noqa: E402
+from hard_cases import findings_by_case  # noqa: E402
 from kill_matrix import load_mutation  # noqa: E402
 from ledger import claim_views  # noqa: E402
 from map_plots import plot_study_map  # noqa: E402
@@ -97,10 +98,11 @@ def draw(run: Run, bench: Run | None, figures: Path, for_papers: bool) -> Page:
     checks, others, rates = findings_by_section(run, bench)
     for view in cases:
         view.foreign = origin_differs(view, run)
+    usual, hard = findings_by_case(run.findings, run.cases, [view.anchor for view in cases])
     return Page(provenance=run.provenance, claims=claim_views(run.claims, everything), checks=checks, studies=studies[:len(run.studies)],
                 other_findings=others, cases=cases, rates=rates, bench_studies=studies[len(run.studies):],
                 bench_provenance=bench.provenance if bench else {}, faults=faults_of(run),
-                tolerances=tolerances_of(run.findings))
+                tolerances=tolerances_of(run.findings), case_findings=usual, hard_findings=hard)
 
 
 def run_jobs(jobs: list[Job], for_papers: bool) -> list[Any]:
