@@ -8,6 +8,7 @@
   const fields = ["text", "section", "verdict", "subject"].map(name => form.elements[name]);
   const [text, section, verdict, subject] = fields;
   const shown = form.querySelector("output");
+  const main = document.querySelector("main");
   const sections = [...document.querySelectorAll("main > section")];
   const containers = document.querySelectorAll("main section, .group");
   const groups = [...document.querySelectorAll("details.group")];
@@ -133,7 +134,7 @@
   let waiting = 0;
   form.addEventListener("input", () => {
     clearTimeout(waiting);
-    waiting = setTimeout(() => { show(); writeAddress(); }, 100);
+    waiting = setTimeout(() => { show(); writeAddress(); main.scrollIntoView(); }, 100);
   });
   form.addEventListener("reset", () => setTimeout(() => { show(); writeAddress(); }));
   form.addEventListener("submit", event => {
