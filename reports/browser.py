@@ -28,13 +28,19 @@ class NoBrowser(Exception):
     """There is no Chromium here, or it does not answer."""
 
 
+def find_browser() -> str:
+    """The path of the program. Throws NoBrowser if it is not there."""
+    program = shutil.which(PACKAGE)
+    if program is None:
+        raise NoBrowser(f"there is no {PACKAGE} here to print with; it is Debian's package {PACKAGE}")
+    return program
+
+
 class Browser:
     """One Chromium with one page. What the page says on its console, and what it asks of the network, is kept."""
 
     def __init__(self) -> None:
-        program = shutil.which(PACKAGE)
-        if program is None:
-            raise NoBrowser(f"there is no {PACKAGE} on this machine; Debian's package {PACKAGE} has it")
+        program = find_browser()
         self.complaints: list[str] = []      # errors and warnings of the page
         self.requests: list[str] = []        # addresses that the page asked for
         self._last, self._loads, self._unread = 0, 0, b""

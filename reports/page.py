@@ -16,6 +16,7 @@ import ledger
 import quantities
 from answers import cheapest_of
 from case_pictures import PictureRow, length_text
+from compare import Comparison
 from figure_words import figure_keys, figure_notes, order_table
 from hard_cases import STUDIES as HARD_STUDIES, CaseFindings, is_of_case
 from kill_matrix import Mutation, kill_tables
@@ -100,23 +101,37 @@ class Page:
 
 def render(page: Page) -> str:
     """The whole report as one HTML text."""
-    environment = Environment(loader=FileSystemLoader(FOLDER), autoescape=True, undefined=StrictUndefined,
-                              trim_blocks=True, lstrip_blocks=True)
-    environment.filters.update(number=quantities.number_html, unit=quantities.unit_text,
-                               seconds=quantities.seconds_html, bar_length=length_text)
+    environment = new_environment()
     environment.globals.update(
-        quantity=quantities.quantity_html, ratio=quantities.ratio_of, isnan=isnan, anchor=Anchors().of,
-        outcome_class=outcome_class, counts=count_outcomes, groups=group_by_prefix, margin=margin_percent, plain=all_hold,
-        table=shown_rows, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE, most_open=MOST_OPEN,
-        orders=order_table, keys=figure_keys, notes=figure_notes, map_notes=map_notes,
-        rulings=ledger.ruling_counts, sections=ledger.by_section, style=Markup(_text_of(*STYLES)),
-        script=Markup(_text_of("filter.js")), cheapest=cheapest_of(view.study for view in page.studies),
+        keys=figure_keys, notes=figure_notes, map_notes=map_notes, orders=order_table, table=shown_rows, groups=group_by_prefix,
+        margin=margin_percent, plain=all_hold, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE,
+        most_open=MOST_OPEN, rulings=ledger.ruling_counts, sections=ledger.by_section,
+        cheapest=cheapest_of(view.study for view in page.studies),
         known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
         by_file=faults_by_file, fault_outcomes=fault_outcomes, kill_tables=kill_tables(page.faults),
         known_findings={finding.name for finding in page.all_findings()},
         of_case={finding.name: case for case in page.case_findings + page.hard_findings
                  for finding in case.findings}.get)
     return environment.get_template("page.html.j2").render(page=page, said=page.provenance)
+
+
+def render_comparison(comparison: Comparison) -> str:
+    """The page of two runs as one HTML text."""
+    environment = new_environment()
+    environment.globals.update(rulings=ledger.counted_rulings)
+    return environment.get_template("compare.html.j2").render(said=comparison)
+
+
+def new_environment() -> Environment:
+    """What all templates share."""
+    environment = Environment(loader=FileSystemLoader(FOLDER), autoescape=True, undefined=StrictUndefined,
+                              trim_blocks=True, lstrip_blocks=True)
+    environment.filters.update(number=quantities.number_html, known=quantities.known_html, unit=quantities.unit_text,
+                               seconds=quantities.seconds_html, bar_length=length_text)
+    environment.globals.update(
+        quantity=quantities.quantity_html, ratio=quantities.ratio_of, isnan=isnan, anchor=Anchors().of,
+        outcome_class=outcome_class, counts=count_outcomes, style=Markup(_text_of(*STYLES)), script=Markup(_text_of("filter.js")))
+    return environment
 
 
 class Anchors:
