@@ -88,7 +88,8 @@ def compare(a: Side, b: Side) -> Comparison:
         verdicts=[change for change in changes if change.a.outcome != change.b.outcome],
         margins=sorted((change for change in measured if change.factor == change.factor and change.factor != 1.0),
                        key=lambda change: -_size(change.factor)),
-        unscaled=[change for change in measured if change.factor != change.factor],
+        unscaled=[change for change in measured if change.factor != change.factor
+                  and not _same(change.a.measured, change.b.measured)],
         bounds=[change for change in measured if not _same(change.a.bound, change.b.bound) or change.a.unit != change.b.unit],
         unchanged=len(changes) - len(measured),
         seconds=_by_factor(_seconds(a, b)), work=_by_factor(_work(a, b)),
