@@ -114,6 +114,7 @@
       const chosen = new URLSearchParams(location.hash.slice(2));
       for (const field of fields) field.value = chosen.get(field.name) ?? "";
       show();
+      main.scrollIntoView();
     } else if (location.hash.length > 1) {
       reveal(document.getElementById(decodeURIComponent(location.hash.slice(1))));
     }
