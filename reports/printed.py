@@ -12,6 +12,7 @@ _LINE = ('<div style="font: 7pt sans-serif; color: #5d656e; width: 100%; padding
          '<span class="totalPages"></span></span></div>')
 _DATE = re.compile(rb"/(CreationDate|ModDate) \(D:\d{14}")
 _NO_DATE = b"19700101000000"
+_NODE = re.compile(rb"\(node(\d{8})\)")   # names of parts: the browser numbers them from what it did before
 
 
 def print_page(page: Path, out: Path) -> Path:
@@ -19,6 +20,12 @@ def print_page(page: Path, out: Path) -> Path:
     with Browser() as browser:
         browser.open(page, script=False)
         content = browser.pdf("<span></span>", _LINE)
-    # the moment of printing says nothing about the run
-    write_whole(out, _DATE.sub(lambda found: b"/" + found[1] + b" (D:" + _NO_DATE, content))
+    write_whole(out, same_each_time(content))
     return out
+
+
+def same_each_time(content: bytes) -> bytes:
+    """A PDF without the moment of its printing, and with its parts numbered from 0 in their order; nothing moves."""
+    ranks = {number: b"(node%08d)" % k for k, number in enumerate(sorted(set(_NODE.findall(content))))}
+    content = _DATE.sub(lambda found: b"/" + found[1] + b" (D:" + _NO_DATE, content)
+    return _NODE.sub(lambda found: ranks[found[1]], content)
