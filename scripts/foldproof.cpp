@@ -22,6 +22,7 @@ constexpr const char* examples = R"(Examples:
   foldproof simulate cases/drape_statue.toml --set object.mesh=body.obj --cache cache
   foldproof crossings results/fast.h5                 does the cloth pass through itself? Of OBJ files, too
   foldproof project results/half_inside.h5 --map blend --tau 0.01
+  foldproof ablate cases/grab.toml                    which of its parts does this scene need?
   foldproof check bending                             all checks of bending
   foldproof check bending.forces-sum-to-zero --json   one of them, for another program
   foldproof study time-order.hinge                    one study
@@ -45,6 +46,13 @@ constexpr const char* queries_help =
     R"(A row of FILE is a point: numerator and denominator of x, y and z, and 1 if the query meets, else 0, all whole numbers. Eight rows are a query: four
 points at the start of a motion in straight lines, the same four at its end. vertex-face: the vertex, then the triangle's corners. edge-edge: the ends of the
 first edge, then of the second. Exit code 1: the reference misses a meeting, or the exact judge does not agree with the file.)";
+
+constexpr const char* ablate_help =
+    R"(Runs the case as it is, with half the step, and with triangles of half the size: by how much that moves its particles is its own error. Then once
+without each part that it names, and once with each that it does not name and that needs no numbers from its author: self-collision, strain limits, points between
+particles. A part is needed, or missing, if without it particles move by more than the scene's own error, the run comes to no end, an expectation of the case
+fails, the cloth crosses itself, or lies deeper in an object by more than that error. The table [ablation] of a case file may say why a part is there, or left out,
+all the same. Exit code 1 (and a mark !): a part is not needed, or one is missing, and the case does not say why; or it says so needlessly.)";
 
 constexpr const char* project_help =
     R"(Prints how many points were moved, and of the last frame how much of the wrinkles is left: the standard deviation of the depths of points that were
@@ -98,17 +106,21 @@ void add_running(CLI::App* command, Options& options) {
                       "Shuffles the jobs, each number in another way (default: the longest first)");
 }
 
+/// --out that has no value where it was not typed.
+void add_out_if_typed(CLI::App* command, Options& options, const std::string& what) {
+  command->add_option("--out", options.out, what);
+  command->parse_complete_callback([&options, command] {
+    if (command->count("--out") == 0) options.out = "";
+  });
+}
+
 /// check and study: they write files only if a folder is named.
 void add_selections(CLI::App& app, Options& options) {
   for (CLI::App* command :
        {add_command(app, options, "check", "Run checks (all, or those named)", run_checks),
         add_command(app, options, "study", "Run studies (all, or those named)", run_studies)}) {
     command->add_option("NAME", options.names, "Names or groups, as `foldproof list` shows them");
-    command->add_option("--out", options.out,
-                        "Also write run.h5, verdicts.json and junit.xml into this folder");
-    command->parse_complete_callback([&options, command] {
-      if (command->count("--out") == 0) options.out = "";
-    });
+    add_out_if_typed(command, options, "Also write run.h5, verdicts.json and junit.xml into this folder");
     add_running(command, options);
     add_tier(command, options);
     add_json(command, options);
@@ -140,6 +152,20 @@ void add_runs(CLI::App& app, Options& options) {
   }
 }
 
+void add_ablate(CLI::App& app, Options& options) {
+  CLI::App* ablate = add_command(app, options, "ablate",
+                                 "Which of its parts does a case need, which does it lack, and what does "
+                                 "each cost? Writes ablation.json",
+                                 ::foldproof::ablate);
+  ablate->footer(ablate_help);
+  ablate->add_option("CASE", options.names, "Case files (default: all shipped cases)");
+  ablate->add_option("--set", options.overrides, "Override a key: table.key=value")->allow_extra_args(false);
+  ablate->add_option("--threads", options.running.threads, "Runs at a time (default: one a core)");
+  add_cache(ablate, options);
+  add_folder(ablate, options, "Folder for ablation.json");
+  add_json(ablate, options);
+}
+
 void add_project(CLI::App& app, Options& options) {
   CLI::App* project = add_command(
       app, options, "project", "Bring the cloth of a stored run out of its objects; writes NAME_projected.h5",
@@ -165,6 +191,31 @@ void add_project(CLI::App& app, Options& options) {
   add_json(project, options);
 }
 
+/// What reports/ makes of stored results.
+void add_pages(CLI::App& app, Options& options) {
+  CLI::App* report =
+      add_command(app, options, "report",
+                  "Make DIR/report.html from stored results; of two folders, say what differs", make_report);
+  report->add_option("DIR", options.names, "Folder with run.h5 or case files; two of them are compared")
+      ->required()
+      ->expected(1, 2);
+  report->add_flag("--pdf", options.pdf, "Also DIR/report.pdf, printed by Chromium");
+  CLI::App* film =
+      add_command(app, options, "film", "Make a film of a stored run (MP4 and GIF, by ffmpeg)", make_film);
+  film->add_option("RUN.h5", options.file, "What `foldproof simulate` wrote")->required();
+  film->add_option("--field", options.field, "Colour the cloth by strain, angle, phi or speed");
+  film->add_option("--size", options.size, "Pixels, such as 1280x720");
+  film->add_option("--fps", options.fps, "Pictures a second");
+  add_out_if_typed(film, options, "FILE.mp4 or FILE.gif (default: both, beside RUN.h5)");
+  CLI::App* files = add_command(
+      app, options, "export", "Write the frames of a stored run as files for other programs", export_frames);
+  files->add_option("RUN.h5", options.file, "What `foldproof simulate` wrote")->required();
+  files->add_option("--format", options.kind, "obj, ply or xdmf")
+      ->check(CLI::IsMember({"obj", "ply", "xdmf"}))
+      ->required();
+  files->add_option("--out", options.out, "Folder for the files")->required();
+}
+
 void add_readers(CLI::App& app, Options& options) {
   add_json(add_command(app, options, "list", "What there is: checks, studies, cases, integrators", list),
            options);
@@ -173,9 +224,7 @@ void add_readers(CLI::App& app, Options& options) {
   claims->add_option("ID", options.names, "One claim, such as T17: why, and the findings that decide it");
   add_folder(claims, options, "Folder of the finished run");
   add_json(claims, options);
-  add_command(app, options, "report", "Make DIR/report.html from stored results", make_report)
-      ->add_option("DIR", options.file, "Folder with run.h5 or case files")
-      ->required();
+  add_pages(app, options);
   CLI::App* mesh = add_command(
       app, options, "inspect",
       "What a mesh is good for as a body; exit code 1: it is no solid, or opinions differ", inspect);
@@ -240,6 +289,7 @@ int run(int argc, char** argv) {
   });
   add_readers(app, options);
   add_runs(app, options);
+  add_ablate(app, options);
   add_project(app, options);
   add_selections(app, options);
   try {

@@ -294,7 +294,6 @@ step = 0.001
         alone = measured("--threads", "1")
         self.assertGreater(len(alone), 300)
         self.assertEqual(alone, measured("--threads", "2", "--order", "1"))
-        self.assertEqual(alone, measured("--threads", "2", "--order", "2"))
 
     def test_a_shift_of_seeds_gives_other_samples_and_is_recorded(self) -> None:
         told = [json.loads(run("check", "bending.forces-sum-to-zero", "--seed", seed, "--json", "--out",
@@ -303,6 +302,35 @@ step = 0.001
         self.assertNotEqual(*(one["findings"][0]["measured"] for one in told))
         with h5py.File(self.path / "out/run.h5") as file:
             self.assertEqual(file.attrs["seed"], 7)
+
+    def test_the_shell_completes_commands_names_options_and_files(self) -> None:
+        def completed(*words: str) -> list[str]:
+            lines = ["source scripts/completion.bash", f"COMP_WORDS=({' '.join(map(repr, (str(PROGRAM), *words)))})",
+                     f"COMP_CWORD={len(words)}", "_foldproof", 'printf "%s\\n" "${COMPREPLY[@]}"']
+            return subprocess.run(["bash", "-c", "\n".join(lines)], cwd=ROOT, capture_output=True, text=True,
+                                  check=True).stdout.split()
+
+        self.assertEqual(completed("abl"), ["ablate"])
+        self.assertEqual(completed("check", "bending.torq"), ["bending.torques-sum-to-zero"])
+        self.assertIn("time-order", completed("study", "time"))
+        self.assertNotIn("bending", completed("study", "bend"))
+        self.assertEqual(completed("simulate", "--res"), ["--resume"])
+        self.assertEqual(completed("simulate", "cases/garm"), ["cases/garment.toml"])
+        self.assertEqual(completed("golden", "fri"), ["friction"])
+
+    def test_ablate_says_what_a_scene_needs(self) -> None:
+        out = str(self.path / "out")
+        case = str(ROOT / "cases" / "incline.toml")
+        done = run("ablate", case, "--set", "time.end=0.2", "--out", out)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        told = json.loads((self.path / "out" / "ablation.json").read_text())["cases"][0]
+        need = {part["name"]: part["need"] for part in told["parts"]}
+        self.assertEqual(need["friction of objects"], "needed")
+        self.assertEqual(need["object 'slope'"], "needed")
+        self.assertEqual(need["self-collision"], "not missed here")
+        refused = run("ablate", case, "--set", 'ablation.wind="it blows"', "--out", out)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("[ablation] names a part 'wind' that cannot be toggled; known: gravity", refused.stderr)
 
     def test_an_unknown_check_is_refused_with_neighbours(self) -> None:
         done = run("check", "bending.forces-sum-to-zer")

@@ -148,8 +148,8 @@ void make_cell(OctreeGrowth& growth, const OctreePlace& place) {
   }
 }
 
-/// The 26 cells about a branch have its width, or are split.
-void make_neighbours(OctreeGrowth& growth, const OctreePlace& place) {
+/// The 26 cells about a branch have its width, or are split. Its place comes as a copy: new branches may move all others.
+void make_neighbours(OctreeGrowth& growth, OctreePlace place) {
   for (int d = 0; d < 27; ++d) {
     OctreePlace next = place;
     next.cell[0] += d % 3 - 1;

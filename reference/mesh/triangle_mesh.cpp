@@ -232,6 +232,17 @@ Eigen::VectorXd triangle_areas(const std::vector<Triangle>& triangles, const Per
   return areas;
 }
 
+double least_height(const std::vector<Triangle>& triangles, const PerParticle3& x) {
+  const Eigen::VectorXd areas = triangle_areas(triangles, x);
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t t = 0; t < triangles.size(); ++t)
+    for (size_t k = 0; k < 3; ++k) {
+      const Vector3 side = x.col(triangles[t][k]) - x.col(triangles[t][(k + 1) % 3]);
+      least = std::min(least, 2 * areas[Eigen::Index(t)] / side.norm());
+    }
+  return least;
+}
+
 PerParticle lumped_masses(const TriangleMesh& mesh, double density) {
   if (!(density > 0) || !std::isfinite(density)) {
     std::ostringstream message;

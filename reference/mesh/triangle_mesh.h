@@ -53,6 +53,9 @@ TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangl
 /// Area of each triangle at the positions x (3 x N [m]); M values [m^2].
 Eigen::VectorXd triangle_areas(const std::vector<Triangle>& triangles, const PerParticle3& x);
 
+/// The least height of a triangle at the positions x [m]; infinite without triangles.
+double least_height(const std::vector<Triangle>& triangles, const PerParticle3& x);
+
 /// Lumped masses: a third of each adjacent triangle's rest area times the area density [kg/m^2]; N values
 /// [kg].
 PerParticle lumped_masses(const TriangleMesh& mesh, double density);

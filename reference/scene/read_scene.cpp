@@ -166,7 +166,8 @@ Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSet
   read_sticky(keys, folder, scene);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
   if (const auto self = keys.table("self_collision")) refuse_tangled_start(*self, scene);
-  keys.leave("expect");  // what must hold of the run: whoever judges it reads that table
+  keys.leave("expect");    // what must hold of the run: whoever judges it reads that table
+  keys.leave("ablation");  // why parts are there or left out: whoever toggles them reads that table
   keys.refuse_unused();
   return scene;
 }

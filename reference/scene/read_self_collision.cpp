@@ -1,31 +1,11 @@
 #include "reference/scene/read_self_collision.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <cstdio>
-#include <limits>
 
 #include "reference/level_set/self_intersection.h"
 #include "reference/scene/key_values.h"
 
 namespace foldproof {
-
-namespace {
-
-/// The least height of a triangle at rest [m].
-double least_height(const TriangleMesh& mesh) {
-  const Eigen::VectorXd areas = triangle_areas(mesh.triangles, mesh.rest);
-  double least = std::numeric_limits<double>::infinity();
-  for (size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (size_t k = 0; k < 3; ++k) {
-      const Vector3 side =
-          mesh.rest.col(mesh.triangles[t][k]) - mesh.rest.col(mesh.triangles[t][(k + 1) % 3]);
-      least = std::min(least, 2 * areas[Eigen::Index(t)] / side.norm());
-    }
-  return least;
-}
-
-}  // namespace
 
 SelfCollisionSettings read_self_collision(const KeyTable& keys, const TriangleMesh& mesh) {
   SelfCollisionSettings settings;
@@ -34,7 +14,7 @@ SelfCollisionSettings read_self_collision(const KeyTable& keys, const TriangleMe
   settings.friction = not_negative_or(keys, "friction", 0);
   settings.rounds = int(count_or(keys, "rounds", settings.rounds));
   settings.untangle = keys.flag_or("untangle", settings.untangle);
-  const double least = least_height(mesh);
+  const double least = least_height(mesh.triangles, mesh.rest);
   if (!(settings.thickness < least / 2)) {
     char told[120];
     std::snprintf(told, sizeof told,

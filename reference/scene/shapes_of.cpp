@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "reference/mesh/obj.h"
+#include "reference/mesh/seams.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/key_values.h"
 
@@ -86,6 +87,14 @@ TriangleMesh make_shape(const KeyTable& keys, const SceneLimits& limits) {
                    "'; known: sheet, disc, cylinder, sphere, statue, hinge");
 }
 
+/// The mesh file, its panels sewn together if `seams` says so.
+TriangleMesh read_mesh(const KeyTable& keys, const std::string& folder) {
+  const std::string file = mesh_file(keys, folder, "cloth");
+  if (!keys.has("seams")) return read_obj(file);
+  TriangleSoup sewn = with_seams_closed(read_obj_soup(file), positive(keys, "seams"));
+  return make_triangle_mesh(std::move(sewn.rest), std::move(sewn.triangles), sewn.origin);
+}
+
 /// Scales, turns and moves the positions, in this order.
 void place(const KeyTable& keys, PerParticle3& x) {
   fit(keys, x);
@@ -149,7 +158,7 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder, con
     throw InputError(cloth.where("mesh") +
                      ": [cloth] needs either 'shape' or 'mesh' (an OBJ file), and not both");
   PlacedMesh result{cloth.has("mesh")
-                        ? read_obj(mesh_file(cloth, folder, "cloth"))
+                        ? read_mesh(cloth, folder)
                         : placed_refusal(cloth.where("shape"), [&] { return make_shape(cloth, limits); }),
                     {}};
 

@@ -1,8 +1,6 @@
 #include "scripts/program/commands.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -19,6 +17,7 @@
 #include "scripts/program/ledger.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
+#include "scripts/program/report_commands.h"
 #include "scripts/program/run_all.h"
 #include "scripts/program/run_case.h"
 #include "verification/all_checks.h"
@@ -59,23 +58,6 @@ int conclude(RunRecord& run, const Options& options, const std::string& file) {
   else
     fmt::print("{}{}\n", listing(run), summary(run));
   return exit_code(run);
-}
-
-/// Runs the report generator on a folder of results; with "--svg-only", or for papers with nullptr.
-int report_on(const std::string& folder, const char* figures) {
-  const std::string script = project_folder() + "/reports/make_report.py";
-  const pid_t child = fork();
-  if (child == 0) {
-    execl("/usr/bin/python3", "python3", script.c_str(), folder.c_str(), figures,
-          static_cast<char*>(nullptr));
-    _exit(127);
-  }
-  int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    say("the report could not be made: " + script);
-    return bad_input;
-  }
-  return all_hold;
 }
 
 std::vector<std::string> names_of_case_findings() {
@@ -219,8 +201,6 @@ int run_studies(const Options& options) {
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
 }
 
-int make_report(const Options& options) { return report_on(options.file, nullptr); }
-
 int evaluate_hinges(const Options& options) {
   evaluate_bending(options.file, options.rest_file);
   return all_hold;
@@ -266,7 +246,8 @@ int verify(const Options& options) {
     speeds.provenance = run.provenance;
     write_run(options.out + "/bench.h5", speeds);
   }
-  const int reported = options.no_report ? all_hold : report_on(options.out, "--svg-only");
+  const int reported =
+      options.no_report ? all_hold : run_report_script("make_report.py", {options.out, "--svg-only"});
   if (options.json)
     fmt::print("{}", verdicts_json(run));
   else

@@ -7,12 +7,15 @@ namespace foldproof {
 
 int list(const Options& options);
 int simulate_case(const Options& options);
+int ablate(const Options& options);       // ablate_command.cpp
 int project_run(const Options& options);  // project_command.cpp
 int inspect(const Options& options);      // inspect_command.cpp
 int run_checks(const Options& options);
 int run_studies(const Options& options);
 int verify(const Options& options);
-int make_report(const Options& options);
+int make_report(const Options& options);  // report_commands.cpp, as the next two
+int make_film(const Options& options);
+int export_frames(const Options& options);
 int evaluate_hinges(const Options& options);
 int print_golden_values(const Options& options);
 int run_bench(const Options& options);

@@ -20,15 +20,16 @@ struct Options {
   std::string map, rule = "loop";  // of project: a depth map, a rule of subdivision
   double reach = 0, eps = 0;       // of project [m]
   double deepest = std::numeric_limits<double>::quiet_NaN();  // of project [m]; NaN: the deepest in the run
-  std::string kind;                                           // of evaluate crossings: of pair
-  double keep = 1e-6;                                         // of evaluate crossings [m]
-  int count = 10;                                             // of golden: rows
-  unsigned seed = 1;                                          // of golden
-  unsigned seed_shift = 0;  // of check, study and verify (verification/seeds.h)
-  Running running;          // of check, study and verify
-  int cells = 64;           // of inspect: along the longest side
-  int levels = 0;           // of project: of subdivision
-  bool json = false, quick = false, no_report = false, no_bench = false, resumes = false;
+  std::string kind;              // of evaluate crossings: of pair; of export: of file
+  std::string field, size, fps;  // of film: as its script takes them
+  double keep = 1e-6;            // of evaluate crossings [m]
+  int count = 10;                // of golden: rows
+  unsigned seed = 1;             // of golden
+  unsigned seed_shift = 0;       // of check, study and verify (verification/seeds.h)
+  Running running;               // of check, study and verify
+  int cells = 64;                // of inspect: along the longest side
+  int levels = 0;                // of project: of subdivision
+  bool json = false, quick = false, no_report = false, no_bench = false, resumes = false, pdf = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code
 };
 

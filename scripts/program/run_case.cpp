@@ -138,7 +138,7 @@ std::vector<std::string> shown_cases() {
   return {"hinge",        "hanging_sheet", "flag_drop",       "rest_fold",      "stiff_statue",
           "drape_sphere", "drape_statue",  "spinning_sphere", "incline",        "incline_slides",
           "pinch",        "armpit",        "half_inside",     "stretched_body", "deforming_body",
-          "hard/fast",    "grab"};
+          "hard/fast",    "grab",          "garment"};
 }
 
 std::vector<std::string> hard_cases() {

@@ -32,6 +32,13 @@ Expectation read_entry(const KeyTable& expect, const std::string& key, const Sce
   return expectation;
 }
 
+Declared read_declared(const KeyTable& ablation, const std::string& part) {
+  const Declared declared{part, ablation.text(part)};
+  if (declared.why.empty())
+    throw InputError(ablation.where(part) + ": say why this part is there, or left out, in words");
+  return declared;
+}
+
 bool is_driven(const Scene& scene) {
   for (const PrescribedParticle& p : scene.led)
     if (p.motion.velocity.norm() > 0 || p.motion.amplitude.norm() > 0 || p.motion.angular_velocity.norm() > 0)
@@ -52,12 +59,15 @@ Case case_of_file(const std::string& path, const std::vector<std::string>& overr
 
 Case case_of_file(const std::string& path, const std::vector<std::string>& overrides,
                   const LevelSetMakers& makers) {
-  Case result{read_scene(path, overrides, makers), {}};
+  Case result{read_scene(path, overrides, makers), {}, {}};
   const auto keys = parse_keys(read_text(path), path);
   for (const std::string& assignment : overrides) set_key(*keys, assignment);
   if (const auto expect = keys->table("expect"))
     for (const auto& [key, value] : expect->entries)
       result.expectations.push_back(read_entry(*expect, key, result.scene));
+  if (const auto ablation = keys->table("ablation"))
+    for (const auto& [part, value] : ablation->entries)
+      result.declared.push_back(read_declared(*ablation, part));
   return result;
 }
 

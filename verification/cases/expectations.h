@@ -16,13 +16,20 @@ struct Expectation {
   std::string why;  // the bound's reason in words
 };
 
+/// One entry of [ablation]: `"part" = "why"`. A part that is there though nothing that `foldproof ablate` measures needs it,
+/// or is left out though its presence would show; parts are named as convergence/scene_parts.h names them.
+struct Declared {
+  std::string part, why;
+};
+
 /// A scene with what must hold of it.
 struct Case {
   Scene scene;
   std::vector<Expectation> expectations;
+  std::vector<Declared> declared = {};
 };
 
-/// Reads the case file's scene and its [expect] table. Throws InputError "file:line: ..." for what read_scene
+/// Reads the case file's scene and its tables [expect] and [ablation]. Throws InputError "file:line: ..." for what read_scene
 /// refuses, an unknown quantity, one that makes no sense for the scene, and an entry without bound or reason.
 ///   overrides   "a.b=c", applied in order; expect.KEY.at_most=... is one, too
 ///   makers      of the level sets of its bodies; without them these are computed

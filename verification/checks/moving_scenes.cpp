@@ -145,17 +145,6 @@ double numbers_that_differ(const PerParticle3& a, const PerParticle3& b) {
   return double((a.array() != b.array()).count());
 }
 
-double least_height(const std::vector<Triangle>& triangles, const PerParticle3& x) {
-  const Eigen::VectorXd areas = triangle_areas(triangles, x);
-  double least = std::numeric_limits<double>::infinity();
-  for (size_t t = 0; t < triangles.size(); ++t)
-    for (size_t k = 0; k < 3; ++k) {
-      const Vector3 side = x.col(triangles[t][k]) - x.col(triangles[t][(k + 1) % 3]);
-      least = std::min(least, 2 * areas[Eigen::Index(t)] / side.norm());
-    }
-  return least;
-}
-
 double extent(const PerParticle3& x) {
   const Vector3 low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff();
   return (high - low).norm() / 2 + (high + low).norm() / 2;

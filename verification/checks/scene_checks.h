@@ -13,7 +13,8 @@ scene_place_checks();  // scene_place_checks.cpp: where the cloth is, how it sta
 std::vector<Check> scene_object_checks();  // scene_object_checks.cpp: objects and how cloth meets them
 std::vector<Check> scene_body_checks();  // scene_body_checks.cpp: bodies of triangles, sampled and deforming
 std::vector<Check>
-scene_cloth_checks();  // scene_cloth_checks.cpp: shapes, copies, folds, cloth meeting itself
+scene_cloth_checks();              // scene_cloth_checks.cpp: shapes, copies, folds, cloth meeting itself
+std::vector<Check> seam_checks();  // seam_checks.cpp: panels that are sewn together
 
 /// All of the above.
 std::vector<Check> scene_checks();

@@ -1,0 +1,89 @@
+#include "reference/mesh/seams.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "reference/mesh/mesh_places.h"
+
+namespace foldproof {
+
+namespace {
+
+using Cell = std::array<double, 3>;  // whole numbers, as doubles: they may be large
+
+Cell cell_of(const Vector3& x, double size) {
+  return {std::floor(x[0] / size), std::floor(x[1] / size), std::floor(x[2] / size)};
+}
+
+/// The vertices that stay, in cells as wide as the distance: whoever is near stands in one of 27 cells.
+class Kept {
+ public:
+  Kept(const PerParticle3& x, double distance) : x_(x), distance_(distance) {}
+
+  /// The first of those that stay within the distance of vertex v; -1 if there is none.
+  int near(int v) const {
+    int first = -1;
+    const Cell middle = cell_of(x_.col(v), distance_);
+    for (const double i : {-1.0, 0.0, 1.0})
+      for (const double j : {-1.0, 0.0, 1.0})
+        for (const double k : {-1.0, 0.0, 1.0}) {
+          const auto found = in_cell_.find({middle[0] + i, middle[1] + j, middle[2] + k});
+          if (found == in_cell_.end()) continue;
+          for (const int other : found->second)
+            if ((x_.col(v) - x_.col(other)).norm() <= distance_ && (first < 0 || other < first))
+              first = other;
+        }
+    return first;
+  }
+
+  void add(int v) { in_cell_[cell_of(x_.col(v), distance_)].push_back(v); }
+
+ private:
+  const PerParticle3& x_;
+  double distance_;  // m
+  std::map<Cell, std::vector<int>> in_cell_;
+};
+
+void refuse_lost_side(const TriangleSoup& panels, const std::vector<int>& becomes) {
+  for (size_t t = 0; t < panels.triangles.size(); ++t) {
+    const auto& [a, b, c] = panels.triangles[t];
+    if (becomes[size_t(a)] == becomes[size_t(b)] || becomes[size_t(b)] == becomes[size_t(c)] ||
+        becomes[size_t(c)] == becomes[size_t(a)])
+      throw InputError(at_triangle(panels.origin, int(t)) +
+                       "two corners of this triangle are so near that a seam would join them; give a smaller "
+                       "distance");
+  }
+}
+
+}  // namespace
+
+TriangleSoup with_seams_closed(TriangleSoup panels, double distance) {
+  if (!(distance > 0) || !std::isfinite(distance))
+    throw InputError(at_mesh(panels.origin) + "seams need a distance > 0 m");
+  const int count = int(panels.rest.cols());
+  Kept kept(panels.rest, distance);
+  std::vector<int> becomes, number(size_t(count), -1), lines, left;
+  for (int v = 0; v < count; ++v) {
+    if (!panels.rest.col(v).allFinite())
+      throw InputError(at_vertex(panels.origin, v) + "a coordinate is not finite; give numbers in m");
+    const int other = kept.near(v);
+    becomes.push_back(other < 0 ? v : other);
+    if (other >= 0) continue;
+    kept.add(v);
+    number[size_t(v)] = int(left.size());
+    left.push_back(v);
+    if (!panels.origin.vertex_lines.empty()) lines.push_back(panels.origin.vertex_lines[size_t(v)]);
+  }
+  refuse_lost_side(panels, becomes);
+  for (Triangle& triangle : panels.triangles)
+    for (int& corner : triangle) corner = number[size_t(becomes[size_t(corner)])];
+  const PerParticle3 rest = panels.rest(Eigen::all, left);
+  panels.rest = rest;
+  panels.origin.vertex_lines = std::move(lines);
+  return panels;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,85 @@
+"""Which of its parts a scene needs: what `foldproof ablate` found. Reads and counts; decides nothing."""
+from __future__ import annotations
+
+import json
+from collections import Counter
+from dataclasses import dataclass
+from math import nan
+from pathlib import Path
+from typing import Any
+
+NEEDS = ("needed", "not needed here", "missing here", "not missed here")
+COUNTED = {"steps": "steps", "elastic_evaluations": "force evaluations", "cg_iterations": "CG iterations",
+           "object_queries": "object queries", "strain_sweeps": "strain sweeps", "crossing_queries": "crossing queries"}
+
+
+@dataclass
+class PartNeed:
+    """A part of a scene, run without it if it is there, else with it."""
+    name: str
+    present: bool
+    need: str                  # one of NEEDS
+    because: str
+    moved: float               # by how much positions differ [m]
+    energy: float              # by how much the energy differs [J]
+    crossings: float           # pairs of an edge and a triangle that meet, most of a frame, in that run
+    deepest: float             # inside an object, in that run [m]
+    seconds: float             # that run over the scene's own [1]
+    work: list[tuple[str, float]]  # counted work of that run over the scene's own, where that is not nothing [1]
+
+
+@dataclass
+class CaseNeeds:
+    """A scene, its own error and its parts."""
+    name: str
+    own_error: float           # m
+    time_error: float          # m; NaN: not known
+    mesh_error: float          # m; NaN: not known
+    unknown: str               # why one of them is not known
+    seconds: float
+    crossings: float
+    deepest: float             # m
+    parts: list[PartNeed]
+
+    def tally(self) -> str:
+        """How many parts are needed, in words."""
+        counts = Counter(part.need for part in self.parts)
+        return ", ".join(f"{counts[need]} {need}" for need in NEEDS if counts[need])
+
+
+@dataclass
+class Needs:
+    """What was found for all cases that were asked for."""
+    commit: str
+    cases: list[CaseNeeds]
+
+    def count(self, need: str) -> int:
+        """Parts of all cases with this need."""
+        return sum(part.need == need for case in self.cases for part in case.parts)
+
+
+def load_needs(file: Path) -> Needs | None:
+    """The outcomes of `foldproof ablate --out DIR`; None if there are none. Throws KeyError for another file."""
+    if not file.is_file():
+        return None
+    told = json.loads(file.read_text(encoding="utf-8"))
+    return Needs(told["program"]["commit"], [_case(row) for row in told["cases"]])
+
+
+def _case(row: dict[str, Any]) -> CaseNeeds:
+    own, scene = row["own_error"], row["run"]
+    unknown = "; ".join(f"{kind}: {why}" for kind, why in (("half the step", own["without_time"]), ("finer mesh", own["without_mesh"])) if why)
+    return CaseNeeds(row["case"], _number(own["value"]), _number(own["time"]), _number(own["mesh"]), unknown, scene["seconds"],
+                     _number(scene["crossings"]), _number(scene["deepest"]), [_part(part, scene) for part in row["parts"]])
+
+
+def _part(part: dict[str, Any], scene: dict[str, Any]) -> PartNeed:
+    run = part["run"]
+    work = [(words, run[key] / scene[key]) for key, words in COUNTED.items() if scene[key] and run[key] != scene[key]]
+    return PartNeed(part["name"], part["present"], part["need"], part["because"], _number(part["position_difference"]),
+                    _number(part["energy_difference"]), _number(run["crossings"]), _number(run["deepest"]),
+                    run["seconds"] / scene["seconds"] if scene["seconds"] else nan, work)
+
+
+def _number(value: float | None) -> float:
+    return nan if value is None else float(value)

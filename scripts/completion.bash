@@ -1,0 +1,51 @@
+# Completion of `foldproof` for bash:  source scripts/completion.bash
+# Commands and options are what `foldproof COMMAND --help` shows, names what `foldproof list` shows; case files end in
+# .toml, meshes in .obj, runs in .h5, tables in .csv.
+
+# The words of a help text that can be typed: commands, or options.
+_foldproof_commands() { "$1" --help | sed -n '/^Subcommands:/,/^$/ s/^  \([a-z]\+\) .*/\1/p'; }
+_foldproof_options() { "$@" --help 2>/dev/null | grep -o -- '--[a-z][a-z-]*' | sort -u; }
+
+# What `list` shows under these headings, and the groups before the dots.
+_foldproof_names() {
+  local program=$1 headings=$2
+  "$program" list | awk -v headings="$headings" '
+    /^[a-z]/ { wanted = index(headings, " " $1 " ") }
+    /^  / && wanted { print $1; if (split($1, part, ".") > 1) print part[1] }' | sort -u
+}
+
+_foldproof_kind() {
+  case $1 in
+    simulate | ablate) echo toml ;;
+    inspect) echo obj ;;
+    project | film) echo h5 ;;
+    crossings) echo 'h5|obj' ;;
+    evaluate) echo csv ;;
+  esac
+}
+
+_foldproof() {
+  local program=${COMP_WORDS[0]} command=${COMP_WORDS[1]} now=${COMP_WORDS[COMP_CWORD]} words='' kind
+  if ((COMP_CWORD == 1)); then
+    words=$(_foldproof_commands "$program")
+  elif [[ $now == -* ]]; then
+    words=$(_foldproof_options "$program" "$command")
+  elif [[ $command == check ]]; then
+    words=$(_foldproof_names "$program" ' checks: studies: ')
+  elif [[ $command == study ]]; then
+    words=$(_foldproof_names "$program" ' studies: ')
+  elif [[ $command == golden ]]; then
+    words='bending springs integrator forecast friction projection sticking'
+  elif [[ $command == evaluate && $COMP_CWORD == 2 ]]; then
+    words='bending crossings'
+  fi
+  mapfile -t COMPREPLY < <(compgen -W "$words" -- "$now")
+  kind=$(_foldproof_kind "$command")
+  if [[ -n $kind && $now != -* && -z $words ]]; then
+    mapfile -t COMPREPLY < <(shopt -s extglob && compgen -f -X "!*.@($kind)" -- "$now" && compgen -d -S / -- "$now")
+  elif [[ $command == report && $now != -* ]]; then
+    mapfile -t COMPREPLY < <(compgen -d -S / -- "$now")
+  fi
+}
+
+complete -F _foldproof foldproof build/foldproof

@@ -1,0 +1,180 @@
+// foldproof ablate: runs a case without each of its parts, and with each that it lacks, and says which it needs.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "convergence/ablation.h"
+#include "convergence/finer_scene.h"
+#include "reference/level_set/makers.h"
+#include "scripts/program/commands.h"
+#include "scripts/program/json_text.h"
+#include "scripts/program/progress.h"
+#include "scripts/program/provenance.h"
+#include "scripts/program/run_case.h"
+#include "verification/whole_file.h"
+
+namespace foldproof {
+
+namespace {
+
+/// A case and all runs that are asked of it.
+struct Ablation {
+  Case shown;
+  std::vector<ScenePart> parts;
+  RunObserved scene, half_steps, finer_mesh;
+  std::vector<RunObserved> toggled;  // one a part
+  OwnError own;
+  std::vector<PartJudged> judged;
+};
+
+Ablation planned(Case shown) {
+  Ablation plan{std::move(shown), {}, {}, {}, {}, {}, {}, {}};
+  plan.parts = parts_of(plan.shown.scene);
+  refuse_unknown_parts(plan.shown, plan.parts);
+  plan.toggled.resize(plan.parts.size());
+  return plan;
+}
+
+/// A run that a job makes and leaves in `into`.
+Job job_of(const std::string& name, double length, const Case& shown,
+           std::function<Scene(const Scene&)> change, RunObserved& into) {
+  return {name, length, [&shown, change = std::move(change), &into](const Progress&) {
+            const int particles = shown.scene.mesh.particles();
+            try {
+              into = observed(with_scene(shown, change(shown.scene)), particles);
+            } catch (const InputError& error) {
+              into.stopped = error.what();
+            }
+            return RunRecord{};
+          }};
+}
+
+/// Finer meshes take some ten times as long: four times the particles, and smaller steps.
+std::vector<Job> jobs_of(std::vector<Ablation>& all) {
+  std::vector<Job> jobs;
+  for (Ablation& one : all) {
+    const std::string& name = one.shown.scene.name;
+    jobs.push_back(job_of(
+        name, 1, one.shown, [](const Scene& s) { return s; }, one.scene));
+    jobs.push_back(job_of(name, 2, one.shown, with_half_steps, one.half_steps));
+    jobs.push_back(job_of(name, 10, one.shown, with_finer_mesh, one.finer_mesh));
+    for (size_t k = 0; k < one.parts.size(); ++k)
+      jobs.push_back(job_of(name, 1.1, one.shown, one.parts[k].toggled, one.toggled[k]));
+  }
+  return jobs;
+}
+
+double size_of(const PerParticle3& x) { return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff(); }
+
+void judge(Ablation& one) {
+  const PerParticle mass = lumped_masses(one.shown.scene.mesh, one.shown.scene.density);
+  const auto error_of = [&](const RunObserved& run) {
+    return run.stopped.empty() ? position_difference(one.scene, run, mass) : nan;
+  };
+  one.own = {error_of(one.half_steps), error_of(one.finer_mesh), 1e-6 * size_of(one.shown.scene.mesh.rest)};
+  for (size_t k = 0; k < one.parts.size(); ++k) {
+    one.judged.push_back(judged(one.parts[k], one.scene, std::move(one.toggled[k]), one.own, mass));
+    one.judged.back().declared = declared_for(one.shown, one.parts[k]);
+  }
+}
+
+nlohmann::json told(const RunObserved& run) {
+  const Work& work = run.work;
+  return {{"seconds", run.seconds},
+          {"steps", run.steps},
+          {"elastic_evaluations", work.elastic_evaluations},
+          {"cg_iterations", work.cg_iterations},
+          {"object_queries", work.object_queries},
+          {"strain_sweeps", work.strain_sweeps},
+          {"crossing_queries", work.crossing_queries},
+          {"deepest", run.deepest},
+          {"crossings", run.crossings},
+          {"stopped", run.stopped},
+          {"failed", run.failed}};
+}
+
+nlohmann::json told(const Ablation& one) {
+  nlohmann::json parts = nlohmann::json::array();
+  for (const PartJudged& part : one.judged)
+    parts.push_back({{"name", part.name},
+                     {"present", part.is_present},
+                     {"need", std::string(name_of(part.need))},
+                     {"because", part.because},
+                     {"declared", part.declared},
+                     {"position_difference", part.position_difference},
+                     {"energy_difference", part.energy_difference},
+                     {"run", told(part.run)}});
+  return {{"case", one.shown.scene.name},
+          {"size", size_of(one.shown.scene.mesh.rest)},
+          {"own_error",
+           {{"time", one.own.time},
+            {"mesh", one.own.mesh},
+            {"floor", one.own.floor},
+            {"value", one.own.value()},
+            {"without_time", one.half_steps.stopped},
+            {"without_mesh", one.finer_mesh.stopped}}},
+          {"run", told(one.scene)},
+          {"parts", std::move(parts)}};
+}
+
+nlohmann::json told(const std::vector<Ablation>& all, const Options& options) {
+  const Provenance p = provenance(options.command);
+  nlohmann::json cases = nlohmann::json::array();
+  for (const Ablation& one : all) cases.push_back(told(one));
+  return {{"schema", 1},
+          {"program",
+           {{"version", p.version},
+            {"commit", p.commit},
+            {"tree", p.tree},
+            {"cpu", p.cpu},
+            {"date", p.date},
+            {"command", p.command}}},
+          {"cases", std::move(cases)}};
+}
+
+void print(const Ablation& one) {
+  fmt::print("{}: {:.2f} s; own error {:.2g} m (half the step {:.2g}, finer mesh {:.2g})\n",
+             one.shown.scene.name, one.scene.seconds, one.own.value(), one.own.time, one.own.mesh);
+  for (const PartJudged& part : one.judged) {
+    fmt::print("{} {:<16} {:<30} {:5.0f} % of the time; {}\n", part.is_as_it_should_be() ? ' ' : '!',
+               name_of(part.need), (part.is_present ? "" : "with ") + part.name,
+               100 * part.run.seconds / one.scene.seconds, part.because);
+    if (!part.declared.empty()) fmt::print("{:>20} {}\n", "declared:", part.declared);
+  }
+}
+
+std::vector<Ablation> asked_of(const Options& options) {
+  std::vector<Ablation> all;
+  const LevelSetMakers makers = makers_of(options.cache);
+  std::vector<std::string> files = options.names;
+  if (files.empty())
+    for (const std::string& name : built_in_cases())
+      files.push_back(project_folder() + "/cases/" + name + ".toml");
+  for (const std::string& file : files) all.push_back(planned(case_of_file(file, options.overrides, makers)));
+  return all;
+}
+
+}  // namespace
+
+int ablate(const Options& options) {
+  std::vector<Ablation> all = asked_of(options);
+  RunRecord run;
+  run_jobs(jobs_of(all), "scenes with and without their parts", options.running, run);
+  bool is_minimal = true;
+  for (Ablation& one : all) {
+    judge(one);
+    for (const PartJudged& part : one.judged) is_minimal &= part.is_as_it_should_be();
+  }
+  const std::string text = json_text(told(all, options)) + "\n";
+  if (!options.out.empty()) {
+    make_folder(options.out);
+    write_text(options.out + "/ablation.json", text);
+  }
+  if (options.json) fmt::print("{}", text);
+  for (const Ablation& one : all)
+    if (!options.json) print(one);
+  return is_minimal ? all_hold : some_fail;
+}
+
+}  // namespace foldproof

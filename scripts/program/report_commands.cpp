@@ -1,0 +1,59 @@
+#include "scripts/program/report_commands.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "scripts/program/commands.h"
+#include "scripts/program/progress.h"
+#include "scripts/program/provenance.h"
+
+namespace foldproof {
+
+namespace {
+
+void add(std::vector<std::string>& arguments, const std::string& option, const std::string& value) {
+  if (value.empty()) return;
+  arguments.push_back(option);
+  arguments.push_back(value);
+}
+
+}  // namespace
+
+int run_report_script(const std::string& script, const std::vector<std::string>& arguments) {
+  const std::string path = project_folder() + "/reports/" + script;
+  std::vector<char*> words = {const_cast<char*>("python3"), const_cast<char*>(path.c_str())};
+  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    execv("/usr/bin/python3", words.data());
+    _exit(127);
+  }
+  int status = 0;
+  if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    say("it did not come to its end: " + path);
+    return bad_input;
+  }
+  return all_hold;
+}
+
+int make_report(const Options& options) {
+  std::vector<std::string> arguments = options.names;
+  if (options.pdf) arguments.push_back("--pdf");
+  return run_report_script("make_report.py", arguments);
+}
+
+int make_film(const Options& options) {
+  std::vector<std::string> arguments = {options.file};
+  add(arguments, "--out", options.out);
+  add(arguments, "--field", options.field);
+  add(arguments, "--size", options.size);
+  add(arguments, "--fps", options.fps);
+  return run_report_script("make_film.py", arguments);
+}
+
+int export_frames(const Options& options) {
+  return run_report_script("export.py", {options.file, "--format", options.kind, "--out", options.out});
+}
+
+}  // namespace foldproof

@@ -1,0 +1,190 @@
+// What `foldproof ablate` judges by: finer scenes that are the same scene, parts that are toggled one by one, needs.
+#include <catch2/catch.hpp>
+
+#include "convergence/ablation.h"
+#include "convergence/finer_scene.h"
+#include "reference/forces/bending.h"
+#include "reference/mesh/shapes.h"
+
+using namespace foldproof;
+
+namespace {
+
+constexpr const char* text = R"([cloth]
+shape = "sheet"
+pattern = "alternating"
+width = 0.3
+height = 0.2
+columns = 6
+rows = 4
+density = 0.2
+pleats = { columns = 2, angle = 40 }
+[gravity]
+[stretch]
+stiffness = 40
+damping = 0.02
+[bending]
+stiffness = 1e-3
+[self_collision]
+thickness = 0.004
+[[object]]
+name = "floor"
+shape = "half_space"
+turn = { axis = [1, 0, 0], angle = -90 }
+move = [0, -0.02, 0]
+friction = 0.3
+[[hold]]
+box = [[-1, 0.19, -1], [1, 1, 1]]
+[time]
+end = 0.05
+frames_per_second = 100
+)";
+
+Scene trial() { return read_scene_text(text, "trial.toml"); }
+
+double energy_of(const Scene& scene, const PerParticle3& x) {
+  double energy = 0;
+  const State s{0, x, PerParticle3::Zero(3, x.cols())};
+  for (const Force& force : build_system(scene).forces)
+    if (const auto* bending = std::get_if<Bending>(&force)) energy += bending->energy(s);
+  return energy;
+}
+
+const ScenePart& part_named(const std::vector<ScenePart>& parts, const std::string& name) {
+  for (const ScenePart& one : parts)
+    if (one.name == name) return one;
+  throw InputError("no part " + name);
+}
+
+/// A run of one particle that is at x in both of its frames.
+RunObserved made_up_run(double x) {
+  RunObserved run;
+  run.times = {0, 1};
+  run.x = {Vector3(x, 0, 0), Vector3(x, 0, 0)};
+  run.energy = {1, 1};
+  return run;
+}
+
+Need need_of(bool is_present, const RunObserved& scene, const RunObserved& toggled) {
+  const ScenePart one{"part", is_present, {}};
+  return judged(one, scene, toggled, {0.01, 0.02, 1e-6}, PerParticle::Constant(1, 0.5)).need;
+}
+
+}  // namespace
+
+TEST_CASE("a finer mesh is the same cloth") {
+  const Scene scene = trial();
+  const Scene finer = with_finer_mesh(scene);
+  CHECK(finer.mesh.triangles.size() == 4 * scene.mesh.triangles.size());
+  CHECK(finer.x.leftCols(scene.x.cols()) == scene.x);
+  CHECK(lumped_masses(finer.mesh, finer.density).sum() ==
+        Approx(lumped_masses(scene.mesh, scene.density).sum()).epsilon(1e-13));
+  CHECK(energy_of(finer, finer.mesh.rest) < 1e-12 * energy_of(scene, scene.x));
+  CHECK(finer.self_collision->thickness == 0.004);
+  Scene thick = trial();
+  thick.self_collision->thickness = 0.017;  // of triangles 35 mm high
+  const Scene finer_thick = with_finer_mesh(thick);
+  CHECK(finer_thick.self_collision->thickness <
+        least_height(finer_thick.mesh.triangles, finer_thick.mesh.rest) / 2);
+  CHECK(finer_thick.self_collision->thickness > 0.008);
+  CHECK(finer.led.size() == 7 + 6);  // a row of particles, and the middles of its edges
+  for (const PrescribedParticle& p : finer.led) CHECK(p.start == finer.x.col(p.particle));
+}
+
+TEST_CASE("halves of a hinge's edge have its rest angle, new edges have none") {
+  Scene scene = trial();
+  for (size_t h = 0; h < scene.rest_angles.size(); ++h) scene.rest_angles[h] = 0.01 * double(h + 1);
+  const Scene finer = with_finer_mesh(scene);
+  double sum = 0, of_halves = 0;
+  for (const double angle : scene.rest_angles) sum += angle;
+  for (const double angle : finer.rest_angles) of_halves += angle;
+  CHECK(of_halves == Approx(2 * sum).epsilon(1e-13));
+  for (size_t h = 0; h < finer.rest_angles.size(); ++h) {
+    const Edge& edge = finer.mesh.edges[size_t(finer.mesh.hinges[h].edge)];
+    CHECK((finer.rest_angles[h] > 0) == (edge.a < scene.mesh.particles()));
+  }
+}
+
+TEST_CASE("half the step halves every limit on it") {
+  Scene scene = trial();
+  scene.schedule.step.fixed = 0.003;
+  const StepRule rule = with_half_steps(scene).schedule.step;
+  CHECK(rule.fixed == 0.0015);
+  CHECK(rule.safety == scene.schedule.step.safety / 2);
+  CHECK(rule.strain_per_step == scene.schedule.step.strain_per_step / 2);
+}
+
+TEST_CASE("each part of a scene can be toggled by itself") {
+  const Scene scene = trial();
+  const std::vector<ScenePart> parts = parts_of(scene);
+  CHECK_FALSE(part_named(parts, "gravity").toggled(scene).gravity);
+  CHECK(part_named(parts, "damping of springs").toggled(scene).stretch->damping == 0);
+  CHECK_FALSE(part_named(parts, "bending").toggled(scene).bending);
+  CHECK(part_named(parts, "rest angles").toggled(scene).rest_angles[0] == 0);
+  CHECK(part_named(parts, "object 'floor'").toggled(scene).objects.empty());
+  CHECK(part_named(parts, "friction of objects").toggled(scene).objects[0].object.friction == 0);
+  CHECK(part_named(parts, "held particles").toggled(scene).led.empty());
+  CHECK_FALSE(part_named(parts, "self-collision").toggled(scene).self_collision);
+  CHECK_FALSE(part_named(parts, "strain limits").is_present);
+  CHECK(part_named(parts, "strain limits").toggled(scene).strain_limits);
+  CHECK_FALSE(part_named(parts, "points between particles").is_present);
+  for (const ScenePart& one : parts) CHECK_NOTHROW(build_system(one.toggled(scene)));
+}
+
+TEST_CASE("positions differ by the root mean square over particles, in the worst frame") {
+  RunObserved a, b;
+  a.x = {PerParticle3::Zero(3, 2), PerParticle3::Zero(3, 2)};
+  b.x = a.x;
+  b.x[1].col(0) = Vector3(0, 3, 4);
+  CHECK(position_difference(a, b, PerParticle::Constant(2, 0.7)) == Approx(5 / std::sqrt(2)));
+  CHECK(position_difference(a, b, Eigen::Vector2d(0.1, 0.3)) == Approx(5 / 2.0));
+  b.x[0](0, 0) = std::nan("");
+  CHECK(std::isnan(position_difference(a, b, PerParticle::Constant(2, 0.7))));
+}
+
+TEST_CASE("a part is needed when it changes more than the scene's own error") {
+  const RunObserved scene = made_up_run(0);
+  CHECK(need_of(true, scene, made_up_run(0.029)) == Need::not_needed);
+  CHECK(need_of(true, scene, made_up_run(0.031)) == Need::needed);
+  CHECK(need_of(false, scene, made_up_run(0.029)) == Need::not_missed);
+  CHECK(need_of(false, scene, made_up_run(0.031)) == Need::missing);
+  CHECK(need_of(true, scene, made_up_run(std::nan(""))) == Need::needed);
+}
+
+TEST_CASE("a part is needed where cloth fails without it, however little it moves") {
+  const RunObserved scene = made_up_run(0);
+  const auto with = [](auto change) {
+    RunObserved run = made_up_run(0);
+    change(run);
+    return run;
+  };
+  const RunObserved stops = with([](RunObserved& r) { r.stopped = "it stopped"; });
+  const RunObserved crosses = with([](RunObserved& r) { r.crossings = 3; });
+  const RunObserved sinks = with([](RunObserved& r) { r.deepest = 0.031; });
+  const RunObserved fails = with([](RunObserved& r) { r.failed = {"stays_flat"}; });
+  for (const RunObserved& broken : {stops, crosses, sinks, fails}) {
+    CHECK(need_of(true, scene, broken) == Need::needed);
+    CHECK(need_of(true, broken, broken) == Need::not_needed);
+    CHECK(need_of(false, broken, scene) == Need::missing);
+    CHECK(need_of(false, scene, broken) == Need::not_missed);
+  }
+}
+
+TEST_CASE("what a case declares is asked for, and no more than that") {
+  PartJudged part{"gravity", true, Need::needed, "", 0, 0, "", {}};
+  CHECK(part.is_as_it_should_be());
+  part.declared = "a reason";
+  CHECK_FALSE(part.is_as_it_should_be());
+  part.need = Need::not_needed;
+  CHECK(part.is_as_it_should_be());
+  part.declared = "";
+  CHECK_FALSE(part.is_as_it_should_be());
+
+  Case shown{trial(), {}, {{"strain limits", "a reason"}}};
+  const std::vector<ScenePart> parts = parts_of(shown.scene);
+  CHECK(declared_for(shown, part_named(parts, "strain limits")) == "a reason");
+  CHECK(declared_for(shown, part_named(parts, "gravity")).empty());
+  CHECK_NOTHROW(refuse_unknown_parts(shown, parts));
+  shown.declared.push_back({"wind", "a reason"});
+  CHECK_THROWS_AS(refuse_unknown_parts(shown, parts), InputError);
+}
