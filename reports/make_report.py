@@ -20,7 +20,7 @@ from typing import Any
 
 sys.dont_write_bytecode = True
 
-from browser import NoBrowser, find_browser  # noqa: E402
+from chromium import NoBrowser, find_browser  # noqa: E402
 from case_pictures import make_pictures  # noqa: E402
 from case_plots import plot_diagnostics  # noqa: E402
 from compare import compare, read_side  # noqa: E402

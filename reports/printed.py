@@ -4,7 +4,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from browser import Browser
+from chromium import Browser
 from whole_file import write_whole
 
 _LINE = ('<div style="font: 7pt sans-serif; color: #5d656e; width: 100%; padding: 0 16mm; display: flex; '

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from answers import Choice, cheapest_of
-from browser import Browser, NoBrowser, find_browser
+from chromium import Browser, NoBrowser, find_browser
 from made_up_run import NAMES, put_run
 from make_report import make_report
 from results import Column, Study, Table
