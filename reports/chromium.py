@@ -41,7 +41,7 @@ class Browser:
 
     def __init__(self) -> None:
         program = find_browser()
-        self.complaints: list[str] = []      # errors and warnings of the page
+        self.complaints: list[str] = []      # errors of the page
         self.requests: list[str] = []        # addresses that the page asked for
         self._last, self._loads, self._unread = 0, 0, b""
         self._folder = tempfile.TemporaryDirectory(prefix="foldproof-browser-", ignore_cleanup_errors=True)
@@ -162,9 +162,9 @@ class Browser:
         elif event == "Runtime.exceptionThrown":
             details = said["exceptionDetails"]
             self.complaints.append(details.get("exception", {}).get("description", details["text"]))
-        elif event == "Log.entryAdded" and said["entry"]["level"] in ("error", "warning"):
+        elif event == "Log.entryAdded" and said["entry"]["level"] == "error":
             self.complaints.append(said["entry"]["text"])
-        elif event == "Runtime.consoleAPICalled" and said["type"] in ("error", "warning", "assert"):
+        elif event == "Runtime.consoleAPICalled" and said["type"] in ("error", "assert"):
             self.complaints.append(" ".join(str(part.get("value", part.get("description"))) for part in said["args"]))
         elif event == "Network.requestWillBeSent" and not said["request"]["url"].startswith("data:"):
             self.requests.append(said["request"]["url"])

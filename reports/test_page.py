@@ -235,7 +235,7 @@ class InABrowser(MadeUpPage):
     def test_without_scripts_the_page_is_whole_and_has_no_controls(self) -> None:
         self.browser.open(self.page, script=False)
         self.assertTrue(self.browser.evaluate("document.querySelector('.filter').hidden"))
-        self.assertEqual(self.browser.evaluate("document.querySelectorAll('main [hidden]').length"), 0)
+        self.assertEqual(self.browser.evaluate("document.querySelectorAll('.group[hidden], .finding[hidden]').length"), 0)
 
     def test_nothing_is_wider_than_a_phone(self) -> None:
         for width in (390, 1400):
