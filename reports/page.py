@@ -16,6 +16,7 @@ from markupsafe import Markup
 import ledger
 import quantities
 from case_pictures import PictureRow, length_text
+from field_pictures import FieldView
 from kill_matrix import Mutation, kill_tables
 from ledger import ClaimView
 from map_plots import map_notes
@@ -40,6 +41,7 @@ class CaseView:
     anchor: str
     case: Case | None = None
     row: PictureRow | None = None
+    turning: FieldView | None = None
     plots: list[tuple[str, Plot]] = field(default_factory=list)
     problem: str = ""
     foreign: str = ""               # why the file is not the one that the run wrote
@@ -94,7 +96,7 @@ def render(page: Page) -> str:
         quantity=quantities.quantity_html, ratio=quantities.ratio_of, isnan=isnan, anchor=Anchors().of,
         outcome_class=outcome_class, counts=count_outcomes, groups=group_by_prefix, margin=margin_percent,
         table=shown_rows, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE, orders=order_table, keys=figure_keys, notes=figure_notes, map_notes=map_notes,
-        rulings=ledger.ruling_counts, sections=ledger.by_section, style=Markup(_style()),
+        rulings=ledger.ruling_counts, sections=ledger.by_section, style=Markup(_style()), viewer=Markup(_viewer()),
         known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
         kill_tables=kill_tables(page.faults),
         known_findings={finding.name for finding in _all_findings(page)})
@@ -264,4 +266,10 @@ def faults_of(run: Run) -> list[Fault]:
 
 
 def _style() -> str:
-    return (FOLDER / "style.css").read_text(encoding="utf-8")
+    return "".join((FOLDER / name).read_text(encoding="utf-8") for name in ("style.css", "view.css"))
+
+
+def _viewer() -> str:
+    """The program of the views, with names of its own."""
+    parts = [(FOLDER / name).read_text(encoding="utf-8") for name in ("viewer_data.js", "viewer_gl.js", "viewer.js")]
+    return '"use strict";\n{\n' + "".join(parts) + "}\n"
