@@ -9,7 +9,10 @@ import numpy as np
 from camera import area_normals
 from results import Case
 
-QUANTITIES = ("positions", "velocities", "object_distance")
+WORDS = {"speed": ("speed", "m/s"),
+         "strain": ("strain, the largest |length / rest length \u2212 1| of a particle's edges", "1"),
+         "angle": ("bending angle, the largest of a particle's hinges, 0 where flat", "rad"),
+         "phi": ("distance to the objects, negative inside", "m")}
 COLOUR_BINS = 16                    # in which the colours of a picture are counted
 SMALLEST = 1e-9                     # [unit]: a field whose values all stay below is roundings
 OF_LARGEST = 99.0                   # percentile of all values at which the colours of a field end
@@ -32,23 +35,34 @@ class Field:
         return np.clip((self.values[row] - self.low) / (self.high - self.low), 0.0, 1.0)
 
 
-def fields_of(case: Case, frames: list[int]) -> list[Field]:
-    """Every field that the file allows, in these frames; colours span the values of all of them."""
-    x, velocities, distances = (None if rows is None else rows[frames] for rows in map(case.every_frame, QUANTITIES))
-    edges, rest = edges_of(case.triangles), case.rest_positions()
-    made = []
+def all_values(case: Case) -> dict[str, np.ndarray]:
+    """Every field that the file allows by its name, T x N in all frames: speed [m/s]; strain [1], the largest
+    |length / rest length - 1| of a particle's edges; angle [rad], the largest of its hinges, 0 where flat; phi [m], the
+    distance to the objects, negative inside."""
+    x, velocities, distances = (case.every_frame(name) for name in ("positions", "velocities", "object_distance"))
+    rest, hinges = case.rest_positions(), hinges_of(case.triangles)
+    values = {}
     if velocities is not None:
-        made.append(_sizes("speed", "speed", "m/s", np.linalg.norm(velocities, axis=2)))
+        values["speed"] = np.linalg.norm(velocities, axis=2)
     if rest is not None:
-        made.append(_sizes("strain", "strain, the largest |length / rest length \u2212 1| of a particle's edges", "1",
-                           _strains(x, edges, rest)))
-    hinges = hinges_of(case.triangles)
+        values["strain"] = _strains(x, edges_of(case.triangles), rest)
     if len(hinges):
-        made.append(_sizes("angle", "bending angle, the largest of a particle's hinges, 0 where flat", "rad",
-                           _angles(x, hinges, case.triangles)))
+        values["angle"] = _angles(x, hinges, case.triangles)
     if distances is not None:
-        made.append(_distances(distances, x[0] if rest is None else rest, edges))
-    return [field for field in made if field is not None]
+        values["phi"] = distances
+    return values
+
+
+def fields_of(case: Case, frames: list[int]) -> list[Field]:
+    """Every field that the file allows and that is more than roundings, in these frames; colours span the values of all
+    of them."""
+    made = []
+    for name, values in all_values(case).items():
+        ends = _side_ends(case) if name == "phi" else _size_ends(values[frames])
+        if ends[1] > SMALLEST:
+            made.append(Field(name, *WORDS[name], np.nan_to_num(values[frames], posinf=1e300), *ends,
+                              SIDES if name == "phi" else SIZES))
+    return made
 
 
 def most_telling(fields: list[Field], rows: list[int], edges: np.ndarray) -> tuple[Field, int] | None:
@@ -80,22 +94,18 @@ def hinges_of(triangles: np.ndarray) -> np.ndarray:
     return np.column_stack([ends[twice], owner[twice], owner[twice + 1]])
 
 
-def _sizes(name: str, label: str, unit: str, values: np.ndarray) -> Field | None:
-    """A field of sizes from zero on; None where nothing in it is finite, or all is
-    roundings."""
-    if not np.isfinite(values).any():
-        return None
-    high = float(np.percentile(values[np.isfinite(values)], OF_LARGEST))
-    return Field(name, label, unit, np.nan_to_num(values), 0.0, high, SIZES) if high > SMALLEST else None
+def _size_ends(values: np.ndarray) -> tuple[float, float]:
+    """Colours of sizes begin at zero."""
+    finite = values[np.isfinite(values)]
+    return 0.0, float(np.percentile(finite, OF_LARGEST)) if len(finite) else 0.0
 
 
-def _distances(values: np.ndarray, rest: np.ndarray, edges: np.ndarray) -> Field | None:
-    """Distances to the objects, coloured up to half an edge to both sides, as the contact maps are."""
-    limit = 0.5 * float(np.linalg.norm(rest[edges[:, 0]] - rest[edges[:, 1]], axis=1).mean())
-    if not (np.isfinite(values).any() and limit > 0):
-        return None
-    return Field("phi", "distance to the objects, negative inside", "m", np.nan_to_num(values, posinf=1e300), -limit,
-                 limit, SIDES)
+def _side_ends(case: Case) -> tuple[float, float]:
+    """Colours of distances to the objects go to half an edge to both sides, as those of the contact maps do."""
+    edges, rest = edges_of(case.triangles), case.rest_positions()
+    places = case.positions(0) if rest is None else rest
+    limit = 0.5 * float(np.linalg.norm(places[edges[:, 0]] - places[edges[:, 1]], axis=1).mean())
+    return -limit, limit
 
 
 def _strains(x: np.ndarray, edges: np.ndarray, rest: np.ndarray) -> np.ndarray:
