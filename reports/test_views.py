@@ -262,6 +262,7 @@ const differ = (a, b) => a.filter((value, k) => Math.abs(value - b[k]) > 8).leng
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 const press = (key) => figure.querySelector("canvas").dispatchEvent(new KeyboardEvent("keydown", { key }));
 async function ask() {
+  figure.scrollIntoView();
   figure.querySelector(".open-view").click();
   for (let k = 0; k < 100 && !(figure.dataset.drawn > 5); ++k) await wait(100);
   press(" "); await wait(300);
