@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import json
-import re
 import shutil
 import subprocess
 import sys
@@ -20,6 +19,7 @@ import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib import image  # noqa: E402
 
+from browser import Browser  # noqa: E402
 from camera import choose_camera  # noqa: E402
 from case_fields import all_values, edges_of, fields_of, most_telling  # noqa: E402
 from case_scene import CaseScene, slowed  # noqa: E402
@@ -186,6 +186,49 @@ def unpacked(text: str) -> tuple[dict, dict[str, np.ndarray]]:
     return header, arrays
 
 
+ASK_THE_VIEW = """(async () => {
+  const problems = [], told = { problems };
+  addEventListener("error", (event) => problems.push(event.message));
+  addEventListener("unhandledrejection", (event) => problems.push(String(event.reason)));
+  console.warn = console.error = (text) => problems.push(String(text));
+  const figure = document.querySelector("figure.view");
+  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+  const drawn = async (count) => { for (let k = 0; k < 400 && !(figure.dataset.drawn >= count); ++k) await wait(50); };
+  const press = (key) => figure.querySelector("canvas").dispatchEvent(new KeyboardEvent("keydown", { key }));
+  const seen = () => {
+    const copy = document.createElement("canvas"), pen = copy.getContext("2d");
+    Object.assign(copy, { width: 80, height: 60 });
+    pen.drawImage(figure.querySelector("canvas"), 0, 0, 80, 60);
+    return Array.from(pen.getImageData(0, 0, 80, 60).data);
+  };
+  const after = async (act) => {                        // what is seen once the act has been drawn
+    const before = Number(figure.dataset.drawn);
+    act();
+    await drawn(before + 1);
+    return seen();
+  };
+  const differ = (a, b) => a.filter((value, k) => Math.abs(value - b[k]) > 8).length;
+  figure.scrollIntoView();
+  figure.querySelector(".open-view").click();
+  await drawn(6);                                       // it plays
+  press(" ");
+  await wait(300);
+  told.drawn = Number(figure.dataset.drawn);
+  const slider = figure.querySelector("input[type=range]"), colours = figure.querySelector("select");
+  const first = await after(() => { slider.value = 0; slider.dispatchEvent(new Event("input")); });
+  told.covered = first.filter((value, k) => k % 4 === 3 && value > 128).length;
+  told.time = figure.querySelector("output").textContent;
+  const turned = await after(() => press("ArrowLeft"));
+  const later = await after(() => press("."));
+  told.colours = colours.options.length;
+  const recoloured = await after(() => { colours.value = -1; colours.dispatchEvent(new Event("change")); });
+  Object.assign(told, { turned: differ(first, turned), moved: differ(turned, later), recoloured: differ(later, recoloured) });
+  press("Escape");
+  told.closed = !figure.querySelector("canvas") && !figure.classList.contains("running");
+  return told;
+})()"""
+
+
 class ViewInThePage(WithCase):
     """The data of the view, and the view itself in a browser."""
 
@@ -245,64 +288,39 @@ class ViewInThePage(WithCase):
     @unittest.skipUnless(shutil.which("chromium"), "no chromium: the package chromium has it")
     def test_the_view_draws_and_plays_in_a_browser(self) -> None:
         page = make_report(self.root, self.root / "report.html", self.root / "figures", for_papers=False)
-        asks = """<script>
-const problems = [];
-addEventListener("error", (event) => problems.push(event.message));
-addEventListener("unhandledrejection", (event) => problems.push(String(event.reason)));
-console.warn = console.error = (text) => problems.push(String(text));
-const figure = document.querySelector("figure.view"), told = {};
-const seen = () => {
-  const canvas = figure.querySelector("canvas"), copy = document.createElement("canvas");
-  copy.width = 80; copy.height = 60;
-  const pen = copy.getContext("2d");
-  pen.drawImage(canvas, 0, 0, 80, 60);
-  return Array.from(pen.getImageData(0, 0, 80, 60).data);
-};
-const differ = (a, b) => a.filter((value, k) => Math.abs(value - b[k]) > 8).length;
-const wait = (ms) => new Promise((done) => setTimeout(done, ms));
-const press = (key) => figure.querySelector("canvas").dispatchEvent(new KeyboardEvent("keydown", { key }));
-async function ask() {
-  figure.scrollIntoView();
-  figure.querySelector(".open-view").click();
-  for (let k = 0; k < 100 && !(figure.dataset.drawn > 5); ++k) await wait(100);
-  press(" "); await wait(300);
-  told.drawn = Number(figure.dataset.drawn);
-  const slider = figure.querySelector("input[type=range]");
-  slider.value = 0; slider.dispatchEvent(new Event("input")); await wait(300);
-  const first = seen();
-  told.covered = first.filter((value, k) => k % 4 === 3 && value > 128).length;
-  told.time = figure.querySelector("output").textContent;
-  press("ArrowLeft"); await wait(300);
-  const turned = seen();
-  told.turned = differ(first, turned);
-  press("."); await wait(300);
-  const later = seen();
-  told.moved = differ(turned, later);
-  const colours = figure.querySelector("select");
-  told.colours = colours.options.length;
-  colours.value = colours.value === "0" ? "1" : "0"; colours.dispatchEvent(new Event("change")); await wait(300);
-  told.recoloured = differ(later, seen());
-  press("Escape"); await wait(300);
-  told.closed = !figure.querySelector("canvas") && !figure.classList.contains("running");
-  told.problems = problems;
-  document.title = "told " + btoa(JSON.stringify(told));
-}
-ask().catch((error) => { document.title = "told " + btoa(JSON.stringify({ problems: [String(error)] })); });
-</script></body>"""
-        tried = self.root / "tried.html"
-        tried.write_text(page.read_text(encoding="utf-8").replace("</body>", asks), encoding="utf-8")
-        run = subprocess.run(["chromium", "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                              f"--user-data-dir={self.root}/profile", "--virtual-time-budget=30000", "--dump-dom", tried.as_uri()],
-                             capture_output=True, text=True, timeout=300, check=False)
-        answer = re.search(r"<title>told ([A-Za-z0-9+/=]+)</title>", run.stdout)
-        self.assertIsNotNone(answer, run.stderr[-2000:])
-        told = json.loads(base64.b64decode(answer[1]))
+        with Browser() as browser:
+            browser.open(page)
+            told = browser.ask(ASK_THE_VIEW)
         self.assertEqual(told["problems"], [])
         self.assertGreater(told["drawn"], 3)
         self.assertGreater(told["covered"], 200)
         for what in ("turned", "moved", "recoloured"):
             self.assertGreater(told[what], 100, what)
         self.assertEqual((told["time"], told["colours"], told["closed"]), ("0.00 s", 5, True))
+
+    @unittest.skipUnless(shutil.which("chromium"), "no chromium: the package chromium has it")
+    def test_without_webgl_the_picture_stays_and_who_wants_rest_sees_no_film(self) -> None:
+        page = make_report(self.root, self.root / "report.html", self.root / "figures", for_papers=False)
+        with Browser(reduced_motion="reduce") as browser:
+            browser.open(page)
+            still = browser.ask("""(async () => {
+              const figure = document.querySelector("figure.view");
+              figure.scrollIntoView();
+              figure.querySelector(".open-view").click();
+              while (!figure.dataset.drawn) await new Promise((done) => setTimeout(done, 50));
+              await new Promise((done) => setTimeout(done, 700));
+              return [figure.querySelector(".play").textContent, figure.querySelector("input").value, figure.dataset.frame];
+            })()""")
+            self.assertEqual((still[0], still[1]), ("Play", still[2]))
+            browser.open(page)
+            told = browser.ask("""(async () => {
+              HTMLCanvasElement.prototype.getContext = () => null;
+              const figure = document.querySelector("figure.view");
+              figure.querySelector(".open-view").click();
+              while (!figure.querySelector(".no-view")) await new Promise((done) => setTimeout(done, 50));
+              return [figure.querySelector(".no-view").textContent, figure.querySelector("img").offsetHeight > 50];
+            })()""")
+        self.assertEqual(told, ["Only the picture: no WebGL 2", True])
 
 
 class Films(WithCase):
