@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes a simulation for other programs: a file for each frame (OBJ, PLY), or one XDMF with its HDF5.
+"""Writes a simulation for other programs: a file for each frame (OBJ, PLY), or one XDMF for all, with its HDF5.
 
     reports/export.py results/grab.h5 --format ply --out grab_ply     -> grab.0000.ply, ..., grab-object-0.0000.ply, ...
 
@@ -13,7 +13,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from xml.sax.saxutils import quoteattr
+from xml.sax.saxutils import escape, quoteattr
 
 sys.dont_write_bytecode = True
 
@@ -103,41 +103,35 @@ def write_ply(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
 
 
 def write_xdmf(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
-    """One XDMF, a collection in time of cloth and objects, and the HDF5 that it names."""
+    """An XDMF for the cloth and for each object, a collection in time, and the one HDF5 that they name."""
     data, partial = folder / f"{case.path.stem}.data.h5", folder / f"{case.path.stem}.data.h5.partial"
     with h5py.File(partial, "w", track_order=True) as file:
-        for k, body in enumerate(bodies):
-            file[f"{k}/triangles"] = body.triangles.astype("<i4")
+        for body in bodies:
+            file[f"{body.name}/triangles"] = body.triangles.astype("<i4")
             for frame in range(len(body.x)):
                 for name, values in {"x": body.x, **body.values}.items():
-                    file[f"{k}/{frame}/{name}"] = values[frame]
+                    file[f"{body.name}/{frame}/{name}"] = values[frame]
     partial.replace(data)
-    frames = "\n".join(_xdmf_frame(bodies, data.name, frame, time) for frame, time in enumerate(case.frame_times))
-    text = ('<?xml version="1.0"?>\n<Xdmf Version="3.0"><Domain>\n<Grid Name="simulation" GridType="Collection" '
-            f'CollectionType="Temporal">\n{frames}\n</Grid>\n</Domain></Xdmf>\n')
-    return [data, _written(folder / f"{case.path.stem}.xdmf", text.encode("utf-8"))]
+    return [data] + [_written(folder / f"{body.name}.xdmf", _xdmf(body, data.name, case.frame_times).encode("utf-8"))
+                     for body in bodies]
 
 
-def _xdmf_frame(bodies: list[Body], file: str, frame: int, time: float) -> str:
-    """One frame: a grid of the cloth, or a spatial collection of it and the objects."""
-    grids = [_xdmf_grid(body, f"{file}:/{k}", frame, time if len(bodies) == 1 else None) for k, body in enumerate(bodies)]
-    if len(bodies) == 1:
-        return grids[0]
-    return (f'<Grid Name="frame {frame}" GridType="Collection" CollectionType="Spatial"><Time Value="{time:.17g}"/>\n'
-            + "\n".join(grids) + "\n</Grid>")
+def _xdmf(body: Body, file: str, times: np.ndarray) -> str:
+    grids = "\n".join(_xdmf_grid(body, escape(f"{file}:/{body.name}"), frame, time) for frame, time in enumerate(times))
+    return (f'<?xml version="1.0"?>\n<Xdmf Version="3.0">\n<Domain>\n<Grid Name={quoteattr(body.name)} GridType="Collection" '
+            f'CollectionType="Temporal">\n{grids}\n</Grid>\n</Domain>\n</Xdmf>\n')
 
 
-def _xdmf_grid(body: Body, place: str, frame: int, time: float | None) -> str:
+def _xdmf_grid(body: Body, place: str, frame: int, time: float) -> str:
     def item(name: str, shape: tuple[int, ...], kind: str = 'NumberType="Float" Precision="8"') -> str:
         return f'<DataItem Dimensions="{" ".join(map(str, shape))}" {kind} Format="HDF">{place}/{name}</DataItem>'
-    triangles, points = body.triangles.shape, body.x.shape[1:]
+    triangles = body.triangles.shape
     attributes = [f'<Attribute Name="{name}" AttributeType="{"Vector" if values.ndim == 3 else "Scalar"}" Center="Node">'
-                  f'{item(f"{frame}/{name}", values.shape[1:])}</Attribute>' for name, values in body.values.items()]
-    when = "" if time is None else f'<Time Value="{time:.17g}"/>'
-    return (f'<Grid Name={quoteattr(body.name)} GridType="Uniform">{when}'
+                  f'{item(f"{frame}/{name}", values.shape[1:])}</Attribute>\n' for name, values in body.values.items()]
+    return (f'<Grid Name="frame {frame}" GridType="Uniform"><Time Value="{time:.17g}"/>\n'
             f'<Topology TopologyType="Triangle" NumberOfElements="{triangles[0]}">'
-            + item("triangles", triangles, 'NumberType="Int" Precision="4"') + '</Topology><Geometry GeometryType="XYZ">'
-            + item(f"{frame}/x", points) + "</Geometry>" + "".join(attributes) + "</Grid>")
+            + item("triangles", triangles, 'NumberType="Int" Precision="4"') + '</Topology>\n<Geometry GeometryType="XYZ">'
+            + item(f"{frame}/x", body.x.shape[1:]) + "</Geometry>\n" + "".join(attributes) + "</Grid>")
 
 
 def _written(path: Path, content: bytes) -> Path:

@@ -8,7 +8,7 @@ from matplotlib import colormaps
 FRONT = np.array([0.56, 0.175, 0.085])      # the side that the triangles' normals point to
 BACK = np.array([0.085, 0.20, 0.30])
 OBJECT = np.array([0.30, 0.30, 0.29])       # what the cloth can hit, both sides
-GROUND = np.array([0.50, 0.50, 0.485])      # of that, what has no end
+GROUND = np.array([0.42, 0.42, 0.41])      # of that, what has no end
 MARK = np.array([0.012, 0.014, 0.018])      # held particles
 STUCK = np.array([0.60, 0.30, 0.01])        # particles that stick to something
 

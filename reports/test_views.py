@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import importlib
 import json
 import shutil
 import subprocess
@@ -363,6 +364,108 @@ class Films(WithCase):
         self.path.write_bytes(b"no HDF5")
         self.assertIn("no HDF5 file", self.film().stderr)
 
+
+def reader(module: str) -> object | None:
+    """A module that reads what is written here, by other hands; None if it is not installed."""
+    try:
+        return importlib.import_module(module)
+    except ImportError:
+        return None
+
+
+class ExportedFiles(WithCase):
+    """export.py, and the XDMF that the program writes, through readers of others."""
+
+    def exported(self, kind: str) -> Path:
+        """The folder that the script has filled."""
+        run = subprocess.run([sys.executable, str(REPORTS / "export.py"), str(self.path), "--format", kind, "--out",
+                              str(self.root / kind)], text=True, check=False, capture_output=True)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        return self.root / kind
+
+    @unittest.skipUnless(reader("meshio"), "no meshio: the package python3-meshio has it")
+    def test_obj_and_ply_hold_all_points_triangles_and_fields(self) -> None:
+        meshio, case = reader("meshio"), self.case()
+        values = all_values(case)
+        for kind in ("obj", "ply"):
+            folder = self.exported(kind)
+            self.assertEqual(len(list(folder.iterdir())), 4 * (1 + len(case.objects)))
+            for frame in range(4):
+                mesh = meshio.read(folder / f"fold.{frame:04d}.{kind}")
+                np.testing.assert_array_equal(mesh.points, case.positions(frame))
+                np.testing.assert_array_equal(mesh.cells_dict["triangle"], TWO)
+                turned = meshio.read(folder / f"fold-object-0.{frame:04d}.{kind}")
+                np.testing.assert_array_equal(turned.points, case.objects[0].positions(frame))
+                if kind == "ply":
+                    for name in ("speed", "strain", "angle", "phi"):
+                        np.testing.assert_array_equal(mesh.point_data[name], values[name][frame])
+
+    @unittest.skipUnless(reader("meshio"), "no meshio: the package python3-meshio has it")
+    def test_xdmf_holds_all_frames_and_fields(self) -> None:
+        folder, case = self.exported("xdmf"), self.case()
+        values = all_values(case)
+        with reader("meshio").xdmf.TimeSeriesReader(folder / "fold.xdmf") as read:
+            points, cells = read.read_points_cells()
+            np.testing.assert_array_equal(points, case.positions(0))
+            np.testing.assert_array_equal(cells[0].data, TWO)
+            self.assertEqual(read.num_steps, 4)
+            for frame in range(4):
+                time, of_points, _ = read.read_data(frame)[:3]
+                self.assertEqual(time, case.frame_times[frame])
+                np.testing.assert_array_equal(of_points["velocity"], case.every_frame("velocities")[frame])
+                for name in ("speed", "strain", "angle", "phi"):
+                    np.testing.assert_array_equal(of_points[name], values[name][frame])
+
+    @unittest.skipUnless(shutil.which("pvpython"), "no pvpython: the package python3-paraview has it")
+    def test_paraview_reads_both_kinds_of_xdmf(self) -> None:
+        case = self.case()
+        with h5py.File(self.path, "r+") as file:        # what the program writes, and its numbers of 4 bytes
+            text = program_xdmf(self.path.name, file["frames/time"][:], file["frames/positions"].shape, len(case.triangles))
+        (self.root / "fold.xdmf").write_text(text, encoding="utf-8")
+        for path in (self.root / "fold.xdmf", self.exported("xdmf") / "fold.xdmf"):
+            run = subprocess.run(["pvpython", "-c", ASK_PARAVIEW, str(path)], text=True, check=False, capture_output=True)
+            told = json.loads(run.stdout.splitlines()[-1]) if run.stdout.strip() else {"said": run.stderr}
+            self.assertEqual(told.get("times"), case.frame_times.tolist(), told)
+            for frame in range(4):
+                np.testing.assert_allclose(told["points"][frame], case.positions(frame), atol=1e-15)
+                np.testing.assert_allclose(told["velocities"][frame], case.every_frame("velocities")[frame], atol=1e-15)
+            self.assertEqual(told["triangles"], len(TWO))
+
+    def test_a_file_that_is_no_simulation_is_refused_in_one_line(self) -> None:
+        self.path.write_bytes(b"no HDF5")
+        run = subprocess.run([sys.executable, str(REPORTS / "export.py"), str(self.path), "--format", "ply", "--out", str(self.root)],
+                             text=True, check=False, capture_output=True)
+        self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1))
+        self.assertIn("no HDF5 file", run.stderr)
+
+
+def program_xdmf(file: str, times: np.ndarray, shape: tuple[int, ...], triangles: int) -> str:
+    """The XDMF that verification/trajectory_file.cpp writes: its own text, filled in."""
+    source = (REPORTS.parent / "verification" / "trajectory_file.cpp").read_text(encoding="utf-8")
+    head, frame = (source.split(f'{name} = R"(', 1)[1].split(')";', 1)[0] for name in ("xdmf_head", "xdmf_frame"))
+    filled = [frame.replace("{time:.17g}", f"{time:.17g}").format(frame=k, file=file, triangles=triangles, particles=shape[1],
+                                                                  frames=shape[0]) for k, time in enumerate(times)]
+    return head + "".join(filled) + "    </Grid>\n  </Domain>\n</Xdmf>\n"
+
+
+ASK_PARAVIEW = """
+import json, sys
+from paraview.simple import XDMFReader
+from paraview import servermanager
+from vtkmodules.util.numpy_support import vtk_to_numpy
+reader = XDMFReader(FileNames=[sys.argv[1]])
+reader.UpdatePipelineInformation()
+told = {"times": list(reader.TimestepValues), "points": [], "velocities": []}
+for time in told["times"]:
+    reader.UpdatePipeline(time)
+    grid = servermanager.Fetch(reader)
+    while grid.IsA("vtkMultiBlockDataSet"):
+        grid = grid.GetBlock(0)
+    told["points"].append(vtk_to_numpy(grid.GetPoints().GetData()).tolist())
+    told["velocities"].append(vtk_to_numpy(grid.GetPointData().GetArray("velocity")).tolist())
+    told["triangles"] = grid.GetNumberOfCells()
+print(json.dumps(told))
+"""
 
 if __name__ == "__main__":
     unittest.main()
