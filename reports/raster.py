@@ -37,13 +37,17 @@ def faces_viewer(planes: np.ndarray) -> np.ndarray:
 
 
 class SeenSamples:
-    """The S samples that see a triangle, in raster order: which one (owner, S), and the weights of its corners (3 x S)."""
+    """The S samples that see a triangle, in raster order: which one (owner, S), the weights of its corners (3 x S), and how
+    far they are from the border of the picture (S, as a part of its longer side)."""
 
     def __init__(self, raster: Raster) -> None:
         places = np.flatnonzero(raster.seen.ravel() >= 0)
         column = (places % raster.seen.shape[1] + 0.5).astype(np.float32)
         line = (places // raster.seen.shape[1] + 0.5).astype(np.float32)
         self.owner = raster.seen.ravel()[places]
+        height, width = raster.seen.shape
+        to_sides = np.minimum(np.minimum(column, width - column), np.minimum(line, height - line))
+        self.from_border = to_sides / max(height, width)
         self.corners = [raster.triangles[:, corner][self.owner] for corner in range(3)]
         self.weights = [_affine(raster.planes[:, corner], self.owner, column, line) for corner in range(3)]
 

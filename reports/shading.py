@@ -10,6 +10,8 @@ from look import BACK, FILL_LIGHT, FRONT, GROUND, GROUND_FADES, KEY_LIGHT, OBJEC
 from raster import Raster, SeenSamples, faces_viewer
 from shadows import lit_share, shadow_map
 
+BORDER = 0.09                               # of the picture's longer side: ground fades towards its border
+
 
 @dataclass
 class Surface:
@@ -111,10 +113,11 @@ def _edge_lines(planes: np.ndarray, seen: SeenSamples, samples_per_pixel: int) -
 
 
 def _ground_cover(seen: SeenSamples, surface: Surface) -> np.ndarray:
-    """1 near the cloth, 0 far from it: what has no end must not seem to have one."""
+    """1 near the cloth, 0 far from it and at the border of the picture: what has no end must not seem to have one."""
     upright = vertex_normals(surface.x, surface.triangles)
     offset = surface.x - surface.centre
     along = offset - upright * (upright * offset).sum(axis=1, keepdims=True)
     away = np.sqrt(sum(seen.at(along[:, axis]) ** 2 for axis in range(3))) / surface.reach
     near = np.clip((GROUND_FADES[1] - away) / (GROUND_FADES[1] - GROUND_FADES[0]), 0.0, 1.0)
+    near *= np.clip(seen.from_border / BORDER, 0.0, 1.0)
     return near * near * (3.0 - 2.0 * near)

@@ -281,8 +281,9 @@ class ViewInThePage(WithCase):
 
     def test_the_program_stands_once_and_data_are_no_program(self) -> None:
         text = make_report(self.root, self.root / "report.html", self.root / "figures", for_papers=False).read_text(encoding="utf-8")
-        self.assertEqual(text.count("<script"), 1)
+        self.assertEqual(text.count("async function unpack("), 1)
         self.assertRegex(text, r"<template>[A-Za-z0-9+/=]+</template>")
+        self.assertNotIn(HOSTILE[:13], text)
         for name in ("viewer_data.js", "viewer_gl.js", "viewer.js"):
             self.assertNotRegex((REPORTS / name).read_text(encoding="utf-8"), r"(?i)</script|<!--|https?://|innerHTML|fetch\(")
 
