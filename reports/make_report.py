@@ -25,6 +25,7 @@ from case_pictures import make_pictures  # noqa: E402
 from case_plots import plot_diagnostics  # noqa: E402
 from compare import compare, read_side  # noqa: E402
 from contact_maps import plot_contacts  # noqa: E402
+from field_pictures import make_field_view  # noqa: E402
 from hard_cases import findings_by_case  # noqa: E402
 from kill_matrix import load_mutation  # noqa: E402
 from ledger import claim_views  # noqa: E402
@@ -36,6 +37,8 @@ from results import CaseEntry, Run, Study, Unreadable, case_entry_of_file, load_
 from study_plots import plot_study_figure  # noqa: E402
 from trust import load_coverage, load_variants, tolerances_of, unended_run  # noqa: E402
 from whole_file import write_whole  # noqa: E402
+
+VIEWS = 4_000_000                   # characters that the data of all views of a page may take, shared equally
 
 Job = tuple[Callable[..., Any], tuple[Any, ...]]
 
@@ -119,7 +122,7 @@ def read_folder(folder: Path) -> tuple[Run, Run | None]:
 def draw(run: Run, bench: Run | None, figures: Path, for_papers: bool) -> Page:
     """Draws everything, on all cores, and gathers it for the page."""
     bench_studies = bench.studies if bench else []
-    jobs: list[Job] = [(draw_case, (entry, figures)) for entry in run.cases]
+    jobs: list[Job] = [(draw_case, (entry, figures, VIEWS // len(run.cases))) for entry in run.cases]
     jobs += [(draw_study, (study, figures)) for study in run.studies + bench_studies]
     drawn = run_jobs(jobs, for_papers)
     cases, studies = drawn[:len(run.cases)], drawn[len(run.cases):]
@@ -163,13 +166,15 @@ def draw_study(study: Study, figures: Path) -> StudyView:
     return StudyView(study, f"study-{name}", plots, maps, [])
 
 
-def draw_case(entry: CaseEntry, figures: Path) -> CaseView:
-    """Pictures and diagnostics of one case; a file that cannot be read becomes a sentence on the page."""
+def draw_case(entry: CaseEntry, figures: Path, most: int) -> CaseView:
+    """Pictures, view (its data take `most` characters) and diagnostics of one case; a file that cannot be read becomes a
+    sentence on the page."""
     name = file_name(entry.name)
     view = CaseView(entry, f"case-{name}")
     try:
         view.case = load_case(entry.path)
         view.row = make_pictures(view.case, name, figures)
+        view.turning = make_field_view(view.case, name, figures, most)
         view.plots = plot_contacts(view.case, name, figures) + plot_diagnostics(view.case, name, figures)
     except Unreadable as error:
         return CaseView(entry, view.anchor, problem=f"{entry.path.name} could not be read: {error}")

@@ -17,6 +17,7 @@ import quantities
 from answers import cheapest_of
 from case_pictures import PictureRow, length_text
 from compare import Comparison
+from field_pictures import FieldView
 from figure_words import figure_keys, figure_notes, order_table
 from hard_cases import STUDIES as HARD_STUDIES, CaseFindings, is_of_case
 from kill_matrix import Mutation, kill_tables
@@ -32,7 +33,7 @@ WHOLE_TABLE, WHOLE_STUDY_TABLE = 12, 60   # rows; longer tables show FIRST_ROWS 
 FIRST_ROWS, LAST_ROWS = 7, 3
 FIRST_STUDIES = ("work-precision", "stability-oscillator", "stability-sheet", "variable-step-stability")
 MOST_OPEN = 5                       # findings that do not plainly hold, on the first screen
-STYLES = ("style.css", "opening.css", "print.css")
+STYLES = ("style.css", "view.css", "opening.css", "print.css")
 MARGIN_DECADES = (-4.0, 1.0)        # log10(measured / bound) at the ends of the margin bar
 
 
@@ -43,6 +44,7 @@ class CaseView:
     anchor: str
     case: Case | None = None
     row: PictureRow | None = None
+    turning: FieldView | None = None
     plots: list[tuple[str, Plot]] = field(default_factory=list)
     problem: str = ""
     foreign: str = ""               # why the file is not the one that the run wrote
@@ -105,7 +107,7 @@ def render(page: Page) -> str:
     environment.globals.update(
         keys=figure_keys, notes=figure_notes, map_notes=map_notes, orders=order_table, table=shown_rows, groups=group_by_prefix,
         margin=margin_percent, plain=all_hold, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE,
-        most_open=MOST_OPEN, rulings=ledger.ruling_counts, sections=ledger.by_section,
+        most_open=MOST_OPEN, viewer=Markup(_viewer()), rulings=ledger.ruling_counts, sections=ledger.by_section,
         cheapest=cheapest_of(view.study for view in page.studies),
         known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
         by_file=faults_by_file, fault_outcomes=fault_outcomes, kill_tables=kill_tables(page.faults),
@@ -265,3 +267,8 @@ def faults_of(run: Run) -> list[Fault]:
 
 def _text_of(*names: str) -> str:
     return "".join((FOLDER / name).read_text(encoding="utf-8") for name in names)
+
+
+def _viewer() -> str:
+    """The program of the views, with names of its own."""
+    return '"use strict";\n{\n' + _text_of("viewer_data.js", "viewer_gl.js", "viewer.js") + "}\n"
