@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from camera import Camera, choose_camera
-from cloth_picture import Scenery, picture_of, webp_bytes
+from camera import Camera
+from case_scene import CaseScene
+from cloth_picture import SAMPLES, finished, paint, webp_bytes
 from plot_style import INK, finish, new_figure
 from quantities import number_text
 from results import Case
@@ -17,7 +18,7 @@ from results import Case
 USUAL, WIDE = 5, 6                  # pictures in a row; wide ones are set in two lines of three
 WIDE_ASPECT = 1.9                   # width over height
 PICTURE_WIDTH = 2.2                 # of one picture in the strip [inch]
-NEAR = 0.35                         # of the cloth's size: parts of objects this near to it are in the picture
+PORTRAIT_HEIGHT = 260               # pixels
 TEXT_HEIGHT = 0.34                  # below each picture of the strip [inch]
 
 
@@ -48,29 +49,31 @@ def make_pictures(case: Case, name: str, folder: Path) -> PictureRow | None:
     triangles."""
     if not len(case.frame_times) or not len(case.triangles):
         return None
-    chosen, frames, camera = _frames_and_camera(case)
-    drawn = [picture_of(x, case.triangles, case.held, camera, scenery_of(case, frame), case.stuck(frame))
-             for x, frame in zip(frames, chosen)]
+    chosen, scene = shown_frames(case)
+    camera = scene.camera
+    painted = [paint(scene.cloth(frame), camera, scene.scenery(frame)) for frame in chosen]
+    drawn = [finished(samples) for samples in painted]
     times = [float(case.frame_times[frame]) for frame in chosen]
     bar = nice_length(0.3 * camera.metres[0])
     _write_strip(drawn, times, bar, camera, f"{name}-pictures", folder)
-    whole = [_is_whole(x, camera) for x in frames]
-    portrait = _cut(drawn[_portrait_of(whole)])
-    return PictureRow(pictures=[Picture(time, _uri(picture), complete)
+    whole = [scene.is_whole(case.positions(frame)) for frame in chosen]
+    portrait = _portrait(painted[_portrait_of(whole)])
+    return PictureRow(pictures=[Picture(time, picture_uri(picture), complete)
                                 for time, picture, complete in zip(times, drawn, whole)],
                       size=camera.pixels, columns=3 if len(drawn) == WIDE else USUAL, bar_metres=bar,
                       bar_fraction=bar / camera.metres[0], held=int(case.held.sum()),
                       sticks=case.stuck(0) is not None,
-                      portrait=_uri(portrait), portrait_size=(portrait.shape[1], portrait.shape[0]))
+                      portrait=picture_uri(portrait), portrait_size=(portrait.shape[1], portrait.shape[0]))
 
 
-def scenery_of(case: Case, frame: int) -> Scenery | None:
-    """All objects of a case in one frame; None if it has none."""
-    if not case.objects:
-        return None
-    starts = np.cumsum([0] + [len(part.vertices) for part in case.objects])
-    return Scenery(np.concatenate([part.positions(frame) for part in case.objects]),
-                   np.concatenate([part.triangles + start for part, start in zip(case.objects, starts)]))
+def shown_frames(case: Case) -> tuple[list[int], CaseScene]:
+    """The frames that stand in the row, and the scene whose camera holds them."""
+    chosen = evenly_spaced(case.frame_times, USUAL)
+    scene = CaseScene(case, chosen)
+    if scene.camera.metres[0] < WIDE_ASPECT * scene.camera.metres[1] or len(case.frame_times) < WIDE:
+        return chosen, scene
+    chosen = evenly_spaced(case.frame_times, WIDE)
+    return chosen, CaseScene(case, chosen)
 
 
 def evenly_spaced(times: np.ndarray, count: int) -> list[int]:
@@ -93,37 +96,6 @@ def length_text(metres: float) -> str:
     return f"{number_text(metres)} m"
 
 
-def _frames_and_camera(case: Case) -> tuple[list[int], list[np.ndarray], Camera]:
-    chosen = evenly_spaced(case.frame_times, USUAL)
-    frames = [case.positions(frame) for frame in chosen]
-    camera = choose_camera(frames, case.triangles, _landmarks(case, chosen))
-    if camera.metres[0] < WIDE_ASPECT * camera.metres[1] or len(case.frame_times) < WIDE:
-        return chosen, frames, camera
-    chosen = evenly_spaced(case.frame_times, WIDE)
-    frames = [case.positions(frame) for frame in chosen]
-    return chosen, frames, choose_camera(frames, case.triangles, _landmarks(case, chosen))
-
-
-def _landmarks(case: Case, chosen: list[int]) -> np.ndarray:
-    """Points of the objects that the picture has to hold, M x 3 [m]: those near the cloth, for a floor has no
-    end."""
-    if not case.objects:
-        return np.zeros((0, 3))
-    cloth = np.concatenate([case.positions(frame) for frame in chosen])
-    cloth = cloth[np.isfinite(cloth).all(axis=1)]
-    low, high = cloth.min(axis=0), cloth.max(axis=0)
-    reach = NEAR * (high - low).max()
-    points = np.concatenate([scenery_of(case, frame).x for frame in chosen])
-    return points[((points >= low - reach) & (points <= high + reach)).all(axis=1)]
-
-
-def _is_whole(x: np.ndarray, camera: Camera) -> bool:
-    if not np.isfinite(x).all():
-        return False
-    points, _ = camera.project(x, 1)
-    return bool((points >= -1).all() and (points <= np.array(camera.pixels) + 1).all())
-
-
 def _portrait_of(whole: list[bool]) -> int:
     """Which picture stands for the case: the last complete one of the first six tenths, else the first."""
     return max((k for k in range(round(0.6 * (len(whole) - 1)) + 1) if whole[k]), default=0)
@@ -137,7 +109,15 @@ def _cut(picture: np.ndarray) -> np.ndarray:
     return picture[lines[0]:lines[-1] + 1, columns[0]:columns[-1] + 1]
 
 
-def _uri(picture: np.ndarray) -> str:
+def _portrait(samples: np.ndarray) -> np.ndarray:
+    """The picture cut to what is in it, PORTRAIT_HEIGHT pixels high or a little more."""
+    lines = np.flatnonzero((samples[:, :, 3] > 0).any(axis=1))
+    height = lines[-1] - lines[0] if len(lines) else len(samples)
+    return _cut(finished(samples, max(SAMPLES, height // PORTRAIT_HEIGHT)))
+
+
+def picture_uri(picture: np.ndarray) -> str:
+    """The picture as a data URI."""
     return "data:image/webp;base64," + b64encode(webp_bytes(np.ascontiguousarray(picture))).decode("ascii")
 
 

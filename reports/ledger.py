@@ -24,6 +24,11 @@ class ClaimView:
     claim: Claim
     deciding: list[Deciding]
 
+    @property
+    def as_recorded(self) -> bool:
+        """False if another ruling was expected."""
+        return not self.claim.recorded or self.claim.recorded == self.claim.ruling
+
 
 def claim_views(claims: Iterable[Claim], findings: Iterable[Finding]) -> list[ClaimView]:
     """All rows of the ledger."""
@@ -33,7 +38,12 @@ def claim_views(claims: Iterable[Claim], findings: Iterable[Finding]) -> list[Cl
 
 def ruling_counts(views: Iterable[ClaimView]) -> list[tuple[str, int]]:
     """How many claims have each ruling; only those that occur."""
-    counted = Counter(view.claim.ruling for view in views)
+    return counted_rulings(view.claim for view in views)
+
+
+def counted_rulings(claims: Iterable[Claim]) -> list[tuple[str, int]]:
+    """The same of claims themselves."""
+    counted = Counter(claim.ruling for claim in claims)
     others = sorted(set(counted) - set(RULINGS))
     return [(ruling, counted[ruling]) for ruling in (*RULINGS, *others) if counted[ruling]]
 

@@ -9,7 +9,8 @@ import numpy as np
 
 HOSTILE = '<script>alert("1")</script> & <img src=x onerror=alert(1)> \' onload=alert(1) ]]> --> \x01\x1b\x7f\ufffe'
 NAMES = ("bending.forces-sum-to-zero", "bending.damping-dissipates", "springs.limit", "time-order.hinge.C.x",
-         "bench.bending-elastic", "sticking.<img src=x onerror=alert(1)>")
+         "bench.bending-elastic", "sticking.<img src=x onerror=alert(1)>", "case.fold.stays-outside",
+         "case.sharp_fold.runs-to-its-end")
 TEXT = h5py.string_dtype()
 
 
@@ -145,6 +146,8 @@ def put_run(folder: Path) -> None:
         put_finding(file, 4, NAMES[3], "study", study="time-order")
         put_finding(file, 5, NAMES[4], "bench", outcome="measured", better="higher", bound=1e7, measured=2e7)
         put_finding(file, 6, NAMES[5], "study", study="one that was not run", outcome="not applicable")
+        put_finding(file, 7, NAMES[6], "check", source=HOSTILE)
+        put_finding(file, 8, NAMES[7], "check", source="A sharp fold", uncertainty=1.0)
         put_study(file)
         put_map(file, "stability-oscillator")
         put_claim(file, 1, "T1", "confirmed", [NAMES[0], "gone.finding"])

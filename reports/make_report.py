@@ -3,6 +3,8 @@
 
     reports/make_report.py results                    -> results/report.html, results/figures/
     reports/make_report.py results --out page.html --figures paper
+    reports/make_report.py results --pdf                -> results/report.pdf too
+    reports/make_report.py results mine                 -> mine/compare.html: what differs
 """
 from __future__ import annotations
 
@@ -18,40 +20,74 @@ from typing import Any
 
 sys.dont_write_bytecode = True
 
+from chromium import NoBrowser, find_browser  # noqa: E402
 from case_pictures import make_pictures  # noqa: E402
 from case_plots import plot_diagnostics  # noqa: E402
+from compare import compare, read_side  # noqa: E402
 from contact_maps import plot_contacts  # noqa: E402
+from field_pictures import make_field_view  # noqa: E402
+from hard_cases import findings_by_case  # noqa: E402
 from kill_matrix import load_mutation  # noqa: E402
 from ledger import claim_views  # noqa: E402
 from map_plots import plot_study_map  # noqa: E402
-from page import CaseView, Page, StudyView, faults_of, findings_by_section, render  # noqa: E402
+from page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison  # noqa: E402
 from plot_style import use_style  # noqa: E402
+from printed import print_page  # noqa: E402
 from results import CaseEntry, Run, Study, Unreadable, case_entry_of_file, load_case, load_run, told  # noqa: E402
 from study_plots import plot_study_figure  # noqa: E402
 from trust import load_coverage, load_variants, tolerances_of, unended_run  # noqa: E402
 from whole_file import write_whole  # noqa: E402
 
+VIEWS = 4_000_000                   # characters that the data of all views of a page may take, shared equally
+
 Job = tuple[Callable[..., Any], tuple[Any, ...]]
 
 
 def main() -> int:
-    """Returns 0 when the report is written, 2 when there is nothing to report on."""
-    parser = argparse.ArgumentParser(description="Write the report of a run as one self-contained HTML page.")
-    parser.add_argument("dir", metavar="DIR", type=Path, help="folder with run.h5, bench.h5 or case files")
-    parser.add_argument("--out", metavar="FILE", type=Path, help="the page (default: DIR/report.html)")
-    parser.add_argument("--figures", metavar="DIR", type=Path,
-                        help="folder for the figures (default: DIR/figures)")
-    parser.add_argument("--svg-only", action="store_true",
-                        help="figures as SVG files only, not as PDF and PNG too: half the time")
-    said = parser.parse_args()
+    """Returns 0 when the page is written, 2 when there is nothing to report on, or no browser to print with."""
+    said = arguments()
     try:
-        out = make_report(said.dir, said.out or said.dir / "report.html",
-                          said.figures or said.dir / "figures", for_papers=not said.svg_only)
-    except (OSError, Unreadable, BrokenProcessPool) as error:
+        if said.pdf:
+            find_browser()
+        if said.other:
+            out = compare_runs(said.dir, said.other, said.out)
+        else:
+            out = make_report(said.dir, said.out or said.dir / "report.html",
+                              said.figures or said.dir / "figures", for_papers=not said.svg_only)
+        if said.pdf:
+            out = print_page(out, out.with_suffix(".pdf"))
+    except (OSError, Unreadable, NoBrowser, BrokenProcessPool) as error:
         print(f"make_report: {error}", file=sys.stderr)
         return 2
     sys.stdout.buffer.write(os.fsencode(out) + b"\n")  # a path may hold bytes that are no text
     return 0
+
+
+def arguments() -> argparse.Namespace:
+    """What was typed."""
+    parser = argparse.ArgumentParser(description="Write the report of a run as one self-contained HTML page; of two "
+                                     "runs, what differs.")
+    parser.add_argument("dir", metavar="DIR", type=Path, help="folder with run.h5, bench.h5 or case files")
+    parser.add_argument("other", metavar="OTHER", type=Path, nargs="?",
+                        help="folder or run.h5 of another run: DIR (a folder or run.h5) is compared with it")
+    parser.add_argument("--out", metavar="FILE", type=Path,
+                        help="the page (default: DIR/report.html; of two runs compare.html beside OTHER's run.h5)")
+    parser.add_argument("--figures", metavar="DIR", type=Path,
+                        help="folder for the figures (default: DIR/figures)")
+    parser.add_argument("--svg-only", action="store_true",
+                        help="figures as SVG files only, not as PDF and PNG too: half the time")
+    parser.add_argument("--pdf", action="store_true",
+                        help="print the page too, beside it, as PDF; needs Debian's package chromium")
+    return parser.parse_args()
+
+
+def compare_runs(first: Path, other: Path, out: Path | None) -> Path:
+    """Writes the page of two runs. Throws Unreadable if one of them cannot be read."""
+    a, b = read_side("A", first), read_side("B", other)
+    out = out or b.run.path.parent / "compare.html"
+    out.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(out, render_comparison(compare(a, b)).encode("utf-8"))
+    return out
 
 
 def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = True) -> Path:
@@ -86,7 +122,7 @@ def read_folder(folder: Path) -> tuple[Run, Run | None]:
 def draw(run: Run, bench: Run | None, figures: Path, for_papers: bool) -> Page:
     """Draws everything, on all cores, and gathers it for the page."""
     bench_studies = bench.studies if bench else []
-    jobs: list[Job] = [(draw_case, (entry, figures)) for entry in run.cases]
+    jobs: list[Job] = [(draw_case, (entry, figures, VIEWS // len(run.cases))) for entry in run.cases]
     jobs += [(draw_study, (study, figures)) for study in run.studies + bench_studies]
     drawn = run_jobs(jobs, for_papers)
     cases, studies = drawn[:len(run.cases)], drawn[len(run.cases):]
@@ -97,10 +133,11 @@ def draw(run: Run, bench: Run | None, figures: Path, for_papers: bool) -> Page:
     checks, others, rates = findings_by_section(run, bench)
     for view in cases:
         view.foreign = origin_differs(view, run)
+    usual, hard = findings_by_case(run.findings, run.cases, [view.anchor for view in cases])
     return Page(provenance=run.provenance, claims=claim_views(run.claims, everything), checks=checks, studies=studies[:len(run.studies)],
                 other_findings=others, cases=cases, rates=rates, bench_studies=studies[len(run.studies):],
                 bench_provenance=bench.provenance if bench else {}, faults=faults_of(run),
-                tolerances=tolerances_of(run.findings))
+                tolerances=tolerances_of(run.findings), case_findings=usual, hard_findings=hard)
 
 
 def run_jobs(jobs: list[Job], for_papers: bool) -> list[Any]:
@@ -129,13 +166,15 @@ def draw_study(study: Study, figures: Path) -> StudyView:
     return StudyView(study, f"study-{name}", plots, maps, [])
 
 
-def draw_case(entry: CaseEntry, figures: Path) -> CaseView:
-    """Pictures and diagnostics of one case; a file that cannot be read becomes a sentence on the page."""
+def draw_case(entry: CaseEntry, figures: Path, most: int) -> CaseView:
+    """Pictures, view (its data take `most` characters) and diagnostics of one case; a file that cannot be read becomes a
+    sentence on the page."""
     name = file_name(entry.name)
     view = CaseView(entry, f"case-{name}")
     try:
         view.case = load_case(entry.path)
         view.row = make_pictures(view.case, name, figures)
+        view.turning = make_field_view(view.case, name, figures, most)
         view.plots = plot_contacts(view.case, name, figures) + plot_diagnostics(view.case, name, figures)
     except Unreadable as error:
         return CaseView(entry, view.anchor, problem=f"{entry.path.name} could not be read: {error}")

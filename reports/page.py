@@ -9,20 +9,22 @@ from math import isnan, log10
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 import ledger
 import quantities
+from answers import cheapest_of
 from case_pictures import PictureRow, length_text
+from compare import Comparison
+from field_pictures import FieldView
+from figure_words import figure_keys, figure_notes, order_table
+from hard_cases import STUDIES as HARD_STUDIES, CaseFindings, is_of_case
 from kill_matrix import Mutation, kill_tables
 from ledger import ClaimView
 from map_plots import map_notes
-from plot_style import Plot, level_text
-from point_marks import has_mark
-from results import Case, CaseEntry, Column, Fault, Finding, Run, Study, StudyFigure
-from study_plots import choose_pens, floors_below, key_svg, points_left_out
+from plot_style import Plot
+from results import Case, CaseEntry, Column, Fault, Finding, Run, Study
 from trust import Coverage, Tolerances, Variants
 
 FOLDER = Path(__file__).resolve().parent
@@ -30,6 +32,8 @@ OUTCOMES = ("holds", "fails", "inconclusive", "not applicable")
 WHOLE_TABLE, WHOLE_STUDY_TABLE = 12, 60   # rows; longer tables show FIRST_ROWS and LAST_ROWS
 FIRST_ROWS, LAST_ROWS = 7, 3
 FIRST_STUDIES = ("work-precision", "stability-oscillator", "stability-sheet", "variable-step-stability")
+MOST_OPEN = 5                       # findings that do not plainly hold, on the first screen
+STYLES = ("style.css", "view.css", "opening.css", "print.css")
 MARGIN_DECADES = (-4.0, 1.0)        # log10(measured / bound) at the ends of the margin bar
 
 
@@ -40,6 +44,7 @@ class CaseView:
     anchor: str
     case: Case | None = None
     row: PictureRow | None = None
+    turning: FieldView | None = None
     plots: list[tuple[str, Plot]] = field(default_factory=list)
     problem: str = ""
     foreign: str = ""               # why the file is not the one that the run wrote
@@ -69,6 +74,8 @@ class Page:
     bench_provenance: dict[str, Any]
     faults: list[Fault]
     tolerances: Tolerances
+    case_findings: list[CaseFindings] = field(default_factory=list)
+    hard_findings: list[CaseFindings] = field(default_factory=list)   # of cases/hard
     coverage: Coverage | None = None
     variants: Variants | None = None
     unended: str = ""               # why this is not what was run last
@@ -79,31 +86,54 @@ class Page:
         wanted = [view for view in self.studies if view.study.name in FIRST_STUDIES]
         return sorted(wanted, key=lambda view: FIRST_STUDIES.index(view.study.name))
 
+    def hard_studies(self) -> list[StudyView]:
+        """The studies that stand with the hard cases."""
+        return [view for view in self.studies if view.study.name in HARD_STUDIES]
+
     def other_studies(self) -> list[StudyView]:
         """All other studies, as the run lists them."""
-        return [view for view in self.studies if view.study.name not in FIRST_STUDIES]
+        return [view for view in self.studies if view.study.name not in FIRST_STUDIES + HARD_STUDIES]
+
+    def all_findings(self) -> list[Finding]:
+        """All that the page shows, once each."""
+        of_studies = [finding for view in self.studies + self.bench_studies for finding in view.findings]
+        of_cases = [finding for case in self.case_findings + self.hard_findings for finding in case.findings]
+        return self.checks + of_studies + self.other_findings + of_cases + self.rates
 
 
 def render(page: Page) -> str:
     """The whole report as one HTML text."""
-    environment = Environment(loader=FileSystemLoader(FOLDER), autoescape=True, undefined=StrictUndefined,
-                              trim_blocks=True, lstrip_blocks=True)
-    environment.filters.update(number=quantities.number_html, unit=quantities.unit_text,
-                               seconds=quantities.seconds_html, bar_length=length_text)
+    environment = new_environment()
     environment.globals.update(
-        quantity=quantities.quantity_html, ratio=quantities.ratio_of, isnan=isnan, anchor=Anchors().of,
-        outcome_class=outcome_class, counts=count_outcomes, groups=group_by_prefix, margin=margin_percent,
-        table=shown_rows, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE, orders=order_table, keys=figure_keys, notes=figure_notes, map_notes=map_notes,
-        rulings=ledger.ruling_counts, sections=ledger.by_section, style=Markup(_style()),
+        keys=figure_keys, notes=figure_notes, map_notes=map_notes, orders=order_table, table=shown_rows, groups=group_by_prefix,
+        margin=margin_percent, plain=all_hold, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE,
+        most_open=MOST_OPEN, viewer=Markup(_viewer()), rulings=ledger.ruling_counts, sections=ledger.by_section,
+        cheapest=cheapest_of(view.study for view in page.studies),
         known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
-        kill_tables=kill_tables(page.faults),
-        known_findings={finding.name for finding in _all_findings(page)})
+        by_file=faults_by_file, fault_outcomes=fault_outcomes, kill_tables=kill_tables(page.faults),
+        known_findings={finding.name for finding in page.all_findings()},
+        of_case={finding.name: case for case in page.case_findings + page.hard_findings
+                 for finding in case.findings}.get)
     return environment.get_template("page.html.j2").render(page=page, said=page.provenance)
 
 
-def _all_findings(page: Page) -> list[Finding]:
-    of_studies = [finding for view in page.studies + page.bench_studies for finding in view.findings]
-    return page.checks + of_studies + page.other_findings + page.rates
+def render_comparison(comparison: Comparison) -> str:
+    """The page of two runs as one HTML text."""
+    environment = new_environment()
+    environment.globals.update(rulings=ledger.counted_rulings)
+    return environment.get_template("compare.html.j2").render(said=comparison)
+
+
+def new_environment() -> Environment:
+    """What all templates share."""
+    environment = Environment(loader=FileSystemLoader(FOLDER), autoescape=True, undefined=StrictUndefined,
+                              trim_blocks=True, lstrip_blocks=True)
+    environment.filters.update(number=quantities.number_html, known=quantities.known_html, unit=quantities.unit_text,
+                               seconds=quantities.seconds_html, bar_length=length_text)
+    environment.globals.update(
+        quantity=quantities.quantity_html, ratio=quantities.ratio_of, isnan=isnan, anchor=Anchors().of,
+        outcome_class=outcome_class, counts=count_outcomes, style=Markup(_text_of(*STYLES)), script=Markup(_text_of("filter.js")))
+    return environment
 
 
 class Anchors:
@@ -133,6 +163,21 @@ class CaughtCount:
         return sum(name in self._caught for name in finding.faults)
 
 
+def faults_by_file(faults: Iterable[Fault]) -> list[tuple[str, list[Fault]]]:
+    """Faults by the file that they edit, files in the order of their first fault."""
+    grouped: dict[str, list[Fault]] = {}
+    for fault in faults:
+        grouped.setdefault(fault.file, []).append(fault)
+    return list(grouped.items())
+
+
+def fault_outcomes(faults: list[Fault]) -> list[tuple[str, int]]:
+    """How many faults have each outcome; all together where none is known."""
+    if not CaughtCount(faults).known:
+        return [("faults" if len(faults) != 1 else "fault", len(faults))]
+    return list(Counter(fault.outcome or "not run" for fault in faults).items())
+
+
 def outcome_class(outcome: str) -> str:
     """The CSS class of an outcome."""
     return re.sub(r"[^a-z]+", "-", outcome.lower()).strip("-") or "unknown"
@@ -143,6 +188,11 @@ def count_outcomes(findings: Iterable[Finding]) -> list[tuple[str, int]]:
     counted = Counter(finding.outcome for finding in findings)
     others = sorted(set(counted) - set(OUTCOMES))
     return [(outcome, counted[outcome]) for outcome in (*OUTCOMES, *others)]
+
+
+def all_hold(findings: Iterable[Finding]) -> bool:
+    """Whether nothing asks to be looked at: every finding holds or does not apply."""
+    return all(finding.outcome in ("holds", "not applicable") for finding in findings)
 
 
 def group_by_prefix(findings: Iterable[Finding]) -> list[tuple[str, list[Finding]]]:
@@ -193,59 +243,11 @@ def _components(column: Column) -> list[Column]:
     return [Column(f"{column.name} {name}", column.unit, flat[:, k]) for k, name in enumerate(names)]
 
 
-@dataclass
-class OrderTable:
-    """Observed orders under a plot: one row for each curve, beginning with its key."""
-    heads: list[str]
-    rows: list[tuple[Markup, str, list[Markup]]]
-
-
-def order_table(figure: StudyFigure) -> OrderTable | None:
-    """The observed order of every pair of points, as the program wrote them; None if it wrote none."""
-    with_orders = [curve for curve in figure.curves if curve.pair_orders is not None
-                   and len(curve.pair_orders)]
-    if not with_orders:
-        return None
-    widest = max(with_orders, key=lambda curve: len(curve.pair_orders))
-    shared = all(len(curve.x) == len(widest.x) and np.allclose(curve.x, widest.x, equal_nan=True)
-                 for curve in with_orders)
-    heads = [f"{level_text(a)} – {level_text(b)}" if shared else f"pair {k + 1}"
-             for k, (a, b) in enumerate(zip(widest.x[:-1], widest.x[1:]))][:len(widest.pair_orders)]
-    rows = []
-    for curve, pen in zip(figure.curves, choose_pens(figure.curves)):
-        orders = curve.pair_orders if curve.pair_orders is not None else []
-        cells = [quantities.order_html(order) for order in orders]
-        rows.append((key_svg(pen), curve.label, cells + [Markup("")] * (len(heads) - len(cells))))
-    return OrderTable(heads, rows)
-
-
-def figure_keys(figure: StudyFigure) -> list[tuple[Markup, str]]:
-    """Key and label of every curve, for screens too narrow for the plot's own labels."""
-    return [(key_svg(pen), curve.label) for curve, pen in zip(figure.curves, choose_pens(figure.curves))]
-
-
-def figure_notes(figure: StudyFigure) -> list[str]:
-    """What a reader of the plot must know and cannot see."""
-    notes = []
-    left_out, floors = points_left_out(figure), floors_below(figure)
-    if left_out:
-        logarithmic = "log" in (figure.x_scale, figure.y_scale)
-        what = "NaN, infinite, or not positive on a logarithmic axis" if logarithmic else "NaN or infinite"
-        notes.append(f"{left_out} point{'s' if left_out > 1 else ''} not drawn ({what}).")
-    if any(has_mark(curve, "unfinished").any() for curve in figure.curves):
-        notes.append("Hollow: a solve on the way of that run did not finish.")
-    if floors:
-        plural = "s" if len(floors) > 1 else ""
-        notes.append(f"Noise floor of {len(floors)} curve{plural} below the plot: at most "
-                     f"{quantities.number_text(max(floors))} {quantities.unit_text(figure.y_unit)}.")
-    return notes
-
-
 def findings_by_section(run: Run, bench: Run | None) -> tuple[list[Finding], list[Finding], list[Finding]]:
-    """Checks; findings that no section of a study shows; rates of work."""
+    """Checks but those of cases; findings that no section of a study shows; rates of work."""
     known = {study.name for study in run.studies + (bench.studies if bench else [])}
     findings = run.findings + (bench.findings if bench else [])
-    checks = [finding for finding in findings if finding.kind == "check"]
+    checks = [finding for finding in findings if finding.kind == "check" and not is_of_case(finding)]
     rates = [finding for finding in findings if finding.kind == "bench"]
     others = [finding for finding in findings if finding.kind not in ("check", "bench")
               and finding.study not in known]
@@ -263,5 +265,10 @@ def faults_of(run: Run) -> list[Fault]:
     return [Fault(name, "", "", "", "", caught_by, "not run") for name, caught_by in mentioned.items()]
 
 
-def _style() -> str:
-    return (FOLDER / "style.css").read_text(encoding="utf-8")
+def _text_of(*names: str) -> str:
+    return "".join((FOLDER / name).read_text(encoding="utf-8") for name in names)
+
+
+def _viewer() -> str:
+    """The program of the views, with names of its own."""
+    return '"use strict";\n{\n' + _text_of("viewer_data.js", "viewer_gl.js", "viewer.js") + "}\n"

@@ -10,6 +10,7 @@ from io import BytesIO, StringIO
 from pathlib import Path
 
 import matplotlib
+import matplotlib.font_manager
 import numpy as np
 from markupsafe import Markup
 from matplotlib.axes import Axes
@@ -67,6 +68,11 @@ def use_style(for_papers: bool = True) -> None:
     global _for_papers
     _for_papers = for_papers
     matplotlib.rcParams.update(_RC)
+
+
+def font_path() -> str:
+    """The file of the typeface of the plots."""
+    return matplotlib.font_manager.findfont("DejaVu Sans")
 
 
 def new_figure(width: float, height: float) -> Figure:

@@ -72,6 +72,11 @@ def number_html(value: float) -> Markup:
     return _marked_up(float(value), *split_number(float(value)))
 
 
+def known_html(value: float) -> Markup:
+    """A number for the page, a dash for one that says nothing."""
+    return Markup('<span class="n">–</span>') if math.isnan(value) else number_html(value)
+
+
 def _marked_up(value: float, mantissa: str, exponent: int | None) -> Markup:
     power = "" if exponent is None else Markup("{}×{}10<sup>{}</sup>").format(
         "\u200a", "\u200a", str(exponent).replace("-", MINUS))
@@ -101,10 +106,9 @@ def cells_html(values: Iterable[object]) -> list[Markup]:
     if any(isinstance(value, str) for value in values):
         return [escape(value) for value in values]
     numbers = [float(value) for value in values]  # type: ignore[arg-type]
-    dash = Markup('<span class="n">–</span>')  # what was not measured
     if all(is_count(value) or not math.isfinite(value) for value in numbers):
-        return [dash if math.isnan(value) else number_html(value) for value in numbers]
-    return [dash if math.isnan(value) else _marked_up(value, *rounded_number(value)) for value in numbers]
+        return [known_html(value) for value in numbers]
+    return [known_html(value) if math.isnan(value) else _marked_up(value, *rounded_number(value)) for value in numbers]
 
 
 def seconds_html(value: float) -> Markup:

@@ -167,6 +167,7 @@ class CaseObject:
     rotation: np.ndarray | None = None     # T x 4: quaternions w, x, y, z; None: it deforms
     translation: np.ndarray | None = None  # T x 3 [m]; None: it deforms
     deformed: np.ndarray | None = None     # T x V x 3 [m]; None: it moves as a whole
+    shape: str = ""                        # of the case file: "half_space", "sphere", "mesh", ...
 
     def positions(self, frame: int) -> np.ndarray:
         """Its vertices in one frame, V x 3 [m]: v + 2 w (q x v) + 2 q x (q x v), then moved; or as stored."""
@@ -195,8 +196,8 @@ class Case:
             return np.asarray(data[frame % data.shape[0]], dtype=float)
 
     def every_frame(self, quantity: str) -> np.ndarray | None:
-        """The "positions" [m] or "velocities" [m/s] of all particles in all frames, T x N x 3; None if the file has
-        none."""
+        """The "positions" [m] or "velocities" [m/s] of all particles in all frames, T x N x 3, or their
+        "object_distance" [m], T x N; None if the file has none."""
         with h5py.File(self.path, "r") as file:
             data = file.get(f"frames/{quantity}")
             return None if data is None else np.asarray(data, dtype=float)
@@ -292,7 +293,8 @@ def load_case(path: str | Path) -> Case:
 def _object(group: h5py.Group) -> CaseObject:
     names = {"vertices": "vertices", "rotation": "rotation", "translation": "translation", "positions": "deformed"}
     arrays = {field: np.asarray(group[key], dtype=float) for key, field in names.items() if key in group}
-    return CaseObject(name=text_of(attributes_of(group), "name"), **arrays,
+    said = attributes_of(group)
+    return CaseObject(name=text_of(said, "name"), shape=text_of(said, "shape"), **arrays,
                       triangles=np.asarray(group["triangles"], dtype=np.int64).reshape(-1, 3))
 
 

@@ -15,7 +15,7 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
 from html.parser import HTMLParser
-from io import BytesIO, StringIO
+from io import StringIO
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -23,11 +23,7 @@ sys.dont_write_bytecode = True
 import h5py  # noqa: E402
 import jsonschema  # noqa: E402
 import numpy as np  # noqa: E402
-from matplotlib import image  # noqa: E402
 
-from camera import choose_camera  # noqa: E402
-from case_pictures import scenery_of  # noqa: E402
-from cloth_picture import BACK, FRONT, Scenery, picture_of, webp_bytes  # noqa: E402
 from contact_maps import laid_flat  # noqa: E402
 from foldproof_results import columns_of_study, evidence_of, load_results, load_trajectory  # noqa: E402
 from made_up_run import HOSTILE, NAMES, made_up_verdicts, put, put_case, put_finding, put_run  # noqa: E402
@@ -86,10 +82,11 @@ class WholeReport(unittest.TestCase):
             self.assertRegex(reference, r"^(#|data:image/(webp|png);base64,)")
         self.assertNotRegex(self.text, r"url\((?!#)")
         self.assertNotIn("@import", self.text)
-        self.assertFalse({"script", "link", "iframe", "object"} & set(self.seen.tags))
+        self.assertFalse({"link", "iframe", "object"} & set(self.seen.tags))
+        self.assertEqual(re.findall("<script[^>]*>", self.text), ["<script>"] * self.text.count("<script"))
 
     def test_hostile_text_is_escaped(self) -> None:
-        self.assertNotIn("<script", self.text)
+        self.assertNotIn("<script>alert", self.text)
         self.assertNotIn("<img src=x", self.text)
         self.assertIn("&lt;script&gt;", self.text)
 
@@ -125,18 +122,11 @@ class WholeReport(unittest.TestCase):
 
     def test_inline_figures_are_a_third_smaller_than_their_files(self) -> None:
         plots = re.findall(r'<svg class="plot".*?</svg>', self.text, re.S)
-        drawn = [path for path in self.figures.glob("*.svg") if not path.stem.endswith("-pictures")]
+        drawn = [path for path in self.figures.glob("*.svg") if not path.stem.endswith(("-pictures", "-field"))]
         self.assertEqual(len(plots), len(drawn))
         without_images = [len(re.sub(r'"data:[^"]*"', "", text))
                           for text in ("".join(plots), "".join(path.read_text(encoding="utf-8") for path in drawn))]
         self.assertLess(without_images[0], 2 / 3 * without_images[1])
-
-    def test_pictures_of_a_case_lose_nothing_in_the_page(self) -> None:
-        picture = np.zeros((7, 5, 4), dtype=np.uint8)
-        picture[2:, 1:] = np.random.default_rng(11).integers(0, 256, (5, 4, 4)) | [0, 0, 0, 1]
-        read = np.asarray(image.imread(BytesIO(webp_bytes(picture)), format="webp"))
-        np.testing.assert_array_equal(read[2:, 1:], picture[2:, 1:])
-        self.assertFalse(read[:2, :, 3].any())
 
     def test_every_finding_has_its_own_anchor(self) -> None:
         anchors = Anchors()
@@ -156,11 +146,8 @@ class WholeReport(unittest.TestCase):
         self.assertIsNotNone(measured)
         self.assertIn("NaN", measured[1])
 
-    def test_claims_open_the_page_and_link_to_their_findings(self) -> None:
+    def test_claims_link_to_their_findings(self) -> None:
         first = self.text.index('id="T1"')
-        self.assertLess(self.text.index("What of the paper is true?"), first)
-        for later in ('id="integrators"', 'id="checks"', 'id="studies"'):
-            self.assertLess(first, self.text.index(later), later)
         row = self.text[first:self.text.index('id="T17"')]
         self.assertIn(f'href="#{NAMES[0]}"', row)
         self.assertIn("not in this run", row)
@@ -170,8 +157,8 @@ class WholeReport(unittest.TestCase):
         self.assertIn("rules otherwise than recorded", self.text[self.text.index('id="T17"'):])
 
     def test_studies_for_the_choice_of_an_integrator_come_first(self) -> None:
-        places = [self.text.index(text) for text in ('id="integrators"', 'id="study-stability-oscillator"',
-                                                     'id="studies"', 'id="study-time-order"')]
+        places = [self.text.index(text) for text in ('id="studies"', 'id="integrators"', 'id="study-stability-oscillator"',
+                                                     'id="study-time-order"')]
         self.assertEqual(places, sorted(places))
 
     def test_points_of_a_map_without_a_value_are_counted(self) -> None:
@@ -308,7 +295,7 @@ class PartsMissing(unittest.TestCase):
         self.put_outcomes()
         text = self.made()
         self.assertNotIn("<script>alert", text)
-        matrix = text[text.index('id="kill-matrix"'):]
+        matrix = text[text.index('<section id="kill-matrix"'):]
         self.assertRegex(matrix, r'<td class="num missed" title="[^"]*fails, [^"]*holds">1<small>[^/]*6[^/]*</')
         self.assertRegex(matrix, r'<td class="num" title="a test [^"]*: fails">1</td>')
 
@@ -555,45 +542,6 @@ class Pieces(unittest.TestCase):
         self.assertEqual(placed, sorted(placed))
         self.assertGreater(min(np.diff(placed)), 0.099)
 
-    def test_the_nearer_triangle_hides_the_farther_and_sides_have_their_colours(self) -> None:
-        square = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], dtype=float)
-        near_front, far_back = [[0, 1, 2], [1, 3, 2]], [[4, 6, 5], [5, 6, 7]]
-        x = np.concatenate([1.2 * square, square + [0.6, 0.6, -1.0]])
-        triangles = np.array(near_front + far_back)
-        camera = choose_camera([x], triangles)
-        self.assertGreater(camera.toward[2], 0)
-        picture = picture_of(x, triangles, np.zeros(8, dtype=bool), camera)
-        points, _ = camera.project(np.array([[0.9, 0.9, 0.0], [1.4, 1.5, -1.0]]), 1)
-        both, far_alone = (picture[int(point[1]), int(point[0]), :3].astype(int) for point in points)
-        self.assertEqual(both[0] > both[2], FRONT[0] > FRONT[2])
-        self.assertEqual(far_alone[0] > far_alone[2], BACK[0] > BACK[2])
-
-    def test_an_object_turns_and_moves_by_its_pose_or_deforms(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            put_case(Path(folder), "fold")
-            case = load_case(Path(folder) / "fold.h5")
-        corner = case.objects[0].positions(1)[1]
-        np.testing.assert_allclose(corner, [0.0, 0.5, 0.1], atol=1e-15)
-        np.testing.assert_allclose(case.objects[1].positions(3)[2], [0.0, 0.5, 0.6], atol=1e-15)
-        self.assertEqual(scenery_of(case, 3).x.shape, (7, 3))
-
-    def test_cloth_that_lies_on_an_object_hides_it(self) -> None:
-        square = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], dtype=float)
-        triangles = np.array([[0, 1, 2], [1, 3, 2]])
-        table = Scenery(2.0 * square - [0.5, 0.5, 0.0], triangles)
-        camera = choose_camera([square], triangles, table.x)
-        picture = picture_of(square, triangles, np.zeros(4, dtype=bool), camera, table)
-        points, _ = camera.project(np.array([[0.5, 0.4, 0.0], [1.4, 1.3, 0.0]]), 1)
-        cloth, object_alone = (picture[int(point[1]), int(point[0]), :3].astype(int) for point in points)
-        self.assertGreater(cloth[0] - cloth[2], 30)
-        self.assertLess(abs(object_alone[0] - object_alone[2]), 30)
-
-    def test_particles_that_are_not_finite_leave_the_rest_drawn(self) -> None:
-        x = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [np.nan, 1, 0]], dtype=float)
-        triangles = np.array([[0, 1, 2], [1, 3, 2]])
-        picture = picture_of(x, triangles, np.ones(4, bool), choose_camera([np.nan_to_num(x)], triangles))
-        self.assertGreater((picture[:, :, 3] > 0).mean(), 0.1)
-
 
 class ContactMaps(unittest.TestCase):
     def test_a_tube_is_unrolled_and_a_flat_sheet_keeps_its_shape(self) -> None:
@@ -606,6 +554,12 @@ class ContactMaps(unittest.TestCase):
 
     def test_a_shape_that_cannot_be_laid_flat_has_no_map(self) -> None:
         self.assertIsNone(laid_flat(np.random.default_rng(5).normal(size=(50, 3))))
+
+
+def load_tests(loader: unittest.TestLoader, tests: unittest.TestSuite, _: str | None) -> unittest.TestSuite:
+    """All tests of the folder: this file's, and those of the page and of two runs compared."""
+    tests.addTests(loader.loadTestsFromNames(["test_page", "test_compare"]))
+    return tests
 
 
 if __name__ == "__main__":

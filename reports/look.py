@@ -1,0 +1,38 @@
+"""What cloth and objects look like, in the pictures, the films and the view in the page alike: colours and lights."""
+from __future__ import annotations
+
+import numpy as np
+from matplotlib import colormaps
+
+# linear RGB
+FRONT = np.array([0.56, 0.175, 0.085])      # the side that the triangles' normals point to
+BACK = np.array([0.085, 0.20, 0.30])
+OBJECT = np.array([0.30, 0.30, 0.29])       # what the cloth can hit, both sides
+GROUND = np.array([0.42, 0.42, 0.41])      # of that, what has no end
+MARK = np.array([0.012, 0.014, 0.018])      # held particles
+STUCK = np.array([0.60, 0.30, 0.01])        # particles that stick to something
+
+# in the axes of a case's camera: right, up, toward the viewer
+KEY_LIGHT = np.array([-0.52, 0.74, 0.42])   # casts the shadows
+FILL_LIGHT = np.array([0.85, -0.05, 0.50])
+
+SET_BACK = 0.008                            # of the picture's size: cloth that lies on an object stays visible
+GROUND_FADES = (0.75, 1.3)                  # of how far the cloth reaches: ground beyond is seen less and less
+STOPS = 17                                  # colours that stand for a colour map; between them it is straight
+
+
+def colour_stops(name: str) -> np.ndarray:
+    """A colour map of matplotlib as STOPS evenly spaced colours, sRGB from 0 to 255."""
+    return np.round(255 * colormaps[name](np.linspace(0.0, 1.0, STOPS))[:, :3]).astype(int)
+
+
+def field_colours(codes: np.ndarray, name: str) -> np.ndarray:
+    """Linear RGB of places on a colour bar (any shape, 0 to 1), with the channels in front."""
+    fine = np.linspace(0.0, 1.0, 1024)
+    table = np.stack([np.interp(fine, np.linspace(0.0, 1.0, STOPS), channel) for channel in colour_stops(name).T / 255.0])
+    return linear(table).astype(np.float32)[:, np.round(1023 * codes).astype(np.int16)]
+
+
+def linear(srgb: np.ndarray) -> np.ndarray:
+    """Linear light of sRGB values from 0 to 1."""
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
