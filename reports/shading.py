@@ -10,6 +10,7 @@ from look import BACK, FILL_LIGHT, FRONT, GROUND, GROUND_FADES, KEY_LIGHT, OBJEC
 from raster import Raster, SeenSamples, faces_viewer
 from shadows import lit_share, shadow_map
 
+WRAP = 0.16                                 # how far the key light goes round, as a cosine
 BORDER = 0.09                               # of the picture's longer side: ground fades towards its border
 
 
@@ -88,14 +89,18 @@ def _reached(seen: SeenSamples, surface: Surface, camera: Camera, normal: list[n
     if shadows is None:
         return np.ones(len(seen.owner), dtype=np.float32)
     points, nearness = shadows.camera.project(np.nan_to_num(surface.x), 1)
-    place = [seen.at(points[:, 0]), seen.at(points[:, 1]), seen.at(nearness)]
-    return lit_share(shadows, place, _toward(KEY_LIGHT, normal))
+    towards = _toward(KEY_LIGHT, normal)
+    facing = np.flatnonzero(towards > -WRAP)            # the others get nothing of it anyway
+    place = [seen.at(values)[facing] for values in (points[:, 0], points[:, 1], nearness)]
+    reached = np.ones(len(towards), dtype=np.float32)
+    reached[facing] = lit_share(shadows, place, towards[facing])
+    return reached
 
 
 def _lights(normal: list[np.ndarray], reached: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """What light falls on a sample: soft from above, a wrapped key light where it reaches, a weak fill. And what shines
     back whatever the colour: a rim where the cloth turns away, and a little of the key light."""
-    key = reached * np.clip((_toward(KEY_LIGHT, normal) + 0.16) / 1.16, 0.0, 1.0)
+    key = reached * np.clip((_toward(KEY_LIGHT, normal) + WRAP) / (1.0 + WRAP), 0.0, 1.0)
     fill = np.clip(_toward(FILL_LIGHT, normal), 0.0, 1.0)
     turned_away = 1.0 - normal[2]
     light = 0.20 + 0.22 * (0.5 + 0.5 * normal[1]) + 0.98 * key * np.sqrt(key) + 0.14 * fill
