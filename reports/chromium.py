@@ -19,7 +19,7 @@ from typing import Any
 
 PACKAGE = "chromium"
 SECONDS = 120                       # that any one answer may take
-_SWITCHES = ("--headless=new", "--remote-debugging-pipe", "--disable-gpu", "--disable-extensions", "--no-first-run",
+_SWITCHES = ("--headless=new", "--remote-debugging-pipe", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-extensions", "--no-first-run",
              "--disable-background-networking", "--host-resolver-rules=MAP * ~NOTFOUND", "--hide-scrollbars",
              "--disable-dev-shm-usage", "--force-color-profile=srgb")
 
@@ -62,11 +62,12 @@ class Browser:
         self.close()
 
     def open(self, page: Path, fragment: str = "", width: int = 1400, height: int = 900, dark: bool = False,
-             script: bool = True) -> None:
-        """Loads a file and waits until it is drawn."""
+             script: bool = True, still: bool = False) -> None:
+        """Loads a file and waits until it is drawn. still: for a reader who wants as little motion as there can be."""
         self._call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
         self._call("Emulation.setEmulatedMedia",
-                   features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+                   features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"},
+                             {"name": "prefers-reduced-motion", "value": "reduce" if still else "no-preference"}])
         self._call("Emulation.setScriptExecutionDisabled", value=not script)
         self._load("about:blank")   # a page that differs in its fragment alone would not be loaded
         self._load(page.resolve().as_uri() + fragment)

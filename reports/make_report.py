@@ -30,6 +30,7 @@ from hard_cases import findings_by_case  # noqa: E402
 from kill_matrix import load_mutation  # noqa: E402
 from ledger import claim_views  # noqa: E402
 from map_plots import plot_study_map  # noqa: E402
+from needs import load_needs  # noqa: E402
 from page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison  # noqa: E402
 from plot_style import use_style  # noqa: E402
 from printed import print_page  # noqa: E402
@@ -98,6 +99,7 @@ def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = True)
     out.parent.mkdir(parents=True, exist_ok=True)
     page = draw(run, bench, figures, for_papers)
     page.coverage = load_coverage(folder / "coverage.json")
+    page.needs = load_needs(folder / "ablation.json")
     page.variants = load_variants(folder / "variants.json")
     page.mutation = load_mutation(folder / "mutation.json")
     page.unended = unended_run(folder / "verdicts.json")
@@ -114,7 +116,7 @@ def read_folder(folder: Path) -> tuple[Run, Run | None]:
     cases = [entry for entry in entries if entry is not None]
     if not cases and bench is None:
         raise FileNotFoundError(f"{folder}: no run.h5, no bench.h5 and no case file; run `foldproof verify` "
-                                "or `foldproof run` with --out first")
+                                "or `foldproof simulate` with --out first")
     provenance = load_case(cases[0].path).about_run if cases else bench.provenance
     return Run(provenance=provenance, findings=[], studies=[], cases=cases, faults=[]), bench
 

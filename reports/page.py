@@ -23,6 +23,7 @@ from hard_cases import STUDIES as HARD_STUDIES, CaseFindings, is_of_case
 from kill_matrix import Mutation, kill_tables
 from ledger import ClaimView
 from map_plots import map_notes
+from needs import Needs
 from plot_style import Plot
 from results import Case, CaseEntry, Column, Fault, Finding, Run, Study
 from trust import Coverage, Tolerances, Variants
@@ -77,6 +78,7 @@ class Page:
     case_findings: list[CaseFindings] = field(default_factory=list)
     hard_findings: list[CaseFindings] = field(default_factory=list)   # of cases/hard
     coverage: Coverage | None = None
+    needs: Needs | None = None      # which of its parts each scene needs
     variants: Variants | None = None
     unended: str = ""               # why this is not what was run last
     mutation: Mutation | None = None   # what scripts/mutate found, where that lies beside the run

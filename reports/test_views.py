@@ -20,7 +20,7 @@ import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib import image  # noqa: E402
 
-from browser import Browser  # noqa: E402
+from chromium import Browser  # noqa: E402
 from camera import choose_camera  # noqa: E402
 from case_fields import all_values, edges_of, fields_of, most_telling  # noqa: E402
 from case_scene import CaseScene, slowed  # noqa: E402
@@ -292,7 +292,7 @@ class ViewInThePage(WithCase):
         page = make_report(self.root, self.root / "report.html", self.root / "figures", for_papers=False)
         with Browser() as browser:
             browser.open(page)
-            told = browser.ask(ASK_THE_VIEW)
+            told = browser.evaluate(ASK_THE_VIEW)
         self.assertEqual(told["problems"], [])
         self.assertGreater(told["drawn"], 3)
         self.assertGreater(told["covered"], 200)
@@ -303,9 +303,9 @@ class ViewInThePage(WithCase):
     @unittest.skipUnless(shutil.which("chromium"), "no chromium: the package chromium has it")
     def test_without_webgl_the_picture_stays_and_who_wants_rest_sees_no_film(self) -> None:
         page = make_report(self.root, self.root / "report.html", self.root / "figures", for_papers=False)
-        with Browser(reduced_motion="reduce") as browser:
-            browser.open(page)
-            still = browser.ask("""(async () => {
+        with Browser() as browser:
+            browser.open(page, still=True)
+            still = browser.evaluate("""(async () => {
               const figure = document.querySelector("figure.view");
               figure.scrollIntoView();
               figure.querySelector(".open-view").click();
@@ -315,7 +315,7 @@ class ViewInThePage(WithCase):
             })()""")
             self.assertEqual((still[0], still[1]), ("Play", still[2]))
             browser.open(page)
-            told = browser.ask("""(async () => {
+            told = browser.evaluate("""(async () => {
               HTMLCanvasElement.prototype.getContext = () => null;
               const figure = document.querySelector("figure.view");
               figure.querySelector(".open-view").click();
