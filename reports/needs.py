@@ -20,6 +20,7 @@ class PartNeed:
     present: bool
     need: str                  # one of NEEDS
     because: str
+    declared: str              # why the case has it, or leaves it out, all the same; or ""
     moved: float               # by how much positions differ [m]
     energy: float              # by how much the energy differs [J]
     crossings: float           # pairs of an edge and a triangle that meet, most of a frame, in that run
@@ -76,7 +77,7 @@ def _case(row: dict[str, Any]) -> CaseNeeds:
 def _part(part: dict[str, Any], scene: dict[str, Any]) -> PartNeed:
     run = part["run"]
     work = [(words, run[key] / scene[key]) for key, words in COUNTED.items() if scene[key] and run[key] != scene[key]]
-    return PartNeed(part["name"], part["present"], part["need"], part["because"], _number(part["position_difference"]),
+    return PartNeed(part["name"], part["present"], part["need"], part["because"], part["declared"], _number(part["position_difference"]),
                     _number(part["energy_difference"]), _number(run["crossings"]), _number(run["deepest"]),
                     run["seconds"] / scene["seconds"] if scene["seconds"] else nan, work)
 
