@@ -318,6 +318,23 @@ step = 0.001
         self.assertEqual(completed("simulate", "cases/garm"), ["cases/garment.toml"])
         self.assertEqual(completed("golden", "fri"), ["friction"])
 
+    def test_a_stored_run_becomes_files_pages_and_a_comparison(self) -> None:
+        for folder, stiffness in (("one", "1e-4"), ("two", "2e-4")):
+            run("simulate", str(ROOT / "cases" / "hinge.toml"), "--set", "time.end=0.1", "--set", f"bending.stiffness={stiffness}",
+                "--out", str(self.path / folder))
+        stored = str(self.path / "one" / "hinge.h5")
+        done = run("export", stored, "--format", "obj", "--out", str(self.path / "frames"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(len(list((self.path / "frames").glob("*.obj"))), 5)
+        self.assertEqual(run("report", str(self.path / "one")).returncode, 0)
+        self.assertGreater((self.path / "one" / "report.html").stat().st_size, 10000)
+        for wrong in (("export", stored + "5", "--format", "ply", "--out", str(self.path)), ("film", stored + "5"),
+                      ("report", str(self.path / "one"), str(self.path / "three"))):
+            done = run(*wrong)
+            self.assertEqual(done.returncode, 2, wrong)
+            self.assertNotIn("Traceback", done.stderr)
+        self.assertEqual(run("export", stored, "--format", "stl", "--out", "x").returncode, 2)
+
     def test_ablate_says_what_a_scene_needs(self) -> None:
         out = str(self.path / "out")
         case = str(ROOT / "cases" / "incline.toml")
