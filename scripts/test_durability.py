@@ -639,18 +639,24 @@ class Names(DurabilityTest):
             self.assertEqual(json.loads(file.read().decode("utf-8")), json.loads(printed))
         ElementTree.parse(out + b"/junit.xml")
         case = self.write("small.toml", SMALL_CASE)
-        command = [str(PROGRAM).encode(), b"simulate", os.fsencode(case), b"--json", b"--out", out]
+        scene = out + b"/scene"
+        command = [str(PROGRAM).encode(), b"simulate", os.fsencode(case), b"--json", b"--out", scene]
         done = subprocess.run(command, capture_output=True, timeout=CLOCK, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         json.loads(done.stdout.decode("utf-8"))
-        ElementTree.parse(out + b"/small.xdmf")
+        ElementTree.parse(scene + b"/small.xdmf")
+        self.page_of(out)
+        page = self.page_of(scene)
+        self.assertTrue("Small &lt;script&gt;alert(1)&lt;/script&gt; &amp; &#39;one&#39;" in page, "the title is not on the page")
+        self.assertTrue("<script>alert" not in page and "<b>\ufffdball" not in page, "a name of the case is code on the page")
+
+    def page_of(self, out: bytes) -> str:
+        """The page made of a folder, which holds no control character."""
         done = subprocess.run([str(PROGRAM).encode(), b"report", out], capture_output=True, timeout=CLOCK, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
-        with open(out + b"/report.html", "rb") as file:
-            page = file.read().decode("utf-8")
-        self.assertNotIn("<script", page)
-        self.assertNotIn("<b>\x01ball", page)
+        page = Path(os.fsdecode(out + b"/report.html")).read_bytes().decode("utf-8")
         self.assertIsNone(re.search("[\x00-\x08\x0b\x0c\x0e-\x1f]", page))
+        return page
 
 
 def main() -> None:

@@ -19,7 +19,8 @@ void add(std::vector<std::string>& arguments, const std::string& option, const s
 
 }  // namespace
 
-int run_report_script(const std::string& script, const std::vector<std::string>& arguments) {
+int run_report_script(const std::string& makes, const std::string& script,
+                      const std::vector<std::string>& arguments) {
   const std::string path = project_folder() + "/reports/" + script;
   std::vector<char*> words = {const_cast<char*>("python3"), const_cast<char*>(path.c_str())};
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
@@ -31,7 +32,7 @@ int run_report_script(const std::string& script, const std::vector<std::string>&
   }
   int status = 0;
   if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    say("it did not come to its end: " + path);
+    say("the " + makes + " could not be made: " + path + " did not come to its end");
     return bad_input;
   }
   return all_hold;
@@ -40,7 +41,7 @@ int run_report_script(const std::string& script, const std::vector<std::string>&
 int make_report(const Options& options) {
   std::vector<std::string> arguments = options.names;
   if (options.pdf) arguments.push_back("--pdf");
-  return run_report_script("make_report.py", arguments);
+  return run_report_script("report", "make_report.py", arguments);
 }
 
 int make_film(const Options& options) {
@@ -49,11 +50,12 @@ int make_film(const Options& options) {
   add(arguments, "--field", options.field);
   add(arguments, "--size", options.size);
   add(arguments, "--fps", options.fps);
-  return run_report_script("make_film.py", arguments);
+  return run_report_script("film", "make_film.py", arguments);
 }
 
 int export_frames(const Options& options) {
-  return run_report_script("export.py", {options.file, "--format", options.kind, "--out", options.out});
+  return run_report_script("files", "export.py",
+                           {options.file, "--format", options.kind, "--out", options.out});
 }
 
 }  // namespace foldproof
