@@ -68,11 +68,36 @@ TriangleMesh read_cylinder(const KeyTable& keys, const SceneLimits& limits) {
   return make_cylinder(keys.number("radius"), keys.number("height"), around, along);
 }
 
-/// Of a subdivided icosahedron.
-int read_subdivisions(const KeyTable& keys, const SceneLimits& limits) {
+/// How finely an icosahedron is divided: its edges are halved `subdivisions` times, or are in `divisions` parts.
+struct Fineness {
+  int subdivisions, divisions;  // one of them is 0
+};
+
+Fineness read_fineness(const KeyTable& keys, const SceneLimits& limits) {
+  if (keys.has("divisions")) {
+    if (keys.has("subdivisions"))
+      throw InputError(keys.where("divisions") + ": give 'subdivisions' or 'divisions', not both");
+    const int divisions = count(keys, "divisions");
+    refuse_many_triangles(keys, "divisions", 20.0 * divisions * divisions, limits);
+    return {0, divisions};
+  }
   const int subdivisions = count(keys, "subdivisions");
   refuse_many_triangles(keys, "subdivisions", std::ldexp(20.0, 2 * subdivisions), limits);
-  return subdivisions;
+  return {subdivisions, 0};
+}
+
+TriangleMesh read_sphere(const KeyTable& keys, const SceneLimits& limits) {
+  const Fineness fineness = read_fineness(keys, limits);
+  const double radius = keys.number("radius");
+  return fineness.divisions > 0 ? make_geodesic_sphere(radius, fineness.divisions)
+                                : make_icosphere(radius, fineness.subdivisions);
+}
+
+TriangleMesh read_statue(const KeyTable& keys, const SceneLimits& limits) {
+  const Fineness fineness = read_fineness(keys, limits);
+  const double height = keys.number("height");
+  return fineness.divisions > 0 ? make_even_statue(height, fineness.divisions)
+                                : make_statue(height, fineness.subdivisions);
 }
 
 TriangleMesh make_shape(const KeyTable& keys, const SceneLimits& limits) {
@@ -80,8 +105,8 @@ TriangleMesh make_shape(const KeyTable& keys, const SceneLimits& limits) {
   if (shape == "sheet") return read_sheet(keys, limits);
   if (shape == "disc") return read_disc(keys, limits);
   if (shape == "cylinder") return read_cylinder(keys, limits);
-  if (shape == "sphere") return make_icosphere(keys.number("radius"), read_subdivisions(keys, limits));
-  if (shape == "statue") return make_statue(keys.number("height"), read_subdivisions(keys, limits));
+  if (shape == "sphere") return read_sphere(keys, limits);
+  if (shape == "statue") return read_statue(keys, limits);
   if (shape == "hinge") return make_hinge(keys.number("length"), keys.number("angle") * radians_per_degree);
   throw InputError(keys.where("shape") + ": unknown shape '" + shape +
                    "'; known: sheet, disc, cylinder, sphere, statue, hinge");

@@ -284,6 +284,7 @@ const std::vector<Quantity>& quantities() {
     for (const Quantity& more : quantities_of_shape_and_place()) all.push_back(more);
     for (const Quantity& more : sticking_quantities()) all.push_back(more);
     for (const Quantity& more : strain_quantities()) all.push_back(more);
+    for (const Quantity& more : standing_quantities()) all.push_back(more);
     return all;
   }();
   return table;

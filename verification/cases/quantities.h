@@ -57,6 +57,9 @@ std::vector<Quantity> sticking_quantities();
 /// The rows of cloth with strain limits, and of its extension and area (strain_quantities.cpp).
 std::vector<Quantity> strain_quantities();
 
+/// The rows of shells that stand or collapse (standing_quantities.cpp).
+std::vector<Quantity> standing_quantities();
+
 /// The table of quantities.
 const std::vector<Quantity>& quantities();
 

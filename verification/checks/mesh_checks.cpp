@@ -59,6 +59,9 @@ std::vector<Known> known_shapes() {
   shapes.push_back({"cylinder", make_cylinder(0.13, 0.37, 11, 6), 0, cylinder});
   shapes.push_back({"icosahedron", make_icosphere(0.23, 0), 2, 5 * std::sqrt(3.0) * side * side});
   shapes.push_back({"icosphere", make_icosphere(0.23, 3), 2, std::nan("")});
+  shapes.push_back({"geodesic sphere", make_geodesic_sphere(0.23, 5), 2, std::nan("")});
+  const TriangleMesh coarse = make_sheet(sheet_of(SheetPattern::random_delaunay));
+  shapes.push_back({"divided sheet", divided(coarse, 4), 1, width * height});
   shapes.push_back({"statue", small_statue(), 2, std::nan("")});
   shapes.push_back({"hinge", make_hinge(0.17, 2.1), 1, 0.5 * (0.9 + 0.6) * 0.17 * 0.17});
   return shapes;

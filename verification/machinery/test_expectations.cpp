@@ -101,6 +101,29 @@ TEST_CASE("expect: what crosses is counted, and a case that keeps cloth from its
   CHECK_THAT(usual.expectations[2].why, Contains("impact zones"));
 }
 
+TEST_CASE("expect: what is left of a height and of angles is that of the end, over that of the start") {
+  const Case shown = trial("[bending]\nstiffness = 1\n");
+  Outcome outcome;
+  outcome.last = start_state(shown.scene);
+  const RunBook book;
+  const Repetition repetition(shown.scene);
+  const RunSeen run{shown.scene, book, outcome, repetition};
+  CHECK(find_quantity("keeps_its_height")->of_run(run) == 1);
+  CHECK(find_quantity("crumples_by")->of_run(run) == 0);
+  PerParticle3& x = outcome.last.x;
+  x.row(1) *= 0.25;
+  CHECK(find_quantity("collapses_to")->of_run(run) == Approx(0.25));
+  x = shown.scene.x;
+  int turned = 0;  // the hinges on one grid line, by 45 degrees
+  for (const Hinge& hinge : shown.scene.mesh.hinges)
+    turned +=
+        std::abs(x(0, hinge.particles[2]) - 0.1) < 1e-9 && std::abs(x(0, hinge.particles[3]) - 0.1) < 1e-9;
+  REQUIRE(turned == 2);
+  x.row(2) = (x.row(0).array() - 0.1).max(0);
+  const double of_all = double(shown.scene.mesh.hinges.size());
+  CHECK(find_quantity("keeps_most_angles")->of_run(run) == Approx(45 * std::sqrt(turned / of_all)));
+}
+
 TEST_CASE("expect: a bound that is kept holds, one that is not fails, and a run that stops says nothing") {
   const std::string flat = "[expect.stays_flat]\nat_most = 0\nwhy = \"w\"\n";
   const std::string leaves = "[expect.leaves_its_plane]\nat_least = 1e-9\nwhy = \"w\"\n";

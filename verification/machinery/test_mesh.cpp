@@ -311,3 +311,15 @@ TEST_CASE("mesh: the statue is clean, stands on its base and does not pierce its
   CHECK(volume(mesh) > 0);
   CHECK(piercings(mesh) == 0);
 }
+
+TEST_CASE("mesh: the even statue is clean, too, and its smallest triangle is larger") {
+  const TriangleMesh even = make_even_statue(1.7, 32), plain = make_statue(1.7, 5);
+  REQUIRE(even.triangles.size() == plain.triangles.size());
+  const double of_even = triangle_areas(even.triangles, even.rest).minCoeff();
+  CHECK(of_even > 1.5 * triangle_areas(plain.triangles, plain.rest).minCoeff());
+  CHECK(even.rest.row(1).minCoeff() == 0);
+  CHECK(std::abs(even.rest.row(1).maxCoeff() - 1.7) < 4 * epsilon);
+  CHECK(volume(even) == Approx(volume(plain)).epsilon(0.01));
+  CHECK(piercings(even) == 0);
+  CHECK_THROWS_WITH(make_even_statue(1.7, 14), Catch::Matchers::Contains("give 15 to 256"));
+}

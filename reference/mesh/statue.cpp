@@ -2,54 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "reference/mesh/shapes.h"
 
 namespace foldproof {
 namespace {
-
-/// Three golden rectangles span the icosahedron: vertices (0, +-1, +-g) and their cyclic permutations, with
-/// g = (1 + sqrt 5)/2; here normalised.
-TriangleMesh icosahedron() {
-  const double g = (1 + std::sqrt(5.0)) / 2;
-  PerParticle3 x(3, 12);
-  x << 0, 0, 0, 0, 1, 1, -1, -1, g, -g, g, -g,  //
-      1, 1, -1, -1, g, -g, g, -g, 0, 0, 0, 0,   //
-      g, -g, g, -g, 0, 0, 0, 0, 1, 1, -1, -1;
-  x.colwise().normalize();
-  return make_triangle_mesh(
-      x, {{0, 2, 8},  {0, 8, 4},  {0, 4, 6},  {0, 6, 9},  {0, 9, 2},  {2, 5, 8},  {8, 5, 10},
-          {8, 10, 4}, {4, 10, 1}, {4, 1, 6},  {6, 1, 11}, {6, 11, 9}, {9, 11, 7}, {9, 7, 2},
-          {2, 7, 5},  {3, 10, 5}, {3, 1, 10}, {3, 11, 1}, {3, 7, 11}, {3, 5, 7}});
-}
-
-/// Halves every edge, which makes four triangles of each. The midpoint of edge e becomes vertex N + e.
-TriangleMesh subdivided(const TriangleMesh& mesh) {
-  const int N = mesh.particles();
-  PerParticle3 x(3, N + int(mesh.edges.size()));
-  x.leftCols(N) = mesh.rest;
-  std::vector<Triangle> middle(mesh.triangles.size());  // [t][k]: midpoint between corner k and the next
-  for (int e = 0; e < int(mesh.edges.size()); ++e) {
-    const Edge& edge = mesh.edges[e];
-    x.col(N + e) = 0.5 * (mesh.rest.col(edge.a) + mesh.rest.col(edge.b));
-    for (int t : edge.triangles) {
-      for (int k = 0; t >= 0 && k < 3; ++k) {
-        const int from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
-        if (std::minmax(from, to) == std::minmax(edge.a, edge.b)) middle[t][k] = N + e;
-      }
-    }
-  }
-  std::vector<Triangle> triangles;
-  triangles.reserve(4 * mesh.triangles.size());
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto [a, b, c] = mesh.triangles[t];
-    const auto [ab, bc, ca] = middle[t];
-    for (const Triangle& part : {Triangle{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
-      triangles.push_back(part);
-  }
-  return make_triangle_mesh(std::move(x), std::move(triangles));
-}
 
 // --- the statue: an implicit surface d(p) = 0 one metre high, d about the distance, negative inside ---
 
@@ -213,19 +172,20 @@ void flip_edges(TriangleMesh& mesh) {
   mesh = make_triangle_mesh(mesh.rest, triangles);
 }
 
-/// Moves every vertex along the surface towards the mean centre of its triangles, weighted with their areas,
-/// and turns edges.
-void relax(const std::vector<Limb>& limbs, int passes, TriangleMesh& mesh) {
+/// Moves every vertex along the surface towards the mean centre of its triangles, and turns edges. The triangles
+/// weigh as their areas to this power: the higher it is, the sooner they are of one size.
+void relax(const std::vector<Limb>& limbs, int passes, int power, TriangleMesh& mesh) {
   for (int pass = 0; pass < passes; ++pass) {
     const Eigen::VectorXd areas = triangle_areas(mesh.triangles, mesh.rest);
-    PerParticle3 centre = PerParticle3::Zero(3, mesh.particles());  // m^3 before the division by weight
-    PerParticle weight = PerParticle::Zero(mesh.particles());       // m^2
+    PerParticle3 centre = PerParticle3::Zero(3, mesh.particles());  // m times its weight
+    PerParticle weight = PerParticle::Zero(mesh.particles());
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
       const auto [a, b, c] = mesh.triangles[t];
       const Vector3 middle = (mesh.rest.col(a) + mesh.rest.col(b) + mesh.rest.col(c)) / 3;
+      const double weight_of_one = power == 1 ? areas[t] : std::pow(areas[t], power);
       for (int v : {a, b, c}) {
-        centre.col(v) += areas[t] * middle;
-        weight[v] += areas[t];
+        centre.col(v) += weight_of_one * middle;
+        weight[v] += weight_of_one;
       }
     }
     for (int v = 0; v < mesh.particles(); ++v) {
@@ -242,43 +202,63 @@ void project(const std::vector<Limb>& limbs, PerParticle3& x) {
   for (int v = 0; v < int(x.cols()); ++v) x.col(v) += local_distance(limbs, x.col(v)).to_surface();
 }
 
-}  // namespace
-
-TriangleMesh make_icosphere(double radius, int subdivisions) {
-  if (!(radius > 0) || !std::isfinite(radius)) {
-    refuse_argument("make_icosphere: radius", radius, "give a positive length in m");
-  }
-  if (subdivisions < 0 || subdivisions > 9)
-    refuse_argument("make_icosphere: subdivisions", subdivisions, "give 0 to 9");
-  TriangleMesh mesh = icosahedron();
-  for (int level = 0; level < subdivisions; ++level) {
-    mesh = subdivided(mesh);
-    mesh.rest.colwise().normalize();
-  }
-  mesh.rest *= radius;
+/// Puts a mesh one metre high on the ground y = 0, and scales it.
+TriangleMesh set_up(TriangleMesh mesh, double height) {
+  mesh.rest.row(1).array() -= mesh.rest.row(1).minCoeff();
+  mesh.rest *= height / mesh.rest.row(1).maxCoeff();
   return mesh;
 }
 
+/// Carries the mesh of a unit sphere to the figure.
+void carry(const std::vector<Limb>& limbs, PerParticle3& x) {
+  for (int v = 0; v < int(x.cols()); ++v) x.col(v) = carried(limbs, x.col(v));
+}
+
+void divide(const std::vector<Limb>& limbs, int parts, int power, TriangleMesh& mesh) {
+  mesh = divided(mesh, parts);
+  project(limbs, mesh.rest);
+  relax(limbs, 15, power, mesh);
+}
+
+void require_height(const char* name, double height) {
+  if (!(height > 0) || !std::isfinite(height)) refuse_argument(name, height, "give a positive length in m");
+}
+
+/// The smallest divisor that still puts vertices on every limb.
+int coarse_divisions(int divisions) {
+  int coarse = 15;
+  while (divisions % coarse != 0) ++coarse;
+  return coarse;
+}
+
+}  // namespace
+
 TriangleMesh make_statue(double height, int subdivisions) {
-  if (!(height > 0) || !std::isfinite(height))
-    refuse_argument("make_statue: height", height, "give a positive length in m");
+  require_height("make_statue: height", height);
   if (subdivisions < 3 || subdivisions > 8)
     refuse_argument("make_statue: subdivisions", subdivisions, "give 3 to 8");
   const std::vector<Limb> limbs = seated_figure();
   const int coarse = std::min(subdivisions, 4);  // the first level with vertices on every limb
   TriangleMesh mesh = make_icosphere(1, coarse);
-  for (int v = 0; v < mesh.particles(); ++v) mesh.rest.col(v) = carried(limbs, mesh.rest.col(v));
-  relax(limbs, 100, mesh);
-  for (int level = coarse; level < subdivisions; ++level) {
-    mesh = subdivided(mesh);
-    project(limbs, mesh.rest);
-    relax(limbs, 15, mesh);
-  }
+  carry(limbs, mesh.rest);
+  relax(limbs, 100, 1, mesh);
+  for (int level = coarse; level < subdivisions; ++level) divide(limbs, 2, 1, mesh);
   for (int pass = 0; pass < 3; ++pass) project(limbs, mesh.rest);
+  return set_up(std::move(mesh), height);
+}
 
-  mesh.rest.row(1).array() -= mesh.rest.row(1).minCoeff();
-  mesh.rest *= height / mesh.rest.row(1).maxCoeff();
-  return mesh;
+TriangleMesh make_even_statue(double height, int divisions) {
+  require_height("make_even_statue: height", height);
+  if (divisions < 15 || divisions > 256)
+    refuse_argument("make_even_statue: divisions", divisions, "give 15 to 256");
+  const std::vector<Limb> limbs = seated_figure();
+  const int coarse = coarse_divisions(divisions);
+  TriangleMesh mesh = make_geodesic_sphere(1, coarse);
+  carry(limbs, mesh.rest);
+  relax(limbs, 800, 2, mesh);
+  if (divisions > coarse) divide(limbs, divisions / coarse, 2, mesh);
+  for (int pass = 0; pass < 3; ++pass) project(limbs, mesh.rest);
+  return set_up(std::move(mesh), height);
 }
 
 }  // namespace foldproof

@@ -1,0 +1,53 @@
+// Quantities of a shell that stands or collapses: what is left of its height and of its angles at the end.
+#include <cmath>
+#include <string>
+
+#include "verification/cases/quantities.h"
+
+namespace foldproof {
+
+namespace {
+
+/// Against gravity, from the lowest particle to the highest [m].
+double height_of(const Scene& scene, const PerParticle3& x) {
+  const Vector3 up = -scene.gravity->normalized();
+  const PerParticle heights = up.transpose() * x;
+  return heights.maxCoeff() - heights.minCoeff();
+}
+
+double height_left(const RunSeen& run) {
+  return height_of(run.scene, run.outcome.last.x) / height_of(run.scene, run.scene.x);
+}
+
+/// Root of the mean square over hinges [degrees].
+double mean_turn(const RunSeen& run) {
+  const std::vector<double> angles = hinge_angles(run.scene.mesh, run.outcome.last.x);
+  double sum = 0;
+  for (size_t h = 0; h < angles.size(); ++h) {
+    const double turn = std::remainder(angles[h] - run.scene.rest_angles[h], 2 * M_PI);
+    sum += turn * turn;
+  }
+  return std::sqrt(sum / double(angles.size())) * 180 / M_PI;
+}
+
+std::string without_bending_hinges(const Scene& scene) {
+  return scene.bending && !scene.mesh.hinges.empty() ? "" : "the case has no [bending]";
+}
+
+}  // namespace
+
+std::vector<Quantity> standing_quantities() {
+  return {
+      {"keeps_its_height", "1", "At the end the cloth is still this high, over its height at the start.",
+       Sense::at_least, nullptr, height_left, without_gravity},
+      {"collapses_to", "1", "At the end the cloth has sunk to this height, over its height at the start.",
+       Sense::at_most, nullptr, height_left, without_gravity},
+      {"keeps_most_angles", "degrees", "At the end hinges are near their rest angles in the mean square.",
+       Sense::at_most, nullptr, mean_turn, without_bending_hinges},
+      {"crumples_by", "degrees",
+       "At the end hinges are turned away from their rest angles in the mean square.", Sense::at_least,
+       nullptr, mean_turn, without_bending_hinges},
+  };
+}
+
+}  // namespace foldproof
