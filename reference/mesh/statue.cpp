@@ -255,7 +255,7 @@ TriangleMesh make_even_statue(double height, int divisions) {
   const int coarse = coarse_divisions(divisions);
   TriangleMesh mesh = make_geodesic_sphere(1, coarse);
   carry(limbs, mesh.rest);
-  relax(limbs, 800, 2, mesh);
+  relax(limbs, 400, 2, mesh);
   if (divisions > coarse) divide(limbs, divisions / coarse, 2, mesh);
   for (int pass = 0; pass < 3; ++pass) project(limbs, mesh.rest);
   return set_up(std::move(mesh), height);

@@ -49,6 +49,8 @@ Finding shapes_finding(const Subject&) {
                   cloth_case("shape = \"cylinder\"\nradius = 0.17\nheight = 0.41\naround = 9\nalong = 4\n"),
               ball = cloth_case("shape = \"sphere\"\nradius = 0.23\nsubdivisions = 2\n"),
               statue = cloth_case("shape = \"statue\"\nheight = 0.37\nsubdivisions = 3\n"),
+              geodesic = cloth_case("shape = \"sphere\"\nradius = 0.19\ndivisions = 3\n"),
+              even_statue = cloth_case("shape = \"statue\"\nheight = 0.37\ndivisions = 15\n"),
               hinge = cloth_case("shape = \"hinge\"\nlength = 0.07\nangle = 130\n");
   // of n rings: 1 + 6 (1 + ... + n) particles, 6 n^2 triangles; of s subdivisions: 10 4^s + 2 and 20 4^s
   see_shape(differences, "disc", disc, 1 + 6 * 15, 6 * 25);
@@ -62,6 +64,10 @@ Finding shapes_finding(const Subject&) {
   differences.see("cylinder's height", extent[axis] - 0.41, 0.41);
   see_shape(differences, "sphere", ball, 162, 320);
   differences.see("sphere's radius", off_radius(ball, Vector3::Ones(), 0.23), 0.23);
+  see_shape(differences, "sphere of divisions", geodesic, 92, 180);  // of d: 10 d^2 + 2 and 20 d^2
+  differences.see("its radius", off_radius(geodesic, Vector3::Ones(), 0.19), 0.19);
+  see_shape(differences, "statue of divisions", even_statue, 2252, 4500);
+  differences.see("its height", even_statue.x.row(1).maxCoeff() - 0.37, 0.37);
   see_shape(differences, "statue", statue, 642, 1280);
   const PerParticle3 expected = make_statue(0.37, 3).rest;
   differences.see("statue", largest_difference(statue.x, expected), 0.37);
@@ -163,6 +169,8 @@ Finding shapes_refused_finding(const Subject&) {
        "unknown pattern 'plaid'; known: one_diagonal"},
       {cloth + "shape = \"disc\"\nradius = 1\nrings = 0\n", "'rings' must lie in 1 .. 1,000,000"},
       {cloth + "shape = \"sphere\"\nradius = 1\nsubdivisions = 40\n", "subdivisions"},
+      {cloth + "shape = \"sphere\"\nradius = 1\nsubdivisions = 2\ndivisions = 4\n", "not both"},
+      {cloth + "shape = \"statue\"\nheight = 1\ndivisions = 14\n", "give 15 to 256"},
       {small_sheet + "fit = 0\n", "'fit' must be > 0"},
       {small_sheet + "fit = 2\n[cloth.pleats]\ncolumns = 2\nangle = 40\n", "'fit' does not go with pleats"},
       {small_sheet + "[cloth.copies]\ncount = 1000000\nmove = [0, 0, 1]\n", "count"}};
