@@ -53,9 +53,10 @@ Finding ends_are_right(const Subject&) {
     for (const DepthBand& band : bands()) {
       for (const double below : {1.0, 1.7, 40.0})
         deepest.see(std::abs(map.at(band, -below * band.deepest) - band.nearest) / (epsilon * band.reach));
-      for (const double beyond : {1.0, 1.3, 900.0})  // those are not moved: not by a bit
-        at_reach.see(std::abs(map.at(band, beyond * band.reach) - beyond * band.reach) /
-                     (epsilon * band.reach));
+      for (const double beyond : {1.0, 1.3, 900.0}) {  // those are not moved: not by a bit
+        const double phi = beyond * band.reach;  // divided, for a fused difference has the product's rounding
+        at_reach.see(std::abs(map.at(band, phi) / phi - 1) * beyond / epsilon);
+      }
     }
     measured.see(std::string(map.name) + ", from -t^ down", deepest.value());
     measured.see(std::string(map.name) + ", from tau up", at_reach.value());
