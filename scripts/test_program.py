@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 import unittest
 from pathlib import Path
 
@@ -201,6 +202,15 @@ step = 0.001
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(json.loads(done.stdout)["findings"],
                          [{"name": "case.mine.takes-steps", "outcome": "holds"}])
+
+    def test_the_two_shells_of_the_paper_differ_in_one_number(self) -> None:
+        cases = [tomllib.loads((ROOT / f"cases/{name}.toml").read_text()) for name in ("water_bottle", "balloon")]
+        strong, weak = (case["bending"].pop("stiffness") for case in cases)
+        self.assertEqual(round(strong / weak, 9), 100)
+        for case in cases:
+            for words in ("title", "about", "expect", "ablation"):
+                case.pop(words, None)
+        self.assertEqual(*cases)
 
     def test_expectations_of_shipped_cases_are_asked_for_by_name(self) -> None:
         done = run("check", "case.sharp_fold.folds-back-to")
