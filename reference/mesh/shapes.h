@@ -68,8 +68,9 @@ TriangleMesh divided(const TriangleMesh& mesh, int parts);
 /// surface, with edges turned where that improves the triangles: the least angle is about 25 degrees.
 TriangleMesh make_statue(double height, int subdivisions);
 
-/// The same figure, from the geodesic sphere of `divisions` (15 to 256), in triangles that are nearer to one size:
-/// the smallest one, not the mean, limits the steps of an explicit scheme.
+/// The same figure, from the geodesic sphere of `divisions` (15 to 256, with a divisor from 15 to 29: that one is
+/// evened out, then divided), in triangles that are nearer to one size: the smallest one, not the mean, limits the
+/// steps of an explicit scheme.
 TriangleMesh make_even_statue(double height, int divisions);
 
 /// Two triangles folded at the angle theta [rad], |theta| < pi, about their shared edge of length L [m].

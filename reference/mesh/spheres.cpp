@@ -79,6 +79,7 @@ void require_radius(const char* name, double radius) {
 }  // namespace
 
 TriangleMesh divided(const TriangleMesh& mesh, int parts) {
+  if (parts < 1) refuse_argument("divided: parts", parts, "give 1 or more");
   const DividedNumbers numbers(mesh, parts);
   const auto share = [parts](int steps) { return double(steps) / parts; };
   PerParticle3 x(3, numbers.count());

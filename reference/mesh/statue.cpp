@@ -224,7 +224,7 @@ void require_height(const char* name, double height) {
   if (!(height > 0) || !std::isfinite(height)) refuse_argument(name, height, "give a positive length in m");
 }
 
-/// The smallest divisor that still puts vertices on every limb.
+/// The smallest divisor >= 15, for fewer leave a limb without vertices. divisions >= 15.
 int coarse_divisions(int divisions) {
   int coarse = 15;
   while (divisions % coarse != 0) ++coarse;
@@ -249,8 +249,8 @@ TriangleMesh make_statue(double height, int subdivisions) {
 
 TriangleMesh make_even_statue(double height, int divisions) {
   require_height("make_even_statue: height", height);
-  if (divisions < 15 || divisions > 256)
-    refuse_argument("make_even_statue: divisions", divisions, "give 15 to 256");
+  if (divisions < 15 || divisions > 256 || coarse_divisions(divisions) > 29)
+    refuse_argument("make_even_statue: divisions", divisions, "give 15 to 256, with a divisor from 15 to 29");
   const std::vector<Limb> limbs = seated_figure();
   const int coarse = coarse_divisions(divisions);
   TriangleMesh mesh = make_geodesic_sphere(1, coarse);
