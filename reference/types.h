@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -22,9 +23,13 @@ struct Bond {
   Vector3 place;  // weights of the triangle's second and third corner [1], height above it [m]
 };
 
+struct KeptPairs;  // filters/cloth_pairs.h
+
 /// What lasts from step to step beside positions and velocities.
 struct Memory {
   std::vector<Bond> bonds;  // by patch, particle, triangle
+  std::shared_ptr<const KeptPairs>
+      pairs;  // that may come near each other; they spare a search and change no bit
 };
 
 /// Positions and velocities at one time, and what must be remembered.

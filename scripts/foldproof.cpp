@@ -158,7 +158,7 @@ void add_ablate(CLI::App& app, Options& options) {
                                  "each cost? Writes ablation.json",
                                  ::foldproof::ablate);
   ablate->footer(ablate_help);
-  ablate->add_option("CASE", options.names, "Case files (default: all shipped cases)");
+  ablate->add_option("CASE", options.names, "Case files (default: all shipped cases of the quick tier)");
   ablate->add_option("--set", options.overrides, "Override a key: table.key=value")->allow_extra_args(false);
   ablate->add_option("--threads", options.running.threads, "Runs at a time (default: one a core)");
   add_cache(ablate, options);

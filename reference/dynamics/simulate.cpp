@@ -89,8 +89,11 @@ class Watch {
     observer_.checkpoint(now);
   }
 
-  void step(const State& s, double h, const Work& work) {
-    if (!observer_.step) return;
+  bool wants_rows() const { return bool(observer_.step); }
+
+  /// limit: the elastic limit where the step began [s].
+  void step(const State& s, double h, double limit, const Work& work) {
+    if (!wants_rows()) return;
     Diagnostics row;
     row.time = s.time;
     row.step = h;
@@ -103,7 +106,7 @@ class Watch {
     row.angular_momentum = angular_momentum(system_, s);
     row.cg_iterations = work.cg_iterations;
     row.cg_residual = work.worst_residual;
-    row.step_over_elastic_limit = h / elastic_limit(system_, s);
+    row.step_over_elastic_limit = h / limit;
     row.object_contacts = work.object_contacts;
     row.strain_left = work.strain_left;
     row.close_pairs = work.close_pairs;
@@ -186,6 +189,13 @@ Run run_from(const Checkpoint& from, const System& system, const Integrator& int
           std::move(outcome)};
 }
 
+/// The longest even part of the time `left` that is no longer than `wanted` [s]; a hair of tolerance so that 0.1 s in
+/// steps of 0.01 s are 10 steps, not 11.
+double even_part(double left, double wanted) {
+  const double parts = std::ceil(left / wanted * (1 - 1e-9));
+  return parts <= 1 ? left : left / parts;
+}
+
 /// Advances the history to the time `target` without an event, or sets outcome.stop.
 void run_to(double target, Run& run) {
   auto& [integrator, schedule, watch, events, history, outcome] = run;
@@ -200,14 +210,17 @@ void run_to(double target, Run& run) {
     try {
       begin_step(system, now);
       const double left = target - now.time;
-      const double h = step_allowed(system, integrator, history.past(), schedule.step, left);
+      const bool asks_for_limit = watch.wants_rows() || !(schedule.step.fixed > 0);
+      const double limit = asks_for_limit ? elastic_limit(system, now) : 0;
+      const double h =
+          even_part(left, step_allowed(system, integrator, history.past(), schedule.step, limit));
       Work work;
       work.bonds = long(now.memory.bonds.size());
       State next = integrator.step(system, history.past(), h, work);
       if (h == left) next.time = target;  // no rounding between a frame's time and its state's
       outcome.stop = fault_in(now, next, watch.size(), number);
       if (outcome.stop) return;
-      watch.step(next, h, work);
+      watch.step(next, h, limit, work);
       add(outcome.work, work);
       history.advance(std::move(next));
       ++outcome.steps;
@@ -243,9 +256,10 @@ Outcome run_to_end(long frame, double start, Run& run) {
   return run.outcome;
 }
 
-/// The automatic step before it is fitted to the frame [s].
-double limit_of(const System& system, const Integrator& integrator, const State& s, const StepRule& rule) {
-  double limit = integrator.damping_widens_limit ? widened_limit(system, s) : elastic_limit(system, s);
+/// limit: the elastic limit [s].
+double automatic_step(const System& system, const Integrator& integrator, const State& s,
+                      const StepRule& rule, double limit) {
+  if (integrator.damping_widens_limit) limit = widened_limit(system, s, limit);
   if (integrator.family == Family::fully_explicit) {
     Work uncounted;
     const double rate = damping_rate_bound(damping_at(system.forces, s, uncounted), system.inverse_mass);
@@ -260,15 +274,13 @@ double limit_of(const System& system, const Integrator& integrator, const State&
 }  // namespace
 
 double step_allowed(const System& system, const Integrator& integrator, std::span<const State> past,
-                    const StepRule& rule, double left) {
-  double wanted = rule.fixed > 0 ? rule.fixed : limit_of(system, integrator, past.back(), rule);
+                    const StepRule& rule, double limit) {
+  double wanted = rule.fixed > 0 ? rule.fixed : automatic_step(system, integrator, past.back(), rule, limit);
   if (past.size() > 1) {
     const double before = past.back().time - past[past.size() - 2].time;
     wanted = std::min(wanted, integrator.largest_growth * before);
   }
-  // an even part of what is left; a hair of tolerance so that 0.1 s in steps of 0.01 s are 10 steps, not 11
-  const double parts = std::ceil(left / wanted * (1 - 1e-9));
-  return parts <= 1 ? left : left / parts;
+  return wanted;
 }
 
 Outcome simulate(const System& system, const Integrator& integrator, const State& start,
@@ -282,7 +294,7 @@ Outcome simulate(const System& system, const Integrator& integrator, const State
   Run run = run_from(at_start, system, integrator, schedule, watch);
   watch.frame(start);
   try {
-    watch.step(start, 0, {});
+    if (watch.wants_rows()) watch.step(start, 0, elastic_limit(system, start), {});
   } catch (const DegenerateElement& error) {
     run.outcome.stop = Stop{error.what(), start.time, 0, error.particles.front()};
   }

@@ -38,7 +38,7 @@ struct Diagnostics {
   Vector3 linear_momentum, angular_momentum;  // kg m/s, kg m^2/s about the origin
   long cg_iterations = 0;                     // in this step
   double cg_residual = 0;                     // worst of this step's solves, relative
-  double step_over_elastic_limit = 0;         // 1
+  double step_over_elastic_limit = 0;         // of the state that the step began at [1]
   long object_contacts = 0;                   // points whose motion in this step an object corrected
   double strain_left = 0;                     // largest violation of a strain limit left in this step [1]
   long close_pairs = 0, crossings = 0;        // of cloth with itself, answered in this step
@@ -92,9 +92,10 @@ Outcome simulate(const System& system, const Integrator& integrator, const State
 Outcome resume(const System& system, const Integrator& integrator, const Checkpoint& from,
                const Schedule& schedule, const Observer& observer);
 
-/// The step [s] that the rule allows after these states, as an even part of the time `left` [s] to the next
-/// frame. No step exceeds the one before by more than the integrator's largest_growth.
+/// The longest step [s] that the rule allows after these states. No step exceeds the one before by more than the
+/// integrator's largest_growth.
+///   limit   the elastic limit at the latest of them [s]; a rule with a fixed step does not ask for it
 double step_allowed(const System& system, const Integrator& integrator, std::span<const State> past,
-                    const StepRule& rule, double left);
+                    const StepRule& rule, double limit);
 
 }  // namespace foldproof

@@ -33,8 +33,7 @@ double elastic_limit(const System& system, const State& s) {
   return 2 / frequency_bound(system.forces, s, system.inverse_mass);
 }
 
-double widened_limit(const System& system, const State& s) {
-  const double limit = elastic_limit(system, s);
+double widened_limit(const System& system, const State& s, double limit) {
   double forecast = std::numeric_limits<double>::infinity();
   for (const Force& force : system.forces)
     if (const auto* sticking = std::get_if<Sticking>(&force)) forecast = sticking->shortest_forecast(s);
@@ -46,6 +45,8 @@ double widened_limit(const System& system, const State& s) {
 void begin_step(const System& system, State& s) {
   for (const Force& force : system.forces)
     if (const auto* sticking = std::get_if<Sticking>(&force)) sticking->renew_bonds(s);
+  for (const Filter& filter : system.filters)
+    if (const auto* self = std::get_if<SelfCollision>(&filter)) self->renew_pairs(s);
 }
 
 Energies energies(const System& system, const State& s) {

@@ -17,6 +17,48 @@ bool share_a_particle(const VertexOrEdge& f, const Triangle& t) {
   return std::find(t.begin(), t.end(), f.a) != t.end() || std::find(t.begin(), t.end(), f.b) != t.end();
 }
 
+/// Of each particle, the box over its straight way, widened by margin/2 on all sides.
+std::vector<Bounds> particle_boxes(const PerParticle3& x, const PerParticle3& end, double margin) {
+  const Vector3 wider = Vector3::Constant(margin / 2);
+  std::vector<Bounds> boxes(static_cast<size_t>(x.cols()));
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    boxes[size_t(i)] = {x.col(i).cwiseMin(end.col(i)) - wider, x.col(i).cwiseMax(end.col(i)) + wider};
+  return boxes;
+}
+
+/// Each in the one of the same particle?
+bool lie_within(const std::vector<Bounds>& boxes, const std::vector<Bounds>& larger) {
+  return std::equal(boxes.begin(), boxes.end(), larger.begin(), larger.end(),
+                    [](const Bounds& inner, const Bounds& outer) { return outer.contains(inner); });
+}
+
+/// Do the boxes of the two features overlap? Most do not along one of the first axes, where they are left.
+bool overlap(const FeaturePair& pair, const std::vector<Bounds>& particles) {
+  const int of_first = pair.kind == PairKind::vertex_triangle ? 1 : 2;
+  std::array<const Bounds*, 4> boxes;
+  for (size_t k = 0; k < 4; ++k) boxes[k] = &particles[size_t(pair.particles[k])];
+  const auto span = [&](int from, int until, int axis) {
+    double low = boxes[size_t(from)]->min()[axis], high = boxes[size_t(from)]->max()[axis];
+    for (int k = from + 1; k < until; ++k) {
+      low = std::min(low, boxes[size_t(k)]->min()[axis]);
+      high = std::max(high, boxes[size_t(k)]->max()[axis]);
+    }
+    return std::pair(low, high);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = span(0, of_first, axis);
+    const auto [other_low, other_high] = span(of_first, 4, axis);
+    if (!(low <= other_high && other_low <= high)) return false;
+  }
+  return true;
+}
+
+/// moved: N, or empty, which asks about all pairs.
+bool is_asked(const FeaturePair& pair, const std::vector<char>& moved) {
+  return moved.empty() || std::any_of(pair.particles.begin(), pair.particles.end(),
+                                      [&](int i) { return moved[size_t(i)] != 0; });
+}
+
 /// The search: boxes of this motion, and the pairs found.
 struct Search {
   const ClothTree& cloth;
@@ -25,8 +67,7 @@ struct Search {
   std::vector<char> triangle_moved, node_moved;  // empty: all are asked about
   std::vector<FeaturePair> found;
 
-  Search(const ClothTree& of, const PerParticle3& x, const PerParticle3& end, double margin,
-         const std::vector<char>& which);
+  Search(const ClothTree& of, std::vector<Bounds> particle_boxes, const std::vector<char>& which);
 
   bool skips(int node_a, int node_b) const {
     return (!moved.empty() && !node_moved[size_t(node_a)] && !node_moved[size_t(node_b)]) ||
@@ -38,16 +79,10 @@ struct Search {
   void compare(int s, int t);
   void add_vertex(int vertex, int triangle);
   void add_edges(const VertexOrEdge& e, const VertexOrEdge& f);
-  bool has_moved(const FeaturePair& pair) const;
 };
 
-Search::Search(const ClothTree& of, const PerParticle3& x, const PerParticle3& end, double margin,
-               const std::vector<char>& which)
-    : cloth(of), moved(which) {
-  const Vector3 wider = Vector3::Constant(margin / 2);
-  particles.resize(size_t(x.cols()));
-  for (Eigen::Index i = 0; i < x.cols(); ++i)
-    particles[size_t(i)] = {x.col(i).cwiseMin(end.col(i)) - wider, x.col(i).cwiseMax(end.col(i)) + wider};
+Search::Search(const ClothTree& of, std::vector<Bounds> particle_boxes, const std::vector<char>& which)
+    : cloth(of), moved(which), particles(std::move(particle_boxes)) {
   triangles.resize(cloth.triangles.size());
   triangle_moved.assign(moved.empty() ? 0 : triangles.size(), 0);
   for (size_t t = 0; t < triangles.size(); ++t)
@@ -129,31 +164,24 @@ void Search::compare(int s, int t) {
   }
 }
 
-bool Search::has_moved(const FeaturePair& pair) const {
-  return moved.empty() || std::any_of(pair.particles.begin(), pair.particles.end(),
-                                      [&](int i) { return moved[size_t(i)] != 0; });
-}
-
 void Search::add_vertex(int vertex, int triangle) {
   const Triangle& t = cloth.triangles[size_t(triangle)];
   if (!particles[size_t(vertex)].intersects(triangles[size_t(triangle)])) return;
   if (share_a_particle({vertex, vertex}, t)) return;
   const FeaturePair pair{PairKind::vertex_triangle, {vertex, t[0], t[1], t[2]}};
-  if (has_moved(pair)) found.push_back(pair);
+  if (is_asked(pair, moved)) found.push_back(pair);
 }
 
 void Search::add_edges(const VertexOrEdge& e, const VertexOrEdge& f) {
   if (e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b) return;
-  const Bounds box = particles[size_t(e.a)].merged(particles[size_t(e.b)]);
-  if (!box.intersects(particles[size_t(f.a)].merged(particles[size_t(f.b)]))) return;
   const FeaturePair pair{PairKind::edge_edge, {e.a, e.b, f.a, f.b}};
-  if (has_moved(pair)) found.push_back(pair);
+  if (overlap(pair, particles) && is_asked(pair, moved)) found.push_back(pair);
 }
 
 }  // namespace
 
 ClothTree make_cloth_tree(const TriangleMesh& mesh) {
-  ClothTree cloth{mesh.triangles, std::vector<OwnFeatures>(mesh.triangles.size()), {}};
+  ClothTree cloth{mesh.triangles, std::vector<OwnFeatures>(mesh.triangles.size()), {}, 0};
   cloth.tree = make_box_tree(triangle_bounds(mesh.rest, mesh.triangles), triangles_per_leaf);
   std::vector<char> spoken_for(size_t(mesh.particles()), 0);
   for (size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -164,6 +192,7 @@ ClothTree make_cloth_tree(const TriangleMesh& mesh) {
     }
   // of an edge's two triangles, the first
   for (const Edge& edge : mesh.edges) {
+    cloth.mean_edge += (mesh.rest.col(edge.b) - mesh.rest.col(edge.a)).norm() / double(mesh.edges.size());
     const size_t t = size_t(edge.triangles[0]);
     for (size_t k = 0; k < 3; ++k) {
       const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
@@ -175,9 +204,29 @@ ClothTree make_cloth_tree(const TriangleMesh& mesh) {
 
 std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& x, const PerParticle3& end,
                                     double margin, const std::vector<char>& moved) {
-  Search search(cloth, x, end, margin, moved);
+  Search search(cloth, particle_boxes(x, end, margin), moved);
   search.within(0);
   return std::move(search.found);
+}
+
+KeptPairs keep_pairs(const ClothTree& cloth, const PerParticle3& x, double margin) {
+  return {particle_boxes(x, x, margin), near_pairs(cloth, x, x, margin)};
+}
+
+bool hold_at(const KeptPairs& kept, const PerParticle3& x, double margin) {
+  return lie_within(particle_boxes(x, x, margin), kept.boxes);
+}
+
+std::optional<std::vector<FeaturePair>> chosen_pairs(const KeptPairs& kept, const PerParticle3& x,
+                                                     const PerParticle3& end, double margin,
+                                                     const std::vector<char>& moved) {
+  // features whose boxes overlap now overlapped in the larger boxes, too; which pair comes first the tree alone decides
+  const std::vector<Bounds> boxes = particle_boxes(x, end, margin);
+  if (!lie_within(boxes, kept.boxes)) return {};
+  std::vector<FeaturePair> chosen;
+  for (const FeaturePair& pair : kept.pairs)
+    if (overlap(pair, boxes) && is_asked(pair, moved)) chosen.push_back(pair);
+  return chosen;
 }
 
 }  // namespace foldproof

@@ -1,6 +1,7 @@
 // Which features of the cloth may come near each other: a tree of boxes, fitted anew to each motion.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "reference/filters/feature_pair.h"
@@ -21,6 +22,7 @@ struct ClothTree {
   std::vector<Triangle> triangles;  // M
   std::vector<OwnFeatures> own;     // M
   BoxTree tree;                     // over the triangles
+  double mean_edge;                 // at rest [m]
 };
 
 ClothTree make_cloth_tree(const TriangleMesh& mesh);
@@ -31,5 +33,21 @@ ClothTree make_cloth_tree(const TriangleMesh& mesh);
 ///   moved   N, or empty: pairs of which no particle is marked are left out
 std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& x, const PerParticle3& end,
                                     double margin, const std::vector<char>& moved = {});
+
+/// Pairs that were searched for once with a margin to spare, from which later searches choose.
+struct KeptPairs {
+  std::vector<Bounds> boxes;       // N: of the particles, widened by half that margin
+  std::vector<FeaturePair> pairs;  // near_pairs of them
+};
+
+KeptPairs keep_pairs(const ClothTree& cloth, const PerParticle3& x, double margin);
+
+/// Is every particle of x, widened by margin/2, still in the box that it was kept with?
+bool hold_at(const KeptPairs& kept, const PerParticle3& x, double margin);
+
+/// What near_pairs answers for the same cloth, in the same order; nothing if a particle leaves its box on the way.
+std::optional<std::vector<FeaturePair>> chosen_pairs(const KeptPairs& kept, const PerParticle3& x,
+                                                     const PerParticle3& end, double margin,
+                                                     const std::vector<char>& moved = {});
 
 }  // namespace foldproof

@@ -11,14 +11,15 @@ namespace foldproof {
 
 namespace {
 
-constexpr double kept_share = 0.1;  // of the thickness: the distance that no motion may undercut
+constexpr double kept_share = 0.1;    // of the thickness: the distance that no motion may undercut
+constexpr double spare_share = 0.12;  // of the mean edge: the margin to spare of pairs that are kept
 constexpr double untangling_time =
     0.01;  // s: in it what pierces moves by a thickness against what it pierces
 
 /// The motion of one step, and what is done to keep it free of crossings.
 struct Step {
   const SelfCollision& filter;
-  const PerParticle3& x;
+  const State& s;
   PerParticle3& v;
   double h;  // s
   Work& work;
@@ -35,21 +36,29 @@ struct Step {
   void move_zones(ImpactZones& zones, std::vector<char>& leads);
 };
 
+/// near_pairs, from those that s remembers if they will do.
+std::vector<FeaturePair> pairs_of(const ClothTree& cloth, const State& s, const PerParticle3& end,
+                                  double margin, const std::vector<char>& moved = {}) {
+  if (s.memory.pairs)
+    if (auto chosen = chosen_pairs(*s.memory.pairs, s.x, end, margin, moved)) return std::move(*chosen);
+  return near_pairs(cloth, s.x, end, margin, moved);
+}
+
 std::vector<FeaturePair> Step::pairs() const {
-  std::vector<FeaturePair> found = near_pairs(filter.cloth, x, x + h * v, 2 * keep(), moved);
+  std::vector<FeaturePair> found = pairs_of(filter.cloth, s, s.x + h * v, 2 * keep(), moved);
   if (!tangled.empty()) leave_out_tangled(tangled, found);
   return found;
 }
 
 std::optional<Approach> Step::approach(const FeaturePair& pair) {
   ++work.crossing_queries;
-  return first_approach(pair.kind, corners_of(pair, x), h * corners_of(pair, v), keep());
+  return first_approach(pair.kind, corners_of(pair, s.x), h * corners_of(pair, v), keep());
 }
 
 /// Each pair that would come together, one after the other as v then is. Returns their number.
 long Step::answer_all(int round) {
   const std::vector<FeaturePair> asked = pairs();
-  moved.assign(size_t(x.cols()), 0);
+  moved.assign(size_t(v.cols()), 0);
   long answered = 0;
   for (const FeaturePair& pair : asked) {
     const std::optional<Approach> met = approach(pair);
@@ -66,7 +75,7 @@ long Step::answer_all(int round) {
 /// as near as the thickness, where repulsion awaits them; after it their approach is stopped. Friction as in repulsion.
 void Step::answer(const FeaturePair& pair, const Approach& met, int round) {
   const Vector3& N = met.at.normal;
-  const double gap = (corners_of(pair, x) * met.at.weights).dot(N);  // along it, at the start [m]
+  const double gap = (corners_of(pair, s.x) * met.at.weights).dot(N);  // along it, at the start [m]
   const Vector3 relative = corners_of(pair, v) * met.at.weights;
   const double allowed = round > 0 ? 0 : std::min(0.0, (filter.settings.thickness - gap) / h);  // m/s
   const double push = allowed - relative.dot(N);
@@ -93,9 +102,9 @@ bool Step::grow(ImpactZones& zones, std::vector<char>& leads) {
 }
 
 void Step::move_zones(ImpactZones& zones, std::vector<char>& leads) {
-  moved.assign(size_t(x.cols()), 0);
+  moved.assign(size_t(v.cols()), 0);
   for (const std::vector<int>& zone : zones.grown()) {
-    const double missed = move_as_one(zone, x, filter.mass, filter.inverse_mass, v);
+    const double missed = move_as_one(zone, s.x, filter.mass, filter.inverse_mass, v);
     for (const int i : zone) {
       moved[size_t(i)] = 1;
       leads[size_t(i)] = filter.inverse_mass[i] == 0 && h * missed > 1e-6 * keep();
@@ -105,9 +114,16 @@ void Step::move_zones(ImpactZones& zones, std::vector<char>& leads) {
 
 }  // namespace
 
+void SelfCollision::renew_pairs(State& s) const {
+  const double spare = spare_share * cloth.mean_edge;
+  // half of it is left for the step to come
+  if (s.memory.pairs && hold_at(*s.memory.pairs, s.x, settings.thickness + spare / 2)) return;
+  s.memory.pairs = std::make_shared<const KeptPairs>(keep_pairs(cloth, s.x, settings.thickness + spare));
+}
+
 void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, Work& work) const {
   const double h = span.step;
-  std::vector<FeaturePair> close = near_pairs(cloth, s.x, s.x, settings.thickness);
+  std::vector<FeaturePair> close = pairs_of(cloth, s, s.x, settings.thickness);
   std::vector<char> tangled;
   if (!at_start.empty()) {
     const CrossingTriangles crossing = self_intersections(s.x, cloth.triangles);
@@ -118,7 +134,7 @@ void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, W
   work.close_pairs += repel(close, s.x, settings, h, inverse_mass, v);
   if (!(span.end > span.start)) return;
 
-  Step step{*this, s.x, v, h, work, tangled};
+  Step step{*this, s, v, h, work, tangled};
   for (int round = 0; round < settings.rounds; ++round)
     if (step.answer_all(round) == 0) return;
 

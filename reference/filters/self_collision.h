@@ -23,6 +23,10 @@ struct SelfCollision {
   PerParticle mass, inverse_mass;   // N [kg], [1/kg]; the latter 0 for prescribed particles
   CrossingTriangles at_start = {};  // pairs that cross before the first step
 
+  /// Pairs that may come near each other in the next steps, if those that s remembers will not do. They spare most
+  /// searches and change no bit: correct() does without where they do not reach.
+  void renew_pairs(State& s) const;
+
   /// Throws DegenerateElement where prescribed particles force the cloth through itself.
   void correct(const Span& span, const State& s, PerParticle3& v, Work& work) const;
 };

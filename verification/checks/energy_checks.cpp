@@ -126,8 +126,8 @@ Finding diagnostics_finding(const Subject&) {
         row_error(row, sums, damping_work, std::abs(damping_work) + h * std::abs(sums.damping_power)));
     worst.see(errors.back());
     worst.see((row.time - run.frames[n].time) / epsilon);
-    worst.see(std::abs(row.step_over_elastic_limit - row.step / elastic_limit(system, run.frames[n])) /
-              epsilon);
+    const State& begun_at = run.frames[n - (n > 0)];
+    worst.see(std::abs(row.step_over_elastic_limit - row.step / elastic_limit(system, begun_at)) / epsilon);
     worst.see(std::abs(row.step - (n == 0 ? 0 : h)) / (epsilon * 9 * h));
     if (n > 0 && !(row.cg_iterations > 0 && row.cg_residual <= scene.solver.tolerance && row.seconds >= 0))
       worst.see(NAN);

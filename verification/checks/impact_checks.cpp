@@ -1,9 +1,12 @@
 // Motion that leaves the cloth free of crossings, rigid zones, and cloth that starts crossing itself.
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <thread>
 
+#include "reference/filters/cloth_pairs.h"
 #include "reference/filters/impact_zones.h"
 #include "reference/forces/degenerate.h"
 #include "verification/checks/layered_cloth.h"
@@ -204,6 +207,67 @@ Finding same_bits_finding(const Subject& subject) {
                          "one order of pairs, fixed by the mesh and the boxes; no state but the arguments");
 }
 
+/// Pairs that one list has and the other has not, or has elsewhere.
+double differences(const std::vector<FeaturePair>& a, const std::vector<FeaturePair>& b) {
+  double count = std::abs(double(a.size()) - double(b.size()));
+  for (size_t k = 0; k < std::min(a.size(), b.size()); ++k)
+    count += a[k].kind != b[k].kind || a[k].particles != b[k].particles;
+  return count;
+}
+
+/// Pairs kept with 3 mm to spare, after random motions within and beyond them; with some particles marked, too.
+void see_choices(Measured& measured) {
+  const double margin = 0.004, spare = 0.003;
+  const Scene scene = layered_scene({4, 0.003, 0.001, 0, {0.004, 0, 0, 8, true}, 17});
+  const ClothTree cloth = make_cloth_tree(scene.mesh);
+  const KeptPairs kept = keep_pairs(cloth, scene.x, margin + spare);
+  Random random(17);
+  for (const double share : {0.0, 0.4, 0.97, 1.3}) {
+    const PerParticle3 x = scene.x + random.vectors(scene.x.cols(), share * spare / 2);
+    const PerParticle3 end = scene.x + random.vectors(scene.x.cols(), share * spare / 2);
+    std::vector<char> marked(size_t(x.cols()));
+    for (char& one : marked) one = random.in(0, 1) < 0.2;
+    for (const std::vector<char>& moved : {std::vector<char>{}, marked}) {
+      const auto chosen = chosen_pairs(kept, x, end, margin, moved);
+      const std::vector<FeaturePair> searched = near_pairs(cloth, x, end, margin, moved);
+      const std::string name = fmt::format("moved by {} of half of what is to spare, {}", share,
+                                           moved.empty() ? "all asked" : "some asked");
+      if (share > 1) measured.see(name, chosen ? NAN : 0);
+      if (share < 1)
+        measured.see(name, chosen && searched.size() > 50 ? differences(*chosen, searched) : NAN);
+    }
+  }
+}
+
+/// Numbers of a run's end that depend on whether pairs are remembered from step to step; NaN if none are.
+double numbers_that_memory_changes() {
+  Scene scene = layered_scene({3, 0.003, 0.001, 0.2, {0.004, 3, 0.2, 8, true}, 18});
+  scene.stretch = StretchMaterial{20, 0.02, 1};
+  const System system = build_system(scene);
+  State remembers = start_state(scene), forgets = remembers;
+  double reused = 0;
+  for (int n = 0; n < 60; ++n) {
+    const auto before = remembers.memory.pairs;
+    begin_step(system, remembers);
+    reused += before && remembers.memory.pairs == before;
+    Work uncounted;
+    remembers = integrator_named("C").step(system, {&remembers, 1}, 5e-4, uncounted);
+    forgets = integrator_named("C").step(system, {&forgets, 1}, 5e-4, uncounted);
+  }
+  return reused > 10
+             ? numbers_that_differ(remembers.x, forgets.x) + numbers_that_differ(remembers.v, forgets.v)
+             : NAN;
+}
+
+Finding kept_pairs_finding(const Subject&) {
+  Measured measured("pairs or numbers that differ", "1");
+  see_choices(measured);
+  measured.see("a run of 60 steps, and one that forgets", numbers_that_memory_changes());
+  return measured.judged(0,
+                         "the pairs that were kept are a list to choose from: what is chosen is what a "
+                         "search finds, in its order");
+}
+
 /// Two sheets that cross, pushed apart step by step: how many crossings are left.
 Finding untangle_finding(const Subject& subject) {
   Measured measured("crossings left over those at the start", "1");
@@ -242,6 +306,9 @@ std::vector<Check> impact_checks() {
        "Prescribed motion that takes cloth through itself stops the run.", "ours", forced_finding},
       {"self-collision.same-bits-every-time",
        "The same cloth gets the same answer to the bit, alone or beside others.", "ours", same_bits_finding},
+      {"self-collision.kept-pairs-are-those-of-a-search",
+       "Pairs that are remembered from step to step spare searches and change no bit.", "ours",
+       kept_pairs_finding},
       {"self-collision.tangles-come-apart",
        "Cloth that starts crossing itself along a line that cuts off a corner is pushed out of the tangle.",
        "Volino and Magnenat-Thalmann 2006", untangle_finding},

@@ -1,4 +1,6 @@
 // The methods that the paper's schemes are compared with: the equations of a step, and what limits it.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numeric>
 
@@ -272,13 +274,11 @@ Finding explicit_steps_respect_damping(const Subject&) {
   Measured measured("step over 0.7 of the limit, less 1", "1");
   for (const Integrator& integrator : integrators()) {
     const bool limited = integrator.family == Family::fully_explicit;
-    const double limit = limited ? std::min(2 / rate, elastic_limit(system, s)) : elastic_limit(system, s);
-    const double h = step_allowed(system, integrator, {&s, 1}, rule, 1e6 * limit);
+    const double elastic = elastic_limit(system, s), limit = limited ? std::min(2 / rate, elastic) : elastic;
+    const double h = step_allowed(system, integrator, {&s, 1}, rule, elastic);
     measured.see(std::string(integrator.name), std::abs(h / (rule.safety * limit) - 1));
   }
-  return measured.judged(
-      2e-6,
-      "a million even parts of the time left come within a millionth of the limit, or two by rounding up");
+  return measured.judged(8 * epsilon, "the limit times the safety, in a few roundings");
 }
 
 /// After a step of a hundredth of what is allowed, the next one.
@@ -291,7 +291,7 @@ Finding growth_is_limited(const Subject&) {
   Measured measured("growth over the largest allowed", "1");
   for (const Integrator& integrator : integrators()) {
     const std::array<State, 2> past = {before, now};
-    const double growth = step_allowed(system, integrator, past, rule, 1.0) / 1e-5;
+    const double growth = step_allowed(system, integrator, past, rule, elastic_limit(system, now)) / 1e-5;
     const double allowed = integrator.name == "BDF2" ? zero_stable : 100;
     measured.see(std::string(integrator.name), growth / allowed);
     if (integrator.name != "BDF2")
@@ -299,6 +299,26 @@ Finding growth_is_limited(const Subject&) {
   }
   return measured.judged(
       1 + 1e-9, "BDF2 is zero-stable for ratios below 1 + sqrt(2); one-step methods need no such limit");
+}
+
+/// Derivatives of the elastic forces that Newton's method asks for in an iteration, where they are definite: steps so short
+/// that the masses outweigh what springs and hinges under pressure lack.
+Finding newton_asks_finding(const Subject&) {
+  const System system = build_system(undamped_sheet());
+  const State start = start_state(undamped_sheet());
+  Measured measured("derivatives an iteration, more than two", "1");
+  for (const char* name : {"backward-euler", "implicit-midpoint"})
+    for (const double share : {0.1, 0.3}) {
+      Work work;
+      integrator_named(name).step(system, {&start, 1}, share * elastic_limit(system, start), work);
+      measured.see(
+          fmt::format("{}, {} of the elastic limit, {} iterations", name, share, work.newton_iterations),
+          work.newton_iterations > 1
+              ? double(work.stiffness_preparations) / double(work.newton_iterations) - 2
+              : NAN);
+    }
+  return measured.judged(
+      0, "the exact derivative, which proves symmetric, and that of conjugate gradients, once");
 }
 
 }  // namespace
@@ -341,6 +361,10 @@ std::vector<Check> method_checks() {
        "BDF2's steps grow by less than 1 + sqrt(2); one-step methods may grow at will.", limits,
        growth_is_limited}};
   checks.insert(checks.end(), others.begin(), others.end());
+  checks.push_back(
+      {"methods.newton-asks-no-more-than-it-needs",
+       "Where the elastic forces' derivative is definite, Newton's method asks for no second one.", "ours",
+       newton_asks_finding});
   return checks;
 }
 

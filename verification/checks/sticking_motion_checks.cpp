@@ -160,7 +160,7 @@ Finding forecast_step_finding(const Subject&) {
     StepRule rule;
     rule.safety = 0.7;
     const auto step = [&](const char* name) {
-      return step_allowed(system, integrator_named(name), {&s, 1}, rule, 1e9);
+      return step_allowed(system, integrator_named(name), {&s, 1}, rule, elastic_limit(system, s));
     };
     for (const char* name : {"A", "B", "backward-euler"})
       measured.see(fmt::format("{}, tau_s = {} s", name, tau), std::abs(step(name) * omega / (0.7 * 2) - 1));
