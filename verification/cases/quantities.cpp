@@ -163,7 +163,6 @@ std::string without_plane(const Scene& scene) {
   return "";
 }
 
-std::string without_bending(const Scene& scene) { return scene.bending ? "" : "the case has no [bending]"; }
 std::string without_objects(const Scene& scene) {
   return scene.objects.empty() ? "the case has no [[object]]" : "";
 }
@@ -173,6 +172,8 @@ std::string without_objects(const Scene& scene) {
 std::string without_gravity(const Scene& scene) {
   return scene.gravity && scene.gravity->norm() > 0 ? "" : "the case has no [gravity]";
 }
+
+std::string without_bending(const Scene& scene) { return scene.bending ? "" : "the case has no [bending]"; }
 
 std::string without_springs(const Scene& scene) { return scene.stretch ? "" : "the case has no [stretch]"; }
 
@@ -285,6 +286,7 @@ const std::vector<Quantity>& quantities() {
     for (const Quantity& more : sticking_quantities()) all.push_back(more);
     for (const Quantity& more : strain_quantities()) all.push_back(more);
     for (const Quantity& more : standing_quantities()) all.push_back(more);
+    for (const Quantity& more : wrinkle_quantities()) all.push_back(more);
     return all;
   }();
   return table;

@@ -60,11 +60,15 @@ std::vector<Quantity> strain_quantities();
 /// The rows of shells that stand or collapse (standing_quantities.cpp).
 std::vector<Quantity> standing_quantities();
 
+/// The rows of cloth with wrinkles (wrinkle_quantities.cpp).
+std::vector<Quantity> wrinkle_quantities();
+
 /// The table of quantities.
 const std::vector<Quantity>& quantities();
 
-/// Why a quantity of springs, or of the vertical, makes no sense for the scene, or "".
+/// Why a quantity of springs, of hinges, or of the vertical, makes no sense for the scene, or "".
 std::string without_springs(const Scene& scene);
+std::string without_bending(const Scene& scene);
 std::string without_gravity(const Scene& scene);
 
 /// The row of the key; nullptr if there is none.

@@ -1,6 +1,5 @@
 // Quantities of a shell that stands or collapses: what is left of its height and of its angles at the end.
 #include <cmath>
-#include <string>
 
 #include "verification/cases/quantities.h"
 
@@ -30,10 +29,6 @@ double mean_turn(const RunSeen& run) {
   return std::sqrt(sum / double(angles.size())) * 180 / M_PI;
 }
 
-std::string without_bending_hinges(const Scene& scene) {
-  return scene.bending && !scene.mesh.hinges.empty() ? "" : "the case has no [bending]";
-}
-
 }  // namespace
 
 std::vector<Quantity> standing_quantities() {
@@ -43,10 +38,10 @@ std::vector<Quantity> standing_quantities() {
       {"collapses_to", "1", "At the end the cloth has sunk to this height, over its height at the start.",
        Sense::at_most, nullptr, height_left, without_gravity},
       {"keeps_most_angles", "degrees", "At the end hinges are near their rest angles in the mean square.",
-       Sense::at_most, nullptr, mean_turn, without_bending_hinges},
+       Sense::at_most, nullptr, mean_turn, without_bending},
       {"crumples_by", "degrees",
        "At the end hinges are turned away from their rest angles in the mean square.", Sense::at_least,
-       nullptr, mean_turn, without_bending_hinges},
+       nullptr, mean_turn, without_bending},
   };
 }
 

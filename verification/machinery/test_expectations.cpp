@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
+#include "reference/mesh/shapes.h"
 #include "verification/cases/judge.h"
 #include "verification/checks/scratch_folder.h"
 
@@ -122,6 +123,30 @@ TEST_CASE("expect: what is left of a height and of angles is that of the end, ov
   x.row(2) = (x.row(0).array() - 0.1).max(0);
   const double of_all = double(shown.scene.mesh.hinges.size());
   CHECK(find_quantity("keeps_most_angles")->of_run(run) == Approx(45 * std::sqrt(turned / of_all)));
+}
+
+TEST_CASE("expect: creases are counted line by line, and lie half a wavelength apart") {
+  Case shown = trial("[bending]\nstiffness = 1\n");
+  Scene& scene = shown.scene;
+  scene.mesh = make_sheet({.width = 0.24, .height = 0.05, .columns = 24, .rows = 5});
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  Outcome outcome;
+  outcome.last = State{0, scene.mesh.rest, PerParticle3::Zero(3, scene.mesh.particles())};
+  const RunBook book;
+  const Repetition repetition(scene);
+  const RunSeen run{scene, book, outcome, repetition};
+  const Quantity &creases = *find_quantity("creases"), &wavelength = *find_quantity("wrinkle_wavelength");
+  CHECK(creases.of_run(run) == 0);
+  CHECK(std::isnan(wavelength.of_run(run)));
+  PerParticle3& x = outcome.last.x;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {  // a zigzag, folded by 2 atan(0.3) = 33 degrees every 4 cm
+    const double along = std::abs(std::remainder(scene.mesh.rest(0, i), 0.08));
+    x(2, i) = 0.3 * along;
+  }
+  CHECK(creases.of_run(run) == 5);
+  CHECK(wavelength.of_run(run) == Approx(0.08));
+  x.row(2) *= 0.5;  // 17 degrees
+  CHECK(creases.of_run(run) == 0);
 }
 
 TEST_CASE("expect: a bound that is kept holds, one that is not fails, and a run that stops says nothing") {
