@@ -114,13 +114,16 @@ def _strains(x: np.ndarray, edges: np.ndarray, rest: np.ndarray) -> np.ndarray:
     return _largest_at_ends(np.abs(lengths / at_rest - 1.0), edges, x.shape[1])
 
 
+def angles_at(x: np.ndarray, hinges: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Of each of `hinges`, without sign, H [rad], at the positions x, N x 3."""
+    normals = area_normals(x, triangles)
+    first, second = normals[hinges[:, 2]], normals[hinges[:, 3]]
+    across = np.linalg.norm(np.cross(first, second), axis=1)
+    return np.arctan2(across, (first * second).sum(axis=1))
+
+
 def _angles(x: np.ndarray, hinges: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    values = np.empty((len(x), len(hinges)))
-    for row, now in zip(values, x):
-        normals = area_normals(now, triangles)
-        first, second = normals[hinges[:, 2]], normals[hinges[:, 3]]
-        across = np.linalg.norm(np.cross(first, second), axis=1)
-        row[:] = np.arctan2(across, (first * second).sum(axis=1))
+    values = np.array([angles_at(now, hinges, triangles) for now in x]).reshape(len(x), len(hinges))
     return _largest_at_ends(values, hinges[:, :2], x.shape[1])
 
 

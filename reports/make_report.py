@@ -20,6 +20,7 @@ from typing import Any
 
 sys.dont_write_bytecode = True
 
+from angle_spectrum import plot_angle_spectrum  # noqa: E402
 from chromium import NoBrowser, find_browser  # noqa: E402
 from case_pictures import make_pictures  # noqa: E402
 from case_plots import plot_diagnostics  # noqa: E402
@@ -177,7 +178,8 @@ def draw_case(entry: CaseEntry, figures: Path, most: int) -> CaseView:
         view.case = load_case(entry.path)
         view.row = make_pictures(view.case, name, figures)
         view.turning = make_field_view(view.case, name, figures, most)
-        view.plots = plot_contacts(view.case, name, figures) + plot_diagnostics(view.case, name, figures)
+        view.plots = (plot_contacts(view.case, name, figures) + plot_angle_spectrum(view.case, name, figures)
+                      + plot_diagnostics(view.case, name, figures))
     except Unreadable as error:
         return CaseView(entry, view.anchor, problem=f"{entry.path.name} could not be read: {error}")
     except Exception as error:  # a damaged file may hold anything

@@ -20,6 +20,7 @@ import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib import image  # noqa: E402
 
+from angle_spectrum import folded_beyond, plot_angle_spectrum  # noqa: E402
 from chromium import Browser  # noqa: E402
 from camera import choose_camera  # noqa: E402
 from case_fields import all_values, edges_of, fields_of, most_telling  # noqa: E402
@@ -150,6 +151,12 @@ class Fields(WithCase):
         a, b = (np.cross(*edges) for edges in (([1, 0, 0], [0, 1, 0]), ([0, 1, 1], [-1, 0, 1])))
         between = np.arccos(a @ b / np.linalg.norm(a) / np.linalg.norm(b))
         np.testing.assert_allclose(angle, [0.0, between, between, 0.0])   # the hinge is that of particles 1 and 2
+
+    def test_spectrum_counts_what_is_folded_as_far_or_farther(self) -> None:
+        beyond = folded_beyond(np.array([0.0, 10.0, 10.0, 90.0, np.nan]))
+        half_degrees = [0, 20, 21, 180, 181]
+        np.testing.assert_allclose(beyond[half_degrees], [1.0, 0.75, 0.25, 0.25, 0.0])
+        self.assertEqual(plot_angle_spectrum(self.case(), "few", self.root), [])   # of one hinge
 
     def test_what_is_roundings_is_no_field(self) -> None:
         with h5py.File(self.path, "r+") as file:
