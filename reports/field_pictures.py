@@ -26,6 +26,7 @@ class FieldView:
     """A picture coloured by a field (None: by its two sides), and the data of the view that begins with it."""
     picture: str                    # WebP as a data URI
     size: tuple[int, int]           # pixels
+    share: float                    # of the height of all that the camera sees
     time: float                     # [s]
     row: int                        # of the view's frames
     field: Field | None
@@ -47,14 +48,24 @@ def make_field_view(case: Case, name: str, folder: Path, most: int) -> FieldView
     rows = [row for row, frame in enumerate(frames) if frame in chosen] or [0]
     field, row = most_telling(fields, rows, edges_of(case.triangles)) or (None, rows[len(rows) // 2])
     frame = frames[row]
-    picture = picture_of(scene.cloth(frame, field, row), scene.camera, scene.scenery(frame))
+    picture = without_empty_lines(picture_of(scene.cloth(frame, field, row), scene.camera, scene.scenery(frame)))
     if field is not None:
         _write_file(picture, field, float(case.frame_times[frame]), f"{name}-field", folder)
     data = make_view(scene, frames, fields, most)
-    return FieldView(picture_uri(picture), scene.camera.pixels, float(case.frame_times[frame]),
+    return FieldView(picture_uri(picture), picture.shape[1::-1], len(picture) / scene.camera.pixels[1],
+                     float(case.frame_times[frame]),
                      row if data is None else min(round(row / data.stride), data.frames - 1), field,
                      [] if field is None else field_ticks(field),
                      "" if field is None or field.unit == "1" else unit_text(field.unit), data)
+
+
+def without_empty_lines(picture: np.ndarray) -> np.ndarray:
+    """The picture without what is empty above and below, but for a rim: the camera sees all that the cloth ever reaches."""
+    seen = np.flatnonzero(picture[:, :, 3].any(axis=1))
+    if not len(seen):
+        return picture
+    rim = len(picture) // 50
+    return picture[max(seen[0] - rim, 0):seen[-1] + 1 + rim]
 
 
 def _write_file(picture: np.ndarray, field: Field, time: float, name: str, folder: Path) -> None:

@@ -87,7 +87,7 @@
     for (const part of containers) part.hidden = active && !kept.has(part);
     openGroups(active);
     document.documentElement.classList.toggle("filtered", active);
-    shown.textContent = active ? `${count} of ${entries.length} match` : `${entries.length} entries`;
+    shown.textContent = active ? `${count} of ${entries.length} match` : `${entries.length} ${entries.length === 1 ? "entry" : "entries"}`;
   }
 
   function openGroups(active) {

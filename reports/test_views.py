@@ -26,6 +26,7 @@ from camera import choose_camera  # noqa: E402
 from case_fields import all_values, edges_of, fields_of, most_telling  # noqa: E402
 from case_scene import CaseScene, slowed  # noqa: E402
 from cloth_picture import Cloth, Scenery, picture_of, webp_bytes  # noqa: E402
+from field_pictures import without_empty_lines  # noqa: E402
 from look import BACK, FRONT  # noqa: E402
 from made_up_run import HOSTILE, put, put_case  # noqa: E402
 from make_report import make_report  # noqa: E402
@@ -157,6 +158,12 @@ class Fields(WithCase):
         half_degrees = [0, 20, 21, 180, 181]
         np.testing.assert_allclose(beyond[half_degrees], [1.0, 0.75, 0.25, 0.25, 0.0])
         self.assertEqual(plot_angle_spectrum(self.case(), "few", self.root), [])   # of one hinge
+
+    def test_a_picture_is_cut_to_the_lines_that_show_something(self) -> None:
+        picture = np.zeros((200, 30, 4), dtype=np.uint8)
+        picture[90:100, 7, 3] = 1
+        np.testing.assert_array_equal(without_empty_lines(picture), picture[86:104])
+        self.assertEqual(without_empty_lines(picture[:50]).shape, (50, 30, 4))
 
     def test_what_is_roundings_is_no_field(self) -> None:
         with h5py.File(self.path, "r+") as file:
