@@ -68,7 +68,7 @@ double energy_difference(const RunObserved& a, const RunObserved& b) {
   return worst.value();
 }
 
-/// Why the run without the part is no run of the same scene, in words; "" if it is. `of`: "without it" or "with it".
+/// Why the run without the part is no run of the same scene, in words; "" if it is.
 std::string reason(const RunObserved& without, const RunObserved& with, double moved, const OwnError& own) {
   if (!without.stopped.empty() && with.stopped.empty())
     return "without it the run does not come to its end: " + without.stopped;

@@ -215,7 +215,7 @@ NamedFinding lost_finding(const std::vector<Folded>& runs) {
            ""}};
 }
 
-/// Half the height of a cosine wave of this length [m] whose ends have come nearer by so much [m], by
+/// The height, from trough to crest, of a cosine wave of this length [m] whose ends have come nearer by so much [m], by
 /// bisection on its arc.
 double cosine_height(double arc, double shortening) {
   const double span = arc - shortening;

@@ -114,8 +114,8 @@ NamedFinding carried_errs_less(const std::vector<Pair>& pairs) {
       "level-sets-in-time.carried-errs-less",
       "Carried along with the body, phi errs by less than a half of what it errs if blended at the point.",
       {{worst.value(), 0.5, 0, "1",
-        "a half: then it saves a third of the frames at least, both errors falling with the interval "
-        "squared"},
+        "a half: then it saves more than a quarter of the frames, 1 - 1/sqrt(2), both errors falling with "
+        "the interval squared"},
        {{"time between frames", "s", column(pairs, &Pair::interval)},
         {"carried", "m", column(pairs, &Pair::carried)},
         {"blended", "m", column(pairs, &Pair::blended)}},

@@ -154,8 +154,8 @@ Figure sheet_figure(const std::string& name, const std::string& of) {
           {}};
 }
 
-/// The values worth a marker; whether there is any.
-bool add_curve(const std::string& method, const std::vector<double>& as, std::vector<double> values,
+/// The values worth a marker, if there is any.
+void add_curve(const std::string& method, const std::vector<double>& as, std::vector<double> values,
                Figure& figure) {
   bool any = false;
   for (double& value : values) {
@@ -163,7 +163,6 @@ bool add_curve(const std::string& method, const std::vector<double>& as, std::ve
     any |= std::isfinite(value);
   }
   if (any) figure.curves.push_back({method, as, values, nan, {}});
-  return any;
 }
 
 void add_figures(const Subject& subject, const DampedMotion& sheet, Tier tier, StudyResult& result) {

@@ -99,7 +99,7 @@ void add_zones(const Subject& subject, StudyResult& result) {
     Work work;
     for (const unsigned seed : {31u, 32u, 33u}) {
       Scene scene = layered_scene({4, 0.003, 0.001, 3, {0.002, 0, 0.2, count, true}, seed});
-      const auto prepared = subject.prepare(scene);
+      const auto prepared = offered(subject.prepare, "prepare")(scene);
       const State start = start_state(scene);
       offered(subject.step, "step")(*prepared, std::vector<State>{start}, 0.004, work);
     }

@@ -74,8 +74,8 @@ EdgeErrors edge_errors(const Askew& body, const Solid& solid, double h) {
     const double angle = 180 / std::numbers::pi *
                          std::atan2(at.normal.cross(point.normal).norm(), at.normal.dot(point.normal));
     if (!(angle <= told_apart)) errors.reach = std::max(errors.reach, point.from_edge / h);
-    errors.worst_angle = std::max(errors.worst_angle, angle);
-    errors.worst_phi = std::max(errors.worst_phi, std::abs(at.phi));
+    keep_worst(errors.worst_angle, angle);
+    keep_worst(errors.worst_phi, std::abs(at.phi));
   }
   return errors;
 }

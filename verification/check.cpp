@@ -75,7 +75,7 @@ std::string_view name_of(Ruling ruling) {
 }
 
 Ruling ruling(const Verdict& verdict) {
-  if (std::isnan(verdict.measured) || std::isnan(verdict.uncertainty) || std::isnan(verdict.bound))
+  if (std::isnan(verdict.measured) || !(verdict.uncertainty >= 0) || !std::isfinite(verdict.bound))
     return Ruling::fails;
   if (verdict.measured + verdict.uncertainty <= verdict.bound) return Ruling::holds;
   if (verdict.measured - verdict.uncertainty > verdict.bound) return Ruling::fails;

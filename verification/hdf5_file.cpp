@@ -343,12 +343,6 @@ std::vector<int> Hdf5::read_ints(const std::string& dataset) const {
   return read_values<int>(id_, without_slash(dataset), H5T_NATIVE_INT);
 }
 
-Shape Hdf5::shape_of(const std::string& dataset) const {
-  const std::lock_guard held(library);
-  const Handle set = opened(id_, without_slash(dataset));
-  return shape_of_space(Handle(H5Dget_space(set), H5Sclose));
-}
-
 void Hdf5::flush() const {
   const std::lock_guard held(library);
   succeed(H5Fflush(id_, H5F_SCOPE_LOCAL), "what was buffered");

@@ -47,7 +47,6 @@ class Hdf5 {
   std::string read_text(const std::string& attribute) const;
   std::vector<double> read_doubles(const std::string& dataset) const;
   std::vector<int> read_ints(const std::string& dataset) const;
-  Shape shape_of(const std::string& dataset) const;
 
   /// Hands what was written so far to the operating system.
   void flush() const;

@@ -212,7 +212,6 @@ int evaluate_queries(const Options& options) {
 
 int run_bench(const Options& options) {
   RunRecord run = bench(options.quick ? 110'000 : 1'100'000);
-  const std::string command = run.tier;
   run.provenance = provenance(options.command);
   if (!options.out.empty()) {
     make_folder(options.out);

@@ -26,6 +26,8 @@ Expectation read_entry(const KeyTable& expect, const std::string& key, const Sce
   const auto entry = expect.table(key);
   const char* bound = quantity->sense == Sense::at_most ? "at_most" : "at_least";
   Expectation expectation{key, entry->number(bound), entry->text("why")};
+  if (quantity->sense == Sense::at_least && !(expectation.bound > 0))
+    throw InputError(entry->where(bound) + ": at_least must be > 0, for nothing falls short of less");
   entry->refuse_unused();
   if (expectation.why.empty())
     throw InputError(entry->where("why") + ": 'why' is empty; a bound carries its reason in words");

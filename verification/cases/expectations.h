@@ -38,8 +38,8 @@ Case case_of_file(const std::string& path, const std::vector<std::string>& overr
                   const LevelSetMakers& makers);
 
 /// Adds what is expected of every shipped case that does not say otherwise: that it runs to its end; where
-/// the forces have an energy and nothing is driven, that the energy is accounted for; and where the cloth is kept from
-/// itself, that it crosses itself in no frame.
+/// the forces have an energy and nothing is driven, that the energy is accounted for; that it repeats itself; and that
+/// the cloth crosses itself in no frame.
 Case with_usual_expectations(Case shown);
 
 /// The name of the finding: "case.<scene>.<key>", with hyphens.

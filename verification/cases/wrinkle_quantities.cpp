@@ -95,7 +95,8 @@ std::vector<Quantity> wrinkle_quantities() {
        "the same side.",
        Sense::at_least, nullptr, creases_at_end, without_bending},
       {"wrinkle_wavelength", "m",
-       "At the end wrinkles are this long at rest: twice the mean way from a crease to one to the other "
+       "At the end wrinkles are at most this long at rest: twice the mean way from a crease to one to the "
+       "other "
        "side.",
        Sense::at_most, nullptr, wavelength_at_end, without_bending},
   };

@@ -32,7 +32,7 @@ std::vector<Specimen> sheets_and_hinges() {
   return specimens;
 }
 
-/// For each particle the sum over its hinges of kd s |u_i| sum |u_j||v_j| times the thinness [N].
+/// For each particle the sum over its hinges of kd s max |u| sum |u_j||v_j| times the thinness [N].
 PerParticle damping_scale(const Specimen& specimen, const PerParticle3& v) {
   const BendingMaterial& material = *specimen.scene.bending;
   PerParticle scale = PerParticle::Zero(v.cols());

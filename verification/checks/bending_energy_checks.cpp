@@ -36,7 +36,7 @@ Finding force_is_minus_gradient(const Subject& subject) {
   }
   return measured.judged(
       256,
-      "80 forces and two energies enter the balance, each good to a few roundings of its scale times "
+      "80 to 640 forces and two energies enter the balance, each good to a few roundings of its scale times "
       "the thinness of crumpled triangles, about 3; the quadrature's own error is the uncertainty");
 }
 

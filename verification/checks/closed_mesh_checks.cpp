@@ -226,7 +226,7 @@ Finding neighbours_are_told_apart(const Subject&) {
       {"edge shared, flat", {2, 1, 3}, false},
       {"edge shared, folded flat onto the other", {2, 1, 4}, true},
       {"edge shared, folded", {2, 1, 5}, false},
-      {"vertex shared, touching at it only",
+      {"vertex shared, an edge over the other",
        {0, 5, 3},
        true},  // 3 is in the plane, but 0-3 runs over the base
       {"vertex shared, through the other", {0, 5, 6}, true},

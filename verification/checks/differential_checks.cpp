@@ -55,7 +55,8 @@ Finding hinge_is_second_derivative(const Subject&) {
   }
   return measured.judged(
       16,
-      "an entry is a sum of four products of a dozen factors: 48 roundings of either sign add up to some 7, twice that "
+      "an entry is a sum of four products of a dozen factors: 48 roundings of either sign add up to some 7, "
+      "twice that "
       "is allowed; a normal's rounding is magnified by the triangle's thinness, its derivative's once more");
 }
 
@@ -107,12 +108,13 @@ Finding matches_differences(const Subject& subject) {
     const Differences differences = differences_of(Probe(subject, specimen.scene), specimen.state);
     const double scale = largest_entry(differences.K);
     const Matrix difference = stiffness_of(specimen, Definiteness::exact) - differences.K;
-    measured.see(specimen.name, largest_entry(difference) / scale);
+    measured.see(specimen.name, {largest_entry(difference) / scale, differences.uncertainty / scale});
   }
-  return measured.judged(
-      1e-5,
-      "differences at steps of 1e-4 of the cloth, extrapolated twice, err by the sixth power of the "
-      "step over a triangle's height, about 1e-6; a missing or wrong term is of order 1");
+  return measured.judged(1e-5,
+                         "a hundred thousandth leaves room for the rounding of differences at steps of 1e-4 "
+                         "of the cloth, magnified "
+                         "by thin triangles; how far two extrapolations disagree is added; a missing or "
+                         "wrong term is of order 1");
 }
 
 Finding is_symmetric(const Subject&) {

@@ -125,7 +125,7 @@ Finding diagnostics_finding(const Subject&) {
     errors.push_back(
         row_error(row, sums, damping_work, std::abs(damping_work) + h * std::abs(sums.damping_power)));
     worst.see(errors.back());
-    worst.see((row.time - run.frames[n].time) / epsilon);
+    worst.see(std::abs(row.time - run.frames[n].time) / epsilon);
     const State& begun_at = run.frames[n - (n > 0)];
     worst.see(std::abs(row.step_over_elastic_limit - row.step / elastic_limit(system, begun_at)) / epsilon);
     worst.see(std::abs(row.step - (n == 0 ? 0 : h)) / (epsilon * 9 * h));
@@ -178,7 +178,7 @@ std::vector<Check> energy_checks() {
       {"dynamics.diagnostics-are-as-defined",
        "Energies, momenta and the work of damping that the reference reports are the sums that define them.",
        "BMF03 sections 3 and 4", diagnostics_finding}};
-  add_for_each_integrator(
+  add_for_each_scheme(
       list,
       {"dynamics.energy-balance-closes",
        "on a damped sheet of the reference, energy less the work of damping stays to second order.",

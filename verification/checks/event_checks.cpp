@@ -164,7 +164,7 @@ Finding object_events_are_hit(const Subject&) {
   return measured.judged(0, "the state that ends at an event has its time to the bit");
 }
 
-/// A motion that turns and swings, between two times of which one is a frame's, but for a rounding.
+/// A motion that drifts and swings, between two times of which one is a frame's, but for a rounding.
 Finding path_is_kept(const Subject&) {
   System system = led_spring();
   Motion& motion = system.led.front().motion;

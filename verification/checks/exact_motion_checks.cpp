@@ -124,17 +124,16 @@ Finding no_drift_finding(const Subject&, const std::string& integrator) {
 std::vector<Check> exact_motion_checks() {
   const std::string source = "BMF03 section 3";
   std::vector<Check> list;
-  add_for_each_integrator(list,
-                          {"dynamics.free-fall-is-exact", "free fall is exact for any steps.", source, {}},
-                          free_fall_finding);
-  add_for_each_integrator(
+  add_for_each_scheme(list, {"dynamics.free-fall-is-exact", "free fall is exact for any steps.", source, {}},
+                      free_fall_finding);
+  add_for_each_scheme(
       list,
       {"dynamics.steady-rotation",
        "the length of a steadily turning stretched pair of the reference is kept to second order.",
        source,
        {}},
       rotation_finding);
-  add_for_each_integrator(
+  add_for_each_scheme(
       list,
       {"dynamics.steady-rotation-does-not-drift",
        "the length of a turning pair of the reference deviates no more after sixty turns than after six.",

@@ -84,7 +84,8 @@ Finding hinge_is_derivative(const Subject&) {
     }
   return measured.judged(
       16,
-      "an entry is a sum of eight products of a dozen factors: a hundred roundings of either sign add up to some 10; a "
+      "an entry is a sum of eight products of a dozen factors: a hundred roundings of either sign add up to "
+      "some 10; a "
       "normal's rounding is magnified by the triangle's thinness, its derivative's once more");
 }
 
@@ -122,10 +123,10 @@ Finding matches_differences(const Subject& subject) {
       measured.see(described(sheet, material),
                    largest_entry(derivative_of(sheet) - expected) / largest_entry(expected));
     }
-  return measured.judged(
-      1e-5,
-      "differences at steps of 1e-4 of the cloth, extrapolated, err by the fourth power of the step over a "
-      "triangle's height, about 1e-6; a missing or wrong term is of order 1");
+  return measured.judged(1e-5,
+                         "a hundred thousandth leaves room for the rounding of differences at steps of 1e-4 "
+                         "of the cloth, magnified "
+                         "by thin triangles; a missing or wrong term is of order 1");
 }
 
 /// Damping force and derivative of these springs at s, side by side: 3N x (3N + 1).

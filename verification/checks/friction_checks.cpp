@@ -127,7 +127,7 @@ Finding belt_finding(const Subject& subject, const std::string& integrator) {
           ""};
 }
 
-/// A turntable at omega: particles near its axis ride, those beyond mu g/omega^2 do not.
+/// A turntable at omega: particles within mu g/omega^2 of its axis ride.
 Finding turntable_finding(const Subject& subject, const std::string& integrator) {
   const double mu = 0.9, omega = 3.1, coarse = 1. / 60;
   Slope table = slope(0, mu, Vector3::Zero());
@@ -162,31 +162,31 @@ Finding turntable_finding(const Subject& subject, const std::string& integrator)
 
 std::vector<Check> friction_checks() {
   std::vector<Check> list;
-  add_for_each_integrator(list,
-                          {"contact.a-slope-holds-or-lets-go",
-                           "a block on a slope stays to rounding if tan(al) <= mu, and else slides by "
-                           "g (sin(al) - mu cos(al)) t^2/2.",
-                           "mechanics",
-                           {}},
-                          resting_slope);
-  add_for_each_integrator(list,
-                          {"contact.a-moving-slope-holds-or-lets-go",
-                           "the same on a slope that moves at a constant velocity.",
-                           "mechanics",
-                           {}},
-                          moving_slope);
-  add_for_each_integrator(list,
-                          {"contact.a-belt-takes-along",
-                           "laid on a running belt, a block slides for U/(mu g) and is carried from then on.",
-                           "mechanics",
-                           {}},
-                          belt_finding);
-  add_for_each_integrator(list,
-                          {"contact.a-turntable-carries-without-drift",
-                           "a point that sticks to a turning object stays where it is on it.",
-                           "mechanics",
-                           {}},
-                          turntable_finding);
+  add_for_each_scheme(list,
+                      {"contact.a-slope-holds-or-lets-go",
+                       "a block on a slope stays to rounding if tan(al) <= mu, and else slides by "
+                       "g (sin(al) - mu cos(al)) t^2/2.",
+                       "mechanics",
+                       {}},
+                      resting_slope);
+  add_for_each_scheme(list,
+                      {"contact.a-moving-slope-holds-or-lets-go",
+                       "the same on a slope that moves at a constant velocity.",
+                       "mechanics",
+                       {}},
+                      moving_slope);
+  add_for_each_scheme(list,
+                      {"contact.a-belt-takes-along",
+                       "laid on a running belt, a block slides for U/(mu g) and is carried from then on.",
+                       "mechanics",
+                       {}},
+                      belt_finding);
+  add_for_each_scheme(list,
+                      {"contact.a-turntable-carries-without-drift",
+                       "a point that sticks to a turning object stays where it is on it.",
+                       "mechanics",
+                       {}},
+                      turntable_finding);
   return list;
 }
 

@@ -33,7 +33,7 @@ Scene layered_scene(const Layered& wanted) {
 }
 
 PerParticle3 kept_apart(const Subject& subject, const Scene& scene, const StepAsked& asked) {
-  const auto prepared = subject.prepare(scene);
+  const auto prepared = offered(subject.prepare, "prepare")(scene);
   const State s = start_state(scene);
   const Span span{0, asked.moves ? asked.step : 0, asked.step};
   return offered(subject.avoid_itself, "avoid_itself")(*prepared, span, s, s.v);

@@ -55,8 +55,6 @@ std::string refusal(const std::function<void()>& act) {
     act();
   } catch (const InputError& error) {
     return error.what();
-  } catch (const std::exception&) {
-    return "";
   }
   return "";
 }

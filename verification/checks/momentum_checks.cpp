@@ -167,24 +167,24 @@ Finding truncated_finding(const Subject&) {
 std::vector<Check> momentum_checks() {
   const std::string source = "BMF03 sections 3 and 4";
   std::vector<Check> list;
-  add_for_each_integrator(
+  add_for_each_scheme(
       list, {"dynamics.time-reverses", "an undamped sheet runs back the way that it came.", source, {}},
       reversal_finding);
-  add_for_each_integrator(
+  add_for_each_scheme(
       list,
       {"dynamics.linear-momentum-is-kept",
        "a free damped sheet keeps its linear momentum to rounding, however loosely it is solved.",
        source,
        {}},
       linear_finding);
-  add_for_each_integrator(list,
-                          {"dynamics.angular-momentum-is-kept.undamped",
-                           "a free undamped sheet keeps its angular momentum to rounding.",
-                           source,
-                           {}},
-                          undamped_angular_finding);
+  add_for_each_scheme(list,
+                      {"dynamics.angular-momentum-is-kept.undamped",
+                       "a free undamped sheet keeps its angular momentum to rounding.",
+                       source,
+                       {}},
+                      undamped_angular_finding);
   std::vector<Check> damped;
-  add_for_each_integrator(
+  add_for_each_scheme(
       damped,
       {"dynamics.angular-momentum-is-kept.damped",
        "a free damped sheet keeps its angular momentum to rounding, however loosely it is solved.",

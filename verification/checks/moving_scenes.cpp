@@ -156,9 +156,8 @@ std::string smallest_defect(double bound, const std::string& scale) {
 
 double largest_speed(const PerParticle3& v) { return largest_difference(v, PerParticle3::Zero(3, v.cols())); }
 
-void add_for_each_integrator(
-    std::vector<Check>& list, const Check& pattern,
-    const std::function<Finding(const Subject&, const std::string& integrator)>& run) {
+void add_for_each_scheme(std::vector<Check>& list, const Check& pattern,
+                         const std::function<Finding(const Subject&, const std::string& integrator)>& run) {
   for (const Integrator& integrator : paper_schemes()) {
     const std::string name(integrator.name);
     Check check = pattern;

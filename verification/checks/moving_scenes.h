@@ -81,9 +81,8 @@ std::string smallest_defect(double bound, const std::string& scale);
 
 double largest_speed(const PerParticle3& v);  // m/s
 
-/// One check for each row of the table of integrators, its name ended by a dot and the row's name.
-void add_for_each_integrator(
-    std::vector<Check>& list, const Check& pattern,
-    const std::function<Finding(const Subject&, const std::string& integrator)>& run);
+/// One check for each of the paper's schemes A, B and C, its name ended by a dot and the scheme's.
+void add_for_each_scheme(std::vector<Check>& list, const Check& pattern,
+                         const std::function<Finding(const Subject&, const std::string& integrator)>& run);
 
 }  // namespace foldproof

@@ -115,7 +115,7 @@ double integrated(const oracles::RightHandSide& rhs, const std::vector<double>& 
   return solution.values[0][0];
 }
 
-/// f' = p (f - eps)/(phi + t^): the power law as a differential equation, from just beyond -t^, where f - eps is u^p.
+/// f' = p (f - eps)/(phi + t^): the power law as a differential equation, solved back from f(tau) = tau.
 Estimate power_map_by_equation(const oracles::Band& band, double phi) {
   const double whole = band.reach + band.deepest, climb = band.reach - band.nearest, p = whole / climb;
   // backwards from f(tau) = tau, with s = tau - phi growing

@@ -189,7 +189,7 @@ std::vector<Check> oscillator_checks() {
   const std::string source = "BMF03 section 3", derived = "derived from BMF03 section 3";
   std::vector<Check> list;
   const auto add = [&](const char* name, const char* claim, const std::string& from, const auto& run) {
-    add_for_each_integrator(list, {name, claim, from, {}}, run);
+    add_for_each_scheme(list, {name, claim, from, {}}, run);
   };
   add("dynamics.undamped-oscillator-is-verlet", "the reference's undamped oscillator is velocity Verlet's.",
       source, verlet_finding);

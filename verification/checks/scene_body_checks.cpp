@@ -71,7 +71,7 @@ Finding octree_finding(const Subject&) {
   return measured.judged(2, "an octree keeps its tolerance, to which hanging nodes add another");
 }
 
-/// Where the point X of the body goes, its axis through `base`, by another road than the reference takes: about the
+/// Where the point X of the body goes, by another road than the reference takes: about the
 /// centre of the arc, at R = height/angle beside the base.
 Vector3 bent(const Vector3& X, double angle, double height) {
   const double R = height / angle, phi = X.y() / R;

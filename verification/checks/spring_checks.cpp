@@ -116,7 +116,7 @@ Finding force_is_minus_gradient(const Subject& subject) {
   }
   return measured.judged(
       64,
-      "80 forces and two energies enter the balance, each good to a few roundings of its scale; the "
+      "80 to 640 forces and two energies enter the balance, each good to a few roundings of its scale; the "
       "quadrature's own error is the uncertainty");
 }
 

@@ -281,19 +281,19 @@ std::vector<Check> step_checks() {
        "Forces and the position-dependent terms of damping are evaluated twice a step, however many products "
        "a solve needs.",
        source, once_finding}};
-  add_for_each_integrator(list,
-                          {"dynamics.filters-act-on-the-moving-velocity",
-                           "the reference moves the cloth with exactly the velocity that the filters left, "
-                           "and filters the end velocity where the paper does.",
-                           source,
-                           {}},
-                          filter_finding);
-  add_for_each_integrator(list,
-                          {"dynamics.led-particles-follow-their-path",
-                           "led particles are on their path, with its velocity, after every step.",
-                           "our reading of BMF03 section 3",
-                           {}},
-                          led_finding);
+  add_for_each_scheme(list,
+                      {"dynamics.filters-act-on-the-moving-velocity",
+                       "the reference moves the cloth with exactly the velocity that the filters left, "
+                       "and filters the end velocity where the paper does.",
+                       source,
+                       {}},
+                      filter_finding);
+  add_for_each_scheme(list,
+                      {"dynamics.led-particles-follow-their-path",
+                       "led particles are on their path, with its velocity, after every step.",
+                       "our reading of BMF03 section 3",
+                       {}},
+                      led_finding);
   return list;
 }
 

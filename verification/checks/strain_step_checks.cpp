@@ -291,12 +291,12 @@ Finding orders_finding(const Subject&) {
 
 std::vector<Check> strain_step_checks() {
   std::vector<Check> list;
-  add_for_each_integrator(list,
-                          {"strain.steps-keep-limits",
-                           "the positions that a step ends at keep the strain limits, to the tolerance.",
-                           source,
-                           {}},
-                          steps_finding);
+  add_for_each_scheme(list,
+                      {"strain.steps-keep-limits",
+                       "the positions that a step ends at keep the strain limits, to the tolerance.",
+                       source,
+                       {}},
+                      steps_finding);
   for (const Check& check : std::vector<Check>{
            {"strain.what-is-left-is-reported",
             "A step reports its sweeps, and the largest violation that they left.", source, report_finding},

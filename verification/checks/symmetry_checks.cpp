@@ -156,21 +156,21 @@ Finding frame_finding(const Subject& subject, const std::string& integrator) {
 
 std::vector<Check> symmetry_checks() {
   std::vector<Check> list;
-  add_for_each_integrator(list,
-                          {"dynamics.scaling-laws-hold",
-                           "units changed by powers of two give the same bits.",
-                           "dimensional analysis",
-                           {}},
-                          powers_finding);
-  add_for_each_integrator(list,
-                          {"dynamics.units-do-not-matter",
-                           "units changed by any factor give the same motion to rounding.",
-                           "dimensional analysis",
-                           {}},
-                          units_finding);
+  add_for_each_scheme(list,
+                      {"dynamics.scaling-laws-hold",
+                       "units changed by powers of two give the same bits.",
+                       "dimensional analysis",
+                       {}},
+                      powers_finding);
+  add_for_each_scheme(list,
+                      {"dynamics.units-do-not-matter",
+                       "units changed by any factor give the same motion to rounding.",
+                       "dimensional analysis",
+                       {}},
+                      units_finding);
   list.push_back({"dynamics.results-are-the-same-bits-twice",
                   "Two runs from the same start end with the same bits.", "reproducibility", twice_finding});
-  add_for_each_integrator(
+  add_for_each_scheme(
       list,
       {"dynamics.translation-rotation-invariance",
        "a turned, shifted and uniformly moving start gives the turned, shifted and moved result.",

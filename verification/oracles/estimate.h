@@ -3,7 +3,7 @@
 namespace foldproof::oracles {
 
 /// What an oracle answers: a number and how far the truth may lie from it, both in the same unit. The
-/// uncertainty is never negative; a verdict adds it to the bound instead of trusting the value.
+/// uncertainty is never negative; a verdict adds it to what was measured, against the same bound.
 struct Estimate {
   double value = 0;
   double uncertainty = 0;
