@@ -8,7 +8,7 @@ namespace foldproof {
 
 /// What the residual is compared with, both in the mass-weighted norm |r|^2 = sum_i |r_i|^2/m_i [kg m^2/s^2]:
 enum class ResidualScale {
-  momentum,         // the right-hand side, sqrt(sum m_i |b_i|^2): an error relative to the velocity
+  momentum,         // the right-hand side M w0, sqrt(sum m_i |w0_i|^2): an error relative to the velocity
   initial_residual  // of the explicit guess: an error relative to what damping changes, in every inertial frame
 };
 

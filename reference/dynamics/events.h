@@ -17,7 +17,8 @@ std::vector<double> sticking_event_times(const System& system, double start);
 
 /// The system of a run from event to event. Between two of them every prescribed motion is smooth; that of led
 /// particles goes on smoothly beyond either, so that no step has to ask on which side of an event it is. Objects are
-/// asked for their mean velocity over a step, which knows no sides.
+/// asked for their mean velocity over a step, which knows no sides, and at its end for that of the instant, of which an
+/// event gives the later side.
 class Events {
  public:
   /// Of a run from `start` [s]. Events closer together than `tolerance` [s] are taken as one.

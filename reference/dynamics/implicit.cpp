@@ -118,7 +118,7 @@ Trial improved(const System& system, const Stage& stage, const Trial& from, Work
 }
 
 /// The stage equation with the forces linearised about the state `now`, the elastic derivative semidefinite:
-///   (M - s D - s^2 K) dw = s (F + D w + K (X + s w - x)),   less the impulse that prescribed particles ask for
+///   (M - s D - s^2 K) dw = s (F + D w + K (X + s w - x)) - M (w - V),   less what prescribed particles ask for
 /// w: on entry the velocity to start from with the known velocities written in, on exit w + dw.
 Solve solve_linearised(const System& system, const State& now, const Stage& stage,
                        const SolverSettings& settings, PerParticle3& w, Work& work) {
@@ -130,7 +130,7 @@ Solve solve_linearised(const System& system, const State& now, const Stage& stag
   PerParticle3 moved = stage.X - now.x + stage.s * w;
   stiffness.add_product(moved, force);
   ++work.damping_products, ++work.stiffness_products;
-  PerParticle3 impulse = stage.s * force;
+  PerParticle3 impulse = stage.s * force - (w - stage.V) * system.mass.asDiagonal();
   for (const PrescribedParticle& p : system.led) impulse.col(p.particle).setZero();
 
   PerParticle3 dw;

@@ -11,7 +11,7 @@
 
 namespace foldproof {
 
-/// What a method takes at the end of its step. mixed: the damping in the velocity alone, as the paper does;
+/// Which forces a method takes implicitly. mixed: the damping in the velocity alone, as the paper does;
 /// fully_explicit: nothing, so that damping limits its step; fully_implicit: the elastic forces too.
 enum class Family { mixed, fully_explicit, fully_implicit };
 

@@ -214,6 +214,10 @@ void run_to(double target, Run& run) {
       const double limit = asks_for_limit ? elastic_limit(system, now) : 0;
       const double h =
           even_part(left, step_allowed(system, integrator, history.past(), schedule.step, limit));
+      if (!(now.time + h > now.time)) {
+        outcome.stop = Stop{"a step became too short to advance the time", now.time, number, -1};
+        return;
+      }
       Work work;
       work.bonds = long(now.memory.bonds.size());
       State next = integrator.step(system, history.past(), h, work);

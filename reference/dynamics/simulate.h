@@ -50,7 +50,7 @@ struct Diagnostics {
 struct Stop {
   std::string reason;
   double time;   // of the last good state [s]
-  long step;     // number of the step that failed, from 1
+  long step;     // number of the step that failed, from 1; 0: the start
   int particle;  // the worst particle, -1 if none is to blame
 };
 

@@ -29,7 +29,7 @@ ClothTree make_cloth_tree(const TriangleMesh& mesh);
 
 /// Pairs of features without a common particle whose boxes, over their straight way from x to `end` and widened by
 /// margin/2 on all sides, overlap: all that come nearer than `margin` on their way are among them. In an order that
-/// the tree and the boxes fix.
+/// the tree alone fixes.
 ///   moved   N, or empty: pairs of which no particle is marked are left out
 std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& x, const PerParticle3& end,
                                     double margin, const std::vector<char>& moved = {});

@@ -102,12 +102,13 @@ struct NormalEquations {
   }
 };
 
-/// The least solution, and a basis of the motions that the equations leave open. scale: of an eigenvalue that is one.
+/// The least solution, and a basis of the motions that the equations leave open.
 struct Solved {
   Motion6 motion;
   Eigen::Matrix<double, 6, Eigen::Dynamic> open;
 };
 
+/// scale: the size of an eigenvalue that is none by rounding alone.
 Solved solve(const Matrix6& left, const Motion6& right, double scale) {
   const SymmetricModes modes = symmetric_modes(left);
   const double cut = no_motion * scale;

@@ -54,7 +54,7 @@ StrainLimiter make_strain_limiter(const StrainLimits& limits, const std::vector<
 struct StrainSweeps {
   int sweeps = 0;  // the one that found nothing to do included
   double left =
-      0;  // largest violation of a limit, over the rest length; <= the tolerance unless sweeps ran out [1]
+      0;  // largest violation of a limit, over the rest length; <= the tolerance unless sweeps ran out, or what is left is held at both ends [1]
   long unreachable = 0;  // springs of the last sweep that no impulse along them brings within their limits
 };
 

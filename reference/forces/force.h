@@ -31,8 +31,8 @@ struct CustomForce {
   double energy(const State& s) const { return potential ? potential(s) : 0; }
 };
 
-/// One force, split as BMF03 section 3 needs it: an elastic or external part that depends on time and
-/// positions, an energy.
+/// One force: an elastic or external part that depends on time and positions, and an energy. Damping is collected
+/// apart, by damping_at.
 template <class F>
 concept ForceModel = requires(const F force, const State s, PerParticle3 f) {
   force.add_elastic(s, f);  // f += F_e(t, x); adds and clears nothing

@@ -11,14 +11,12 @@
 
 namespace foldproof {
 
-//   a ----- b     d = x_b - x_a, d^ = d/|d|, L0 rest length, A_e full rest areas of the edge's one or two
-//   triangles
+//   a ----- b     d = x_b - x_a, d^ = d/|d|, L0 rest length, A_e full rest areas of its triangles
 //
 //   F_a =  Y (A_e/L0) (|d|/L0 - 1) d^  +  kd_s (A_e/L0^2) ((v_b - v_a).d^) d^,     F_b = -F_a
 //
-// so that the spring's stiffness is Y A_e/L0^2 [N/m]. On an equilateral mesh the sheet has Young's modulus Y
-// [N/m] and
-// Poisson ratio 1/3 exactly; elsewhere effective ones.
+// so that the spring's stiffness is Y A_e/L0^2 [N/m]. On an equilateral mesh the sheet has Young's modulus Y [N/m]
+// and Poisson ratio 1/3 exactly; elsewhere effective ones.
 struct Spring {
   int a, b;
   double rest_length;  // L0 [m]

@@ -27,7 +27,7 @@ Interval interval_at(const DeformingBody& body, double t) {
   return {&now, &*next, (t - now.time) / duration, duration};
 }
 
-/// The trilinear displacement at p; beyond the cube that of its nearest point. phi picks the part, as Octree::at.
+/// The trilinear displacement at p; beyond the cube that of its nearest point.
 Vector3 displacement_at(const Octree& tree, const std::vector<BranchNodes<Vector3>>& nodes,
                         const Vector3& p) {
   const OctreeSettings& cube = tree.settings;
@@ -44,13 +44,13 @@ Vector3 displacement_at(const Octree& tree, const std::vector<BranchNodes<Vector
   return sum;
 }
 
-/// A frame's displacement over the whole interval, `ahead` 1 for the frame at its start and -1 for the one at its
-/// end, at the place X that a share of it takes to p:   X + ahead share u(X) = p
-/// By iteration, which contracts where neighbouring points move by less than their distance.
 struct Origin {
   Vector3 place, displacement;
 };
 
+/// A frame's displacement u over the whole interval, at the place X that a share of it takes to p:   X + share u(X) = p
+/// share: s for the interval's first frame, s - 1 for its last. By iteration, which contracts where neighbouring points
+/// move by less than their distance.
 Origin origin_of(const Octree& tree, const std::vector<BranchNodes<Vector3>>& u, const Vector3& p,
                  double share) {
   constexpr int most = 50;

@@ -35,14 +35,13 @@ PerParticle3 positions_at(const MeshSequence& sequence, double t);
 /// Throws InputError naming the file: none, one whose triangles differ from the first's, what read_obj refuses.
 MeshSequence read_obj_sequence(const std::string& folder, double interval);
 
-/// A frame's level set. Displacements are those of the surface point nearest to each node: mapped to the inside,
-/// and constant along N outside.
+/// A frame's level set. The displacement at a node is that of the surface point nearest to it, so that it is constant
+/// along N.
 struct DeformingFrame {
   double time;  // s
   Octree field;
-  std::vector<BranchNodes<Vector3>> to_next;  // of each channel, up to the next frame; last frame: none [m]
-  std::vector<BranchNodes<Vector3>>
-      from_previous;  // of each channel, since the frame before; first: none [m]
+  std::vector<BranchNodes<Vector3>> to_next;  // one a branch, up to the next frame; last frame: none [m]
+  std::vector<BranchNodes<Vector3>> from_previous;  // one a branch, since the frame before; first: none [m]
   long nodes = 0,
        searches = 0;  // while it was built: distinct nodes, and those whose nearest point was looked for
 };

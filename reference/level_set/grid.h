@@ -43,7 +43,7 @@ struct Grid {
 
   /// Inside the lattice: the trilinear value, and the trilinear blend of the nodes' central differences (one-
   /// sided at the lattice's border), made a unit vector. Beyond it: the distance to a point of the surface that a
-  /// few rounds of search from the border find; no less than the true distance, and without a jump at
+  /// few rounds of search from the border find; no less than the true distance but for the grid's own error, and without a jump at
   /// the border. NaN for p that is not finite.
   Distance at(const Vector3& p) const;
   /// The trilinear value and the gradient of the trilinear interpolant, which jumps from cell to cell and is

@@ -26,7 +26,7 @@ struct ObjectPoint {
   double phi = std::numeric_limits<double>::infinity();  // at the span's start, negative inside [m]
   Vector3 normal = Vector3::Zero();                      // N, outward, at the span's start [1]
   Vector3 velocity = Vector3::Zero();  // v, of the object there: its mean over the span, so that a point that
-      // takes it rides along exactly; at the span's time if that is all [m/s]
+      // takes it rides along exactly; where the span is an instant, that of then [m/s]
   int part = -1;        // which of the objects; -1: there is none
   double friction = 0;  // mu, of that object [1]
 };
@@ -104,8 +104,8 @@ class ObjectsDuring {
   /// What each object says about p, in their order; overwritten by the next call.
   std::span<ObjectPoint> at(const Vector3& p);
 
-  /// Whether the last answers show, without asking, that no object is as near to p as it and a point that moves
-  /// at v [m/s] can come to each other in `time` [s].
+  /// True if the last answers prove, without asking, that a point at p with velocity v [m/s] cannot reach any object
+  /// within `time` [s].
   bool out_of_reach(const Vector3& p, const Vector3& v, double time) const;
 
  private:

@@ -51,7 +51,11 @@ OctreeLeaf leaf_at(const Octree& tree, const Vector3& p) {
   const int cells = 1 << cube.depth;
   const Vector3 scaled = (p - cube.corner) * (1 / cube.width);
   std::array<int, 3> finest;
-  for (int axis = 0; axis < 3; ++axis) finest[axis] = std::clamp(int(scaled[axis] * cells), 0, cells - 1);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double place =
+        scaled[axis] * cells;  // that of a NaN is as good as any: what is interpolated there is NaN
+    finest[axis] = place >= cells ? cells - 1 : place > 0 ? int(place) : 0;
+  }
   const auto& [x, y, z] = finest;
   const int first = tree.start_level, drop = cube.depth - first;
   const OctreeStart start = tree.starts[std::size_t(((z >> drop) << first | y >> drop) << first | x >> drop)];
@@ -92,18 +96,6 @@ PartsAt parts_at(const Octree& tree, const Vector3& p) {
     see_part(at, q == p ? distance : beyond_cube(distance, q, p), tree.part[k]);
   }
   return at;
-}
-
-Distance OctreePart::at(const Vector3& p) const {
-  const Vector3 q = clamped_to_cube(tree->settings, p);
-  const OctreeLeaf leaf = leaf_at(*tree, q);
-  const OctreeBranch& branch = tree->branches[leaf.branch];
-  for (int k = branch.channels; k < branch.channels + branch.parts; ++k) {
-    if (tree->part[k] != part) continue;
-    const Distance distance = distance_in(*tree, k, leaf);
-    return q == p ? distance : beyond_cube(distance, q, p);
-  }
-  return nowhere;
 }
 
 BranchNodes<NodeFlags> node_flags(const Octree& tree, int b) {

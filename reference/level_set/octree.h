@@ -68,9 +68,9 @@ struct Octree {
   Distance at(const Vector3& p) const;
 };
 
-/// Covers the union of bodies, which must lie inside the cube. The interpolant misses by the tolerance at most at
-/// the edge, face and cell midpoints where it was compared; a constrained node adds what its coarse neighbour
-/// misses. Neighbours, also across edges and corners, differ by one level at most.
+/// Covers the union of bodies, which must lie inside the cube. Within the band the interpolant misses by the tolerance
+/// at most at the edge, face and cell midpoints where it was compared, unless the cells there are the finest; beyond the
+/// band by `beyond` times the distance more; a constrained node adds what its coarse neighbour misses. Neighbours, also across edges and corners, differ by one level at most.
 /// Throws InputError: no bodies, a setting out of range, a body that reaches the cube's boundary.
 Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings);
 
@@ -115,14 +115,6 @@ std::size_t bytes(const Octree& tree);  // that the tree occupies
 struct OctreeSolid {
   std::shared_ptr<const Octree> tree;
   Distance at(const Vector3& p) const { return tree->at(p); }
-};
-
-/// One part of a union on one octree: objects made of its parts find out by themselves who is pinched. `nowhere`,
-/// infinitely far, where the part is neither nearest nor within reach.
-struct OctreePart {
-  std::shared_ptr<const Octree> tree;
-  int part;
-  Distance at(const Vector3& p) const;
 };
 
 }  // namespace foldproof

@@ -35,7 +35,7 @@ struct Contents {
 
 std::string quoted(std::string_view token) { return "'" + std::string(token) + "'"; }
 
-// Ten times the largest cloth that the program's speed is measured on.
+// Twice the largest cloth that the program's speed is measured on.
 constexpr size_t most_vertices = 2'000'000, most_triangles = 4'000'000;
 constexpr size_t most_names = 16;  // of one record g or o
 

@@ -29,7 +29,7 @@ TriangleSoup read_obj_soup(const std::string& path);
 /// Triangles by the name of their group, as read_obj numbers them: those of the faces after 'g NAME ...' or 'o NAME', until
 /// the next record of the same letter. A name that stands twice is one group; a face may be of several.
 using FaceGroups = std::map<std::string, std::vector<int>>;
-/// Throws InputError "FILE:LINE: ..." for what read_obj refuses of the text, and for more than 100 names in a record.
+/// Throws InputError "FILE:LINE: ..." for what read_obj refuses of the text, and for more than 16 names in a record.
 FaceGroups read_obj_groups(const std::string& path);
 
 /// The same three of a file's text; `file` names it in messages.

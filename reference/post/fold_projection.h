@@ -29,7 +29,7 @@ enum class Fate {
   untouched,  // not a bit of it changed: it is farther out than tau, or as far out as the map wants it
   moved,      // it is where the map wants it, to the tolerance
   pinched,    // left alone, not a bit of it changed
-  unfinished  // it is at the place nearest to that which was met, as between objects that leave it no room
+  unfinished  // left at the place met on its way whose phi was nearest to f, as between objects that leave it no room
 };
 
 struct ProjectedCloth {
@@ -43,7 +43,7 @@ struct ProjectedCloth {
 };
 
 /// Projects the points x (3 x N [m]) of the cloth at `time` [s]. phi is that of the union of the objects, the min over
-/// them. A point moves by (f - phi) N, with phi and N asked anew after each move, since a phi that is interpolated, or
+/// them. A point moves by (f + tolerance/2 - phi) N, with phi and N asked anew after each move, since a phi that is interpolated, or
 /// the union's, need not rise evenly along N. Arrived points are never on the inner side of f: what is brought to
 /// the surface is not inside, not even by a rounding. Throws InputError for a band, a tolerance or a cap that means
 /// nothing.

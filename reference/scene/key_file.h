@@ -67,8 +67,8 @@ class KeyTable {
 };
 
 /// Parses TOML text; `file` names it in messages. Throws InputError "file:line: ..." for a syntax error, for tables and
-/// lists in more than 32 others, and, outside of quotes and comments, for a line with more than 200 dots and a character
-/// outside ASCII.
+/// lists in more than 32 others, and, outside of quotes and comments, for a line with more than 200 dots, and for a
+/// character outside ASCII.
 std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file);
 
 /// Overrides "a.b.c=value" (value as in TOML; what does not parse as such is taken for a string; a number in

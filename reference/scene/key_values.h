@@ -45,7 +45,7 @@ auto placed_refusal(const std::string& where, const Make& make) {
 }
 
 /// The closed-form motion of [[hold]] and [[object]]: velocity, amplitude, frequency, phase, center,
-/// angular_velocity. At rest if none is given.
+/// angular_velocity, from, until. At rest if none is given.
 Motion read_motion(const KeyTable& keys);
 
 /// turn = { axis, angle }, in degrees; no rotation if there is none.

@@ -1,4 +1,4 @@
-// Which particles or triangles a table of a case names: by number, box, sphere or group.
+// Which particles or triangles a table of a case names: by number, box or sphere.
 #pragma once
 
 #include <string>

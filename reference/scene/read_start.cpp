@@ -48,8 +48,8 @@ void fold(const KeyTable& keys, PerParticle3& x) {
   const double gap = positive(keys, "gap");
   const Vector3 along = keys.vector_or("along", {1, 0, 0}).normalized(),
                 up = keys.vector_or("up", {0, 1, 0}).normalized();
-  if (!(std::abs(along.dot(up)) < 1e-9))
-    throw InputError(keys.where("up") + ": 'up' must be square to 'along'");
+  if (!(std::abs(along.dot(up)) < 1e-9 && along.norm() > 0 && up.norm() > 0))
+    throw InputError(keys.where("up") + ": 'up' must be square to 'along', and both be directions");
   const Eigen::RowVectorXd s = along.transpose() * x, height = up.transpose() * x;
   const double start = s.minCoeff(), length = s.maxCoeff() - start,
                turns = double(layers - 1) * std::numbers::pi * gap / 2;

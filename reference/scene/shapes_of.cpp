@@ -51,7 +51,10 @@ TriangleMesh read_sheet(const KeyTable& keys, const SceneLimits& limits) {
   const double in_a_cell = sheet.pattern == SheetPattern::criss_cross ? 4 : 3;  // three at most in the others
   refuse_many_triangles(keys, "columns", in_a_cell * sheet.columns * sheet.rows, limits);
   sheet.jitter = keys.number_or("jitter", 0);
-  sheet.seed = unsigned(keys.integer_or("seed", 1));
+  const long seed = keys.integer_or("seed", 1);
+  if (!(seed >= 0 && seed <= 4294967295))
+    throw InputError(keys.where("seed") + ": 'seed' must lie in 0 .. 4294967295");
+  sheet.seed = unsigned(seed);
   sheet.grading = keys.number_or("grading", 1);
   return make_sheet(sheet);
 }

@@ -182,7 +182,7 @@ Finding divergence_finding(const Subject&) {
     Worst leap;
     for (size_t k = 1; k < run.frames.size(); ++k)
       leap.see(largest_difference(run.frames[k].x, run.frames[k - 1].x) / size);
-    statements.add("in the two steps of no frame did a particle leap more than twice ten sizes",
+    statements.add("within a frame no particle moves more than 20 sizes in its two steps",
                    leap.value() <= 20);
     statements.add("earlier frames were delivered",
                    run.frames.size() >= 2 && long(run.frames.size()) == run.outcome.steps / 2 + 1);
@@ -251,6 +251,20 @@ Finding cap_finding(const Subject&) {
   return statements.finding("a cap of 13 steps");
 }
 
+Finding standstill_finding(const Subject&) {
+  const Scene scene = free_sheet();
+  State start = start_state(scene);
+  start.time = 1;
+  const Watched run = watched(build_system(scene), "B", start, {1.1, 0.01, {1e-17, 0.5, 0.1}, 20});
+  Statements statements;
+  add_common(statements, run);
+  statements.add("no step was made", run.outcome.steps == 0);
+  if (run.outcome.stop)
+    statements.add("the reason says too short",
+                   run.outcome.stop->reason.find("too short") != std::string::npos);
+  return statements.finding("fixed steps of 1e-17 s from t = 1 s on, where doubles lie 2e-16 s apart");
+}
+
 }  // namespace
 
 std::vector<Check> run_checks() {
@@ -271,6 +285,8 @@ std::vector<Check> run_checks() {
       {"dynamics.lost-triangle-stops-with-names",
        "A run of the reference that loses a triangle stops and names its particles.", stops,
        lost_triangle_finding},
+      {"dynamics.steps-too-short-stop", "A run whose steps no longer advance the time stops and says so.",
+       stops, standstill_finding},
       {"dynamics.step-cap-stops", "A run of the reference that reaches its cap on steps stops and says so.",
        stops, cap_finding},
   };

@@ -235,6 +235,7 @@ Finding folded_refused_finding(const Subject&) {
                         {folded(1001), {"layers", "2 .. 1000"}},
                         {"[start.folded]\nlayers = 3\ngap = 0\n", {"gap"}},
                         {folded(3, "along = [0, 0, 1]\n"), {"'up' must be square to 'along'"}},
+                        {folded(3, "along = [0, 0, 0]\n"), {"and both be directions"}},
                         {"[start.folded]\nlayers = 3\ngap = 0.03\n", {"must lie flat, square to 'up'"}},
                         {folded(40), {"too short for so many layers"}},
                         {"[start]\nstretch = [1, 0, 1]\n", {"'stretch' must be > 0"}},

@@ -1,7 +1,6 @@
 // Verdicts: what holds, what fails, and that nothing that is NaN or stopped ever passes.
 #include <catch2/catch.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -37,6 +36,8 @@ TEST_CASE("NaN never holds, wherever it stands") {
   CHECK(ruling({not_a_number, 2.0, 0.0, "1", ""}) == Ruling::fails);
   CHECK(ruling({1.0, not_a_number, 0.0, "1", ""}) == Ruling::fails);
   CHECK(ruling({1.0, 2.0, not_a_number, "1", ""}) == Ruling::fails);
+  CHECK(ruling({1.0, std::numeric_limits<double>::infinity(), 0.0, "1", ""}) == Ruling::fails);
+  CHECK(ruling({3.0, 2.0, -2.0, "1", ""}) == Ruling::fails);
 }
 
 TEST_CASE("Worst keeps a NaN whatever comes after it") {
@@ -70,12 +71,13 @@ TEST_CASE("a study that throws fails under its own name") {
 }
 
 TEST_CASE("each finding of a study is judged by its own verdict") {
-  const Study study{"sums", "A sentence.", "", "", [](const Subject&, Tier, const Progress&) {
-                      StudyResult result;
-                      for (const double measured : {1.0, 3.0, 2.25, not_a_number})
-                        result.findings.push_back({"sums.one", "A sentence.", {{measured, 2, 0.5, "1", ""}, {}, ""}});
-                      return result;
-                    }};
+  const Study study{
+      "sums", "A sentence.", "", "", [](const Subject&, Tier, const Progress&) {
+        StudyResult result;
+        for (const double measured : {1.0, 3.0, 2.25, not_a_number})
+          result.findings.push_back({"sums.one", "A sentence.", {{measured, 2, 0.5, "1", ""}, {}, ""}});
+        return result;
+      }};
   const auto [records, whole] = run_study(study, reference_subject(), Tier::quick, [](double) {});
   REQUIRE(records.size() == 4);
   CHECK(records[0].outcome == "holds");
@@ -162,11 +164,9 @@ TEST_CASE("a map is written with one value for each of its points, or refused") 
   short_of_one.values.pop_back();
   RunRecord run;
   run.studies.push_back({"study", "", "", "", 0, {}, {whole}, {}});
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  const std::string path = (folder / "foldproof machinery map.h5").string();
+  const ScratchFolder folder;
+  const std::string path = folder.file("map.h5");
   CHECK_NOTHROW(write_run(path, run));
-  std::filesystem::remove(path);
   run.studies[0].maps = {short_of_one};
   CHECK_THROWS_WITH(write_run(path, run), Catch::Contains("5 values for 3 x 2 points"));
-  std::filesystem::remove(path + ".partial");
 }
