@@ -110,11 +110,12 @@ Finding matches_differences(const Subject& subject) {
     const Matrix difference = stiffness_of(specimen, Definiteness::exact) - differences.K;
     measured.see(specimen.name, {largest_entry(difference) / scale, differences.uncertainty / scale});
   }
-  return measured.judged(1e-5,
-                         "a hundred thousandth leaves room for the rounding of differences at steps of 1e-4 "
-                         "of the cloth, magnified "
-                         "by thin triangles; how far two extrapolations disagree is added; a missing or "
-                         "wrong term is of order 1");
+  return measured.judged(
+      1e-9,
+      "rounding of differences at steps of 1e-4 of the cloth is epsilon over the step, 2e-12, "
+      "magnified some hundredfold by thin triangles; how far two extrapolations disagree is added; a missing "
+      "or "
+      "wrong term is of order 1");
 }
 
 Finding is_symmetric(const Subject&) {

@@ -239,7 +239,7 @@ Finding rows_follow_their_particles(const Subject&) {
                    std::abs(other[same] / one[k] - 1) / epsilon);
     }
   }
-  return measured.judged(2000,
+  return measured.judged(3000,
                          "a bound has some thirty roundings, which thin triangles magnify by their shape, "
                          "sides of up to ten to one twice; terms of the wrong particle differ by the sides");
 }

@@ -123,10 +123,10 @@ Finding matches_differences(const Subject& subject) {
       measured.see(described(sheet, material),
                    largest_entry(derivative_of(sheet) - expected) / largest_entry(expected));
     }
-  return measured.judged(1e-5,
-                         "a hundred thousandth leaves room for the rounding of differences at steps of 1e-4 "
-                         "of the cloth, magnified "
-                         "by thin triangles; a missing or wrong term is of order 1");
+  return measured.judged(
+      1e-9,
+      "rounding of differences at steps of 1e-4 of the cloth is epsilon over the step, 2e-12, "
+      "magnified some hundredfold by thin triangles; a missing or wrong term is of order 1");
 }
 
 /// Damping force and derivative of these springs at s, side by side: 3N x (3N + 1).

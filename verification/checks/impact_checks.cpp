@@ -169,7 +169,8 @@ Finding zone_rigid_finding(const Subject&) {
       measured.see(name + ", " + std::to_string(led) + " led", worst.value());
     }
   return measured.judged(
-      1e-11, "a rigid motion to some hundred roundings, of velocities led by a rigid motion themselves");
+      256 * epsilon,
+      "a rigid motion to some hundred roundings, of velocities led by a rigid motion themselves");
 }
 
 Finding forced_finding(const Subject& subject) {
