@@ -262,6 +262,21 @@ Finding damping_bound_is_a_bound(const Subject& subject) {
   return measured.judged(1, "an upper bound may not be exceeded");
 }
 
+/// Two equal masses joined by a damper: as fast as the bound says.
+Finding damping_rate_is_reached(const Subject&) {
+  Measured measured("bound over the rate of one damper, less 1", "1");
+  for (const double mass : {0.3, 2.7}) {
+    DampingOperator damper;
+    const Vector3 along(0.4, -1.1, 0.7);  // sqrt(N s/m)
+    damper.pairs.push_back({0, 1, along});
+    const double rate = 2 * along.squaredNorm() / mass;  // of their relative velocity [1/s]
+    measured.see(fmt::format("{} kg", mass),
+                 std::abs(damping_rate_bound(damper, PerParticle::Constant(2, 1 / mass)) / rate - 1));
+  }
+  return measured.judged(8 * epsilon,
+                         "one pair leaves nothing to be bounded: the same number in a few roundings");
+}
+
 /// Automatic steps of a sheet whose damping, not its elasticity, limits explicit methods.
 Finding explicit_steps_respect_damping(const Subject&) {
   Scene scene = free_sheet();
@@ -365,6 +380,9 @@ std::vector<Check> method_checks() {
       {"methods.newton-asks-no-more-than-it-needs",
        "Where the elastic forces' derivative is definite, Newton's method asks for no second one.", "ours",
        newton_asks_finding});
+  checks.push_back({"methods.damping-rate-bound-is-reached",
+                    "The bound on the damping rate is that of a single damper.", limits,
+                    damping_rate_is_reached});
   return checks;
 }
 
