@@ -43,7 +43,7 @@ class Kills(FileTest):
             shutil.copy(ROOT / "cases" / name, self.path)
         return [(self.write("led.toml", LED_CASE), ()),
                 (str(self.path / "sticky_layers.toml"), ("--set", "time.end=0.1", "--set", "time.frames_per_second=200")),
-                (str(self.path / "grab.toml"), ("--set", "time.end=0.34", "--set", "expect.is_lifted.at_least=0",
+                (str(self.path / "grab.toml"), ("--set", "time.end=0.34", "--set", "expect.is_lifted.at_least=1e-3",
                                                "--set", "cloth.columns=8", "--set", "cloth.rows=8")),
                 (str(self.path / "reef_fold.toml"), ("--set", "time.end=0.02", "--set", "time.frames_per_second=900"))]
 

@@ -56,6 +56,8 @@ TEST_CASE("expect: bounds and reasons are read, and named after the case") {
 TEST_CASE("expect: what is wrong is refused with its line") {
   CHECK_THROWS_WITH(trial("[expect.stays_flatt]\nat_most = 0\nwhy = \"w\"\n"),
                     Contains("trial.toml:14") && Contains("stays_flatt") && Contains("stays_flat,"));
+  CHECK_THROWS_WITH(trial("[expect.leaves_its_plane]\nat_least = 0\nwhy = \"w\"\n"),
+                    Contains("at_least must be > 0"));
   CHECK_THROWS_WITH(trial("[expect.stays_flat]\nat_least = 0\nwhy = \"w\"\n"),
                     Contains("needs the key 'at_most'"));
   CHECK_THROWS_WITH(trial("[expect.stays_flat]\nat_most = 0\n"),
