@@ -90,7 +90,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const double noise = 64 * rounding * (query.x.cwiseAbs().maxCoeff() + query.way.cwiseAbs().maxCoeff());
   if (told) require_told_well(query, *told, noise);
   const double distance = nearness(query.kind, query.x).distance;
-  const double kept = distance > query.keep ? query.keep : distance / 2;
+  // as near to `keep` as rounding, seen from here and from there, less is promised
+  const double kept = distance > query.keep + noise ? query.keep : distance / 2;
   if (kept <= noise) return 0;  // not beyond rounding: nothing is promised
   if (!told) require_apart(query, kept, noise);
   if (!told && !stay_beyond(query)) require(!truly_meet(query, 1), "no meeting is missed");
