@@ -1,4 +1,5 @@
-// Only what a scene needs: what each part of a scene changes, held against the scene's own error, and what it costs.
+// Only what a scene needs: what each part of a scene changes, held against the scene's own error, and what it
+// costs.
 #pragma once
 
 #include <string>
@@ -25,15 +26,15 @@ struct RunObserved {
   std::vector<std::string> failed;  // keys of the case's expectations that do not hold
 };
 
-/// Runs the case. particles: of these only, the first ones, positions are kept. An error in building or running is told
-/// in `stopped`.
+/// Runs the case. particles: of these only, the first ones, positions are kept. An error in building or
+/// running is told in `stopped`.
 RunObserved observed(const Case& shown, int particles);
 
 /// The case with another scene: what is expected of the case and makes no sense for that scene is left out.
 Case with_scene(const Case& shown, Scene scene);
 
-/// The largest difference over the frames that both have: the root mean square over particles, weighted with their
-/// masses (N [kg]), of how far apart they are [m].
+/// The largest difference over the frames that both have: the root mean square over particles, weighted with
+/// their masses (N [kg]), of how far apart they are [m].
 double position_difference(const RunObserved& a, const RunObserved& b, const PerParticle& mass);
 
 enum class Need { needed, not_needed, missing, not_missed };
@@ -55,9 +56,9 @@ struct PartJudged {
   bool is_as_it_should_be() const;
 };
 
-/// How far the scene's own run is from the truth, roughly: by how much it changes with half the step, and with triangles
-/// of half the size. Neither is extrapolated: an error of first order is twice
-/// such a difference, one of second order a third larger than it.
+/// How far the scene's own run is from the truth, roughly: by how much it changes with half the step, and
+/// with triangles of half the size. Neither is extrapolated: an error of first order is twice such a
+/// difference, one of second order a third larger than it.
 struct OwnError {
   double time = 0, mesh = 0;  // m; NaN where a run came to no end
   double floor = 0;           // a millionth of the cloth's size: less than that no one asks for [m]
@@ -66,8 +67,9 @@ struct OwnError {
   double value() const;
 };
 
-/// needed / missing, if the part changes positions by more than the scene's own error; or if without it the run comes to
-/// no end, an expectation of the case fails, the cloth crosses itself, or is deeper in objects by more than that error.
+/// needed / missing, if the part changes positions by more than the scene's own error; or if without it the
+/// run comes to no end, an expectation of the case fails, the cloth crosses itself, or is deeper in objects
+/// by more than that error.
 PartJudged judged(const ScenePart& part, const RunObserved& scene, RunObserved toggled, const OwnError& own,
                   const PerParticle& mass);
 

@@ -1,5 +1,5 @@
-// artificial-damping: what a method takes from, or adds to, vibrations that nothing damps, mode by mode and over
-// a hundred periods.
+// artificial-damping: what a method takes from, or adds to, vibrations that nothing damps, mode by mode and
+// over a hundred periods.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

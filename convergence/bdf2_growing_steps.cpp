@@ -42,8 +42,8 @@ NamedFinding zero_stability(const Subject& subject) {
        ""}};
 }
 
-/// A corner in flight at v0, whose second state is disturbed: what comes of the disturbance after steps that grow
-/// by `ratio` up to omega h = .001, over the disturbance.
+/// A corner in flight at v0, whose second state is disturbed: what comes of the disturbance after steps that
+/// grow by `ratio` up to omega h = .001, over the disturbance.
 double amplification(const SteppedMotion& of, double ratio) {
   constexpr int steps = 600;
   double h = 1e-3 / of.motion.omega0 * std::pow(ratio, -steps);
@@ -88,7 +88,8 @@ std::vector<NamedFinding> bdf2_growing_steps(const Subject& subject) {
   std::vector<NamedFinding> findings = {zero_stability(subject)};
   for (NamedFinding& finding : growing_steps("free-flight", bdf2_without_forces(subject)))
     findings.push_back(std::move(finding));
-  for (NamedFinding& finding : growing_steps("the-hinge", stepped_motion(subject, hinge_oscillator(0), "BDF2")))
+  for (NamedFinding& finding :
+       growing_steps("the-hinge", stepped_motion(subject, hinge_oscillator(0), "BDF2")))
     findings.push_back(std::move(finding));
   return findings;
 }

@@ -109,8 +109,8 @@ Compressed compressed(const Subject& subject, const Strip& strip) {
   return result;
 }
 
-/// The strain at which the stiffness against the slowest mode vanishes, by the secant rule: it is nearly linear
-/// in the strain.
+/// The strain at which the stiffness against the slowest mode vanishes, by the secant rule: it is nearly
+/// linear in the strain.
 Strip critical_strip(const Subject& subject, int rows) {
   const double euler = M_PI * M_PI * bending / (std::pow(Strip{rows, 0}.length(), 2) * young);
   Strip before{rows, 0.6 * euler}, strip{rows, 0.9 * euler};

@@ -39,8 +39,8 @@ CrossingQuery coplanar_throughout(Random& random, PairKind kind) {
   return between(kind, flat_points(random, u, w), flat_points(random, u, w));
 }
 
-/// The vertex, or an end of the second edge, is halfway exactly on a corner or in the middle of a side of the triangle,
-/// or on an end or in the middle of the first edge. Multiples of four leave halves and means whole.
+/// The vertex, or an end of the second edge, is halfway exactly on a corner or in the middle of a side of the
+/// triangle, or on an end or in the middle of the first edge. Multiples of four leave halves and means whole.
 CrossingQuery on_the_border_halfway(Random& random, PairKind kind) {
   const Corners4 start = whole_points(random, 5, 4);
   Corners4 end = whole_points(random, 5, 4);
@@ -114,8 +114,9 @@ CrossingQuery motionless(Random& random, PairKind kind) {
   return {kind, x, shift.replicate<1, 4>()};
 }
 
-/// The vertex and a side of the triangle, or an end of one edge and the other edge, share a plane throughout, so that
-/// they meet on the border at a time that no fraction is. Of two triangles that share the side neither may miss it.
+/// The vertex and a side of the triangle, or an end of one edge and the other edge, share a plane throughout,
+/// so that they meet on the border at a time that no fraction is. Of two triangles that share the side
+/// neither may miss it.
 CrossingQuery through_a_side(Random& random, PairKind kind) {
   CrossingQuery query = coplanar_throughout(random, kind);
   query.x.col(3) = whole_point(random, 10);

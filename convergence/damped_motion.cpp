@@ -16,7 +16,8 @@ namespace {
 
 constexpr double runaway = 1e9;
 
-/// Coordinates of a state along fixed directions: sum over particles of weights . (x - x0) and of weights . v.
+/// Coordinates of a state along fixed directions: sum over particles of weights . (x - x0) and of weights .
+/// v.
 struct Coordinates {
   PerParticle3 start;                 // x0, 3 x N [m]
   std::vector<PerParticle3> weights;  // 3 x N each

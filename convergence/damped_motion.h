@@ -1,5 +1,5 @@
-// Motions that damping alone brings to rest, whose way is known: a triangle that expands, a hinge that folds, a sheet
-// in which every damped mode moves.
+// Motions that damping alone brings to rest, whose way is known: a triangle that expands, a hinge that folds,
+// a sheet in which every damped mode moves.
 #pragma once
 
 #include <functional>
@@ -21,12 +21,12 @@ struct DampedMotion {
   std::function<std::vector<double>(const State&)> speed;     // of each coordinate over that at the start [1]
 };
 
-/// An equilateral triangle of damped edges, expanding evenly: its directions never change, so that the motion is
-/// linear, with c = 9 kd/(density L^2).
+/// An equilateral triangle of damped edges, expanding evenly: its directions never change, so that the motion
+/// is linear, with c = 9 kd/(density L^2).
 DampedMotion expanding_triangle();
 
-/// A hinge of damped angle and damped edges that folds by about 0.8 rad: not linear. Its way is GSL's; its exact
-/// motion passes its place of rest by 0.4 % and returns.
+/// A hinge of damped angle and damped edges that folds by about 0.8 rad: not linear. Its way is GSL's; its
+/// exact motion passes its place of rest by 0.4 % and returns.
 DampedMotion folding_hinge();
 
 /// A flat sheet of damped springs; a coordinate is a mode of vibration that stiffness as large as the damping
@@ -44,8 +44,8 @@ struct DampedRun {
   Work work;
 };
 
-/// Steps with h = 2 a/c. BDF2 gets the exact state after its first step, so that it is judged and not the method
-/// that starts it. A run ends early when a coordinate passes 1e9, or is NaN.
+/// Steps with h = 2 a/c. BDF2 gets the exact state after its first step, so that it is judged and not the
+/// method that starts it. A run ends early when a coordinate passes 1e9, or is NaN.
 DampedRun run_damped(const Subject& subject, const DampedMotion& motion, std::string_view method, double a,
                      int steps);
 

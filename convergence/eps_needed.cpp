@@ -84,7 +84,8 @@ PerParticle3 projected(const Body& body, const Cloth& cloth, double eps) {
   return project_folds(objects, cloth.x, 0, projection).x;
 }
 
-/// The least eps [m] with which no triangle meets the body, to a thousandth, and the longest edge [m] that it has then.
+/// The least eps [m] with which no triangle meets the body, to a thousandth, and the longest edge [m] that it
+/// has then.
 struct Needed {
   double eps, longest_edge;
 };

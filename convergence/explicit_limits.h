@@ -1,4 +1,5 @@
-// What damping does to the step of fully explicit methods as the cells become small: a part of stability-sheet.
+// What damping does to the step of fully explicit methods as the cells become small: a part of
+// stability-sheet.
 #pragma once
 
 #include <string>

@@ -215,8 +215,8 @@ NamedFinding lost_finding(const std::vector<Folded>& runs) {
            ""}};
 }
 
-/// The height, from trough to crest, of a cosine wave of this length [m] whose ends have come nearer by so much [m], by
-/// bisection on its arc.
+/// The height, from trough to crest, of a cosine wave of this length [m] whose ends have come nearer by so
+/// much [m], by bisection on its arc.
 double cosine_height(double arc, double shortening) {
   const double span = arc - shortening;
   double low = 0, high = arc;

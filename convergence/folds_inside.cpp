@@ -17,8 +17,8 @@ constexpr int around = 48, along = 13;
 constexpr double band = 0.01;         // tau of the projection [m]
 constexpr double least_crest = 1e-3;  // m
 
-/// A tube on a drum as wide as it, 5 mm inside, pushed together by a tenth and held at both ends; what pushes it
-/// makes it buckle to both sides of the drum's surface.
+/// A tube on a drum as wide as it, 5 mm inside, pushed together by a tenth and held at both ends; what pushes
+/// it makes it buckle to both sides of the drum's surface.
 Scene tube_on_drum() {
   Scene scene = scene_of(make_cylinder(radius, length, around, along), 0.2);
   std::uint64_t state = 4;

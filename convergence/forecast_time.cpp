@@ -1,4 +1,5 @@
-// forecast-time: where a point is after it was forecast to lie on the surface, and what the forecast time does.
+// forecast-time: where a point is after it was forecast to lie on the surface, and what the forecast time
+// does.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -126,8 +127,8 @@ Decay decay_of(const Subject& subject, double tau_over_h) {
   return decay;
 }
 
-/// The first step of the same fall with a forecast time of five steps, and with the point put on the object that
-/// it would be inside at the next step.
+/// The first step of the same fall with a forecast time of five steps, and with the point put on the object
+/// that it would be inside at the next step.
 NamedFinding next_step_finding(const Subject& subject) {
   const double h = 0.004, height = 3e-3;
   std::vector<std::string> responses = {"forecast", "projection"};

@@ -7,7 +7,8 @@
 
 namespace foldproof {
 
-/// Adds the table `cost` and the figure `error-against-memory` of grids about a statue. cells: along its longest side.
+/// Adds the table `cost` and the figure `error-against-memory` of grids about a statue. cells: along its
+/// longest side.
 void add_grid_costs(const std::vector<int>& cells, StudyResult& result);
 
 }  // namespace foldproof

@@ -1,4 +1,5 @@
-// Errors of signed distance on grids about bodies whose distance is known: what level-set-resolution measures.
+// Errors of signed distance on grids about bodies whose distance is known: what level-set-resolution
+// measures.
 #pragma once
 
 #include <functional>
@@ -21,8 +22,9 @@ KnownBody known_ball();  // radius 0.7 m, off the lattice's centre; away: outsid
 KnownBody
 known_torus();  // radii 0.61 and 0.23 m; away: half the tube's radius from its ring, 0.15 m from its axis
 
-/// What marching starts from: exact values within two and a half cells of the surface; exact values within the body's
-/// `layer`, on every grid the same, so that the error is marching's own; which side each node is on.
+/// What marching starts from: exact values within two and a half cells of the surface; exact values within
+/// the body's `layer`, on every grid the same, so that the error is marching's own; which side each node is
+/// on.
 enum class Start { band, layer, crude };
 
 /// `cells` along the longest side of the body's bounds, three more around it.

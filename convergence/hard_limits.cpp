@@ -110,8 +110,8 @@ struct Damped {
 };
 
 /// Springs alone with damping in proportion to stiffness: the modes stay those of the undamped sheet, and
-/// each is an oscillator with the damping ratio zeta = kd_s omega/(2 Y). The step of A and B is then limited to
-/// 2/omega, that of C to (2/omega) (zeta + sqrt(1 + zeta^2)); the fastest mode decides.
+/// each is an oscillator with the damping ratio zeta = kd_s omega/(2 Y). The step of A and B is then limited
+/// to 2/omega, that of C to (2/omega) (zeta + sqrt(1 + zeta^2)); the fastest mode decides.
 std::vector<Damped> damped_limits() {
   std::vector<Damped> limits;
   for (const double zeta : {0.5, 1.5, 4.0, 10.0, 30.0, 100.0}) {
@@ -121,8 +121,8 @@ std::vector<Damped> damped_limits() {
   return limits;
 }
 
-/// A and B leave their limit slowly: at a step longer by a fraction d a disturbance grows by about 2 d/zeta a step.
-/// No run of bearable length tells that from decay; the matrix of the fastest mode's step does.
+/// A and B leave their limit slowly: at a step longer by a fraction d a disturbance grows by about 2 d/zeta a
+/// step. No run of bearable length tells that from decay; the matrix of the fastest mode's step does.
 bool is_told_by_runs(const Damped& limit) { return limit.scheme == "C" || limit.ratio < 1; }
 
 double damped_limit(const Subject& subject, const Damped& limit) {
@@ -136,8 +136,9 @@ double damped_limit(const Subject& subject, const Damped& limit) {
     return largest_stable_step(subject, scene, mode.omega,
                                {0.9 * limit.expected, 1.1 * limit.expected, 7, 2000});
   const double expected = limit.expected * 2 / mode.omega;
-  return largest_constant_step(stepped_motion(subject, motion_along(scene, mode.shape, mode.omega), limit.scheme),
-                               {expected / 2, 4 * expected, growth, 9}) *
+  return largest_constant_step(
+             stepped_motion(subject, motion_along(scene, mode.shape, mode.omega), limit.scheme),
+             {expected / 2, 4 * expected, growth, 9}) *
          mode.omega / 2;
 }
 

@@ -55,8 +55,8 @@ oracles::ClothDefinition driven_oracle(const Scene& scene) {
   return oracles::driven_hinge(hinge);
 }
 
-/// Where the next term of a method's error has become small: the sooner the higher its order; forward Euler has
-/// to be stable first.
+/// Where the next term of a method's error has become small: the sooner the higher its order; forward Euler
+/// has to be stable first.
 int first_level(const Integrator& integrator) {
   if (integrator.name == "forward-euler") return 6144;
   const std::array<int, 4> by_order = {3072, 576, 288, 192};

@@ -1,4 +1,5 @@
-// level-set-cache, as a case uses it: runs with and without a folder of level sets, and grids that must not be trusted.
+// level-set-cache, as a case uses it: runs with and without a folder of level sets, and grids that must not
+// be trusted.
 #include "convergence/kept_level_sets.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// level-set-resolution: errors of distance and direction on grids against their spacing; what the crude start costs.
+// level-set-resolution: errors of distance and direction on grids against their spacing; what the crude start
+// costs.
 #include <cmath>
 
 #include "convergence/grid_cost.h"

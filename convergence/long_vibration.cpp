@@ -102,9 +102,9 @@ Run first_periods(const Subject& subject, const Vibration& vibration, const std:
   return run_of(subject, vibration, method, h, std::max(2.0, 20 * h / vibration.period));
 }
 
-/// The step [s] nearest to half the elastic limit, longer than it or shorter, between which and the next `cost`
-/// evaluations a period are crossed. Where `patience` longer steps in turn are no cheaper than the cheapest before them,
-/// or a solve does not finish, there is no such step, and that one is taken.
+/// The step [s] nearest to half the elastic limit, longer than it or shorter, between which and the next
+/// `cost` evaluations a period are crossed. Where `patience` longer steps in turn are no cheaper than the
+/// cheapest before them, or a solve does not finish, there is no such step, and that one is taken.
 struct Bracket {
   double step, next;  // s; equal if there is no crossing
 };
@@ -157,7 +157,8 @@ NamedFinding has_no_trend(const Run& run) {
 }
 
 NamedFinding stays_bounded(const Run& run) {
-  // a mode keeps p^2 + (1 - (omega h/2)^2) (omega q)^2, which lies between 1 - (omega h/2)^2 and 1 of its energy
+  // a mode keeps p^2 + (1 - (omega h/2)^2) (omega q)^2, which lies between 1 - (omega h/2)^2 and 1 of its
+  // energy
   const double kept = 1 - part_of_limit * part_of_limit;
   Worst worst;
   for (const double energy : run.energy) worst.see(std::abs(std::log(energy)));

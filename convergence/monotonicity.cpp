@@ -174,8 +174,8 @@ NamedFinding is_monotone(const Subject& subject, const DampedMotions& motions, c
       {{worst.value(), turning, 0, "of the way", why_turning}, rows.columns(), ""}};
 }
 
-/// The farthest that BDF2 gets from two exact values of v' = -c v: its recurrence on v, with x = (1 - v) of the way,
-/// since it keeps v + c x exactly.
+/// The farthest that BDF2 gets from two exact values of v' = -c v: its recurrence on v, with x = (1 - v) of
+/// the way, since it keeps v + c x exactly.
 double farthest_by_bdf2(double a, int steps) {
   double before = 1, now = std::exp(-2 * a);
   Worst largest;

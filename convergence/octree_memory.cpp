@@ -61,8 +61,8 @@ std::vector<Vector3> points_in_band(const Body& body, double band) {
   return points;
 }
 
-/// Largest miss [m] of the trilinear interpolant on a regular grid of 2^level cells along each axis of the cube; only
-/// the cells about the points are made.
+/// Largest miss [m] of the trilinear interpolant on a regular grid of 2^level cells along each axis of the
+/// cube; only the cells about the points are made.
 double grid_miss(const Body& body, const std::vector<Vector3>& points, int level) {
   const double cells = std::ldexp(1, level);
   Worst worst;
@@ -91,8 +91,8 @@ struct Balance {
   double grid_bytes, tree_bytes, grid_miss, tree_miss, tolerance, evaluations, seconds;
 };
 
-/// The first of a row of ever smaller tolerances with which the tree misses by no more than the grid. The band is wider
-/// by the diagonal of a cell, so that what hangs from coarser cells lies outside of it.
+/// The first of a row of ever smaller tolerances with which the tree misses by no more than the grid. The
+/// band is wider by the diagonal of a cell, so that what hangs from coarser cells lies outside of it.
 Balance balance_of(const Body& body, int level) {
   const double h = std::ldexp(1, -level), band = band_cells * h;
   const std::vector<Vector3> points = points_in_band(body, band);

@@ -43,7 +43,8 @@ int measured_runs(const PrecisionCurve& curve) {
       std::ranges::count_if(curve.runs, [](const PrecisionRun& run) { return !std::isnan(run.error); }));
 }
 
-/// The work of a run with so many steps: that of the two runs before it, continued linearly; 0 if they do not tell.
+/// The work of a run with so many steps: that of the two runs before it, continued linearly; 0 if they do not
+/// tell.
 double expected_work(const PrecisionCurve& curve, int steps) {
   if (curve.runs.size() < 2) return 0;
   const PrecisionRun &last = curve.runs.back(), &before = curve.runs[curve.runs.size() - 2];

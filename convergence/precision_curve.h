@@ -32,8 +32,8 @@ constexpr double lost = 1;
 
 /// The runs of one method: from an eighth of the steps at the elastic limit on, finer by problem.ratio, until
 /// the error is `finest_error` [1] and problem.least_points runs were measured, or until a run with a step
-/// below the elastic limit exceeds the problem's budget, or would if work went on to grow as between the two before.
-/// Runs with longer steps that exceed it are left out.
+/// below the elastic limit exceeds the problem's budget, or would if work went on to grow as between the two
+/// before. Runs with longer steps that exceed it are left out.
 PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& problem,
                                const PrecisionTruth& truth, const Integrator& integrator,
                                double finest_error);
@@ -52,8 +52,8 @@ struct Price {
   double unfinished;  // solves in the run that reaches it [1]
 };
 
-/// From the coarsest run from which on all errors are at most `wanted` [1]; between it and the next coarser one
-/// the price is interpolated, linearly in the logarithms, unless that one diverged.
+/// From the coarsest run from which on all errors are at most `wanted` [1]; between it and the next coarser
+/// one the price is interpolated, linearly in the logarithms, unless that one diverged.
 Price price_at(const PrecisionCurve& curve, double end, double wanted);
 
 }  // namespace foldproof

@@ -96,8 +96,8 @@ PrecisionTruth truth_of(const Subject& subject, const PrecisionProblem& problem)
     truth.x = exact.state.x;
     own = exact.uncertainty;
   } else {
-    // of fourth order, RK4 needs fewer steps; it is stable for damping rates up to 2.785/h: start from 2/h, since rates
-    // change along the motion
+    // of fourth order, RK4 needs fewer steps; it is stable for damping rates up to 2.785/h: start from 2/h,
+    // since rates change along the motion
     RunPlan plan = second_plan;
     plan.steps = std::max(
         {problem.finest * at_limit / 2, at_limit, int(std::ceil(problem.end / truth.damping_2_over))});

@@ -24,7 +24,8 @@ Scene swinging_hinge() {
   return scene;
 }
 
-/// The seated figure of cases/stiff_statue.toml on a coarse mesh, held by the top of its head and set swinging.
+/// The seated figure of cases/stiff_statue.toml on a coarse mesh, held by the top of its head and set
+/// swinging.
 Scene swinging_statue() {
   constexpr double height = 1, held = 0.96;  // m
   Scene scene = scene_of(make_statue(height, 3), 0.3);
@@ -78,17 +79,16 @@ std::vector<PrecisionProblem> precision_problems(Tier tier) {
   const double relaxation = quick ? 0.1 : 0.06;  // s; the same damping ratio on either mesh
   constexpr FirstOpinion extrapolated = FirstOpinion::runge_kutta;
   // motion, end [s], opinions, ratio of steps, least points, finest reference, budget [operator applications]
-  return {
-      {"damped-hinge", "the damped hinge", swinging_hinge(), 0.4, FirstOpinion::oracle, "C", root, points, 8,
-       quick ? 3e4 : 6e4},
-      {"light-sheet", "the lightly damped sheet", hanging_sheet(cells, 1e-4), quick ? 0.25 : 0.5,
-       extrapolated, "C", root, points, 8, quick ? 4500 : 3e4},
-      // so long that a step beyond 2/omega, which grows slowly where damping is heavy, has grown. B is second,
-      // which keeps its order where h c is large
-      {"heavy-sheet", "the heavily damped sheet", hanging_sheet(cells, relaxation), 2, extrapolated, "B",
-       root, points, 4, quick ? 4.5e4 : 1.5e5},
-      {"stiff-statue", quick ? "the stiff statue, 0.03 s" : "the stiff statue, 0.5 s", swinging_statue(),
-       quick ? 0.03 : 0.5, extrapolated, "C", quick ? 2 : root, points, 1, quick ? 2500 : 4e4}};
+  return {{"damped-hinge", "the damped hinge", swinging_hinge(), 0.4, FirstOpinion::oracle, "C", root, points,
+           8, quick ? 3e4 : 6e4},
+          {"light-sheet", "the lightly damped sheet", hanging_sheet(cells, 1e-4), quick ? 0.25 : 0.5,
+           extrapolated, "C", root, points, 8, quick ? 4500 : 3e4},
+          // so long that a step beyond 2/omega, which grows slowly where damping is heavy, has grown. B is
+          // second, which keeps its order where h c is large
+          {"heavy-sheet", "the heavily damped sheet", hanging_sheet(cells, relaxation), 2, extrapolated, "B",
+           root, points, 4, quick ? 4.5e4 : 1.5e5},
+          {"stiff-statue", quick ? "the stiff statue, 0.03 s" : "the stiff statue, 0.5 s", swinging_statue(),
+           quick ? 0.03 : 0.5, extrapolated, "C", quick ? 2 : root, points, 1, quick ? 2500 : 4e4}};
 }
 
 }  // namespace foldproof

@@ -70,8 +70,9 @@ struct StripAtRest {
   double last_step = 0;        // of Newton's method, the largest of its turns [rad] and strains [1]
 };
 
-/// For a strip with springs: Newton's method on slopes and lengths from a start, with a Jacobian by central differences. It ends when
-/// steps no longer shrink; a strip not at rest after 40 has a last_step that says so.
+/// For a strip with springs: Newton's method on slopes and lengths from a start, with a Jacobian by central
+/// differences. It ends when steps no longer shrink; a strip not at rest after 40 has a last_step that says
+/// so.
 StripAtRest at_rest(const RowStrip& strip, StripAtRest start);
 
 /// The flat strip, as a start.

@@ -29,7 +29,8 @@ Cut cut_by(const TriangleMesh& mesh, int axis, double height) {
   return cut;
 }
 
-/// The line from this edge on, through the triangle first, until it ends or closes; marks the edges that it passes.
+/// The line from this edge on, through the triangle first, until it ends or closes; marks the edges that it
+/// passes.
 std::vector<int> walked(const TriangleMesh& mesh, const Cut& cut, int edge, int triangle,
                         std::vector<bool>& passed) {
   std::vector<int> line = {edge};

@@ -1,4 +1,5 @@
-// The vibrations of a flat sheet, one by one: what each is by an oracle, and what a step of a method makes of it.
+// The vibrations of a flat sheet, one by one: what each is by an oracle, and what a step of a method makes of
+// it.
 #pragma once
 
 #include <string>
@@ -32,7 +33,8 @@ struct Relaxation {
 /// |E|^2/(|N1| + |N2|), which makes its damping proportional to its stiffness.
 Scene sheet_at_rest(int cells, const Relaxation& relaxation);
 
-/// All vibrations of the scene's sheet, by the oracles' forces: ascending frequencies, stretch before bending.
+/// All vibrations of the scene's sheet, by the oracles' forces: ascending frequencies, stretch before
+/// bending.
 std::vector<SheetMode> modes_of(const Scene& scene);
 
 double highest_frequency(const std::vector<SheetMode>& modes);  // rad/s
@@ -70,8 +72,8 @@ struct VibratingSheet {
 
 VibratingSheet make_vibrating_sheet(int cells);
 
-/// The factors of the method on that sheet with this damping, steps of h [s]. BDF2 takes 20 steps first: its second
-/// root is a third where omega h is small.
+/// The factors of the method on that sheet with this damping, steps of h [s]. BDF2 takes 20 steps first: its
+/// second root is a third where omega h is small.
 std::vector<oracles::Factors> factors_of(const Subject& subject, const VibratingSheet& sheet,
                                          const Integrator& method, const Relaxation& relaxation, double h);
 

@@ -24,8 +24,8 @@ Creeping creeping(double omega) {
   return {omega, c, omega / (zeta + std::sqrt(zeta * zeta - 1))};
 }
 
-/// Relative errors of the rate over the steps h [s]: -ln(mu)/(rate h) - 1, mu the step matrix's eigenvalue next to
-/// exp(-rate h).
+/// Relative errors of the rate over the steps h [s]: -ln(mu)/(rate h) - 1, mu the step matrix's eigenvalue
+/// next to exp(-rate h).
 Convergence rate_errors(const Subject& subject, const std::string& scheme) {
   const SteppedMotion of = stepped_motion(subject, hinge_oscillator(zeta), scheme);
   const Creeping motion = creeping(of.motion.omega0);
@@ -43,9 +43,9 @@ Convergence rate_errors(const Subject& subject, const std::string& scheme) {
 
 // On the slow solution v = -(k/c)(1 + d) x with d of the order k/c^2. With a = h c/2, C's move is h v~,
 //   v~ = (v - h/2 k x)/(1 + a) = -(k/c) x (1 + d/(1 + a)),
-// so that x is multiplied by 1 - h (k/c)(1 + d/(1 + a)) where exp(-h (k/c)(1 + d)) is exact. To second order in k/c,
-// with d = k/c^2 = (k/c)(h/2)/a, the rate comes out too large by (k/c)^2 (h/2) a/(1 + a): of second order in h where
-// a is small, of first order where it is large.
+// so that x is multiplied by 1 - h (k/c)(1 + d/(1 + a)) where exp(-h (k/c)(1 + d)) is exact. To second order
+// in k/c, with d = k/c^2 = (k/c)(h/2)/a, the rate comes out too large by (k/c)^2 (h/2) a/(1 + a): of second
+// order in h where a is small, of first order where it is large.
 double derived_error(const Creeping& motion, double h) {
   const double a = h * motion.c / 2, slow = motion.omega * motion.omega / motion.c;
   return slow * slow * h / 2 * a / (1 + a) / motion.rate;

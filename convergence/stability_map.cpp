@@ -17,8 +17,8 @@ namespace {
 constexpr double bending = 0.0071;  // ke [J]
 constexpr int coarsest = 4;  // cells a side, of the mesh on which a material's damping ratio is counted
 
-/// What the springs of the sheet resist with. The hinges stay what they are, so that on soft springs and narrow cells
-/// they decide the fastest mode.
+/// What the springs of the sheet resist with. The hinges stay what they are, so that on soft springs and
+/// narrow cells they decide the fastest mode.
 struct Springs {
   std::string name, words;
   double stiffness;  // Y [N/m]
@@ -28,8 +28,8 @@ std::vector<Springs> kinds_of_springs() {
   return {{"soft", "Y = 29 N/m", 29}, {"stiff", "Y = 2900 N/m", 2900}};
 }
 
-/// Springs and hinges with one relaxation time (damping over stiffness) [s]: every mode is an oscillator of its own,
-/// whose damping ratio is relaxation omega/2.
+/// Springs and hinges with one relaxation time (damping over stiffness) [s]: every mode is an oscillator of
+/// its own, whose damping ratio is relaxation omega/2.
 Scene relaxing_sheet(const Springs& springs, int cells, double relaxation) {
   Scene scene = flat_sheet(cells);
   scene.stretch = StretchMaterial{springs.stiffness, relaxation * springs.stiffness, 1};
@@ -103,8 +103,8 @@ MapPoints points_of(const Subject& subject, const Integrator& method, const Mapp
   return points;
 }
 
-/// The damping ratio at which the known ratio takes a value, on a mode `faster` times as fast as that on which the
-/// ratio counts; NaN if it takes it nowhere between the ends of the map.
+/// The damping ratio at which the known ratio takes a value, on a mode `faster` times as fast as that on
+/// which the ratio counts; NaN if it takes it nowhere between the ends of the map.
 double ratio_at_level(const Integrator& method, double level, double faster, std::pair<double, double> ends) {
   auto [low, high] = ends;
   const auto above = [&](double zeta) { return known_ratio(method, zeta * faster) - level; };
@@ -117,8 +117,8 @@ double ratio_at_level(const Integrator& method, double level, double faster, std
   return std::sqrt(low * high);
 }
 
-/// Where the known limit is a tenth, a hundredth, ten times or a hundred times the elastic one, as far as that is
-/// inside the map.
+/// Where the known limit is a tenth, a hundredth, ten times or a hundred times the elastic one, as far as
+/// that is inside the map.
 std::vector<Curve> level_curves(const Integrator& method, const MappedSheet& sheet) {
   std::vector<Curve> curves;
   if (method.name == "A" || method.name == "B") return curves;

@@ -1,5 +1,5 @@
-// stability-sheet: the largest stable step of a sheet over damping and resolution: what is implicit in the damping
-// and what is not.
+// stability-sheet: the largest stable step of a sheet over damping and resolution: what is implicit in the
+// damping and what is not.
 #include <cmath>
 
 #include "convergence/order.h"
@@ -18,7 +18,8 @@ namespace {
 /// Flat, springs resist in the plane alone and hinges across it: with one of them damped some modes are not.
 bool damps_all(const Damping& damping) { return damping.springs > 0 && damping.bending > 0; }
 
-/// First and second order Runge-Kutta methods leave the imaginary axis at once: an undamped mode grows at any step.
+/// First and second order Runge-Kutta methods leave the imaginary axis at once: an undamped mode grows at any
+/// step.
 bool grows_undamped(const Integrator& integrator) {
   return integrator.family == Family::fully_explicit && integrator.order <= 2;
 }

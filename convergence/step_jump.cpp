@@ -50,8 +50,9 @@ EnergyRange after_jump(const Vibration& of, double phase) {
 
 }  // namespace
 
-// At the step h = s (2/omega) the leapfrog keeps Q = v^2/2 + (1 - s^2) omega^2 x^2/2 of an undamped mode. Whatever
-// its phase, the energy E at the jump gives a Q in [(1 - s^2) E, E]; afterwards the energy lies in [Q, Q/(1 - s^2)].
+// At the step h = s (2/omega) the leapfrog keeps Q = v^2/2 + (1 - s^2) omega^2 x^2/2 of an undamped mode.
+// Whatever its phase, the energy E at the jump gives a Q in [(1 - s^2) E, E]; afterwards the energy lies in
+// [Q, Q/(1 - s^2)].
 NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& scheme) {
   scene.integrator = scheme;
   const auto prepared = offered(subject.prepare, "prepare")(scene);

@@ -18,7 +18,8 @@ constexpr double tight = 1e-13;  // of solves
 // hinge's corner has its disturbance alone in z, so that nothing rounds.
 constexpr double sheet_disturbance = 1e-7, hinge_disturbance = 1e-12;  // m
 
-/// scene.x + q shapes and q' shapes; disturbances as SmallMotion has them, times the size `unit` [m sqrt(kg)].
+/// scene.x + q shapes and q' shapes; disturbances as SmallMotion has them, times the size `unit` [m
+/// sqrt(kg)].
 State disturbed(const SmallMotion& motion, const Eigen::VectorXd& y, double time, double unit) {
   const Eigen::Index n = motion.shapes.cols(), particles = motion.scene.x.cols();
   const Eigen::VectorXd x = motion.shapes * y.head(n) * unit;

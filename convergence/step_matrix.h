@@ -1,5 +1,5 @@
-// The matrix of a method's step about an equilibrium, found by stepping small disturbances: what it says about
-// stability is exact for linear motion.
+// The matrix of a method's step about an equilibrium, found by stepping small disturbances: what it says
+// about stability is exact for linear motion.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@
 
 namespace foldproof {
 
-/// Small motion about the start of a scene, which must be an equilibrium at rest: coordinates q [m sqrt(kg)] of
-/// some displacements. Disturbances are (omega0 q, dq/dt), both in sqrt(J).
+/// Small motion about the start of a scene, which must be an equilibrium at rest: coordinates q [m sqrt(kg)]
+/// of some displacements. Disturbances are (omega0 q, dq/dt), both in sqrt(J).
 struct SmallMotion {
   Scene scene;
   Eigen::MatrixXd shapes;  // 3 N x n [1/sqrt(kg)], orthonormal in the masses
@@ -20,12 +20,13 @@ struct SmallMotion {
   double disturbance;  // of a particle's place [m]: small enough to be linear, large enough for differences
 };
 
-/// A corner of a hinge that moves across its plane, the other three held: x'' = -omega0^2 x - 2 zeta omega0 x'
-/// as long as the angle is small. omega0 and the damping that makes zeta follow by hand from BMF03 section 4.
+/// A corner of a hinge that moves across its plane, the other three held: x'' = -omega0^2 x - 2 zeta omega0
+/// x' as long as the angle is small. omega0 and the damping that makes zeta follow by hand from BMF03 section
+/// 4.
 SmallMotion hinge_oscillator(double zeta);
 
-/// A sheet of 3 x 2 cells, flat, clamped at two columns of particles; six are free. Springs and hinges are of comparable
-/// stiffness; their damping [N s/m], [N s] does not commute with it unless it is in proportion.
+/// A sheet of 3 x 2 cells, flat, clamped at two columns of particles; six are free. Springs and hinges are of
+/// comparable stiffness; their damping [N s/m], [N s] does not commute with it unless it is in proportion.
 Scene clamped_sheet(double spring_damping, double bending_damping);
 
 /// All displacements of the particles that the scene does not hold.

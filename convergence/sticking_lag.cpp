@@ -1,4 +1,5 @@
-// sticking-lag: how far what sticks lags behind, what forecasts buy against a plain spring, and what they cost.
+// sticking-lag: how far what sticks lags behind, what forecasts buy against a plain spring, and what they
+// cost.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -22,11 +23,11 @@ constexpr double arm = 0.31;     // m
 
 // Lag of a particle on a turntable: x = (R + u) e^{i w t} with m w^2 (R + u) = -(k (1 + i w tau)) u.
 //
-// Scheme C lags further. Let e = x_t - x and d = v_t - v at the start of a step, omega^2 = k/m, q = h tau omega^2/2,
-// and let the target have the constant acceleration a. The moving velocity v~ solves
+// Scheme C lags further. Let e = x_t - x and d = v_t - v at the start of a step, omega^2 = k/m, q = h tau
+// omega^2/2, and let the target have the constant acceleration a. The moving velocity v~ solves
 //   (1 + q) (v~ - v_t) = -d + h omega^2 e/2
-// with the target's velocity of the step's start; the trapezoidal line gives a = omega^2 e + 2 q d/h where d is the
-// same from step to step. So is e, if v~ = v_t + h a/2:
+// with the target's velocity of the step's start; the trapezoidal line gives a = omega^2 e + 2 q d/h where d
+// is the same from step to step. So is e, if v~ = v_t + h a/2:
 //   omega^2 e = a (1 + q + q^2)/(1 + q)
 double derived_lag(const std::string& method, double k, double tau, double h) {
   const double inertia = particle_mass * turning * turning;
@@ -35,8 +36,8 @@ double derived_lag(const std::string& method, double k, double tau, double h) {
   return method == "C" ? lag * (1 + q + q * q) / (1 + q) : lag;
 }
 
-/// How far a particle is from its place in the mean over the last part of a run [m], and the width of its swing about
-/// that mean, over m a/k; both as seen from the turntable.
+/// How far a particle is from its place in the mean over the last part of a run [m], and the width of its
+/// swing about that mean, over m a/k; both as seen from the turntable.
 struct Lag {
   double mean, swing;
 };

@@ -104,8 +104,8 @@ std::array<Quantity, 2> quantities() {
   return {{{"x", "positions", "m", &Run::x}, {"v", "velocities", "m/s", &Run::v}}};
 }
 
-/// The levels whose errors the reference solution can tell from its own: at least four, that three pairs can be
-/// judged.
+/// The levels whose errors the reference solution can tell from its own: at least four, that three pairs can
+/// be judged.
 Convergence above_floor(const Convergence& errors) {
   constexpr int least = pairs_judged + 1;
   const size_t levels = size_t(std::max(least, levels_above_floor(errors, 50)));

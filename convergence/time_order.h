@@ -1,4 +1,5 @@
-// Order studies in time: errors in x and v against an oracle, with constant steps and with sequences that vary.
+// Order studies in time: errors in x and v against an oracle, with constant steps and with sequences that
+// vary.
 #pragma once
 
 #include <array>

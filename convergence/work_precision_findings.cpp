@@ -28,7 +28,8 @@ double shrinkage(const PrecisionRun& coarse, const PrecisionRun& fine) {
   return std::pow(fine.error / coarse.error, std::log(2.) / std::log(double(fine.steps) / coarse.steps));
 }
 
-/// The index of the finest run that, with the one before it, can be told from the reference; 0 if there is none.
+/// The index of the finest run that, with the one before it, can be told from the reference; 0 if there is
+/// none.
 size_t finest_judged(const PrecisionCurve& curve, double uncertainty) {
   constexpr double above = 10;  // the uncertainty, so that it shifts an error by no more than a tenth
   size_t i = curve.runs.empty() ? 0 : curve.runs.size() - 1;
@@ -157,8 +158,8 @@ NamedFinding within_the_limit(const PrecisionScene& scene) {
        "measured is the largest of the steps over 2/omega"}};
 }
 
-/// Where h c is large C moves positions with F/c at the step's start, as forward Euler would: the error is then of
-/// first order in h (order reduction), while A and B keep the middle of the step.
+/// Where h c is large C moves positions with F/c at the step's start, as forward Euler would: the error is
+/// then of first order in h (order reduction), while A and B keep the middle of the step.
 NamedFinding C_needs_shorter_steps(const PrecisionScene& scene) {
   const double error = wanted_errors.front(), ratio = step_of(scene, "C", error) / step_of(scene, "B", error);
   return {

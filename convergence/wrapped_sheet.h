@@ -62,8 +62,8 @@ Vector3 wrapped(const Wrap& wrap, const Vector3& rest, bool second);
 /// D/ke with all vertices on the cylinder [1]; wrap.offset is not used.
 double forced_rigidity_of(const FourSheets& sheets, Wrap wrap, double ke);
 
-/// D/ke with the vertices of the second kind at the offset of least energy, from three of them [1]; wrap.offset
-/// is the distance at which they are tried.
+/// D/ke with the vertices of the second kind at the offset of least energy, from three of them [1];
+/// wrap.offset is the distance at which they are tried.
 double relaxed_rigidity_of(const FourSheets& sheets, Wrap wrap, double ke);
 
 /// The oracle's R from the energies of six small quadratic surfaces, `curvature` [1/m] large [1].

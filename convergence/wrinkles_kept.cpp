@@ -241,8 +241,8 @@ Curve circle(const std::string& label, double x, double radius) {
   return curve;
 }
 
-/// The signed distance that the projection follows where two balls overlap: inside, too shallow; between them, highest
-/// on the surface that is as deep in both.
+/// The signed distance that the projection follows where two balls overlap: inside, too shallow; between
+/// them, highest on the surface that is as deep in both.
 Map slice_of_union() {
   constexpr int across = 121, up = 81;
   const auto ball = [](double x, double radius) {

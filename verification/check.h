@@ -64,8 +64,8 @@ struct NotOffered {
   std::string operation;
 };
 
-/// What a point of a curve stands for: measured, measured though a solve on the way did not finish, or a run that
-/// diverged, which has an x but no y.
+/// What a point of a curve stands for: measured, measured though a solve on the way did not finish, or a run
+/// that diverged, which has an x but no y.
 enum class Mark { measured, unfinished, diverged };
 
 std::string_view name_of(Mark mark);  // "measured", "unfinished", "diverged"
@@ -79,8 +79,8 @@ struct Curve {
   std::vector<double> x, y;
   double floor;
   std::vector<double> pair_orders;  // observed order of each neighbouring pair; empty if orders make no sense
-  double slope = nan;  // expected of this curve in log-log, NaN: none
-  std::vector<Mark> marks = {};                             // one a point; empty: all measured
+  double slope = nan;               // expected of this curve in log-log, NaN: none
+  std::vector<Mark> marks = {};     // one a point; empty: all measured
 };
 
 enum class Scale { linear, log };

@@ -95,7 +95,8 @@ std::vector<double> numbers_of(const CheckpointRecord& record) {
   return numbers.values();
 }
 
-/// A state as two arrays: time, positions, velocities, places of bonds; and patch, triangle and particle of each bond.
+/// A state as two arrays: time, positions, velocities, places of bonds; and patch, triangle and particle of
+/// each bond.
 struct StateArrays {
   std::vector<double> numbers;
   std::vector<int> bonds;

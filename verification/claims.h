@@ -56,8 +56,8 @@ std::vector<Claim> sticking_claims();   // claims_sticking.cpp: BMF03 section 6
 /// The ruling that these findings give; the table stands above its definition.
 Standing ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records);
 
-/// The text with each placeholder replaced by a number of the run: three digits, a power of ten where the first is
-/// beyond the third place or the sixth, and its unit:
+/// The text with each placeholder replaced by a number of the run: three digits, a power of ten where the
+/// first is beyond the third place or the sixth, and its unit:
 ///   {name}                     what the finding measured
 ///   {name|bound}               its bound
 ///   {name|column|row}          evidence: a row counted from 1, "first", "last", "smallest", "largest", or the entry
@@ -73,8 +73,8 @@ std::vector<std::string> findings_named_in(const Claim& claim);
 /// Are all findings that the claim names in the run?
 bool is_covered(const Claim& claim, const std::vector<Record>& records);
 
-/// Rules a claim. The text of a claim that stays undecided keeps a placeholder whose number is missing. Throws
-/// std::runtime_error naming the claim for a placeholder that cannot be filled otherwise.
+/// Rules a claim. The text of a claim that stays undecided keeps a placeholder whose number is missing.
+/// Throws std::runtime_error naming the claim for a placeholder that cannot be filled otherwise.
 ClaimRecord ruled(const Claim& claim, const std::vector<Record>& records);
 
 /// "holds" if the ruling is the recorded one, "fails" if not; "inconclusive" if both are undecided.

@@ -74,7 +74,8 @@ void put_corners(RowMaker& row, const std::string& name, const std::string& unit
   }
 }
 
-/// A hinge of edges of some centimetres: x1 and x2 on either side of the edge from x3 to x4, folded by any angle.
+/// A hinge of edges of some centimetres: x1 and x2 on either side of the edge from x3 to x4, folded by any
+/// angle.
 Corners hinge_corners(Draw& draw) {
   const double angle = draw.between(-2.9, 2.9), length = draw.between(0.01, 0.05);
   const double width1 = draw.between(0.005, 0.05), foot1 = draw.between(-0.01, 0.06);

@@ -124,8 +124,8 @@ Shape shape_of_space(hid_t space) {
   return shape;
 }
 
-/// How many numbers a dataset may claim. Without compression it is stored as it is, so that the file is larger; with it
-/// (other programs' files) this many are taken, 2 GB.
+/// How many numbers a dataset may claim. Without compression it is stored as it is, so that the file is
+/// larger; with it (other programs' files) this many are taken, 2 GB.
 constexpr unsigned long long most_unpacked = 1ULL << 28;
 
 unsigned long long most_values(hid_t set, std::size_t size_of_one) {
@@ -217,8 +217,9 @@ herr_t read_object(hid_t file, const char* name, const H5O_info_t* about, void*)
   });
 }
 
-/// Reads all that is in a file: groups, attributes, datasets. The library may crash or run without end where the structures
-/// of a file are damaged, so this is done apart; it takes no lock, which a copy of this process could not hold.
+/// Reads all that is in a file: groups, attributes, datasets. The library may crash or run without end where
+/// the structures of a file are damaged, so this is done apart; it takes no lock, which a copy of this
+/// process could not hold.
 bool all_is_readable(const std::string& path) {
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   return H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, read_object, nullptr) >= 0;

@@ -8,9 +8,9 @@
 
 namespace foldproof {
 
-/// Makers that keep what they make in the folder, one file each, named after the key of all that it is computed from.
-/// `say` is told of every file that is loaded, written, or refused and replaced, and why. A folder or file that cannot
-/// be written throws.
+/// Makers that keep what they make in the folder, one file each, named after the key of all that it is
+/// computed from. `say` is told of every file that is loaded, written, or refused and replaced, and why. A
+/// folder or file that cannot be written throws.
 LevelSetMakers caching_makers(const std::string& folder, std::function<void(const std::string&)> say);
 
 }  // namespace foldproof

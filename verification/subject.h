@@ -34,11 +34,13 @@ struct Subject {
   /// Elastic and potential energy [J].
   std::function<double(Prepared&, const State& s)> potential_energy;
 
-  /// The velocities (3 x N [m/s]) that the scene's objects make of v, when v moves the cloth from s over the span.
+  /// The velocities (3 x N [m/s]) that the scene's objects make of v, when v moves the cloth from s over the
+  /// span.
   std::function<PerParticle3(Prepared&, const Span& span, const State& s, const PerParticle3& v)>
       avoid_objects;
 
-  /// The velocities (3 x N [m/s]) that the scene's strain limits make of v, which moves the cloth from s over the span.
+  /// The velocities (3 x N [m/s]) that the scene's strain limits make of v, which moves the cloth from s over
+  /// the span.
   std::function<PerParticle3(Prepared&, const Span& span, const State& s, const PerParticle3& v)>
       limit_strain;
 

@@ -67,7 +67,8 @@ void add_place(double t, ObjectRows& object) {
   object.rows[1].add(pose.translation.data());
 }
 
-/// Group /sticky: the patches, and the bonds of all frames one after the other. A frame has as many as bond_counts says.
+/// Group /sticky: the patches, and the bonds of all frames one after the other. A frame has as many as
+/// bond_counts says.
 struct BondRows {
   GrowingDataset counts, bonds, places;
 

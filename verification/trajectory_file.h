@@ -11,7 +11,8 @@
 namespace foldproof {
 
 /// Writes a simulation while it runs: to "<path>.partial", renamed to `path` by finish(), with an XDMF file
-/// beside it that ParaView opens. What was written before a stop or an interruption is kept in the partial file.
+/// beside it that ParaView opens. What was written before a stop or an interruption is kept in the partial
+/// file.
 class TrajectoryFile {
  public:
   /// scene: must outlive the file.

@@ -1,4 +1,5 @@
-// The stabilised biconjugate gradients of van der Vorst (1992), for Newton steps whose matrix is not symmetric.
+// The stabilised biconjugate gradients of van der Vorst (1992), for Newton steps whose matrix is not
+// symmetric.
 #pragma once
 
 #include "reference/dynamics/conjugate_gradient.h"

@@ -14,8 +14,8 @@ double squared_norm(const Eigen::Ref<const PerParticle3>& r,
   return r.colwise().squaredNorm().dot(inverse_mass.transpose());
 }
 
-/// Runs pass(first, count) over N particles, a block after the other, so that each line of it finds in the cache
-/// what the line before it left there.
+/// Runs pass(first, count) over N particles, a block after the other, so that each line of it finds in the
+/// cache what the line before it left there.
 template <class Pass>
 void in_blocks(Eigen::Index particles, const Pass& pass) {
   constexpr Eigen::Index block = 512;  // of which a vector takes 12 kB
@@ -51,8 +51,8 @@ Solve record(Solve solve, Work& work) {
 /// q = A p for a symmetric positive definite A on free particles; 0 at prescribed ones. Returns p.q.
 using Product = std::function<double(const PerParticle3& p, PerParticle3& q)>;
 
-/// Adds to v the solution of A w = r by conjugate gradients, preconditioned with the masses: the plain iteration in the
-/// variable M^{1/2} w. scale: what the residual's norm is compared with [kg^1/2 m/s].
+/// Adds to v the solution of A w = r by conjugate gradients, preconditioned with the masses: the plain
+/// iteration in the variable M^{1/2} w. scale: what the residual's norm is compared with [kg^1/2 m/s].
 Solve iterate(const Product& A, const PerParticle& inverse_mass, const SolverSettings& settings, double scale,
               PerParticle3 r, PerParticle3& v) {
   PerParticle3 q(3, r.cols());

@@ -76,8 +76,8 @@ Trial search(const System& system, const Stage& stage, const Trial& from, const 
   return {from.w, from.residual, from.norm, false};
 }
 
-/// The Newton step by conjugate gradients, from the elastic derivative alone: exact where it is definite, else
-/// semidefinite element by element.
+/// The Newton step by conjugate gradients, from the elastic derivative alone: exact where it is definite,
+/// else semidefinite element by element.
 PerParticle3 symmetric_step(const System& system, const Stage& stage, const Trial& from, Work& work) {
   const State at = state_of(stage, from.w);
   const DampingOperator damping = damping_at(system.forces, at, work);
@@ -91,8 +91,8 @@ PerParticle3 symmetric_step(const System& system, const Stage& stage, const Tria
   return dw;
 }
 
-/// The Newton step with the exact derivative of all forces, which no longer is symmetric. Empty if the solve did not
-/// finish or if the step leads uphill.
+/// The Newton step with the exact derivative of all forces, which no longer is symmetric. Empty if the solve
+/// did not finish or if the step leads uphill.
 std::optional<PerParticle3> exact_step(const System& system, const Stage& stage, const Trial& from,
                                        Work& work) {
   const State at = state_of(stage, from.w);
@@ -107,8 +107,8 @@ std::optional<PerParticle3> exact_step(const System& system, const Stage& stage,
   return dw;
 }
 
-/// One iteration of Newton's method. Where damping or current weighting makes the derivative unsymmetric, the exact
-/// step is tried first; the symmetric one takes over where that fails, far from the solution.
+/// One iteration of Newton's method. Where damping or current weighting makes the derivative unsymmetric, the
+/// exact step is tried first; the symmetric one takes over where that fails, far from the solution.
 Trial improved(const System& system, const Stage& stage, const Trial& from, Work& work) {
   if (const std::optional<PerParticle3> dw = exact_step(system, stage, from, work)) {
     const Trial to = search(system, stage, from, *dw, work);
@@ -140,8 +140,8 @@ Solve solve_linearised(const System& system, const State& now, const Stage& stag
   return solve;
 }
 
-/// What rounding the positions alone may do to the residual [kg^1/2 m/s]: forces change by a bound on the stiffness
-/// times a rounding of the largest coordinate.
+/// What rounding the positions alone may do to the residual [kg^1/2 m/s]: forces change by a bound on the
+/// stiffness times a rounding of the largest coordinate.
 double rounding_at(const System& system, const Stage& stage, const PerParticle3& w) {
   const State at = state_of(stage, w);
   PerParticle rows = PerParticle::Zero(w.cols());  // N/m
@@ -171,8 +171,8 @@ Trial trial_at(const System& system, const Stage& stage, const PerParticle3& w, 
   return {w, residual, norm_of(residual, system.inverse_mass), true};
 }
 
-/// Where the linearised stage equation leads from the start's velocity, to the accuracy of a Newton step; back to the
-/// start, without hope, if a triangle loses its area there.
+/// Where the linearised stage equation leads from the start's velocity, to the accuracy of a Newton step;
+/// back to the start, without hope, if a triangle loses its area there.
 Trial linearised_trial(const System& system, const State& now, const Stage& stage, const Trial& start,
                        Work& work) {
   PerParticle3 w = start.w;
@@ -185,10 +185,11 @@ Trial linearised_trial(const System& system, const State& now, const Stage& stag
   }
 }
 
-/// Solves the stage equation by Newton's method with a line search, until the residual is the solver's tolerance times
-/// the momentum of the velocity now and the impulse at it, or what rounding makes of cloth at rest. From that velocity it starts, and a second time, if it does
-/// not arrive, from the linearised step: in a long step the velocity now leads to another place altogether. Prescribed
-/// particles are where they are at the stage's time, and as fast.
+/// Solves the stage equation by Newton's method with a line search, until the residual is the solver's
+/// tolerance times the momentum of the velocity now and the impulse at it, or what rounding makes of cloth at
+/// rest. From that velocity it starts, and a second time, if it does not arrive, from the linearised step: in
+/// a long step the velocity now leads to another place altogether. Prescribed particles are where they are at
+/// the stage's time, and as fast.
 PerParticle3 solve_stage(const System& system, const State& now, Stage& stage, Work& work) {
   PerParticle3 w = now.v;
   impose(velocities_at(system.led, stage.time), w);

@@ -1,5 +1,5 @@
-// Methods implicit in the elastic forces too: what BMF03 section 3 compares its schemes with. Each step of the
-// nonlinear ones solves one stage equation
+// Methods implicit in the elastic forces too: what BMF03 section 3 compares its schemes with. Each step of
+// the nonlinear ones solves one stage equation
 //   w:  M (w - V) = s (F_elastic(t, X + s w) + D(X + s w) w)
 // whose X, V, s and t say which method it is.
 #pragma once
@@ -22,7 +22,8 @@ State linearised_backward_euler(const System& system, std::span<const State> pas
 /// errs by O(h^3), so that the first step leaves the order alone.
 State bdf2(const System& system, std::span<const State> past, double h, Work& work);
 
-/// Implicit midpoint rule: second order, symplectic, no damping of its own; keeps linear and angular momentum.
+/// Implicit midpoint rule: second order, symplectic, no damping of its own; keeps linear and angular
+/// momentum.
 State implicit_midpoint(const System& system, std::span<const State> past, double h, Work& work);
 
 }  // namespace foldproof

@@ -15,7 +15,8 @@ namespace {
 // A particle that crosses ten times the cloth's own size in one step is taken for divergence.
 constexpr double sizes_per_step = 10;
 
-// Of a frame's interval: an event as close to a frame as this happens at it, lest a step be as short as a rounding.
+// Of a frame's interval: an event as close to a frame as this happens at it, lest a step be as short as a
+// rounding.
 constexpr double closest_event = 1e-9;
 
 void check(const Schedule& schedule, const State& start) {
@@ -189,8 +190,8 @@ Run run_from(const Checkpoint& from, const System& system, const Integrator& int
           std::move(outcome)};
 }
 
-/// The longest even part of the time `left` that is no longer than `wanted` [s]; a hair of tolerance so that 0.1 s in
-/// steps of 0.01 s are 10 steps, not 11.
+/// The longest even part of the time `left` that is no longer than `wanted` [s]; a hair of tolerance so that
+/// 0.1 s in steps of 0.01 s are 10 steps, not 11.
 double even_part(double left, double wanted) {
   const double parts = std::ceil(left / wanted * (1 - 1e-9));
   return parts <= 1 ? left : left / parts;
@@ -234,7 +235,8 @@ void run_to(double target, Run& run) {
   }
 }
 
-/// Advances the history to the time `target` and across all events until then, after each of which it starts anew.
+/// Advances the history to the time `target` and across all events until then, after each of which it starts
+/// anew.
 void run_across_events(double target, Run& run) {
   const double close = closest_event * run.schedule.frame_interval;
   while (!run.outcome.stop && run.history.now().time < target) {

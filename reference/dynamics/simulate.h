@@ -12,8 +12,8 @@
 namespace foldproof {
 
 /// How long a step is. Each frame interval (or what an automatic step sees left of it) is divided evenly, so
-/// frames are hit exactly. So are events, at which a prescribed motion starts or stops, or an object's velocity
-/// jumps (dynamics/events.h): there a method that looks back starts anew.
+/// frames are hit exactly. So are events, at which a prescribed motion starts or stops, or an object's
+/// velocity jumps (dynamics/events.h): there a method that looks back starts anew.
 struct StepRule {
   double fixed = 0;  // the largest step allowed [s]; 0: chosen each step
   double safety =
@@ -61,7 +61,8 @@ struct Outcome {
   std::optional<Stop> stop;  // empty when the end was reached
 };
 
-/// All that a run remembers at a frame beside its system, method and schedule: what it takes to go on to the same bits.
+/// All that a run remembers at a frame beside its system, method and schedule: what it takes to go on to the
+/// same bits.
 struct Checkpoint {
   std::vector<State> past;    // what the method looks back on; the latest is the frame's state
   long frame = 0, steps = 0;  // so far; the start is frame 0
@@ -85,15 +86,15 @@ struct Observer {
 Outcome simulate(const System& system, const Integrator& integrator, const State& start,
                  const Schedule& schedule, const Observer& observer);
 
-/// Goes on from a checkpoint of a run of the same system, integrator and schedule that was watched by as many functions.
-/// Frames, diagnostics but for clock time, later checkpoints and the outcome are those of the uninterrupted run, to the
-/// bit; what was handed out up to the checkpoint is not handed out again. Throws InputError for one without a state, or
-/// of other particles.
+/// Goes on from a checkpoint of a run of the same system, integrator and schedule that was watched by as many
+/// functions. Frames, diagnostics but for clock time, later checkpoints and the outcome are those of the
+/// uninterrupted run, to the bit; what was handed out up to the checkpoint is not handed out again. Throws
+/// InputError for one without a state, or of other particles.
 Outcome resume(const System& system, const Integrator& integrator, const Checkpoint& from,
                const Schedule& schedule, const Observer& observer);
 
-/// The longest step [s] that the rule allows after these states. No step exceeds the one before by more than the
-/// integrator's largest_growth.
+/// The longest step [s] that the rule allows after these states. No step exceeds the one before by more than
+/// the integrator's largest_growth.
 ///   limit   the elastic limit at the latest of them [s]; a rule with a fixed step does not ask for it
 double step_allowed(const System& system, const Integrator& integrator, std::span<const State> past,
                     const StepRule& rule, double limit);

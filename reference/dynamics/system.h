@@ -30,13 +30,14 @@ void prescribe(System& system, const PrescribedParticle& particle);
 /// without stiffness.
 double elastic_limit(const System& system, const State& s);
 
-/// The same for a scheme whose limit damping widens to h^2 K < 4 M + 2 h D (scheme C). In steps up to 2 tau_s the damping
-/// of sticking outweighs its stiffness: max(limit, min(2/omega without sticking's springs, 2 tau_s)) [s].
+/// The same for a scheme whose limit damping widens to h^2 K < 4 M + 2 h D (scheme C). In steps up to 2 tau_s
+/// the damping of sticking outweighs its stiffness: max(limit, min(2/omega without sticking's springs, 2
+/// tau_s)) [s].
 ///   limit   the elastic limit [s]
 double widened_limit(const System& system, const State& s, double limit);
 
-/// What forms or breaks does so once a step, before it: bonds of sticking; and pairs of cloth that are kept for it. A
-/// second call changes nothing.
+/// What forms or breaks does so once a step, before it: bonds of sticking; and pairs of cloth that are kept
+/// for it. A second call changes nothing.
 void begin_step(const System& system, State& s);
 
 struct Energies {

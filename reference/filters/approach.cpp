@@ -16,8 +16,8 @@ constexpr int most_planes = 1000;
 //     ------o------            each linear in tau, the time from t on. Whatever N is, this is a proof; the nearest
 //      second feature          points only make it last long.
 //
-/// How long a plane with the normal N keeps the features at least `gap` [m] apart, from positions x on, at the rates
-/// `way`: infinite if they do not close, negative if it does not part them now.
+/// How long a plane with the normal N keeps the features at least `gap` [m] apart, from positions x on, at
+/// the rates `way`: infinite if they do not close, negative if it does not part them now.
 double parted_for(PairKind kind, const Corners4& x, const Corners4& way, const Vector3& N, double gap) {
   const Eigen::RowVector4d height = N.transpose() * x, rate = N.transpose() * way;  // m, m per motion
   const int first = kind == PairKind::vertex_triangle ? 1 : 2;  // points of the first feature

@@ -220,7 +220,8 @@ bool hold_at(const KeptPairs& kept, const PerParticle3& x, double margin) {
 std::optional<std::vector<FeaturePair>> chosen_pairs(const KeptPairs& kept, const PerParticle3& x,
                                                      const PerParticle3& end, double margin,
                                                      const std::vector<char>& moved) {
-  // features whose boxes overlap now overlapped in the larger boxes, too; which pair comes first the tree alone decides
+  // features whose boxes overlap now overlapped in the larger boxes, too; which pair comes first the tree
+  // alone decides
   const std::vector<Bounds> boxes = particle_boxes(x, end, margin);
   if (!lie_within(boxes, kept.boxes)) return {};
   std::vector<FeaturePair> chosen;

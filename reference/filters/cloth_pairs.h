@@ -11,8 +11,8 @@
 
 namespace foldproof {
 
-/// What a triangle answers for, so that each vertex and each edge is asked about once: of its corners and its sides
-/// (k: from corner k to the next), those that belong to it.
+/// What a triangle answers for, so that each vertex and each edge is asked about once: of its corners and its
+/// sides (k: from corner k to the next), those that belong to it.
 struct OwnFeatures {
   std::array<bool, 3> corner, side;
 };
@@ -27,9 +27,9 @@ struct ClothTree {
 
 ClothTree make_cloth_tree(const TriangleMesh& mesh);
 
-/// Pairs of features without a common particle whose boxes, over their straight way from x to `end` and widened by
-/// margin/2 on all sides, overlap: all that come nearer than `margin` on their way are among them. In an order that
-/// the tree alone fixes.
+/// Pairs of features without a common particle whose boxes, over their straight way from x to `end` and
+/// widened by margin/2 on all sides, overlap: all that come nearer than `margin` on their way are among them.
+/// In an order that the tree alone fixes.
 ///   moved   N, or empty: pairs of which no particle is marked are left out
 std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& x, const PerParticle3& end,
                                     double margin, const std::vector<char>& moved = {});
@@ -45,7 +45,8 @@ KeptPairs keep_pairs(const ClothTree& cloth, const PerParticle3& x, double margi
 /// Is every particle of x, widened by margin/2, still in the box that it was kept with?
 bool hold_at(const KeptPairs& kept, const PerParticle3& x, double margin);
 
-/// What near_pairs answers for the same cloth, in the same order; nothing if a particle leaves its box on the way.
+/// What near_pairs answers for the same cloth, in the same order; nothing if a particle leaves its box on the
+/// way.
 std::optional<std::vector<FeaturePair>> chosen_pairs(const KeptPairs& kept, const PerParticle3& x,
                                                      const PerParticle3& end, double margin,
                                                      const std::vector<char>& moved = {});

@@ -9,8 +9,9 @@ namespace foldproof {
 
 namespace {
 
-// Edges whose directions differ by less than this, squared sine, are taken for parallel; triangles whose area is less
-// than this share of what their sides could span, squared, for lines. What that hides is 1e-9 of their size.
+// Edges whose directions differ by less than this, squared sine, are taken for parallel; triangles whose area
+// is less than this share of what their sides could span, squared, for lines. What that hides is 1e-9 of
+// their size.
 constexpr double nearly_parallel = 1e-18;
 
 /// Where along the edge from a to b the point p is nearest: 0 at a, 1 at b.
@@ -67,9 +68,10 @@ Nearness vertex_triangle(const Corners4& x) {
 
 Eigen::Vector4d edge_weights(double a, double b) { return {1 - a, a, -(1 - b), -b}; }
 
-/// Two edges x0 x1 and x2 x3: nearest inside both, or at an end of one of them. Inside, x0 + a d and x2 + b e are
-/// nearest across N = d x e, so a = (x2 - x0) x e . N / |N|^2. Of nearly parallel edges rounding shifts a along them;
-/// the foot of that place on the other edge, and its foot in turn, are as near to each other as the nearest points are.
+/// Two edges x0 x1 and x2 x3: nearest inside both, or at an end of one of them. Inside, x0 + a d and x2 + b e
+/// are nearest across N = d x e, so a = (x2 - x0) x e . N / |N|^2. Of nearly parallel edges rounding shifts a
+/// along them; the foot of that place on the other edge, and its foot in turn, are as near to each other as
+/// the nearest points are.
 Nearness edge_edge(const Corners4& x) {
   const Vector3 d = x.col(1) - x.col(0), e = x.col(3) - x.col(2), r = x.col(2) - x.col(0);
   const Vector3 N = d.cross(e);  // m^2

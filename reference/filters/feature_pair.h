@@ -1,4 +1,5 @@
-// Two features of the cloth, a vertex and a triangle or two edges: how near they are to each other, and where.
+// Two features of the cloth, a vertex and a triangle or two edges: how near they are to each other, and
+// where.
 #pragma once
 
 #include <array>
@@ -30,8 +31,8 @@ struct Nearness {
   Eigen::Vector4d weights;  // 1
 };
 
-/// Triangles without area and edges without length or parallel to each other are as good as others: their sides and
-/// ends are asked.
+/// Triangles without area and edges without length or parallel to each other are as good as others: their
+/// sides and ends are asked.
 Nearness nearness(PairKind kind, const Corners4& x);
 
 }  // namespace foldproof

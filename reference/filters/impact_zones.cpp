@@ -64,8 +64,8 @@ namespace {
 using Motion6 = Eigen::Matrix<double, 6, 1>;  // u, then omega times the zone's size: both m/s
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// A direction of the six whose share of the zone's inertia is less is no motion of it: a turn about the line on which
-// all its particles lie.
+// A direction of the six whose share of the zone's inertia is less is no motion of it: a turn about the line
+// on which all its particles lie.
 constexpr double no_motion = 1e-12;
 
 /// A zone's particles seen from its middle, in units of its size: v = J w with J = [1, -[r]x].
@@ -108,7 +108,7 @@ struct Solved {
   Eigen::Matrix<double, 6, Eigen::Dynamic> open;
 };
 
-/// scale: the size of an eigenvalue that is none by rounding alone.
+/// scale: the size of eigenvalues that are not zero; what is a tiny share of it is taken for zero.
 Solved solve(const Matrix6& left, const Motion6& right, double scale) {
   const SymmetricModes modes = symmetric_modes(left);
   const double cut = no_motion * scale;

@@ -12,7 +12,8 @@ namespace {
 // Normals that differ by less than this, 5.7 degrees, have no surface between them worth the name.
 constexpr double least_difference_of_normals = 0.1;
 
-// Normals more than 120 degrees apart: objects that close on a point, out of whose way no corrections in turn lead.
+// Normals more than 120 degrees apart: objects that close on a point, out of whose way no corrections in turn
+// lead.
 constexpr double facing = -0.5;
 
 // A point that would reach the surface within this part of the step is on it.
@@ -28,8 +29,8 @@ double forecast_distance(const ObjectPoint& at, const Vector3& v_p, double tau) 
 }
 
 /// Each object once, the one that the point is forecast to be deepest in first: an object that is not the
-/// nearest, but will be entered, is not forgotten. If the way out of one leads into another that faces it, the
-/// point is held between them.
+/// nearest, but will be entered, is not forgotten. If the way out of one leads into another that faces it,
+/// the point is held between them.
 Vector3 against_each(std::span<ObjectPoint> left, const MovingPoint& point) {
   Vector3 v = point.v;
   std::optional<ObjectPoint> before;
@@ -67,8 +68,8 @@ Vector3 pushed(const ObjectPoint& at, const Vector3& v, double push) {
   return v + push * at.normal - (1 - kept_by_friction(at.friction, push, sliding.norm())) * sliding;
 }
 
-/// Put on the surface if it would be inside after the step; a velocity that ends the step loses its part into a
-/// surface that the point is on.
+/// Put on the surface if it would be inside after the step; a velocity that ends the step loses its part into
+/// a surface that the point is on.
 Vector3 projection(std::span<ObjectPoint> said, const MovingPoint& point) {
   const double h = point.span.end - point.span.start;
   const ObjectPoint at = nearest_of(said).first;

@@ -43,10 +43,10 @@ struct ClosePair {
 
 bool inside_both(const Eigen::Vector4d& weights) { return (weights.array() != 0).all(); }
 
-/// Pairs within the thickness that carry. Where two layers lie flat on each other, the nearest points of most pairs are at
-/// ends and corners, with normals that lean: layers would catch on each other's edges when they slide. So two edges count
-/// where they are nearest inside both; a vertex counts over a triangle, and at a triangle's rim only if it is no nearer to
-/// another triangle, as over a fold or at the cloth's border.
+/// Pairs within the thickness that carry. Where two layers lie flat on each other, the nearest points of most
+/// pairs are at ends and corners, with normals that lean: layers would catch on each other's edges when they
+/// slide. So two edges count where they are nearest inside both; a vertex counts over a triangle, and at a
+/// triangle's rim only if it is no nearer to another triangle, as over a fold or at the cloth's border.
 std::vector<ClosePair> carrying(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
                                 double thickness) {
   std::vector<ClosePair> close;

@@ -1,5 +1,5 @@
-// Layers of cloth nearer to each other than the thickness push each other apart, and rub (Bridson, Fedkiw, Anderson
-// 2002, section 7.1).
+// Layers of cloth nearer to each other than the thickness push each other apart, and rub (Bridson, Fedkiw,
+// Anderson 2002, section 7.1).
 #pragma once
 
 #include <vector>
@@ -23,16 +23,16 @@ struct SelfCollisionSettings {
 void push_apart(const FeaturePair& pair, const Eigen::Vector4d& weights, const Vector3& change,
                 const PerParticle& inverse_mass, PerParticle3& v);
 
-/// Coulomb: of the relative velocity that is left across N, at most friction times `push` [m/s] is taken, and no more
-/// than there is. Returns the change [m/s].
+/// Coulomb: of the relative velocity that is left across N, at most friction times `push` [m/s] is taken, and
+/// no more than there is. Returns the change [m/s].
 Vector3 rubbed(const Vector3& relative, const Vector3& N, double push, double friction);
 
-/// Pairs nearer than the thickness s at x, those of them that carry (repulsion.cpp), one after the other as v then is: with d = s - distance and v_N the rate at
-/// which they part,
+/// Pairs nearer than the thickness s at x, those of them that carry (repulsion.cpp), one after the other as v
+/// then is: with d = s - distance and v_N the rate at which they part,
 ///   v_N' = max(0, v_N),   and then, if v_N' < 0.1 d/h,   v_N' += min(h k d sum(w_i^2/m_i), 0.1 d/h - v_N')
-/// so that at most a tenth of the overlap goes in a step of h, and friction against v_N' - v_N. Impulses along the line
-/// between the nearest points keep linear and angular momentum; those of friction keep linear momentum, and turn by
-/// their size times the distance. Returns the number of pairs that were answered.
+/// so that at most a tenth of the overlap goes in a step of h, and friction against v_N' - v_N. Impulses
+/// along the line between the nearest points keep linear and angular momentum; those of friction keep linear
+/// momentum, and turn by their size times the distance. Returns the number of pairs that were answered.
 long repel(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
            const SelfCollisionSettings& settings, double h, const PerParticle& inverse_mass, PerParticle3& v);
 

@@ -71,8 +71,9 @@ long Step::answer_all(int round) {
   return answered;
 }
 
-/// The impulse between the points that would meet, along the line between them then. In the first round they may come
-/// as near as the thickness, where repulsion awaits them; after it their approach is stopped. Friction as in repulsion.
+/// The impulse between the points that would meet, along the line between them then. In the first round they
+/// may come as near as the thickness, where repulsion awaits them; after it their approach is stopped.
+/// Friction as in repulsion.
 void Step::answer(const FeaturePair& pair, const Approach& met, int round) {
   const Vector3& N = met.at.normal;
   const double gap = (corners_of(pair, s.x) * met.at.weights).dot(N);  // along it, at the start [m]
@@ -84,7 +85,8 @@ void Step::answer(const FeaturePair& pair, const Approach& met, int round) {
              filter.inverse_mass, v);
 }
 
-/// Joins what still comes together; false if nothing does. leads: prescribed particles that no zone's motion meets.
+/// Joins what still comes together; false if nothing does. leads: prescribed particles that no zone's motion
+/// meets.
 bool Step::grow(ImpactZones& zones, std::vector<char>& leads) {
   bool any = false;
   for (const FeaturePair& pair : pairs()) {

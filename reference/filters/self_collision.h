@@ -1,5 +1,6 @@
-// Cloth against itself (BMF03 section 5, after Bridson, Fedkiw and Anderson 2002): repulsion within the thickness, then
-// impulses against crossings, then rigid zones, until the step is shown to be free of crossings.
+// Cloth against itself (BMF03 section 5, after Bridson, Fedkiw and Anderson 2002): repulsion within the
+// thickness, then impulses against crossings, then rigid zones, until the step is shown to be free of
+// crossings.
 #pragma once
 
 #include "reference/filters/cloth_pairs.h"
@@ -11,20 +12,20 @@
 namespace foldproof {
 
 /// The filter. It comes last: objects first, then cloth against itself.
-/// The velocity that moves the cloth leaves it with a proof: of every pair of features whose boxes meet on the way, that
-/// planes part them all along (approach.h), or that they move as one (impact_zones.h). So what is free of crossings stays
-/// free of them, and pairs farther apart than a tenth of the thickness stay so. The velocity that ends a step moves
-/// nothing; layers within the thickness are kept from approaching.
-/// Cloth that starts crossing itself is held apart only where it is not tangled, and pushed out of the tangle; there is no
-/// proof until it is out.
+/// The velocity that moves the cloth leaves it with a proof: of every pair of features whose boxes meet on
+/// the way, that planes part them all along (approach.h), or that they move as one (impact_zones.h). So what
+/// is free of crossings stays free of them, and pairs farther apart than a tenth of the thickness stay so.
+/// The velocity that ends a step moves nothing; layers within the thickness are kept from approaching. Cloth
+/// that starts crossing itself is held apart only where it is not tangled, and pushed out of the tangle;
+/// there is no proof until it is out.
 struct SelfCollision {
   SelfCollisionSettings settings;
   ClothTree cloth;
   PerParticle mass, inverse_mass;   // N [kg], [1/kg]; the latter 0 for prescribed particles
   CrossingTriangles at_start = {};  // pairs that cross before the first step
 
-  /// Pairs that may come near each other in the next steps, if those that s remembers will not do. They spare most
-  /// searches and change no bit: correct() does without where they do not reach.
+  /// Pairs that may come near each other in the next steps, if those that s remembers will not do. They spare
+  /// most searches and change no bit: correct() does without where they do not reach.
   void renew_pairs(State& s) const;
 
   /// Throws DegenerateElement where prescribed particles force the cloth through itself.

@@ -1,5 +1,5 @@
-// Strain limits: springs may not leave [1 - compression, 1 + extension] of their rest length over the coming step
-// (BMF03 section 3, after Provot 1995).
+// Strain limits: springs may not leave [1 - compression, 1 + extension] of their rest length over the coming
+// step (BMF03 section 3, after Provot 1995).
 #pragma once
 
 #include <vector>
@@ -32,9 +32,10 @@ struct LimitedSpring {
   double rest_length;  // L0 [m]
 };
 
-/// The filter: for each spring the length that velocities predict for the end of a step, |d + h dv|, is brought back to the
-/// limit that it is beyond, by equal and opposite impulses along the current d. So one call keeps linear and
-/// angular momentum, to rounding; prescribed particles, and springs within rounding of their limits, it leaves bit for bit as they are.
+/// The filter: for each spring the length that velocities predict for the end of a step, |d + h dv|, is
+/// brought back to the limit that it is beyond, by equal and opposite impulses along the current d. So one
+/// call keeps linear and angular momentum, to rounding; prescribed particles, and springs within rounding of
+/// their limits, it leaves bit for bit as they are.
 struct StrainLimiter {
   StrainLimits limits;
   std::vector<LimitedSpring>
@@ -53,8 +54,9 @@ StrainLimiter make_strain_limiter(const StrainLimits& limits, const std::vector<
 /// What a call did.
 struct StrainSweeps {
   int sweeps = 0;  // the one that found nothing to do included
-  double left =
-      0;  // largest violation of a limit, over the rest length; <= the tolerance unless sweeps ran out, or what is left is held at both ends [1]
+  /// Largest violation of a limit, over the rest length; <= the tolerance unless sweeps ran out, or what is left is
+  /// held at both ends [1].
+  double left = 0;
   long unreachable = 0;  // springs of the last sweep that no impulse along them brings within their limits
 };
 

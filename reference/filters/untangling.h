@@ -21,11 +21,13 @@ std::string triangles_named(const CrossingTriangles& crossing);
 std::vector<char> tangled_particles(const CrossingTriangles& crossing, const std::vector<Triangle>& triangles,
                                     Eigen::Index particles);
 
-/// Leaves out the pairs of which all particles are tangled: to be held apart where they are would hold them crossed.
+/// Leaves out the pairs of which all particles are tangled: to be held apart where they are would hold them
+/// crossed.
 void leave_out_tangled(const std::vector<char>& tangled, std::vector<FeaturePair>& pairs);
 
-/// Where an edge of one triangle pierces another at p, moves the two against each other, at `speed` [m/s] at least, in the direction
-/// in which the line where they cross grows shorter. Impulses sum to zero. x, v: 3 x N [m], [m/s].
+/// Where an edge of one triangle pierces another at p, moves the two against each other, at `speed` [m/s] at
+/// least, in the direction in which the line where they cross grows shorter. Impulses sum to zero. x, v: 3 x
+/// N [m], [m/s].
 void push_out_of_tangle(const CrossingTriangles& crossing, const std::vector<Triangle>& triangles,
                         const PerParticle3& x, double speed, const PerParticle& inverse_mass,
                         PerParticle3& v);

@@ -70,8 +70,8 @@ double sine_magnitude(double theta, double rest_angle) {
 double sine_slope(double theta, double) { return 0.5 * std::cos(theta / 2); }
 
 double sine_potential(double theta, double rest_angle) {
-  // 2 (cos(theta0/2) - cos(theta/2)) as a product of sines, which loses no digits near a rest angle of 0; near others a
-  // share of about tan(theta0/2)/(theta - theta0) of a rounding
+  // 2 (cos(theta0/2) - cos(theta/2)) as a product of sines, which loses no digits near a rest angle of 0;
+  // near others a share of about tan(theta0/2)/(theta - theta0) of a rounding
   return 4 * std::sin((theta + rest_angle) / 4) * std::sin((theta - rest_angle) / 4) -
          std::sin(rest_angle / 2) * (theta - rest_angle);
 }

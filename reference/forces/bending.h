@@ -80,11 +80,12 @@ HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, 
 /// theta in [-pi, pi] [rad]; 0 and pi count as positive.
 double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4);
 
-/// The same of the hinge's particles at x (3 x N [m]). Throws DegenerateElement naming them if a triangle has lost
-/// its area.
+/// The same of the hinge's particles at x (3 x N [m]). Throws DegenerateElement naming them if a triangle has
+/// lost its area.
 HingeShape checked_shape_of(const BendingHinge& hinge, const PerParticle3& x);
 
-/// theta of the hinge's particles at x (3 x N [m]) [rad]; sin_half would not do near pi, where it hardly changes.
+/// theta of the hinge's particles at x (3 x N [m]) [rad]; sin_half would not do near pi, where it hardly
+/// changes.
 double angle_of(const BendingHinge& hinge, const PerParticle3& x);
 double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting);  // c [1]
 
@@ -118,8 +119,9 @@ struct Bending {
   void add_elastic_differential(const State& s, Definiteness definiteness,
                                 ForceDifferential& differential) const;
 
-  /// The same, exact, with the change of c, and with it how the damping forces change with the positions at the
-  /// velocities of s: a hinge's block gets -kd (rate u (grad s)^T + s u (grad u v)^T + s rate grad u), rate = u.v.
+  /// The same, exact, with the change of c, and with it how the damping forces change with the positions at
+  /// the velocities of s: a hinge's block gets -kd (rate u (grad s)^T + s u (grad u v)^T + s rate grad u),
+  /// rate = u.v.
   void add_force_differential(const State& s, ForceDifferential& differential) const;
 
   /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see forces/force.h.

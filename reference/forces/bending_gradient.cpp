@@ -1,5 +1,5 @@
-// How the bending mode (the second derivative of the angle) and the forces' factors change with the corners, for
-// the fully implicit methods.
+// How the bending mode (the second derivative of the angle) and the forces' factors change with the corners,
+// for the fully implicit methods.
 #include <Eigen/Geometry>
 
 #include "reference/forces/bending.h"
@@ -55,8 +55,8 @@ SideGradient side_gradient(const std::array<Vector3, 4>& x, int k) {
   return gradient;
 }
 
-/// How the length of (q - p) x (r - p), n its unit direction, changes with p, q, r: each with the height over the
-/// opposite side.
+/// How the length of (q - p) x (r - p), n its unit direction, changes with p, q, r: each with the height over
+/// the opposite side.
 void add_area_gradient(const std::array<Vector3, 4>& x, const std::array<int, 3>& pqr, Vector12& gradient) {
   const auto at = [&](int k) -> const Vector3& { return x[size_t(pqr[size_t(k)])]; };
   const Vector3 n = (at(1) - at(0)).cross(at(2) - at(0)).normalized();

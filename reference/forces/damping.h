@@ -1,8 +1,9 @@
 // The damping forces at one set of positions: F_damping = D v, linear in v, D symmetric negative semi-
 // definite.
 //
-// Every damper of cloth resists one mode: F = -w (w.v), a matrix of rank one that is never assembled; what sticks is
-// held in three. All that depends on positions is in w, computed once and used for every product of a solve (BMF03 section 3).
+// Every damper of cloth resists one mode: F = -w (w.v), a matrix of rank one that is never assembled; what
+// sticks is held in three. All that depends on positions is in w, computed once and used for every product of
+// a solve (BMF03 section 3).
 #pragma once
 
 #include <array>
@@ -31,7 +32,8 @@ struct HingeDamper {
 
 /// Resists the motion of a particle against a place that triangles of cloth carry, of rank three:
 ///   F = coefficient (J v - v_particle) on the particle, -J^T F on the corners
-/// Without frames the place is at rest: what moves by itself has its part among the forces that do not depend on v.
+/// Without frames the place is at rest: what moves by itself has its part among the forces that do not depend
+/// on v.
 struct TargetDamper {
   int particle;
   double coefficient;                 // N s/m

@@ -31,8 +31,8 @@ struct CustomForce {
   double energy(const State& s) const { return potential ? potential(s) : 0; }
 };
 
-/// One force: an elastic or external part that depends on time and positions, and an energy. Damping is collected
-/// apart, by damping_at.
+/// One force: an elastic or external part that depends on time and positions, and an energy. Damping is
+/// collected apart, by damping_at.
 template <class F>
 concept ForceModel = requires(const F force, const State s, PerParticle3 f) {
   force.add_elastic(s, f);  // f += F_e(t, x); adds and clears nothing
@@ -53,11 +53,12 @@ DampingOperator damping_at(const std::vector<Force>& forces, const State& s, Wor
 ForceDifferential elastic_differential_at(const std::vector<Force>& forces, const State& s,
                                           Definiteness definiteness, Work& work);
 
-/// The exact derivative of all forces, damping forces at the velocities of s included, by the positions. Custom
-/// forces give that of their elastic part alone.
+/// The exact derivative of all forces, damping forces at the velocities of s included, by the positions.
+/// Custom forces give that of their elastic part alone.
 ForceDifferential force_differential_at(const std::vector<Force>& forces, const State& s, Work& work);
 
-/// An upper bound on the largest elastic angular frequency [rad/s] at s, from springs, hinges and bonds of sticking:
+/// An upper bound on the largest elastic angular frequency [rad/s] at s, from springs, hinges and bonds of
+/// sticking:
 ///   omega^2 <= max over particles i of (1/m_i) (sum over the stiffness matrices' rows at i)
 /// the maximum row sum, by Gershgorin after scaling with the masses. inverse_mass: N [1/kg], 0 for prescribed
 /// particles.

@@ -1,6 +1,6 @@
 // The forces' derivative by the positions at one state: dF = K dx, for the methods that are implicit in the
-// elastic forces too. The paper's own schemes never need it. K is symmetric where the forces have an energy: not
-// that of damping forces at given velocities, nor that of bending with current weighting.
+// elastic forces too. The paper's own schemes never need it. K is symmetric where the forces have an energy:
+// not that of damping forces at given velocities, nor that of bending with current weighting.
 #pragma once
 
 #include <array>

@@ -15,8 +15,8 @@ namespace foldproof {
 //
 //   F_a =  Y (A_e/L0) (|d|/L0 - 1) d^  +  kd_s (A_e/L0^2) ((v_b - v_a).d^) d^,     F_b = -F_a
 //
-// so that the spring's stiffness is Y A_e/L0^2 [N/m]. On an equilateral mesh the sheet has Young's modulus Y [N/m]
-// and Poisson ratio 1/3 exactly; elsewhere effective ones.
+// so that the spring's stiffness is Y A_e/L0^2 [N/m]. On an equilateral mesh the sheet has Young's modulus Y
+// [N/m] and Poisson ratio 1/3 exactly; elsewhere effective ones.
 struct Spring {
   int a, b;
   double rest_length;  // L0 [m]
@@ -41,12 +41,13 @@ struct StretchSprings {
 
   void prepare_damping(const State& s, DampingOperator& damping) const;
 
-  /// A spring's block is k along d and tension/|d| across it; semidefinite drops the second where tension < 0.
+  /// A spring's block is k along d and tension/|d| across it; semidefinite drops the second where tension <
+  /// 0.
   void add_elastic_differential(const State& s, Definiteness definiteness,
                                 ForceDifferential& differential) const;
 
-  /// The same, exact, and with it how the damping forces change with the positions at the velocities of s: for
-  /// the unit direction n and dv = v_b - v_a, block = -damping (n dv^T + (n.dv) I)(I - n n^T)/|d|.
+  /// The same, exact, and with it how the damping forces change with the positions at the velocities of s:
+  /// for the unit direction n and dv = v_b - v_a, block = -damping (n dv^T + (n.dv) I)(I - n n^T)/|d|.
   void add_force_differential(const State& s, ForceDifferential& differential) const;
 
   /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see forces/force.h.

@@ -22,8 +22,8 @@ struct BodyDeformation {
   double period;  // s
 };
 
-/// One after the other, about the vertical (y) axis through the middle of the bounds, heights counted from their
-/// lowest point. Lengths in m.
+/// One after the other, about the vertical (y) axis through the middle of the bounds, heights counted from
+/// their lowest point. Lengths in m.
 Deformation deformation_of(std::vector<BodyDeformation> parts, const Bounds& bounds);
 
 }  // namespace foldproof

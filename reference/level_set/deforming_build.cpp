@@ -44,12 +44,13 @@ struct NodeValue {
 /// The share of what a cell may miss beyond the band by which a kept value may be too large.
 constexpr double kept_share = 0.5;
 
-/// The values at the nodes of a frame's octree, each found once: every cell about a node asks for it anew, and so do
-/// the displacements once the octree stands.
+/// The values at the nodes of a frame's octree, each found once: every cell about a node asks for it anew,
+/// and so do the displacements once the octree stands.
 ///
-/// In the band the nearest point is looked for. Beyond it the point that was nearest in the frame before, moved along
-/// with the mesh, is kept if nothing is nearer by more than the share: to see that is a short search, which ends at
-/// every box that is farther away. The sign is the frame before's if the surface was farther than it has moved.
+/// In the band the nearest point is looked for. Beyond it the point that was nearest in the frame before,
+/// moved along with the mesh, is kept if nothing is nearer by more than the share: to see that is a short
+/// search, which ends at every box that is farther away. The sign is the frame before's if the surface was
+/// farther than it has moved.
 class NodeValues {
  public:
   NodeValues(const MeshSequence& sequence, std::size_t frame, const OctreeSettings& settings)
@@ -101,7 +102,8 @@ class NodeValues {
     const Triangle& t = mesh_.triangles[old.triangle];
     const double most = (p - at_point_of(t, old.weight, mesh_.x)).norm();
     const double share = kept_share * settings_.beyond;
-    // most - least = share (least - band); in the band least is above most, and the search finds the nearest point
+    // most - least = share (least - band); in the band least is above most, and the search finds the nearest
+    // point
     const double least = (most + share * settings_.band) / (1 + share);
     const NearestFeature nearer = nearest_feature(mesh_, p, least);
     value = nearer.triangle < 0 ? NodeValue{std::copysign(most, old.phi), least, old.triangle, old.weight}

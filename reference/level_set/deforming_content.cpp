@@ -29,7 +29,8 @@ void require(bool is_met, std::size_t frame, const char* what) {
   if (!is_met) throw InputError("deforming body, frame " + std::to_string(frame) + ": " + what);
 }
 
-/// Children follow their branches, one after the other, and channels likewise: nothing is shared or out of range.
+/// Children follow their branches, one after the other, and channels likewise: nothing is shared or out of
+/// range.
 bool has_sound_branches(const Octree& tree) {
   std::size_t branches = 1, channels = 0;
   for (std::size_t b = 0; b < tree.branches.size(); ++b) {

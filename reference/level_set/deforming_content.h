@@ -14,8 +14,9 @@ std::string origin_key(const MeshSequence& sequence, const OctreeSettings& setti
 /// The same of the level sets themselves: it tells whether stored ones are as they were written.
 std::string content_key(const DeformingBody& body);
 
-/// Throws InputError saying what is wrong with a body that no build made: frames that do not rise, indices out of
-/// range, arrays of lengths that do not fit, values that are no numbers. A sound body can be asked anywhere.
+/// Throws InputError saying what is wrong with a body that no build made: frames that do not rise, indices
+/// out of range, arrays of lengths that do not fit, values that are no numbers. A sound body can be asked
+/// anywhere.
 void require_sound(const DeformingBody& body);
 
 }  // namespace foldproof

@@ -42,8 +42,8 @@ std::array<double, 8> corner_weights(const Vector3& within) {
   return weights;
 }
 
-/// The differences at a cell's two nodes along an axis, central or at the border one-sided, blended: the sum of
-/// weights times the values these steps away from the lower node.
+/// The differences at a cell's two nodes along an axis, central or at the border one-sided, blended: the sum
+/// of weights times the values these steps away from the lower node.
 struct Slope {
   std::array<long, 4> steps;
   std::array<double, 4> weights;  // 1/m
@@ -125,8 +125,8 @@ Lattice lattice_about(const Bounds& bounds, int cells, int margin) {
   return lattice;
 }
 
-// Beyond the lattice: q on its border names the surface point s = q - phi N. Where the way from s to p leaves the
-// lattice is a better q: |p - s| never grows, and stands still where s is a nearest point of p.
+// Beyond the lattice: q on its border names the surface point s = q - phi N. Where the way from s to p leaves
+// the lattice is a better q: |p - s| never grows, and stands still where s is a nearest point of p.
 Distance Grid::at(const Vector3& p) const {
   const Bounds bounds = lattice.bounds();
   if (bounds.contains(p)) return blended(*this, p);

@@ -1,4 +1,5 @@
-// Who makes the level sets of a case's bodies: the functions of this folder, or one that keeps what they made.
+// Who makes the level sets of a case's bodies: the functions of this folder, or one that keeps what they
+// made.
 #pragma once
 
 #include <functional>
@@ -9,7 +10,8 @@
 
 namespace foldproof {
 
-/// Each answers what the function of its name makes of the same arguments, bit for bit, and throws what that throws.
+/// Each answers what the function of its name makes of the same arguments, bit for bit, and throws what that
+/// throws.
 struct LevelSetMakers {
   std::function<std::shared_ptr<const Grid>(const TriangleSoup&, const GridMethod&, Repair)> make_level_set;
   std::function<std::shared_ptr<const DeformingBody>(const MeshSequence&, const OctreeSettings&,

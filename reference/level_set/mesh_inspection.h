@@ -19,8 +19,9 @@ struct MeshInspection {
   long against_sign = 0, among_rays = 0;  // nodes whose sign ray parity denies; where its rays do not agree
 };
 
-/// cells: of the grid along the longest side. The grid's signs are those of normals for a solid, and of the winding
-/// number for what has to be repaired. Nodes within a millionth of a cell of the surface are not counted.
+/// cells: of the grid along the longest side. The grid's signs are those of normals for a solid, and of the
+/// winding number for what has to be repaired. Nodes within a millionth of a cell of the surface are not
+/// counted.
 MeshInspection inspect_mesh(const TriangleSoup& soup, int cells);
 
 }  // namespace foldproof

@@ -16,8 +16,8 @@ bool is_near(const MeshDistance& mesh, const Lattice& lattice, const Node& first
   return nearest_feature(mesh, lattice.position(first) + half, width + half.norm()).triangle >= 0;
 }
 
-/// Adds the nodes of a row of the block, from `node` on. A node is at most one spacing farther away than the one
-/// before it, which shortens the search.
+/// Adds the nodes of a row of the block, from `node` on. A node is at most one spacing farther away than the
+/// one before it, which shortens the search.
 void add_row(const MeshDistance& mesh, const Lattice& lattice, Node node, double width, Seeds& seeds) {
   double bound = width;
   const int end = std::min(node[0] + block, lattice.nodes[0]);

@@ -7,9 +7,10 @@ namespace foldproof {
 
 namespace {
 
-// phi changes by no more than this per distance: a distance by 1. Each slope of its trilinear interpolant along an axis
-// is a mean of differences along edges of the cell, at most 1, so that all three make sqrt(3) at most. Nodes that miss
-// the distance by e (they hang, or marching missed) add 2 e/width to a slope: 2 is enough for e = 0.077 widths.
+// phi changes by no more than this per distance: a distance by 1. Each slope of its trilinear interpolant
+// along an axis is a mean of differences along edges of the cell, at most 1, so that all three make sqrt(3)
+// at most. Nodes that miss the distance by e (they hang, or marching missed) add 2 e/width to a slope: 2 is
+// enough for e = 0.077 widths.
 constexpr double steepest = 2;
 
 }  // namespace
@@ -34,7 +35,8 @@ RigidDuring RigidObject::during(const Span& span) const {
 }
 
 ObjectPoint RigidDuring::at(const Vector3& p) const {
-  // by columns: pairs of coordinates are written at once, as they are read; of single ones the reader would wait
+  // by columns: pairs of coordinates are written at once, as they are read; of single ones the reader would
+  // wait
   const Vector3 away = p - moved;
   const Distance distance =
       distance_to(*solid, back.col(0) * away.x() + back.col(1) * away.y() + back.col(2) * away.z());

@@ -104,8 +104,8 @@ class ObjectsDuring {
   /// What each object says about p, in their order; overwritten by the next call.
   std::span<ObjectPoint> at(const Vector3& p);
 
-  /// True if the last answers prove, without asking, that a point at p with velocity v [m/s] cannot reach any object
-  /// within `time` [s].
+  /// True if the last answers prove, without asking, that a point at p with velocity v [m/s] cannot reach any
+  /// object within `time` [s].
   bool out_of_reach(const Vector3& p, const Vector3& v, double time) const;
 
  private:

@@ -24,7 +24,8 @@ Distance distance_in(const Octree& tree, int channel, const OctreeLeaf& leaf) {
   return distance_of(trilinear(tree.phi[channel], leaf.child, leaf.local));
 }
 
-/// A distance at q, the cube's nearest point to p, carried on to p: that of the surface point that it tells of.
+/// A distance at q, the cube's nearest point to p, carried on to p: that of the surface point that it tells
+/// of.
 Distance beyond_cube(const Distance& at_q, const Vector3& q, const Vector3& p) {
   const Vector3 away = p - (q - at_q.phi * at_q.normal);
   const double phi = away.norm();

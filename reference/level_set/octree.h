@@ -1,5 +1,5 @@
-// Adaptively sampled distance: an octree of trilinear cells, fine where the distance is curved and near, coarse
-// elsewhere (BMF03 section 5.1, after Frisken et al. 2000); continuous where cells of two sizes meet.
+// Adaptively sampled distance: an octree of trilinear cells, fine where the distance is curved and near,
+// coarse elsewhere (BMF03 section 5.1, after Frisken et al. 2000); continuous where cells of two sizes meet.
 #pragma once
 
 #include <array>
@@ -47,14 +47,15 @@ struct OctreeBranch {
   unsigned char parts;  // how many channels it has, at least one
 };
 
-/// Where the descent to a leaf begins: the deepest branch, down to start_level, that holds a cell of that level.
+/// Where the descent to a leaf begins: the deepest branch, down to start_level, that holds a cell of that
+/// level.
 struct OctreeStart {
   int branch, level;
 };
 
-/// Of a union each branch holds a channel for every part that is nearest at one of its nodes, or nearer than the
-/// reach. Each channel is smooth where the part is, so that the crease of the union lies between nodes where it
-/// belongs.
+/// Of a union each branch holds a channel for every part that is nearest at one of its nodes, or nearer than
+/// the reach. Each channel is smooth where the part is, so that the crease of the union lies between nodes
+/// where it belongs.
 struct Octree {
   OctreeSettings settings;
   std::vector<OctreeBranch> branches;    // level by level; the first is the whole cube
@@ -68,14 +69,15 @@ struct Octree {
   Distance at(const Vector3& p) const;
 };
 
-/// Covers the union of bodies, which must lie inside the cube. Within the band the interpolant misses by the tolerance
-/// at most at the edge, face and cell midpoints where it was compared, unless the cells there are the finest; beyond the
-/// band by `beyond` times the distance more; a constrained node adds what its coarse neighbour misses. Neighbours, also across edges and corners, differ by one level at most.
-/// Throws InputError: no bodies, a setting out of range, a body that reaches the cube's boundary.
+/// Covers the union of bodies, which must lie inside the cube. Within the band the interpolant misses by the
+/// tolerance at most at the edge, face and cell midpoints where it was compared, unless the cells there are
+/// the finest; beyond the band by `beyond` times the distance more; a constrained node adds what its coarse
+/// neighbour misses. Neighbours, also across edges and corners, differ by one level at most. Throws
+/// InputError: no bodies, a setting out of range, a body that reaches the cube's boundary.
 Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings);
 
-/// Makes a tree whose branches stand ready to be asked: the levels down to start_level are looked up, for a descent
-/// waits for memory at each.
+/// Makes a tree whose branches stand ready to be asked: the levels down to start_level are looked up, for a
+/// descent waits for memory at each.
 void set_starts(Octree& tree);
 
 /// The leaf that holds p, which lies in the cube.
@@ -96,7 +98,8 @@ struct PartsAt {
   int inside = 0;                         // parts that the point is inside of: two or more, and it is pinched
 };
 
-/// p anywhere; outside of the cube distances are measured from the surface point below the cube's nearest point.
+/// p anywhere; outside of the cube distances are measured from the surface point below the cube's nearest
+/// point.
 PartsAt parts_at(const Octree& tree, const Vector3& p);
 
 /// What a node of the union is: the part nearest to it, and whether two or more parts hold it.

@@ -75,7 +75,8 @@ BranchNodes<double> nodes_of_child(const FineNodes& fine, int c) {
   return nodes;
 }
 
-/// Which bodies may be nearest, or within reach, somewhere in the cell: a distance changes by no more than the way.
+/// Which bodies may be nearest, or within reach, somewhere in the cell: a distance changes by no more than
+/// the way.
 Samples near_parts(const Samples& samples, const OctreeSettings& settings, int level) {
   const double way = half_diagonal(settings, level);
   double nearest = samples.phi[0][centre];
@@ -148,7 +149,8 @@ void make_cell(OctreeGrowth& growth, const OctreePlace& place) {
   }
 }
 
-/// The 26 cells about a branch have its width, or are split. Its place comes as a copy: new branches may move all others.
+/// The 26 cells about a branch have its width, or are split. Its place comes as a copy: new branches may move
+/// all others.
 void make_neighbours(OctreeGrowth& growth, OctreePlace place) {
   for (int d = 0; d < 27; ++d) {
     OctreePlace next = place;

@@ -19,8 +19,8 @@ struct View {
 
 Vector2 seen(const Vector3& x, const View& view) { return {x[view.u], x[view.v]}; }
 
-/// Does the edge pass p on its right? Half open in v: the lower end counts, the upper one does not. Both triangles
-/// of an edge ask with the same numbers in the same order, so that both get the same answer.
+/// Does the edge pass p on its right? Half open in v: the lower end counts, the upper one does not. Both
+/// triangles of an edge ask with the same numbers in the same order, so that both get the same answer.
 bool passes(Vector2 a, Vector2 b, const Vector2& p) {
   if (a.y() > b.y()) std::swap(a, b);
   if (!(a.y() <= p.y() && p.y() < b.y())) return false;
@@ -32,8 +32,8 @@ bool covers(const Corners& t, const View& view, const Vector2& p) {
   return (passes(a, b, p) != passes(b, c, p)) != passes(c, a, p);
 }
 
-/// Where the ray through p meets the triangle's plane, kept within the triangle's own extent: the plane of one that
-/// is seen edge on answers with rounding only.
+/// Where the ray through p meets the triangle's plane, kept within the triangle's own extent: the plane of
+/// one that is seen edge on answers with rounding only.
 double crossing(const Corners& t, const View& view, const Vector2& p) {
   const Vector3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
   const Vector2 step = p - seen(t[0], view);

@@ -47,8 +47,8 @@ bool meet_in_plane(const Corners& t, const Vector3& p, const Vector3& q) {
   return segments_meet(a, b, u, v) || segments_meet(b, c, u, v) || segments_meet(c, a, u, v);
 }
 
-/// Has the segment p q a point of the triangle? Its ends on two sides of the plane, its line on one side of all
-/// three edges.
+/// Has the segment p q a point of the triangle? Its ends on two sides of the plane, its line on one side of
+/// all three edges.
 bool meets(const Corners& t, const Vector3& p, const Vector3& q) {
   const int side_p = side_of_plane(t[0], t[1], t[2], p), side_q = side_of_plane(t[0], t[1], t[2], q);
   if (side_p * side_q > 0) return false;
@@ -112,8 +112,8 @@ void add_pairs_of(int s, const std::vector<Bounds>& boxes, const BoxTree& tree,
 
 }  // namespace
 
-// Where two triangles meet in more than what they share, the stretch in which they meet ends where it leaves one
-// of them, through an edge; with one vertex shared, through the edge across from it.
+// Where two triangles meet in more than what they share, the stretch in which they meet ends where it leaves
+// one of them, through an edge; with one vertex shared, through the edge across from it.
 bool intersect(const PerParticle3& x, const Triangle& s, const Triangle& t) {
   const long shared = std::count_if(s.begin(), s.end(), [&](int v) { return has_corner(t, v); });
   if (shared == 2) return folded_flat(x, s, t);

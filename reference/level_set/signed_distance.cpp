@@ -13,8 +13,8 @@ Vector3 direction_of(const Vector3& d, const Vector3& otherwise) {
   return length > 0 ? Vector3(d / length) : otherwise;
 }
 
-/// The distance to all points within `radius` of a core whose point nearest to p is `nearest`; `otherwise` is N on the
-/// core itself.
+/// The distance to all points within `radius` of a core whose point nearest to p is `nearest`; `otherwise` is
+/// N on the core itself.
 Distance rounded(const Vector3& p, const Vector3& nearest, double radius, const Vector3& otherwise) {
   const Vector3 away = p - nearest;
   return {away.norm() - radius, direction_of(away, otherwise)};

@@ -1,5 +1,5 @@
-// Signed distance to solids, and the solids for which it is known in closed form. Each stands in a frame of its
-// own; objects place and move them.
+// Signed distance to solids, and the solids for which it is known in closed form. Each stands in a frame of
+// its own; objects place and move them.
 #pragma once
 
 #include <concepts>

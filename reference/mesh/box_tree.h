@@ -10,8 +10,8 @@ namespace foldproof {
 
 using Bounds = Eigen::AlignedBox3d;  // m
 
-/// A node holds the items order[first] .. order[first + count - 1]. Its left child is the next node of the list,
-/// its right child nodes[right]; a leaf has right = -1.
+/// A node holds the items order[first] .. order[first + count - 1]. Its left child is the next node of the
+/// list, its right child nodes[right]; a leaf has right = -1.
 struct BoxNode {
   Bounds bounds;
   int first, count;

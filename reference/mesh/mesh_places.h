@@ -1,4 +1,5 @@
-// How refusals name the parts of a mesh: FILE:LINE for one that was read, counted from 0 for one made by code.
+// How refusals name the parts of a mesh: FILE:LINE for one that was read, counted from 0 for one made by
+// code.
 #pragma once
 
 #include <string>

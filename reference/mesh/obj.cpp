@@ -174,8 +174,8 @@ void read_face(Cursor& cursor, Contents& contents) {
     refuse(cursor.file, line, "a face of " + std::to_string(count) + " vertices; give at least three");
 }
 
-/// The words of a record, each once. Every face that follows is entered under each of them, so that without a limit a
-/// file could ask for memory that grows as the square of its length.
+/// The words of a record, each once. Every face that follows is entered under each of them, so that without a
+/// limit a file could ask for memory that grows as the square of its length.
 std::vector<std::string> read_names(Cursor& cursor) {
   std::vector<std::string> names;
   for (std::string_view word = next_word(cursor); !word.empty(); word = next_word(cursor)) {

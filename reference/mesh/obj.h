@@ -18,18 +18,20 @@ namespace foldproof {
 /// every locale, to the nearest double.
 /// Throws InputError "FILE:LINE: reason; what to do": a file that cannot be read or holds no face, a
 /// malformed number or index, a face with fewer than three vertices, an index that is 0 or out of range, and
-/// all that make_triangle_mesh refuses; also a file beyond the limits of text_file.h, of more than 2 million vertices
-/// or 4 million triangles, or with faces of more than 16 groups of one letter.
+/// all that make_triangle_mesh refuses; also a file beyond the limits of text_file.h, of more than 2 million
+/// vertices or 4 million triangles, or with faces of more than 16 groups of one letter.
 TriangleMesh read_obj(const std::string& path);
 
 /// The same file, its triangles as they come: nothing of what make_triangle_mesh refuses is looked at but
 /// coordinates that are not finite.
 TriangleSoup read_obj_soup(const std::string& path);
 
-/// Triangles by the name of their group, as read_obj numbers them: those of the faces after 'g NAME ...' or 'o NAME', until
-/// the next record of the same letter. A name that stands twice is one group; a face may be of several.
+/// Triangles by the name of their group, as read_obj numbers them: those of the faces after 'g NAME ...' or
+/// 'o NAME', until the next record of the same letter. A name that stands twice is one group; a face may be
+/// of several.
 using FaceGroups = std::map<std::string, std::vector<int>>;
-/// Throws InputError "FILE:LINE: ..." for what read_obj refuses of the text, and for more than 16 names in a record.
+/// Throws InputError "FILE:LINE: ..." for what read_obj refuses of the text, and for more than 16 names in a
+/// record.
 FaceGroups read_obj_groups(const std::string& path);
 
 /// The same three of a file's text; `file` names it in messages.

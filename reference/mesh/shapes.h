@@ -53,12 +53,13 @@ TriangleMesh make_cylinder(double radius, double height, int around, int along);
 /// coarser level keep their numbers in all finer ones.
 TriangleMesh make_icosphere(double radius, int subdivisions);
 
-/// A sphere about the origin: the icosahedron with its edges divided into `divisions` (1 to 512) parts, carried
-/// out to the distance radius [m]: 10 divisions^2 + 2 vertices, normals outward.
+/// A sphere about the origin: the icosahedron with its edges divided into `divisions` (1 to 512) parts,
+/// carried out to the distance radius [m]: 10 divisions^2 + 2 vertices, normals outward.
 TriangleMesh make_geodesic_sphere(double radius, int divisions);
 
-/// The mesh with every edge divided into `parts` >= 1, which makes parts^2 triangles of each, in its plane. Old
-/// vertices keep their numbers; parts - 1 on each edge come next, from a to b, then those inside triangles.
+/// The mesh with every edge divided into `parts` >= 1, which makes parts^2 triangles of each, in its plane.
+/// Old vertices keep their numbers; parts - 1 on each edge come next, from a to b, then those inside
+/// triangles.
 TriangleMesh divided(const TriangleMesh& mesh, int parts);
 
 /// A seated figure with crossed legs, arms in the lap, head and low folds; closed, genus 0, normals outward,
@@ -68,9 +69,9 @@ TriangleMesh divided(const TriangleMesh& mesh, int parts);
 /// surface, with edges turned where that improves the triangles: the least angle is about 25 degrees.
 TriangleMesh make_statue(double height, int subdivisions);
 
-/// The same figure, from the geodesic sphere of `divisions` (15 to 256, with a divisor from 15 to 29: that one is
-/// evened out, then divided), in triangles that are nearer to one size: the smallest one, not the mean, limits the
-/// steps of an explicit scheme.
+/// The same figure, from the geodesic sphere of `divisions` (15 to 256, with a divisor from 15 to 29: that
+/// one is evened out, then divided), in triangles that are nearer to one size: the smallest one, not the
+/// mean, limits the steps of an explicit scheme.
 TriangleMesh make_even_statue(double height, int divisions);
 
 /// Two triangles folded at the angle theta [rad], |theta| < pi, about their shared edge of length L [m].

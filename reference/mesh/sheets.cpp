@@ -59,8 +59,8 @@ double uniform(std::mt19937_64& random) { return double(random() >> 11) * 0x1p-5
 
 // --- squares ---
 
-/// Where line `i` of `cells` cells lies, as a fraction of the side: i/cells, or with q = grading^(1/(cells - 1))
-/// (q^i - 1)/(q^cells - 1), so that each cell is q times as wide as the one before.
+/// Where line `i` of `cells` cells lies, as a fraction of the side: i/cells, or with q = grading^(1/(cells -
+/// 1)) (q^i - 1)/(q^cells - 1), so that each cell is q times as wide as the one before.
 double line_at(double i, int cells, double grading) {
   if (grading == 1) return i / cells;
   const double log_factor = std::log(grading) / (cells - 1);

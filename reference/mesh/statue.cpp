@@ -172,8 +172,8 @@ void flip_edges(TriangleMesh& mesh) {
   mesh = make_triangle_mesh(mesh.rest, triangles);
 }
 
-/// Moves every vertex along the surface towards the mean centre of its triangles, and turns edges. The triangles
-/// weigh as their areas to this power: the higher it is, the sooner they are of one size.
+/// Moves every vertex along the surface towards the mean centre of its triangles, and turns edges. The
+/// triangles weigh as their areas to this power: the higher it is, the sooner they are of one size.
 void relax(const std::vector<Limb>& limbs, int passes, int power, TriangleMesh& mesh) {
   for (int pass = 0; pass < passes; ++pass) {
     const Eigen::VectorXd areas = triangle_areas(mesh.triangles, mesh.rest);

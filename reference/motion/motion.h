@@ -8,8 +8,9 @@
 
 namespace foldproof {
 
-/// A motion given in closed form: rotation about a fixed axis, then a shift that drifts and oscillates. It acts
-/// from one time until another, at rest before and after, and is smooth between. With t counted from its start:
+/// A motion given in closed form: rotation about a fixed axis, then a shift that drifts and oscillates. It
+/// acts from one time until another, at rest before and after, and is smooth between. With t counted from its
+/// start:
 ///   X(t) = C + R(angular_velocity t) (X0 - C) + velocity t + amplitude (sin(2 pi frequency t + phase) -
 ///   sin(phase))
 /// All zero: held at rest. X0 is its place until it starts.
@@ -23,8 +24,8 @@ struct Motion {
   double from = 0, until = std::numeric_limits<double>::infinity();  // when it acts [s]
 };
 
-/// Position [m] and velocity [m/s] at time t [s] of the point that is at `start` [m] until the motion starts. Where
-/// the velocity jumps it is the later one.
+/// Position [m] and velocity [m/s] at time t [s] of the point that is at `start` [m] until the motion starts.
+/// Where the velocity jumps it is the later one.
 Vector3 position_at(const Motion& motion, const Vector3& start, double t);
 Vector3 velocity_at(const Motion& motion, const Vector3& start, double t);
 
@@ -38,8 +39,8 @@ struct PrescribedParticle {
 /// The times after `start` at which a motion starts or stops, ascending, each once [s].
 std::vector<double> event_times(const std::vector<PrescribedParticle>& led, double start);
 
-/// The same particle with a motion that goes on smoothly for ever as it does just after `t` [s], and that is the given
-/// one until the next event. Events as little as `tolerance` [s] after t count as passed.
+/// The same particle with a motion that goes on smoothly for ever as it does just after `t` [s], and that is
+/// the given one until the next event. Events as little as `tolerance` [s] after t count as passed.
 PrescribedParticle as_after(const PrescribedParticle& led, double t, double tolerance);
 
 /// Velocities that a solve has to take as known.

@@ -38,8 +38,8 @@ Keyframes make_keyframes(std::vector<Keyframe> keys);
 
 Pose pose_at(const RigidMotion& motion, double t);
 
-/// Velocity [m/s] at time t [s] of the body's point that is at x [m] then. At a keyframe: that of the interval
-/// that begins.
+/// Velocity [m/s] at time t [s] of the body's point that is at x [m] then. At a keyframe: that of the
+/// interval that begins.
 Vector3 velocity_at(const RigidMotion& motion, const Vector3& x, double t);
 
 }  // namespace foldproof

@@ -258,9 +258,10 @@ struct Unbearable {
   std::string why;
 };
 
-/// What the parser does not bear outside of comments and texts in quotes. A key of as many parts as a line has room for
-/// nests as many tables, and the parser's stack with them: a line may have a few hundred dots, in whatever meaning.
-/// Where toml++ 3.3 looks for blanks, letters outside ASCII lead it to where it must never come: in keys, too.
+/// What the parser does not bear outside of comments and texts in quotes. A key of as many parts as a line
+/// has room for nests as many tables, and the parser's stack with them: a line may have a few hundred dots,
+/// in whatever meaning. Where toml++ 3.3 looks for blanks, letters outside ASCII lead it to where it must
+/// never come: in keys, too.
 std::optional<Unbearable> unbearable(std::string_view text) {
   int line = 1, dots = 0;
   size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // the mark that some editors put before UTF-8
@@ -282,8 +283,8 @@ std::optional<Unbearable> unbearable(std::string_view text) {
   return {};
 }
 
-/// Tried without its letters outside ASCII first: what is well formed has them in comments and texts alone, where the
-/// parser bears them. On the way to a complaint it does not.
+/// Tried without its letters outside ASCII first: what is well formed has them in comments and texts alone,
+/// where the parser bears them. On the way to a complaint it does not.
 toml::table parsed(const std::string& text, const std::string& file) {
   std::string plain = text;
   const auto mark = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;

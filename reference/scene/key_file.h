@@ -66,17 +66,18 @@ class KeyTable {
   mutable std::set<std::string> asked_, left_;
 };
 
-/// Parses TOML text; `file` names it in messages. Throws InputError "file:line: ..." for a syntax error, for tables and
-/// lists in more than 32 others, and, outside of quotes and comments, for a line with more than 200 dots, and for a
-/// character outside ASCII.
+/// Parses TOML text; `file` names it in messages. Throws InputError "file:line: ..." for a syntax error, for
+/// tables and lists in more than 32 others, and, outside of quotes and comments, for a line with more than
+/// 200 dots, and for a character outside ASCII.
 std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file);
 
 /// Overrides "a.b.c=value" (value as in TOML; what does not parse as such is taken for a string; a number in
-/// the path picks an entry of a list, and the only entry needs none). Missing tables are made. Throws InputError for an override without '='
-/// or a path through a value.
+/// the path picks an entry of a list, and the only entry needs none). Missing tables are made. Throws
+/// InputError for an override without '=' or a path through a value.
 void set_key(KeyTable& root, const std::string& assignment);
 
-/// The whole file. Throws InputError if it cannot be read, is empty, or is longer than case_text_limits (mesh/text_file.h).
+/// The whole file. Throws InputError if it cannot be read, is empty, or is longer than case_text_limits
+/// (mesh/text_file.h).
 std::string read_text(const std::string& path);
 
 }  // namespace foldproof

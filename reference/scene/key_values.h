@@ -51,8 +51,9 @@ Motion read_motion(const KeyTable& keys);
 /// turn = { axis, angle }, in degrees; no rotation if there is none.
 Eigen::AngleAxisd read_turn(const KeyTable& keys);
 
-/// The file or folder that the key names. In a case file it is relative to the file's folder and may not leave it, by an
-/// absolute path, by "..", or by a link; what was given by --set is taken as it was typed, from the working folder.
+/// The file or folder that the key names. In a case file it is relative to the file's folder and may not
+/// leave it, by an absolute path, by "..", or by a link; what was given by --set is taken as it was typed,
+/// from the working folder.
 std::string path_of(const KeyTable& keys, const std::string& key, const std::string& folder);
 
 /// Throws InputError, naming `where`, if the file does not lie in the folder or one below it, links followed.

@@ -39,9 +39,10 @@ double read_cell(const KeyTable& keys, const PerParticle3& x) {
   return bounds_of(x).sizes().maxCoeff() / double(count_or(keys, "cells", 64));
 }
 
-/// An octree about the bounds, its finest cells `cell` [m] wide and the bounds four of them away from its sides.
-/// By default it may miss a tenth of a cell: what a finest cell misses of a surface of 2.5 cells' radius r, cell^2/(4 r).
-/// Cells that may hold the surface are no wider than four finest ones, and the band is three to either side.
+/// An octree about the bounds, its finest cells `cell` [m] wide and the bounds four of them away from its
+/// sides. By default it may miss a tenth of a cell: what a finest cell misses of a surface of 2.5 cells'
+/// radius r, cell^2/(4 r). Cells that may hold the surface are no wider than four finest ones, and the band
+/// is three to either side.
 OctreeSettings read_octree(const KeyTable& keys, const Bounds& bounds, double cell) {
   const double least = bounds.sizes().maxCoeff() / cell + 8;
   const double levels = std::ceil(std::log2(least));
@@ -53,7 +54,8 @@ OctreeSettings read_octree(const KeyTable& keys, const Bounds& bounds, double ce
   return {corner, width, depth, depth - 2, tolerance, 3 * cell, 0.25, 0, HangingNodes::constrained};
 }
 
-/// The refusal of make_closed_mesh with what the frame is called, and another remedy: no repair is offered here.
+/// The refusal of make_closed_mesh with what the frame is called, and another remedy: no repair is offered
+/// here.
 void refuse_open_frame(const MeshSequence& animation, size_t k, const std::string& where) {
   try {
     make_closed_mesh({animation.positions[k], animation.triangles, {}});

@@ -30,7 +30,8 @@ struct BodyShape {
 /// Do the keys say that the body deforms: `frames` or [[object.deform]]?
 bool is_deforming(const KeyTable& keys);
 
-/// `shape = "statue"` or `mesh`, as the exact distance, a grid or an octree of it: `field`, `cells`, `tolerance`.
+/// `shape = "statue"` or `mesh`, as the exact distance, a grid or an octree of it: `field`, `cells`,
+/// `tolerance`.
 BodyShape read_mesh_body(const KeyTable& keys, const CaseAround& around);
 
 struct DeformingShape {

@@ -8,8 +8,8 @@
 
 namespace foldproof {
 
-/// Each takes x, where the things are (3 x N [m]), or their count N, and throws InputError "file:line: ..." for a value
-/// out of its range.
+/// Each takes x, where the things are (3 x N [m]), or their count N, and throws InputError "file:line: ..."
+/// for a value out of its range.
 std::vector<int> in_box(const KeyTable& keys, const PerParticle3& x);     // box = [[x, y, z], [x, y, z]]
 std::vector<int> in_sphere(const KeyTable& keys, const PerParticle3& x);  // sphere = { center, radius }
 

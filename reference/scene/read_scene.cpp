@@ -112,7 +112,8 @@ void read_solver(const KeyTable& keys, SolverSettings& solver) {
 
 constexpr size_t longest_name = 100;
 
-/// A case's name becomes a part of file names, and of names of findings: it must not lead anywhere, nor need quoting.
+/// A case's name becomes a part of file names, and of names of findings: it must not lead anywhere, nor need
+/// quoting.
 void refuse_name(const std::string& name, const std::string& path) {
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||

@@ -71,7 +71,8 @@ TriangleMesh read_cylinder(const KeyTable& keys, const SceneLimits& limits) {
   return make_cylinder(keys.number("radius"), keys.number("height"), around, along);
 }
 
-/// How finely an icosahedron is divided: its edges are halved `subdivisions` times, or are in `divisions` parts.
+/// How finely an icosahedron is divided: its edges are halved `subdivisions` times, or are in `divisions`
+/// parts.
 struct Fineness {
   int subdivisions, divisions;  // one of them is 0
 };

@@ -1,4 +1,5 @@
-// foldproof ablate: runs a case without each of its parts, and with each that it lacks, and says which it needs.
+// foldproof ablate: runs a case without each of its parts, and with each that it lacks, and says which it
+// needs.
 #include <fmt/format.h>
 
 #include <cmath>

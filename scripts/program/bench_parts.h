@@ -15,8 +15,8 @@ double seconds_of(const std::function<void()>& run);
 /// The least time of enough repeats to fill a fifth of a second, at least three [s].
 double least_seconds(const std::function<void()>& run);
 
-/// "VmHWM" (largest resident memory since forgotten) or "VmRSS" (now) of this process [MB]; NaN where the system
-/// does not say.
+/// "VmHWM" (largest resident memory since forgotten) or "VmRSS" (now) of this process [MB]; NaN where the
+/// system does not say.
 double resident_megabytes(const std::string& what);
 
 /// Gives free memory back and forgets the peak, so that what follows is not hidden in what was used before.
@@ -31,7 +31,8 @@ struct Target {
 /// A measured number beside its target.
 Record rate(const std::string& name, const std::string& claim, double measured, const Target& target);
 
-/// bench_contact.cpp: a scene's particles on an object, against a step of its own [s] that takes step_seconds.
+/// bench_contact.cpp: a scene's particles on an object, against a step of its own [s] that takes
+/// step_seconds.
 Record contact_rate(const Scene& scene, double step, double step_seconds);
 
 /// bench_strain.cpp: a sweep of strain limits over the scene's springs, likewise.

@@ -10,7 +10,8 @@ namespace foldproof {
 
 namespace {
 
-/// Eight sheets of 36 x 36 particles, 1.8 mm apart, the lowest of them held: `fold_stack` as it lies, without its folds.
+/// Eight sheets of 36 x 36 particles, 1.8 mm apart, the lowest of them held: `fold_stack` as it lies, without
+/// its folds.
 Scene stack() {
   Sheet sheet;
   sheet.pattern = SheetPattern::equilateral;

@@ -15,7 +15,8 @@ struct NamedText {
   std::string text, name;
 };
 
-/// What is printed of such rows: a heading, and 24 finite numbers for each. rest: no text means current weighting.
+/// What is printed of such rows: a heading, and 24 finite numbers for each. rest: no text means current
+/// weighting.
 std::string bending_of_rows(const NamedText& rows, const NamedText& rest);
 
 }  // namespace foldproof

@@ -20,8 +20,8 @@ using oracles::Fraction;
 using oracles::Whole;
 
 constexpr std::size_t most_query_rows = 4'000'000;  // of six long whole numbers: a gigabyte of memory
-// Of a number: exact arithmetic takes the time of their square, and a double has a numerator and a denominator of at
-// most 309 and 324.
+// Of a number: exact arithmetic takes the time of their square, and a double has a numerator and a
+// denominator of at most 309 and 324.
 constexpr std::size_t most_digits = 1000;
 
 struct FileQuery {

@@ -26,8 +26,8 @@ struct Running {
   unsigned order = 0;    // 0: the longest first; else shuffled, each number another order
 };
 
-/// Runs the jobs; says a line about each finding that does not hold, and adds what they made to the run in the order of
-/// the list. A job that throws becomes a finding of its name that fails and says why.
+/// Runs the jobs; says a line about each finding that does not hold, and adds what they made to the run in
+/// the order of the list. A job that throws becomes a finding of its name that fails and says why.
 void run_jobs(const std::vector<Job>& jobs, const std::string& label, const Running& how, RunRecord& run);
 
 }  // namespace foldproof

@@ -5,7 +5,8 @@
 
 namespace foldproof {
 
-/// Rules every claim. Throws std::runtime_error naming a claim whose text asks for a number that the run lacks.
+/// Rules every claim. Throws std::runtime_error naming a claim whose text asks for a number that the run
+/// lacks.
 void rule_all_claims(RunRecord& run);
 
 /// Rules the claims all of whose findings are in the run.

@@ -1,4 +1,5 @@
-// foldproof project: a stored run with its cloth brought out of the objects, and what that leaves of its wrinkles.
+// foldproof project: a stored run with its cloth brought out of the objects, and what that leaves of its
+// wrinkles.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -25,8 +25,8 @@ enum class Start {
   last_checkpoint
 };
 
-/// The same, and the same to the bit, with a checkpoint at every frame in <folder>/<name>.checkpoints, which is removed
-/// when the run's files are whole.
+/// The same, and the same to the bit, with a checkpoint at every frame in <folder>/<name>.checkpoints, which
+/// is removed when the run's files are whole.
 CaseRun run_case_with_checkpoints(const Case& shown, const std::string& folder, Start start,
                                   const Provenance& provenance, const Progress& progress);
 

@@ -8,16 +8,17 @@
 
 namespace foldproof {
 
-/// One entry of [expect]: `key = { at_most = bound, why = "..." }`, or at_least where the quantity is one to be
-/// reached. Keys, units and what is measured: verification/cases/quantities.h.
+/// One entry of [expect]: `key = { at_most = bound, why = "..." }`, or at_least where the quantity is one to
+/// be reached. Keys, units and what is measured: verification/cases/quantities.h.
 struct Expectation {
   std::string key;
   double bound;     // in the quantity's unit
   std::string why;  // the bound's reason in words
 };
 
-/// One entry of [ablation]: `"part" = "why"`. A part that is there though nothing that `foldproof ablate` measures needs it,
-/// or is left out though its presence would show; parts are named as convergence/scene_parts.h names them.
+/// One entry of [ablation]: `"part" = "why"`. A part that is there though nothing that `foldproof ablate`
+/// measures needs it, or is left out though its presence would show; parts are named as
+/// convergence/scene_parts.h names them.
 struct Declared {
   std::string part, why;
 };
@@ -29,8 +30,9 @@ struct Case {
   std::vector<Declared> declared = {};
 };
 
-/// Reads the case file's scene and its tables [expect] and [ablation]. Throws InputError "file:line: ..." for what read_scene
-/// refuses, an unknown quantity, one that makes no sense for the scene, and an entry without bound or reason.
+/// Reads the case file's scene and its tables [expect] and [ablation]. Throws InputError "file:line: ..." for
+/// what read_scene refuses, an unknown quantity, one that makes no sense for the scene, and an entry without
+/// bound or reason.
 ///   overrides   "a.b=c", applied in order; expect.KEY.at_most=... is one, too
 ///   makers      of the level sets of its bodies; without them these are computed
 Case case_of_file(const std::string& path, const std::vector<std::string>& overrides = {});
@@ -38,8 +40,8 @@ Case case_of_file(const std::string& path, const std::vector<std::string>& overr
                   const LevelSetMakers& makers);
 
 /// Adds what is expected of every shipped case that does not say otherwise: that it runs to its end; where
-/// the forces have an energy and nothing is driven, that the energy is accounted for; that it repeats itself; and that
-/// the cloth crosses itself in no frame.
+/// the forces have an energy and nothing is driven, that the energy is accounted for; that it repeats itself;
+/// and that the cloth crosses itself in no frame.
 Case with_usual_expectations(Case shown);
 
 /// The name of the finding: "case.<scene>.<key>", with hyphens.

@@ -130,7 +130,8 @@ double fastest(const Scene&, const State& s) {
   return worst.value();
 }
 
-/// The rate of the rigid turn about the vertical axis through the origin that has the cloth's angular momentum.
+/// The rate of the rigid turn about the vertical axis through the origin that has the cloth's angular
+/// momentum.
 double turning_rate(const Scene& scene, const State& s) {
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   double momentum = 0, inertia = 0;  // kg m^2/s, kg m^2

@@ -44,7 +44,8 @@ struct Quantity {
   const char *key, *unit;
   const char* claim;  // one sentence, true when the expectation holds
   Sense sense;
-  /// At one frame's state; the largest over all frames counts. nullptr: the quantity belongs to the whole run.
+  /// At one frame's state; the largest over all frames counts. nullptr: the quantity belongs to the whole
+  /// run.
   double (*of_frame)(const Scene& scene, const State& frame);
   double (*of_run)(const RunSeen& run);  // nullptr: the quantity belongs to frames
   std::string (*refusal)(

@@ -1,5 +1,5 @@
-// Quantities of wrinkles at the end of a run. A crease is a line of hinges, each turned to the same side and joined to the
-// next by a particle; a wrinkle has one to either side.
+// Quantities of wrinkles at the end of a run. A crease is a line of hinges, each turned to the same side and
+// joined to the next by a particle; a wrinkle has one to either side.
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -66,8 +66,8 @@ double creases_at_end(const RunSeen& run) {
   return creases_of(run.scene, x, 1).count + creases_of(run.scene, x, -1).count;
 }
 
-/// Twice the mean way at rest from a hinge in a crease to the nearest crease to the other side [m]; NaN if there are
-/// none to one of them.
+/// Twice the mean way at rest from a hinge in a crease to the nearest crease to the other side [m]; NaN if
+/// there are none to one of them.
 double wavelength_at_end(const RunSeen& run) {
   const Creases ridges = creases_of(run.scene, run.outcome.last.x, 1),
                 valleys = creases_of(run.scene, run.outcome.last.x, -1);

@@ -22,11 +22,12 @@ class Agreement {
   /// Answers that are whole: a count, yes or no. They agree or they do not.
   void see_exact(const std::string& point, double one, double other);
 
-  /// The worst |one - other| over the sum of their uncertainties, against 1; an answer that is exact on both sides
-  /// counts 0 or infinity. NaN, which fails, if fewer than two points were seen.
+  /// The worst |one - other| over the sum of their uncertainties, against 1; an answer that is exact on both
+  /// sides counts 0 or infinity. NaN, which fails, if fewer than two points were seen.
   Finding judged() const;
 
-  /// The largest uncertainty over the size of its answer (of the larger answer, or of 1 where both are smaller) [1].
+  /// The largest uncertainty over the size of its answer (of the larger answer, or of 1 where both are
+  /// smaller) [1].
   double largest_uncertainty() const;
 
  private:

@@ -17,7 +17,8 @@ struct Defects {
   double in_plane;  // largest work on a motion of length 1 in the planes, over |F| as a vector of twelve
 };
 
-/// Motions that bend nothing and turn nothing: x1 and x2 in the planes of their triangles, the edge's stretch.
+/// Motions that bend nothing and turn nothing: x1 and x2 in the planes of their triangles, the edge's
+/// stretch.
 std::vector<PerParticle3> in_plane_motions(const Corners& x) {
   const Vector3 edge = x[3] - x[2], none = Vector3::Zero();
   std::vector<PerParticle3> motions;
@@ -51,8 +52,9 @@ struct FoldedHinge {
   Defects of_the_paper;
 };
 
-/// Random hinges at angles of either sign from .2 to 2.9 rad where |cos theta| > .1: flat, no model has a force;
-/// at right angles the shortcut, which puts sin theta cos theta into the edge's stretch, happens to be right.
+/// Random hinges at angles of either sign from .2 to 2.9 rad where |cos theta| > .1: flat, no model has a
+/// force; at right angles the shortcut, which puts sin theta cos theta into the edge's stretch, happens to be
+/// right.
 std::vector<FoldedHinge> folded_hinges(const Subject& subject) {
   constexpr int tries = 48;
   Random random(613);

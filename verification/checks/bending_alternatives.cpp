@@ -26,8 +26,8 @@ std::array<Vector3, 4> constant_lengths(const Corners& x, const Corners&) {
 
 double cotangent(const Vector3& a, const Vector3& b) { return a.dot(b) / a.cross(b).norm(); }
 
-// Quadratic bending: W = 3/(2 A) |K1 x1 + K2 x2 + K3 x3 + K4 x4|^2 with A the area of both triangles, and K from
-// the cotangents of the angles at x3 and x4 at rest: constant, so that F = -3/A K_i (sum K_j x_j).
+// Quadratic bending: W = 3/(2 A) |K1 x1 + K2 x2 + K3 x3 + K4 x4|^2 with A the area of both triangles, and K
+// from the cotangents of the angles at x3 and x4 at rest: constant, so that F = -3/A K_i (sum K_j x_j).
 //
 //      x1          c01, c03: cotangents of the angles that the edge makes at x3 and x4 in the triangle of x1,
 //     /  \         c02, c04: the same in the triangle of x2

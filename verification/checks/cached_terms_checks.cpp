@@ -35,7 +35,8 @@ double seconds_of(const std::function<void()>& run) {
   return processor_seconds() - start;
 }
 
-/// The least times of `repeats` runs of two things [s], taken in turns: what slows the machine down slows both.
+/// The least times of `repeats` runs of two things [s], taken in turns: what slows the machine down slows
+/// both.
 std::array<double, 2> least_seconds(const std::function<void()>& one, const std::function<void()>& other,
                                     int repeats) {
   std::array<double, 2> least{INFINITY, INFINITY};

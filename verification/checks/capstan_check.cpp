@@ -16,7 +16,8 @@ constexpr double radius = 0.1, straight = 0.08, width = 0.016;  // m
 constexpr double strained = 1.02;  // the strip's length at the start over its own
 constexpr double speed = 0.04;     // at which one end is drawn [m/s]
 
-/// The point of the strip's middle line at the way s [m] along a straight piece, the drum and a straight piece.
+/// The point of the strip's middle line at the way s [m] along a straight piece, the drum and a straight
+/// piece.
 Vector3 on_path(double s, double wrap) {
   const auto on_drum = [](double a) { return Vector3(0, radius * std::cos(a), radius * std::sin(a)); };
   const auto along = [](double a) { return Vector3(0, -std::sin(a), std::cos(a)); };

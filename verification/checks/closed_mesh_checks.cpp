@@ -135,7 +135,8 @@ Vector3 whole(Random& random, double size) {
   return {std::round(v.x()), std::round(v.y()), std::round(v.z())};
 }
 
-/// Three vectors with 1, 2 and 3 times of them adding up to zero: the origin is inside the triangle that they span.
+/// Three vectors with 1, 2 and 3 times of them adding up to zero: the origin is inside the triangle that they
+/// span.
 std::array<Vector3, 3> around_origin(Random& random) {
   const Vector3 a = 6 * whole(random, 50), b = 6 * whole(random, 50);
   return {a, b, -(a + 2 * b) / 3};
@@ -159,7 +160,8 @@ Six touching(Random& random) {
   return x;
 }
 
-/// The same, the second moved away by `gap` along an axis. The smallest gap that these numbers have room for is 2^-44.
+/// The same, the second moved away by `gap` along an axis. The smallest gap that these numbers have room for
+/// is 2^-44.
 Six apart(Random& random, double gap) {
   Six x = touching(random);
   const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]);

@@ -48,7 +48,8 @@ std::function<Known(const Vector3&, const Span&)> known_slope(const Vector3& ori
   };
 }
 
-/// Puts the particle at a depth in [-0.04, 0.04] m below the surface point nearest to it, with a random velocity.
+/// Puts the particle at a depth in [-0.04, 0.04] m below the surface point nearest to it, with a random
+/// velocity.
 void scatter(Contact& contact, Eigen::Index i, Random& random) {
   Vector3 p = contact.state.x.col(i);
   const Known far = contact.known(p, contact.span);

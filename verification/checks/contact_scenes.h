@@ -31,8 +31,8 @@ struct Contact {
 };
 
 /// A ball on a bent path that turns as it goes, and a slope that rises and turns; each with forecast times of
-/// the step, shorter and longer. A twentieth of the particles has no velocity along the surface but the object's,
-/// and as many rest on it.
+/// the step, shorter and longer. A twentieth of the particles has no velocity along the surface but the
+/// object's, and as many rest on it.
 std::vector<Contact> known_contacts();
 
 /// Two balls that overlap, both moving, and particles inside both.

@@ -1,5 +1,5 @@
-// What is kept of level sets between runs: keys that change with everything they are made of, and content that must not
-// be trusted.
+// What is kept of level sets between runs: keys that change with everything they are made of, and content
+// that must not be trusted.
 #include <array>
 #include <cmath>
 #include <functional>
@@ -22,7 +22,8 @@ struct Change {
   std::function<void(T&)> act;
 };
 
-/// For each change alone: is the key of the original kept? It must not be. `key` of an unchanged copy must be the same.
+/// For each change alone: is the key of the original kept? It must not be. `key` of an unchanged copy must be
+/// the same.
 template <class T>
 Finding keys_kept(const T& original, const std::vector<Change<T>>& changes,
                   const std::function<std::string(const T&)>& key) {

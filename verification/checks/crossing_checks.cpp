@@ -49,8 +49,8 @@ oracles::Estimate true_distance(PairKind kind, const Corners4& x) {
                                    x);
 }
 
-/// Two edges whose directions differ by the sine s, one over the other or crossing it, within both; or a triangle
-/// whose angle at one corner is that small, and a vertex over it or in it.
+/// Two edges whose directions differ by the sine s, one over the other or crossing it, within both; or a
+/// triangle whose angle at one corner is that small, and a vertex over it or in it.
 Corners4 thin(Random& random, PairKind kind, double s) {
   Corners4 x = anywhere(random);
   const Vector3 d = x.col(1) - x.col(0), across = random.vectors(1, 1).col(0);

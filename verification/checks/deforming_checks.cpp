@@ -76,8 +76,8 @@ Finding carried_ball_keeps_its_shape(const Subject&) {
                          "a displacement that is the same everywhere adds nothing to what the octrees miss");
 }
 
-/// The distance from the middle of the way at which the blended phi is zero, across the motion [m]; 0 if it is
-/// positive even there.
+/// The distance from the middle of the way at which the blended phi is zero, across the motion [m]; 0 if it
+/// is positive even there.
 double blended_radius(double way) {
   const DeformingBody body =
       make_deforming_body(moving_ball(way, {0, 0.04}), coarse_sampling(), BetweenFrames::blended);
@@ -117,8 +117,8 @@ MeshSequence turning_ball(double angle, int subdivisions) {
   return deformed_mesh(make_icosphere(radius, subdivisions), deformation, {0, 0.04});
 }
 
-/// How far the nodes of a frame err, over what they may: some roundings, and beyond the band half of what a cell may
-/// miss there, if |phi| is too large.
+/// How far the nodes of a frame err, over what they may: some roundings, and beyond the band half of what a
+/// cell may miss there, if |phi| is too large.
 double node_error(const DeformingFrame& frame, const MeshDistance& exact) {
   const Octree& tree = frame.field;
   const std::vector<OctreePlace> places = branch_places(tree);

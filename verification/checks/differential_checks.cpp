@@ -72,8 +72,8 @@ std::vector<Specimen> elastic_specimens() {
   return all;
 }
 
-/// dF/dx of the subject by central differences with Richardson's extrapolation, 3N x 3N [N/m], and how far the
-/// two steps disagree.
+/// dF/dx of the subject by central differences with Richardson's extrapolation, 3N x 3N [N/m], and how far
+/// the two steps disagree.
 struct Differences {
   Matrix K;
   double uncertainty;

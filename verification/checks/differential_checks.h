@@ -13,7 +13,8 @@ std::vector<Check> differential_checks();
 /// Of the derivative of all forces, damping included, at given velocities.
 std::vector<Check> force_differential_checks();
 
-/// The reference's derivative of all forces at given velocities, 3N x 3N [N/m], coordinates particle by particle.
+/// The reference's derivative of all forces at given velocities, 3N x 3N [N/m], coordinates particle by
+/// particle.
 Eigen::MatrixXd force_derivative(const Scene& scene, const State& s);
 
 /// The subject's by central differences with `step` and half of it [m], extrapolated.

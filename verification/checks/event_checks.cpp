@@ -120,7 +120,8 @@ Finding events_are_hit(const Subject&) {
   return measured.judged(0, "the state that ends at an event has its time to the bit");
 }
 
-/// A ball, a led cube of keyframes and a ball that deforms, far from the spring, and the times at which they jump.
+/// A ball, a led cube of keyframes and a ball that deforms, far from the spring, and the times at which they
+/// jump.
 struct Movers {
   ObjectCollision collision;
   std::vector<double> times;  // s

@@ -144,8 +144,8 @@ Finding bound_is_a_bound(const Subject& subject) {
   return finding;
 }
 
-/// Hinges far from their rest angles, whose forces change by their size more than by their angle: at half a turn the
-/// sine's slope is nothing.
+/// Hinges far from their rest angles, whose forces change by their size more than by their angle: at half a
+/// turn the sine's slope is nothing.
 std::vector<Specimen> far_from_rest() {
   std::vector<Specimen> cases;
   unsigned seed = 340;
@@ -173,8 +173,8 @@ PerParticle row_bounds(const Specimen& specimen) {
   return rows;
 }
 
-/// The sums over each row of the reference's derivative, particle by particle, of what a 3 x 3 block stretches at most
-/// [N/m].
+/// The sums over each row of the reference's derivative, particle by particle, of what a 3 x 3 block
+/// stretches at most [N/m].
 PerParticle row_sums(const Specimen& specimen) {
   const Eigen::MatrixXd K = force_derivative(specimen.scene, specimen.state);
   PerParticle sums = PerParticle::Zero(specimen.state.x.cols());

@@ -1,4 +1,5 @@
-// The derivative of all forces by the positions while the velocities stay, which Newton's method needs on damped cloth.
+// The derivative of all forces by the positions while the velocities stay, which Newton's method needs on
+// damped cloth.
 #include <cmath>
 #include <optional>
 

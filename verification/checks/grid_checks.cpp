@@ -88,8 +88,8 @@ Finding nodal_gradient_is_exact(const Subject&) {
                          "differences of values near 1 are divided by 2 h, blended and made a unit vector");
 }
 
-/// Outside its lattice a sphere's grid must still answer with the distance: never less than that but for the border's
-/// error, and with only so much more as the search is cut short.
+/// Outside its lattice a sphere's grid must still answer with the distance: never less than that but for the
+/// border's error, and with only so much more as the search is cut short.
 Finding beyond_is_distance(const Subject&) {
   constexpr double radius = 0.7, too_small = 0.05, too_large = 0.01, turned = 0.13, jumps = 1e-6;
   const Sphere sphere{radius};

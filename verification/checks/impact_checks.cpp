@@ -21,7 +21,8 @@ namespace {
 
 constexpr double span = 0.004;  // s
 
-/// Layers that would pass through each other in a step, answered by impulses or, with hardly any rounds of these, by zones.
+/// Layers that would pass through each other in a step, answered by impulses or, with hardly any rounds of
+/// these, by zones.
 std::vector<std::pair<std::string, Layered>> fast_layers() {
   std::vector<std::pair<std::string, Layered>> all;
   for (const int rounds : {8, 1}) {
@@ -64,7 +65,8 @@ Finding free_finding(const Subject& subject) {
   return measured.judged(0, "all pairs of features, neighbours aside, asked in exact arithmetic");
 }
 
-/// Of pairs farther apart than a tenth of the thickness at the start, the least distance at the end over that.
+/// Of pairs farther apart than a tenth of the thickness at the start, the least distance at the end over
+/// that.
 Finding distance_finding(const Subject& subject) {
   Measured measured("a tenth of the thickness over the least distance after the step", "1");
   for (const auto& [name, wanted] : fast_layers()) {
@@ -216,7 +218,8 @@ double differences(const std::vector<FeaturePair>& a, const std::vector<FeatureP
   return count;
 }
 
-/// Pairs kept with 3 mm to spare, after random motions within and beyond them; with some particles marked, too.
+/// Pairs kept with 3 mm to spare, after random motions within and beyond them; with some particles marked,
+/// too.
 void see_choices(Measured& measured) {
   const double margin = 0.004, spare = 0.003;
   const Scene scene = layered_scene({4, 0.003, 0.001, 0, {0.004, 0, 0, 8, true}, 17});

@@ -18,11 +18,12 @@ struct Layered {
   unsigned seed = 1;
 };
 
-/// Sheets of 5 x 6 jittered cells of 2 cm, 42 particles each, one above the other; nothing but self-collision is named.
+/// Sheets of 5 x 6 jittered cells of 2 cm, 42 particles each, one above the other; nothing but self-collision
+/// is named.
 Scene layered_scene(const Layered& wanted);
 
-/// What the subject's self-collision makes of the start's velocities over a step of `step` [s] from time 0: of the velocity
-/// that moves the cloth, or, with `moves` = false, of one that ends a step. 3 x N [m/s].
+/// What the subject's self-collision makes of the start's velocities over a step of `step` [s] from time 0:
+/// of the velocity that moves the cloth, or, with `moves` = false, of one that ends a step. 3 x N [m/s].
 struct StepAsked {
   double step;
   bool moves;

@@ -50,8 +50,8 @@ Lattice about_unit_ball() {
   return lattice_about(Bounds(Vector3::Constant(-1), Vector3::Constant(1)), 30, 4);
 }
 
-/// Upwind differences of either order are exact on a plane where no characteristic enters through the border: the
-/// border's nodes are seeds, so that none does.
+/// Upwind differences of either order are exact on a plane where no characteristic enters through the border:
+/// the border's nodes are seeds, so that none does.
 Finding planes_are_exact(const Subject&) {
   const Lattice& lattice = lattice_of_planes;
   Measured measured = roundings_of("times the lattice's size");
@@ -116,7 +116,8 @@ Finding equation_is_solved(const Subject&) {
       "are divided by h");
 }
 
-/// Nodes on the wrong side of a plane through nodes that count as inside; the seeds are those and the layer above.
+/// Nodes on the wrong side of a plane through nodes that count as inside; the seeds are those and the layer
+/// above.
 int wrong_below_the_plane() {
   const Lattice& lattice = lattice_of_planes;
   constexpr int level = 14;

@@ -35,7 +35,8 @@ class Measured {
   void see(const std::string& name, double value);
   void see(const std::string& name, const oracles::Estimate& value);
 
-  /// The worst value, with the largest of the uncertainties, against the bound; NaN, which fails, if nothing was seen.
+  /// The worst value, with the largest of the uncertainties, against the bound; NaN, which fails, if nothing
+  /// was seen.
   Finding judged(double bound, const std::string& why_bound) const;
 
  private:

@@ -31,7 +31,8 @@ Vector3 above_the_hole() {
   return ball.rest.col(ball.triangles[0][1]).normalized();
 }
 
-/// A ball of 1280 triangles; the first `missing` are left out, those from 100 to 100 + `flipped` turned round.
+/// A ball of 1280 triangles; the first `missing` are left out, those from 100 to 100 + `flipped` turned
+/// round.
 std::string written(const ScratchFolder& folder, int missing, int flipped) {
   TriangleMesh ball = make_icosphere(radius, 3);
   for (int t = 100; t < 100 + flipped; ++t) std::swap(ball.triangles[t][0], ball.triangles[t][1]);
@@ -60,8 +61,8 @@ Finding open_bodies_are_refused(const Subject&) {
   return measured.judged(0, "each refusal must name the file or the key, and the reason");
 }
 
-/// Largest error of phi over points at distances 0.5 to 1.2 from the ball's centre, half of them below or above where
-/// triangles may be missing [cells].
+/// Largest error of phi over points at distances 0.5 to 1.2 from the ball's centre, half of them below or
+/// above where triangles may be missing [cells].
 double error_of(const Scene& scene, double cell) {
   const auto& solid = std::get<RigidObject>(scene.objects.at(0).object.body);
   Random random(109);

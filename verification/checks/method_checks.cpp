@@ -35,8 +35,8 @@ Made made_by(Stepper& stepper, double h) {
   return {{start, second}, stepper.step_after({start, second}, h)};
 }
 
-/// Where and with which velocity a method takes the forces, over which span [s], and the change of velocity that
-/// they make there, all by the textbook.
+/// Where and with which velocity a method takes the forces, over which span [s], and the change of velocity
+/// that they make there, all by the textbook.
 struct Equation {
   State at;
   double span;
@@ -136,8 +136,8 @@ Scene heavily_damped(Scene scene) {
   return scene;
 }
 
-/// A damped sheet, two damped a hundred times as much, and an undamped one whose springs are compressed, so that the
-/// exact derivative is indefinite.
+/// A damped sheet, two damped a hundred times as much, and an undamped one whose springs are compressed, so
+/// that the exact derivative is indefinite.
 std::vector<std::pair<std::string, Scene>> sheets_to_solve() {
   std::vector<std::pair<std::string, Scene>> sheets = {
       {"damped", free_sheet()},
@@ -175,8 +175,8 @@ Finding large_steps_finding(const Subject& subject) {
       ""};
 }
 
-/// Shapes at rest far from the origin, held together by springs alone, or by hinges alone: all that pulls at them is
-/// how their places are rounded.
+/// Shapes at rest far from the origin, held together by springs alone, or by hinges alone: all that pulls at
+/// them is how their places are rounded.
 std::vector<Specimen> shapes_at_rest() {
   std::vector<Specimen> cases;
   for (Specimen shape : curved_shapes())
@@ -316,8 +316,8 @@ Finding growth_is_limited(const Subject&) {
       1 + 1e-9, "BDF2 is zero-stable for ratios below 1 + sqrt(2); one-step methods need no such limit");
 }
 
-/// Derivatives of the elastic forces that Newton's method asks for in an iteration, where they are definite: steps so short
-/// that the masses outweigh what springs and hinges under pressure lack.
+/// Derivatives of the elastic forces that Newton's method asks for in an iteration, where they are definite:
+/// steps so short that the masses outweigh what springs and hinges under pressure lack.
 Finding newton_asks_finding(const Subject&) {
   const System system = build_system(undamped_sheet());
   const State start = start_state(undamped_sheet());

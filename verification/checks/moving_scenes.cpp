@@ -34,8 +34,8 @@ Sheet jittered_sheet() {
   return sheet;
 }
 
-/// Displaces and sets in motion at random: a tenth of an edge in the plane, a third of one across it, and less where
-/// triangles are thin: they are neither to be turned over nor folded back.
+/// Displaces and sets in motion at random: a tenth of an edge in the plane, a third of one across it, and
+/// less where triangles are thin: they are neither to be turned over nor folded back.
 void crumple(Scene& scene, unsigned seed) {
   Random random(seed);
   const Eigen::Index count = scene.x.cols();

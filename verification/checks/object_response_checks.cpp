@@ -1,4 +1,5 @@
-// The two responses that forecasting is compared with: projection after the step, and pushing out in the next one.
+// The two responses that forecasting is compared with: projection after the step, and pushing out in the next
+// one.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -152,8 +152,8 @@ Finding goes_on_beyond_the_cube(const Subject&) {
       "than the distance to the surface, which that point misses as phi does");
 }
 
-/// An octree of a body that is led by keyframes: its answers against the body's own, and whether anything is asked of
-/// the body once the tree stands.
+/// An octree of a body that is led by keyframes: its answers against the body's own, and whether anything is
+/// asked of the body once the tree stands.
 Finding rides_with_its_body(const Subject&) {
   long asked = 0;
   const DistanceFunction counted = [&asked](const Vector3& p) {

@@ -12,7 +12,8 @@ namespace foldproof {
 
 namespace {
 
-/// Three bodies: two balls and a capsule, each of which overlaps the other two, and a fourth that touches none.
+/// Three bodies: two balls and a capsule, each of which overlaps the other two, and a fourth that touches
+/// none.
 std::vector<DistanceFunction> parts_of_a_body() {
   return {[](const Vector3& p) { return Sphere{0.19}.at(p - Vector3(-0.11, 0.02, 0.01)); },
           [](const Vector3& p) { return Sphere{0.16}.at(p - Vector3(0.14, -0.03, 0.04)); },
@@ -124,7 +125,8 @@ Finding pinch_is_flagged(const Subject&) {
   return measured.judged(0, "points nearer to a decision than two tolerances are left out");
 }
 
-/// Small balls far from each other: in the wide cells between them one may be nearest where none of the nodes is.
+/// Small balls far from each other: in the wide cells between them one may be nearest where none of the nodes
+/// is.
 std::vector<DistanceFunction> scattered_balls() {
   std::mt19937 random(shifted(5));
   std::uniform_real_distribution<double> along(-0.4, 0.4);

@@ -64,14 +64,15 @@ Pairs paired(const Matrix& one, double one_off, const Matrix& other, double othe
   return pairs;
 }
 
-/// f'(0) by central differences over `step` and half of it, extrapolated; off by less than the two differ, and by the
-/// rounding of values of size `scale`.
+/// f'(0) by central differences over `step` and half of it, extrapolated; off by less than the two differ,
+/// and by the rounding of values of size `scale`.
 Estimate slope(const std::function<double(double)>& f, double step, double scale) {
   const double wide = (f(step) - f(-step)) / (2 * step), narrow = (f(step / 2) - f(-step / 2)) / step;
   return {(4 * narrow - wide) / 3, std::abs(narrow - wide) + 8 * epsilon * scale / step};
 }
 
-/// The damping force of a hinge from its power -kd factor (d theta/dt)^2: -kd factor (d theta/dt) grad theta [N].
+/// The damping force of a hinge from its power -kd factor (d theta/dt)^2: -kd factor (d theta/dt) grad theta
+/// [N].
 oracles::VectorsEstimate<4> damping_from_power(const HingeInput& hinge) {
   const double rate = oracles::theta_rate_autodiff(hinge.x, hinge.v).value;
   const double edge = (hinge.x[3] - hinge.x[2]).norm();

@@ -238,7 +238,8 @@ Agreement sides_agree() {
   return agreement;
 }
 
-// A vertex and a triangle in 50 digits and in extended precision; two edges in 50 digits and by cutting in thirds.
+// A vertex and a triangle in 50 digits and in extended precision; two edges in 50 digits and by cutting in
+// thirds.
 Agreement distances_agree() {
   Agreement agreement;
   Random random(863);

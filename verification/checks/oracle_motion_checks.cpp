@@ -89,8 +89,8 @@ std::vector<oracles::ForecastInput> forecast_inputs() {
   return list;
 }
 
-/// By the principle that Coulomb's law rests on: of all frictional impulses within the cone take the one that leaves
-/// the least sliding speed, found by halving the angle's bracket, in doubles.
+/// By the principle that Coulomb's law rests on: of all frictional impulses within the cone take the one that
+/// leaves the least sliding speed, found by halving the angle's bracket, in doubles.
 Vector3 forecast_by_least_sliding(const oracles::ForecastInput& input) {
   const Vector3& N = input.normal;
   const double gap = input.phi + input.tau * (input.v - input.v_object).dot(N);

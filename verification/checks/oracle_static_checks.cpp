@@ -24,8 +24,9 @@ struct Tip {
   long double curvature, drop, reach;
 };
 
-/// theta'' = -(weight (1 - s) + load) cos(theta) from theta = 0 at the clamp, by its power series about each of sixty
-/// places, in extended precision: no step-size control, no stages, nothing of GSL. weight = rho_A g L^3/B, load = P L^2/B.
+/// theta'' = -(weight (1 - s) + load) cos(theta) from theta = 0 at the clamp, by its power series about each
+/// of sixty places, in extended precision: no step-size control, no stages, nothing of GSL. weight = rho_A g
+/// L^3/B, load = P L^2/B.
 Tip bent_by_series(double weight, double load, long double curvature) {
   constexpr int places = 60;
   constexpr long double ds = 1.0L / places;
@@ -61,7 +62,8 @@ struct BentTip {
   Estimate drop, reach;
 };
 
-/// The tip without curvature, by bisection of the clamp's. The series err by far less than 1e-15, the answer is rounded.
+/// The tip without curvature, by bisection of the clamp's. The series err by far less than 1e-15, the answer
+/// is rounded.
 BentTip bent_strip(double weight, double load) {
   long double low = 0, high = weight / 2 + load;
   for (int i = 0; i < 70; ++i) {
@@ -72,8 +74,8 @@ BentTip bent_strip(double weight, double load) {
   return {{double(tip.drop), 1e-15}, {double(tip.reach), 1e-15}};
 }
 
-/// A patch of nine by nine cells of rectangles split as `rises` says, all of whose points stay on the cylinder; the
-/// hinges of a block of 2 x 2 cells in its middle count.
+/// A patch of nine by nine cells of rectangles split as `rises` says, all of whose points stay on the
+/// cylinder; the hinges of a block of 2 x 2 cells in its middle count.
 oracles::PlaneSheet patch_of(const oracles::SplitBlock& block) {
   constexpr int cells = 9, first = 4;
   oracles::PlaneSheet sheet;
@@ -213,8 +215,9 @@ Agreement depth_maps_agree() {
   return agreement;
 }
 
-// The matrix of second differences, whose eigenvalues are 2 - 2 cos(k pi/(n + 1)); a companion matrix, whose are the
-// roots chosen; a system whose solution is chosen; a matrix made of two turns and chosen singular values.
+// The matrix of second differences, whose eigenvalues are 2 - 2 cos(k pi/(n + 1)); a companion matrix, whose
+// are the roots chosen; a system whose solution is chosen; a matrix made of two turns and chosen singular
+// values.
 Agreement dense_algebra_agrees() {
   Agreement agreement;
   Random random(839);

@@ -161,7 +161,8 @@ Finding subdividing_afterwards_spoils_it(const Subject&) {
   return finding;
 }
 
-/// |x fine - x| at the old particles and on the line between the ends of each edge, over epsilon and the extent.
+/// |x fine - x| at the old particles and on the line between the ends of each edge, over epsilon and the
+/// extent.
 Finding midpoints_keep_the_surface(const Subject&) {
   Measured measured = roundings_of("extent");
   for (const int levels : {1, 3}) {
@@ -192,7 +193,8 @@ Finding loop_is_affine(const Subject&) {
   const PerParticle3 after = (A * finer.of(mesh.rest)).colwise() + b;
   const PerParticle3 before = finer.of((A * mesh.rest).colwise() + b);
   measured.see("turned, sheared and moved", largest_difference(after, before) / (epsilon * extent(before)));
-  // Loop (1987): an inner point of degree 6 keeps 10/16; of degree 5, the icosahedron's corners, 1 - 5 * .084093
+  // Loop (1987): an inner point of degree 6 keeps 10/16; of degree 5, the icosahedron's corners, 1 - 5 *
+  // .084093
   const Subdivision once = subdivision(mesh, SubdivisionRule::loop, 1);
   const double expected5 =
       1 - (5.0 / 8 - std::pow(3.0 / 8 + std::cos(2 * 3.14159265358979323846 / 5) / 4, 2));

@@ -1,4 +1,5 @@
-// Triangles of the projected cloth against the objects, decided without rounding and without a distance field.
+// Triangles of the projected cloth against the objects, decided without rounding and without a distance
+// field.
 #include <algorithm>
 #include <cmath>
 #include <string>

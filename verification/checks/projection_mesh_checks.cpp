@@ -1,5 +1,5 @@
-// Cloth brought out of a body that is a triangle mesh, known by exact distances or by a grid; whether it is out is
-// decided without either.
+// Cloth brought out of a body that is a triangle mesh, known by exact distances or by a grid; whether it is
+// out is decided without either.
 #include <algorithm>
 #include <cmath>
 #include <memory>

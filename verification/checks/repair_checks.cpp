@@ -147,7 +147,8 @@ Finding tree_is_near(const Subject&) {
       "of the full turn that cancels");
 }
 
-/// Nodes where the repaired grid is on the wrong side, and the mean error of the rest, against the whole surface.
+/// Nodes where the repaired grid is on the wrong side, and the mean error of the rest, against the whole
+/// surface.
 struct Mended {
   double wrong_sides, mean_error;  // 1; cells
 };

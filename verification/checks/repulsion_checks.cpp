@@ -32,8 +32,8 @@ Scene over_triangle(const OverTriangle& wanted) {
   return scene;
 }
 
-/// The change of relative velocity by the law of the two authors' reference, written down a second time: with the weights
-/// of the foot from areas, and m/(1 + ...) for the compliance.
+/// The change of relative velocity by the law of the two authors' reference, written down a second time: with
+/// the weights of the foot from areas, and m/(1 + ...) for the compliance.
 Vector3 expected_change(const OverTriangle& wanted, const Scene& scene) {
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   const auto area = [&](int a, int b, double x, double y) {
@@ -223,8 +223,8 @@ Finding pairs_finding(const Subject&) {
   return measured.judged(0, "counted against all pairs of two sheets, looked at four times on their way");
 }
 
-/// A stack of sheets on a slope. The lowest is larger, so that nothing hangs over its rim, and held; Coulomb's law holds
-/// between any two. Ways of the others in .1 s [m], from below.
+/// A stack of sheets on a slope. The lowest is larger, so that nothing hangs over its rim, and held;
+/// Coulomb's law holds between any two. Ways of the others in .1 s [m], from below.
 std::vector<double> ways_on_slope(const Subject& subject, double friction, double degrees) {
   constexpr int free_sheets = 3;
   Scene scene = layered_scene({1 + free_sheets, 0.0035, 0, 0, {0.004, 0, friction, 8, true}, 7});

@@ -36,11 +36,12 @@ Answer answer_of(const Contact& contact, const PerParticle3& after, Eigen::Index
   return a;
 }
 
-/// How far from zero a forecast must be for its sign to be known in spite of rounding [m]; lengths are near 1 m.
+/// How far from zero a forecast must be for its sign to be known in spite of rounding [m]; lengths are near 1
+/// m.
 double unsure(const Contact& contact) { return 100 * epsilon * (1 + 4 * contact.tau); }
 
-// What phi and the object's velocity inherit from a rounding of positions near 1 m, in velocities of a step of
-// a hundredth of a second: the scale of all bounds below.
+// What phi and the object's velocity inherit from a rounding of positions near 1 m, in velocities of a step
+// of a hundredth of a second: the scale of all bounds below.
 constexpr const char* why_roundings =
     "a few dozen roundings on the way through the object's frame and back, of lengths of a metre, divided by "
     "the "

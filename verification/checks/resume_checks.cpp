@@ -108,8 +108,8 @@ struct Interrupted {
   bool stops = false;  // before its end
 };
 
-/// Numbers that differ, over all frames of the run at which it is interrupted; NaN for a run that is not what it is
-/// meant to be.
+/// Numbers that differ, over all frames of the run at which it is interrupted; NaN for a run that is not what
+/// it is meant to be.
 double differences(const Interrupted& of) {
   const Integrator& integrator = integrator_named(of.integrator);
   Followed whole;
@@ -128,8 +128,8 @@ double differences(const Interrupted& of) {
   return worst.value();
 }
 
-/// Damped springs and hinges in automatic steps, led particles among them that start and stop on the way, one of them
-/// a rounding after a frame.
+/// Damped springs and hinges in automatic steps, led particles among them that start and stop on the way, one
+/// of them a rounding after a frame.
 Scene stopping_and_starting() {
   Scene scene = led_sheet();
   scene.schedule = {0.057, 0.0081, {0.0017, 0.5, 0.1}, 100000};

@@ -27,7 +27,8 @@ Watched watched(const System& system, const std::string& integrator, const State
 }
 
 /// What is wrong with the frames and steps of a run that should have `frames` frames: the largest error in
-/// time [s], of a product and a sum that may be rounded as one; NaN for a wrong count or a step longer than the one asked for.
+/// time [s], of a product and a sum that may be rounded as one; NaN for a wrong count or a step longer than
+/// the one asked for.
 double frame_error(const Watched& run, const Schedule& schedule, size_t frames) {
   Worst worst;
   if (run.frames.size() != frames || run.outcome.stop) worst.see(NAN);

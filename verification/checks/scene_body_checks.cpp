@@ -90,7 +90,8 @@ Vector3 breathed(const Vector3& X, double growth, double height) {
 
 using Shaping = std::function<Vector3(const Vector3& X, double share, double height)>;
 
-/// Largest distance of the drawn surface from the placed ball, deformed by hand; heights count from its lowest point [m].
+/// Largest distance of the drawn surface from the placed ball, deformed by hand; heights count from its
+/// lowest point [m].
 double surface_miss(const Scene& scene, const Shaping& shaping, double period, double t) {
   const TriangleMesh ball = make_icosphere(radius, 3);
   const Vector3 move(0.2, -0.1, 0.3);

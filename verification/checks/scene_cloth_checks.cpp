@@ -36,7 +36,8 @@ void see_shape(Differences& differences, const std::string& name, const Scene& s
   differences.is(name + ", triangles", int(scene.mesh.triangles.size()) == triangles);
 }
 
-/// Farthest that a particle's distance from the origin is from r, in the directions that `axes` does not cancel [m].
+/// Farthest that a particle's distance from the origin is from r, in the directions that `axes` does not
+/// cancel [m].
 double off_radius(const Scene& scene, const Vector3& axes, double r) {
   const PerParticle3 x = axes.asDiagonal() * scene.x;
   return (x.colwise().norm().array() - r).abs().maxCoeff();
@@ -95,7 +96,8 @@ Finding patterns_finding(const Subject&) {
   see_shape(differences, "alternating", of("alternating"), 35, 48);
   see_shape(differences, "union_jack", of("union_jack"), 35, 48);
   see_shape(differences, "criss_cross", of("criss_cross"), 35 + 24, 96);
-  // of rows of 6 whole cells and of 7 with a half one at each end: 7 + 8 + 7 + 8 + 7 particles, 13 triangles a row
+  // of rows of 6 whole cells and of 7 with a half one at each end: 7 + 8 + 7 + 8 + 7 particles, 13 triangles
+  // a row
   see_shape(differences, "equilateral", of("equilateral"), 37, 52);
   see_shape(differences, "jittered", of("jittered", "jitter = 0.2\nseed = 3\n"), 37, 52);
   for (const std::string pattern : {"one_diagonal", "alternating", "union_jack", "criss_cross", "jittered",
@@ -171,6 +173,7 @@ Finding shapes_refused_finding(const Subject&) {
       {cloth + "shape = \"sphere\"\nradius = 1\nsubdivisions = 40\n", "subdivisions"},
       {cloth + "shape = \"sphere\"\nradius = 1\nsubdivisions = 2\ndivisions = 4\n", "not both"},
       {cloth + "shape = \"statue\"\nheight = 1\ndivisions = 14\n", "give 15 to 256"},
+      {small_sheet + "seed = 4294967297\n", "'seed' must lie in 0 .. 4294967295"},
       {small_sheet + "fit = 0\n", "'fit' must be > 0"},
       {small_sheet + "fit = 2\n[cloth.pleats]\ncolumns = 2\nangle = 40\n", "'fit' does not go with pleats"},
       {small_sheet + "[cloth.copies]\ncount = 1000000\nmove = [0, 0, 1]\n", "count"}};
@@ -186,8 +189,8 @@ std::string folded(int layers, const std::string& more = "") {
   return "[start.folded]\nlayers = " + std::to_string(layers) + "\ngap = 0.03\nup = [0, 0, 1]\n" + more;
 }
 
-/// Where the point at the arc length s [m] of a strip of length `length` in three layers is, along and up [m]: each
-/// stretch by itself.
+/// Where the point at the arc length s [m] of a strip of length `length` in three layers is, along and up
+/// [m]: each stretch by itself.
 Eigen::Vector2d in_three_layers(double s, double length) {
   const double turn = pi * gap / 2, run = (length - 2 * turn) / 3, r = gap / 2;
   const auto on_circle = [&](double into) {

@@ -28,7 +28,8 @@ std::vector<int> joined_by_trying(const PerParticle3& x, double distance) {
   return becomes;
 }
 
-/// Points in a box of the side 1 about a place far from the origin and near it, and triangles that keep three corners.
+/// Points in a box of the side 1 about a place far from the origin and near it, and triangles that keep three
+/// corners.
 TriangleSoup random_soup(const std::vector<int>& becomes, PerParticle3 x, std::mt19937& random) {
   TriangleSoup soup{std::move(x), {}, {}};
   const auto end_of = [&](int v) { return becomes[size_t(v)] < 0 ? v : becomes[size_t(v)]; };

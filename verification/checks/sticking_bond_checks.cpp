@@ -228,7 +228,8 @@ Scene sheet_on_a_palm() {
   return scene;
 }
 
-/// Numbers that differ at the end of two runs of which one is cut after `half` steps and goes on with the states alone.
+/// Numbers that differ at the end of two runs of which one is cut after `half` steps and goes on with the
+/// states alone.
 Finding memory_finding(const Subject& subject) {
   constexpr int half = 9;
   constexpr double h = 4e-4;

@@ -1,4 +1,5 @@
-// What one correction by strain limits does: to one spring, exactly; to a cloth, whatever the order of sweeps.
+// What one correction by strain limits does: to one spring, exactly; to a cloth, whatever the order of
+// sweeps.
 #include "verification/checks/strain_limit_checks.h"
 
 #include <Eigen/Geometry>
@@ -14,7 +15,8 @@ namespace {
 
 // ---- one spring of a triangle
 
-/// A triangle whose third corner is so far off, and so much slower, that only the spring 0-1 leaves its limits.
+/// A triangle whose third corner is so far off, and so much slower, that only the spring 0-1 leaves its
+/// limits.
 struct OneSpring {
   LimitedCloth cloth;
   oracles::LimitedSpringInput input;

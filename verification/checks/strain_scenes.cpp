@@ -46,8 +46,8 @@ void limit_about(LimitedCloth& cloth) {
   cloth.scene.strain_limits->compression = std::max(0.0, -strains.least) + 0.017;
 }
 
-/// The sheet displaced as the specimen is, or by a share of it: on a random mesh a short edge must not be more than
-/// halved nor doubled.
+/// The sheet displaced as the specimen is, or by a share of it: on a random mesh a short edge must not be
+/// more than halved nor doubled.
 LimitedCloth crumpled(const Specimen& specimen, const StrainLimits& limits) {
   const PerParticle3& rest = specimen.scene.mesh.rest;
   for (double share = 1;; share *= 0.7) {
@@ -60,8 +60,8 @@ LimitedCloth crumpled(const Specimen& specimen, const StrainLimits& limits) {
   }
 }
 
-/// The sheet stretched by 5 %, with a share of its displacements that leaves all springs within their limits: of 6 %,
-/// unless that shortens a short edge of a random mesh by more than it is stretched.
+/// The sheet stretched by 5 %, with a share of its displacements that leaves all springs within their limits:
+/// of 6 %, unless that shortens a short edge of a random mesh by more than it is stretched.
 LimitedCloth stretched(const Specimen& specimen, const StrainLimits& limits) {
   const PerParticle3& rest = specimen.scene.mesh.rest;
   for (double share = 0.06;; share *= 0.7) {
@@ -72,7 +72,8 @@ LimitedCloth stretched(const Specimen& specimen, const StrainLimits& limits) {
   }
 }
 
-/// The spring with the largest strain is pulled by a tenth of its length in a step: not all random motions break limits.
+/// The spring with the largest strain is pulled by a tenth of its length in a step: not all random motions
+/// break limits.
 void pull(LimitedCloth& cloth) {
   const Edge* longest = nullptr;
   double largest = -infinity;
@@ -87,8 +88,8 @@ void pull(LimitedCloth& cloth) {
   cloth.state.v.col(longest->b) = mean + 0.05 / cloth.step * d;
 }
 
-/// Makes the step so short that the ends of a spring move against each other by .3 of its length at most; its motion
-/// breaks limits then, too.
+/// Makes the step so short that the ends of a spring move against each other by .3 of its length at most; its
+/// motion breaks limits then, too.
 void moderate(LimitedCloth& cloth) {
   cloth.step *= std::min(1.0, 0.3 / relative_motion(cloth, cloth.step));
   if (strain_violation(cloth.scene, cloth.state.x + cloth.step * cloth.state.v) < 0.05) pull(cloth);

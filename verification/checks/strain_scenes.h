@@ -19,8 +19,9 @@ struct LimitedCloth {
 };
 
 /// Crumpled sheets of every pattern, a disc and a sphere, each twice: as they are, with limits just outside
-/// of their strains, and nearly flat, stretched by 5 %, with limits of +10 % and 0 %. Random velocities move the ends of
-/// a spring against each other by up to .3 of its length in a step: at half, sweeps may lead ever farther from the limits.
+/// of their strains, and nearly flat, stretched by 5 %, with limits of +10 % and 0 %. Random velocities move
+/// the ends of a spring against each other by up to .3 of its length in a step: at half, sweeps may lead ever
+/// farther from the limits.
 std::vector<LimitedCloth> limited_cloths(SweepOrder order);
 
 /// How far the ends of a spring move against each other in a step h [s], over its length: the largest [1].

@@ -22,8 +22,8 @@ int farthest(const PerParticle3& rest) {
   return int(last);
 }
 
-/// Cloth within its limits that falls, stretches and bends, two particles of it led: far from each other, so that
-/// their motion leaves lengths within the limits possible. The step is one that explicit forces bear.
+/// Cloth within its limits that falls, stretches and bends, two particles of it led: far from each other, so
+/// that their motion leaves lengths within the limits possible. The step is one that explicit forces bear.
 LimitedCloth falling(LimitedCloth cloth) {
   Scene& scene = cloth.scene;
   scene.gravity = Vector3(0.7, -9.1, 1.9);
@@ -87,8 +87,8 @@ Finding report_finding(const Subject& subject) {
 
 // ---- sweeps
 
-/// Particles on a line, springs between neighbours or from the first to all others: there, lengths within limits are
-/// an interval for each velocity difference.
+/// Particles on a line, springs between neighbours or from the first to all others: there, lengths within
+/// limits are an interval for each velocity difference.
 struct Chain {
   StrainLimiter limiter;
   PerParticle3 x, v, within;  // 3 x N; `within`: velocities that keep the limits

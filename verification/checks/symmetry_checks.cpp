@@ -55,7 +55,8 @@ State run_in(const Units& u, const Subject& subject, const std::string& integrat
   return s;
 }
 
-/// How far the ends of two runs lie apart, in epsilon of the extent and of the extent over the time [epsilon].
+/// How far the ends of two runs lie apart, in epsilon of the extent and of the extent over the time
+/// [epsilon].
 double distance(const State& a, const State& b, double size, double duration) {
   Worst worst;
   worst.see(largest_difference(a.x, b.x) / (epsilon * size));

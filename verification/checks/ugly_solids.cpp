@@ -10,7 +10,8 @@ using oracles::Whole2;
 using oracles::Whole3;
 using oracles::WholePrism;
 
-/// Counter-clockwise about the origin, every vertex in sight of it; the rays' tips are two to nine degrees sharp.
+/// Counter-clockwise about the origin, every vertex in sight of it; the rays' tips are two to nine degrees
+/// sharp.
 const std::vector<Whole2> star = {{40, 1}, {2, 2}, {3, 31}, {-2, 3}, {-37, 2}, {-3, -2}, {-1, -29}, {2, -3}};
 
 // A shear with whole-number inverse:  X = x + 2 z, Y = y + x + 2 z, Z = z - Y

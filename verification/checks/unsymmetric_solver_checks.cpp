@@ -12,7 +12,8 @@ namespace foldproof {
 
 namespace {
 
-/// M - s D - s^2 K of a moving, crumpled, damped sheet, as the reference has it and dense, and a right-hand side.
+/// M - s D - s^2 K of a moving, crumpled, damped sheet, as the reference has it and dense, and a right-hand
+/// side.
 struct NewtonProblem {
   System system;
   DampingOperator damping;

@@ -47,8 +47,8 @@ struct Refined {
   double change;  // from the rule with half as many points [J]
 };
 
-/// A rule with `parts` and twice as many, and so on until that changes no more than eight roundings of the scale, or
-/// `most` parts are reached.
+/// A rule with `parts` and twice as many, and so on until that changes no more than eight roundings of the
+/// scale, or `most` parts are reached.
 Refined refined(const std::function<Integral(int)>& rule, int parts, int most) {
   Integral coarse = rule(parts);
   while (true) {

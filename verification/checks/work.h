@@ -20,8 +20,8 @@ Path random_line(const PerParticle3& x, double size, unsigned seed);
 Path random_loop(const PerParticle3& x, double size, unsigned seed);
 
 /// |E(1) - E(0) + work| over epsilon times (integral of |F||dx| + |E(0)| + |E(1)|). Gauss-Legendre quadrature
-/// of tenth order on 8, 16, ... up to 128 panels, until two of them differ by less than roundings; that difference is
-/// the uncertainty.
+/// of tenth order on 8, 16, ... up to 128 panels, until two of them differ by less than roundings; that
+/// difference is the uncertainty.
 oracles::Estimate energy_against_work(const Probe& probe, const Path& path);
 
 /// What the elastic forces do once round a closed path.
@@ -30,8 +30,8 @@ struct RoundTrip {
   double scale = 0;                  // integral of |F||dx| [J]
 };
 
-/// By the trapezoidal rule, which converges exponentially on a smooth closed path, on 64, 128, ... up to 1024 points,
-/// until two of them differ by less than roundings; that difference is the uncertainty.
+/// By the trapezoidal rule, which converges exponentially on a smooth closed path, on 64, 128, ... up to 1024
+/// points, until two of them differ by less than roundings; that difference is the uncertainty.
 RoundTrip round_trip(const Probe& probe, const Path& loop);
 
 }  // namespace foldproof

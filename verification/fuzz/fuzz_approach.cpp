@@ -1,7 +1,9 @@
-// Do two moving features meet? The reference's answer against the exact judge's: a meeting that is not told is a
-// finding, and so are a time too late or outside the motion, a number that is none, and features that come nearer than promised.
+// Do two moving features meet? The reference's answer against the exact judge's: a meeting that is not told
+// is a finding, and so are a time too late or outside the motion, a number that is none, and features that
+// come nearer than promised.
 //
-// An input is a byte of kind, one of scale, one of what is to be kept, and 24 whole numbers of one byte or of two.
+// An input is a byte of kind, one of scale, one of what is to be kept, and 24 whole numbers of one byte or of
+// two.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -57,8 +59,8 @@ void require_apart(const Query& query, double kept, double noise) {
             "features of which nothing is told stay farther apart than what is kept");
 }
 
-/// Does the first feature stay beyond the second all the time, seen along one of 26 directions? Sums of three whole
-/// numbers of the unit have no rounding, so that such features need not be shown to the exact judge.
+/// Does the first feature stay beyond the second all the time, seen along one of 26 directions? Sums of three
+/// whole numbers of the unit have no rounding, so that such features need not be shown to the exact judge.
 bool stay_beyond(const Query& query) {
   const int first = query.kind == PairKind::vertex_triangle ? 1 : 2;
   const Corners4 end = query.x + query.way;

@@ -1,5 +1,5 @@
-// The reader of `evaluate bending`: whatever the text, 24 finite numbers a row, or an InputError that names its line.
-// A zero byte parts the rows from those of the rest positions.
+// The reader of `evaluate bending`: whatever the text, 24 finite numbers a row, or an InputError that names
+// its line. A zero byte parts the rows from those of the rest positions.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

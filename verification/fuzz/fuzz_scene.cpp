@@ -1,5 +1,6 @@
-// The reader of case files: whatever the text, a scene of finite numbers, or an InputError that names its place. Level
-// sets are not computed, OBJ files are read from the folder beside the targets alone, and meshes are small.
+// The reader of case files: whatever the text, a scene of finite numbers, or an InputError that names its
+// place. Level sets are not computed, OBJ files are read from the folder beside the targets alone, and meshes
+// are small.
 #include <cstdint>
 #include <string>
 

@@ -1,4 +1,5 @@
-// What `foldproof ablate` judges by: finer scenes that are the same scene, parts that are toggled one by one, needs.
+// What `foldproof ablate` judges by: finer scenes that are the same scene, parts that are toggled one by one,
+// needs.
 #include <catch2/catch.hpp>
 
 #include "convergence/ablation.h"

@@ -1,4 +1,5 @@
-// The exact judges of crossings: against distances in 50 digits, against halved times, against hand-made configurations.
+// The exact judges of crossings: against distances in 50 digits, against halved times, against hand-made
+// configurations.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <limits>

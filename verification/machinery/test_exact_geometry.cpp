@@ -1,5 +1,5 @@
-// The exact decisions against separating directions, cubes and dense sampling. Small whole numbers as coordinates, so
-// that planes, edges and corners coincide often.
+// The exact decisions against separating directions, cubes and dense sampling. Small whole numbers as
+// coordinates, so that planes, edges and corners coincide often.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <limits>

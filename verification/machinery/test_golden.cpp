@@ -1,4 +1,5 @@
-// Golden values against the reference, which knows nothing of how they were made: the column order, the signs, the laws.
+// Golden values against the reference, which knows nothing of how they were made: the column order, the
+// signs, the laws.
 #include <catch2/catch.hpp>
 #include <cmath>
 

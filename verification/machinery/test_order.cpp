@@ -11,7 +11,6 @@ namespace foldproof {
 
 namespace {
 
-
 /// Errors c h^order + d h^(order + 1) at steps 0.3, 0.15, ...
 Convergence power_law(double order, double c, double d, int levels) {
   Convergence convergence;
@@ -41,7 +40,8 @@ TEST_CASE("pair orders do not need equal ratios of steps") {
 }
 
 TEST_CASE("the fitted order is the slope of least squares over all points") {
-  // log2 of the steps 0, -1, -2, -3, of the errors 0, -2, -4, -3: so the slope is (-.5 * 2 + .5 * 4 + 1.5 * 3)/5
+  // log2 of the steps 0, -1, -2, -3, of the errors 0, -2, -4, -3: so the slope is (-.5 * 2 + .5 * 4 + 1.5 *
+  // 3)/5
   const Convergence convergence{{1, 0.5, 0.25, 0.125}, {1, 0.25, 0.0625, 0.125}, 0};
   CHECK(fitted_order(convergence) == Approx(1.1).epsilon(1e-12));
 }

@@ -44,7 +44,8 @@ bool parted_along(const Stretch& s, const Exact& u) {
   return (all_beyond(s.from, u) && all_beyond(s.to, u)) || (all_beyond(s.from, -u) && all_beyond(s.to, -u));
 }
 
-/// Directions that may part the origin from the polygon: across it, away from its corners, and across its sides.
+/// Directions that may part the origin from the polygon: across it, away from its corners, and across its
+/// sides.
 std::vector<Exact> directions(const Corners& middle) {
   const Exact n = normal_of(middle);
   std::vector<Exact> all{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, n};
@@ -63,7 +64,8 @@ bool is_parted(const Stretch& s) {
   return false;
 }
 
-/// Does (d_i x d_{i+1}) . u, quadratic in time, keep the sign `side`? Its three Bernstein coefficients say so.
+/// Does (d_i x d_{i+1}) . u, quadratic in time, keep the sign `side`? Its three Bernstein coefficients say
+/// so.
 bool keeps_turning(const Stretch& s, std::size_t i, const Exact& u, int side) {
   const std::size_t k = (i + 1) % s.from.size();
   const auto turn = [&](const Exact& p, const Exact& q) { return dot(cross(p, q), u); };

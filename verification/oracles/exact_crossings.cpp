@@ -24,7 +24,8 @@ bool boxes_meet(const Box& a, const Box& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
-/// An edge from p to q, and a triangle; if they share a particle, then it is p and the triangle's first corner.
+/// An edge from p to q, and a triangle; if they share a particle, then it is p and the triangle's first
+/// corner.
 struct Pair {
   Vector3 p, q;  // m
   Corners3 t;    // m
@@ -33,8 +34,9 @@ struct Pair {
 
 // ---- what doubles can say for sure
 
-/// Sign of the area of a, b, c seen along an axis, or 0 if doubles cannot tell: Shewchuk (1997), (3 + 16 e) e times the
-/// same sum of absolute values, e half the spacing of doubles at 1; the least normal number is there for underflow.
+/// Sign of the area of a, b, c seen along an axis, or 0 if doubles cannot tell: Shewchuk (1997), (3 + 16 e) e
+/// times the same sum of absolute values, e half the spacing of doubles at 1; the least normal number is
+/// there for underflow.
 int sure_turn(const Vector3& a, const Vector3& b, const Vector3& c, int axis) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const double left = (b[u] - a[u]) * (c[v] - a[v]), right = (b[v] - a[v]) * (c[u] - a[u]);
@@ -44,7 +46,8 @@ int sure_turn(const Vector3& a, const Vector3& b, const Vector3& c, int axis) {
   return area > bound ? 1 : area < -bound ? -1 : 0;
 }
 
-/// Seen along the axis, is the edge surely on the outer side of one of the triangle's? A shared corner may lie on it.
+/// Seen along the axis, is the edge surely on the outer side of one of the triangle's? A shared corner may
+/// lie on it.
 bool is_beyond_a_side(const Pair& pair, int axis) {
   const Corners3& t = pair.t;
   const int inner = sure_turn(t[0], t[1], t[2], axis);

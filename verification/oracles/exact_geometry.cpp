@@ -46,8 +46,8 @@ bool holds(const Corners3& t, const Vector3& p, int axis) {
   return !(left && right);
 }
 
-/// Have the closed segments p q and a b a point in common? All lie in one plane; at least one of p, q, a, b is off
-/// the line of the other two, or nothing but an end can be common, which `holds` has seen.
+/// Have the closed segments p q and a b a point in common? All lie in one plane; at least one of p, q, a, b
+/// is off the line of the other two, or nothing but an end can be common, which `holds` has seen.
 bool segments_cross(const Vector3& p, const Vector3& q, const Vector3& a, const Vector3& b, int axis) {
   const int pa = turn(p, q, a, axis), pb = turn(p, q, b, axis);
   const int ap = turn(a, b, p, axis), aq = turn(a, b, q, axis);
@@ -55,8 +55,8 @@ bool segments_cross(const Vector3& p, const Vector3& q, const Vector3& a, const 
   return pa * pb <= 0 && ap * aq <= 0;
 }
 
-/// The same for a segment in the triangle's plane. A segment along an edge has an end in the triangle, or crosses
-/// the two other edges at that edge's ends.
+/// The same for a segment in the triangle's plane. A segment along an edge has an end in the triangle, or
+/// crosses the two other edges at that edge's ends.
 bool coplanar_segment_meets(const Vector3& p, const Vector3& q, const Corners3& t) {
   const int axis = axis_of(t);
   if (holds(t, p, axis) || holds(t, q, axis)) return true;
@@ -65,7 +65,8 @@ bool coplanar_segment_meets(const Vector3& p, const Vector3& q, const Corners3& 
   return false;
 }
 
-/// How a line from p to q passes a triangle whose plane it crosses: the signs of its three turns about the edges.
+/// How a line from p to q passes a triangle whose plane it crosses: the signs of its three turns about the
+/// edges.
 struct Passage {
   bool misses, touches_edge;
 };
@@ -190,8 +191,9 @@ TriangleSoup box_between(const Vector3& low, const Vector3& high) {
   return box;
 }
 
-// The determinant in double is right in sign where it exceeds the bound of Shewchuk (1997), (7 + 56 e) e times the
-// same sum of absolute values, e half the spacing of doubles at 1; the least normal number is there for underflow.
+// The determinant in double is right in sign where it exceeds the bound of Shewchuk (1997), (7 + 56 e) e
+// times the same sum of absolute values, e half the spacing of doubles at 1; the least normal number is there
+// for underflow.
 int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
   const Vector3 p = b - a, q = c - a, r = d - a;
   const double xy = p.x() * q.y(), yx = p.y() * q.x(), yz = p.y() * q.z();

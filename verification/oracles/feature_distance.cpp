@@ -33,7 +33,8 @@ Real squared_to_triangle(const Point& p, const std::array<Point, 3>& t) {
   return std::min<Real>(least, height * height / dot(n, n));
 }
 
-/// a + s u and b + r w are nearest where their difference is along n = u x w: s = (b - a) x w . n / n . n, r likewise.
+/// a + s u and b + r w are nearest where their difference is along n = u x w: s = (b - a) x w . n / n . n, r
+/// likewise.
 Real squared_between(const std::array<Point, 2>& a, const std::array<Point, 2>& b) {
   Real least = std::min(squared_to_segment(a[0], b[0], b[1]), squared_to_segment(a[1], b[0], b[1]));
   least = std::min({least, squared_to_segment(b[0], a[0], a[1]), squared_to_segment(b[1], a[0], a[1])});

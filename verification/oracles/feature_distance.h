@@ -6,8 +6,8 @@
 
 namespace foldproof::oracles {
 
-/// The least distance between the closed features [m], in 50 digits: between corners, from corners to feet within
-/// edges and within the triangle, between feet within both edges. Degenerate ones have fewer feet.
+/// The least distance between the closed features [m], in 50 digits: between corners, from corners to feet
+/// within edges and within the triangle, between feet within both edges. Degenerate ones have fewer feet.
 Estimate feature_distance(Features features, const FourPoints& x);
 
 }  // namespace foldproof::oracles

@@ -72,8 +72,8 @@ MatrixEstimate bending_force_derivative_autodiff(const HingeInput& hinge) {
   return result;
 }
 
-// The error of a central difference is step^2/6 F''' + rounding/step: at 1e-16 of the hinge's size both are below
-// 1e-30 of the derivative, far under the rounding of the result.
+// The error of a central difference is step^2/6 F''' + rounding/step: at 1e-16 of the hinge's size both are
+// below 1e-30 of the derivative, far under the rounding of the result.
 MatrixEstimate bending_force_derivative_differences(const HingeInput& hinge) {
   const Quad<Digits50> x = constant<Digits50>(hinge.x);
   const Digits50 step = Digits50("1e-16") * edge_length(x);

@@ -17,8 +17,8 @@ namespace foldproof::oracles {
 /// double. This header is the project's only door to Boost.
 using Digits50 = boost::multiprecision::cpp_bin_float_50;
 
-/// Whole numbers of any length. A double is a whole number times a power of two, so that sums and products of doubles
-/// over a common power are exact.
+/// Whole numbers of any length. A double is a whole number times a power of two, so that sums and products of
+/// doubles over a common power are exact.
 using Whole = boost::multiprecision::cpp_int;
 
 /// The error of rounding a number near value to double: half a unit in the last place, and the smallest

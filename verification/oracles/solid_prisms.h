@@ -9,8 +9,8 @@ namespace foldproof::oracles {
 using Whole2 = std::array<long, 2>;
 using Whole3 = std::array<long, 3>;
 
-/// A polygon without self-intersections, counter-clockwise, and the heights between which it stands; in units that
-/// the user chooses.
+/// A polygon without self-intersections, counter-clockwise, and the heights between which it stands; in units
+/// that the user chooses.
 struct WholePrism {
   std::vector<Whole2> polygon;
   long low, high;

@@ -67,7 +67,8 @@ std::vector<Complex> system_rates(const Eigen::MatrixXd& K, const Eigen::MatrixX
   return {values.begin(), values.end()};
 }
 
-// No stability region of these four reaches further than |z| = 3.4 from 0; the search goes out in thousandths.
+// No stability region of these four reaches further than |z| = 3.4 from 0; the search goes out in
+// thousandths.
 Estimate largest_runge_kutta_step(int order, const std::vector<Complex>& rates) {
   require(order >= 1 && order <= 4, "order must be 1, 2, 3 or 4");
   double fastest = 0;

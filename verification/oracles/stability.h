@@ -1,4 +1,5 @@
-// Stability limits of methods on linear motion, from what the literature and a few lines of algebra say of them.
+// Stability limits of methods on linear motion, from what the literature and a few lines of algebra say of
+// them.
 #pragma once
 
 #include <Eigen/Core>

@@ -21,8 +21,8 @@ struct Elliptic {
   long double first, second;  // K(k) - F(phi, k), E(k) - E(phi, k)
 };
 
-/// The slope of the tip is pi/2 - 2 eta. Then k = cos(eta), and 1 - k^2 = sin(eta)^2. In extended precision: the
-/// library's integrals are good to a thousand roundings only.
+/// The slope of the tip is pi/2 - 2 eta. Then k = cos(eta), and 1 - k^2 = sin(eta)^2. In extended precision:
+/// the library's integrals are good to a thousand roundings only.
 Elliptic elliptic(double eta) {
   const long double k = std::cos((long double)eta);
   const long double phi = std::asin(std::min(1.0L, 1 / (k * std::numbers::sqrt2_v<long double>)));

@@ -49,7 +49,8 @@ int sign_changes(const std::vector<Polynomial>& sequence, const Dyadic& t) {
   return changes;
 }
 
-/// A number between that is no root: one of the fractions 1/2, 1/4, 3/4, 1/8, ... of the way, a few of which are roots.
+/// A number between that is no root: one of the fractions 1/2, 1/4, 3/4, 1/8, ... of the way, a few of which
+/// are roots.
 Dyadic between(const Polynomial& p, const Dyadic& low, const Dyadic& high) {
   for (int halvings = 1;; ++halvings) {
     const int common = std::max(low.halvings, high.halvings);
