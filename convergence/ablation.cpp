@@ -48,17 +48,20 @@ RunObserved watched(const Case& shown, int particles) {
   run.work = outcome.work;
   if (outcome.stop) run.stopped = described(*outcome.stop);
   const std::vector<Record> records = judge.judged(outcome);
-  for (size_t k = 0; k < records.size(); ++k)
+  for (size_t k = 0; k < records.size(); ++k) {
+    run.asked.push_back(shown.expectations[k].key);
     if (records[k].outcome != "holds") run.failed.push_back(shown.expectations[k].key);
+  }
   return run;
 }
 
-/// Expectations that fail in `changed` and held in `before`.
-std::vector<std::string> newly_failed(const RunObserved& before, const RunObserved& changed) {
-  std::vector<std::string> keys;
-  for (const std::string& key : changed.failed)
-    if (std::ranges::find(before.failed, key) == before.failed.end()) keys.push_back(key);
-  return keys;
+/// Those of `keys` that are not among `others`.
+std::vector<std::string> not_in(const std::vector<std::string>& keys,
+                                const std::vector<std::string>& others) {
+  std::vector<std::string> left;
+  for (const std::string& key : keys)
+    if (std::ranges::find(others, key) == others.end()) left.push_back(key);
+  return left;
 }
 
 double energy_difference(const RunObserved& a, const RunObserved& b) {
@@ -72,8 +75,11 @@ double energy_difference(const RunObserved& a, const RunObserved& b) {
 std::string reason(const RunObserved& without, const RunObserved& with, double moved, const OwnError& own) {
   if (!without.stopped.empty() && with.stopped.empty())
     return "without it the run does not come to its end: " + without.stopped;
-  if (const std::vector<std::string> failed = newly_failed(with, without); !failed.empty())
+  if (const auto failed = not_in(without.failed, with.failed); !failed.empty())
     return fmt::format("without it this expectation fails: {}", fmt::join(failed, ", "));
+  if (const auto meaningless = not_in(with.asked, without.asked);
+      without.stopped.empty() && !meaningless.empty())
+    return fmt::format("without it this expectation has no meaning: {}", fmt::join(meaningless, ", "));
   if (without.crossings > 0 && with.crossings == 0)
     return fmt::format("without it the cloth crosses itself, in {:g} places of a frame", without.crossings);
   if (!(without.deepest <= with.deepest + own.value()))
@@ -136,16 +142,17 @@ bool PartJudged::is_as_it_should_be() const {
   return is_plain == declared.empty();
 }
 
-std::string declared_for(const Case& shown, const ScenePart& part) {
+std::string declared_for(const Case& shown, std::string_view name) {
   for (const Declared& one : shown.declared)
-    if (one.part == part.name) return one.why;
+    if (one.part == name) return one.why;
   return "";
 }
 
 void refuse_unknown_parts(const Case& shown, const std::vector<ScenePart>& parts) {
   for (const Declared& one : shown.declared) {
-    if (std::ranges::find(parts, one.part, &ScenePart::name) != parts.end()) continue;
-    std::vector<std::string> known;
+    if (one.part == finer_mesh || std::ranges::find(parts, one.part, &ScenePart::name) != parts.end())
+      continue;
+    std::vector<std::string> known = {std::string(finer_mesh)};
     for (const ScenePart& part : parts) known.push_back(part.name);
     throw InputError(fmt::format("{}: [ablation] names a part '{}' that cannot be toggled; known: {}",
                                  shown.scene.name, one.part, fmt::join(known, ", ")));

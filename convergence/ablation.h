@@ -23,7 +23,8 @@ struct RunObserved {
   Work work;
   double seconds = 0;
   std::string stopped;              // why the run came to no end, or ""
-  std::vector<std::string> failed;  // keys of the case's expectations that do not hold
+  std::vector<std::string> asked;   // keys of the case's expectations
+  std::vector<std::string> failed;  // of those that do not hold
 };
 
 /// Runs the case. particles: of these only, the first ones, positions are kept. An error in building or
@@ -68,13 +69,17 @@ struct OwnError {
 };
 
 /// needed / missing, if the part changes positions by more than the scene's own error; or if without it the
-/// run comes to no end, an expectation of the case fails, the cloth crosses itself, or is deeper in objects
-/// by more than that error.
+/// run comes to no end, an expectation of the case fails or has no meaning, the cloth crosses itself, or is
+/// deeper in objects by more than that error.
 PartJudged judged(const ScenePart& part, const RunObserved& scene, RunObserved toggled, const OwnError& own,
                   const PerParticle& mass);
 
-/// The reason that the case declares for the part, or "".
-std::string declared_for(const Case& shown, const ScenePart& part);
+/// What [ablation] calls the run with triangles of half the size. A case whose mesh approximates nothing, as two
+/// triangles that are all there is to show, says so under this name, and its own error is that of time alone.
+constexpr std::string_view finer_mesh = "finer mesh";
+
+/// The reason that the case declares for the part of this name, or for doing without a finer mesh, or "".
+std::string declared_for(const Case& shown, std::string_view name);
 
 /// Throws InputError for a declared part that the scene neither has nor lacks.
 void refuse_unknown_parts(const Case& shown, const std::vector<ScenePart>& parts);

@@ -23,7 +23,7 @@ namespace {
 struct Ablation {
   Case shown;
   std::vector<ScenePart> parts;
-  RunObserved scene, half_steps, finer_mesh;
+  RunObserved scene, half_steps, finer;
   std::vector<RunObserved> toggled;  // one a part
   OwnError own;
   std::vector<PartJudged> judged;
@@ -34,6 +34,7 @@ Ablation planned(Case shown) {
   plan.parts = parts_of(plan.shown.scene);
   refuse_unknown_parts(plan.shown, plan.parts);
   plan.toggled.resize(plan.parts.size());
+  plan.finer.stopped = declared_for(plan.shown, finer_mesh);
   return plan;
 }
 
@@ -59,7 +60,7 @@ std::vector<Job> jobs_of(std::vector<Ablation>& all) {
     jobs.push_back(job_of(
         name, 1, one.shown, [](const Scene& s) { return s; }, one.scene));
     jobs.push_back(job_of(name, 2, one.shown, with_half_steps, one.half_steps));
-    jobs.push_back(job_of(name, 10, one.shown, with_finer_mesh, one.finer_mesh));
+    if (one.finer.stopped.empty()) jobs.push_back(job_of(name, 10, one.shown, with_finer_mesh, one.finer));
     for (size_t k = 0; k < one.parts.size(); ++k)
       jobs.push_back(job_of(name, 1.1, one.shown, one.parts[k].toggled, one.toggled[k]));
   }
@@ -73,10 +74,10 @@ void judge(Ablation& one) {
   const auto error_of = [&](const RunObserved& run) {
     return run.stopped.empty() ? position_difference(one.scene, run, mass) : nan;
   };
-  one.own = {error_of(one.half_steps), error_of(one.finer_mesh), 1e-6 * size_of(one.shown.scene.mesh.rest)};
+  one.own = {error_of(one.half_steps), error_of(one.finer), 1e-6 * size_of(one.shown.scene.mesh.rest)};
   for (size_t k = 0; k < one.parts.size(); ++k) {
     one.judged.push_back(judged(one.parts[k], one.scene, std::move(one.toggled[k]), one.own, mass));
-    one.judged.back().declared = declared_for(one.shown, one.parts[k]);
+    one.judged.back().declared = declared_for(one.shown, one.parts[k].name);
   }
 }
 
@@ -114,7 +115,7 @@ nlohmann::json told(const Ablation& one) {
             {"floor", one.own.floor},
             {"value", one.own.value()},
             {"without_time", one.half_steps.stopped},
-            {"without_mesh", one.finer_mesh.stopped}}},
+            {"without_mesh", one.finer.stopped}}},
           {"run", told(one.scene)},
           {"parts", std::move(parts)}};
 }

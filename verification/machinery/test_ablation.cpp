@@ -163,6 +163,10 @@ TEST_CASE("a part is needed where cloth fails without it, however little it move
   const RunObserved crosses = with([](RunObserved& r) { r.crossings = 3; });
   const RunObserved sinks = with([](RunObserved& r) { r.deepest = 0.031; });
   const RunObserved fails = with([](RunObserved& r) { r.failed = {"stays_flat"}; });
+  const RunObserved asks = with([](RunObserved& r) { r.asked = {"sticks"}; });
+  CHECK(need_of(true, asks, made_up_run(0)) == Need::needed);
+  CHECK(need_of(true, asks, asks) == Need::not_needed);
+  CHECK(need_of(false, asks, made_up_run(0)) == Need::not_missed);
   for (const RunObserved& broken : {stops, crosses, sinks, fails}) {
     CHECK(need_of(true, scene, broken) == Need::needed);
     CHECK(need_of(true, broken, broken) == Need::not_needed);
@@ -183,8 +187,9 @@ TEST_CASE("what a case declares is asked for, and no more than that") {
 
   Case shown{trial(), {}, {{"strain limits", "a reason"}}};
   const std::vector<ScenePart> parts = parts_of(shown.scene);
-  CHECK(declared_for(shown, part_named(parts, "strain limits")) == "a reason");
-  CHECK(declared_for(shown, part_named(parts, "gravity")).empty());
+  CHECK(declared_for(shown, "strain limits") == "a reason");
+  CHECK(declared_for(shown, "gravity").empty());
+  shown.declared.push_back({"finer mesh", "two triangles are all there is"});
   CHECK_NOTHROW(refuse_unknown_parts(shown, parts));
   shown.declared.push_back({"wind", "a reason"});
   CHECK_THROWS_AS(refuse_unknown_parts(shown, parts), InputError);
