@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <memory>
 
 #include "convergence/kept_level_sets.h"
 #include "convergence/studies.h"
@@ -12,6 +13,7 @@
 #include "verification/checks/processor_time.h"
 #include "verification/checks/scratch_folder.h"
 #include "verification/hdf5_file.h"
+#include "verification/kept_level_sets_file.h"
 #include "verification/level_set_cache_file.h"
 
 namespace foldproof {
@@ -30,8 +32,27 @@ OctreeSettings settings(int depth) {
   return {Vector3::Constant(-0.5), 1, depth, 3, 1e-3, 0.04, 0.3, 0, HangingNodes::constrained};
 }
 
-CachedBody cached(const std::string& path, const MeshSequence& sequence, const OctreeSettings& how) {
-  return cached_deforming_body(path, sequence, how, BetweenFrames::carried);
+struct Kept {
+  std::shared_ptr<const DeformingBody> body;
+  bool was_loaded = false;
+  std::string why_refused;  // why the file that was there was not taken; empty if none was, or it was taken
+};
+
+/// The body as a program gets it that keeps level sets in the folder.
+Kept kept(const std::string& folder, const MeshSequence& sequence, const OctreeSettings& how) {
+  Kept result;
+  const auto listen = [&](const std::string& line) {
+    result.was_loaded |= line.starts_with("level sets loaded");
+    if (const size_t at = line.find("refused: "); at != std::string::npos)
+      result.why_refused = line.substr(at);
+  };
+  result.body = caching_makers(folder, listen).make_deforming_body(sequence, how, BetweenFrames::carried);
+  return result;
+}
+
+/// Where it is kept.
+std::string file_of(const std::string& folder, const MeshSequence& sequence, const OctreeSettings& how) {
+  return (std::filesystem::path(folder) / (origin_key(sequence, how) + ".h5")).string();
 }
 
 /// Answers that differ in a bit, at points and times of all kinds.
@@ -52,17 +73,17 @@ struct Costs {
 };
 
 NamedFinding loaded_is_the_same(Costs& costs) {
-  const ScratchFolder folder;
-  const std::string path = folder.file("ball.h5");
+  const ScratchFolder scratch;
+  const std::string folder = scratch.file("kept");
   double start = processor_seconds();
-  const CachedBody built = cached(path, animation(3), settings(6));
+  const Kept built = kept(folder, animation(3), settings(6));
   costs.build = processor_seconds() - start;
-  costs.megabytes = double(std::filesystem::file_size(path)) / 1e6;
+  costs.megabytes = double(std::filesystem::file_size(file_of(folder, animation(3), settings(6)))) / 1e6;
   start = processor_seconds();
-  const CachedBody loaded = cached(path, animation(3), settings(6));
+  const Kept loaded = kept(folder, animation(3), settings(6));
   costs.load = processor_seconds() - start;
   const double wrong =
-      (built.was_loaded ? 1 : 0) + (loaded.was_loaded ? 0 : 1) + different_answers(built.body, loaded.body);
+      (built.was_loaded ? 1 : 0) + (loaded.was_loaded ? 0 : 1) + different_answers(*built.body, *loaded.body);
   return {
       "level-set-cache.loaded-is-the-same",
       "Level sets that were computed before are loaded, and answer bit for bit as those that were computed.",
@@ -114,8 +135,7 @@ void write_unsound(const std::string& path) {
 
 std::vector<Spoiling> spoilings() {
   return {
-      {"not there", "is it there", [](const std::string& path) { std::filesystem::remove(path); },
-       keep_request},
+      {"not there", "", [](const std::string& path) { std::filesystem::remove(path); }, keep_request},
       {"cut at half", "whole HDF5 file", [](const std::string& path) { cut_to(path, 0.5); }, keep_request},
       {"cut at its last byte", "whole HDF5 file", [](const std::string& path) { cut_to(path, 1 - 1e-7); },
        keep_request},
@@ -142,25 +162,28 @@ std::vector<Spoiling> spoilings() {
 }
 
 NamedFinding unfit_files_are_refused() {
-  const ScratchFolder folder;
-  const std::string good = folder.file("good.h5"), path = folder.file("spoilt.h5");
-  cached(good, animation(2), settings(4));
+  const ScratchFolder scratch;
+  const std::string folder = scratch.file("kept"), good = file_of(folder, animation(2), settings(4)),
+                    spoilt = scratch.file("spoilt");
+  kept(folder, animation(2), settings(4));
   std::vector<std::string> names, reasons;
   std::vector<double> wrong;
   Worst worst;
   for (const Spoiling& spoiling : spoilings()) {
-    std::filesystem::copy_file(good, path, std::filesystem::copy_options::overwrite_existing);
-    spoiling.file(path);
     MeshSequence sequence = animation(2);
     OctreeSettings how = settings(4);
     spoiling.request(sequence, how);
-    const CachedBody rebuilt = cached(path, sequence, how);
-    const CachedBody again = cached(path, sequence, how);
-    const bool is_refused =
-        !rebuilt.was_loaded && rebuilt.why_built.find(spoiling.reason) != std::string::npos;
+    std::filesystem::create_directories(spoilt);
+    const std::string path = file_of(spoilt, sequence, how);
+    std::filesystem::copy_file(good, path, std::filesystem::copy_options::overwrite_existing);
+    spoiling.file(path);
+    const bool is_there = std::filesystem::exists(path);
+    const Kept rebuilt = kept(spoilt, sequence, how), again = kept(spoilt, sequence, how);
+    const bool is_refused = !rebuilt.was_loaded && rebuilt.why_refused.empty() != is_there &&
+                            rebuilt.why_refused.find(spoiling.reason) != std::string::npos;
     names.push_back(spoiling.name);
-    reasons.push_back(rebuilt.why_built.substr(
-        rebuilt.why_built.find("spoilt.h5") == std::string::npos ? 0 : rebuilt.why_built.find("spoilt.h5")));
+    const size_t name_at = rebuilt.why_refused.find(".h5");
+    reasons.push_back(name_at == std::string::npos ? "no file" : rebuilt.why_refused.substr(name_at + 3));
     wrong.push_back((is_refused ? 0 : 1) + (again.was_loaded ? 0 : 1));
     worst.see(wrong.back());
   }

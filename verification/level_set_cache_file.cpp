@@ -93,18 +93,4 @@ DeformingBody read_level_sets(const std::string& path, const std::string& origin
   return body;
 }
 
-CachedBody cached_deforming_body(const std::string& path, const MeshSequence& sequence,
-                                 const OctreeSettings& settings, BetweenFrames between) {
-  const std::string origin = origin_key(sequence, settings);
-  std::string why;
-  try {
-    return {read_level_sets(path, origin, settings, between), true, ""};
-  } catch (const std::runtime_error& error) {
-    why = error.what();
-  }
-  CachedBody built{make_deforming_body(sequence, settings, between), false, why};
-  write_level_sets(path, built.body, origin);
-  return built;
-}
-
 }  // namespace foldproof

@@ -17,14 +17,4 @@ void write_level_sets(const std::string& path, const DeformingBody& body, const 
 DeformingBody read_level_sets(const std::string& path, const std::string& origin,
                               const OctreeSettings& settings, BetweenFrames between);
 
-struct CachedBody {
-  DeformingBody body;
-  bool was_loaded;
-  std::string why_built;  // why there was nothing to load, or why it was refused; empty if loaded
-};
-
-/// The body from the file if that holds it; else it is built, and the file written anew.
-CachedBody cached_deforming_body(const std::string& path, const MeshSequence& sequence,
-                                 const OctreeSettings& settings, BetweenFrames between);
-
 }  // namespace foldproof
