@@ -64,6 +64,21 @@ struct Work {
   double worst_residual = 0;   // largest relative residual returned by a solve [1]
 };
 
+/// Shows `see` every number of a Work, const or not, in an order that stays: counts as long, the rest as double.
+template <class SomeWork, class See>
+void for_each_number_of_work(SomeWork& w, const See& see) {
+  for (auto* count :
+       {&w.elastic_evaluations, &w.damping_preparations, &w.damping_products, &w.stiffness_preparations,
+        &w.stiffness_products, &w.newton_iterations, &w.solves, &w.cg_iterations, &w.object_queries,
+        &w.object_contacts, &w.strain_sweeps, &w.close_pairs, &w.crossing_queries, &w.crossings, &w.zones,
+        &w.zone_particles, &w.bonds, &w.unfinished_solves})
+    see(*count);
+  for (auto* worst : {&w.strain_left, &w.worst_residual}) see(*worst);
+}
+
+// Whoever adds a number is stopped here until it is shown above.
+static_assert(sizeof(Work) == 20 * sizeof(double));
+
 /// Sets `worst` to `value` if that is larger or NaN; a NaN stays whatever comes after it.
 inline void keep_worst(double& worst, double value) {
   if (!std::isnan(worst) && !(value <= worst)) worst = value;

@@ -14,7 +14,9 @@ from study_plots import spread
 
 WIDTH, HEIGHT = 5.3, 3.1            # [inch]
 MOST_POINTS = 300                   # per line; longer histories show mean and extremes of so many stretches
-ENERGIES = ("kinetic_energy", "stretch_energy", "bending_energy", "gravity_energy", "sticking_energy")
+ENERGIES = ("kinetic_energy", "stretch_energy", "bending_energy", "gravity_energy", "custom_energy", "sticking_energy")
+ALWAYS = 4                          # of the energies are shown though they be zero, the others where there are any
+INKS = (0, 1, 2, 3, 5, 7)           # of present energies; 4 and 6 are those of the work of damping
 
 Line = tuple[str, np.ndarray, str, float]   # label, values, colour, width
 
@@ -40,10 +42,10 @@ Panel = tuple[str, str, str, list[Line]]    # label, unit, scale, lines
 
 
 def _energies(columns: dict[str, Column]) -> tuple[list[Panel], str]:
-    present = [key for key in ENERGIES if key in columns and (key != ENERGIES[-1] or columns[key].values.any())]
+    present = [key for k, key in enumerate(ENERGIES) if key in columns and (k < ALWAYS or columns[key].values.any())]
     if not present:
         return [], ""
-    lines: list[Line] = [(key.removesuffix("_energy"), columns[key].values, COLOURS[k if k < 4 else 5], 1.1)
+    lines: list[Line] = [(key.removesuffix("_energy"), columns[key].values, COLOURS[INKS[k]], 1.1)
                          for k, key in enumerate(present)]
     total = np.sum([columns[key].values for key in present], axis=0)
     lines.append(("total", total, INK, 1.8))

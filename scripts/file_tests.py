@@ -86,6 +86,7 @@ step = 0.001
 
 TRIANGLES = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n"
 
+
 def run(*arguments: str, limits: dict[int, int] | None = None, user: int | None = None,
         stdout: int = subprocess.PIPE) -> subprocess.CompletedProcess[str]:
     """Runs the program under limits (of `resource`), or as another user; one that hangs raises TimeoutExpired."""

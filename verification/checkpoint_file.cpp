@@ -17,10 +17,6 @@ namespace {
 
 const char* const checkpoint_format = "foldproof checkpoint 1";
 
-// A new field must be stored too: whoever adds one is stopped here.
-static_assert(sizeof(Work) == 20 * sizeof(double) && sizeof(Diagnostics) == 25 * sizeof(double) &&
-              sizeof(Energies) == 6 * sizeof(double));
-
 /// Writes numbers one after the other, or reads them back; one list of fields serves both ways.
 class Numbers64 {
  public:
@@ -39,9 +35,6 @@ class Numbers64 {
     else
       values_.push_back(double(value));
   }
-  void pass(Vector3& value) {
-    for (double& component : value) pass(component);
-  }
 
   const std::vector<double>& values() const { return values_; }
   bool is_used_up() const { return at_ == values_.size(); }
@@ -57,26 +50,9 @@ class Numbers64 {
   bool reads_ = false;
 };
 
-void pass(Work& w, Numbers64& numbers) {
-  for (long* count :
-       {&w.elastic_evaluations, &w.damping_preparations, &w.damping_products, &w.stiffness_preparations,
-        &w.stiffness_products, &w.newton_iterations, &w.solves, &w.cg_iterations, &w.object_queries,
-        &w.object_contacts, &w.strain_sweeps, &w.close_pairs, &w.crossing_queries, &w.crossings, &w.zones,
-        &w.zone_particles, &w.bonds, &w.unfinished_solves})
-    numbers.pass(*count);
-  for (double* worst : {&w.strain_left, &w.worst_residual}) numbers.pass(*worst);
-}
-
-void pass(Diagnostics& d, Numbers64& numbers) {
-  Energies& e = d.energy;
-  for (double* value :
-       {&d.time, &d.step, &e.kinetic, &e.stretch, &e.bending, &e.gravity, &e.custom, &e.sticking,
-        &d.damping_work, &d.cg_residual, &d.step_over_elastic_limit, &d.strain_left, &d.seconds})
-    numbers.pass(*value);
-  for (long* count :
-       {&d.cg_iterations, &d.object_contacts, &d.close_pairs, &d.crossings, &d.zone_particles, &d.bonds})
-    numbers.pass(*count);
-  for (Vector3* momentum : {&d.linear_momentum, &d.angular_momentum}) numbers.pass(*momentum);
+void pass(Diagnostics& row, Numbers64& numbers) {
+  for_each_number_of_row(row, [&](auto& number) { numbers.pass(number); });
+  numbers.pass(row.seconds);
 }
 
 /// All of a checkpoint but the states.
@@ -84,7 +60,7 @@ void pass(Checkpoint& c, Numbers64& numbers) {
   for (long* count : {&c.frame, &c.steps}) numbers.pass(*count);
   for (double* value : {&c.start_time, &c.size, &c.event_time, &c.damping_work, &c.damping_power, &c.seconds})
     numbers.pass(*value);
-  pass(c.work, numbers);
+  for_each_number_of_work(c.work, [&](auto& number) { numbers.pass(number); });
 }
 
 std::vector<double> numbers_of(const CheckpointRecord& record) {

@@ -189,6 +189,7 @@ constexpr Scalar scalars[] = {
     {"stretch_energy", "J", [](const Diagnostics& d) { return d.energy.stretch; }},
     {"bending_energy", "J", [](const Diagnostics& d) { return d.energy.bending; }},
     {"gravity_energy", "J", [](const Diagnostics& d) { return d.energy.gravity; }},
+    {"custom_energy", "J", [](const Diagnostics& d) { return d.energy.custom; }},
     {"sticking_energy", "J", [](const Diagnostics& d) { return d.energy.sticking; }},
     {"damping_work", "J", [](const Diagnostics& d) { return d.damping_work; }},
     {"cg_iterations", "1", [](const Diagnostics& d) { return double(d.cg_iterations); }},

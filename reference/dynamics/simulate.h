@@ -47,6 +47,25 @@ struct Diagnostics {
   double seconds = 0;                         // since the start of the run, clock time
 };
 
+/// Shows `see` every number of a Diagnostics, const or not, but the clock time, in an order that stays: counts as
+/// long, the rest as double.
+template <class SomeDiagnostics, class See>
+void for_each_number_of_row(SomeDiagnostics& d, const See& see) {
+  auto& e = d.energy;
+  for (auto* value :
+       {&d.time, &d.step, &e.kinetic, &e.stretch, &e.bending, &e.gravity, &e.custom, &e.sticking,
+        &d.damping_work, &d.cg_residual, &d.step_over_elastic_limit, &d.strain_left})
+    see(*value);
+  for (auto* count :
+       {&d.cg_iterations, &d.object_contacts, &d.close_pairs, &d.crossings, &d.zone_particles, &d.bonds})
+    see(*count);
+  for (auto* momentum : {&d.linear_momentum, &d.angular_momentum})
+    for (auto& component : *momentum) see(component);
+}
+
+// Whoever adds a number is stopped here until it is shown above.
+static_assert(sizeof(Diagnostics) == 25 * sizeof(double) && sizeof(Energies) == 6 * sizeof(double));
+
 struct Stop {
   std::string reason;
   double time;   // of the last good state [s]

@@ -13,16 +13,8 @@ constexpr std::size_t steps_each = 10;
 
 /// All numbers of a row but clock time.
 std::vector<double> numbers_of(const Diagnostics& row) {
-  const Energies& e = row.energy;
-  std::vector<double> all = {row.time,  row.step,  e.kinetic, e.stretch,
-                             e.bending, e.gravity, e.custom,  e.sticking};
-  for (const Vector3* v : {&row.linear_momentum, &row.angular_momentum})
-    all.insert(all.end(), v->begin(), v->end());
-  for (const double x : {row.damping_work, row.cg_residual, row.step_over_elastic_limit, row.strain_left})
-    all.push_back(x);
-  for (const long n : {row.cg_iterations, row.object_contacts, row.close_pairs, row.crossings,
-                       row.zone_particles, row.bonds})
-    all.push_back(double(n));
+  std::vector<double> all;
+  for_each_number_of_row(row, [&](auto number) { all.push_back(double(number)); });
   return all;
 }
 

@@ -47,24 +47,11 @@ void add(const State& s, Numbers& all) {
 
 /// All of a row but clock time.
 void add(const Diagnostics& row, Numbers& all) {
-  const Energies& e = row.energy;
-  all.insert(all.end(),
-             {row.time, row.step, e.kinetic, e.stretch, e.bending, e.gravity, e.custom, e.sticking,
-              row.damping_work, double(row.cg_iterations), row.cg_residual, row.step_over_elastic_limit,
-              double(row.object_contacts), row.strain_left, double(row.close_pairs), double(row.crossings),
-              double(row.zone_particles), double(row.bonds)});
-  for (const Vector3& momentum : {row.linear_momentum, row.angular_momentum})
-    all.insert(all.end(), momentum.data(), momentum.data() + 3);
+  for_each_number_of_row(row, [&](auto number) { all.push_back(double(number)); });
 }
 
 void add(const Work& w, Numbers& all) {
-  for (const long count :
-       {w.elastic_evaluations, w.damping_preparations, w.damping_products, w.stiffness_preparations,
-        w.stiffness_products, w.newton_iterations, w.solves, w.cg_iterations, w.object_queries,
-        w.object_contacts, w.strain_sweeps, w.close_pairs, w.crossing_queries, w.crossings, w.zones,
-        w.zone_particles, w.bonds, w.unfinished_solves})
-    all.push_back(double(count));
-  all.insert(all.end(), {w.strain_left, w.worst_residual});
+  for_each_number_of_work(w, [&](auto number) { all.push_back(double(number)); });
 }
 
 void add(const Outcome& outcome, Numbers& all) {
