@@ -32,9 +32,9 @@ MeshSequence deformed_mesh(const TriangleMesh& mesh, const Deformation& deformat
 PerParticle3 positions_at(const MeshSequence& sequence, double t);
 
 /// All files *.obj of a folder in the order of their names, `interval` [s] apart from time 0 on.
-/// Throws InputError naming the file: none, one whose triangles differ from the first's, what read_obj
-/// refuses.
-MeshSequence read_obj_sequence(const std::string& folder, double interval);
+/// Throws InputError naming the file: none, more than `most`, one whose triangles differ from the first's, what
+/// read_obj refuses.
+MeshSequence read_obj_sequence(const std::string& folder, double interval, long most = 1000);
 
 /// A frame's level set. The displacement at a node is that of the surface point nearest to it, so that it is
 /// constant along N.

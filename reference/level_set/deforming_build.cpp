@@ -190,13 +190,16 @@ PerParticle3 positions_at(const MeshSequence& sequence, double t) {
   return (1 - part) * sequence.positions[k - 1] + part * sequence.positions[k];
 }
 
-MeshSequence read_obj_sequence(const std::string& folder, double interval) {
+MeshSequence read_obj_sequence(const std::string& folder, double interval, long most) {
   std::vector<std::string> files;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))
     if (entry.path().extension() == ".obj") files.push_back(entry.path().string());
   if (files.empty())
     throw InputError(folder + ": no folder with *.obj files; a mesh sequence is one file a frame");
+  if (long(files.size()) > most)
+    throw InputError(folder + ": " + std::to_string(files.size()) + " *.obj files; at most " +
+                     std::to_string(most) + " frames are read, for each is a level set");
   if (!(interval > 0)) throw InputError(folder + ": the time between two frames must be positive");
   std::sort(files.begin(), files.end());
   MeshSequence sequence;

@@ -92,7 +92,8 @@ MeshSequence read_frames(const KeyTable& keys, const CaseAround& around) {
   if (where != "--set") refuse_links_outside(folder, around.folder, where);
   MeshSequence animation;
   try {
-    animation = read_obj_sequence(folder, positive_or(keys, "interval", 1.0 / 30));
+    animation =
+        read_obj_sequence(folder, positive_or(keys, "interval", 1.0 / 30), long(around.limits.frames));
   } catch (const InputError& error) {
     throw InputError(where + ": " + error.what());
   }

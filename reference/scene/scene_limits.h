@@ -9,7 +9,7 @@ namespace foldproof {
 
 struct SceneLimits {
   double triangles = 1e7;  // of the cloth with its copies, or of a body, made by code: about 4 GB
-  double frames = 1000;    // of a body that deforms by [[object.deform]]: each is a level set
+  double frames = 1000;    // of a body that deforms: each is a level set
 };
 
 /// Throws InputError "file:line: ..." where the key asks for more triangles than the limit.

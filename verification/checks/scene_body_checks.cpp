@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <numbers>
 
@@ -211,31 +212,41 @@ Finding surface_finding(const Subject&) {
                          "a thousandth of it");
 }
 
+/// A folder of one file more than there may be frames, whose name is returned.
+std::string too_many_frames(const ScratchFolder& folder) {
+  const std::string frames = folder.file("many");
+  std::filesystem::create_directory(frames);
+  for (int k = 0; k <= 1000; ++k) std::ofstream(frames + "/" + std::to_string(k) + ".obj");
+  return "many";
+}
+
 std::vector<Refused> refusals(const ScratchFolder& folder) {
   const auto body = [&](const std::string& keys) { return ball_body(folder, "cells = 8\n" + keys); };
   const std::string twist = deform("twist", 20, 0.5),
                     sphere = "[[object]]\nshape = \"sphere\"\nradius = 0.3\n";
   const std::string frames = "[[object]]\nframes = \"" + written_frames(folder) + "\"\n";
-  return {{body("field = \"octre\""), {"unknown field 'octre'", "octree", "exact"}},
-          {body("field = \"octree\"\ntolerance = 0"), {"'tolerance' must be > 0"}},
-          {body("field = \"octree\"\nrepair = \"winding\""), {"'repair' needs field = \"grid\""}},
-          {body("tolerance = 1e-3"), {"unknown key 'tolerance'"}},
-          {sphere + twist, {"needs a mesh", "statue"}},
-          {body("interval = 0.2\nvelocity = [0, 0, 1]\n" + twist), {"unknown key 'velocity'"}},
-          {body("field = \"grid\"\n" + twist), {"unknown field 'grid'", "octree"}},
-          {body("between = \"morphed\"\n" + twist), {"unknown between 'morphed'", "carried"}},
-          {body("interval = 1e-5\n" + twist), {"more than 1000 level sets", "interval"}},
-          {body("interval = 0\n" + twist), {"'interval' must be > 0"}},
-          {body("[[object.deform]]\nkind = \"melt\"\n"), {"unknown kind 'melt'", "breathe"}},
-          {body("[[object.deform]]\nkind = \"bend\"\namplitude = 3\n"), {"period"}},
-          {body("[[object.deform]]\nkind = \"bend\"\namplitude = 3\nperiod = 0\n"), {"'period' must be > 0"}},
-          {body("interval = 0.2\n" + deform("bend", 20, 0.5) + "toward = 3\n"), {"unknown key 'toward'"}},
-          {body("interval = 0.1\n" + deform("bend", 900, 0.6)),
-           {"frame 1", "0.100000 s", "meets triangle", "smaller amplitude"}},
-          {frames + twist, {"'frames' are an animation"}},
-          {frames + "mesh = \"ball.obj\"\n", {"and not both"}},
-          {frames + "interval = -1\n", {"'interval' must be > 0"}},
-          {"[[object]]\nframes = \"nowhere\"\n", {"no folder with"}}};
+  return {
+      {body("field = \"octre\""), {"unknown field 'octre'", "octree", "exact"}},
+      {body("field = \"octree\"\ntolerance = 0"), {"'tolerance' must be > 0"}},
+      {body("field = \"octree\"\nrepair = \"winding\""), {"'repair' needs field = \"grid\""}},
+      {body("tolerance = 1e-3"), {"unknown key 'tolerance'"}},
+      {sphere + twist, {"needs a mesh", "statue"}},
+      {body("interval = 0.2\nvelocity = [0, 0, 1]\n" + twist), {"unknown key 'velocity'"}},
+      {body("field = \"grid\"\n" + twist), {"unknown field 'grid'", "octree"}},
+      {body("between = \"morphed\"\n" + twist), {"unknown between 'morphed'", "carried"}},
+      {body("interval = 1e-5\n" + twist), {"more than 1000 level sets", "interval"}},
+      {body("interval = 0\n" + twist), {"'interval' must be > 0"}},
+      {body("[[object.deform]]\nkind = \"melt\"\n"), {"unknown kind 'melt'", "breathe"}},
+      {body("[[object.deform]]\nkind = \"bend\"\namplitude = 3\n"), {"period"}},
+      {body("[[object.deform]]\nkind = \"bend\"\namplitude = 3\nperiod = 0\n"), {"'period' must be > 0"}},
+      {body("interval = 0.2\n" + deform("bend", 20, 0.5) + "toward = 3\n"), {"unknown key 'toward'"}},
+      {body("interval = 0.1\n" + deform("bend", 900, 0.6)),
+       {"frame 1", "0.100000 s", "meets triangle", "smaller amplitude"}},
+      {frames + twist, {"'frames' are an animation"}},
+      {frames + "mesh = \"ball.obj\"\n", {"and not both"}},
+      {frames + "interval = -1\n", {"'interval' must be > 0"}},
+      {"[[object]]\nframes = \"" + too_many_frames(folder) + "\"\n", {"1001 *.obj files", "at most 1000"}},
+      {"[[object]]\nframes = \"nowhere\"\n", {"no folder with"}}};
 }
 
 Finding refusal_finding(const Subject&) {
