@@ -1,8 +1,9 @@
 #include "convergence/finer_scene.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <map>
 #include <set>
-#include <utility>
 
 #include "reference/mesh/subdivision.h"
 
@@ -16,7 +17,7 @@ bool moves_alike(const Motion& one, const Motion& other) {
          one.angular_velocity == other.angular_velocity && one.from == other.from && one.until == other.until;
 }
 
-/// The particle in the middle of each edge, and whether both ends of the edge are in `chosen`.
+/// `chosen`, and the middles of those edges whose ends are both in it.
 std::vector<int> with_middles(const TriangleMesh& mesh, std::vector<int> chosen) {
   const std::set<int> ends(chosen.begin(), chosen.end());
   for (size_t e = 0; e < mesh.edges.size(); ++e)
@@ -55,9 +56,12 @@ std::vector<double> rest_angles_of_halves(const Scene& scene, const TriangleMesh
 StickyPatch finer_patch(const TriangleMesh& mesh, const std::vector<Triangle>& quarters, StickyPatch patch) {
   patch.particles = with_middles(mesh, patch.particles);
   if (patch.place) return patch;
+  std::map<Triangle, std::ptrdiff_t> number_of;
+  for (const Triangle& triangle : mesh.triangles)
+    number_of.emplace(triangle, std::ptrdiff_t(number_of.size()));
   std::vector<Triangle> triangles;
   for (const Triangle& old : patch.triangles) {
-    const auto t = std::ranges::find(mesh.triangles, old) - mesh.triangles.begin();
+    const std::ptrdiff_t t = number_of.at(old);
     triangles.insert(triangles.end(), quarters.begin() + 4 * t, quarters.begin() + 4 * t + 4);
   }
   patch.triangles = triangles;

@@ -10,20 +10,21 @@ namespace {
 
 using Parts = std::vector<ScenePart>;
 
-void add_present(Parts& parts, bool is_present, const std::string& name, std::function<void(Scene&)> remove) {
-  if (!is_present) return;
-  parts.push_back({name, true, [remove = std::move(remove)](Scene scene) {
-                     remove(scene);
+void add(Parts& parts, bool applies, bool is_present, const std::string& name,
+         std::function<void(Scene&)> toggle) {
+  if (!applies) return;
+  parts.push_back({name, is_present, [toggle = std::move(toggle)](Scene scene) {
+                     toggle(scene);
                      return scene;
                    }});
 }
 
-void add_absent(Parts& parts, bool is_absent, const std::string& name, std::function<void(Scene&)> add) {
-  if (!is_absent) return;
-  parts.push_back({name, false, [add = std::move(add)](Scene scene) {
-                     add(scene);
-                     return scene;
-                   }});
+void add_present(Parts& parts, bool applies, const std::string& name, std::function<void(Scene&)> remove) {
+  add(parts, applies, true, name, std::move(remove));
+}
+
+void add_absent(Parts& parts, bool applies, const std::string& name, std::function<void(Scene&)> put) {
+  add(parts, applies, false, name, std::move(put));
 }
 
 void add_forces(const Scene& scene, Parts& parts) {

@@ -8,7 +8,8 @@ from math import nan
 from pathlib import Path
 from typing import Any
 
-NEEDS = ("needed", "not needed here", "missing here", "not missed here")
+NEEDS = ("needed", "kept for a reason", "left out for a reason", "not needed here", "missing here", "not missed here")
+REASONED = {"not needed here": "kept for a reason", "missing here": "left out for a reason"}   # if the case gives one
 COUNTED = {"steps": "steps", "elastic_evaluations": "force evaluations", "cg_iterations": "CG iterations",
            "object_queries": "object queries", "strain_sweeps": "strain sweeps", "crossing_queries": "crossing queries"}
 
@@ -18,9 +19,10 @@ class PartNeed:
     """A part of a scene, run without it if it is there, else with it."""
     name: str
     present: bool
-    need: str                  # one of NEEDS
+    need: str                  # needed, not needed here, missing here or not missed here
     because: str
     declared: str              # why the case has it, or leaves it out, all the same; or ""
+    fits: bool                 # as the program says: needed, or not missed, or a reason is given, and only then
     moved: float               # by how much positions differ [m]
     energy: float              # by how much the energy differs [J]
     crossings: float           # pairs of an edge and a triangle that meet, most of a frame, in that run
@@ -28,11 +30,17 @@ class PartNeed:
     seconds: float             # that run over the scene's own [1]
     work: list[tuple[str, float]]  # counted work of that run over the scene's own, where that is not nothing [1]
 
+    @property
+    def standing(self) -> str:
+        """One of NEEDS."""
+        return REASONED.get(self.need, self.need) if self.declared else self.need
+
 
 @dataclass
 class CaseNeeds:
     """A scene, its own error and its parts."""
     name: str
+    wrong: str                 # why nothing can be said of it; or ""
     own_error: float           # m
     time_error: float          # m; NaN: not known
     mesh_error: float          # m; NaN: not known
@@ -44,8 +52,8 @@ class CaseNeeds:
 
     def tally(self) -> str:
         """How many parts are needed, in words."""
-        counts = Counter(part.need for part in self.parts)
-        return ", ".join(f"{counts[need]} {need}" for need in NEEDS if counts[need])
+        counts = Counter(part.standing for part in self.parts)
+        return ", ".join(f"{counts[standing]} {standing}" for standing in NEEDS if counts[standing])
 
 
 @dataclass
@@ -54,9 +62,9 @@ class Needs:
     commit: str
     cases: list[CaseNeeds]
 
-    def count(self, need: str) -> int:
-        """Parts of all cases with this need."""
-        return sum(part.need == need for case in self.cases for part in case.parts)
+    def count(self, standing: str) -> int:
+        """Parts of all cases that stand so, one of NEEDS."""
+        return sum(part.standing == standing for case in self.cases for part in case.parts)
 
 
 def load_needs(file: Path) -> Needs | None:
@@ -70,14 +78,15 @@ def load_needs(file: Path) -> Needs | None:
 def _case(row: dict[str, Any]) -> CaseNeeds:
     own, scene = row["own_error"], row["run"]
     unknown = "; ".join(f"{kind}: {why}" for kind, why in (("half the step", own["without_time"]), ("finer mesh", own["without_mesh"])) if why)
-    return CaseNeeds(row["case"], _number(own["value"]), _number(own["time"]), _number(own["mesh"]), unknown, scene["seconds"],
+    return CaseNeeds(row["case"], row["wrong"], _number(own["value"]), _number(own["time"]), _number(own["mesh"]), unknown, scene["seconds"],
                      _number(scene["crossings"]), _number(scene["deepest"]), [_part(part, scene) for part in row["parts"]])
 
 
 def _part(part: dict[str, Any], scene: dict[str, Any]) -> PartNeed:
     run = part["run"]
     work = [(words, run[key] / scene[key]) for key, words in COUNTED.items() if scene[key] and run[key] != scene[key]]
-    return PartNeed(part["name"], part["present"], part["need"], part["because"], part["declared"], _number(part["position_difference"]),
+    return PartNeed(part["name"], part["present"], part["need"], part["because"], part["declared"], part["as_it_should_be"],
+                    _number(part["position_difference"]),
                     _number(part["energy_difference"]), _number(run["crossings"]), _number(run["deepest"]),
                     run["seconds"] / scene["seconds"] if scene["seconds"] else nan, work)
 

@@ -264,19 +264,21 @@ class PartsMissing(unittest.TestCase):
     def test_the_parts_that_scenes_need_are_shown_where_they_were_looked_for(self) -> None:
         run = {"seconds": 2.0, "steps": 40, "elastic_evaluations": 80, "cg_iterations": 0, "object_queries": 0, "strain_sweeps": 0,
                "crossing_queries": 0, "deepest": 0.0, "crossings": 0.0, "stopped": "", "failed": []}
-        part = {"name": "gravity <b>", "present": True, "need": "not needed here", "because": "it moves <nothing>", "declared": "",
+        part = {"name": "gravity <b>", "present": True, "need": "not needed here", "because": "it moves <nothing>", "declared": "", "as_it_should_be": False,
                 "position_difference": 3e-5, "energy_difference": None, "run": run | {"seconds": 1.0, "steps": 10}}
         own = {"time": 1e-4, "mesh": None, "floor": 1e-6, "value": 1e-4, "without_time": "", "without_mesh": "too many triangles"}
         told = {"schema": 1, "program": {"commit": "abcdef0123456789"}, "cases": [
-            {"case": "fold", "size": 1.0, "own_error": own, "run": run, "parts": [part, part | {"declared": "for <show>"}]}]}
+            {"case": "fold", "wrong": "it <stops>", "size": 1.0, "own_error": own, "run": run, "parts": [part, part | {"declared": "for <show>", "as_it_should_be": True}]}]}
         (self.root / "ablation.json").write_text(json.dumps(told))
         put_run(self.root)
         text = self.made()
-        self.assertIn("fold: 2 not needed here", text)
+        self.assertIn("fold: 1 kept for a reason, 1 not needed here", text)
+        self.assertIn("1 are not needed and none missing without a reason", text)
         for shown in ("gravity &lt;b&gt;", "it moves &lt;nothing&gt;", "for &lt;show&gt;", "finer mesh: too many triangles"):
             self.assertIn(shown, text)
         section = re.search(r'<section id="needs">.*?</section>', text, re.DOTALL)[0]
-        self.assertEqual(section.count("verdict fails"), 1)
+        self.assertEqual(section.count("verdict fails"), 2)
+        self.assertIn("it &lt;stops&gt;", section)
 
     def test_tolerances_begin_with_the_tightest(self) -> None:
         with tempfile.TemporaryDirectory() as folder:

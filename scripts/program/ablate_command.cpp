@@ -1,5 +1,5 @@
-// foldproof ablate: runs a case without each of its parts, and with each that it lacks, and says which it
-// needs.
+// foldproof ablate: runs a case without each of its parts, and with those that it lacks and that need no numbers
+// from its author, and says which it needs.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -81,6 +81,13 @@ void judge(Ablation& one) {
   }
 }
 
+/// Why nothing can be said of the scene's parts: its own run is not what its author wants; "" if it is.
+std::string wrong_by_itself(const Ablation& one) {
+  if (!one.scene.stopped.empty()) return "the scene itself does not come to its end: " + one.scene.stopped;
+  if (one.scene.failed.empty()) return "";
+  return fmt::format("expectations of the scene itself fail: {}", fmt::join(one.scene.failed, ", "));
+}
+
 nlohmann::json told(const RunObserved& run) {
   const Work& work = run.work;
   return {{"seconds", run.seconds},
@@ -104,10 +111,12 @@ nlohmann::json told(const Ablation& one) {
                      {"need", std::string(name_of(part.need))},
                      {"because", part.because},
                      {"declared", part.declared},
+                     {"as_it_should_be", part.is_as_it_should_be()},
                      {"position_difference", part.position_difference},
                      {"energy_difference", part.energy_difference},
                      {"run", told(part.run)}});
   return {{"case", one.shown.scene.name},
+          {"wrong", wrong_by_itself(one)},
           {"size", size_of(one.shown.scene.mesh.rest)},
           {"own_error",
            {{"time", one.own.time},
@@ -135,9 +144,15 @@ nlohmann::json told(const std::vector<Ablation>& all, const Options& options) {
           {"cases", std::move(cases)}};
 }
 
+std::string error_text(double error, const std::string& why_unknown) {
+  return std::isnan(error) ? "not known: " + why_unknown : fmt::format("{:.2g}", error);
+}
+
 void print(const Ablation& one) {
-  fmt::print("{}: {:.2f} s; own error {:.2g} m (half the step {:.2g}, finer mesh {:.2g})\n",
-             one.shown.scene.name, one.scene.seconds, one.own.value(), one.own.time, one.own.mesh);
+  fmt::print("{}: {:.2f} s; own error {:.2g} m (half the step {}; finer mesh {})\n", one.shown.scene.name,
+             one.scene.seconds, one.own.value(), error_text(one.own.time, one.half_steps.stopped),
+             error_text(one.own.mesh, one.finer.stopped));
+  if (const std::string wrong = wrong_by_itself(one); !wrong.empty()) fmt::print("! {}\n", wrong);
   for (const PartJudged& part : one.judged) {
     fmt::print("{} {:<16} {:<30} {:5.0f} % of the time; {}\n", part.is_as_it_should_be() ? ' ' : '!',
                name_of(part.need), (part.is_present ? "" : "with ") + part.name,
@@ -166,6 +181,7 @@ int ablate(const Options& options) {
   bool is_minimal = true;
   for (Ablation& one : all) {
     judge(one);
+    is_minimal &= wrong_by_itself(one).empty();
     for (const PartJudged& part : one.judged) is_minimal &= part.is_as_it_should_be();
   }
   const std::string text = json_text(told(all, options)) + "\n";

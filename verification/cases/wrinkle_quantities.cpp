@@ -66,11 +66,12 @@ double creases_at_end(const RunSeen& run) {
   return creases_of(run.scene, x, 1).count + creases_of(run.scene, x, -1).count;
 }
 
-/// Twice the mean way at rest from a hinge in a crease to the nearest crease to the other side [m]; NaN if
-/// there are none to one of them.
+/// Twice the mean straight distance, in the rest shape, from a hinge in a crease to the nearest hinge in a crease to
+/// the other side [m]; NaN if there are none to one of them.
 double wavelength_at_end(const RunSeen& run) {
   const Creases ridges = creases_of(run.scene, run.outcome.last.x, 1),
                 valleys = creases_of(run.scene, run.outcome.last.x, -1);
+  if (ridges.count == 0 || valleys.count == 0) return std::numeric_limits<double>::quiet_NaN();
   double sum = 0;
   const auto add_ways = [&](const std::vector<Vector3>& from, const std::vector<Vector3>& to) {
     for (const Vector3& place : from) {
@@ -81,7 +82,6 @@ double wavelength_at_end(const RunSeen& run) {
   };
   add_ways(ridges.places, valleys.places);
   add_ways(valleys.places, ridges.places);
-  if (ridges.count == 0 || valleys.count == 0) return std::numeric_limits<double>::quiet_NaN();
   return 2 * sum / double(ridges.places.size() + valleys.places.size());
 }
 
@@ -91,13 +91,12 @@ std::vector<Quantity> wrinkle_quantities() {
   return {
       {"creases", "1",
        "At the end there are so many creases: lines of three hinges or more, each turned by over 20 degrees "
-       "to "
-       "the same side.",
+       "to the same side.",
        Sense::at_least, nullptr, creases_at_end, without_bending},
       {"wrinkle_wavelength", "m",
-       "At the end wrinkles are at most this long at rest: twice the mean way from a crease to one to the "
-       "other "
-       "side.",
+       "At the end wrinkles are at most this long: twice the mean straight distance, in the rest shape, from "
+       "a "
+       "hinge in a crease to the nearest in one of the other side.",
        Sense::at_most, nullptr, wavelength_at_end, without_bending},
   };
 }
