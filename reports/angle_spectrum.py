@@ -45,7 +45,8 @@ def _spectrum(shares: list[np.ndarray], least: float, name: str, folder: Path, c
         drawn = share > 0
         axes.plot(DEGREES[drawn], share[drawn], color=colour, linewidth=1.4)
         axes.plot([0.87, 0.91], [height, height], transform=axes.transAxes, color=colour, linewidth=1.4)
-        axes.text(0.925, height, label, transform=axes.transAxes, fontsize=7.4, color=colour, va="center")
+        said = label if share[DEGREES >= 1.0].any() else f"{label}, flat"
+        axes.text(0.925, height, said, transform=axes.transAxes, fontsize=7.4, color=colour, va="center")
     axes.set_xlim(0.0, 180.0)
     axes.set_ylim(0.7 * least, 1.5)
     return finish(figure, name, folder, caption)

@@ -67,9 +67,10 @@ def fields_of(case: Case, frames: list[int]) -> list[Field]:
 
 def most_telling(fields: list[Field], rows: list[int], edges: np.ndarray) -> tuple[Field, int] | None:
     """The field and that of the rows whose picture says most: colours are many (their entropy in bits), and neighbours are
-    alike (the correlation over the edges), so that it is no noise. None where there are no fields."""
+    alike (the correlation over the edges), so that it is no noise. Where all say the same, as of a sheet that moves as one,
+    the last. None where there are no fields."""
     rated = [(_telling(field.codes(row), edges), field, row) for field in fields for row in rows]
-    return max(rated, key=lambda entry: entry[0])[1:] if rated else None
+    return max(rated, key=lambda entry: (entry[0], entry[2]))[1:] if rated else None
 
 
 def edges_of(triangles: np.ndarray) -> np.ndarray:

@@ -15,7 +15,6 @@ from study_plots import spread
 WIDTH, HEIGHT = 5.3, 3.1            # [inch]
 MOST_POINTS = 300                   # per line; longer histories show mean and extremes of so many stretches
 ENERGIES = ("kinetic_energy", "stretch_energy", "bending_energy", "gravity_energy", "custom_energy", "sticking_energy")
-ALWAYS = 4                          # of the energies are shown though they be zero, the others where there are any
 INKS = (0, 1, 2, 3, 5, 7)           # of present energies; 4 and 6 are those of the work of damping
 
 Line = tuple[str, np.ndarray, str, float]   # label, values, colour, width
@@ -42,27 +41,29 @@ Panel = tuple[str, str, str, list[Line]]    # label, unit, scale, lines
 
 
 def _energies(columns: dict[str, Column]) -> tuple[list[Panel], str]:
-    present = [key for k, key in enumerate(ENERGIES) if key in columns and (k < ALWAYS or columns[key].values.any())]
+    present = [key for key in ENERGIES if key in columns and columns[key].values.any()]
     if not present:
         return [], ""
-    lines: list[Line] = [(key.removesuffix("_energy"), columns[key].values, COLOURS[INKS[k]], 1.1)
-                         for k, key in enumerate(present)]
+    lines: list[Line] = [(key.removesuffix("_energy"), columns[key].values, COLOURS[INKS[ENERGIES.index(key)]], 1.1)
+                         for key in present]
     total = np.sum([columns[key].values for key in present], axis=0)
     lines.append(("total", total, INK, 1.8))
-    caption = "Energies"
-    if "damping_work" in columns:
+    caption = ("Energies that are not zero throughout. Their total changes only by what else does work: moving "
+               "supports, filters, and the error of the integrator")
+    if "damping_work" in columns and columns["damping_work"].values.any():
         work = columns["damping_work"].values
         lines += [("damping work", work, COLOURS[4], 1.1),
                   ("total \u2212 damping work", total - work, COLOURS[6], 1.1)]
-        caption = ("Energies, and the work done by damping so far. Total minus damping work changes only by "
-                   "what else does work: moving supports, filters, and the error of the integrator")
+        caption = ("Energies that are not zero throughout, and the work done by damping so far. Total minus damping "
+                   "work changes only by what else does work: moving supports, filters, and the error of the "
+                   "integrator")
     return [("energy", columns[present[0]].unit or "J", "linear", lines)], caption
 
 
 def _momenta(columns: dict[str, Column]) -> tuple[list[Panel], str]:
     panels: list[Panel] = []
     for key in ("linear_momentum", "angular_momentum"):
-        if key in columns and columns[key].values.ndim == 2:
+        if key in columns and columns[key].values.ndim == 2 and columns[key].values.any():
             values = columns[key].values
             panels.append((key.replace("_", " "), columns[key].unit, "linear",
                            [(axis, values[:, k], COLOURS[k], 1.1) for k, axis in enumerate("xyz")]))
@@ -76,6 +77,9 @@ def _steps(columns: dict[str, Column]) -> tuple[list[Panel], str]:
 
 
 def _solves(columns: dict[str, Column]) -> tuple[list[Panel], str]:
+    """Nothing where no step solves anything: without damping B and C divide by masses only."""
+    if "cg_iterations" not in columns or not columns["cg_iterations"].values.any():
+        return [], ""
     panels = _single_panels(columns, (("cg_iterations", "CG iterations a step"),), "linear")
     if "cg_residual" in columns and (columns["cg_residual"].values > 0).any():
         panels += _single_panels(columns, (("cg_residual", "relative residual"),), "log")

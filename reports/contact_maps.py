@@ -17,19 +17,23 @@ ROUND = 1e-3                        # of the radius: how round a rest shape must
 
 
 def plot_contacts(case: Case, name: str, folder: Path) -> list[tuple[str, Plot]]:
-    """The map at the end of a simulation, with its caption; none for cloth without objects, or of a rest shape that
-    cannot be laid flat without stretching it."""
-    distances, rest = case.object_distances(-1), case.rest_positions()
-    if distances is None or rest is None or not np.isfinite(distances).any():
+    """The map of the last frame in which the cloth is nearer to the objects than half an edge, with its caption; none for
+    cloth that never is, or whose rest shape cannot be laid flat without stretching it."""
+    every, rest = case.every_frame("object_distance"), case.rest_positions()
+    if every is None or rest is None:
         return []
     flat = laid_flat(rest)
-    if flat is None:
-        return []
-    triangles = _without_seam(flat, case.triangles)
     limit = 0.5 * _mean_edge(rest, case.triangles)
+    near = np.flatnonzero((every < limit).any(axis=1))
+    if flat is None or not len(near):
+        return []
+    distances, last = every[near[-1]], near[-1] == len(every) - 1
+    when = "at the end" if last else (f"at {number_text(case.frame_times[near[-1]])} s, the last frame in which any "
+                                      "of the cloth is nearer than half an edge")
     inside = int((distances < 0).sum())
-    caption = (f"Distance to the objects at the end, over the rest shape laid flat; colours end at half an edge. "
+    caption = (f"Distance to the objects {when}, over the rest shape laid flat; colours end at half an edge. "
                f"{number_text(inside)} of {number_text(len(distances))} particles are inside")
+    triangles = _without_seam(flat, case.triangles)
     return [(caption, _map(flat, triangles, np.nan_to_num(distances, posinf=1e300), limit, f"{name}-contacts", folder))]
 
 

@@ -45,8 +45,8 @@ def draw_strip(axes: Axes, curves: list[Curve], pens: list[Pen]) -> None:
     axes.add_patch(Rectangle((0, 1 - height), 1, height, transform=axes.transAxes, facecolor=BAND, edgecolor="none",
                              zorder=0.5))
     axes.plot([0, 1], [1 - height] * 2, transform=axes.transAxes, color=MUTED, linewidth=0.7, zorder=2)
-    axes.annotate("diverged", (0.995, 1 - height), xycoords="axes fraction", xytext=(0, 2), fontsize=6.8,
-                  textcoords="offset points", ha="right", va="bottom", color=MUTED, zorder=6)
+    axes.annotate("diverged", (0.005, 1 - height), xycoords="axes fraction", xytext=(0, 2), fontsize=6.8,
+                  textcoords="offset points", ha="left", va="bottom", color=MUTED, zorder=6)
     for row, (x, pen) in enumerate(rows):
         axes.plot(x, np.full(len(x), 1 - ROW * (row + 0.8)), transform=axes.get_xaxis_transform(), zorder=4,
                   linestyle="none", marker=pen.marker, markersize=3.2, color=pen.colour, markeredgewidth=0.6,

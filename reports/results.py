@@ -202,12 +202,6 @@ class Case:
             data = file.get(f"frames/{quantity}")
             return None if data is None else np.asarray(data, dtype=float)
 
-    def object_distances(self, frame: int) -> np.ndarray | None:
-        """Signed distance of all particles to the objects in one frame, N [m]; None if the file has none."""
-        with h5py.File(self.path, "r") as file:
-            data = file.get("frames/object_distance")
-            return None if data is None else np.asarray(data[frame % data.shape[0]], dtype=float)
-
     def stuck(self, frame: int) -> np.ndarray | None:
         """N, true for particles that stick to something in one frame; None if nothing in the case is sticky."""
         with h5py.File(self.path, "r") as file:

@@ -22,8 +22,10 @@ from angle_spectrum import folded_beyond, plot_angle_spectrum  # noqa: E402
 from chromium import Browser  # noqa: E402
 from camera import choose_camera  # noqa: E402
 from case_fields import all_values, edges_of, fields_of, most_telling  # noqa: E402
+from case_plots import plot_diagnostics  # noqa: E402
 from case_scene import CaseScene, slowed  # noqa: E402
 from cloth_picture import Cloth, Scenery, picture_of, webp_bytes  # noqa: E402
+from contact_maps import plot_contacts  # noqa: E402
 from field_pictures import without_empty_lines  # noqa: E402
 from look import BACK, FRONT  # noqa: E402
 from made_up_case import SQUARE, TWO, WithCase  # noqa: E402
@@ -146,6 +148,29 @@ class Fields(WithCase):
         field, row = most_telling([noise, flat, smooth], [0], line)
         self.assertEqual((field.name, row), ("speed", 0))
         self.assertIsNone(most_telling([], [0], edges_of(case.triangles)))
+        flat.values = np.full((3, 100), 0.5 * flat.high)
+        self.assertEqual(most_telling([flat], [0, 1, 2], line)[1], 2)              # what moves as one is shown where it came to
+
+    def test_what_is_zero_throughout_is_not_plotted(self) -> None:
+        lines = {caption.split()[0]: plot for caption, plot in plot_diagnostics(self.case(), "fold", self.root)}
+        self.assertEqual(set(lines), {"Energies", "Linear", "Conjugate"})
+        with h5py.File(self.path, "r+") as file:
+            for name in ("cg_iterations", "linear_momentum", "gravity_energy", "kinetic_energy"):
+                file[f"diagnostics/{name}"][...] = 0.0
+        self.assertEqual(plot_diagnostics(self.case(), "fold", self.root), [])
+
+    def test_contacts_are_shown_in_the_last_frame_that_has_any(self) -> None:
+        def captions() -> list[str]:
+            return [caption for caption, _ in plot_contacts(self.case(), "fold", self.root)]
+        with h5py.File(self.path, "r+") as file:
+            file["frames/object_distance"][...] = [[9.0] * 4, [9.0, 9.0, -0.1, 0.2], [9.0] * 4, [9.0] * 4]
+        self.assertRegex(captions()[0], "objects at 1 s, the last frame in which .* 1 of 4 particles are inside")
+        with h5py.File(self.path, "r+") as file:
+            file["frames/object_distance"][3] = 0.1
+        self.assertRegex(captions()[0], "objects at the end, .* 0 of 4 particles are inside")
+        with h5py.File(self.path, "r+") as file:
+            file["frames/object_distance"][...] = 9.0
+        self.assertEqual(captions(), [])
 
 
 def unpacked(text: str) -> tuple[dict, dict[str, np.ndarray]]:
