@@ -48,15 +48,14 @@ def _energies(columns: dict[str, Column]) -> tuple[list[Panel], str]:
                          for key in present]
     total = np.sum([columns[key].values for key in present], axis=0)
     lines.append(("total", total, INK, 1.8))
-    caption = ("Energies that are not zero throughout. Their total changes only by what else does work: moving "
-               "supports, filters, and the error of the integrator")
+    shown, kept = "Energies that are not zero throughout", "Their total"
     if "damping_work" in columns and columns["damping_work"].values.any():
         work = columns["damping_work"].values
         lines += [("damping work", work, COLOURS[4], 1.1),
                   ("total \u2212 damping work", total - work, COLOURS[6], 1.1)]
-        caption = ("Energies that are not zero throughout, and the work done by damping so far. Total minus damping "
-                   "work changes only by what else does work: moving supports, filters, and the error of the "
-                   "integrator")
+        shown, kept = f"{shown}, and the work done by damping so far", "Total minus damping work"
+    caption = (f"{shown}. {kept} changes only by what else does work: moving supports, filters, and the error of the "
+               "integrator")
     return [("energy", columns[present[0]].unit or "J", "linear", lines)], caption
 
 
