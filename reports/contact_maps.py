@@ -17,22 +17,20 @@ ROUND = 1e-3                        # of the radius: how round a rest shape must
 
 
 def plot_contacts(case: Case, name: str, folder: Path) -> list[tuple[str, Plot]]:
-    """The map of the last frame in which the cloth is nearer to the objects than half an edge, with its caption; none for
-    cloth that never is, or whose rest shape cannot be laid flat without stretching it."""
+    """The map of the frame in which most of the cloth is nearer to the objects than half an edge, with its caption; none
+    for cloth that never is, or whose rest shape cannot be laid flat without stretching it."""
     every, rest = case.every_frame("object_distance"), case.rest_positions()
     if every is None or rest is None:
         return []
     flat = laid_flat(rest)
     limit = 0.5 * _mean_edge(rest, case.triangles)
-    near = np.flatnonzero((every < limit).any(axis=1))
-    if flat is None or not len(near):
+    near = (every < limit).sum(axis=1)
+    if flat is None or not near.any():
         return []
-    distances, last = every[near[-1]], near[-1] == len(every) - 1
-    when = "at the end" if last else (f"at {number_text(case.frame_times[near[-1]])} s, the last frame in which any "
-                                      "of the cloth is nearer than half an edge")
-    inside = int((distances < 0).sum())
-    caption = (f"Distance to the objects {when}, over the rest shape laid flat; colours end at half an edge. "
-               f"{number_text(inside)} of {number_text(len(distances))} particles are inside")
+    shown = len(near) - 1 - int(near[::-1].argmax())    # the last of those
+    distances = every[shown]
+    caption = (f"Distance to the objects at {number_text(case.frame_times[shown])} s, the frame with the most particles nearer "
+               f"than half an edge, over the rest shape laid flat; colours end at half an edge. {_inside(distances)}")
     triangles = _without_seam(flat, case.triangles)
     return [(caption, _map(flat, triangles, np.nan_to_num(distances, posinf=1e300), limit, f"{name}-contacts", folder))]
 
@@ -51,6 +49,14 @@ def laid_flat(rest: np.ndarray) -> np.ndarray | None:
         if np.ptp(radii) < ROUND * radii.mean():
             return np.column_stack([radii.mean() * np.arctan2(across[:, 1], across[:, 0]), rest[:, axis]])
     return None
+
+
+def _inside(distances: np.ndarray) -> str:
+    deep = -distances[distances < 0]
+    if not len(deep):
+        return "No particle is inside"
+    return (f"{number_text(len(deep))} of {number_text(len(distances))} particles are inside, by at most "
+            f"{number_text(deep.max())} m")
 
 
 def _without_seam(flat: np.ndarray, triangles: np.ndarray) -> np.ndarray:

@@ -57,5 +57,5 @@ def figure_notes(figure: StudyFigure) -> list[str]:
     if floors:
         plural = "s" if len(floors) > 1 else ""
         notes.append(f"Noise floor of {len(floors)} curve{plural} below the plot: at most "
-                     f"{quantities.number_text(max(floors))} {quantities.unit_text(figure.y_unit)}.")
+                     f"{quantities.quantity_text(max(floors), figure.y_unit)}.")
     return notes

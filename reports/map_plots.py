@@ -18,7 +18,7 @@ from plot_style import (INK, MUTED, PAPER, Plot, finish, label_axes, level_text,
 from quantities import number_text
 from results import Curve, StudyMap
 
-WIDTH, HEIGHT = 7.6, 4.3            # [inch]
+WIDTH, HEIGHT = 5.6, 4.0            # [inch]
 COLOURS_OF_VALUES = "viridis"       # perceptually uniform, readable without colour vision, and in grey
 DASHES = ("solid", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)))
 MOST_ROWS = 8                       # of a map whose rows are all named
@@ -28,7 +28,7 @@ LABEL_WIDTH = 30                    # characters of a line of a label
 def plot_study_map(study_map: StudyMap, name: str, folder: Path) -> Plot:
     """Draws one map of a study and writes its files."""
     canvas = new_figure(WIDTH, HEIGHT)
-    axes = canvas.add_axes((0.085, 0.12, 0.745, 0.79))
+    axes = canvas.add_axes((0.105, 0.125, 0.735, 0.78))
     label_axes(axes, study_map.x_label, study_map.x_unit, study_map.y_label, study_map.y_unit)
     axes.grid(False)
     drawable = _drawable(study_map)
@@ -98,7 +98,7 @@ def _norm(values: np.ndarray, scale: str) -> Normalize:
 
 
 def _draw_colour_bar(canvas: Figure, study_map: StudyMap, colours: ScalarMappable) -> None:
-    axes = canvas.add_axes((0.865, 0.12, 0.022, 0.79))
+    axes = canvas.add_axes((0.865, 0.125, 0.028, 0.78))
     bar = Colorbar(axes, colours, ticklocation="right")
     bar.outline.set_visible(False)
     bar.solids.set_rasterized(True)

@@ -92,6 +92,11 @@ def unit_text(unit: str) -> str:
     return unit.replace("*", "·")
 
 
+def quantity_text(value: float, unit: str) -> str:
+    """A number with its unit as plain text; the unit 1 is not written."""
+    return number_text(value) + ("" if unit.strip() in ("", "1") else f" {unit_text(unit)}")
+
+
 def quantity_html(value: float, unit: str) -> Markup:
     """A number with its unit; the unit 1 is not written."""
     written = number_html(value)

@@ -159,15 +159,15 @@ class Fields(WithCase):
                 file[f"diagnostics/{name}"][...] = 0.0
         self.assertEqual(plot_diagnostics(self.case(), "fold", self.root), [])
 
-    def test_contacts_are_shown_in_the_last_frame_that_has_any(self) -> None:
+    def test_contacts_are_shown_in_the_frame_that_has_most(self) -> None:
         def captions() -> list[str]:
             return [caption for caption, _ in plot_contacts(self.case(), "fold", self.root)]
         with h5py.File(self.path, "r+") as file:
-            file["frames/object_distance"][...] = [[9.0] * 4, [9.0, 9.0, -0.1, 0.2], [9.0] * 4, [9.0] * 4]
-        self.assertRegex(captions()[0], "objects at 1 s, the last frame in which .* 1 of 4 particles are inside")
+            file["frames/object_distance"][...] = [[9.0] * 4, [9.0, 0.1, -0.1, 0.2], [9.0, 9.0, 9.0, 0.1], [9.0] * 4]
+        self.assertRegex(captions()[0], "objects at 1 s, .* 1 of 4 particles are inside, by at most 0.1 m")
         with h5py.File(self.path, "r+") as file:
-            file["frames/object_distance"][3] = 0.1
-        self.assertRegex(captions()[0], "objects at the end, .* 0 of 4 particles are inside")
+            file["frames/object_distance"][3] = [9.0, 0.1, 0.1, 0.2]
+        self.assertRegex(captions()[0], f"objects at {self.case().frame_times[3]:g} s, .* No particle is inside")
         with h5py.File(self.path, "r+") as file:
             file["frames/object_distance"][...] = 9.0
         self.assertEqual(captions(), [])
