@@ -66,6 +66,10 @@ class Needs:
         """Parts of all cases that stand so, one of NEEDS."""
         return sum(part.standing == standing for case in self.cases for part in case.parts)
 
+    def of(self, name: str) -> CaseNeeds | None:
+        """What was found for the case of that name; None if it was not asked for."""
+        return next((case for case in self.cases if case.name == name), None)
+
 
 def load_needs(file: Path) -> Needs | None:
     """The outcomes of `foldproof ablate --out DIR`; None if there are none. Throws KeyError for another file."""

@@ -264,16 +264,22 @@ class PartsMissing(unittest.TestCase):
         own = {"time": 1e-4, "mesh": None, "floor": 1e-6, "value": 1e-4, "without_time": "", "without_mesh": "too many triangles"}
         told = {"schema": 1, "program": {"commit": "abcdef0123456789"}, "cases": [
             {"case": "fold", "wrong": "it <stops>", "size": 1.0, "own_error": own, "run": run, "parts": [part, part | {"declared": "for <show>", "as_it_should_be": True}]}]}
-        (self.root / "ablation.json").write_text(json.dumps(told))
         put_run(self.root)
+        self.assertIn("these results do not say", self.made())
+        (self.root / "ablation.json").write_text(json.dumps(told))
         text = self.made()
         self.assertIn("fold: 1 kept for a reason, 1 not needed here", text)
         self.assertIn("1 are not needed and none missing without a reason", text)
         for shown in ("gravity &lt;b&gt;", "it moves &lt;nothing&gt;", "for &lt;show&gt;", "finer mesh: too many triangles"):
             self.assertIn(shown, text)
+        self.assertRegex(text, r'Its parts: <a href="#needs-of-fold">1 kept for a reason, 1 not needed here</a>')
+        self.assertNotIn("was not asked", text)
         section = re.search(r'<section id="needs">.*?</section>', text, re.DOTALL)[0]
         self.assertEqual(section.count("verdict fails"), 2)
         self.assertIn("it &lt;stops&gt;", section)
+        told["cases"][0]["case"] = "bag"
+        (self.root / "ablation.json").write_text(json.dumps(told))
+        self.assertIn("was not asked", self.made())
 
     def test_tolerances_begin_with_the_tightest(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
