@@ -57,14 +57,14 @@ std::vector<Damping> dampings() {
 void add_refinement(const Subject& subject, Tier tier, StudyResult& result) {
   std::vector<int> meshes = {4, 8, 16, 32};
   if (tier == Tier::full) meshes.push_back(64);
-  Figure figure{
-      "over-width",
-      "What limits a step as the cells become small",
-      {"width of a cell", "m", Scale::log},
-      {"largest stable step", "s", Scale::log},
-      nan,
-      "2/omega limits schemes A, B and C; 2/rate of damping limits forward Euler and explicit midpoint.",
-      {}};
+  Figure figure{"over-width",
+                "What limits a step as the cells become small",
+                {"width of a cell", "m", Scale::log},
+                {"largest stable step", "s", Scale::log},
+                nan,
+                "2/omega limits schemes A and B, and C where nothing is damped; 2/rate of damping limits "
+                "forward Euler and explicit midpoint.",
+                {}};
   Curve elastic{"2/omega, springs", {}, {}, nan, {}, 1};
   for (const int cells : meshes) {
     elastic.x.push_back(flat_side / cells);

@@ -17,7 +17,7 @@ OTHERS = (("next best", "it costs this many times more"), (None, "C costs this m
 class Choice:
     """The cheapest method for one motion and one error, and others with the factor that they cost more."""
     method: str
-    others: list[tuple[str, float]]
+    others: list[tuple[str, float]]             # NaN: does not reach that error
 
 
 @dataclass
@@ -61,6 +61,6 @@ def _choice(row: dict[str, object]) -> Choice:
     for named, factor in OTHERS:
         other = str(row.get(named, "C")) if named else "C"
         costs = float(row.get(factor, float("nan")))
-        if other not in (method, *(name for name, _ in others)) and not isnan(costs):
+        if other not in (method, *(name for name, _ in others)) and not (named and isnan(costs)):
             others.append((other, costs))
     return Choice(method, others)

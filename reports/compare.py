@@ -139,7 +139,7 @@ def _by_factor(costs: Iterable[Cost]) -> list[Cost]:
 
 
 def _paired(what: str, unit: str, a: float, b: float) -> Cost:
-    return Cost(what, unit, a, b, ratio_of(b, a))
+    return Cost(what, unit, a, b, 1.0 if a == b else ratio_of(b, a))
 
 
 def _seconds(a: Side, b: Side) -> Iterable[Cost]:

@@ -13,6 +13,7 @@ from results import Case
 
 WIDTH, HEIGHT = 5.3, 3.6            # [inch]
 COLOURS_OF_SIDES = "RdBu"           # red inside, blue outside
+ROUNDINGS = 1e-9                    # m: not to be called inside
 ROUND = 1e-3                        # of the radius: how round a rest shape must be to be unrolled
 
 
@@ -25,6 +26,8 @@ def plot_contacts(case: Case, name: str, folder: Path) -> list[tuple[str, Plot]]
     flat = laid_flat(rest)
     limit = 0.5 * _mean_edge(rest, case.triangles)
     near = (every < limit).sum(axis=1)
+    if len(near) > 1:
+        near[0] = 0                                     # the start is the author's, not the motion's
     if flat is None or not near.any():
         return []
     shown = len(near) - 1 - int(near[::-1].argmax())    # the last of those
@@ -52,9 +55,9 @@ def laid_flat(rest: np.ndarray) -> np.ndarray | None:
 
 
 def _inside(distances: np.ndarray) -> str:
-    deep = -distances[distances < 0]
+    deep = -distances[distances < -ROUNDINGS]
     if not len(deep):
-        return "No particle is inside"
+        return f"No particle is inside by more than {number_text(ROUNDINGS)} m"
     return (f"{number_text(len(deep))} of {number_text(len(distances))} particles are inside, by at most "
             f"{number_text(deep.max())} m")
 

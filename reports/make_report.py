@@ -35,7 +35,7 @@ from needs import load_needs  # noqa: E402
 from page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison  # noqa: E402
 from plot_style import use_style  # noqa: E402
 from printed import print_page  # noqa: E402
-from results import CaseEntry, Run, Study, Unreadable, case_entry_of_file, load_case, load_run, told  # noqa: E402
+from results import CaseEntry, Run, Study, Unreadable, case_entry_of_file, load_case, load_case_findings, load_run, told  # noqa: E402
 from study_plots import plot_study_figure  # noqa: E402
 from trust import load_coverage, load_variants, tolerances_of, unended_run  # noqa: E402
 from whole_file import write_whole  # noqa: E402
@@ -118,8 +118,15 @@ def read_folder(folder: Path) -> tuple[Run, Run | None]:
     if not cases and bench is None:
         raise FileNotFoundError(f"{folder}: no run.h5, no bench.h5 and no case file; run `foldproof verify` "
                                 "or `foldproof simulate` with --out first")
-    provenance = load_case(cases[0].path).about_run if cases else bench.provenance
-    return Run(provenance=provenance, findings=[], studies=[], cases=cases, faults=[]), bench
+    provenance = common_to([load_case(case.path).about_run for case in cases]) if cases else bench.provenance
+    findings = [finding for case in cases for finding in load_case_findings(case.path)]
+    return Run(provenance=provenance, findings=findings, studies=[], cases=cases, faults=[]), bench
+
+
+def common_to(provenances: list[dict[str, Any]]) -> dict[str, Any]:
+    """What all of them say alike."""
+    first, *others = provenances
+    return {key: said for key, said in first.items() if all(str(other.get(key)) == str(said) for other in others)}
 
 
 def draw(run: Run, bench: Run | None, figures: Path, for_papers: bool) -> Page:

@@ -66,6 +66,15 @@ class Needs:
         """Parts of all cases that stand so, one of NEEDS."""
         return sum(part.standing == standing for case in self.cases for part in case.parts)
 
+    def in_words(self) -> str:
+        """How many parts stand how, one sentence for each kind that there is."""
+        said = {"needed": "needed", "kept for a reason": "not needed, and kept for a reason that the case gives",
+                "left out for a reason": "missing, and left out for a reason that the case gives",
+                "not needed here": "not needed, without a reason", "missing here": "missing, without a reason",
+                "not missed here": "not there, and not missed"}
+        counts = {standing: self.count(standing) for standing in NEEDS}
+        return " ".join(f"{count} part{'s are' if count != 1 else ' is'} {said[standing]}." for standing, count in counts.items() if count)
+
     def of(self, name: str) -> CaseNeeds | None:
         """What was found for the case of that name; None if it was not asked for."""
         return next((case for case in self.cases if case.name == name), None)

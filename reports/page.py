@@ -113,10 +113,19 @@ def render(page: Page) -> str:
         cheapest=cheapest_of(view.study for view in page.studies),
         known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
         by_file=faults_by_file, fault_outcomes=fault_outcomes, kill_tables=kill_tables(page.faults),
-        known_findings={finding.name for finding in page.all_findings()},
+        known_findings={finding.name for finding in page.all_findings()}, commands=commands_of(page),
         of_case={finding.name: case for case in page.case_findings + page.hard_findings
                  for finding in case.findings}.get)
     return environment.get_template("page.html.j2").render(page=page, said=page.provenance)
+
+
+def commands_of(page: Page) -> dict[str, str]:
+    """What repeats findings of simulations that no run of the verification made: the command that made each."""
+    if page.provenance.get("tier"):
+        return {}
+    made_by = {view.entry.name: str(view.case.about_run.get("command", "")) for view in page.cases if view.case}
+    return {finding.name: made_by[group.name] for group in page.case_findings + page.hard_findings
+            for finding in group.findings if made_by.get(group.name)}
 
 
 def render_comparison(comparison: Comparison) -> str:

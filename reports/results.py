@@ -284,6 +284,12 @@ def load_case(path: str | Path) -> Case:
                     diagnostics={column.name: column for column in columns_of(file.get("diagnostics"))})
 
 
+def load_case_findings(path: Path) -> list[Finding]:
+    """What was expected of one simulation, judged. Throws Unreadable naming the file if it is damaged."""
+    with reading(path), h5py.File(path, "r") as file:
+        return [_finding(name, group) for name, group in file.get("findings", {}).items()]
+
+
 def _object(group: h5py.Group) -> CaseObject:
     names = {"vertices": "vertices", "rotation": "rotation", "translation": "translation", "positions": "deformed"}
     arrays = {field: np.asarray(group[key], dtype=float) for key, field in names.items() if key in group}

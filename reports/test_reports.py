@@ -269,7 +269,7 @@ class PartsMissing(unittest.TestCase):
         (self.root / "ablation.json").write_text(json.dumps(told))
         text = self.made()
         self.assertIn("fold: 1 kept for a reason, 1 not needed here", text)
-        self.assertIn("1 are not needed and none missing without a reason", text)
+        self.assertIn("1 part is not needed, and kept for a reason that the case gives. 1 part is not needed, without a reason.", text)
         for shown in ("gravity &lt;b&gt;", "it moves &lt;nothing&gt;", "for &lt;show&gt;", "finer mesh: too many triangles"):
             self.assertIn(shown, text)
         self.assertRegex(text, r'Its parts: <a href="#needs-of-fold">1 kept for a reason, 1 not needed here</a>')

@@ -167,7 +167,7 @@ class Fields(WithCase):
         self.assertRegex(captions()[0], "objects at 1 s, .* 1 of 4 particles are inside, by at most 0.1 m")
         with h5py.File(self.path, "r+") as file:
             file["frames/object_distance"][3] = [9.0, 0.1, 0.1, 0.2]
-        self.assertRegex(captions()[0], f"objects at {self.case().frame_times[3]:g} s, .* No particle is inside")
+        self.assertRegex(captions()[0], f"objects at {self.case().frame_times[3]:g} s, .* No particle is inside by more")
         with h5py.File(self.path, "r+") as file:
             file["frames/object_distance"][...] = 9.0
         self.assertEqual(captions(), [])

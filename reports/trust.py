@@ -24,6 +24,7 @@ class Tolerances:
     """Findings by the part of their bound that is used, the tightest first; and those whose bound is zero."""
     ranked: list[Tolerance]
     exact: list[Finding]       # bound zero: nothing may differ, so there is no margin
+    one_sided: list[Finding]   # below a bound of zero or less: the share of it that is used says nothing
 
     def tightest(self) -> list[Tolerance]:
         """Those that stand nearest to their bound, fulfilled or not."""
@@ -82,7 +83,9 @@ def tolerances_of(findings: Iterable[Finding]) -> Tolerances:
     judged = [finding for finding in findings if finding.outcome in ("holds", "fails", "inconclusive")]
     ranked = [Tolerance(finding, used) for finding in judged if isfinite(used := used_of(finding))]
     ranked.sort(key=lambda entry: -entry.used)
-    return Tolerances(ranked, [finding for finding in judged if finding.bound == 0])
+    others = [finding for finding in judged if finding.bound <= 0]
+    return Tolerances(ranked, [finding for finding in others if finding.bound == 0 and not finding.measured < 0],
+                      [finding for finding in others if finding.bound < 0 or finding.measured < 0])
 
 
 def used_of(finding: Finding) -> float:

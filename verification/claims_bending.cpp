@@ -114,7 +114,9 @@ std::vector<Claim> the_elastic_force() {
        "{bending-rigidity.does-not-depend-on-size}. Another pattern has another D: curved along x, the "
        "patterns tried differ by {bending-rigidity.depends-on-pattern|greatest difference of D/ke|first} ke. "
        "Squares split along one diagonal differ by {bending-rigidity.depends-on-direction|greatest "
-       "difference of D/ke|first} ke between their own directions, and refinement does not remove that."},
+       "difference of D/ke|first} ke between their own directions, and refinement does not remove that. What "
+       "the sentence is used for, that cloth looks the same on a finer mesh, is kept; that it does so on any "
+       "mesh is not."},
       {"B7",
        "4",
        "Other functions of the angle keep all of this, as long as they scale all four forces alike.",

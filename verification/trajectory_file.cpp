@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "verification/findings_file.h"
 #include "verification/hdf5_file.h"
 #include "verification/verdicts_file.h"
 #include "verification/whole_file.h"
@@ -262,11 +263,12 @@ void TrajectoryFile::add_diagnostics(const Diagnostics& row) {
   });
 }
 
-void TrajectoryFile::finish(const std::string& stopped, double seconds) {
+void TrajectoryFile::finish(const std::string& stopped, double seconds, const std::vector<Record>& findings) {
   const std::string path = content_->path, xdmf = content_->xdmf();
   named(path, [&] {
     content_->file.attribute("stopped", stopped);
     content_->file.attribute("seconds", seconds);
+    write_findings(content_->file, findings);
     content_->file.flush();
     Hdf5 file = std::move(content_->file);
     content_.reset();  // what is open in the file is closed before it

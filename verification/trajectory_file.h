@@ -3,9 +3,11 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "reference/dynamics/simulate.h"
 #include "reference/scene/scene.h"
+#include "verification/check.h"
 #include "verification/provenance_file.h"
 
 namespace foldproof {
@@ -25,8 +27,8 @@ class TrajectoryFile {
   void add_frame(const State& s);
   void add_diagnostics(const Diagnostics& row);
 
-  /// stopped: "" or why the run ended early.
-  void finish(const std::string& stopped, double seconds);
+  /// stopped: "" or why the run ended early. findings: what was expected of it, judged.
+  void finish(const std::string& stopped, double seconds, const std::vector<Record>& findings);
 
  private:
   struct Content;

@@ -146,7 +146,7 @@ Report project_all(const Source& source, const Options& options) {
     file.add_frame(s);
     progress.show(double(k + 1) / double(source.run.times.size()));
   }
-  file.finish("", std::numeric_limits<double>::quiet_NaN());
+  file.finish("", std::numeric_limits<double>::quiet_NaN(), {});
   compare_last_frame(source, report);
   return report;
 }

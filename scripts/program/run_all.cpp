@@ -181,6 +181,8 @@ std::string listing(const RunRecord& run) {
     const Verdict& v = r.finding.verdict;
     text += fmt::format("{:<14} {:<60} {:>11.4g} {} {:<9.4g} {}\n", r.outcome, r.name, v.measured,
                         r.kind == "bench" ? "target" : "<=", v.bound, v.unit == "1" ? "" : v.unit);
+    if (r.outcome == "fails")
+      text += fmt::format("{:<14} {}\n{:<14} The bound: {}\n", "", r.claim, "", v.why_bound);
   }
   return text;
 }

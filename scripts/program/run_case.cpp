@@ -105,7 +105,7 @@ CaseRun recorded_run(const Case& shown, const Runner& run, TrajectoryFile& traje
   done.record = {scene.name,  scene.name + ".h5",
                  scene.title, scene.about,
                  seconds,     done.outcome.stop ? described(*done.outcome.stop) : ""};
-  trajectory.finish(done.record.stopped, done.record.seconds);
+  trajectory.finish(done.record.stopped, done.record.seconds, done.findings);
   return done;
 }
 

@@ -11,7 +11,10 @@ namespace {
 /// A quantity to be reached is judged by what it lacks.
 Verdict verdict_of(const Quantity& quantity, const Expectation& expectation, double seen) {
   if (quantity.sense == Sense::at_most) return {seen, expectation.bound, 0, quantity.unit, expectation.why};
-  return {expectation.bound - seen, 0, 0, quantity.unit, expectation.why};
+  const std::string unit = quantity.unit;
+  const std::string lacks =
+      fmt::format("{}short of {:.6g}", unit == "1" ? "" : unit + " ", expectation.bound);
+  return {expectation.bound - seen, 0, 0, lacks, expectation.why};
 }
 
 std::string note_of(const Quantity& quantity, const Expectation& expectation, double seen) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "reference/filters/object_collision.h"
 #include "verification/checks/contact_checks.h"
@@ -100,6 +101,48 @@ Finding each_object_finding(const Subject& subject) {
            "what remains is rounding of positions within 1 m and steps of 0.2 m"},
           {{"particles that would enter both", "1", std::vector<double>{corrected_twice}}},
           ""};
+}
+
+/// The half-spaces z >= 0 of a floor and of one turned about y, particles without friction between them.
+Scene wedge(double degrees) {
+  Scene scene = loose_particles(5);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vector3::UnitY()));
+  scene.objects.push_back(object_at("floor", HalfSpace{}, {}));
+  scene.objects.push_back(object_at("other", HalfSpace{}, {turn, Vector3::Zero()}));
+  return scene;
+}
+
+/// Particles outside both half-spaces that would enter both: held equally deep in both where the normals are
+/// more than 120 degrees apart; else on the surface of the one that corrects last, which lies in the other.
+Finding closing_finding(const Subject& subject) {
+  const double h = 0.01;
+  Random random(37);
+  Measured measured = roundings_of("place and way");
+  for (const double degrees : {95., 118., 122., 150.}) {
+    const Scene scene = wedge(degrees);
+    const double angle = degrees * std::numbers::pi / 180;
+    const Vector3 a = Vector3::UnitZ(), b(std::sin(angle), 0, std::cos(angle));
+    const Eigen::Matrix2d gram{{1, a.dot(b)}, {a.dot(b), 1}};
+    State state = still_at(scene.x);
+    for (Eigen::Index i = 0; i < state.x.cols(); ++i) {
+      const Eigen::Vector2d inwards = gram.inverse() * -Eigen::Vector2d(random.in(10, 20), random.in(10, 20));
+      state.x.col(i) = random.in(0.01, 0.05) * (a + b).normalized() + Vector3(0, random.in(-1, 1), 0);
+      state.v.col(i) = inwards[0] * a + inwards[1] * b + Vector3(0, random.in(-1, 1), 0);
+    }
+    const PerParticle3 after = avoided(subject, scene, {0, h, h}, state);
+    Worst worst;
+    for (Eigen::Index i = 0; i < after.cols(); ++i) {
+      const Vector3 end = state.x.col(i) + h * after.col(i);
+      const double apart = std::abs(end.dot(a) - end.dot(b));
+      const double nearest = std::min(std::abs(end.dot(a)), std::abs(end.dot(b)));
+      const bool held = degrees > 120;
+      const bool told_apart = (held ? nearest : apart) > 1e-3;  // m
+      const double size = Vector3(state.x.col(i)).norm() + h * Vector3(state.v.col(i)).norm();
+      worst.see(told_apart ? (held ? apart : nearest) / (epsilon * size) : nan);
+    }
+    measured.see(std::to_string(int(degrees)) + " degrees", worst.value());
+  }
+  return measured.judged(40, "as many roundings as a forecast against one object takes, twice");
 }
 
 /// Midpoints and centres get exactly the velocity of the response, by impulses that fall with the mass.
@@ -218,6 +261,11 @@ std::vector<Check> pinch_checks() {
        "against "
        "their mean.",
        "BMF03 section 5.1", pinch_friction_finding},
+      {"contact.objects-that-close-hold-a-point-between",
+       "A point that would enter two objects is held between them where their normals are more than 120 "
+       "degrees "
+       "apart, and else led out of one after the other.",
+       "BMF03 section 5.2", closing_finding},
       {"contact.an-object-that-is-not-the-nearest-counts",
        "A point that is near one object and about to enter another is held out of both.", "BMF03 section 5.2",
        each_object_finding},

@@ -80,7 +80,7 @@ TEST_CASE("a stored simulation is read back bit for bit, overrides and all") {
     s.x.array() += 0.1234567;
     s.v.array() -= 1.0 / 3;
     file.add_frame(s);
-    file.finish("", 0);
+    file.finish("", 0, {});
   }
   const StoredRun run = read_stored_run(folder.file("small.h5"), computing_makers());
   CHECK(run.scene.mesh.rest == scene.mesh.rest);
