@@ -256,6 +256,20 @@ class PartsMissing(unittest.TestCase):
         self.assertIn("<code>foldproof check --seed 3</code>", text)
         Seen(text)
 
+    def test_simulations_without_a_run_bring_what_was_expected_of_them(self) -> None:
+        for name in ("fold", "other"):
+            put_case(self.root, name)
+        with h5py.File(self.root / "fold.h5", "a") as file:
+            put_finding(file, 0, "case.fold.keeps-its-place", "check", outcome="fails", measured=2.0, bound=1.0, why_bound="a <reason>")
+            put(file, commit="another")
+        text = self.made()
+        self.assertIn("simulations, and what was expected of them", text)
+        self.assertIn("a &lt;reason&gt;", text)
+        self.assertRegex(text, r"<dt>Reproduce</dt><dd><code class=\"command\">build/foldproof run cases/fold.toml</code>")
+        provenance = re.search(r'<section id="provenance">.*?</section>', text, re.DOTALL)[0]
+        self.assertNotIn("abcdef", provenance)          # of one simulation, not of both
+        Seen(text)
+
     def test_the_parts_that_scenes_need_are_shown_where_they_were_looked_for(self) -> None:
         run = {"seconds": 2.0, "steps": 40, "elastic_evaluations": 80, "cg_iterations": 0, "object_queries": 0, "strain_sweeps": 0,
                "crossing_queries": 0, "deepest": 0.0, "crossings": 0.0, "stopped": "", "failed": []}

@@ -197,7 +197,9 @@ step = 0.001
         case = self.write("mine.toml", text)
         done = self.simulate(case, "--set", "time.end=0.05")
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertRegex(done.stdout, r"fails +case\.mine\.takes-steps")
+        self.assertRegex(done.stdout, r"fails +case\.mine\.takes-steps +\S+ <= 0 +steps short of 1e\+09\n +The run takes as many .*\n +The bound: a trial")
+        with h5py.File(self.path / "out/mine.h5") as file:
+            self.assertEqual(file["findings/case.mine.takes-steps"].attrs["outcome"], "fails")
         done = self.simulate(case, "--set", "time.end=0.05", "--set", "expect.takes_steps.at_least=3", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(json.loads(done.stdout)["findings"],
