@@ -154,10 +154,11 @@ void add_runs(CLI::App& app, Options& options) {
 }
 
 void add_ablate(CLI::App& app, Options& options) {
-  CLI::App* ablate = add_command(app, options, "ablate",
-                                 "Which of its parts does a case need, which does it lack, and what does "
-                                 "each cost? Writes ablation.json",
-                                 ::foldproof::ablate);
+  CLI::App* ablate =
+      add_command(app, options, "ablate",
+                  "Which of its parts does a case need, which does it lack, and what does "
+                  "each cost? Writes ablation.json, where what this program found of other cases stays",
+                  ::foldproof::ablate);
   ablate->footer(ablate_help);
   ablate->add_option("CASE", options.names, "Case files (default: all shipped cases of the quick tier)");
   ablate->add_option("--set", options.overrides, "Override a key: table.key=value")->allow_extra_args(false);

@@ -354,7 +354,9 @@ step = 0.001
         self.assertEqual(run("ablate", undeclared, "--set", "time.end=0.2", "--out", out).returncode, 1)
         done = run("ablate", case, "--set", "time.end=0.2", "--out", out)
         self.assertEqual(done.returncode, 0, done.stderr)
-        told = json.loads((self.path / "out" / "ablation.json").read_text())["cases"][0]
+        rows = json.loads((self.path / "out" / "ablation.json").read_text())["cases"]
+        self.assertEqual([row["case"] for row in rows], ["incline", "undeclared"])    # what is not asked again stays
+        told = rows[0]
         need = {part["name"]: part["need"] for part in told["parts"]}
         self.assertEqual(need["friction of objects"], "needed")
         self.assertEqual(need["object 'slope'"], "needed")

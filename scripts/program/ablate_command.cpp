@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "convergence/ablation.h"
 #include "convergence/finer_scene.h"
@@ -144,6 +147,23 @@ nlohmann::json told(const std::vector<Ablation>& all, const Options& options) {
           {"cases", std::move(cases)}};
 }
 
+/// What was found, and after it what the file says of other cases, if the same program wrote it.
+nlohmann::json with_others_of(const std::string& path, nlohmann::json found) {
+  if (!std::filesystem::is_regular_file(path)) return found;
+  try {
+    std::ifstream file(path);
+    const nlohmann::json before = nlohmann::json::parse(file);
+    for (const char* key : {"version", "commit", "tree"})
+      if (before.at("program").at(key) != found["program"][key]) return found;
+    std::set<std::string> asked;
+    for (const nlohmann::json& row : found["cases"]) asked.insert(row["case"]);
+    for (const nlohmann::json& row : before.at("cases"))
+      if (!asked.count(row.at("case"))) found["cases"].push_back(row);
+  } catch (const nlohmann::json::exception&) {  // no file of ours: it is replaced
+  }
+  return found;
+}
+
 std::string error_text(double error, const std::string& why_unknown) {
   return std::isnan(error) ? "not known: " + why_unknown : fmt::format("{:.2g}", error);
 }
@@ -184,12 +204,13 @@ int ablate(const Options& options) {
     is_minimal &= wrong_by_itself(one).empty();
     for (const PartJudged& part : one.judged) is_minimal &= part.is_as_it_should_be();
   }
-  const std::string text = json_text(told(all, options)) + "\n";
+  const nlohmann::json found = told(all, options);
   if (!options.out.empty()) {
     make_folder(options.out);
-    write_text(options.out + "/ablation.json", text);
+    const std::string path = options.out + "/ablation.json";
+    write_text(path, json_text(with_others_of(path, found)) + "\n");
   }
-  if (options.json) fmt::print("{}", text);
+  if (options.json) fmt::print("{}\n", json_text(found));
   for (const Ablation& one : all)
     if (!options.json) print(one);
   return is_minimal ? all_hold : some_fail;
