@@ -8,7 +8,7 @@ from markupsafe import Markup
 
 import quantities
 from plot_style import level_text
-from point_marks import has_mark
+from point_marks import has_mark, is_marked
 from results import StudyFigure
 from study_plots import choose_pens, floors_below, key_svg, points_left_out
 
@@ -41,7 +41,8 @@ def order_table(figure: StudyFigure) -> OrderTable | None:
 
 def figure_keys(figure: StudyFigure) -> list[tuple[Markup, str]]:
     """Key and label of every curve, for screens too narrow for the plot's own labels."""
-    return [(key_svg(pen), curve.label) for curve, pen in zip(figure.curves, choose_pens(figure.curves))]
+    filled = is_marked(figure.curves)                   # as in the plot, where hollow says something
+    return [(key_svg(pen, filled), curve.label) for curve, pen in zip(figure.curves, choose_pens(figure.curves))]
 
 
 def figure_notes(figure: StudyFigure) -> list[str]:

@@ -65,7 +65,7 @@ def floors_below(figure: StudyFigure) -> list[float]:
             and not _floor_shows(curve, lowest)]
 
 
-def key_svg(pen: Pen) -> Markup:
+def key_svg(pen: Pen, filled: bool = False) -> Markup:
     """The curve's line and marker as a small inline picture, for the page's tables and keys."""
     marker = MarkerStyle(pen.marker)
     outlines = marker.get_path().transformed(marker.get_transform()).to_polygons()
@@ -74,8 +74,8 @@ def key_svg(pen: Pen) -> Markup:
     colour = variable_of(pen.colour)
     picture = Markup('<svg class="key" viewBox="0 0 26 12" aria-hidden="true">'
                      '<path d="M0,6H26" stroke="{0}" stroke-width="1.6"/>'
-                     '<path d="{1}" stroke="{0}" stroke-width="1.3" fill="var(--paper)"/></svg>')
-    return picture.format(colour, d)
+                     '<path d="{1}" stroke="{0}" stroke-width="1.3" fill="{2}"/></svg>')
+    return picture.format(colour, d, colour if filled else "var(--paper)")
 
 
 def choose_pens(curves: list[Curve]) -> list[Pen]:
