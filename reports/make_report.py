@@ -147,7 +147,7 @@ def draw(run: Run, bench: Run | None, figures: Path, for_papers: bool) -> Page:
     return Page(provenance=run.provenance, claims=claim_views(run.claims, everything), checks=checks, studies=studies[:len(run.studies)],
                 other_findings=others, cases=cases, rates=rates, bench_studies=studies[len(run.studies):],
                 bench_provenance=bench.provenance if bench else {}, faults=faults_of(run),
-                tolerances=tolerances_of(run.findings), case_findings=usual, hard_findings=hard)
+                tolerances=tolerances_of(run.findings), case_findings=usual, hard_findings=hard, alone=run.path is None)
 
 
 def run_jobs(jobs: list[Job], for_papers: bool) -> list[Any]:

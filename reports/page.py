@@ -80,6 +80,7 @@ class Page:
     coverage: Coverage | None = None
     needs: Needs | None = None      # which of its parts each scene needs
     variants: Variants | None = None
+    alone: bool = False             # simulations that no run of the verification made
     unended: str = ""               # why this is not what was run last
     mutation: Mutation | None = None   # what scripts/mutate found, where that lies beside the run
 
@@ -121,7 +122,7 @@ def render(page: Page) -> str:
 
 def commands_of(page: Page) -> dict[str, str]:
     """What repeats findings of simulations that no run of the verification made: the command that made each."""
-    if page.provenance.get("tier"):
+    if not page.alone:
         return {}
     made_by = {view.entry.name: str(view.case.about_run.get("command", "")) for view in page.cases if view.case}
     return {finding.name: made_by[group.name] for group in page.case_findings + page.hard_findings
