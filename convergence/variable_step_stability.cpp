@@ -222,8 +222,7 @@ StudyResult run_variable_step_stability(const Subject& subject, Tier tier, const
 Study variable_step_stability() {
   return {"variable-step-stability",
           "Steps that are stable each by itself can resonate in turn: undamped, A, B and C more than double "
-          "in each "
-          "pair of .69/omega and 1.99/omega; a damping ratio of a half cures it.",
+          "in each pair of .69/omega and 1.99/omega; a damping ratio of a half cures it.",
           "BMF03 section 3",
           "The paper asks for a scheme whose step may vary. Two steps in turn are the product of two step "
           "matrices, found by stepping a hinge whose corner is an oscillator, and compared with the derived "

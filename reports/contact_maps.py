@@ -18,8 +18,8 @@ ROUND = 1e-3                        # of the radius: how round a rest shape must
 
 
 def plot_contacts(case: Case, name: str, folder: Path) -> list[tuple[str, Plot]]:
-    """The map of the frame in which most of the cloth is nearer to the objects than half an edge, with its caption; none
-    for cloth that never is, or whose rest shape cannot be laid flat without stretching it."""
+    """The map of the frame with the most particles nearer to the objects than half an edge, with its caption; none for
+    cloth that never is, or whose rest shape cannot be laid flat without stretching it."""
     every, rest = case.every_frame("object_distance"), case.rest_positions()
     if every is None or rest is None:
         return []

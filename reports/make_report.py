@@ -35,7 +35,7 @@ from needs import load_needs  # noqa: E402
 from page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison  # noqa: E402
 from plot_style import use_style  # noqa: E402
 from printed import print_page  # noqa: E402
-from results import CaseEntry, Run, Study, Unreadable, case_entry_of_file, load_case, load_case_findings, load_run, told  # noqa: E402
+from results import Case, CaseEntry, Run, Study, Unreadable, case_entry_of_file, load_case, load_run, told  # noqa: E402
 from study_plots import plot_study_figure  # noqa: E402
 from trust import load_coverage, load_variants, tolerances_of, unended_run  # noqa: E402
 from whole_file import write_whole  # noqa: E402
@@ -118,9 +118,18 @@ def read_folder(folder: Path) -> tuple[Run, Run | None]:
     if not cases and bench is None:
         raise FileNotFoundError(f"{folder}: no run.h5, no bench.h5 and no case file; run `foldproof verify` "
                                 "or `foldproof simulate` with --out first")
-    provenance = common_to([load_case(case.path).about_run for case in cases]) if cases else bench.provenance
-    findings = [finding for case in cases for finding in load_case_findings(case.path)]
+    simulations = [one for case in cases if (one := load_if_readable(case.path))]
+    provenance = common_to([one.about_run for one in simulations]) if simulations else bench.provenance if bench else {}
+    findings = [finding for one in simulations for finding in one.findings]
     return Run(provenance=provenance, findings=findings, studies=[], cases=cases, faults=[]), bench
+
+
+def load_if_readable(path: Path) -> Case | None:
+    """One simulation; None for a damaged file, of which the page will say so."""
+    try:
+        return load_case(path)
+    except Unreadable:
+        return None
 
 
 def common_to(provenances: list[dict[str, Any]]) -> dict[str, Any]:

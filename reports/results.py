@@ -187,6 +187,7 @@ class Case:
     held: np.ndarray                   # N, true where the motion is prescribed
     frame_times: np.ndarray            # T [s]
     diagnostics: dict[str, Column] = field(default_factory=dict)
+    findings: list[Finding] = field(default_factory=list)   # what was expected of it, judged
     objects: list[CaseObject] = field(default_factory=list)
 
     def positions(self, frame: int) -> np.ndarray:
@@ -275,19 +276,13 @@ def load_case(path: str | Path) -> Case:
         for needed in ("mesh/triangles", "frames/time", "frames/positions"):
             if needed not in file:
                 raise Unreadable(f"{path}: no simulation of foldproof: it has no /{needed}")
-        particles = file["frames/positions"].shape[1]
-        held = np.asarray(file["mesh/held"], dtype=bool) if "mesh/held" in file else np.zeros(particles, bool)
+        nobody = np.zeros(file["frames/positions"].shape[1], bool)
+        held = np.asarray(file["mesh/held"], dtype=bool) if "mesh/held" in file else nobody
         return Case(path=path, about_run=attributes_of(file), held=held,
                     triangles=np.asarray(file["mesh/triangles"], dtype=np.int64).reshape(-1, 3),
-                    frame_times=np.asarray(file["frames/time"], dtype=float),
-                    objects=[_object(group) for group in file.get("objects", {}).values()],
+                    frame_times=np.asarray(file["frames/time"], dtype=float), objects=[_object(group) for group in file.get("objects", {}).values()],
+                    findings=[_finding(name, group) for name, group in file.get("findings", {}).items()],
                     diagnostics={column.name: column for column in columns_of(file.get("diagnostics"))})
-
-
-def load_case_findings(path: Path) -> list[Finding]:
-    """What was expected of one simulation, judged. Throws Unreadable naming the file if it is damaged."""
-    with reading(path), h5py.File(path, "r") as file:
-        return [_finding(name, group) for name, group in file.get("findings", {}).items()]
 
 
 def _object(group: h5py.Group) -> CaseObject:

@@ -141,6 +141,7 @@ nlohmann::json told(const std::vector<Ablation>& all, const Options& options) {
            {{"version", p.version},
             {"commit", p.commit},
             {"tree", p.tree},
+            {"identity", program_identity()},
             {"cpu", p.cpu},
             {"date", p.date},
             {"command", p.command}}},
@@ -153,8 +154,7 @@ nlohmann::json with_others_of(const std::string& path, nlohmann::json found) {
   try {
     std::ifstream file(path);
     const nlohmann::json before = nlohmann::json::parse(file);
-    for (const char* key : {"version", "commit", "tree"})
-      if (before.at("program").at(key) != found["program"][key]) return found;
+    if (before.at("program").at("identity") != found["program"]["identity"]) return found;
     std::set<std::string> asked;
     for (const nlohmann::json& row : found["cases"]) asked.insert(row["case"]);
     for (const nlohmann::json& row : before.at("cases"))
