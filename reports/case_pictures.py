@@ -11,7 +11,7 @@ import numpy as np
 from camera import Camera
 from case_scene import CaseScene
 from cloth_picture import SAMPLES, finished, paint, webp_bytes
-from plot_style import INK, finish, new_figure
+from plot_style import INK, are_for_papers, finish, new_figure
 from quantities import number_text
 from results import Case
 
@@ -45,7 +45,7 @@ class PictureRow:
 
 
 def make_pictures(case: Case, name: str, folder: Path) -> PictureRow | None:
-    """Draws the case and writes the strip name-pictures.{svg,pdf,png}; None if it has no frames or no
+    """Draws the case, and for papers writes the strip name-pictures.{svg,pdf,png}; None if it has no frames or no
     triangles."""
     if not len(case.frame_times) or not len(case.triangles):
         return None
@@ -55,7 +55,8 @@ def make_pictures(case: Case, name: str, folder: Path) -> PictureRow | None:
     drawn = [finished(samples) for samples in painted]
     times = [float(case.frame_times[frame]) for frame in chosen]
     bar = nice_length(0.3 * camera.metres[0])
-    _write_strip(drawn, times, bar, camera, f"{name}-pictures", folder)
+    if are_for_papers():
+        _write_strip(drawn, times, bar, camera, f"{name}-pictures", folder)
     whole = [scene.is_whole(case.positions(frame)) for frame in chosen]
     portrait = _portrait(painted[_portrait_of(whole)])
     return PictureRow(pictures=[Picture(time, picture_uri(picture), complete)

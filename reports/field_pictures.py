@@ -13,7 +13,7 @@ from case_fields import Field, edges_of, fields_of, most_telling
 from case_pictures import picture_uri, shown_frames
 from cloth_picture import picture_of
 from look import field_colours
-from plot_style import INK, finish, new_figure, with_unit
+from plot_style import INK, are_for_papers, finish, new_figure, with_unit
 from quantities import number_text, unit_text
 from results import Case
 from view_data import ViewData, field_ticks, frames_to_turn, make_view
@@ -50,7 +50,8 @@ def make_field_view(case: Case, name: str, folder: Path, most: int) -> FieldView
     frame = frames[row]
     picture = without_empty_lines(picture_of(scene.cloth(frame, field, row), scene.camera, scene.scenery(frame)))
     if field is not None:
-        _write_file(picture, field, float(case.frame_times[frame]), f"{name}-field", folder)
+        if are_for_papers():
+            _write_file(picture, field, float(case.frame_times[frame]), f"{name}-field", folder)
     data = make_view(scene, frames, fields, most)
     return FieldView(picture_uri(picture), picture.shape[1::-1], len(picture) / scene.camera.pixels[1],
                      float(case.frame_times[frame]),

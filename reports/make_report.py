@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Writes the report of a run: one HTML page that needs nothing beside it, and its figures as files.
 
-    reports/make_report.py results                    -> results/report.html, results/figures/
+    reports/make_report.py results                    -> results/report.html, results/figures/*.svg
+    reports/make_report.py results --papers           -> its figures as PDF and PNG too, and the pictures of cases
     reports/make_report.py results --out page.html --figures paper
     reports/make_report.py results --pdf                -> results/report.pdf too
     reports/make_report.py results mine                 -> mine/compare.html: what differs
@@ -55,7 +56,7 @@ def main() -> int:
             out = compare_runs(said.dir, said.other, said.out)
         else:
             out = make_report(said.dir, said.out or said.dir / "report.html",
-                              said.figures or said.dir / "figures", for_papers=not said.svg_only)
+                              said.figures or said.dir / "figures", for_papers=said.papers)
         if said.pdf:
             out = print_page(out, out.with_suffix(".pdf"))
     except (OSError, Unreadable, NoBrowser, BrokenProcessPool) as error:
@@ -76,8 +77,8 @@ def arguments() -> argparse.Namespace:
                         help="the page (default: DIR/report.html; of two runs compare.html beside OTHER's run.h5)")
     parser.add_argument("--figures", metavar="DIR", type=Path,
                         help="folder for the figures (default: DIR/figures)")
-    parser.add_argument("--svg-only", action="store_true",
-                        help="figures as SVG files only, not as PDF and PNG too: half the time")
+    parser.add_argument("--papers", action="store_true",
+                        help="figures as PDF and PNG files (200 dpi) too, and the pictures of cases as files")
     parser.add_argument("--pdf", action="store_true",
                         help="print the page too, beside it, as PDF; needs Debian's package chromium")
     return parser.parse_args()
@@ -92,7 +93,7 @@ def compare_runs(first: Path, other: Path, out: Path | None) -> Path:
     return out
 
 
-def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = True) -> Path:
+def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = False) -> Path:
     """Reads the folder, draws, and writes the page. Throws FileNotFoundError if the folder holds no
     results."""
     run, bench = read_folder(folder)

@@ -60,14 +60,20 @@ class Pen:
 Points = tuple[np.ndarray, np.ndarray]   # x and y of the points of a curve that can be drawn
 
 
-_for_papers = True
+_for_papers = False
 
 
-def use_style(for_papers: bool = True) -> None:
-    """Sets the style for every figure made from here on, and whether it is written as PDF and PNG too."""
+def use_style(for_papers: bool = False) -> None:
+    """Sets the style for every figure made from here on, and whether files for papers are written: PDF and PNG of each figure,
+    and pictures that the page holds as they are."""
     global _for_papers
     _for_papers = for_papers
     matplotlib.rcParams.update(_RC)
+
+
+def are_for_papers() -> bool:
+    """Whether files for papers are written."""
+    return _for_papers
 
 
 def font_path() -> str:

@@ -102,20 +102,19 @@ def _fill(raster: Raster, points: np.ndarray, depth_planes: np.ndarray) -> None:
     ends = np.cumsum(rows * (box + 2.0))
     cuts = np.searchsorted(ends, np.arange(PAIRS_AT_ONCE, ends[-1] if len(ends) else 0, PAIRS_AT_ONCE))
     for chunk in np.split(np.arange(len(planes)), cuts):
-        owner, line = _repeated(chunk, first[chunk], rows[chunk])
+        owner = np.repeat(chunk, rows[chunk])
+        line = np.repeat(first[chunk], rows[chunk]) + _counted(rows[chunk])
         start, count = _spans(planes[owner], line + 0.5, shape[1])
-        which, column = _repeated(np.arange(len(owner)), start, count)
-        pixel_owner, pixel_line = owner[which], line[which]
-        plane = depth_planes[pixel_owner]
-        near = plane[:, 0] * (column + 0.5) + plane[:, 1] * (pixel_line + 0.5) + plane[:, 2]
-        _keep_nearest(raster, pixel_line * shape[1] + column, near, pixel_owner)
+        plane = depth_planes[owner]
+        level = plane[:, 0] * (start + 0.5) + plane[:, 1] * (line + 0.5) + plane[:, 2]
+        along = _counted(count)
+        near = np.repeat(level, count) + np.repeat(plane[:, 0], count) * along
+        _keep_nearest(raster, np.repeat(line * shape[1] + start, count) + along, near, np.repeat(owner, count))
 
 
-def _repeated(items: np.ndarray, first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Each item count times, beside first, first + 1, ..."""
-    total = int(count.sum())
-    offset = np.arange(total) - np.repeat(np.cumsum(count) - count, count)
-    return np.repeat(items, count), np.repeat(first, count) + offset
+def _counted(count: np.ndarray) -> np.ndarray:
+    """0, 1, ... count - 1 of each, one after the other."""
+    return np.arange(int(count.sum())) - np.repeat(np.cumsum(count) - count, count)
 
 
 def _spans(planes: np.ndarray, y: np.ndarray, width: int) -> tuple[np.ndarray, np.ndarray]:

@@ -12,6 +12,7 @@ from raster import rasterise
 TEXELS = 512                        # along the longer side of the light's picture
 SOFT = 2.6                          # texels: how far around a sample's place is looked
 TAPS = 8                            # looks for each sample
+RIM = 7                             # texels around the light's picture: more than 2 SOFT, so that no look leaves them
 
 
 @dataclass
@@ -40,15 +41,16 @@ def lit_share(shadows: ShadowMap, place: list[np.ndarray], towards_light: np.nda
     """From 0 (in the shadow) to 1, for S samples. place: their column, line and nearness as the light sees them;
     towards_light: cosine of the angle between normal and light."""
     texel = 1.0 / shadows.camera.pixels_per_metre
-    height, width = shadows.nearness.shape
     cosine = np.clip(towards_light, 0.2, 1.0)
     least = place[2] + np.float32(texel) * (np.float32(1.5) + np.float32(SOFT) * np.sqrt(1 - cosine * cosine) / cosine)
-    lit = np.zeros(len(least), dtype=np.float32)
+    around = np.pad(shadows.nearness, RIM, constant_values=-np.inf)     # beyond the light's picture nothing is in the way
+    column, line = (np.clip(place[axis] + np.float32(RIM), np.float32(SOFT), np.float32(around.shape[1 - axis] - 1 - SOFT))
+                    for axis in (0, 1))
+    nearest, lit = around.astype(np.float32).ravel(), np.zeros(len(least), dtype=np.uint8)
     for tap in range(TAPS):
         angle, radius = 2.4 * tap, SOFT * np.sqrt((tap + 0.5) / TAPS)
-        column = (place[0] + np.float32(radius * np.cos(angle))).astype(np.int32)
-        line = (place[1] + np.float32(radius * np.sin(angle))).astype(np.int32)
-        inside = (column >= 0) & (column < width) & (line >= 0) & (line < height)
-        nearest = shadows.nearness[np.where(inside, line, 0), np.where(inside, column, 0)]
-        lit += ~inside | (nearest <= least)
-    return lit / TAPS
+        texels = (line + np.float32(radius * np.sin(angle))).astype(np.int32)
+        texels *= around.shape[1]
+        texels += (column + np.float32(radius * np.cos(angle))).astype(np.int32)
+        lit += nearest[texels] <= least
+    return lit.astype(np.float32) / TAPS

@@ -56,7 +56,7 @@ class MadeUpPage(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.root = Path(folder.name)
         put_run(cls.root)
-        cls.page = make_report(cls.root, cls.root / "report.html", cls.root / "figures", for_papers=False)
+        cls.page = make_report(cls.root, cls.root / "report.html", cls.root / "figures")
         cls.text = cls.page.read_text(encoding="utf-8")
 
 
@@ -258,7 +258,7 @@ class OnPaper(unittest.TestCase):
     def printed(self, root: Path, **environment: str) -> subprocess.CompletedProcess[str]:
         """Runs the command on a made-up run."""
         put_run(root)
-        return subprocess.run([sys.executable, str(REPORTS / "make_report.py"), str(root), "--svg-only", "--pdf"],
+        return subprocess.run([sys.executable, str(REPORTS / "make_report.py"), str(root), "--pdf"],
                               capture_output=True, text=True, check=False, env=os.environ | environment)
 
     def test_a_pdf_has_pages_and_an_outline_and_is_the_same_each_time(self) -> None:

@@ -57,7 +57,7 @@ class WholeReport(unittest.TestCase):
         root = Path(cls.folder.name)
         put_run(root)
         cls.figures = root / "figures"
-        cls.text = make_report(root, root / "report.html", cls.figures).read_text(encoding="utf-8")
+        cls.text = make_report(root, root / "report.html", cls.figures, for_papers=True).read_text(encoding="utf-8")
         cls.seen = Seen(cls.text)
 
     @classmethod
@@ -173,7 +173,7 @@ class WholeReport(unittest.TestCase):
 
     def test_same_input_gives_the_same_page(self) -> None:
         root = Path(self.folder.name)
-        again = make_report(root, root / "again.html", root / "again").read_text(encoding="utf-8")
+        again = make_report(root, root / "again.html", root / "again", for_papers=True).read_text(encoding="utf-8")
         self.assertEqual(again, self.text)
 
 
@@ -361,7 +361,7 @@ class PartsMissing(unittest.TestCase):
         put_run(self.root)
         page = self.root / "report.html"
         page.write_text("as it was")
-        limit = subprocess.run([sys.executable, str(Path(__file__).parent / "make_report.py"), str(self.root), "--svg-only"],
+        limit = subprocess.run([sys.executable, str(Path(__file__).parent / "make_report.py"), str(self.root)],
                                capture_output=True, text=True, check=False,
                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000)))
         self.assertEqual(limit.returncode, 2)

@@ -284,7 +284,7 @@ class ViewInThePage(WithCase):
         self.assertIsNone(make_view(CaseScene(case, [0]), [0, 1], [], 500))
 
     def test_the_program_stands_once_and_data_are_no_program(self) -> None:
-        text = make_report(self.root, self.root / "report.html", self.root / "figures", for_papers=False).read_text(encoding="utf-8")
+        text = make_report(self.root, self.root / "report.html", self.root / "figures").read_text(encoding="utf-8")
         self.assertEqual(text.count("async function unpack("), 1)
         self.assertRegex(text, r"<template>[A-Za-z0-9+/=]+</template>")
         self.assertNotIn(HOSTILE[:13], text)
@@ -293,7 +293,7 @@ class ViewInThePage(WithCase):
 
     @unittest.skipUnless(shutil.which("chromium"), "no chromium: the package chromium has it")
     def test_the_view_draws_and_plays_in_a_browser(self) -> None:
-        page = make_report(self.root, self.root / "report.html", self.root / "figures", for_papers=False)
+        page = make_report(self.root, self.root / "report.html", self.root / "figures")
         with Browser() as browser:
             browser.open(page)
             told = browser.evaluate(ASK_THE_VIEW)
@@ -306,7 +306,7 @@ class ViewInThePage(WithCase):
 
     @unittest.skipUnless(shutil.which("chromium"), "no chromium: the package chromium has it")
     def test_without_webgl_the_picture_stays_and_who_wants_rest_sees_no_film(self) -> None:
-        page = make_report(self.root, self.root / "report.html", self.root / "figures", for_papers=False)
+        page = make_report(self.root, self.root / "report.html", self.root / "figures")
         with Browser() as browser:
             browser.open(page, still=True)
             still = browser.evaluate("""(async () => {

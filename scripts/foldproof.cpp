@@ -202,6 +202,8 @@ void add_pages(CLI::App& app, Options& options) {
       ->required()
       ->expected(1, 2);
   report->add_flag("--pdf", options.pdf, "Also DIR/report.pdf, printed by Chromium");
+  report->add_flag("--papers", options.papers,
+                   "Figures and pictures also as PDF and PNG files, in DIR/figures");
   CLI::App* film =
       add_command(app, options, "film", "Make a film of a stored run (MP4 and GIF, by ffmpeg)", make_film);
   film->add_option("RUN.h5", options.file, "What `foldproof simulate` wrote")->required();

@@ -245,9 +245,8 @@ int verify(const Options& options) {
     speeds.provenance = run.provenance;
     write_run(options.out + "/bench.h5", speeds);
   }
-  const int reported = options.no_report
-                           ? all_hold
-                           : run_report_script("report", "make_report.py", {options.out, "--svg-only"});
+  const int reported =
+      options.no_report ? all_hold : run_report_script("report", "make_report.py", {options.out});
   if (options.json)
     fmt::print("{}", verdicts_json(run));
   else

@@ -29,7 +29,8 @@ struct Options {
   Running running;               // of check, study and verify
   int cells = 64;                // of inspect: along the longest side
   int levels = 0;                // of project: of subdivision
-  bool json = false, quick = false, no_report = false, no_bench = false, resumes = false, pdf = false;
+  bool json = false, quick = false, no_report = false, no_bench = false, resumes = false, pdf = false,
+       papers = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code
 };
 

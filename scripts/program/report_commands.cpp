@@ -41,6 +41,7 @@ int run_report_script(const std::string& makes, const std::string& script,
 int make_report(const Options& options) {
   std::vector<std::string> arguments = options.names;
   if (options.pdf) arguments.push_back("--pdf");
+  if (options.papers) arguments.push_back("--papers");
   return run_report_script("report", "make_report.py", arguments);
 }
 
