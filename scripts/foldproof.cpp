@@ -160,7 +160,8 @@ void add_ablate(CLI::App& app, Options& options) {
                   "each cost? Writes ablation.json, where what this program found of other cases stays",
                   ::foldproof::ablate);
   ablate->footer(ablate_help);
-  ablate->add_option("CASE", options.names, "Case files (default: all shipped cases of the quick tier)");
+  ablate->add_option("CASE", options.names, "Case files (default: all shipped cases of the tier)");
+  add_tier(ablate, options);
   ablate->add_option("--set", options.overrides, "Override a key: table.key=value")->allow_extra_args(false);
   ablate->add_option("--threads", options.running.threads, "Runs at a time (default: one a core)");
   add_cache(ablate, options);

@@ -186,7 +186,7 @@ std::vector<Ablation> asked_of(const Options& options) {
   const LevelSetMakers makers = makers_of(options.cache);
   std::vector<std::string> files = options.names;
   if (files.empty())
-    for (const auto& names : {shown_cases(), hard_cases()})
+    for (const auto& names : {shown_cases(tier_of(options)), hard_cases()})
       for (const std::string& name : names) files.push_back(project_folder() + "/cases/" + name + ".toml");
   for (const std::string& file : files) all.push_back(planned(case_of_file(file, options.overrides, makers)));
   return all;

@@ -99,10 +99,7 @@ std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance
                       part.records = judge_case(built_in_case(name), progress);
                       return part;
                     }});
-  std::vector<std::string> shown = shown_cases();
-  if (tier_of(options) == Tier::full)
-    for (const std::string& name : long_cases()) shown.push_back(name);
-  for (const std::string& name : shown)
+  for (const std::string& name : shown_cases(tier_of(options)))
     jobs.push_back(
         {"case." + name, length, [name, makers, folder = options.out, provenance](const Progress& progress) {
            CaseRun done = run_case(built_in_case(name, makers), folder, provenance, progress);

@@ -134,11 +134,14 @@ std::vector<Record> judge_case(const Case& shown, const Progress& progress) {
   return judged_run(shown, from_the_start(shown.scene), {}, progress, outcome);
 }
 
-std::vector<std::string> shown_cases() {
-  return {"hinge",        "hanging_sheet", "flag_drop",       "rest_fold",      "stiff_statue",
-          "drape_sphere", "drape_statue",  "spinning_sphere", "incline",        "incline_slides",
-          "pinch",        "armpit",        "half_inside",     "stretched_body", "deforming_body",
-          "hard/fast",    "grab",          "garment"};
+std::vector<std::string> shown_cases(Tier tier) {
+  std::vector<std::string> shown = {
+      "hinge",        "hanging_sheet",   "flag_drop",      "rest_fold",      "stiff_statue", "drape_sphere",
+      "drape_statue", "spinning_sphere", "incline",        "incline_slides", "pinch",        "armpit",
+      "half_inside",  "stretched_body",  "deforming_body", "hard/fast",      "grab",         "garment"};
+  if (tier == Tier::full)
+    for (const std::string& name : long_cases()) shown.push_back(name);
+  return shown;
 }
 
 std::vector<std::string> hard_cases() {
@@ -155,8 +158,7 @@ std::vector<std::string> long_cases() {
 }
 
 std::vector<std::string> built_in_cases() {
-  std::vector<std::string> all = shown_cases();
-  for (const std::string& name : long_cases()) all.push_back(name);
+  std::vector<std::string> all = shown_cases(Tier::full);
   for (const std::string& name : hard_cases()) all.push_back(name);
   return all;
 }

@@ -5,6 +5,7 @@
 
 #include "reference/dynamics/simulate.h"
 #include "verification/cases/expectations.h"
+#include "verification/check.h"
 #include "verification/results_file.h"
 
 namespace foldproof {
@@ -35,11 +36,11 @@ std::vector<Record> judge_case(const Case& shown, const Progress& progress);
 
 /// The cases that `verify` runs, cases/<name>.toml of the project: those that it shows, and those at the edge
 /// of what the method takes, which it only judges.
-std::vector<std::string> shown_cases();
+std::vector<std::string> shown_cases(Tier tier);
 std::vector<std::string> hard_cases();
-std::vector<std::string> long_cases();  // of the full tier
+std::vector<std::string> long_cases();  // those that only the full tier shows
 
-/// Both.
+/// All of them.
 std::vector<std::string> built_in_cases();
 
 /// Reads cases/<name>.toml of the project, and adds what is expected of every shipped case.
