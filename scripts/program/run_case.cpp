@@ -135,10 +135,11 @@ std::vector<Record> judge_case(const Case& shown, const Progress& progress) {
 }
 
 std::vector<std::string> shown_cases(Tier tier) {
-  std::vector<std::string> shown = {
-      "hinge",        "hanging_sheet",   "flag_drop",      "rest_fold",      "stiff_statue", "drape_sphere",
-      "drape_statue", "spinning_sphere", "incline",        "incline_slides", "pinch",        "armpit",
-      "half_inside",  "stretched_body",  "deforming_body", "hard/fast",      "grab",         "garment"};
+  std::vector<std::string> shown = {"hinge",           "hanging_sheet", "flag_drop",      "rest_fold",
+                                    "stiff_statue",    "any_mesh",      "drape_sphere",   "drape_statue",
+                                    "spinning_sphere", "incline",       "incline_slides", "pinch",
+                                    "armpit",          "half_inside",   "stretched_body", "deforming_body",
+                                    "hard/fast",       "grab",          "garment"};
   if (tier == Tier::full)
     for (const std::string& name : long_cases()) shown.push_back(name);
   return shown;
