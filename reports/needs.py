@@ -10,6 +10,10 @@ from typing import Any
 
 NEEDS = ("needed", "kept for a reason", "left out for a reason", "not needed here", "missing here", "not missed here")
 REASONED = {"not needed here": "kept for a reason", "missing here": "left out for a reason"}   # if the case gives one
+MARKS = {"needed": "\u25cf", "kept for a reason": "\u25d0", "left out for a reason": "\u25cb", "not needed here": "\u2715", "missing here": "\u2715",
+         "not missed here": "\u00b7"}
+KINDS = ("gravity", "springs", "damping of springs", "bending", "damping of bending", "rest angles", "held particles", "objects", "friction of objects",
+         "points between particles", "sticky parts", "strain limits", "self-collision")   # of parts, in the order of the paper
 COUNTED = {"steps": "steps", "elastic_evaluations": "force evaluations", "cg_iterations": "CG iterations",
            "object_queries": "object queries", "strain_sweeps": "strain sweeps", "crossing_queries": "crossing queries"}
 
@@ -34,6 +38,19 @@ class PartNeed:
     def standing(self) -> str:
         """One of NEEDS."""
         return REASONED.get(self.need, self.need) if self.declared else self.need
+
+    @property
+    def mark(self) -> str:
+        """One letter for how it stands; that of a part without a reason also where a reason is given for nothing."""
+        return MARKS[self.standing if self.fits else "missing here"]
+
+    @property
+    def kind(self) -> str:
+        """What it is a part of that kind of: one of KINDS, or its own name."""
+        for opening, kind in (("object '", "objects"), ("sticky '", "sticky parts")):
+            if self.name.startswith(opening):
+                return kind
+        return self.name
 
 
 @dataclass
@@ -61,6 +78,11 @@ class Needs:
     """What was found for all cases that were asked for."""
     commit: str
     cases: list[CaseNeeds]
+
+    def kinds(self) -> list[str]:
+        """Of parts that any case has or lacks, those of KINDS first."""
+        found = {part.kind: None for case in self.cases for part in case.parts}
+        return [kind for kind in KINDS if kind in found] + [kind for kind in found if kind not in KINDS]
 
     def count(self, standing: str) -> int:
         """Parts of all cases that stand so, one of NEEDS."""

@@ -290,6 +290,7 @@ class PartsMissing(unittest.TestCase):
         self.assertNotIn("was not asked", text)
         section = re.search(r'<section id="needs">.*?</section>', text, re.DOTALL)[0]
         self.assertEqual(section.count("verdict fails"), 2)
+        self.assertEqual(re.findall(r'aria-label="([a-z ]+)">(.)</span>', section), [("not needed here", "\u2715"), ("kept for a reason", "\u25d0")])
         self.assertIn("it &lt;stops&gt;", section)
         told["cases"][0]["case"] = "bag"
         (self.root / "ablation.json").write_text(json.dumps(told))
