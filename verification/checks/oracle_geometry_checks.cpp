@@ -10,6 +10,7 @@
 #include "verification/oracles/exact_crossings.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/oracles/feature_distance.h"
+#include "verification/oracles/parted_triangles.h"
 #include "verification/oracles/solid_prisms.h"
 #include "verification/oracles/triangle_distance.h"
 #include "verification/oracles/whole_polynomial.h"
@@ -18,10 +19,12 @@ namespace foldproof {
 
 namespace {
 
+using oracles::are_parted;
 using oracles::Corners3;
 using oracles::Estimate;
 using oracles::Features;
 using oracles::FourPoints;
+using oracles::normal_of;
 using oracles::Polynomial;
 using oracles::Whole;
 
@@ -45,27 +48,6 @@ struct Rational {
   Polynomial factor() const { return Polynomial({Whole(-numerator), Whole(denominator)}); }
   double value() const { return double(numerator) / double(denominator); }
 };
-
-Vector3 normal_of(const Corners3& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
-
-/// Do the two lie on different sides of a plane across d? Exact for small whole numbers.
-bool parted_along(const Vector3& d, const Corners3& s, const Corners3& t) {
-  const auto [s_least, s_most] = std::minmax({d.dot(s[0]), d.dot(s[1]), d.dot(s[2])});
-  const auto [t_least, t_most] = std::minmax({d.dot(t[0]), d.dot(t[1]), d.dot(t[2])});
-  return s_most < t_least || t_most < s_least;
-}
-
-/// Two triangles with an area are apart if and only if one of these directions parts them.
-bool are_parted(const Corners3& s, const Corners3& t) {
-  const Vector3 m = normal_of(s), n = normal_of(t);
-  bool parted = parted_along(m, s, t) || parted_along(n, s, t);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector3 edge = s[(i + 1) % 3] - s[i], other = t[(i + 1) % 3] - t[i];
-    parted |= parted_along(m.cross(edge), s, t) || parted_along(n.cross(other), s, t);
-    for (std::size_t j = 0; j < 3; ++j) parted |= parted_along(edge.cross(t[(j + 1) % 3] - t[j]), s, t);
-  }
-  return parted;
-}
 
 /// Six triangles with corners on a grid; none without an area.
 PerParticle3 six_triangles(Random& random) {

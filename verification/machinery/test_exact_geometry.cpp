@@ -6,13 +6,12 @@
 #include <random>
 
 #include "verification/oracles/exact_geometry.h"
+#include "verification/oracles/parted_triangles.h"
 
 using namespace foldproof;
 using namespace foldproof::oracles;
 
 namespace {
-
-Vector3 normal_of(const Corners3& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
 Corners3 small_triangle(std::mt19937& bits) {
   std::uniform_int_distribution<int> coordinate(-2, 2);
@@ -21,25 +20,6 @@ Corners3 small_triangle(std::mt19937& bits) {
     for (Vector3& corner : t) corner = Vector3(coordinate(bits), coordinate(bits), coordinate(bits));
   while (normal_of(t).isZero(0));
   return t;
-}
-
-/// Do the two lie on different sides of a plane across d? Exact for small whole numbers.
-bool parted_along(const Vector3& d, const Corners3& s, const Corners3& t) {
-  const auto [s_least, s_most] = std::minmax({d.dot(s[0]), d.dot(s[1]), d.dot(s[2])});
-  const auto [t_least, t_most] = std::minmax({d.dot(t[0]), d.dot(t[1]), d.dot(t[2])});
-  return s_most < t_least || t_most < s_least;
-}
-
-/// Two triangles are apart if and only if one of these directions parts them.
-bool are_parted(const Corners3& s, const Corners3& t) {
-  const Vector3 m = normal_of(s), n = normal_of(t);
-  bool parted = parted_along(m, s, t) || parted_along(n, s, t);
-  for (size_t i = 0; i < 3; ++i) {
-    const Vector3 edge = s[(i + 1) % 3] - s[i], other = t[(i + 1) % 3] - t[i];
-    parted |= parted_along(m.cross(edge), s, t) || parted_along(n.cross(other), s, t);
-    for (size_t j = 0; j < 3; ++j) parted |= parted_along(edge.cross(t[(j + 1) % 3] - t[j]), s, t);
-  }
-  return parted;
 }
 
 TriangleSoup cube(double side) { return box_between(Vector3::Zero(), Vector3::Constant(side)); }
