@@ -12,7 +12,7 @@ namespace {
 constexpr double coarsest = 1. / 8;      // steps of the first run over those at the elastic limit
 constexpr double far_away = 20;          // displacement over the motion beyond which a run is stopped [1]
 constexpr int most_repeats = 4;          // of a run that is timed
-constexpr double enough_seconds = 0.01;  // after which it is not repeated
+constexpr double enough_seconds = 0.03;  // after which it is not repeated
 
 struct TimedRun {
   PlannedRun run;

@@ -56,7 +56,10 @@ Study work_precision() {
       "heavily damped sheet B, which keeps its order there). Work is counted in applications of force "
       "operators: evaluations of the elastic forces, preparations of the damping and of the elastic "
       "derivative, and products with either. One application visits every spring and hinge once; they are "
-      "not equally dear, so seconds of the processor stand beside them, the least of a few runs. Solves stop at 1e-8. A step beyond the elastic limit "
+      "not equally dear, so seconds of the processor stand beside them, the least of a few runs: "
+      "they scatter with what else the machine does, so where they rank methods of like work otherwise "
+      "than work does, believe the work. Solves stop at 1e-8. The bound of the elastic limit is the "
+      "solver's, from sums of rows, and at most 2/omega. A step beyond it "
       "can be cheap on a short and damped motion, in which instability has no time to grow; do not take it "
       "for a long one.",
       run_work_precision};

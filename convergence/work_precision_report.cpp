@@ -29,7 +29,7 @@ std::vector<CostAxis> cost_axes() {
            [](const PrecisionScene&, const PrecisionRun& run) { return run.seconds / run.part; }},
           {"step",
            "step",
-           {"step over elastic limit", "1", Scale::log},
+           {"step over bound of elastic limit", "1", Scale::log},
            [](const PrecisionScene& scene, const PrecisionRun& run) {
              return scene.problem.end / run.steps / scene.truth.elastic_limit;
            }}};
@@ -58,7 +58,7 @@ std::string short_curves(const PrecisionScene& scene) {
     const auto seen = std::ranges::count_if(
         curve.runs, [&](const PrecisionRun& run) { return run.error > scene.truth.uncertainty; });
     if (seen >= enough || curve.runs.empty()) continue;
-    const bool is_fine = curve.runs.back().error <= wanted_errors.back() / 3;
+    const bool is_fine = curve.runs.back().error <= wanted_errors.back();
     list +=
         (list.empty() ? " " : ", ") + std::string(curve.integrator.name) + " (" + std::to_string(seen) +
         (is_fine ? ": exact enough from its longest stable steps on)" : ": shorter steps exceed the budget)");
@@ -130,13 +130,13 @@ Table cheapest(const std::vector<PrecisionScene>& scenes) {
            {"by", "1", by},
            {"cheapest method", "1", first},
            {"its step", "s", steps},
-           {"step over elastic limit", "1", relative},
+           {"step over bound of elastic limit", "1", relative},
            {"step limited by", "1", limits},
            {"operator applications", "1", work},
            {"processor time", "s", seconds},
-           {"C costs this many times more", "1", against_C},
+           {"C costs this many times as much", "1", against_C},
            {"next best", "1", second},
-           {"it costs this many times more", "1", against_next}}};
+           {"it costs this many times as much", "1", against_next}}};
 }
 
 Table prices(const std::vector<PrecisionScene>& scenes) {
@@ -164,7 +164,7 @@ Table prices(const std::vector<PrecisionScene>& scenes) {
            {"error wanted", "%", errors},
            {"method", "1", methods},
            {"largest step", "s", steps},
-           {"step over elastic limit", "1", relative},
+           {"step over bound of elastic limit", "1", relative},
            {"step limited by", "1", limits},
            {"operator applications", "1", work},
            {"processor time", "s", seconds},

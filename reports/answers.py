@@ -10,7 +10,7 @@ from results import Column, Study, Table
 
 NEEDED = ("scene", "error wanted", "by", "cheapest method")
 # Columns that name a method, or None for scheme C, and the column of the factor that it costs more.
-OTHERS = (("next best", "it costs this many times more"), (None, "C costs this many times more"))
+OTHERS = (("next best", "it costs this many times as much"), (None, "C costs this many times as much"))
 
 
 @dataclass

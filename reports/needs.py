@@ -77,6 +77,7 @@ class CaseNeeds:
 class Needs:
     """What was found for all cases that were asked for."""
     commit: str
+    tree: str                  # "clean", or with changes that were not committed
     cases: list[CaseNeeds]
 
     def kinds(self) -> list[str]:
@@ -107,7 +108,7 @@ def load_needs(file: Path) -> Needs | None:
     if not file.is_file():
         return None
     told = json.loads(file.read_text(encoding="utf-8"))
-    return Needs(told["program"]["commit"], [_case(row) for row in told["cases"]])
+    return Needs(told["program"]["commit"], told["program"].get("tree", ""), [_case(row) for row in told["cases"]])
 
 
 def _case(row: dict[str, Any]) -> CaseNeeds:

@@ -106,8 +106,8 @@ class Answers(unittest.TestCase):
     def test_the_cheapest_method_is_that_of_the_table(self) -> None:
         texts = {"scene": ["a", "a", "a", "b"], "by": ["work", "work", "seconds", "work"],
                  "cheapest method": ["RK4", "C", "A", "B"], "next best": ["A", "B", "B", "A"]}
-        numbers = {"error wanted": ([1.0, 0.1, 1.0, 1.0], "%"), "it costs this many times more": ([1.5, 2.0, 9.0, np.nan], "1"),
-                   "C costs this many times more": ([3.0, 1.0, 9.0, 4.0], "1")}
+        numbers = {"error wanted": ([1.0, 0.1, 1.0, 1.0], "%"), "it costs this many times as much": ([1.5, 2.0, 9.0, np.nan], "1"),
+                   "C costs this many times as much": ([3.0, 1.0, 9.0, 4.0], "1")}
         columns = [Column(name, "", np.array(values, dtype=object)) for name, values in texts.items()]
         columns += [Column(name, unit, np.array(values)) for name, (values, unit) in numbers.items()]
         study = Study("work", "", "", "", 0.0, [], [Table("other", []), Table("cheapest", columns)])

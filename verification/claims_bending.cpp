@@ -168,7 +168,9 @@ std::vector<Claim> rest_angles_and_limits() {
        "energy that is exchanged, {case.stiff_statue.energy-is-accounted-for} is not accounted for. Sheets "
        "whose bending is stiff beside their stretching, and ones that it hardly resists at all, run to their "
        "end too, with {largest of: case.stiff_bending.energy-is-accounted-for, "
-       "case.soft_bending.energy-is-accounted-for} at most unaccounted for."}};
+       "case.soft_bending.energy-is-accounted-for} at most unaccounted for. The scenes of "
+       "the two figures, in full size, are the cases water_bottle and balloon: the full tier judges what "
+       "they look like."}};
 }
 
 std::vector<Claim> the_damping_force() {

@@ -216,12 +216,14 @@ std::vector<Claim> overshooting_methods() {
        Standing::confirmed,
        "",
        "A particle that is only damped comes, under A, to a total displacement of 1 - (h c/2)^2 of the exact "
-       "one, to {dynamics.pure-damping-displacement.A}: at h c/2 = {dynamics.pure-damping-displacement.A|h "
+       "one, to {bare: dynamics.pure-damping-displacement.A}: at h c/2 = "
+       "{dynamics.pure-damping-displacement.A|h "
        "c/2|5} that is {dynamics.pure-damping-displacement.A|displacement over exact|5} times the way it "
        "should go: backwards. It is stable all the same: with damping ratios up to "
        "{dynamics.stability-limit-is-as-derived.A|damping ratio|largest} the limit is 2/omega. On an "
        "overdamped sheet with stiffness it throws a mode back by "
-       "{monotonicity.overdamped-sheet.overshoots.A|positions|first} times its way at h c/2 = 10. In the "
+       "{bare: monotonicity.overdamped-sheet.overshoots.A|positions|first} times its way at h c/2 = 10. In "
+       "the "
        "norm of the energy, in which exact motion never grows, A carries a disturbance of a damped "
        "oscillator to as much as {transient-growth.A.grows-with-damping|growth|largest} times its size on "
        "the way, in proportion to the damping."},
@@ -262,7 +264,7 @@ std::vector<Claim> monotone_methods() {
        "{monotonicity.closing-hinge.backward-euler}. On a hinge without stiffness the linearised method "
        "turns back by {monotonicity.monotone-on-a-hinge.linear-backward-euler}, no more than the exact "
        "motion allows; the fully implicit one, which takes the damping at the step's end, goes "
-       "{monotonicity.passes-its-place.backward-euler|farthest|largest} times the exact way, and stays "
+       "{bare: monotonicity.passes-its-place.backward-euler|farthest|largest} times the exact way, and stays "
        "there."},
       {"T16",
        "3",

@@ -213,7 +213,7 @@ RunRecord bench(int most_particles) {
   for (Record& record : octree_rates()) run.records.push_back(std::move(record));
   run.records.push_back(crossing_rate());
   run.studies.push_back({"bench",
-                         "Time grows in proportion to the number of particles.",
+                         "How time and memory grow with the number of particles.",
                          "measured",
                          "A square sheet of alternating diagonals, gently waved, springs and hinges damped "
                          "at a ratio of 0.1. Times are of a shared machine: compare them as ratios.",

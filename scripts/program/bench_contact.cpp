@@ -49,6 +49,7 @@ Record contact_rate(const Scene& load, double step, double step_seconds) {
   body.place.translation = load.x.rowwise().mean();
   State s{0, load.x, load.v};
   drape(object, 1e-4, s.x);
+  s.v.row(2) *= -1;  // down, onto the body
   const PerParticle inverse_mass = PerParticle::Ones(s.x.cols());
   const ObjectCollision contact{
       {object}, collision_points(load.mesh, inverse_mass, PointKind::particles), responses().front(), 0};
