@@ -55,7 +55,9 @@ def _energies(columns: dict[str, Column]) -> tuple[list[Panel], str]:
                   ("total \u2212 damping work", total - work, COLOURS[6], 1.1)]
         shown, kept = f"{shown}, and the work done by damping so far", "Total minus damping work"
     caption = (f"{shown}. {kept} changes only by what else does work: moving supports, filters, and the error of the "
-               "integrator. Damping is counted against the ground, that of bonds to what moves, too")
+               "integrator")
+    if "bonds" in columns and columns["bonds"].values.any():
+        caption += ". The damping of bonds counts as if what they hold to were at rest"
     return [("energy", columns[present[0]].unit or "J", "linear", lines)], caption
 
 
