@@ -10,8 +10,8 @@ from typing import Any
 
 NEEDS = ("needed", "kept for a reason", "left out for a reason", "not needed here", "missing here", "not missed here")
 REASONED = {"not needed here": "kept for a reason", "missing here": "left out for a reason"}   # if the case gives one
-MARKS = {"needed": "\u25cf", "kept for a reason": "\u25d0", "left out for a reason": "\u25cb", "not needed here": "\u2715", "missing here": "\u2715",
-         "not missed here": "\u00b7"}
+MARKS = {"needed": "\u25cf", "kept for a reason": "\u25d0", "left out for a reason": "\u25cb", "not missed here": "\u00b7"}
+WRONG = "\u2715"                # not needed, or missing, without a reason; or a reason for nothing
 KINDS = ("gravity", "springs", "damping of springs", "bending", "damping of bending", "rest angles", "held particles", "objects", "friction of objects",
          "points between particles", "sticky parts", "strain limits", "self-collision")   # of parts, in the order of the paper
 COUNTED = {"steps": "steps", "elastic_evaluations": "force evaluations", "cg_iterations": "CG iterations",
@@ -41,12 +41,12 @@ class PartNeed:
 
     @property
     def mark(self) -> str:
-        """One letter for how it stands; that of a part without a reason also where a reason is given for nothing."""
-        return MARKS[self.standing if self.fits else "missing here"]
+        """One letter for how it stands."""
+        return MARKS.get(self.standing, WRONG) if self.fits else WRONG
 
     @property
     def kind(self) -> str:
-        """What it is a part of that kind of: one of KINDS, or its own name."""
+        """One of KINDS, or its own name."""
         for opening, kind in (("object '", "objects"), ("sticky '", "sticky parts")):
             if self.name.startswith(opening):
                 return kind

@@ -217,14 +217,13 @@ std::vector<Claim> overshooting_methods() {
        "",
        "A particle that is only damped comes, under A, to a total displacement of 1 - (h c/2)^2 of the exact "
        "one, to {bare: dynamics.pure-damping-displacement.A}: at h c/2 = "
-       "{dynamics.pure-damping-displacement.A|h "
-       "c/2|5} that is {dynamics.pure-damping-displacement.A|displacement over exact|5} times the way it "
+       "{dynamics.pure-damping-displacement.A|h c/2|5} that is "
+       "{dynamics.pure-damping-displacement.A|displacement over exact|5} times the way it "
        "should go: backwards. It is stable all the same: with damping ratios up to "
        "{dynamics.stability-limit-is-as-derived.A|damping ratio|largest} the limit is 2/omega. On an "
        "overdamped sheet with stiffness it throws a mode back by "
        "{bare: monotonicity.overdamped-sheet.overshoots.A|positions|first} times its way at h c/2 = 10. In "
-       "the "
-       "norm of the energy, in which exact motion never grows, A carries a disturbance of a damped "
+       "the norm of the energy, in which exact motion never grows, A carries a disturbance of a damped "
        "oscillator to as much as {transient-growth.A.grows-with-damping|growth|largest} times its size on "
        "the way, in proportion to the damping."},
       {"T14",
