@@ -5,10 +5,13 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "convergence/ablation.h"
+#include "convergence/coarser_mesh.h"
 #include "convergence/finer_scene.h"
 #include "reference/level_set/makers.h"
 #include "scripts/program/commands.h"
@@ -25,59 +28,85 @@ namespace {
 /// A case and all runs that are asked of it.
 struct Ablation {
   Case shown;
+  std::optional<Case> coarser;  // with the coarser mesh that it names
   std::vector<ScenePart> parts;
-  RunObserved scene, half_steps, finer;
+  RunObserved scene, half_steps, other_mesh;
   std::vector<RunObserved> toggled;  // one a part
+  size_t runs_left = 0;
   OwnError own;
   std::vector<PartJudged> judged;
 };
 
-Ablation planned(Case shown) {
-  Ablation plan{std::move(shown), {}, {}, {}, {}, {}, {}, {}};
-  plan.parts = parts_of(plan.shown.scene);
-  refuse_unknown_parts(plan.shown, plan.parts);
+Ablation planned(const std::string& file, const Options& options, const LevelSetMakers& makers) {
+  Ablation plan{case_of_file(file, options.overrides, makers), {}, {}, {}, {}, {}, {}, 0, {}, {}};
+  const Case& shown = plan.shown;
+  plan.parts = parts_of(shown.scene);
+  refuse_unknown_parts(shown, plan.parts);
   plan.toggled.resize(plan.parts.size());
-  plan.finer.stopped = declared_for(plan.shown, finer_mesh);
+  plan.other_mesh.stopped = declared_for(shown, finer_mesh);
+  if (shown.coarser_mesh.empty()) return plan;
+  if (!plan.other_mesh.stopped.empty())
+    throw InputError(file + ": [ablation] does without a finer mesh, and names a coarser one");
+  std::vector<std::string> overrides = options.overrides;
+  overrides.push_back(shown.coarser_mesh);
+  plan.coarser = case_of_file(file, overrides, makers);
+  coarseness(shown.scene.mesh, plan.coarser->scene.mesh);
   return plan;
 }
 
-/// A run that a job makes and leaves in `into`.
-Job job_of(const std::string& name, double length, const Case& shown,
-           std::function<Scene(const Scene&)> change, RunObserved& into) {
-  return {name, length, [&shown, change = std::move(change), &into](const Progress&) {
+/// What is done when a run is over; by one thread at a time.
+using AfterRun = std::function<void(Ablation&)>;
+
+/// The run of `shown`, which `one` asks for and finds in `into`.
+Job job_of(Ablation& one, double length, const Case& shown, std::function<Scene(const Scene&)> change,
+           RunObserved& into, const AfterRun& after) {
+  ++one.runs_left;
+  return {one.shown.scene.name, length,
+          [&one, &shown, change = std::move(change), &into, after](const Progress&) {
             const int particles = shown.scene.mesh.particles();
             try {
               into = observed(with_scene(shown, change(shown.scene)), particles);
             } catch (const InputError& error) {
               into.stopped = error.what();
             }
+            after(one);
             return RunRecord{};
           }};
 }
 
 /// Finer meshes take some ten times as long: four times the particles, and smaller steps.
-std::vector<Job> jobs_of(std::vector<Ablation>& all) {
+std::vector<Job> jobs_of(std::vector<Ablation>& all, const AfterRun& after) {
+  const auto as_it_is = [](const Scene& s) { return s; };
   std::vector<Job> jobs;
   for (Ablation& one : all) {
-    const std::string& name = one.shown.scene.name;
-    jobs.push_back(job_of(
-        name, 1, one.shown, [](const Scene& s) { return s; }, one.scene));
-    jobs.push_back(job_of(name, 2, one.shown, with_half_steps, one.half_steps));
-    if (one.finer.stopped.empty()) jobs.push_back(job_of(name, 10, one.shown, with_finer_mesh, one.finer));
+    const Case& shown = one.shown;
+    jobs.push_back(job_of(one, 1, shown, as_it_is, one.scene, after));
+    jobs.push_back(job_of(one, 2, shown, with_half_steps, one.half_steps, after));
+    if (one.coarser)
+      jobs.push_back(job_of(one, 0.2, *one.coarser, as_it_is, one.other_mesh, after));
+    else if (one.other_mesh.stopped.empty())
+      jobs.push_back(job_of(one, 10, shown, with_finer_mesh, one.other_mesh, after));
     for (size_t k = 0; k < one.parts.size(); ++k)
-      jobs.push_back(job_of(name, 1.1, one.shown, one.parts[k].toggled, one.toggled[k]));
+      jobs.push_back(job_of(one, 1.1, shown, one.parts[k].toggled, one.toggled[k], after));
   }
   return jobs;
 }
 
 double size_of(const PerParticle3& x) { return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff(); }
 
+OwnError own_error(const Ablation& one, const PerParticle& mass) {
+  const TriangleMesh& mesh = one.shown.scene.mesh;
+  OwnError own{nan, nan, 1e-6 * size_of(mesh.rest)};
+  if (one.half_steps.stopped.empty()) own.time = position_difference(one.scene, one.half_steps, mass);
+  if (one.other_mesh.stopped.empty())
+    own.mesh = one.coarser ? error_from_coarser(one.scene, mesh, one.other_mesh, one.coarser->scene.mesh)
+                           : position_difference(one.scene, one.other_mesh, mass);
+  return own;
+}
+
 void judge(Ablation& one) {
   const PerParticle mass = lumped_masses(one.shown.scene.mesh, one.shown.scene.density);
-  const auto error_of = [&](const RunObserved& run) {
-    return run.stopped.empty() ? position_difference(one.scene, run, mass) : nan;
-  };
-  one.own = {error_of(one.half_steps), error_of(one.finer), 1e-6 * size_of(one.shown.scene.mesh.rest)};
+  one.own = own_error(one, mass);
   for (size_t k = 0; k < one.parts.size(); ++k) {
     one.judged.push_back(judged(one.parts[k], one.scene, std::move(one.toggled[k]), one.own, mass));
     one.judged.back().declared = declared_for(one.shown, one.parts[k].name);
@@ -127,15 +156,18 @@ nlohmann::json told(const Ablation& one) {
             {"floor", one.own.floor},
             {"value", one.own.value()},
             {"without_time", one.half_steps.stopped},
-            {"without_mesh", one.finer.stopped}}},
+            {"without_mesh", one.other_mesh.stopped},
+            {"coarser_mesh", one.shown.coarser_mesh}}},
           {"run", told(one.scene)},
           {"parts", std::move(parts)}};
 }
 
+/// All cases whose runs are over.
 nlohmann::json told(const std::vector<Ablation>& all, const Options& options) {
   const Provenance p = provenance(options.command);
   nlohmann::json cases = nlohmann::json::array();
-  for (const Ablation& one : all) cases.push_back(told(one));
+  for (const Ablation& one : all)
+    if (one.runs_left == 0) cases.push_back(told(one));
   return {{"schema", 1},
           {"program",
            {{"version", p.version},
@@ -169,9 +201,9 @@ std::string error_text(double error, const std::string& why_unknown) {
 }
 
 void print(const Ablation& one) {
-  fmt::print("{}: {:.2f} s; own error {:.2g} m (half the step {}; finer mesh {})\n", one.shown.scene.name,
+  fmt::print("{}: {:.2f} s; own error {:.2g} m (half the step {}; {} mesh {})\n", one.shown.scene.name,
              one.scene.seconds, one.own.value(), error_text(one.own.time, one.half_steps.stopped),
-             error_text(one.own.mesh, one.finer.stopped));
+             one.coarser ? "coarser" : "finer", error_text(one.own.mesh, one.other_mesh.stopped));
   if (const std::string wrong = wrong_by_itself(one); !wrong.empty()) fmt::print("! {}\n", wrong);
   for (const PartJudged& part : one.judged) {
     fmt::print("{} {:<16} {:<30} {:5.0f} % of the time; {}\n", part.is_as_it_should_be() ? ' ' : '!',
@@ -188,29 +220,37 @@ std::vector<Ablation> asked_of(const Options& options) {
   if (files.empty())
     for (const auto& names : {shown_cases(tier_of(options)), hard_cases()})
       for (const std::string& name : names) files.push_back(project_folder() + "/cases/" + name + ".toml");
-  for (const std::string& file : files) all.push_back(planned(case_of_file(file, options.overrides, makers)));
+  for (const std::string& file : files) all.push_back(planned(file, options, makers));
   return all;
+}
+
+/// Writes what is found so far: a night's run that is cut off leaves the cases that it was through with.
+void write(const std::vector<Ablation>& all, const Options& options) {
+  if (options.out.empty()) return;
+  const std::string path = options.out + "/ablation.json";
+  write_text(path, json_text(with_others_of(path, told(all, options))) + "\n");
 }
 
 }  // namespace
 
 int ablate(const Options& options) {
   std::vector<Ablation> all = asked_of(options);
-  RunRecord run;
-  run_jobs(jobs_of(all), "scenes with and without their parts", options.running, run);
-  bool is_minimal = true;
-  for (Ablation& one : all) {
+  if (!options.out.empty()) make_folder(options.out);
+  std::mutex one_at_a_time;
+  const AfterRun after = [&](Ablation& one) {
+    const std::lock_guard lock(one_at_a_time);
+    if (--one.runs_left > 0) return;
     judge(one);
+    write(all, options);
+  };
+  RunRecord run;
+  run_jobs(jobs_of(all, after), "scenes with and without their parts", options.running, run);
+  bool is_minimal = true;
+  for (const Ablation& one : all) {
     is_minimal &= wrong_by_itself(one).empty();
     for (const PartJudged& part : one.judged) is_minimal &= part.is_as_it_should_be();
   }
-  const nlohmann::json found = told(all, options);
-  if (!options.out.empty()) {
-    make_folder(options.out);
-    const std::string path = options.out + "/ablation.json";
-    write_text(path, json_text(with_others_of(path, found)) + "\n");
-  }
-  if (options.json) fmt::print("{}\n", json_text(found));
+  if (options.json) fmt::print("{}\n", json_text(told(all, options)));
   for (const Ablation& one : all)
     if (!options.json) print(one);
   return is_minimal ? all_hold : some_fail;

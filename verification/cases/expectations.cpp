@@ -67,9 +67,11 @@ Case case_of_file(const std::string& path, const std::vector<std::string>& overr
   if (const auto expect = keys->table("expect"))
     for (const auto& [key, value] : expect->entries)
       result.expectations.push_back(read_entry(*expect, key, result.scene));
-  if (const auto ablation = keys->table("ablation"))
-    for (const auto& [part, value] : ablation->entries)
-      result.declared.push_back(read_declared(*ablation, part));
+  if (const auto ablation = keys->table("ablation")) {
+    if (ablation->has("coarser_mesh")) result.coarser_mesh = ablation->text("coarser_mesh");
+    for (const auto& [key, value] : ablation->entries)
+      if (key != "coarser_mesh") result.declared.push_back(read_declared(*ablation, key));
+  }
   return result;
 }
 

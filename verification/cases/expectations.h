@@ -28,6 +28,7 @@ struct Case {
   Scene scene;
   std::vector<Expectation> expectations;
   std::vector<Declared> declared = {};
+  std::string coarser_mesh = "";  // of [ablation]: the override "a.b=c" that makes the mesh coarser, or ""
 };
 
 /// Reads the case file's scene and its tables [expect] and [ablation]. Throws InputError "file:line: ..." for
