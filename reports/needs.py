@@ -57,7 +57,9 @@ class PartNeed:
 class CaseNeeds:
     """A scene, its own error and its parts."""
     name: str
+    overrides: list[str]       # "table.key=value", by which it was another than the shipped one
     wrong: str                 # why nothing can be said of it; or ""
+    mesh: str                  # "finer" or "coarser": what its own was held against
     own_error: float           # m
     time_error: float          # m; NaN: not known
     mesh_error: float          # m; NaN: not known
@@ -113,8 +115,9 @@ def load_needs(file: Path) -> Needs | None:
 
 def _case(row: dict[str, Any]) -> CaseNeeds:
     own, scene = row["own_error"], row["run"]
-    unknown = "; ".join(f"{kind}: {why}" for kind, why in (("half the step", own["without_time"]), ("finer mesh", own["without_mesh"])) if why)
-    return CaseNeeds(row["case"], row["wrong"], _number(own["value"]), _number(own["time"]), _number(own["mesh"]), unknown, scene["seconds"],
+    mesh = "coarser" if own.get("coarser_mesh") else "finer"
+    unknown = "; ".join(f"{kind}: {why}" for kind, why in (("half the step", own["without_time"]), (f"{mesh} mesh", own["without_mesh"])) if why)
+    return CaseNeeds(row["case"], row.get("overrides", []), row["wrong"], mesh, _number(own["value"]), _number(own["time"]), _number(own["mesh"]), unknown, scene["seconds"],
                      _number(scene["crossings"]), _number(scene["deepest"]), [_part(part, scene) for part in row["parts"]])
 
 

@@ -52,7 +52,7 @@ constexpr const char* ablate_help =
 without each part that it names, and once with each that it does not name and that needs no numbers from its author: self-collision, strain limits, points between
 particles. A part is needed, or missing, if without it particles move by more than the scene's own error, the run comes to no end, an expectation of the case
 fails or has no meaning, the cloth crosses itself, or lies deeper in an object by more than that error. The table [ablation] of a case file may say why a part is there, or left out,
-all the same. Exit code 1 (and a mark !): a part is not needed, or one is missing, and the case does not say why; or it says so needlessly; or the scene itself
+all the same, and may name a coarser mesh of the case for a finer one that takes hours. Exit code 1 (and a mark !): a part is not needed, or one is missing, and the case does not say why; or it says so needlessly; or the scene itself
 comes to no end, or fails what it expects.)";
 
 constexpr const char* project_help =

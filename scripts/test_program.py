@@ -346,26 +346,6 @@ step = 0.001
             self.assertNotIn("Traceback", done.stderr)
         self.assertEqual(run("export", stored, "--format", "stl", "--out", "x").returncode, 2)
 
-    def test_ablate_says_what_a_scene_needs(self) -> None:
-        out = str(self.path / "out")
-        case = str(ROOT / "cases" / "incline.toml")
-        undeclared = self.write("undeclared.toml", Path(case).read_text().split("[ablation]")[0])
-        self.assertEqual(run("ablate", undeclared, "--set", "time.end=0.2", "--out", out).returncode, 1)
-        done = run("ablate", case, "--set", "time.end=0.2", "--out", out)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        told, *others = json.loads((self.path / "out" / "ablation.json").read_text())["cases"]
-        self.assertEqual([row["case"] for row in others], ["undeclared"])    # what is not asked again stays
-        need = {part["name"]: part["need"] for part in told["parts"]}
-        self.assertEqual(need["friction of objects"], "needed")
-        self.assertEqual(need["object 'slope'"], "needed")
-        self.assertEqual(need["self-collision"], "not missed here")
-        stopped = run("ablate", case, "--set", "time.max_steps=3", "--out", out)
-        self.assertEqual(stopped.returncode, 1, stopped.stderr)
-        self.assertIn("! the scene itself does not come to its end: the cap on the number of steps", stopped.stdout)
-        refused = run("ablate", case, "--set", 'ablation.wind="it blows"', "--out", out)
-        self.assertEqual(refused.returncode, 2)
-        self.assertIn("[ablation] names a part 'wind' that cannot be toggled; known: finer mesh, gravity", refused.stderr)
-
     def test_an_unknown_check_is_refused_with_neighbours(self) -> None:
         done = run("check", "bending.forces-sum-to-zer")
         self.assertEqual(done.returncode, 2)

@@ -74,12 +74,13 @@ Job job_of(Ablation& one, double length, const Case& shown, std::function<Scene(
           }};
 }
 
-/// Finer meshes take some ten times as long: four times the particles, and smaller steps.
+/// Case by case, so that what is cut off has whole cases. Finer meshes take some ten times as long: four times the particles, and smaller steps.
 std::vector<Job> jobs_of(std::vector<Ablation>& all, const AfterRun& after) {
   const auto as_it_is = [](const Scene& s) { return s; };
   std::vector<Job> jobs;
   for (Ablation& one : all) {
     const Case& shown = one.shown;
+    const size_t earlier = jobs.size();
     jobs.push_back(job_of(one, 1, shown, as_it_is, one.scene, after));
     jobs.push_back(job_of(one, 2, shown, with_half_steps, one.half_steps, after));
     if (one.coarser)
@@ -88,6 +89,7 @@ std::vector<Job> jobs_of(std::vector<Ablation>& all, const AfterRun& after) {
       jobs.push_back(job_of(one, 10, shown, with_finer_mesh, one.other_mesh, after));
     for (size_t k = 0; k < one.parts.size(); ++k)
       jobs.push_back(job_of(one, 1.1, shown, one.parts[k].toggled, one.toggled[k], after));
+    for (size_t k = earlier; k < jobs.size(); ++k) jobs[k].group = int(&one - all.data());
   }
   return jobs;
 }
@@ -135,7 +137,7 @@ nlohmann::json told(const RunObserved& run) {
           {"failed", run.failed}};
 }
 
-nlohmann::json told(const Ablation& one) {
+nlohmann::json told(const Ablation& one, const std::vector<std::string>& overrides) {
   nlohmann::json parts = nlohmann::json::array();
   for (const PartJudged& part : one.judged)
     parts.push_back({{"name", part.name},
@@ -148,6 +150,7 @@ nlohmann::json told(const Ablation& one) {
                      {"energy_difference", part.energy_difference},
                      {"run", told(part.run)}});
   return {{"case", one.shown.scene.name},
+          {"overrides", overrides},
           {"wrong", wrong_by_itself(one)},
           {"size", size_of(one.shown.scene.mesh.rest)},
           {"own_error",
@@ -167,7 +170,7 @@ nlohmann::json told(const std::vector<Ablation>& all, const Options& options) {
   const Provenance p = provenance(options.command);
   nlohmann::json cases = nlohmann::json::array();
   for (const Ablation& one : all)
-    if (one.runs_left == 0) cases.push_back(told(one));
+    if (one.runs_left == 0) cases.push_back(told(one, options.overrides));
   return {{"schema", 1},
           {"program",
            {{"version", p.version},
@@ -245,7 +248,8 @@ int ablate(const Options& options) {
   };
   RunRecord run;
   run_jobs(jobs_of(all, after), "scenes with and without their parts", options.running, run);
-  bool is_minimal = true;
+  write(all, options);
+  bool is_minimal = run.records.empty();  // which tell of runs that could not be judged
   for (const Ablation& one : all) {
     is_minimal &= wrong_by_itself(one).empty();
     for (const PartJudged& part : one.judged) is_minimal &= part.is_as_it_should_be();

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 #include <thread>
+#include <utility>
 
 #include "scripts/program/progress.h"
 
@@ -32,7 +33,7 @@ void append(std::vector<T>& from, std::vector<T>& to) {
 std::vector<size_t> taken_in(const std::vector<Job>& jobs, unsigned order) {
   std::vector<size_t> numbers(jobs.size());
   std::iota(numbers.begin(), numbers.end(), size_t(0));
-  std::ranges::stable_sort(numbers, {}, [&](size_t i) { return jobs[i].length; });
+  std::ranges::stable_sort(numbers, {}, [&](size_t i) { return std::pair(-jobs[i].group, jobs[i].length); });
   std::mt19937 random(order);
   for (size_t k = numbers.size(); order > 0 && k > 1; --k) std::swap(numbers[k - 1], numbers[random() % k]);
   return numbers;

@@ -14,7 +14,8 @@ struct Job {
   std::string name;  // of the check or the study; of a case "case." and its name
   double length;     // how long it takes beside others, roughly
   std::function<RunRecord(const Progress&)>
-      run;  // records, studies and cases, to be added to those of the others
+      run;        // records, studies and cases, to be added to those of the others
+  int group = 0;  // jobs of a lower one are taken first
 };
 
 /// A record of this name that says nothing but that it did not run, or why it stopped.
@@ -23,7 +24,7 @@ Record unfinished(const std::string& name, const std::string& outcome, const std
 /// In which way jobs are run. No number that a job measures depends on it, seconds excepted.
 struct Running {
   unsigned threads = 0;  // jobs at a time; 0: one a core
-  unsigned order = 0;    // 0: the longest first; else shuffled, each number another order
+  unsigned order = 0;    // 0: the longest of a group first; else shuffled, each number another order
 };
 
 /// Runs the jobs; says a line about each finding that does not hold, and adds what they made to the run in

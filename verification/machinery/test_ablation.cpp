@@ -1,8 +1,11 @@
 // What `foldproof ablate` judges by: finer scenes that are the same scene, parts that are toggled one by one,
 // needs.
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
 
 #include "convergence/ablation.h"
+#include "convergence/coarser_mesh.h"
 #include "convergence/finer_scene.h"
 #include "reference/forces/bending.h"
 #include "reference/mesh/shapes.h"
@@ -141,6 +144,43 @@ TEST_CASE("positions differ by the root mean square over particles, in the worst
   CHECK(position_difference(a, b, Eigen::Vector2d(0.1, 0.3)) == Approx(5 / 2.0));
   b.x[0](0, 0) = std::nan("");
   CHECK(std::isnan(position_difference(a, b, PerParticle::Constant(2, 0.7))));
+}
+
+TEST_CASE("a coarser mesh is compared where it lies on the finer one") {
+  const TriangleMesh fine = make_geodesic_sphere(1, 12), coarse = make_geodesic_sphere(1, 5);
+  const double r = coarseness(fine, coarse);
+  CHECK(r == Approx(12 / 5.0).epsilon(1e-12));
+  const auto bulged = [](const PerParticle3& x, double by) {
+    PerParticle3 moved = x;
+    moved.row(1).array() += by * x.row(0).array().square();
+    return moved;
+  };
+  RunObserved run, coarser;
+  run.x = {fine.rest, bulged(fine.rest, 0.1)};
+  coarser.x = {coarse.rest, bulged(coarse.rest, 0.1)};
+  // the same motion: what is left is that points of facets, 2 % inside of the sphere, are moved linearly
+  CHECK(error_from_coarser(run, fine, coarser, coarse) < 0.1 * 0.03);
+  // another one: by 0.02 x^2, whose square has the mean 1/5 on the sphere
+  coarser.x[1] = bulged(coarse.rest, 0.12);
+  CHECK(error_from_coarser(run, fine, coarser, coarse) ==
+        Approx(0.02 / std::sqrt(5.0) / (r - 1)).epsilon(0.1));
+  // carried away as one: by 0.3 m, wherever its particles are
+  coarser.x[1] = coarse.rest.colwise() + Vector3(0, 0.3, 0);
+  run.x[1] = fine.rest;
+  CHECK(error_from_coarser(run, fine, coarser, coarse) == Approx(0.3 / (r - 1)).epsilon(1e-12));
+  CHECK(std::isnan(error_from_coarser(RunObserved{}, fine, coarser, coarse)));
+  CHECK_THROWS_AS(coarseness(coarse, fine), InputError);
+  CHECK_THROWS_AS(coarseness(fine, make_geodesic_sphere(1, 11)), InputError);
+}
+
+TEST_CASE("a case names its coarser mesh beside its reasons") {
+  const std::string path = "coarser_mesh_trial.toml";
+  std::ofstream(path) << text << "[ablation]\ncoarser_mesh = \"cloth.rows=2\"\n\"gravity\" = \"a reason\"\n";
+  const Case shown = case_of_file(path);
+  CHECK(shown.coarser_mesh == "cloth.rows=2");
+  REQUIRE(shown.declared.size() == 1);
+  CHECK(shown.declared[0].part == "gravity");
+  std::filesystem::remove(path);
 }
 
 TEST_CASE("a part is needed when it changes more than the scene's own error") {

@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+"""Tests of `foldproof ablate`: what a scene needs, its own error from finer and coarser meshes, results that stay.
+
+scripts/test_ablate.py [AblateTest.test_...]
+"""
+
+import json
+import subprocess
+import sys
+import time
+import unittest
+
+sys.dont_write_bytecode = True
+
+from file_tests import CLOCK, PROGRAM, ROOT, FileTest, run  # noqa: E402
+
+DISC = """
+[cloth]
+shape = "disc"
+radius = 0.3
+rings = 8
+density = 0.2
+[gravity]
+acceleration = [0, 0, -9]
+[stretch]
+stiffness = 60.0
+[bending]
+stiffness = 5e-3
+[[hold]]
+box = [[-0.001, -0.001, -1], [0.001, 0.001, 1]]
+[time]
+end = 0.1
+frames_per_second = 30
+[solver]
+tolerance = 1e-8
+[ablation]
+coarser_mesh = "cloth.rings=4"
+"""
+
+
+class AblateTest(FileTest):
+    def ablate(self, *arguments: str) -> subprocess.CompletedProcess[str]:
+        return run("ablate", *arguments, "--out", str(self.path / "out"))
+
+    def told(self) -> list[dict]:
+        return json.loads((self.path / "out" / "ablation.json").read_text())["cases"]
+
+    def test_it_says_what_a_scene_needs(self) -> None:
+        case = ROOT / "cases" / "incline.toml"
+        undeclared = self.write("undeclared.toml", case.read_text().split("[ablation]")[0])
+        self.assertEqual(self.ablate(undeclared, "--set", "time.end=0.2").returncode, 1)
+        done = self.ablate(str(case), "--set", "time.end=0.2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told, *others = self.told()
+        self.assertEqual([row["case"] for row in others], ["undeclared"])    # what is not asked again stays
+        self.assertEqual(told["overrides"], ["time.end=0.2"])
+        need = {part["name"]: part["need"] for part in told["parts"]}
+        self.assertEqual(need["friction of objects"], "needed")
+        self.assertEqual(need["object 'slope'"], "needed")
+        self.assertEqual(need["self-collision"], "not missed here")
+        stopped = self.ablate(str(case), "--set", "time.max_steps=3")
+        self.assertEqual(stopped.returncode, 1, stopped.stderr)
+        self.assertIn("! the scene itself does not come to its end: the cap on the number of steps", stopped.stdout)
+
+    def test_a_coarser_mesh_says_the_error_that_a_finer_one_says(self) -> None:
+        disc = self.write("disc.toml", DISC)
+        self.ablate(disc)
+        coarser = self.told()[0]["own_error"]
+        done = self.ablate(disc, "--set", 'ablation.coarser_mesh=""')
+        finer = self.told()[0]["own_error"]
+        self.assertEqual((coarser["coarser_mesh"], finer["coarser_mesh"]), ("cloth.rings=4", ""))
+        self.assertRegex(done.stdout, r"finer mesh \d")
+        self.assertEqual(coarser["time"], finer["time"])
+        # of an error e of second order halving shows 3 e / 4 and doubling 3 e, of one of first order e / 2 and e
+        self.assertGreater(coarser["mesh"], finer["mesh"])
+        self.assertLess(coarser["mesh"], 6 * finer["mesh"])
+
+    def test_what_cannot_be_is_refused(self) -> None:
+        disc = self.write("disc.toml", DISC)
+        self.refused(self.ablate(disc, "--set", 'ablation.wind="it blows"'),
+                     "[ablation] names a part 'wind' that cannot be toggled; known: finer mesh, gravity")
+        self.refused(self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.rings=7"'),
+                     "294 triangles of 384; give one with sides at least 1.2 times as long")
+        self.refused(self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.ring=4"'), "unknown key 'ring'")
+        self.refused(self.ablate(disc, "--set", "ablation.coarser_mesh=4"), "must be a text")
+        self.refused(self.ablate(disc, "--set", 'ablation.finer mesh="a trial"'), "does without a finer mesh, and names a coarser one")
+
+    def test_a_run_that_is_killed_leaves_the_cases_that_it_was_through_with(self) -> None:
+        soon = self.write("soon.toml", DISC.replace("end = 0.1", "end = 0.02"))
+        late = self.write("late.toml", DISC.replace("end = 0.1", "end = 1000"))
+        found = self.path / "out" / "ablation.json"
+        running = subprocess.Popen([str(PROGRAM), "ablate", soon, late, "--threads", "2", "--out", str(found.parent)],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        end = time.monotonic() + CLOCK
+        while not found.is_file() and running.poll() is None and time.monotonic() < end:
+            time.sleep(0.05)
+        running.kill()
+        running.wait()
+        self.assertEqual([row["case"] for row in self.told()], ["soon"])
+
+
+if __name__ == "__main__":
+    unittest.main()
