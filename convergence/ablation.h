@@ -58,9 +58,9 @@ struct PartJudged {
 };
 
 /// How far the scene's own run is from the truth, roughly: by how much it changes with half the step, and
-/// with triangles of half the size. Neither is extrapolated: an error of first order is twice such a
+/// with triangles of half the size. These two are not extrapolated: an error of first order is twice such a
 /// difference, one of second order a third larger than it. A case may name a coarser mesh instead of the
-/// finer one, see coarser_mesh.h.
+/// finer one; what that says of the same error is two to four times as much (coarser_mesh.h).
 struct OwnError {
   double time = 0, mesh = 0;  // m; NaN where a run came to no end
   double floor = 0;           // a millionth of the cloth's size: less than that no one asks for [m]

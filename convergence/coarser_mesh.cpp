@@ -49,9 +49,11 @@ std::vector<PlaceOnTriangle> places_of(const PerParticle3& points, const PerPart
 double coarseness(const TriangleMesh& mesh, const TriangleMesh& coarser) {
   const double ratio = std::sqrt(double(mesh.triangles.size()) / double(coarser.triangles.size()));
   if (ratio < 1.2)
-    throw InputError(fmt::format(
-        "[ablation] coarser_mesh makes {} triangles of {}; give one with sides at least 1.2 times as long",
-        coarser.triangles.size(), mesh.triangles.size()));
+    throw InputError(fmt::format("{} triangles of {}; give one with sides at least 1.2 times as long",
+                                 coarser.triangles.size(), mesh.triangles.size()));
+  const double area = lumped_masses(mesh, 1).sum(), other_area = lumped_masses(coarser, 1).sum();
+  if (!(std::abs(other_area - area) <= 0.1 * area))
+    throw InputError(fmt::format("{:.3g} m^2 of {:.3g}; give a mesh of the same surface", other_area, area));
   return ratio;
 }
 

@@ -58,8 +58,9 @@ class CaseNeeds:
     """A scene, its own error and its parts."""
     name: str
     overrides: list[str]       # "table.key=value", by which it was another than the shipped one
+    part_of_time: str          # "first 1 of 3 s" where not the whole run was asked, else ""
     wrong: str                 # why nothing can be said of it; or ""
-    mesh: str                  # "finer" or "coarser": what its own was held against
+    mesh: str                  # what the mesh's own error comes from, in words
     own_error: float           # m
     time_error: float          # m; NaN: not known
     mesh_error: float          # m; NaN: not known
@@ -115,9 +116,10 @@ def load_needs(file: Path) -> Needs | None:
 
 def _case(row: dict[str, Any]) -> CaseNeeds:
     own, scene = row["own_error"], row["run"]
-    mesh = "coarser" if own.get("coarser_mesh") else "finer"
-    unknown = "; ".join(f"{kind}: {why}" for kind, why in (("half the step", own["without_time"]), (f"{mesh} mesh", own["without_mesh"])) if why)
-    return CaseNeeds(row["case"], row.get("overrides", []), row["wrong"], mesh, _number(own["value"]), _number(own["time"]), _number(own["mesh"]), unknown, scene["seconds"],
+    part_of_time = f"first {row['asked_end']:g} of {row['end']:g} s" if row.get("asked_end") != row.get("end") else ""
+    mesh = f"from a coarser mesh, {', '.join(own['coarser_mesh'])}," if own.get("coarser_mesh") else "finer mesh"
+    unknown = "; ".join(f"{kind}: {why}" for kind, why in (("half the step", own["without_time"]), (mesh.removeprefix("from a ").split(",")[0], own["without_mesh"])) if why)
+    return CaseNeeds(row["case"], row.get("overrides", []), part_of_time, row["wrong"], mesh, _number(own["value"]), _number(own["time"]), _number(own["mesh"]), unknown, scene["seconds"],
                      _number(scene["crossings"]), _number(scene["deepest"]), [_part(part, scene) for part in row["parts"]])
 
 

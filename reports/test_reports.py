@@ -275,16 +275,16 @@ class PartsMissing(unittest.TestCase):
                "crossing_queries": 0, "deepest": 0.0, "crossings": 0.0, "stopped": "", "failed": []}
         part = {"name": "gravity <b>", "present": True, "need": "not needed here", "because": "it moves <nothing>", "declared": "", "as_it_should_be": False,
                 "position_difference": 3e-5, "energy_difference": None, "run": run | {"seconds": 1.0, "steps": 10}}
-        own = {"time": 1e-4, "mesh": None, "floor": 1e-6, "value": 1e-4, "without_time": "", "without_mesh": "too many triangles", "coarser_mesh": "cloth.rows=2"}
+        own = {"time": 1e-4, "mesh": None, "floor": 1e-6, "value": 1e-4, "without_time": "", "without_mesh": "too many triangles", "coarser_mesh": ["cloth.rings=2"]}
         told = {"schema": 1, "program": {"commit": "abcdef0123456789"}, "cases": [
-            {"case": "fold", "overrides": ["time.end=1", "cloth.fit=2"], "wrong": "it <stops>", "size": 1.0, "own_error": own, "run": run, "parts": [part, part | {"declared": "for <show>", "as_it_should_be": True}]}]}
+            {"case": "fold", "overrides": ["time.end=1", "cloth.fit=2"], "asked_end": 0.5, "end": 3.0, "wrong": "it <stops>", "size": 1.0, "own_error": own, "run": run, "parts": [part, part | {"declared": "for <show>", "as_it_should_be": True}]}]}
         put_run(self.root)
         self.assertIn("these results do not say", self.made())
         (self.root / "ablation.json").write_text(json.dumps(told))
         text = self.made()
         self.assertIn("fold: 1 kept for a reason, 1 not needed here", text)
         self.assertIn("1 part is not needed, and kept for a reason that the case gives. 1 part is not needed, without a reason.", text)
-        for shown in ("gravity &lt;b&gt;", "it moves &lt;nothing&gt;", "for &lt;show&gt;", "coarser mesh: too many triangles", "With <code>--set time.end=1 --set cloth.fit=2</code>: "):
+        for shown in ("gravity &lt;b&gt;", "it moves &lt;nothing&gt;", "for &lt;show&gt;", "coarser mesh: too many triangles", "With <code>--set time.end=1 --set cloth.fit=2</code>: ", "Asked of the first 0.5 of 3 s: "):
             self.assertIn(shown, text)
         self.assertRegex(text, r'Its parts: <a href="#needs-of-fold">1 kept for a reason, 1 not needed here</a>')
         self.assertNotIn("was not asked", text)

@@ -51,9 +51,10 @@ constexpr const char* ablate_help =
     R"(Runs the case as it is, with half the step, and with triangles of half the size: by how much that moves its particles is its own error. Then once
 without each part that it names, and once with each that it does not name and that needs no numbers from its author: self-collision, strain limits, points between
 particles. A part is needed, or missing, if without it particles move by more than the scene's own error, the run comes to no end, an expectation of the case
-fails or has no meaning, the cloth crosses itself, or lies deeper in an object by more than that error. The table [ablation] of a case file may say why a part is there, or left out,
-all the same, and may name a coarser mesh of the case for a finer one that takes hours. Exit code 1 (and a mark !): a part is not needed, or one is missing, and the case does not say why; or it says so needlessly; or the scene itself
-comes to no end, or fails what it expects.)";
+fails or has no meaning, the cloth crosses itself, or lies deeper in an object by more than that error. The table [ablation] of a case file may say why a part
+is there, or left out, all the same; name a coarser mesh instead of a finer one that would take hours; and ask of the beginning of a long run only. Exit code 1
+(and a mark !): a part is not needed, or one is missing, and the case does not say why; or it says so needlessly; or the scene itself comes to no end, or fails what
+it expects.)";
 
 constexpr const char* project_help =
     R"(Prints how many points were moved, and of the last frame how much of the wrinkles is left: the standard deviation of the depths of points that were

@@ -18,7 +18,7 @@ DISC = """
 [cloth]
 shape = "disc"
 radius = 0.3
-rings = 8
+rings = 10
 density = 0.2
 [gravity]
 acceleration = [0, 0, -9]
@@ -68,21 +68,38 @@ class AblateTest(FileTest):
         coarser = self.told()[0]["own_error"]
         done = self.ablate(disc, "--set", 'ablation.coarser_mesh=""')
         finer = self.told()[0]["own_error"]
-        self.assertEqual((coarser["coarser_mesh"], finer["coarser_mesh"]), ("cloth.rings=4", ""))
+        self.assertEqual((coarser["coarser_mesh"], finer["coarser_mesh"]), (["cloth.rings=4"], []))
         self.assertRegex(done.stdout, r"finer mesh \d")
         self.assertEqual(coarser["time"], finer["time"])
-        # of an error e of second order halving shows 3 e / 4 and doubling 3 e, of one of first order e / 2 and e
+        # of an error e of second order halving shows 3 e / 4 and 2.5 times the size 3.5 e, of one of first order e / 2 and e
         self.assertGreater(coarser["mesh"], finer["mesh"])
         self.assertLess(coarser["mesh"], 6 * finer["mesh"])
+
+    def test_a_case_may_ask_of_its_beginning_only(self) -> None:
+        disc = self.write("disc.toml", DISC)
+        done = self.ablate(disc, "--set", "ablation.until=0.04")
+        self.assertTrue(done.stdout.startswith("disc (its first 0.04 s of 0.1): "), done.stdout)
+        begun = self.told()[0]
+        self.assertEqual((begun["asked_end"], begun["end"]), (0.04, 0.1))
+        self.ablate(disc, "--set", "time.end=0.04", "--set", "ablation.until=7")
+        short = self.told()[0]
+        self.assertEqual((short["asked_end"], short["end"]), (0.04, 0.04))
+        self.assertEqual([part["position_difference"] for part in begun["parts"]], [part["position_difference"] for part in short["parts"]])
 
     def test_what_cannot_be_is_refused(self) -> None:
         disc = self.write("disc.toml", DISC)
         self.refused(self.ablate(disc, "--set", 'ablation.wind="it blows"'),
                      "[ablation] names a part 'wind' that cannot be toggled; known: finer mesh, gravity")
-        self.refused(self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.rings=7"'),
-                     "294 triangles of 384; give one with sides at least 1.2 times as long")
+        self.refused(self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.rings=9"'),
+                     "disc.toml: [ablation] coarser_mesh: 486 triangles of 600; give one with sides at least 1.2 times as long")
         self.refused(self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.ring=4"'), "unknown key 'ring'")
         self.refused(self.ablate(disc, "--set", "ablation.coarser_mesh=4"), "must be a text")
+        self.refused(self.ablate(disc, "--set", "ablation.until=0"), "must be > 0 s")
+        self.refused(self.ablate(disc, "--set", 'ablation.coarser_mesh=["cloth.rings=4", "cloth.radius=0.2"]'), "give a mesh of the same surface")
+        for reaching in ("cloth.mesh=/etc/passwd", "cloth.rings", "cloth.rings="):
+            self.refused(self.ablate(disc, "--set", f'ablation.coarser_mesh="{reaching}"'), "is not table.key=number")
+        (self.path / "out" / "ablation.json").mkdir(parents=True)
+        self.refused(self.ablate(disc), "ablation.json")
         self.refused(self.ablate(disc, "--set", 'ablation.finer mesh="a trial"'), "does without a finer mesh, and names a coarser one")
 
     def test_a_run_that_is_killed_leaves_the_cases_that_it_was_through_with(self) -> None:
@@ -92,10 +109,12 @@ class AblateTest(FileTest):
         running = subprocess.Popen([str(PROGRAM), "ablate", soon, late, "--threads", "2", "--out", str(found.parent)],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         end = time.monotonic() + CLOCK
-        while not found.is_file() and running.poll() is None and time.monotonic() < end:
-            time.sleep(0.05)
-        running.kill()
-        running.wait()
+        try:
+            while not found.is_file() and running.poll() is None and time.monotonic() < end:
+                time.sleep(0.05)
+        finally:
+            running.kill()
+            running.wait()
         self.assertEqual([row["case"] for row in self.told()], ["soon"])
 
 

@@ -131,21 +131,26 @@ std::string described(const SelfCollision& self) {
          (self.at_start.empty() ? "" : ", which starts crossing itself: " + triangles_named(self.at_start));
 }
 
+/// "1 hinge", "5 hinges".
+std::string counted(size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 }  // namespace
 
 std::vector<std::string> built_parts(const Scene& scene, const System& system) {
-  std::vector<std::string> parts = {std::to_string(scene.mesh.particles()) + " particles, " +
-                                    std::to_string(scene.mesh.triangles.size()) + " triangles"};
+  std::vector<std::string> parts = {counted(size_t(scene.mesh.particles()), "particle") + ", " +
+                                    counted(scene.mesh.triangles.size(), "triangle")};
   for (const Force& force : system.forces) {
     if (std::holds_alternative<Gravity>(force)) parts.push_back("gravity");
     if (const auto* springs = std::get_if<StretchSprings>(&force))
-      parts.push_back(std::to_string(springs->springs.size()) + " springs" +
+      parts.push_back(counted(springs->springs.size(), "spring") +
                       (scene.stretch->damping > 0 ? ", damped" : ""));
     if (const auto* bending = std::get_if<Bending>(&force))
-      parts.push_back(std::to_string(bending->hinges.size()) + " hinges, " + described(bending->material));
+      parts.push_back(counted(bending->hinges.size(), "hinge") + ", " + described(bending->material));
   }
   if (!system.led.empty())
-    parts.push_back(std::to_string(system.led.size()) + " particles with prescribed motion");
+    parts.push_back(counted(system.led.size(), "particle") + " with prescribed motion");
   for (const SceneObject& part : scene.objects) parts.push_back(described(part));
   for (const StickyPatch& patch : scene.sticky) parts.push_back(described(patch));
   for (const Filter& filter : system.filters)

@@ -2,6 +2,7 @@
 // from its author, and says which it needs.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -37,6 +38,12 @@ struct Ablation {
   std::vector<PartJudged> judged;
 };
 
+/// How much of the case's run is asked [s].
+double asked_end(const Case& shown) {
+  const double whole = shown.scene.schedule.end;
+  return shown.ablated_until > 0 ? std::min(whole, shown.ablated_until) : whole;
+}
+
 Ablation planned(const std::string& file, const Options& options, const LevelSetMakers& makers) {
   Ablation plan{case_of_file(file, options.overrides, makers), {}, {}, {}, {}, {}, {}, 0, {}, {}};
   const Case& shown = plan.shown;
@@ -48,9 +55,15 @@ Ablation planned(const std::string& file, const Options& options, const LevelSet
   if (!plan.other_mesh.stopped.empty())
     throw InputError(file + ": [ablation] does without a finer mesh, and names a coarser one");
   std::vector<std::string> overrides = options.overrides;
-  overrides.push_back(shown.coarser_mesh);
+  overrides.insert(overrides.end(), shown.coarser_mesh.begin(), shown.coarser_mesh.end());
   plan.coarser = case_of_file(file, overrides, makers);
-  coarseness(shown.scene.mesh, plan.coarser->scene.mesh);
+  try {
+    coarseness(shown.scene.mesh, plan.coarser->scene.mesh);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{}: [ablation] coarser_mesh: {}, or --set 'ablation.coarser_mesh=\"\"' for a finer one",
+                    file, error.what()));
+  }
   return plan;
 }
 
@@ -65,8 +78,10 @@ Job job_of(Ablation& one, double length, const Case& shown, std::function<Scene(
           [&one, &shown, change = std::move(change), &into, after](const Progress&) {
             const int particles = shown.scene.mesh.particles();
             try {
-              into = observed(with_scene(shown, change(shown.scene)), particles);
-            } catch (const InputError& error) {
+              Scene scene = change(shown.scene);
+              scene.schedule.end = asked_end(shown);
+              into = observed(with_scene(shown, std::move(scene)), particles);
+            } catch (const std::exception& error) {
               into.stopped = error.what();
             }
             after(one);
@@ -106,6 +121,12 @@ OwnError own_error(const Ablation& one, const PerParticle& mass) {
   return own;
 }
 
+/// Positions of all frames of all runs are half a gigabyte of a large case.
+void forget_positions(Ablation& one) {
+  for (RunObserved* run : {&one.scene, &one.half_steps, &one.other_mesh}) run->x = {};
+  for (PartJudged& part : one.judged) part.run.x = {};
+}
+
 void judge(Ablation& one) {
   const PerParticle mass = lumped_masses(one.shown.scene.mesh, one.shown.scene.density);
   one.own = own_error(one, mass);
@@ -113,6 +134,7 @@ void judge(Ablation& one) {
     one.judged.push_back(judged(one.parts[k], one.scene, std::move(one.toggled[k]), one.own, mass));
     one.judged.back().declared = declared_for(one.shown, one.parts[k].name);
   }
+  forget_positions(one);
 }
 
 /// Why nothing can be said of the scene's parts: its own run is not what its author wants; "" if it is.
@@ -151,6 +173,8 @@ nlohmann::json told(const Ablation& one, const std::vector<std::string>& overrid
                      {"run", told(part.run)}});
   return {{"case", one.shown.scene.name},
           {"overrides", overrides},
+          {"asked_end", asked_end(one.shown)},
+          {"end", one.shown.scene.schedule.end},
           {"wrong", wrong_by_itself(one)},
           {"size", size_of(one.shown.scene.mesh.rest)},
           {"own_error",
@@ -204,9 +228,14 @@ std::string error_text(double error, const std::string& why_unknown) {
 }
 
 void print(const Ablation& one) {
-  fmt::print("{}: {:.2f} s; own error {:.2g} m (half the step {}; {} mesh {})\n", one.shown.scene.name,
+  const double whole = one.shown.scene.schedule.end, asked = asked_end(one.shown);
+  const std::string first = asked < whole ? fmt::format(" (its first {:g} s of {:g})", asked, whole) : "";
+  fmt::print("{}{}: {:.2f} s; own error {:.2g} m (half the step {}; {} {})\n", one.shown.scene.name, first,
+
              one.scene.seconds, one.own.value(), error_text(one.own.time, one.half_steps.stopped),
-             one.coarser ? "coarser" : "finer", error_text(one.own.mesh, one.other_mesh.stopped));
+             one.coarser ? fmt::format("from a coarser mesh, {},", fmt::join(one.shown.coarser_mesh, ", "))
+                         : "finer mesh",
+             error_text(one.own.mesh, one.other_mesh.stopped));
   if (const std::string wrong = wrong_by_itself(one); !wrong.empty()) fmt::print("! {}\n", wrong);
   for (const PartJudged& part : one.judged) {
     fmt::print("{} {:<16} {:<30} {:5.0f} % of the time; {}\n", part.is_as_it_should_be() ? ' ' : '!',
@@ -238,13 +267,19 @@ void write(const std::vector<Ablation>& all, const Options& options) {
 
 int ablate(const Options& options) {
   std::vector<Ablation> all = asked_of(options);
-  if (!options.out.empty()) make_folder(options.out);
+  if (!options.out.empty()) {
+    make_folder(options.out);
+    refuse_unless_replaceable(options.out + "/ablation.json");
+  }
   std::mutex one_at_a_time;
   const AfterRun after = [&](Ablation& one) {
     const std::lock_guard lock(one_at_a_time);
     if (--one.runs_left > 0) return;
     judge(one);
-    write(all, options);
+    try {
+      write(all, options);
+    } catch (const InputError&) {  // it is tried again at the end, and then told
+    }
   };
   RunRecord run;
   run_jobs(jobs_of(all, after), "scenes with and without their parts", options.running, run);
@@ -256,7 +291,7 @@ int ablate(const Options& options) {
   }
   if (options.json) fmt::print("{}\n", json_text(told(all, options)));
   for (const Ablation& one : all)
-    if (!options.json) print(one);
+    if (!options.json && one.runs_left == 0) print(one);
   return is_minimal ? all_hold : some_fail;
 }
 

@@ -41,6 +41,31 @@ Declared read_declared(const KeyTable& ablation, const std::string& part) {
   return declared;
 }
 
+/// Overrides that change numbers: no mesh is named by them, which a case from anyone must not reach so.
+std::vector<std::string> read_coarser_mesh(const KeyTable& ablation) {
+  const char* key = "coarser_mesh";
+  if (!ablation.has(key)) return {};
+  const std::vector<std::string> overrides =
+      ablation.is_list(key) ? ablation.texts(key) : std::vector<std::string>{ablation.text(key)};
+  if (overrides == std::vector<std::string>{""}) return {};
+  for (const std::string& one : overrides) {
+    const size_t value = one.find('=') + 1;
+    if (value == 0 || value == one.size() || one.find_first_not_of("0123456789.", value) != std::string::npos)
+      throw InputError(ablation.where(key) + ": '" + one + "' is not table.key=number");
+  }
+  return overrides;
+}
+
+void read_ablation(const KeyTable& ablation, Case& shown) {
+  shown.coarser_mesh = read_coarser_mesh(ablation);
+  if (ablation.has("until")) {
+    shown.ablated_until = ablation.number("until");
+    if (!(shown.ablated_until > 0)) throw InputError(ablation.where("until") + ": 'until' must be > 0 s");
+  }
+  for (const auto& [key, value] : ablation.entries)
+    if (key != "coarser_mesh" && key != "until") shown.declared.push_back(read_declared(ablation, key));
+}
+
 bool is_driven(const Scene& scene) {
   for (const PrescribedParticle& p : scene.led)
     if (p.motion.velocity.norm() > 0 || p.motion.amplitude.norm() > 0 || p.motion.angular_velocity.norm() > 0)
@@ -67,11 +92,7 @@ Case case_of_file(const std::string& path, const std::vector<std::string>& overr
   if (const auto expect = keys->table("expect"))
     for (const auto& [key, value] : expect->entries)
       result.expectations.push_back(read_entry(*expect, key, result.scene));
-  if (const auto ablation = keys->table("ablation")) {
-    if (ablation->has("coarser_mesh")) result.coarser_mesh = ablation->text("coarser_mesh");
-    for (const auto& [key, value] : ablation->entries)
-      if (key != "coarser_mesh") result.declared.push_back(read_declared(*ablation, key));
-  }
+  if (const auto ablation = keys->table("ablation")) read_ablation(*ablation, result);
   return result;
 }
 

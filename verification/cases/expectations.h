@@ -28,7 +28,8 @@ struct Case {
   Scene scene;
   std::vector<Expectation> expectations;
   std::vector<Declared> declared = {};
-  std::string coarser_mesh = "";  // of [ablation]: the override "a.b=c" that makes the mesh coarser, or ""
+  std::vector<std::string> coarser_mesh = {};  // of [ablation]: overrides "a.b=number" that make it coarser
+  double ablated_until = 0;  // of [ablation]: how much of the run is asked [s]; 0: all of it
 };
 
 /// Reads the case file's scene and its tables [expect] and [ablation]. Throws InputError "file:line: ..." for

@@ -158,8 +158,8 @@ TEST_CASE("a coarser mesh is compared where it lies on the finer one") {
   RunObserved run, coarser;
   run.x = {fine.rest, bulged(fine.rest, 0.1)};
   coarser.x = {coarse.rest, bulged(coarse.rest, 0.1)};
-  // the same motion: what is left is that points of facets, 2 % inside of the sphere, are moved linearly
-  CHECK(error_from_coarser(run, fine, coarser, coarse) < 0.1 * 0.03);
+  // the same motion: what is left, e^2 / 8 of x^2 for sides e = 0.1, is that facets are moved linearly
+  CHECK(error_from_coarser(run, fine, coarser, coarse) < 0.1 * 0.1 * 0.1 / 8 / (r - 1) * 2);
   // another one: by 0.02 x^2, whose square has the mean 1/5 on the sphere
   coarser.x[1] = bulged(coarse.rest, 0.12);
   CHECK(error_from_coarser(run, fine, coarser, coarse) ==
@@ -177,7 +177,7 @@ TEST_CASE("a case names its coarser mesh beside its reasons") {
   const std::string path = "coarser_mesh_trial.toml";
   std::ofstream(path) << text << "[ablation]\ncoarser_mesh = \"cloth.rows=2\"\n\"gravity\" = \"a reason\"\n";
   const Case shown = case_of_file(path);
-  CHECK(shown.coarser_mesh == "cloth.rows=2");
+  CHECK(shown.coarser_mesh == std::vector<std::string>{"cloth.rows=2"});
   REQUIRE(shown.declared.size() == 1);
   CHECK(shown.declared[0].part == "gravity");
   std::filesystem::remove(path);
