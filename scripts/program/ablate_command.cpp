@@ -256,7 +256,7 @@ std::vector<Ablation> asked_of(const Options& options) {
   return all;
 }
 
-/// Writes what is found so far: a night's run that is cut off leaves the cases that it was through with.
+/// Writes what is found so far: a run of hours that is cut off leaves the cases that it was through with.
 void write(const std::vector<Ablation>& all, const Options& options) {
   if (options.out.empty()) return;
   const std::string path = options.out + "/ablation.json";
