@@ -231,7 +231,6 @@ void print(const Ablation& one) {
   const double whole = one.shown.scene.schedule.end, asked = asked_end(one.shown);
   const std::string first = asked < whole ? fmt::format(" (its first {:g} s of {:g})", asked, whole) : "";
   fmt::print("{}{}: {:.2f} s; own error {:.2g} m (half the step {}; {} {})\n", one.shown.scene.name, first,
-
              one.scene.seconds, one.own.value(), error_text(one.own.time, one.half_steps.stopped),
              one.coarser ? fmt::format("from a coarser mesh, {},", fmt::join(one.shown.coarser_mesh, ", "))
                          : "finer mesh",
