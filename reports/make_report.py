@@ -41,6 +41,7 @@ from study_plots import plot_study_figure  # noqa: E402
 from trust import load_coverage, load_variants, tolerances_of, unended_run  # noqa: E402
 from whole_file import write_whole  # noqa: E402
 
+SHIPPED_CASES = Path(__file__).resolve().parent.parent / "cases"
 VIEWS = 4_000_000                   # characters that the data of all views of a page may take, shared equally
 
 Job = tuple[Callable[..., Any], tuple[Any, ...]]
@@ -93,15 +94,15 @@ def compare_runs(first: Path, other: Path, out: Path | None) -> Path:
     return out
 
 
-def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = False) -> Path:
-    """Reads the folder, draws, and writes the page. Throws FileNotFoundError if the folder holds no
-    results."""
+def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = False, shipped: Path = SHIPPED_CASES) -> Path:
+    """Reads the folder, draws, and writes the page; what is recorded of the cases in the folder `shipped` stands in the
+    report of a run of the verification. Throws FileNotFoundError if the folder holds no results."""
     run, bench = read_folder(folder)
     figures.mkdir(parents=True, exist_ok=True)
     out.parent.mkdir(parents=True, exist_ok=True)
     page = draw(run, bench, figures, for_papers)
     page.coverage = load_coverage(folder / "coverage.json")
-    page.needs = load_needs(folder / "ablation.json")
+    page.needs = load_needs(folder / "ablation.json", None if page.alone else shipped)
     page.variants = load_variants(folder / "variants.json")
     page.mutation = load_mutation(folder / "mutation.json")
     page.unended = unended_run(folder / "verdicts.json")

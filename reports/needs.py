@@ -8,6 +8,8 @@ from math import nan
 from pathlib import Path
 from typing import Any
 
+from case_digest import case_digest, case_files
+
 NEEDS = ("needed", "kept for a reason", "left out for a reason", "not needed here", "missing here", "not missed here")
 REASONED = {"not needed here": "kept for a reason", "missing here": "left out for a reason"}   # if the case gives one
 MARKS = {"needed": "\u25cf", "kept for a reason": "\u25d0", "left out for a reason": "\u25cb", "not missed here": "\u00b7"}
@@ -69,6 +71,10 @@ class CaseNeeds:
     crossings: float
     deepest: float             # m
     parts: list[PartNeed]
+    commit: str                # of the program that was asked
+    uncommitted: bool          # that program had changes that were not committed
+    recorded: bool             # kept with the cases, not found beside the run
+    changed: bool              # the shipped case is another scene by now; only of what is recorded
 
     def tally(self) -> str:
         """How many parts are needed, in words."""
@@ -79,9 +85,15 @@ class CaseNeeds:
 @dataclass
 class Needs:
     """What was found for all cases that were asked for."""
-    commit: str
-    tree: str                  # "clean", or with changes that were not committed
     cases: list[CaseNeeds]
+
+    def commits(self, recorded: bool) -> list[str]:
+        """Of the programs that were asked, recorded cases or those beside the run, each once."""
+        return list(dict.fromkeys(case.commit for case in self.cases if case.recorded == recorded))
+
+    def of_origin(self, recorded: bool) -> list[CaseNeeds]:
+        """The cases that are recorded, or those asked beside the run."""
+        return [case for case in self.cases if case.recorded == recorded]
 
     def kinds(self) -> list[str]:
         """Of parts that any case has or lacks, those of KINDS first."""
@@ -106,21 +118,31 @@ class Needs:
         return next((case for case in self.cases if case.name == name), None)
 
 
-def load_needs(file: Path) -> Needs | None:
-    """The outcomes of `foldproof ablate --out DIR`; None if there are none. Throws KeyError for another file."""
-    if not file.is_file():
-        return None
-    told = json.loads(file.read_text(encoding="utf-8"))
-    return Needs(told["program"]["commit"], told["program"].get("tree", ""), [_case(row) for row in told["cases"]])
+def load_needs(file: Path, cases: Path | None = None) -> Needs | None:
+    """The outcomes of `foldproof ablate --out DIR`, and of cases that it does not speak of those that are recorded in
+    the folder `cases`; None if there are none. Throws KeyError for another file."""
+    here = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {"cases": []}
+    found = [_case(row, here["program"], recorded=False, changed=False) for row in here["cases"]]
+    known = {case.name for case in found}
+    if cases and (cases / "needs.json").is_file():
+        rows = json.loads((cases / "needs.json").read_text(encoding="utf-8"))["cases"]
+        found += [_case(row, row["program"], recorded=True, changed=_has_changed(row, cases)) for row in rows if row["case"] not in known]
+    return Needs(found) if found else None
 
 
-def _case(row: dict[str, Any]) -> CaseNeeds:
+def _has_changed(row: dict[str, Any], cases: Path) -> bool:
+    files = case_files(cases)
+    return row["case"] not in files or case_digest(files[row["case"]], lambda name: (cases / name).read_bytes()) != row["digest"]
+
+
+def _case(row: dict[str, Any], program: dict[str, Any], *, recorded: bool, changed: bool) -> CaseNeeds:
     own, scene = row["own_error"], row["run"]
     part_of_time = f"first {row['asked_end']:g} of {row['end']:g} s" if row.get("asked_end") != row.get("end") else ""
     mesh = f"from a coarser mesh, {', '.join(own['coarser_mesh'])}," if own.get("coarser_mesh") else "finer mesh"
     unknown = "; ".join(f"{kind}: {why}" for kind, why in (("half the step", own["without_time"]), (mesh.removeprefix("from a ").split(",")[0], own["without_mesh"])) if why)
     return CaseNeeds(row["case"], row.get("overrides", []), part_of_time, row["wrong"], mesh, _number(own["value"]), _number(own["time"]), _number(own["mesh"]), unknown, scene["seconds"],
-                     _number(scene["crossings"]), _number(scene["deepest"]), [_part(part, scene) for part in row["parts"]])
+                     _number(scene["crossings"]), _number(scene["deepest"]), [_part(part, scene) for part in row["parts"]],
+                     program["commit"], program.get("tree") == "dirty", recorded, changed)
 
 
 def _part(part: dict[str, Any], scene: dict[str, Any]) -> PartNeed:

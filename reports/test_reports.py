@@ -270,32 +270,6 @@ class PartsMissing(unittest.TestCase):
         self.assertNotIn("abcdef", provenance)          # of one simulation, not of both
         Seen(text)
 
-    def test_the_parts_that_scenes_need_are_shown_where_they_were_looked_for(self) -> None:
-        run = {"seconds": 2.0, "steps": 40, "elastic_evaluations": 80, "cg_iterations": 0, "object_queries": 0, "strain_sweeps": 0,
-               "crossing_queries": 0, "deepest": 0.0, "crossings": 0.0, "stopped": "", "failed": []}
-        part = {"name": "gravity <b>", "present": True, "need": "not needed here", "because": "it moves <nothing>", "declared": "", "as_it_should_be": False,
-                "position_difference": 3e-5, "energy_difference": None, "run": run | {"seconds": 1.0, "steps": 10}}
-        own = {"time": 1e-4, "mesh": None, "floor": 1e-6, "value": 1e-4, "without_time": "", "without_mesh": "too many triangles", "coarser_mesh": ["cloth.rings=2"]}
-        told = {"schema": 1, "program": {"commit": "abcdef0123456789"}, "cases": [
-            {"case": "fold", "overrides": ["time.end=1", "cloth.fit=2"], "asked_end": 0.5, "end": 3.0, "wrong": "it <stops>", "size": 1.0, "own_error": own, "run": run, "parts": [part, part | {"declared": "for <show>", "as_it_should_be": True}]}]}
-        put_run(self.root)
-        self.assertIn("these results do not say", self.made())
-        (self.root / "ablation.json").write_text(json.dumps(told))
-        text = self.made()
-        self.assertIn("fold: 1 kept for a reason, 1 not needed here", text)
-        self.assertIn("1 part is not needed, and kept for a reason that the case gives. 1 part is not needed, without a reason.", text)
-        for shown in ("gravity &lt;b&gt;", "it moves &lt;nothing&gt;", "for &lt;show&gt;", "coarser mesh: too many triangles", "With <code>--set time.end=1 --set cloth.fit=2</code>: ", "Asked of the first 0.5 of 3 s: "):
-            self.assertIn(shown, text)
-        self.assertRegex(text, r'Its parts: <a href="#needs-of-fold">1 kept for a reason, 1 not needed here</a>')
-        self.assertNotIn("was not asked", text)
-        section = re.search(r'<section id="needs">.*?</section>', text, re.DOTALL)[0]
-        self.assertEqual(section.count("verdict fails"), 2)
-        self.assertEqual(re.findall(r'aria-label="([a-z ]+)">(.)</span>', section), [("not needed here", "\u2715"), ("kept for a reason", "\u25d0")])
-        self.assertIn("it &lt;stops&gt;", section)
-        told["cases"][0]["case"] = "bag"
-        (self.root / "ablation.json").write_text(json.dumps(told))
-        self.assertIn("was not asked", self.made())
-
     def test_tolerances_begin_with_the_tightest(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             put_run(Path(folder))
@@ -384,8 +358,8 @@ class PartsMissing(unittest.TestCase):
 
 
 def load_tests(loader: unittest.TestLoader, tests: unittest.TestSuite, _: str | None) -> unittest.TestSuite:
-    """This file's tests, and those of the page, of two runs compared, of the pieces, and of what other programs get."""
-    tests.addTests(loader.loadTestsFromNames(["test_page", "test_compare", "test_pieces", "test_results"]))
+    """This file's tests, and those of the page, of two runs compared, of what scenes need, of the pieces, and of what other programs get."""
+    tests.addTests(loader.loadTestsFromNames(["test_page", "test_compare", "test_needs", "test_pieces", "test_results"]))
     return tests
 
 
