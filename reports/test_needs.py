@@ -126,3 +126,19 @@ class Digests(unittest.TestCase):
         for old, new in ((b"at_least = 1", b"at_least = 2"), (b"it_stands", b"it_falls"), (b"[cloth]", b"[cloth]\nfit = 1.5")):
             self.assertNotEqual(self.digest(CASE.replace(old, new)), same)
         self.assertNotEqual(self.digest(CASE, b"v 0 0 1"), same)
+
+
+class Record(unittest.TestCase):
+    """What is recorded of the shipped cases."""
+
+    def test_each_shipped_case_was_asked_as_it_is_and_has_what_it_needs_and_nothing_else(self) -> None:
+        found = load_needs(Path("none"), SHIPPED_CASES)
+        self.assertEqual({case.name for case in found.cases}, set(case_files(SHIPPED_CASES)))
+        for case in found.cases:
+            ask = f"build/foldproof ablate cases/{case_files(SHIPPED_CASES)[case.name]} --out DIR; scripts/record_needs DIR/ablation.json"
+            with self.subTest(case=case.name):
+                self.assertFalse(case.changed, f"the case is another scene than the one that was asked; {ask}")
+                self.assertEqual(case.wrong, "")
+                self.assertEqual([typed for typed in case.overrides if not typed.startswith("ablation.")], [])
+                self.assertEqual([part.name for part in case.parts if not part.fits], [], ask)
+                self.assertTrue(case.parts)
