@@ -13,7 +13,8 @@ PROSE = ("title", "about", "ablation")  # of a case: what it says of itself, and
 
 def case_digest(name: str, read: Callable[[str], bytes]) -> str:
     """16 hexadecimal digits of the case `name` ("balloon.toml", "hard/twist.toml"), its meshes with it. `read` gives
-    the bytes of a file of the folder cases/, and raises FileNotFoundError if there is none."""
+    the bytes of a file of the folder cases/, and raises FileNotFoundError if there is none. Throws ValueError for a case
+    with a body of `frames`, whose files it does not name."""
     said = tomllib.loads(read(name).decode("utf-8"))
     scene = {key: value for key, value in said.items() if key not in PROSE}
     for expected in scene.get("expect", {}).values():
@@ -26,6 +27,8 @@ def case_digest(name: str, read: Callable[[str], bytes]) -> str:
 def mesh_files(value: Any) -> list[str]:
     """All files of meshes that a case names, in its order."""
     if isinstance(value, dict):
+        if "frames" in value:
+            raise ValueError(f"the files of the folder {value['frames']} cannot be told from the case: it has no digest")
         return [file for inner in value.values() for file in mesh_files(inner)]
     if isinstance(value, list):
         return [file for inner in value for file in mesh_files(inner)]

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from quantities import ratio_of
-from results import CaseEntry, Claim, Finding, Run, Study, Unreadable, load_case, load_run
+from results import CaseEntry, Claim, Finding, Run, Study, load_case, load_run
+from unreadable import Unreadable
 
 COUNTED = ("operator applications", "evaluations", "elastic evaluations")   # columns of studies that count work
 PROVENANCE = (("subject", "subject"), ("subject version", "subject_version"), ("program", "program"), ("version", "version"),

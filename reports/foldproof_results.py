@@ -16,8 +16,8 @@ from typing import Any, TypeVar
 import numpy as np
 
 from hdf5_values import Column
-from results import (CaseEntry, Claim, Finding, OnAxes, Study, StudyMap, Unreadable, load_case,
-                     load_run)
+from results import CaseEntry, Claim, Finding, OnAxes, Study, StudyMap, load_case, load_run
+from unreadable import Unreadable
 
 __all__ = ["Results", "Trajectory", "Unreadable", "columns_of_study", "evidence_of", "load_results", "load_trajectory"]
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from results import Fault, FaultCheck
+from unreadable import reading
 
 
 @dataclass
@@ -68,8 +69,9 @@ class Mutation:
 
 
 def load_mutation(path: Path) -> Mutation | None:
-    """Reads mutation.json; None if it is not there."""
+    """Reads mutation.json; None if it is not there. Throws Unreadable for another file."""
     if not path.is_file():
         return None
-    said = json.loads(path.read_text(encoding="utf-8"))
-    return Mutation(said["seed"], said["files"], [row for row in said["mutants"] if row["outcome"] == "SURVIVED"])
+    with reading(path):
+        said = json.loads(path.read_text(encoding="utf-8"))
+        return Mutation(said["seed"], said["files"], [row for row in said["mutants"] if row["outcome"] == "SURVIVED"])

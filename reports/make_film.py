@@ -27,7 +27,8 @@ from cloth_picture import picture_of  # noqa: E402
 from look import colour_stops  # noqa: E402
 from plot_style import font_path, with_unit  # noqa: E402
 from quantities import number_text  # noqa: E402
-from results import Case, Unreadable, load_case, told  # noqa: E402
+from results import Case, load_case  # noqa: E402
+from unreadable import Unreadable, told  # noqa: E402
 from view_data import field_ticks, frames_to_turn  # noqa: E402
 
 FIELDS = ("strain", "angle", "phi", "speed")

@@ -16,6 +16,7 @@ import sys
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -36,9 +37,10 @@ from needs import load_needs  # noqa: E402
 from page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison  # noqa: E402
 from plot_style import use_style  # noqa: E402
 from printed import print_page  # noqa: E402
-from results import Case, CaseEntry, Run, Study, Unreadable, case_entry_of_file, load_case, load_run, told  # noqa: E402
+from results import Case, CaseEntry, Run, Study, case_entry_of_file, load_case, load_run  # noqa: E402
 from study_plots import plot_study_figure  # noqa: E402
 from trust import load_coverage, load_variants, tolerances_of, unended_run  # noqa: E402
+from unreadable import Unreadable, told  # noqa: E402
 from whole_file import write_whole  # noqa: E402
 
 SHIPPED_CASES = Path(__file__).resolve().parent.parent / "cases"
@@ -96,16 +98,15 @@ def compare_runs(first: Path, other: Path, out: Path | None) -> Path:
 
 def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = False, shipped: Path = SHIPPED_CASES) -> Path:
     """Reads the folder, draws, and writes the page; what is recorded of the cases in the folder `shipped` stands in the
-    report of a run of the verification. Throws FileNotFoundError if the folder holds no results."""
+    report of a run of the verification. Throws FileNotFoundError if the folder holds no results, Unreadable if a file
+    in it is damaged."""
     run, bench = read_folder(folder)
+    beside = {"coverage": load_coverage(folder / "coverage.json"), "variants": load_variants(folder / "variants.json"),
+              "mutation": load_mutation(folder / "mutation.json"), "unended": unended_run(folder / "verdicts.json"),
+              "needs": load_needs(folder / "ablation.json", shipped if run.path else None)}
     figures.mkdir(parents=True, exist_ok=True)
     out.parent.mkdir(parents=True, exist_ok=True)
-    page = draw(run, bench, figures, for_papers)
-    page.coverage = load_coverage(folder / "coverage.json")
-    page.needs = load_needs(folder / "ablation.json", None if page.alone else shipped)
-    page.variants = load_variants(folder / "variants.json")
-    page.mutation = load_mutation(folder / "mutation.json")
-    page.unended = unended_run(folder / "verdicts.json")
+    page = replace(draw(run, bench, figures, for_papers), **beside)
     write_whole(out, render(page).encode("utf-8"))
     return out
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from case_digest import case_digest, case_files
+from unreadable import reading
 
 NEEDS = ("needed", "kept for a reason", "left out for a reason", "not needed here", "missing here", "not missed here")
 REASONED = {"not needed here": "kept for a reason", "missing here": "left out for a reason"}   # if the case gives one
@@ -120,13 +121,17 @@ class Needs:
 
 def load_needs(file: Path, cases: Path | None = None) -> Needs | None:
     """The outcomes of `foldproof ablate --out DIR`, and of cases that it does not speak of those that are recorded in
-    the folder `cases`; None if there are none. Throws KeyError for another file."""
-    here = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {"cases": []}
-    found = [_case(row, here["program"], recorded=False, changed=False) for row in here["cases"]]
-    known = {case.name for case in found}
-    if cases and (cases / "needs.json").is_file():
-        rows = json.loads((cases / "needs.json").read_text(encoding="utf-8"))["cases"]
-        found += [_case(row, row["program"], recorded=True, changed=_has_changed(row, cases)) for row in rows if row["case"] not in known]
+    the folder `cases`; None if there are none. Throws Unreadable for other files."""
+    found: list[CaseNeeds] = []
+    if file.is_file():
+        with reading(file):
+            here = json.loads(file.read_text(encoding="utf-8"))
+            found = [_case(row, here["program"], recorded=False, changed=False) for row in here["cases"]]
+    known, kept = {case.name for case in found}, cases / "needs.json" if cases else None
+    if cases and kept and kept.is_file():
+        with reading(kept):
+            rows = json.loads(kept.read_text(encoding="utf-8"))["cases"]
+            found += [_case(row, row["program"], recorded=True, changed=_has_changed(row, cases)) for row in rows if row["case"] not in known]
     return Needs(found) if found else None
 
 
@@ -138,8 +143,8 @@ def _has_changed(row: dict[str, Any], cases: Path) -> bool:
 def _case(row: dict[str, Any], program: dict[str, Any], *, recorded: bool, changed: bool) -> CaseNeeds:
     own, scene = row["own_error"], row["run"]
     part_of_time = f"first {row['asked_end']:g} of {row['end']:g} s" if row.get("asked_end") != row.get("end") else ""
-    mesh = f"from a coarser mesh, {', '.join(own['coarser_mesh'])}," if own.get("coarser_mesh") else "finer mesh"
-    unknown = "; ".join(f"{kind}: {why}" for kind, why in (("half the step", own["without_time"]), (mesh.removeprefix("from a ").split(",")[0], own["without_mesh"])) if why)
+    kind, mesh = ("coarser mesh", f"from a coarser mesh, {', '.join(own['coarser_mesh'])},") if own.get("coarser_mesh") else ("finer mesh", "finer mesh")
+    unknown = "; ".join(f"{other}: {why}" for other, why in (("half the step", own["without_time"]), (kind, own["without_mesh"])) if why)
     return CaseNeeds(row["case"], row.get("overrides", []), part_of_time, row["wrong"], mesh, _number(own["value"]), _number(own["time"]), _number(own["mesh"]), unknown, scene["seconds"],
                      _number(scene["crossings"]), _number(scene["deepest"]), [_part(part, scene) for part in row["parts"]],
                      program["commit"], program.get("tree") == "dirty", recorded, changed)

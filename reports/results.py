@@ -20,6 +20,7 @@ import numpy as np
 
 from damage import why_unreadable
 from hdf5_values import Column, attributes_of, columns_of, in_order, number_of, text_of, texts_of
+from unreadable import Unreadable, reading
 
 
 @dataclass
@@ -233,34 +234,19 @@ class Run:
     path: Path | None = None           # run.h5; None where a run is made up of case files alone
 
 
-class Unreadable(Exception):
-    """A file that is not there, not what it is taken for, or damaged."""
-
-
-def told(error: BaseException) -> str:
-    """An error in one line, with its kind where it says little itself."""
-    return " ".join(f"{type(error).__name__}: {error}".split())
-
-
 @contextmanager
-def reading(path: Path) -> Iterator[None]:
-    """Whatever goes wrong inside is told as that the file cannot be read: a damaged one may hold anything."""
-    try:
+def reading_hdf5(path: Path) -> Iterator[None]:
+    """As `reading`, of an HDF5 file, which is looked through for damage first."""
+    with reading(path):
         if why := why_unreadable(path):
             raise Unreadable(f"{path}: {why}")
         yield
-    except Unreadable:
-        raise
-    except FileNotFoundError as error:
-        raise Unreadable(f"{path}: there is no such file") from error
-    except Exception as error:
-        raise Unreadable(f"{path}: {told(error)}") from error
 
 
 def load_run(path: str | Path) -> Run:
     """Reads run.h5 or bench.h5. Throws Unreadable naming the file if it cannot be opened, or is damaged."""
     path = Path(path)
-    with reading(path), h5py.File(path, "r") as file:
+    with reading_hdf5(path), h5py.File(path, "r") as file:
         return Run(path=path, provenance=attributes_of(file),
                    findings=[_finding(name, group) for name, group in in_order(file, "findings")],
                    studies=[_study(name, group) for name, group in in_order(file, "studies")],
@@ -272,7 +258,7 @@ def load_run(path: str | Path) -> Run:
 def load_case(path: str | Path) -> Case:
     """Reads one simulation but its frames. Throws Unreadable naming the file if it is not one, or is damaged."""
     path = Path(path)
-    with reading(path), h5py.File(path, "r") as file:
+    with reading_hdf5(path), h5py.File(path, "r") as file:
         for needed in ("mesh/triangles", "frames/time", "frames/positions"):
             if needed not in file:
                 raise Unreadable(f"{path}: no simulation of foldproof: it has no /{needed}")
@@ -296,7 +282,7 @@ def _object(group: h5py.Group) -> CaseObject:
 def case_entry_of_file(path: Path) -> CaseEntry | None:
     """The entry of a case file that no run names; None if the file holds no frames."""
     try:
-        with reading(path), h5py.File(path, "r") as file:
+        with reading_hdf5(path), h5py.File(path, "r") as file:
             if "frames" not in file:
                 return None
             said = attributes_of(file)
@@ -378,8 +364,9 @@ def _with_outcomes(faults: list[Fault], file: Path) -> list[Fault]:
     """Outcomes of `scripts/faults --out DIR/faults.json`, if that was run for this folder."""
     if not file.is_file():
         return faults
-    rows = {row["name"]: row for row in json.loads(file.read_text(encoding="utf-8"))["faults"]}
-    return [_with_outcome(fault, rows[fault.name]) if fault.name in rows else fault for fault in faults]
+    with reading(file):
+        rows = {row["name"]: row for row in json.loads(file.read_text(encoding="utf-8"))["faults"]}
+        return [_with_outcome(fault, rows[fault.name]) if fault.name in rows else fault for fault in faults]
 
 
 def _with_outcome(fault: Fault, row: dict[str, Any]) -> Fault:

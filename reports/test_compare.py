@@ -14,7 +14,7 @@ import h5py
 from compare import Comparison, compare, read_side
 from made_up_run import NAMES, put, put_finding, put_run
 from make_report import compare_runs
-from results import Unreadable
+from unreadable import Unreadable
 
 REPORTS = Path(__file__).resolve().parent
 

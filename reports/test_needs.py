@@ -5,6 +5,7 @@ import json
 import re
 import sys
 import tempfile
+import tomllib
 import unittest
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from case_digest import case_digest, case_files  # noqa: E402
 from made_up_run import put_case, put_run  # noqa: E402
 from make_report import SHIPPED_CASES, make_report  # noqa: E402
 from needs import load_needs  # noqa: E402
+from unreadable import Unreadable  # noqa: E402
 
 CASE = b"""title = "a"
 [cloth]
@@ -106,6 +108,20 @@ class NeedsShown(unittest.TestCase):
         found = load_needs(self.root / "ablation.json", self.shipped)
         self.assertEqual([(case.name, case.recorded) for case in found.cases], [("bag", False), ("fold", True)])
 
+    def test_a_file_of_another_make_is_refused_by_its_name(self) -> None:
+        put_run(self.root)
+        for name, texts in {"ablation.json": ('{"cases": [{}]}', "[]", "{"), "coverage.json": ("{}", "3"), "variants.json": ("{}",), "mutation.json": ("{}", "[1]"),
+                            "faults.json": ('{"faults": [3]}', "{}"), "verdicts.json": ('{"findings": [{}]}',)}.items():
+            for text in texts:
+                (self.root / name).write_text(text)
+                with self.subTest(file=name, text=text), self.assertRaisesRegex(Unreadable, re.escape(str(self.root / name))):
+                    self.made()
+            (self.root / name).unlink()
+        self.record("fold", "fedcba9876543210")
+        (self.shipped / "needs.json").write_text('{"cases": 1}')
+        with self.assertRaisesRegex(Unreadable, "needs.json"):
+            self.made()
+
     def test_simulations_of_a_user_take_no_answers_of_shipped_cases(self) -> None:
         self.record("fold", "fedcba9876543210")
         put_case(self.root, "fold")
@@ -126,6 +142,8 @@ class Digests(unittest.TestCase):
         for old, new in ((b"at_least = 1", b"at_least = 2"), (b"it_stands", b"it_falls"), (b"[cloth]", b"[cloth]\nfit = 1.5")):
             self.assertNotEqual(self.digest(CASE.replace(old, new)), same)
         self.assertNotEqual(self.digest(CASE, b"v 0 0 1"), same)
+        with self.assertRaisesRegex(ValueError, "breathing"):
+            self.digest(CASE + b'[[object]]\nframes = "breathing"\n')
 
 
 class Record(unittest.TestCase):
@@ -142,3 +160,16 @@ class Record(unittest.TestCase):
                 self.assertEqual([typed for typed in case.overrides if not typed.startswith("ablation.")], [])
                 self.assertEqual([part.name for part in case.parts if not part.fits], [], ask)
                 self.assertTrue(case.parts)
+
+    def test_reasons_and_what_was_asked_are_those_of_the_cases(self) -> None:
+        files = case_files(SHIPPED_CASES)
+        for row in json.loads((SHIPPED_CASES / "needs.json").read_text())["cases"]:
+            case = tomllib.loads((SHIPPED_CASES / files[row["case"]]).read_text())
+            said = case.get("ablation", {})
+            with self.subTest(case=row["case"]):
+                self.assertEqual({part["name"]: part["declared"] for part in row["parts"] if part["declared"]},
+                                 {part: why for part, why in said.items() if part not in ("until", "coarser_mesh", "finer mesh")})
+                asked = said.get("coarser_mesh", [])
+                self.assertEqual(row["own_error"].get("coarser_mesh") or [], [asked] if isinstance(asked, str) else asked)
+                self.assertEqual(row["end"], case["time"]["end"])
+                self.assertGreaterEqual(row["asked_end"], min(said.get("until", row["end"]), row["end"]))

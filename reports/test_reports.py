@@ -21,8 +21,9 @@ from made_up_run import HOSTILE, NAMES, put, put_case, put_finding, put_run  # n
 from hdf5_values import plain  # noqa: E402
 from make_report import make_report, read_folder  # noqa: E402
 from page import Anchors  # noqa: E402
-from results import Unreadable, load_case, load_run  # noqa: E402
+from results import load_case, load_run  # noqa: E402
 from trust import tolerances_of  # noqa: E402
+from unreadable import Unreadable  # noqa: E402
 
 REPORTS = Path(__file__).resolve().parent
 

@@ -22,7 +22,8 @@ import numpy as np  # noqa: E402
 
 from foldproof_results import columns_of_study, evidence_of, load_results, load_trajectory  # noqa: E402
 from made_up_run import NAMES, made_up_verdicts, put_run  # noqa: E402
-from results import Column, Unreadable, load_case, load_run  # noqa: E402
+from results import Column, load_case, load_run  # noqa: E402
+from unreadable import Unreadable  # noqa: E402
 
 REPORTS = Path(__file__).resolve().parent
 

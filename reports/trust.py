@@ -8,6 +8,7 @@ from math import isfinite
 from pathlib import Path
 
 from results import Finding
+from unreadable import reading
 
 TIGHTEST = 10     # findings shown unasked
 
@@ -96,36 +97,40 @@ def used_of(finding: Finding) -> float:
 
 
 def load_coverage(file: Path) -> Coverage | None:
-    """The counts of `scripts/coverage --out DIR/coverage.json`; None if there are none. Throws KeyError for another
-    file."""
+    """The counts of `scripts/coverage --out DIR/coverage.json`; None if there are none. Throws Unreadable
+    for another file."""
     if not file.is_file():
         return None
-    told = json.loads(file.read_text(encoding="utf-8"))
-    files = [_covered(row["file"], row, _ranges(row["lines_missed"])) for row in told["files"] if row["lines"]]
-    files.sort(key=lambda row: row.lines_reached / max(row.lines, 1))
-    return Coverage(told["commit"], told["ran"], told["least"], _covered("all", told["total"], ""), files)
+    with reading(file):
+        told = json.loads(file.read_text(encoding="utf-8"))
+        files = [_covered(row["file"], row, _ranges(row["lines_missed"])) for row in told["files"] if row["lines"]]
+        files.sort(key=lambda row: row.lines_reached / max(row.lines, 1))
+        return Coverage(told["commit"], told["ran"], told["least"], _covered("all", told["total"], ""), files)
 
 
 def load_variants(file: Path) -> Variants | None:
-    """The outcomes of `scripts/variants --out DIR/variants.json`; None if there are none. Throws KeyError for another
-    file."""
+    """The outcomes of `scripts/variants --out DIR/variants.json`; None if there are none. Throws Unreadable
+    for another file."""
     if not file.is_file():
         return None
-    told = json.loads(file.read_text(encoding="utf-8"))
-    runs = [VariantRun(row["variant"], " ".join(row["options"]), row["findings"],
-                       [alarm["name"] for alarm in row["false_alarms"]]) for row in told["runs"]]
-    return Variants(told.get("commit", "not recorded"), runs)
+    with reading(file):
+        told = json.loads(file.read_text(encoding="utf-8"))
+        runs = [VariantRun(row["variant"], " ".join(row["options"]), row["findings"],
+                           [alarm["name"] for alarm in row["false_alarms"]]) for row in told["runs"]]
+        return Variants(told.get("commit", "not recorded"), runs)
 
 
 def unended_run(file: Path) -> str:
-    """What to say if the last run into this folder did not come to its end; "" if it did, or if there is no file."""
+    """What to say if the last run into this folder did not come to its end; "" if it did, or if there is no file.
+    Throws Unreadable for another file."""
     if not file.is_file():
         return ""
-    told = json.loads(file.read_text(encoding="utf-8"))
-    waiting = sum(finding["outcome"] == "did not run" for finding in told["findings"])
+    with reading(file):
+        told = json.loads(file.read_text(encoding="utf-8"))
+        waiting, begun = sum(finding["outcome"] == "did not run" for finding in told["findings"]), told["program"]["date"]
     if not waiting:
         return ""
-    return (f"The last run into this folder, begun {told['program']['date']}, did not come to its end: {waiting} checks, studies "
+    return (f"The last run into this folder, begun {begun}, did not come to its end: {waiting} checks, studies "
             "and cases of it have no result. What is shown here is older.")
 
 
