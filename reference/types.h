@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -64,24 +65,47 @@ struct Work {
   double worst_residual = 0;   // largest relative residual returned by a solve [1]
 };
 
-/// Shows `see` every number of a Work, const or not, in an order that stays: counts as long, the rest as double.
+// All numbers of a Work, in an order that stays: what is added up, and of what the worst counts.
+inline constexpr long Work::*counts_of_work[] = {&Work::elastic_evaluations,
+                                                 &Work::damping_preparations,
+                                                 &Work::damping_products,
+                                                 &Work::stiffness_preparations,
+                                                 &Work::stiffness_products,
+                                                 &Work::newton_iterations,
+                                                 &Work::solves,
+                                                 &Work::cg_iterations,
+                                                 &Work::object_queries,
+                                                 &Work::object_contacts,
+                                                 &Work::strain_sweeps,
+                                                 &Work::close_pairs,
+                                                 &Work::crossing_queries,
+                                                 &Work::crossings,
+                                                 &Work::zones,
+                                                 &Work::zone_particles,
+                                                 &Work::bonds,
+                                                 &Work::unfinished_solves};
+inline constexpr double Work::*worsts_of_work[] = {&Work::strain_left, &Work::worst_residual};
+
+// Whoever adds a number is stopped here until it is in one of the lists.
+static_assert(sizeof(Work) ==
+              std::size(counts_of_work) * sizeof(long) + std::size(worsts_of_work) * sizeof(double));
+
+/// Shows `see` every number of a Work, const or not: counts as long, the rest as double.
 template <class SomeWork, class See>
 void for_each_number_of_work(SomeWork& w, const See& see) {
-  for (auto* count :
-       {&w.elastic_evaluations, &w.damping_preparations, &w.damping_products, &w.stiffness_preparations,
-        &w.stiffness_products, &w.newton_iterations, &w.solves, &w.cg_iterations, &w.object_queries,
-        &w.object_contacts, &w.strain_sweeps, &w.close_pairs, &w.crossing_queries, &w.crossings, &w.zones,
-        &w.zone_particles, &w.bonds, &w.unfinished_solves})
-    see(*count);
-  for (auto* worst : {&w.strain_left, &w.worst_residual}) see(*worst);
+  for (auto count : counts_of_work) see(w.*count);
+  for (auto worst : worsts_of_work) see(w.*worst);
 }
-
-// Whoever adds a number is stopped here until it is shown above.
-static_assert(sizeof(Work) == 20 * sizeof(double));
 
 /// Sets `worst` to `value` if that is larger or NaN; a NaN stays whatever comes after it.
 inline void keep_worst(double& worst, double value) {
   if (!std::isnan(worst) && !(value <= worst)) worst = value;
+}
+
+/// Adds what a part of a run cost.
+inline void add(Work& sum, const Work& part) {
+  for (auto count : counts_of_work) sum.*count += part.*count;
+  for (auto worst : worsts_of_work) keep_worst(sum.*worst, part.*worst);
 }
 
 /// Bad input: the message says what, where and what to do.

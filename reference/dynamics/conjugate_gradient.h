@@ -1,4 +1,5 @@
-// Conjugate gradients for the implicit velocity, matrix-free and without preconditioner (BMF03 section 3).
+// Conjugate gradients for the implicit velocity, matrix-free, scaled by the masses and by nothing else (BMF03
+// section 3).
 #pragma once
 
 #include "reference/dynamics/newton_matrix.h"

@@ -144,15 +144,7 @@ Solve solve_linearised(const System& system, const State& now, const Stage& stag
 /// stiffness times a rounding of the largest coordinate.
 double rounding_at(const System& system, const Stage& stage, const PerParticle3& w) {
   const State at = state_of(stage, w);
-  PerParticle rows = PerParticle::Zero(w.cols());  // N/m
-  for (const Force& force : system.forces) {
-    if (const auto* springs = std::get_if<StretchSprings>(&force)) springs->add_stiffness_bound(at, rows);
-    if (const auto* bending = std::get_if<Bending>(&force)) bending->add_stiffness_bound(at, rows);
-    if (const auto* sticking = std::get_if<Sticking>(&force)) {
-      sticking->add_spring_bound(at, rows);
-      sticking->add_turning_bound(at, rows);
-    }
-  }
+  const PerParticle rows = stiffness_row_bounds(system.forces, at, StickingPart::all);  // N/m
   const double rounding = std::numeric_limits<double>::epsilon() * at.x.cwiseAbs().maxCoeff();
   return stage.s * rounding * std::sqrt(rows.cwiseAbs2().dot(system.inverse_mass));
 }

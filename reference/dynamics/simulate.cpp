@@ -22,13 +22,14 @@ constexpr double closest_event = 1e-9;
 void check(const Schedule& schedule, const State& start) {
   if (!(schedule.end >= start.time)) throw InputError("time: the end must not lie before the start");
   if (!(schedule.frame_interval > 0)) throw InputError("time: the frame interval must be > 0 s");
-  if (!(schedule.step.fixed >= 0)) throw InputError("time: a fixed step must be > 0 s");
+  if (!(schedule.step.fixed >= 0))
+    throw InputError("time: the step must be > 0 s, or 0 for an automatic one");
   if (!(schedule.step.safety > 0)) throw InputError("time: the safety factor must be > 0");
   if (!(schedule.step.strain_per_step > 0)) throw InputError("time: strain_per_step must be > 0");
 }
 
 /// The longest step in which no spring changes its length by more than `fraction` of its rest length [s].
-double strain_limit(const System& system, const State& s, double fraction) {
+double step_by_strain_rate(const System& system, const State& s, double fraction) {
   double fastest = 0;  // 1/s
   for (const Force& force : system.forces) {
     const auto* stretch = std::get_if<StretchSprings>(&force);
@@ -42,7 +43,7 @@ double strain_limit(const System& system, const State& s, double fraction) {
   return fraction / fastest;
 }
 
-double size_of(const PerParticle3& x) { return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm(); }
+double diagonal_of(const PerParticle3& x) { return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm(); }
 
 /// What is wrong with `next`, if anything: values that are not finite, or a leap.
 std::optional<Stop> fault_in(const State& now, const State& next, double size, long step) {
@@ -137,29 +138,6 @@ class Watch {
   double seconds_before_;  // of clock time, in the part of the run before a checkpoint
   double damping_work_, power_before_;
 };
-
-void add(Work& sum, const Work& part) {
-  sum.elastic_evaluations += part.elastic_evaluations;
-  sum.damping_preparations += part.damping_preparations;
-  sum.damping_products += part.damping_products;
-  sum.stiffness_preparations += part.stiffness_preparations;
-  sum.stiffness_products += part.stiffness_products;
-  sum.newton_iterations += part.newton_iterations;
-  sum.solves += part.solves;
-  sum.cg_iterations += part.cg_iterations;
-  sum.object_queries += part.object_queries;
-  sum.object_contacts += part.object_contacts;
-  sum.strain_sweeps += part.strain_sweeps;
-  keep_worst(sum.strain_left, part.strain_left);
-  sum.close_pairs += part.close_pairs;
-  sum.crossing_queries += part.crossing_queries;
-  sum.crossings += part.crossings;
-  sum.zones += part.zones;
-  sum.zone_particles += part.zone_particles;
-  sum.bonds += part.bonds;
-  sum.unfinished_solves += part.unfinished_solves;
-  keep_worst(sum.worst_residual, part.worst_residual);
-}
 
 /// What a run is made of.
 struct Run {
@@ -272,7 +250,7 @@ double automatic_step(const System& system, const Integrator& integrator, const 
     limit = std::min(limit, 2 / rate);
     if (std::isnan(rate)) limit = rate;
   }
-  const double wanted = std::min(rule.safety * limit, strain_limit(system, s, rule.strain_per_step));
+  const double wanted = std::min(rule.safety * limit, step_by_strain_rate(system, s, rule.strain_per_step));
   if (std::isnan(wanted)) throw DegenerateElement("the elastic limit of the step is not a number", {-1});
   return wanted;
 }
@@ -295,7 +273,7 @@ Outcome simulate(const System& system, const Integrator& integrator, const State
   Checkpoint at_start;
   at_start.past = {start};
   at_start.start_time = at_start.event_time = start.time;
-  at_start.size = size_of(start.x);
+  at_start.size = diagonal_of(start.x);
   Watch watch(system, observer, at_start);
   Run run = run_from(at_start, system, integrator, schedule, watch);
   watch.frame(start);

@@ -1,5 +1,6 @@
 // What a point of the cloth does about the objects that it is about to enter: the paper's interface
-// forecasting (BMF03 section 5.2), and two cruder answers to compare it with.
+// forecasting (BMF03 section 5.2), and others to compare it with: the same against one object only, and two that
+// are cruder.
 #pragma once
 
 #include <span>

@@ -208,12 +208,15 @@ void Bending::add_stiffness_bound(const State& s, PerParticle& rows) const {
   // |u_i| sum |u_j|; the second counts where a hinge is far from its rest angle. With current weighting the
   // change of c itself is left out.
   const BendingLaw& law = bending_law(material.law);
+  const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
   for (const BendingHinge& hinge : hinges) {
     const HingeShape shape = checked_shape_at(hinge, s.x);
-    const double theta = angle_of(hinge, s.x),
-                 weight = material.stiffness * weight_of(hinge, shape, material.weighting);
-    const double slope = std::abs(law.slope(theta, hinge.rest_angle)),
-                 magnitude = std::abs(law.magnitude(theta, hinge.rest_angle));
+    const double weight = material.stiffness * weight_of(hinge, shape, material.weighting);
+    const double theta = is_sine ? 0 : angle_of(hinge, s.x);
+    const double slope = is_sine ? 0.5 * std::sqrt(std::max(0.0, 1 - shape.sin_half * shape.sin_half))
+                                 : std::abs(law.slope(theta, hinge.rest_angle));
+    const double magnitude =
+        std::abs(is_sine ? shape.sin_half - hinge.sin_half_rest : law.magnitude(theta, hinge.rest_angle));
     const Eigen::Vector4d norms = bending_mode(shape).colwise().norm();
     const Eigen::Vector4d sums =
         slope * norms.sum() * norms + magnitude * mode_gradient_rows(shape, hinge.particles, s.x);

@@ -91,10 +91,15 @@ double damping_rate_bound(const DampingOperator& damping, const PerParticle& inv
 
 namespace {
 
-enum class StickingPart { all, beyond_forecasts };
+double frequency_of(const PerParticle& rows, const PerParticle& inverse_mass) {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < rows.size(); ++i) keep_worst(largest, rows[i] * inverse_mass[i]);
+  return std::sqrt(largest);
+}
 
-double frequency_of(const std::vector<Force>& forces, const State& s, const PerParticle& inverse_mass,
-                    StickingPart part) {
+}  // namespace
+
+PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& s, StickingPart part) {
   PerParticle rows = PerParticle::Zero(s.x.cols());
   for (const Force& force : forces) {
     if (const auto* springs = std::get_if<StretchSprings>(&force)) springs->add_stiffness_bound(s, rows);
@@ -104,20 +109,16 @@ double frequency_of(const std::vector<Force>& forces, const State& s, const PerP
       sticking->add_turning_bound(s, rows);
     }
   }
-  double largest = 0;
-  for (Eigen::Index i = 0; i < rows.size(); ++i) keep_worst(largest, rows[i] * inverse_mass[i]);
-  return std::sqrt(largest);
+  return rows;
 }
 
-}  // namespace
-
 double frequency_bound(const std::vector<Force>& forces, const State& s, const PerParticle& inverse_mass) {
-  return frequency_of(forces, s, inverse_mass, StickingPart::all);
+  return frequency_of(stiffness_row_bounds(forces, s, StickingPart::all), inverse_mass);
 }
 
 double frequency_beyond_forecasts(const std::vector<Force>& forces, const State& s,
                                   const PerParticle& inverse_mass) {
-  return frequency_of(forces, s, inverse_mass, StickingPart::beyond_forecasts);
+  return frequency_of(stiffness_row_bounds(forces, s, StickingPart::beyond_forecasts), inverse_mass);
 }
 
 }  // namespace foldproof

@@ -57,6 +57,11 @@ ForceDifferential elastic_differential_at(const std::vector<Force>& forces, cons
 /// Custom forces give that of their elastic part alone.
 ForceDifferential force_differential_at(const std::vector<Force>& forces, const State& s, Work& work);
 
+enum class StickingPart { all, beyond_forecasts };
+
+/// Upper bounds on the row sums of the forces' stiffness matrix at s, for each particle [N/m].
+PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& s, StickingPart part);
+
 /// An upper bound on the largest elastic angular frequency [rad/s] at s, from springs, hinges and bonds of
 /// sticking:
 ///   omega^2 <= max over particles i of (1/m_i) (sum over the stiffness matrices' rows at i)

@@ -109,11 +109,13 @@ std::vector<Job> jobs_of(std::vector<Ablation>& all, const AfterRun& after) {
   return jobs;
 }
 
-double size_of(const PerParticle3& x) { return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff(); }
+double extent_of(const PerParticle3& x) {
+  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
+}
 
 OwnError own_error(const Ablation& one, const PerParticle& mass) {
   const TriangleMesh& mesh = one.shown.scene.mesh;
-  OwnError own{nan, nan, 1e-6 * size_of(mesh.rest)};
+  OwnError own{nan, nan, 1e-6 * extent_of(mesh.rest)};
   if (one.half_steps.stopped.empty()) own.time = position_difference(one.scene, one.half_steps, mass);
   if (one.other_mesh.stopped.empty())
     own.mesh = one.coarser ? error_from_coarser(one.scene, mesh, one.other_mesh, one.coarser->scene.mesh)
@@ -176,7 +178,7 @@ nlohmann::json told(const Ablation& one, const std::vector<std::string>& overrid
           {"asked_end", asked_end(one.shown)},
           {"end", one.shown.scene.schedule.end},
           {"wrong", wrong_by_itself(one)},
-          {"size", size_of(one.shown.scene.mesh.rest)},
+          {"size", extent_of(one.shown.scene.mesh.rest)},
           {"own_error",
            {{"time", one.own.time},
             {"mesh", one.own.mesh},
@@ -249,8 +251,8 @@ std::vector<Ablation> asked_of(const Options& options) {
   const LevelSetMakers makers = makers_of(options.cache);
   std::vector<std::string> files = options.names;
   if (files.empty())
-    for (const auto& names : {shown_cases(tier_of(options)), hard_cases()})
-      for (const std::string& name : names) files.push_back(project_folder() + "/cases/" + name + ".toml");
+    for (const std::string& name : built_in_cases(tier_of(options)))
+      files.push_back(project_folder() + "/cases/" + name + ".toml");
   for (const std::string& file : files) all.push_back(planned(file, options, makers));
   return all;
 }
