@@ -14,11 +14,16 @@ _foldproof_names() {
     /^  / && wanted { print $1; if (split($1, part, ".") > 1) print part[1] }' | sort -u
 }
 
+# The findings of the cases that `list` shows: case.twist for hard/twist.
+_foldproof_cases() {
+  "$1" list | awk '/^[a-z]/ { wanted = $1 == "cases" } /^  / && wanted { sub(".*/", "", $1); print "case." $1 }'
+}
+
 _foldproof_kind() {
   case $1 in
     simulate | ablate) echo toml ;;
     inspect) echo obj ;;
-    project | film) echo h5 ;;
+    project | film | export) echo h5 ;;
     crossings) echo 'h5|obj' ;;
     evaluate) echo csv ;;
   esac
@@ -31,7 +36,7 @@ _foldproof() {
   elif [[ $now == -* ]]; then
     words=$(_foldproof_options "$program" "$command")
   elif [[ $command == check ]]; then
-    words=$(_foldproof_names "$program" ' checks: studies: ')
+    words="$(_foldproof_names "$program" ' checks: studies: ') case $(_foldproof_cases "$program")"
   elif [[ $command == study ]]; then
     words=$(_foldproof_names "$program" ' studies: ')
   elif [[ $command == golden ]]; then

@@ -260,7 +260,7 @@ void add_readers(CLI::App& app, Options& options) {
   golden->add_option("--seed", options.seed, "The same rows for the same number")->capture_default_str();
   add_json(golden, options);
   CLI::App* evaluate = app.add_subcommand("evaluate", "Evaluate a formula on your numbers");
-  evaluate->require_subcommand(1);
+  evaluate->require_subcommand(0, 1);
   CLI::App* bending =
       add_command(*evaluate, options, "bending", "Forces of single hinges from a CSV file", evaluate_hinges);
   bending->footer(evaluate_help);
@@ -288,7 +288,7 @@ int run(int argc, char** argv) {
       "Verification suite and reference implementation for cloth simulation, after Bridson, Marino, Fedkiw "
       "(2003).");
   app.footer(examples);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // a word that is none is named, rather than said to be missing
   app.set_version_flag("--version", [] {
     const Provenance p = provenance("");
     return fmt::format("foldproof {} ({}, {})", p.version, p.commit, p.tree);
@@ -303,6 +303,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? all_hold : bad_input;
   }
+  if (!options.run) return app.exit(CLI::RequiredError("A subcommand")), bad_input;
   return options.run(options);
 }
 

@@ -25,8 +25,8 @@ struct Verdict {
   std::string why_bound;                            // the bound's reason in words
 };
 
-/// holds iff measured + uncertainty <= bound, fails iff measured - uncertainty > bound or anything is NaN,
-/// else inconclusive.
+/// holds iff measured + uncertainty <= bound, fails iff measured - uncertainty > bound, else inconclusive. Fails,
+/// too, if one of them is NaN, the bound infinite or the uncertainty negative.
 Ruling ruling(const Verdict& verdict);
 
 /// One column of evidence; the columns of a finding have the same length.

@@ -62,7 +62,7 @@ int conclude(RunRecord& run, const Options& options, const std::string& file) {
 
 std::vector<std::string> names_of_case_findings() {
   std::vector<std::string> names;
-  for (const std::string& name : built_in_cases()) {
+  for (const std::string& name : built_in_cases(Tier::full)) {
     const Case shown = built_in_case(name);
     for (const Expectation& expectation : shown.expectations)
       names.push_back(finding_name(shown.scene, expectation));
@@ -132,14 +132,14 @@ int list(const Options& options) {
     json["checks"].push_back({{"name", check.name}, {"claim", check.claim}, {"source", check.source}});
   for (const Study& study : all_studies())
     json["studies"].push_back({{"name", study.name}, {"claim", study.claim}, {"source", study.source}});
-  json["cases"] = built_in_cases();
+  json["cases"] = built_in_cases(Tier::full);
   json["long_cases"] = long_cases();
-  json["case_findings"] = names_of_case_findings();
   json["integrators"] = nlohmann::json::array();
   for (const Integrator& i : integrators())
     json["integrators"].push_back(
         {{"name", i.name}, {"title", i.title}, {"source", i.source}, {"order", i.order}});
   if (options.json) {
+    json["case_findings"] = names_of_case_findings();
     fmt::print("{}\n", json_text(json));
     return all_hold;
   }
@@ -149,7 +149,7 @@ int list(const Options& options) {
       fmt::print("  {:<58} {}\n", row["name"].get<std::string>(), row["claim"].get<std::string>());
   }
   fmt::print("cases (cases/NAME.toml):\n");
-  for (const std::string& name : built_in_cases()) fmt::print("  {}\n", name);
+  for (const std::string& name : built_in_cases(Tier::full)) fmt::print("  {}\n", name);
   fmt::print("integrators:\n");
   for (const Integrator& i : integrators())
     fmt::print("  {}  {} ({}), order {}\n", i.name, i.title, i.source, i.order);
@@ -183,16 +183,16 @@ int simulate_case(const Options& options) {
 
 int run_checks(const Options& options) {
   RunRecord run = new_run(options);
-  run_selection(select({options.names, {"check"}}), reference_subject(), tier_of(options), options.running,
-                run);
+  const Tier tier = tier_of(options);
+  run_selection(select({options.names, {"check"}}, tier), reference_subject(), tier, options.running, run);
   rule_covered_claims(run);
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
 }
 
 int run_studies(const Options& options) {
   RunRecord run = new_run(options);
-  run_selection(select({options.names, {"study"}}), reference_subject(), tier_of(options), options.running,
-                run);
+  const Tier tier = tier_of(options);
+  run_selection(select({options.names, {"study"}}, tier), reference_subject(), tier, options.running, run);
   if (options.names.empty()) refuse_claims_of_lost_findings(run);
   rule_covered_claims(run);
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
@@ -226,7 +226,8 @@ int verify(const Options& options) {
   RunRecord run = new_run(options);
   const auto start = std::chrono::steady_clock::now();
   const Subject subject = reference_subject();
-  std::vector<Job> jobs = jobs_of(select({{}, {"check", "study"}}), subject, tier_of(options));
+  std::vector<Job> jobs =
+      jobs_of(select({{}, {"check", "study"}}, tier_of(options)), subject, tier_of(options));
   for (Job& job : jobs_of_built_in_cases(options, run.provenance)) jobs.push_back(std::move(job));
   announce(jobs, run, options.out);
   run_jobs(jobs, "checks, studies and cases", options.running, run);

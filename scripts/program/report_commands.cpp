@@ -11,6 +11,8 @@ namespace foldproof {
 
 namespace {
 
+constexpr int not_started = 127;  // as a shell says it
+
 void add(std::vector<std::string>& arguments, const std::string& option, const std::string& value) {
   if (value.empty()) return;
   arguments.push_back(option);
@@ -28,14 +30,16 @@ int run_report_script(const std::string& makes, const std::string& script,
   const pid_t child = fork();
   if (child == 0) {
     execv("/usr/bin/python3", words.data());
-    _exit(127);
+    _exit(not_started);
   }
   int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    say("the " + makes + " could not be made: " + path + " did not come to its end");
-    return bad_input;
-  }
-  return all_hold;
+  const bool has_ended = child > 0 && waitpid(child, &status, 0) > 0 && WIFEXITED(status);
+  if (has_ended && WEXITSTATUS(status) == all_hold) return all_hold;
+  if (has_ended && WEXITSTATUS(status) == bad_input) return bad_input;  // it said why
+  say("the " + makes + " could not be made: " +
+      (has_ended && WEXITSTATUS(status) == not_started ? "/usr/bin/python3 cannot be started"
+                                                       : path + " did not come to its end"));
+  return bad_input;
 }
 
 int make_report(const Options& options) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
+#include <set>
 
 #include "convergence/studies.h"
 #include "scripts/program/progress.h"
@@ -18,27 +20,46 @@ bool chooses(const std::string& wanted, const std::string& name) {
   return name == wanted || name.starts_with(wanted + ".");
 }
 
+/// The findings of a shipped case are named so: "case.twist" for "hard/twist".
+std::string group_of_case(const std::string& built_in) {
+  return "case." + std::filesystem::path(built_in).filename().string();
+}
+
 bool is_named(const std::vector<std::string>& kinds, const char* kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-/// How many letters two names share at their start and end: enough to guess what was meant.
-size_t likeness(const std::string& a, const std::string& b) {
-  const size_t head = size_t(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
-  const size_t tail = size_t(std::mismatch(a.rbegin(), a.rend(), b.rbegin(), b.rend()).first - a.rbegin());
-  return head + tail;
+/// Letters to add, leave out or change to make b of a (Levenshtein 1966).
+size_t edits_between(const std::string& a, const std::string& b) {
+  std::vector<size_t> edits(b.size() + 1);  // from the first letters of a to the first k of b
+  std::iota(edits.begin(), edits.end(), 0);
+  for (size_t i = 0; i < a.size(); ++i) {
+    size_t corner = edits[0]++;
+    for (size_t k = 0; k < b.size(); ++k) {
+      const size_t changed = corner + (a[i] != b[k]);
+      corner = edits[k + 1];
+      edits[k + 1] = std::min({changed, corner + 1, edits[k] + 1});
+    }
+  }
+  return edits.back();
 }
 
 [[noreturn]] void refuse(const std::string& name, const std::vector<Check>& checks,
                          const std::vector<Study>& studies) {
-  std::vector<std::string> known;
-  for (const Check& check : checks) known.push_back(check.name);
-  for (const Study& study : studies) known.push_back(study.name);
-  std::stable_sort(known.begin(), known.end(),
-                   [&](const auto& a, const auto& b) { return likeness(name, a) > likeness(name, b); });
-  known.resize(std::min<size_t>(known.size(), 3));
-  throw InputError(fmt::format("there is no check or study '{}'; near it: {}. `foldproof list` shows all",
-                               name, fmt::join(known, ", ")));
+  std::set<std::string> known;
+  const auto add = [&](const std::string& full) { known.insert({full, full.substr(0, full.find('.'))}); };
+  for (const Check& check : checks) add(check.name);
+  for (const Study& study : studies) add(study.name);
+  for (const std::string& file : built_in_cases(Tier::full)) add(group_of_case(file));
+  std::vector<std::string> near(known.begin(), known.end());
+  std::ranges::stable_sort(near, {}, [&](const std::string& one) {
+    const std::string rest = one.substr(one.find('.') + 1);  // or all of it
+    return std::min(edits_between(name, one), edits_between(name, rest));
+  });
+  near.resize(std::min<size_t>(near.size(), 3));
+  throw InputError(
+      fmt::format("there is no check, study or case '{}'; near it: {}. `foldproof list` shows all", name,
+                  fmt::join(near, ", ")));
 }
 
 bool add_named(const std::string& name, const std::vector<Check>& checks, const std::vector<Study>& studies,
@@ -61,11 +82,11 @@ bool add_named(const std::string& name, const std::vector<Check>& checks, const 
   return found;
 }
 
-/// Adds the shipped cases that "case", "case.NAME" or "case.NAME.FINDING" chooses.
-bool add_cases(const std::string& name, Selection& selection) {
+/// Adds the shipped cases that "case" (those of the tier), "case.NAME" or "case.NAME.FINDING" chooses.
+bool add_cases(const std::string& name, Tier tier, Selection& selection) {
   bool found = false;
-  for (const std::string& built_in : built_in_cases()) {
-    const std::string group = "case." + std::filesystem::path(built_in).filename().string();
+  for (const std::string& built_in : built_in_cases(name == "case" ? tier : Tier::full)) {
+    const std::string group = group_of_case(built_in);
     const bool is_finding = name.starts_with(group + ".");
     if (!is_finding && !chooses(name, group)) continue;
     if (is_finding) selection.findings.push_back(name);
@@ -115,7 +136,7 @@ Job job_of(const Case& shown, const std::vector<std::string>& wanted) {
 
 }  // namespace
 
-Selection select(const Wanted& wanted) {
+Selection select(const Wanted& wanted, Tier tier) {
   const std::vector<Check> checks = all_checks();
   const std::vector<Study> studies = all_studies();
   Selection selection;
@@ -124,7 +145,7 @@ Selection select(const Wanted& wanted) {
     if (is_named(wanted.kinds, "study")) selection.studies = studies;
   }
   for (const std::string& name : wanted.names)
-    if (!add_named(name, checks, studies, selection) && !add_cases(name, selection))
+    if (!add_named(name, checks, studies, selection) && !add_cases(name, tier, selection))
       refuse(name, checks, studies);
   return selection;
 }

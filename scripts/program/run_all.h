@@ -21,14 +21,14 @@ struct Selection {
 };
 
 /// What the names choose: checks, studies, single findings of studies, or groups ("bending" for all that
-/// begins with "bending."), and "case.NAME" for what is expected of a shipped case. No name:
-/// all checks (and all studies if with_studies). Throws InputError for a name that chooses nothing, with the
-/// nearest known ones.
+/// begins with "bending."), "case.NAME" for what is expected of a shipped case, whatever its tier, and "case"
+/// for all shipped cases of the tier. No name: all of the kinds. Throws InputError for a name that chooses
+/// nothing, with the nearest known ones.
 struct Wanted {
   std::vector<std::string> names;
   std::vector<std::string> kinds;  // of "check", "study": what a missing name stands for
 };
-Selection select(const Wanted& wanted);
+Selection select(const Wanted& wanted, Tier tier);
 
 /// A job for each check, study and case of the selection. The subject must outlive them.
 std::vector<Job> jobs_of(const Selection& selection, const Subject& subject, Tier tier);

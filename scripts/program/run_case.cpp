@@ -158,8 +158,8 @@ std::vector<std::string> long_cases() {
           "sleeve",          "robe",       "water_bottle", "balloon"};
 }
 
-std::vector<std::string> built_in_cases() {
-  std::vector<std::string> all = shown_cases(Tier::full);
+std::vector<std::string> built_in_cases(Tier tier) {
+  std::vector<std::string> all = shown_cases(tier);
   for (const std::string& name : hard_cases()) all.push_back(name);
   return all;
 }

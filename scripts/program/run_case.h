@@ -40,8 +40,8 @@ std::vector<std::string> shown_cases(Tier tier);
 std::vector<std::string> hard_cases();
 std::vector<std::string> long_cases();  // those that only the full tier shows
 
-/// All of them.
-std::vector<std::string> built_in_cases();
+/// Those of a tier, shown or only judged; the full one has all there are.
+std::vector<std::string> built_in_cases(Tier tier);
 
 /// Reads cases/<name>.toml of the project, and adds what is expected of every shipped case.
 Case built_in_case(const std::string& name);
