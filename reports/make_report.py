@@ -63,7 +63,7 @@ def main() -> int:
         if said.pdf:
             out = print_page(out, out.with_suffix(".pdf"))
     except (OSError, Unreadable, NoBrowser, BrokenProcessPool) as error:
-        print(f"make_report: {error}", file=sys.stderr)
+        print(f"make_report: the report could not be made: {error}", file=sys.stderr)
         return 2
     sys.stdout.buffer.write(os.fsencode(out) + b"\n")  # a path may hold bytes that are no text
     return 0
