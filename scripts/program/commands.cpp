@@ -140,6 +140,9 @@ int list(const Options& options) {
         {{"name", i.name}, {"title", i.title}, {"source", i.source}, {"order", i.order}});
   if (options.json) {
     json["case_findings"] = names_of_case_findings();
+    json["claims"] = nlohmann::json::array();
+    for (const Claim& claim : all_claims())
+      json["claims"].push_back({{"id", claim.id}, {"findings", findings_named_in(claim)}});
     fmt::print("{}\n", json_text(json));
     return all_hold;
   }
@@ -193,7 +196,10 @@ int run_studies(const Options& options) {
   RunRecord run = new_run(options);
   const Tier tier = tier_of(options);
   run_selection(select({options.names, {"study"}}, tier), reference_subject(), tier, options.running, run);
-  if (options.names.empty()) refuse_claims_of_lost_findings(run);
+  if (options.names.empty()) {
+    refuse_claims_of_lost_findings(run);
+    refuse_faults_of_lost_findings(read_faults(faults_path()), run);
+  }
   rule_covered_claims(run);
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
 }
@@ -234,6 +240,7 @@ int verify(const Options& options) {
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   rule_all_claims(run);
   run.faults = read_faults(faults_path());
+  refuse_faults_of_lost_findings(run.faults, run);
   name_faults(run.faults, run.records);
   write_run(options.out + "/run.h5", run);
   write_verdicts(options.out, run);

@@ -48,4 +48,12 @@ void refuse_claims_of_lost_findings(const RunRecord& run) {
             fmt::format("claim {} names the finding '{}', which its study does not make", claim.id, finding));
 }
 
+void refuse_faults_of_lost_findings(const std::vector<Fault>& faults, const RunRecord& run) {
+  for (const Fault& fault : faults)
+    for (const std::string& finding : fault.caught_by)
+      if (is_made_by_a_study(finding, run) && !is_in(finding, run))
+        throw InputError(
+            fmt::format("fault {} names the finding '{}', which its study does not make", fault.name, finding));
+}
+
 }  // namespace foldproof

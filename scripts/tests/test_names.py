@@ -1,0 +1,118 @@
+#!/usr/bin/python3
+"""Names that one file gives to what stands in another: every name in faults, claims, needs and equivalent mutants exists.
+
+Runs in seconds, before anything is compiled or simulated for it: scripts/tests/test_names.py [--program FILE]
+Findings of studies are known here by their study; that the study makes them is asked where studies run (`foldproof
+study`, `foldproof verify`).
+"""
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+import tomllib
+import unittest
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
+from pathlib import Path
+from types import ModuleType
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "scripts"))
+from edits import applied, changes_of  # noqa: E402
+from mutants import PROGRAM, TESTS, Unusable  # noqa: E402
+
+
+def script(name: str) -> ModuleType:
+    """A script of scripts/ as a module; they have no ending."""
+    spec = spec_from_loader(name, SourceFileLoader(name, str(ROOT / "scripts" / name)))
+    assert spec is not None and spec.loader is not None
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+FAULTS = script("faults")
+
+
+def said(*words: str) -> str:
+    return subprocess.run(words, capture_output=True, text=True, check=True).stdout
+
+
+class Names(unittest.TestCase):
+    """What exists, asked of the program and of the tests once."""
+
+    listed: dict = {}
+    tests: set[str] = set()
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.listed = json.loads(said(str(PROGRAM), "list", "--json"))
+        cls.tests = set(said(str(TESTS), "--list-test-names-only").splitlines())
+        for file in sorted((ROOT / "scripts/tests").glob("test_*.py")):
+            cls.tests |= set(re.findall(r"^    def (test_\w+)\(", file.read_text(encoding="utf-8"), re.M))
+
+    def exists(self, finding: str) -> bool:
+        studies = [row["name"] for row in self.listed["studies"]]
+        return (finding in {row["name"] for row in self.listed["checks"]} or finding in self.listed["case_findings"]
+                or any(finding == study or finding.startswith(study + ".") for study in studies))
+
+    def test_faults_are_sound_and_name_what_exists(self) -> None:
+        faults = FAULTS.read_faults()  # throws where `find` does not occur exactly once
+        self.assertGreater(len(faults), 600)
+        for fault in faults:
+            for name in fault.caught_by:
+                self.assertTrue(self.exists(name), f"fault {fault.name}: there is no finding '{name}'")
+            for name in fault.caught_by_tests:
+                self.assertIn(name, self.tests, f"fault {fault.name}")
+
+    def test_a_fault_whose_text_is_gone_is_refused(self) -> None:
+        sound = FAULTS.read_faults()[0]
+        self.assertIsNone(FAULTS.wrong_row(sound))
+        for wrong, words in ((sound._replace(find="no such text in any file"), "occurs 0 times"),
+                             (sound._replace(find=";"), "must occur exactly once"),
+                             (sound._replace(file="reference/nowhere.cpp"), "is not a .cpp or .h file"),
+                             (sound._replace(caught_by=(), caught_by_tests=()), "who catches it")):
+            self.assertIn(words, FAULTS.wrong_row(wrong) or "")
+        self.assertFalse(self.exists("bending.forces-sum-to-nothing"))
+        self.assertTrue(issubclass(Unusable, Exception))
+
+    def test_claims_name_findings_that_exist(self) -> None:
+        claims = self.listed["claims"]
+        self.assertEqual(len(claims), 56)
+        for claim in claims:
+            for finding in claim["findings"]:
+                self.assertTrue(self.exists(finding), f"claim {claim['id']}: there is no finding '{finding}'")
+
+    def test_equivalent_mutants_are_edits_of_lines_that_exist(self) -> None:
+        path = next((ROOT / "verification").rglob("equivalent_mutants.toml"))
+        for row in tomllib.loads(path.read_text(encoding="utf-8"))["mutant"]:
+            text = (ROOT / row["file"]).read_text(encoding="utf-8")
+            lines = [line.strip() for line in text.splitlines()]
+            self.assertIn(row["line"], lines, row["file"])
+            self.assertTrue(self.can_become(text, row["line"], row["becomes"]), f"{row['file']}: {row['line']}")
+
+    @staticmethod
+    def can_become(text: str, line: str, becomes: str) -> bool:
+        """Is one of the edits of the text that change of a line?"""
+        for change in changes_of(text):
+            number = text.count("\n", 0, change.at)
+            if text.splitlines()[number].strip() == line and applied(text, change).splitlines()[number].strip() == becomes:
+                return True
+        return False
+
+    def test_recorded_needs_are_of_cases_and_parts_that_exist(self) -> None:
+        needs = json.loads((ROOT / "cases/needs.json").read_text(encoding="utf-8"))["cases"]
+        cases = {Path(name).name for name in self.listed["cases"]}
+        self.assertLessEqual({row["case"] for row in needs}, cases)
+        parts = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "convergence").rglob("scene_parts.cpp"))
+        for row in needs:
+            for part in row["parts"]:
+                name = part["name"].split("'")[0]
+                self.assertIn(f'"{name}', parts, row["case"])
+
+
+if __name__ == "__main__":
+    unittest.main()
