@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "reference/dynamics/simulate.h"
-#include "reference/level_set/grid_content.h"
+#include "reference/bodies/grid_content.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"

@@ -8,7 +8,7 @@
 
 #include "convergence/kept_level_sets.h"
 #include "convergence/studies.h"
-#include "reference/level_set/deforming_content.h"
+#include "reference/bodies/deforming_content.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/processor_time.h"
 #include "verification/checks/scratch_folder.h"

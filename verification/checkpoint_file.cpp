@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "reference/level_set/content_key.h"
+#include "reference/bodies/content_key.h"
 #include "verification/hdf5_file.h"
 
 namespace foldproof {

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "reference/level_set/deforming_content.h"
-#include "reference/level_set/grid_content.h"
+#include "reference/bodies/deforming_content.h"
+#include "reference/bodies/grid_content.h"
 #include "verification/hdf5_file.h"
 #include "verification/level_set_cache_file.h"
 

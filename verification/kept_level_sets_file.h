@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "reference/level_set/makers.h"
+#include "reference/bodies/makers.h"
 
 namespace foldproof {
 

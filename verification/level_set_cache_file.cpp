@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "reference/level_set/deforming_content.h"
+#include "reference/bodies/deforming_content.h"
 #include "verification/hdf5_file.h"
 
 namespace foldproof {

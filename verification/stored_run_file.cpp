@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "reference/level_set/makers.h"
+#include "reference/bodies/makers.h"
 #include "verification/hdf5_file.h"
 
 namespace foldproof {

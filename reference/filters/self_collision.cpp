@@ -5,7 +5,7 @@
 #include "reference/filters/approach.h"
 #include "reference/filters/impact_zones.h"
 #include "reference/forces/degenerate.h"
-#include "reference/level_set/self_intersection.h"
+#include "reference/bodies/self_intersection.h"
 
 namespace foldproof {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "reference/level_set/self_intersection.h"
+#include "reference/bodies/self_intersection.h"
 
 namespace foldproof {
 

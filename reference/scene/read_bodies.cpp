@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "reference/level_set/body_deformation.h"
-#include "reference/level_set/closed_mesh.h"
+#include "reference/bodies/body_deformation.h"
+#include "reference/bodies/closed_mesh.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/key_values.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "reference/level_set/makers.h"
+#include "reference/bodies/makers.h"
 #include "reference/level_set/solid.h"
 #include "reference/motion/pose.h"
 #include "reference/scene/key_file.h"

@@ -18,7 +18,7 @@
 
 namespace foldproof {
 
-struct LevelSetMakers;  // level_set/makers.h
+struct LevelSetMakers;  // bodies/makers.h
 
 /// An object, and its surface as triangles: for pictures, not for the collisions.
 struct SceneObject {

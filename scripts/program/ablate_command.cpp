@@ -14,7 +14,7 @@
 #include "convergence/ablation.h"
 #include "convergence/coarser_mesh.h"
 #include "convergence/finer_scene.h"
-#include "reference/level_set/makers.h"
+#include "reference/bodies/makers.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/progress.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "reference/level_set/narrow_band.h"
-#include "reference/level_set/self_intersection.h"
+#include "reference/bodies/self_intersection.h"
 #include "reference/mesh/shapes.h"
 #include "scripts/program/bench_parts.h"
 

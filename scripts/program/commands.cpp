@@ -9,7 +9,7 @@
 
 #include "convergence/studies.h"
 #include "reference/dynamics/integrator.h"
-#include "reference/level_set/makers.h"
+#include "reference/bodies/makers.h"
 #include "scripts/program/bench.h"
 #include "scripts/program/evaluate.h"
 #include "scripts/program/evaluate_crossings.h"

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reference/level_set/mesh_inspection.h"
+#include "reference/bodies/mesh_inspection.h"
 #include "reference/mesh/obj.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/json_text.h"

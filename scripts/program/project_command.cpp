@@ -11,7 +11,7 @@
 
 #include "convergence/section_profile.h"
 #include "convergence/wrinkle_measure.h"
-#include "reference/level_set/makers.h"
+#include "reference/bodies/makers.h"
 #include "reference/mesh/subdivision.h"
 #include "reference/post/fold_projection.h"
 #include "scripts/program/commands.h"

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "reference/level_set/content_key.h"
+#include "reference/bodies/content_key.h"
 
 #include "build_facts.h"  // written by every build: commit, tree, compiler, flags
 

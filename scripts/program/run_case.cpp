@@ -7,7 +7,7 @@
 #include <functional>
 #include <optional>
 
-#include "reference/level_set/makers.h"
+#include "reference/bodies/makers.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/cases/judge.h"

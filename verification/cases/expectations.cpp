@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "reference/level_set/makers.h"
+#include "reference/bodies/makers.h"
 #include "reference/scene/key_file.h"
 #include "verification/cases/quantities.h"
 

@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "reference/level_set/closed_mesh.h"
-#include "reference/level_set/self_intersection.h"
+#include "reference/bodies/closed_mesh.h"
+#include "reference/bodies/self_intersection.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/level_set_checks.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "reference/level_set/deforming_content.h"
-#include "reference/level_set/grid_content.h"
+#include "reference/bodies/deforming_content.h"
+#include "reference/bodies/grid_content.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/level_set_checks.h"
 #include "verification/checks/measured.h"

@@ -1,12 +1,12 @@
 // Checks of the second opinions on inside and outside: ray parity, winding numbers, and the repair by them.
 #include <cmath>
 
-#include "reference/level_set/closed_mesh.h"
+#include "reference/bodies/closed_mesh.h"
 #include "reference/level_set/mesh_grid.h"
-#include "reference/level_set/mesh_inspection.h"
-#include "reference/level_set/ray_parity.h"
-#include "reference/level_set/repair.h"
-#include "reference/level_set/winding.h"
+#include "reference/bodies/mesh_inspection.h"
+#include "reference/bodies/ray_parity.h"
+#include "reference/bodies/repair.h"
+#include "reference/bodies/winding.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/level_set_checks.h"
 #include "verification/checks/measured.h"

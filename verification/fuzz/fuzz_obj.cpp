@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "reference/level_set/closed_mesh.h"
+#include "reference/bodies/closed_mesh.h"
 #include "reference/mesh/obj.h"
 #include "verification/fuzz/finding.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "reference/level_set/makers.h"
+#include "reference/bodies/makers.h"
 #include "reference/scene/scene.h"
 #include "verification/fuzz/finding.h"
 

@@ -5,7 +5,7 @@
 
 #include "convergence/section_profile.h"
 #include "convergence/wrinkle_measure.h"
-#include "reference/level_set/makers.h"
+#include "reference/bodies/makers.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/scratch_folder.h"
 #include "verification/hdf5_file.h"

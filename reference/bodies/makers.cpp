@@ -1,4 +1,4 @@
-#include "reference/level_set/makers.h"
+#include "reference/bodies/makers.h"
 
 namespace foldproof {
 

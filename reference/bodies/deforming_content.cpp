@@ -1,10 +1,10 @@
-#include "reference/level_set/deforming_content.h"
+#include "reference/bodies/deforming_content.h"
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
-#include "reference/level_set/content_key.h"
+#include "reference/bodies/content_key.h"
 
 namespace foldproof {
 

@@ -1,4 +1,4 @@
-#include "reference/level_set/ray_parity.h"
+#include "reference/bodies/ray_parity.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "reference/level_set/body_deformation.h"
+#include "reference/bodies/body_deformation.h"
 
 #include <cmath>
 #include <utility>

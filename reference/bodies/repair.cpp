@@ -1,4 +1,4 @@
-#include "reference/level_set/repair.h"
+#include "reference/bodies/repair.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,8 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "reference/level_set/closed_mesh.h"
-#include "reference/level_set/winding.h"
+#include "reference/bodies/closed_mesh.h"
+#include "reference/bodies/winding.h"
 #include "reference/mesh/mesh_places.h"
 
 namespace foldproof {

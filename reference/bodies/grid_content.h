@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "reference/level_set/repair.h"
+#include "reference/bodies/repair.h"
 
 namespace foldproof {
 

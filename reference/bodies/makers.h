@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "reference/level_set/deforming.h"
-#include "reference/level_set/repair.h"
+#include "reference/bodies/repair.h"
 
 namespace foldproof {
 

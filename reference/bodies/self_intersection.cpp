@@ -1,4 +1,4 @@
-#include "reference/level_set/self_intersection.h"
+#include "reference/bodies/self_intersection.h"
 
 #include <algorithm>
 #include <array>

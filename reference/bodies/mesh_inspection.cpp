@@ -1,10 +1,10 @@
-#include "reference/level_set/mesh_inspection.h"
+#include "reference/bodies/mesh_inspection.h"
 
 #include <algorithm>
 
-#include "reference/level_set/closed_mesh.h"
-#include "reference/level_set/ray_parity.h"
-#include "reference/level_set/repair.h"
+#include "reference/bodies/closed_mesh.h"
+#include "reference/bodies/ray_parity.h"
+#include "reference/bodies/repair.h"
 
 namespace foldproof {
 

@@ -1,9 +1,9 @@
-#include "reference/level_set/grid_content.h"
+#include "reference/bodies/grid_content.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "reference/level_set/content_key.h"
+#include "reference/bodies/content_key.h"
 
 namespace foldproof {
 

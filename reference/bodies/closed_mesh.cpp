@@ -1,4 +1,4 @@
-#include "reference/level_set/closed_mesh.h"
+#include "reference/bodies/closed_mesh.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "reference/level_set/self_intersection.h"
-#include "reference/level_set/winding.h"
+#include "reference/bodies/self_intersection.h"
+#include "reference/bodies/winding.h"
 #include "reference/mesh/mesh_places.h"
 
 namespace foldproof {
