@@ -1,0 +1,281 @@
+// Checks of what is refused as a solid, and of the test for intersecting triangles.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <tuple>
+#include <utility>
+
+#include "reference/bodies/closed_mesh.h"
+#include "reference/bodies/self_intersection.h"
+#include "reference/mesh/obj.h"
+#include "reference/mesh/shapes.h"
+#include "verification/checks/level_set/level_set_checks.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/checks/scratch_folder.h"
+#include "verification/checks/specimens.h"
+#include "verification/checks/ugly_solids.h"
+
+namespace foldproof {
+
+namespace {
+
+TriangleSoup soup_of(const TriangleMesh& mesh) { return {mesh.rest, mesh.triangles, {}}; }
+
+/// Both surfaces in one, the second moved.
+TriangleSoup joined(TriangleSoup first, const TriangleSoup& second, const Vector3& shift) {
+  const int before = int(first.rest.cols());
+  PerParticle3 rest(3, first.rest.cols() + second.rest.cols());
+  rest << first.rest, second.rest.colwise() + shift;
+  first.rest = rest;
+  for (const Triangle& t : second.triangles)
+    first.triangles.push_back({t[0] + before, t[1] + before, t[2] + before});
+  return first;
+}
+
+TriangleSoup turned_round(TriangleSoup soup) {
+  for (Triangle& t : soup.triangles) std::swap(t[0], t[1]);
+  return soup;
+}
+
+TriangleSoup ball(double radius) { return soup_of(make_icosphere(radius, 2)); }
+
+/// A surface that is no solid, and what the refusal must say of it.
+struct BadSolid {
+  std::string name;
+  TriangleSoup soup;
+  std::vector<std::string> parts;
+};
+
+/// The line of triangle t in a file that write_obj wrote: a comment, the vertices, the triangles.
+std::string line_of(const TriangleSoup& soup, int t) {
+  return ":" + std::to_string(2 + soup.rest.cols() + t) + ":";
+}
+
+std::vector<BadSolid> bad_solids() {
+  const TriangleSoup whole = ball(0.7);
+  TriangleSoup open = whole, flipped = whole, pierced = whole;
+  open.triangles.erase(open.triangles.begin() + 211);
+  open.triangles.erase(open.triangles.begin() + 17);
+  std::swap(flipped.triangles[133][1], flipped.triangles[133][2]);
+  pierced.rest.col(5) *= -1.2;  // pulled out through the far side
+  return {
+      {"two holes", open, {"a hole", "6 such edges around 2 holes", "repair"}},
+      {"a flipped triangle", flipped, {"opposite orientation"}},
+      {"a vertex pulled through the far side", pierced, {"meets", "intersecting pairs", "repair"}},
+      {"two balls that overlap", joined(whole, whole, {0.5, 0.31, 0.22}), {"meets", "intersecting pairs"}},
+      {"a ball inside out", turned_round(whole), {line_of(whole, 0), "320 triangles", "inward"}},
+      {"a ball in a ball, both outward",
+       joined(whole, ball(0.3), {0.1, 0.05, 0}),
+       {":" + std::to_string(2 + 2 * 162 + 320) + ":", "within another piece"}},
+      {"a ball beside another, inside out",
+       joined(whole, turned_round(ball(0.3)), {1.7, 0.05, 0}),
+       {":" + std::to_string(2 + 2 * 162 + 320) + ":", "inward"}}};
+}
+
+Finding bad_solids_are_refused(const Subject&) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("bad.obj");
+  Measured measured("file or words missing from the refusal", "1");
+  std::vector<std::string> messages;
+  for (const BadSolid& bad : bad_solids()) {
+    write_obj(path, bad.soup.rest, bad.soup.triangles);
+    const std::string message = refusal([&] { make_closed_mesh(read_obj_soup(path)); });
+    int missing = message.starts_with(path + ":") ? 0 : 1;
+    for (const std::string& part : bad.parts) missing += message.find(part) == std::string::npos;
+    measured.see(bad.name, missing);
+    messages.push_back(message.substr(std::min(message.size(), path.size() - std::string("bad.obj").size())));
+  }
+  Finding finding = measured.judged(0, "each refusal must name the file, what is wrong, and how much of it");
+  finding.evidence.push_back({"message", "", messages});
+  return finding;
+}
+
+Finding places_are_right(const Subject&) {
+  Measured measured("places that are not named as they are", "1");
+  const TriangleSoup whole = ball(0.7);
+  int wrong = 0;
+  for (int t = 3; t < 320; t += 37) {
+    TriangleSoup open = whole;
+    open.triangles.erase(open.triangles.begin() + t);
+    const std::string message = refusal([&] { make_closed_mesh(open); });
+    bool named = false;  // an edge of the missing triangle
+    for (int k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(whole.triangles[t][k], whole.triangles[t][(k + 1) % 3]);
+      named = named || message.find("between vertex " + std::to_string(a) + " and vertex " +
+                                    std::to_string(b) + ",") != std::string::npos;
+    }
+    if (!named) ++wrong;
+  }
+  measured.see("hole: an edge of the triangle that is missing", wrong);
+  return measured.judged(0, "the edge named must be one of the hole's");
+}
+
+Finding solids_are_accepted(const Subject&) {
+  Measured measured("refused", "1");
+  std::vector<std::pair<std::string, TriangleSoup>> good{
+      {"ball", ball(0.7)},
+      {"statue", soup_of(small_statue())},
+      {"two balls", joined(ball(0.7), ball(0.4), {1.3, 0.2, 0.1})},
+      {"ball with a cavity and a ball in it",
+       joined(joined(ball(0.7), turned_round(ball(0.5)), {0.02, 0.01, 0}), ball(0.3), {0.05, -0.02, 0.01})}};
+  for (const UglySolid& solid : ugly_solids()) good.emplace_back(solid.name, solid.soup);
+  for (const auto& [name, soup] : good)
+    measured.see(name, refusal([&soup = soup] { make_closed_mesh(soup); }).empty() ? 0 : 1);
+  return measured.judged(0, "each of them parts inside from outside");
+}
+
+// ---- pairs of triangles whose answer is known by how they were made, in whole numbers
+
+using Six = std::array<Vector3, 6>;
+
+Vector3 whole(Random& random, double size) {
+  const Vector3 v = random.vectors(1, size).col(0);
+  return {std::round(v.x()), std::round(v.y()), std::round(v.z())};
+}
+
+/// Three vectors with 1, 2 and 3 times of them adding up to zero: the origin is inside the triangle that they
+/// span.
+std::array<Vector3, 3> around_origin(Random& random) {
+  const Vector3 a = 6 * whole(random, 50), b = 6 * whole(random, 50);
+  return {a, b, -(a + 2 * b) / 3};
+}
+
+/// Two triangles with a common point inside each.
+Six crossing(Random& random) {
+  const Vector3 at = whole(random, 100);
+  const auto s = around_origin(random), t = around_origin(random);
+  return {at + s[0], at + s[1], at + s[2], at + t[0], at + t[1], at + t[2]};
+}
+
+/// A vertex of the second lies in the first, the rest of it on one side.
+Six touching(Random& random) {
+  Six x = crossing(random);
+  const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
+  const Vector3 at = (x[0] + 2 * x[1] + 3 * x[2]) / 6;
+  x[3] = at;
+  for (int k = 4; k < 6; ++k)
+    if ((x[k] - at).dot(normal) < 0) x[k] = 2 * at - x[k];
+  return x;
+}
+
+/// The same, the second moved away by `gap` along an axis. The smallest gap that these numbers have room for
+/// is 2^-44.
+Six apart(Random& random, double gap) {
+  Six x = touching(random);
+  const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
+  Eigen::Index axis;
+  normal.cwiseAbs().maxCoeff(&axis);
+  for (int k = 3; k < 6; ++k) x[k][axis] += std::copysign(gap, normal[axis]);
+  return x;
+}
+
+/// In one plane, the second within the first or beyond its far side.
+Six in_plane(Random& random, bool overlapping) {
+  const Vector3 u = whole(random, 50), v = whole(random, 50), at = whole(random, 1000);
+  const auto point = [&](double a, double b) { return Vector3(at + a * u + b * v); };
+  if (overlapping) return {point(0, 0), point(9, 1), point(2, 8), point(2, 2), point(4, 2), point(3, 4)};
+  return {point(0, 0), point(9, 1), point(2, 8), point(9, 2), point(8, 7), point(6, 6)};
+}
+
+struct Family {
+  std::string name;
+  std::function<Six(Random&)> make;
+  bool meets;
+};
+
+std::vector<Family> families() {
+  return {{"common point", crossing, true},
+          {"vertex on face", touching, true},
+          {"vertex off face", [](Random& random) { return apart(random, 1); }, false},
+          {"vertex a hair off face", [](Random& random) { return apart(random, 0x1p-44); }, false},
+          {"in one plane, one in the other", [](Random& random) { return in_plane(random, true); }, true},
+          {"in one plane, side by side", [](Random& random) { return in_plane(random, false); }, false}};
+}
+
+bool has_area(const Vector3& a, const Vector3& b, const Vector3& c) {
+  return (b - a).cross(c - a).norm() > 0;
+}
+
+Finding intersections_are_found(const Subject&) {
+  Measured measured("wrong answers", "1");
+  for (const Family& family : families()) {
+    Random random(97);
+    int wrong = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Six x = family.make(random);
+      if (!has_area(x[0], x[1], x[2]) || !has_area(x[3], x[4], x[5])) continue;
+      PerParticle3 rest(3, 6);
+      for (int k = 0; k < 6; ++k) rest.col(k) = x[k];
+      rest /= 1024;  // no coordinate is rounded
+      if (intersect(rest, {0, 1, 2}, {3, 4, 5}) != family.meets) ++wrong;
+      if (intersect(rest, {5, 3, 4}, {2, 0, 1}) != family.meets) ++wrong;
+    }
+    measured.see(family.name, wrong);
+  }
+  return measured.judged(0, "coordinates are whole numbers over 1024, and signs of determinants are exact");
+}
+
+/// Triangles that share an edge or a vertex.
+Finding neighbours_are_told_apart(const Subject&) {
+  PerParticle3 x(3, 7);
+  x << 0, 4, 0, 4, 1, 5, 1,  //
+      0, 0, 4, 4, 1, 1, 1,   //
+      0, 0, 0, 0, 0, 3, -3;
+  const Triangle base{0, 1, 2};
+  const std::vector<std::tuple<std::string, Triangle, bool>> cases = {
+      {"edge shared, flat", {2, 1, 3}, false},
+      {"edge shared, folded flat onto the other", {2, 1, 4}, true},
+      {"edge shared, folded", {2, 1, 5}, false},
+      {"vertex shared, an edge over the other",
+       {0, 5, 3},
+       true},  // 3 is in the plane, but 0-3 runs over the base
+      {"vertex shared, through the other", {0, 5, 6}, true},
+      {"vertex shared, away from the other", {1, 5, 3}, false}};
+  Measured measured("wrong answers", "1");
+  for (const auto& [name, triangle, meets] : cases)
+    measured.see(name, (intersect(x, base, triangle) != meets) + (intersect(x, triangle, base) != meets));
+  return measured.judged(0, "what they share by number does not count, anything more does");
+}
+
+/// The tree must find the pairs that a look at all of them finds.
+Finding pairs_are_complete(const Subject&) {
+  Measured measured("pairs missing or superfluous", "1");
+  for (const double shift : {0.4, 1.1}) {
+    const TriangleSoup both = joined(ball(0.7), ball(0.7), {shift, 0.31, 0.22});
+    std::vector<std::pair<int, int>> all;
+    for (int s = 0; s < int(both.triangles.size()); ++s)
+      for (int t = s + 1; t < int(both.triangles.size()); ++t)
+        if (intersect(both.rest, both.triangles[s], both.triangles[t])) all.emplace_back(s, t);
+    const auto found = self_intersections(both.rest, both.triangles);
+    std::vector<std::pair<int, int>> differing;
+    std::set_symmetric_difference(all.begin(), all.end(), found.begin(), found.end(),
+                                  std::back_inserter(differing));
+    measured.see(std::to_string(all.size()) + " pairs", double(differing.size()) + (all.empty() ? 1 : 0));
+  }
+  return measured.judged(0, "boxes that do not meet hold no triangles that do");
+}
+
+}  // namespace
+
+std::vector<Check> closed_mesh_checks() {
+  return {{"level-set.bad-solids-are-refused",
+           "Holes, flipped triangles, intersections and pieces inside out are refused by name and number.",
+           "ours", bad_solids_are_refused},
+          {"level-set.holes-are-named", "The edge that a refusal names is one of the hole's.", "ours",
+           places_are_right},
+          {"level-set.solids-are-accepted",
+           "Bodies, bodies beside others, and nested shells are accepted, thin rays and fins among them.",
+           "ours", solids_are_accepted},
+          {"level-set.intersections-are-exact",
+           "Whether two triangles meet is answered right, contact and common planes included.",
+           "Shewchuk 1997", intersections_are_found},
+          {"level-set.neighbours-may-touch",
+           "Triangles may meet in the edge or vertex that they share, and in nothing more.", "ours",
+           neighbours_are_told_apart},
+          {"level-set.intersecting-pairs-are-complete", "The tree finds all intersecting pairs.", "ours",
+           pairs_are_complete}};
+}
+
+}  // namespace foldproof

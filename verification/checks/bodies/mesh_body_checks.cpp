@@ -1,0 +1,103 @@
+// Checks of bodies that a case file takes from OBJ files.
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "reference/mesh/obj.h"
+#include "reference/mesh/shapes.h"
+#include "verification/checks/level_set/level_set_checks.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/scratch_folder.h"
+#include "verification/checks/trial_cases.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double radius = 0.7;  // m
+
+std::string body(const std::string& file, const std::string& keys) {
+  return "[[object]]\nmesh = \"" + std::filesystem::path(file).filename().string() + "\"\n" + keys + "\n";
+}
+
+/// A case that lies beside the file.
+Scene read_case_beside(const std::string& file, const std::string& keys) {
+  return read_case(body(file, keys), {}, std::filesystem::path(file).replace_filename("trial.toml").string());
+}
+
+/// The direction of the triangles that are left out first [1].
+Vector3 above_the_hole() {
+  const TriangleMesh ball = make_icosphere(radius, 3);
+  return ball.rest.col(ball.triangles[0][1]).normalized();
+}
+
+/// A ball of 1280 triangles; the first `missing` are left out, those from 100 to 100 + `flipped` turned
+/// round.
+std::string written(const ScratchFolder& folder, int missing, int flipped) {
+  TriangleMesh ball = make_icosphere(radius, 3);
+  for (int t = 100; t < 100 + flipped; ++t) std::swap(ball.triangles[t][0], ball.triangles[t][1]);
+  ball.triangles.erase(ball.triangles.begin(), ball.triangles.begin() + missing);
+  const std::string path = folder.file("ball.obj");
+  write_obj(path, ball.rest, ball.triangles);
+  return path;
+}
+
+Finding open_bodies_are_refused(const Subject&) {
+  const ScratchFolder folder;
+  Measured measured("file, reason or remedy missing from the refusal", "1");
+  const auto see = [&](const std::string& name, const std::string& file, const std::string& keys,
+                       const std::vector<std::string>& parts) {
+    const std::string message = refusal([&] { read_case_beside(file, keys); });
+    int missing = 0;
+    for (const std::string& part : parts) missing += message.find(part) == std::string::npos;
+    measured.see(name, missing);
+  };
+  see("hole", written(folder, 1, 0), "", {"ball.obj:", "a hole", "repair"});
+  see("hole, exact distance", written(folder, 1, 0), "field = \"exact\"", {"ball.obj:", "a hole"});
+  see("flipped triangles", written(folder, 0, 3), "", {"ball.obj:", "opposite orientation"});
+  see("exact distance and repair", written(folder, 1, 0), "field = \"exact\"\nrepair = \"winding\"",
+      {"repair", "grid"});
+  see("an unknown repair", written(folder, 1, 0), "repair = \"glue\"", {"glue", "winding"});
+  return measured.judged(0, "each refusal must name the file or the key, and the reason");
+}
+
+/// Largest error of phi over points at distances 0.5 to 1.2 from the ball's centre, half of them below or
+/// above where triangles may be missing [cells].
+double error_of(const Scene& scene, double cell) {
+  const auto& solid = std::get<RigidObject>(scene.objects.at(0).object.body);
+  Random random(109);
+  Worst worst;
+  for (int i = 0; i < 500; ++i) {
+    const Vector3 hole = i % 2 == 0 ? Vector3(Vector3::Zero()) : Vector3(5 * above_the_hole());
+    const Vector3 p = (hole + random.vectors(1, 1).col(0)).normalized() * random.in(0.5, 1.2);
+    worst.see(std::abs(solid.at(p, {0, 0, 1}).phi - (p.norm() - radius)) / cell);
+  }
+  return worst.value();
+}
+
+Finding bodies_are_solid(const Subject&) {
+  const ScratchFolder folder;
+  constexpr double cell = 2 * radius / 32;
+  Measured measured("largest error of phi", "cells");
+  measured.see("whole, grid", error_of(read_case_beside(written(folder, 0, 0), "cells = 32"), cell));
+  measured.see("whole, exact", error_of(read_case_beside(written(folder, 0, 0), "field = \"exact\""), cell));
+  measured.see("four triangles missing, seven flipped",
+               error_of(read_case_beside(written(folder, 4, 7), "cells = 32\nrepair = \"winding\""), cell));
+  return measured.judged(
+      1,
+      "faces lie up to 0.15 cells within the ball; a hole of four triangles is three cells wide, "
+      "and a membrane over it flatter than the ball by half a cell");
+}
+
+}  // namespace
+
+std::vector<Check> mesh_body_checks() {
+  return {{"level-set.case-refuses-bodies-that-do-not-close",
+           "A case whose body has holes or flipped triangles is refused with the line of the body's file.",
+           "ours", open_bodies_are_refused},
+          {"level-set.case-bodies-are-solid",
+           "A body from an OBJ file, whole or repaired, has the distance of the ball that it was made of.",
+           "ours", bodies_are_solid}};
+}
+
+}  // namespace foldproof

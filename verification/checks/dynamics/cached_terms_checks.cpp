@@ -1,0 +1,128 @@
+// What it saves to compute the position-dependent terms of damping once a solve, and to assemble no matrix.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "reference/dynamics/simulate.h"
+#include "reference/mesh/shapes.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/checks/dynamics/solver_checks.h"
+#include "verification/checks/processor_time.h"
+
+namespace foldproof {
+
+namespace {
+
+/// A waved sheet of cells x cells squares with springs and hinges, both damped.
+Scene waved_sheet(int cells) {
+  Scene scene = scene_of(make_sheet({SheetPattern::alternating, 1.3, 1.1, cells, cells}), 0.21);
+  scene.stretch = StretchMaterial{31, 0.017, 1};
+  scene.bending = BendingMaterial{0.0019, 0.00023, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0.03);
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    scene.x(2, i) += 0.004 * std::sin(37 * scene.x(0, i)) * std::cos(29 * scene.x(1, i));
+    scene.v.col(i) =
+        Vector3(std::cos(5 * scene.x(1, i)), std::sin(7 * scene.x(0, i)), std::cos(3 * scene.x(0, i)));
+  }
+  return scene;
+}
+
+double seconds_of(const std::function<void()>& run) {
+  const double start = processor_seconds();
+  run();
+  return processor_seconds() - start;
+}
+
+/// The least times of `repeats` runs of two things [s], taken in turns: what slows the machine down slows
+/// both.
+std::array<double, 2> least_seconds(const std::function<void()>& one, const std::function<void()>& other,
+                                    int repeats) {
+  std::array<double, 2> least{INFINITY, INFINITY};
+  for (int k = 0; k < repeats; ++k) {
+    least[0] = std::min(least[0], seconds_of(one));
+    least[1] = std::min(least[1], seconds_of(other));
+  }
+  return least;
+}
+
+Finding time_finding(const Subject&) {
+  constexpr int repeats = 40;
+  std::vector<double> particles, cached, anew;
+  Worst worst;
+  for (int cells : {20, 40, 80}) {
+    const Scene scene = waved_sheet(cells);
+    const System system = build_system(scene);
+    const State s = start_state(scene);
+    Work work;
+    PerParticle3 f = PerParticle3::Zero(3, s.x.cols());
+    const DampingOperator damping = damping_at(system.forces, s, work);
+    particles.push_back(double(s.x.cols()));
+    const auto [with, without] =
+        least_seconds([&] { damping.add_product(s.v, f); },
+                      [&] { damping_at(system.forces, s, work).add_product(s.v, f); }, repeats);
+    cached.push_back(with);
+    anew.push_back(without);
+    worst.see(cached.back() / anew.back());
+  }
+  return {{worst.value(), 0.5, 0, "1",
+           "half: less would make the cache not worth its memory from the second product of a solve on"},
+          {{"particles", "1", particles},
+           {"product with cached terms", "s", cached},
+           {"product with terms computed anew", "s", anew}},
+          "the least times of 40 runs of each in turns, in processor time; a ratio, so that the machine's "
+          "speed and load "
+          "matter little"};
+}
+
+/// The 3 x 3 blocks of D on and above its diagonal that springs and hinges fill.
+double blocks_of(const TriangleMesh& mesh) {
+  std::set<std::pair<int, int>> blocks;
+  const auto couple = [&](int i, int j) { blocks.insert({std::min(i, j), std::max(i, j)}); };
+  for (int i = 0; i < int(mesh.particles()); ++i) couple(i, i);
+  for (const Hinge& hinge : mesh.hinges)
+    for (int i : hinge.particles)
+      for (int j : hinge.particles) couple(i, j);
+  return double(blocks.size());
+}
+
+Finding memory_finding(const Subject&) {
+  constexpr double block_bytes = 9 * sizeof(double) + sizeof(int);  // nine entries and a column's number
+  std::vector<double> particles, cache, matrix;
+  Worst worst;
+  for (int cells : {10, 30}) {
+    const Scene scene = waved_sheet(cells);
+    const System system = build_system(scene);
+    Work work;
+    const DampingOperator damping = damping_at(system.forces, start_state(scene), work);
+    particles.push_back(double(scene.x.cols()));
+    cache.push_back(double(damping.pairs.capacity() * sizeof(PairDamper) +
+                           damping.hinges.capacity() * sizeof(HingeDamper)) /
+                    particles.back());
+    matrix.push_back(blocks_of(scene.mesh) * block_bytes / particles.back());
+    worst.see(cache.back() / matrix.back());
+  }
+  return {{worst.value(), 1, 0, "1", "not assembling must not cost more memory than assembling"},
+          {{"particles", "1", particles},
+           {"cached terms", "bytes a particle", cache},
+           {"half of the matrix's blocks", "bytes a particle", matrix}},
+          "blocks of 3 x 3 on and above the diagonal, nine numbers and an index each: the least that an "
+          "assembled, "
+          "symmetric matrix needs"};
+}
+
+}  // namespace
+
+std::vector<Check> cached_terms_checks() {
+  const std::string source = "BMF03 section 3";
+  return {{"solver.cached-terms-save-time",
+           "A product with the reference's cached terms takes at most half the time of one that computes "
+           "them anew.",
+           source, time_finding},
+          {"solver.cached-terms-take-less-memory-than-a-matrix",
+           "The reference's cached terms take less memory than half of the matrix that is not assembled.",
+           source, memory_finding}};
+}
+
+}  // namespace foldproof

@@ -1,0 +1,146 @@
+// Motions known in closed form: free fall, a turning pair.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reference/dynamics/integrator.h"
+#include "verification/checks/dynamics/dynamics_checks.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/oracles/exact_solutions.h"
+
+namespace foldproof {
+
+namespace {
+
+State step_once(const std::string& integrator, const System& system, const State& s, double h) {
+  Work work;
+  return integrator_named(integrator).step(system, {&s, 1}, h, work);
+}
+
+Finding free_fall_finding(const Subject& subject, const std::string& integrator) {
+  Scene scene = led_sheet();
+  scene.led.clear();
+  scene.stretch.reset();
+  scene.bending.reset();
+  Stepper stepper(subject, scene, integrator);
+  const State start = stepper.start();
+  State s = start;
+  Worst worst;
+  const int steps = 120;
+  for (int n = 0; n < steps; ++n) s = stepper.step(s, n % 3 == 0 ? 0.0171 : 0.0033);
+  double uncertainty = 0;
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
+    const oracles::FallEstimate exact =
+        oracles::free_fall({start.x.col(i), start.v.col(i), *scene.gravity}, s.time);
+    const double speed = start.v.col(i).norm() + scene.gravity->norm() * s.time;
+    const double way = start.x.col(i).norm() + speed * s.time;
+    worst.see((s.x.col(i) - exact.x).norm() / (epsilon * way));
+    worst.see((s.v.col(i) - exact.v).norm() / (epsilon * speed));
+    uncertainty = std::max(uncertainty, 2 * exact.x_uncertainty / (epsilon * way));
+  }
+  return {{worst.value(), 4.0 * steps, uncertainty, "epsilon of the way",
+           "120 steps, each of which rounds the velocity three times, the position once and the time once"},
+          {},
+          ""};
+}
+
+struct TurningPair {
+  System system;
+  State start;
+  double length, omega;
+};
+
+/// A pre-stretched pair that turns about its centre of mass, exactly steadily in continuous time.
+TurningPair turning_pair() {
+  const oracles::SpringPair pair{53, 0.31, 0.62, 0.27, 0.43};
+  TurningPair turning;
+  turning.omega = 6.1;
+  turning.length = oracles::steady_rotation_length(pair, turning.omega).value;
+  turning.system = make_system(Eigen::Vector2d(pair.mass_a, pair.mass_b));
+  const double stiffness = pair.young * pair.area / (pair.rest_length * pair.rest_length);
+  const std::vector<Spring> springs = {{0, 1, pair.rest_length, stiffness, 0}};
+  turning.system.forces.push_back(StretchSprings{springs});
+
+  const Vector3 direction = Vector3(0.3, -0.7, 0.5).normalized();
+  const Vector3 spin = turning.omega * direction.cross(Vector3(0.9, 0.2, -0.4)).normalized();
+  const double sum = pair.mass_a + pair.mass_b;
+  turning.start.x.resize(3, 2);
+  turning.start.x.col(0) = -pair.mass_b / sum * turning.length * direction;
+  turning.start.x.col(1) = pair.mass_a / sum * turning.length * direction;
+  turning.start.v.resize(3, 2);
+  for (int i = 0; i < 2; ++i) {
+    const Vector3 arm = turning.start.x.col(i);
+    turning.start.v.col(i) = spin.cross(arm);
+  }
+  return turning;
+}
+
+/// Largest relative deviation of the length from the steady one over the turns (first, last] [1].
+double deviation(const TurningPair& pair, const std::string& integrator, double h, double first,
+                 double last) {
+  const double turn = 2 * std::numbers::pi / pair.omega;
+  State s = pair.start;
+  Worst worst;
+  while (s.time < last * turn) {
+    s = step_once(integrator, pair.system, s, h);
+    const double length = (s.x.col(1) - s.x.col(0)).norm();
+    if (s.time > first * turn) worst.see(std::abs(length / pair.length - 1));
+  }
+  return worst.value();
+}
+
+Finding rotation_finding(const Subject&, const std::string& integrator) {
+  const TurningPair pair = turning_pair();
+  const std::vector<double> steps = {8e-3, 4e-3, 2e-3, 1e-3};
+  std::vector<double> deviations, orders = {NAN};
+  for (double h : steps) deviations.push_back(deviation(pair, integrator, h, 0, 6));
+  Worst worst;
+  for (size_t k = 1; k < steps.size(); ++k) {
+    orders.push_back(std::log2(deviations[k - 1] / deviations[k]));
+    worst.see(std::abs(orders.back() - 2));
+  }
+  return {
+      {worst.value(), 0.1, 0, "1",
+       "second order, two-sided; the next term is of fourth order, (omega h)^2 < 0.03 of the first"},
+      {{"step", "s", steps}, {"deviation of the length", "1", deviations}, {"observed order", "1", orders}},
+      "over six turns"};
+}
+
+Finding no_drift_finding(const Subject&, const std::string& integrator) {
+  const TurningPair pair = turning_pair();
+  const double early = deviation(pair, integrator, 8e-3, 0, 6),
+               late = deviation(pair, integrator, 8e-3, 54, 60);
+  return {{late / early - 1, 0.02, 0, "1",
+           "the length swings about a steady one for ever; 2 % is what the sampling of the swing's extremes "
+           "by steps allows"},
+          {{"turns", "1", std::vector<std::string>{"0 to 6", "54 to 60"}},
+           {"deviation of the length", "1", std::vector<double>{early, late}}},
+          ""};
+}
+
+}  // namespace
+
+std::vector<Check> exact_motion_checks() {
+  const std::string source = "BMF03 section 3";
+  std::vector<Check> list;
+  add_for_each_scheme(list, {"dynamics.free-fall-is-exact", "free fall is exact for any steps.", source, {}},
+                      free_fall_finding);
+  add_for_each_scheme(
+      list,
+      {"dynamics.steady-rotation",
+       "the length of a steadily turning stretched pair of the reference is kept to second order.",
+       source,
+       {}},
+      rotation_finding);
+  add_for_each_scheme(
+      list,
+      {"dynamics.steady-rotation-does-not-drift",
+       "the length of a turning pair of the reference deviates no more after sixty turns than after six.",
+       source,
+       {}},
+      no_drift_finding);
+  return list;
+}
+
+}  // namespace foldproof

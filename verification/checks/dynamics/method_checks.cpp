@@ -1,0 +1,389 @@
+// The methods that the paper's schemes are compared with: the equations of a step, and what limits it.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "reference/dynamics/simulate.h"
+#include "verification/checks/dynamics/dynamics_checks.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/checks/specimens.h"
+#include "verification/oracles/dense_algebra.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double tolerance = 1e-11;
+
+/// The mass-weighted norm of a momentum over free particles [kg^1/2 m/s].
+double norm_of(const PerParticle3& momentum, const PerParticle& inverse_mass) {
+  return std::sqrt(momentum.colwise().squaredNorm().dot(inverse_mass.transpose()));
+}
+
+/// A step that a method has made, and the states before it, the latest last.
+struct Made {
+  std::vector<State> past;
+  State next;
+  double h() const { return next.time - past.back().time; }
+};
+
+Made made_by(Stepper& stepper, double h) {
+  const State start = stepper.start();
+  const State second = stepper.step(start, 0.7 * h);
+  return {{start, second}, stepper.step_after({start, second}, h)};
+}
+
+/// Where and with which velocity a method takes the forces, over which span [s], and the change of velocity
+/// that they make there, all by the textbook.
+struct Equation {
+  State at;
+  double span;
+  PerParticle3 change;  // 3 x N [m/s]
+};
+
+Equation equation_of(std::string_view method, const Made& made) {
+  const State &now = made.past.back(), &next = made.next;
+  const double h = made.h();
+  if (method == "implicit-midpoint")
+    return {{now.time + h / 2, (now.x + next.x) / 2, (next.x - now.x) / h}, h, next.v - now.v};
+  if (method == "backward-euler") return {{next.time, next.x, (next.x - now.x) / h}, h, next.v - now.v};
+
+  // BDF2: the derivative at the end of the parabola through three points
+  const State& before = made.past.front();
+  const double g = now.time - before.time;
+  const auto slope = [&](const PerParticle3& p2, const PerParticle3& p1,
+                         const PerParticle3& p0) -> PerParticle3 {
+    return (2 * h + g) / (h * (h + g)) * p2 - (h + g) / (h * g) * p1 + h / (g * (h + g)) * p0;
+  };
+  return {{next.time, next.x, slope(next.x, now.x, before.x)}, 1, slope(next.v, now.v, before.v)};
+}
+
+/// |M change - span (F + D v)| over the momentum, at free particles.
+double residual_of(const Stepper& stepper, const Equation& equation, const PerParticle& mass,
+                   const PerParticle& inverse_mass) {
+  const PerParticle3 force =
+      stepper.elastic_forces(equation.at) + stepper.damping_forces(equation.at, equation.at.v);
+  const PerParticle3 impulse = equation.span * force, momentum = equation.change * mass.asDiagonal();
+  return norm_of(momentum - impulse, inverse_mass) /
+         (norm_of(momentum, inverse_mass) + norm_of(impulse, inverse_mass));
+}
+
+/// Prescribed particles are where and as fast as they are at that time.
+void lead(const System& system, State& s) {
+  impose(velocities_at(system.led, s.time), s.v);
+  for (const PrescribedParticle& p : system.led) s.x.col(p.particle) = position_at(p.motion, p.start, s.time);
+}
+
+Finding satisfies_its_equations(const Subject& subject, const std::string& method) {
+  Measured measured("residual over momentum and impulse", "1");
+  for (Scene scene : {free_sheet(), led_sheet()}) {
+    scene.solver.tolerance = tolerance;
+    const System system = build_system(scene);
+    Stepper stepper(subject, scene, method);
+    for (const double h : {0.0017, 0.0071}) {
+      const Made made = made_by(stepper, h);
+      Equation equation = equation_of(method, made);
+      lead(system, equation.at);
+      measured.see((scene.led.empty() ? "free, h = " : "led, h = ") + std::to_string(h) + " s",
+                   residual_of(stepper, equation, system.mass, system.inverse_mass));
+    }
+  }
+  return measured.judged(
+      100 * tolerance,
+      "the solver's tolerance is 1e-11 of the momentum at its guess, which may be some ten times what "
+      "the step changes, and masses that differ by as much weigh it otherwise here");
+}
+
+/// One step of the linearised method against a dense solve of its equation, with the subject's forces.
+Finding linearised_step(const Subject& subject) {
+  Measured measured("difference over the largest velocity", "1");
+  for (const double h : {0.0017, 0.019}) {
+    Scene scene = free_sheet();
+    scene.solver.tolerance = 1e-13;
+    Stepper stepper(subject, scene, "linear-backward-euler");
+    const State now = stepper.start();
+    const System system = build_system(scene);
+    const Probe probe(subject, scene);
+    Work uncounted;
+    const ForceDifferential differential =
+        elastic_differential_at(system.forces, now, Definiteness::semidefinite, uncounted);
+    Eigen::MatrixXd K(now.x.size(), now.x.size());
+    for (Eigen::Index k = 0; k < now.x.size(); ++k) {
+      PerParticle3 unit = PerParticle3::Zero(3, now.x.cols()), product = unit;
+      unit.reshaped()[k] = 1;
+      differential.add_product(unit, product);
+      K.col(k) = product.reshaped();
+    }
+    const Eigen::VectorXd mass = system.mass.transpose().replicate(3, 1).reshaped();
+    const Eigen::MatrixXd A = Eigen::MatrixXd(mass.asDiagonal()) - h * damping_matrix(probe, now) - h * h * K;
+    const PerParticle3 momentum = now.v * system.mass.asDiagonal() + h * probe.elastic(now);
+    const Eigen::VectorXd v = oracles::solved_symmetric(A, momentum.reshaped());
+    const PerParticle3 next = stepper.step(now, h).v;
+    measured.see("h = " + std::to_string(h) + " s",
+                 largest_difference(next, v.reshaped(3, next.cols())) / largest_speed(next));
+  }
+  return measured.judged(
+      1e-10,
+      "the solver's tolerance is 1e-13 of the momentum, times the matrix's condition, at most some 1e3");
+}
+
+/// The scene with a hundred times its damping.
+Scene heavily_damped(Scene scene) {
+  scene.stretch->damping *= 100;
+  scene.bending->damping *= 100;
+  return scene;
+}
+
+/// A damped sheet, two damped a hundred times as much, and an undamped one whose springs are compressed, so
+/// that the exact derivative is indefinite.
+std::vector<std::pair<std::string, Scene>> sheets_to_solve() {
+  std::vector<std::pair<std::string, Scene>> sheets = {
+      {"damped", free_sheet()},
+      {"heavily damped", heavily_damped(free_sheet())},
+      {"heavily damped and led", heavily_damped(led_sheet())},
+      {"compressed", undamped_sheet()}};
+  sheets.back().second.stretch->rest_length_scale = 1.4;
+  for (auto& [name, scene] : sheets) scene.solver.tolerance = 1e-9;
+  return sheets;
+}
+
+/// How many of 36 solves missed their tolerance, at steps up to 50 times the elastic limit.
+Finding large_steps_finding(const Subject& subject) {
+  std::vector<std::string> cases;
+  std::vector<double> missed;
+  for (const auto& [name, scene] : sheets_to_solve())
+    for (const std::string method : {"backward-euler", "BDF2", "implicit-midpoint"}) {
+      Stepper stepper(subject, scene, method);
+      const State start = stepper.start();
+      const double limit = elastic_limit(build_system(scene), start);
+      for (const double over : {0.5, 5.0, 50.0}) {
+        const long before = stepper.work().unfinished_solves;
+        stepper.step(start, over * limit);
+        cases.push_back(name + ", " + method + ", " + std::to_string(over) + " times the elastic limit");
+        missed.push_back(double(stepper.work().unfinished_solves - before));
+      }
+    }
+  return {
+      {std::accumulate(missed.begin(), missed.end(), 0.0), 2, 0, "solves",
+       "one in eighteen: a line search may end where no part of the step lowers the residual. A hinge's "
+       "force "
+       "jumps where it folds through half a circle, so that an equation far beyond the limit need not have a "
+       "solution; a solve that ends without one says so"},
+      {{"case", "", cases}, {"solves that missed their tolerance", "solves", missed}},
+      ""};
+}
+
+/// Shapes at rest far from the origin, held together by springs alone, or by hinges alone: all that pulls at
+/// them is how their places are rounded.
+std::vector<Specimen> shapes_at_rest() {
+  std::vector<Specimen> cases;
+  for (Specimen shape : curved_shapes())
+    for (const bool has_springs : {true, false}) {
+      Specimen rests = shape;
+      if (has_springs) rests.scene.stretch = StretchMaterial{2900, 0, 1};
+      if (!has_springs)
+        rests.scene.bending = BendingMaterial{0.37, 0, Weighting::rest, DampingFactor::edge, "sine"};
+      rests.state.x.colwise() += Vector3(57.3, -41.9, 23.1);
+      rests.state.v.setZero();
+      rests.scene.x = rests.state.x;
+      rests.scene.v = rests.state.v;
+      rests.name += has_springs ? ", springs" : ", hinges";
+      cases.push_back(rests);
+    }
+  return cases;
+}
+
+Finding rest_is_found(const Subject& subject) {
+  Measured measured("solves that missed their tolerance", "1");
+  for (const Specimen& shape : shapes_at_rest())
+    for (const std::string method : {"backward-euler", "implicit-midpoint"}) {
+      Stepper stepper(subject, shape.scene, method);
+      const double limit = elastic_limit(build_system(shape.scene), shape.state);
+      stepper.step(shape.state, 5 * limit);
+      measured.see(shape.name + ", " + method, double(stepper.work().unfinished_solves));
+    }
+  return measured.judged(
+      0, "what is at rest but for the rounding of its place needs no solve, nor can one improve it");
+}
+
+/// Sheets that turn and crumple against damping a hundred times their usual.
+Finding newton_is_quick(const Subject& subject) {
+  Measured measured("Newton iterations of a step", "1");
+  for (Scene scene : {heavily_damped(free_sheet()), heavily_damped(led_sheet())}) {
+    scene.solver.tolerance = 1e-9;
+    for (const std::string method : {"backward-euler", "BDF2", "implicit-midpoint"}) {
+      Stepper stepper(subject, scene, method);
+      const State start = stepper.start();
+      const double limit = elastic_limit(build_system(scene), start);
+      for (const double over : {0.5, 2.0, 5.0}) {
+        const long before = stepper.work().newton_iterations;
+        stepper.step(start, over * limit);
+        measured.see((scene.led.empty() ? "free, " : "led, ") + method + ", " + std::to_string(over) +
+                         " times the elastic limit",
+                     double(stepper.work().newton_iterations - before));
+      }
+    }
+  }
+  return measured.judged(
+      10,
+      "solved to a thousandth, an exact step leaves a thousandth near the solution: three iterations for "
+      "nine "
+      "digits, and we allow seven to come near; without the derivative of the damping each leaves a good "
+      "part");
+}
+
+/// The largest damping rate of the subject at the specimen's state over the reference's bound.
+double rate_over_bound(const Subject& subject, const Specimen& specimen) {
+  const System system = build_system(specimen.scene);
+  const Eigen::MatrixXd D = damping_matrix(Probe(subject, specimen.scene), specimen.state);
+  const Eigen::VectorXd roots = system.mass.transpose().replicate(3, 1).reshaped().cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd rates = oracles::symmetric_eigenvalues(roots.asDiagonal() * D * roots.asDiagonal());
+  Work uncounted;
+  const double bound =
+      damping_rate_bound(damping_at(system.forces, specimen.state, uncounted), system.inverse_mass);
+  return -rates.minCoeff() / bound;
+}
+
+Finding damping_bound_is_a_bound(const Subject& subject) {
+  Measured measured("largest rate over the bound", "1");
+  const StretchMaterial springs{1, 0.017, 1};
+  const BendingMaterial hinges = damped_bending_variants().front();
+  for (Specimen specimen : small_crumpled_sheets()) {
+    const std::string name = specimen.name;
+    specimen.scene.stretch = springs;
+    measured.see(name + ", springs", rate_over_bound(subject, specimen));
+    specimen.scene.bending = hinges;
+    measured.see(name + ", both", rate_over_bound(subject, specimen));
+    specimen.scene.stretch.reset();
+    measured.see(name + ", hinges", rate_over_bound(subject, specimen));
+  }
+  return measured.judged(1, "an upper bound may not be exceeded");
+}
+
+/// Two equal masses joined by a damper: as fast as the bound says.
+Finding damping_rate_is_reached(const Subject&) {
+  Measured measured("bound over the rate of one damper, less 1", "1");
+  for (const double mass : {0.3, 2.7}) {
+    DampingOperator damper;
+    const Vector3 along(0.4, -1.1, 0.7);  // sqrt(N s/m)
+    damper.pairs.push_back({0, 1, along});
+    const double rate = 2 * along.squaredNorm() / mass;  // of their relative velocity [1/s]
+    measured.see(fmt::format("{} kg", mass),
+                 std::abs(damping_rate_bound(damper, PerParticle::Constant(2, 1 / mass)) / rate - 1));
+  }
+  return measured.judged(8 * epsilon,
+                         "one pair leaves nothing to be bounded: the same number in a few roundings");
+}
+
+/// Automatic steps of a sheet whose damping, not its elasticity, limits explicit methods.
+Finding explicit_steps_respect_damping(const Subject&) {
+  Scene scene = free_sheet();
+  scene.stretch->damping *= 1000;
+  const System system = build_system(scene);
+  const State s = start_state(scene);
+  Work uncounted;
+  const double rate = damping_rate_bound(damping_at(system.forces, s, uncounted), system.inverse_mass);
+  const StepRule rule{0, 0.7, 1e9};
+  Measured measured("step over 0.7 of the limit, less 1", "1");
+  for (const Integrator& integrator : integrators()) {
+    const bool limited = integrator.family == Family::fully_explicit;
+    const double elastic = elastic_limit(system, s), limit = limited ? std::min(2 / rate, elastic) : elastic;
+    const double h = step_allowed(system, integrator, {&s, 1}, rule, elastic);
+    measured.see(std::string(integrator.name), std::abs(h / (rule.safety * limit) - 1));
+  }
+  return measured.judged(8 * epsilon, "the limit times the safety, in a few roundings");
+}
+
+/// After a step of a hundredth of what is allowed, the next one.
+Finding growth_is_limited(const Subject&) {
+  const System system = build_system(free_sheet());
+  State before = start_state(free_sheet()), now = before;
+  now.time = before.time + 1e-5;
+  const StepRule rule{1e-3, 0.5, 0.1};
+  const double zero_stable = 1 + std::sqrt(2.0);
+  Measured measured("growth over the largest allowed", "1");
+  for (const Integrator& integrator : integrators()) {
+    const std::array<State, 2> past = {before, now};
+    const double growth = step_allowed(system, integrator, past, rule, elastic_limit(system, now)) / 1e-5;
+    const double allowed = integrator.name == "BDF2" ? zero_stable : 100;
+    measured.see(std::string(integrator.name), growth / allowed);
+    if (integrator.name != "BDF2")
+      measured.see(std::string(integrator.name) + " unhindered", allowed / growth);
+  }
+  return measured.judged(
+      1 + 1e-9, "BDF2 is zero-stable for ratios below 1 + sqrt(2); one-step methods need no such limit");
+}
+
+/// Derivatives of the elastic forces that Newton's method asks for in an iteration, where they are definite:
+/// steps so short that the masses outweigh what springs and hinges under pressure lack.
+Finding newton_asks_finding(const Subject&) {
+  const System system = build_system(undamped_sheet());
+  const State start = start_state(undamped_sheet());
+  Measured measured("derivatives an iteration, more than two", "1");
+  for (const char* name : {"backward-euler", "implicit-midpoint"})
+    for (const double share : {0.1, 0.3}) {
+      Work work;
+      integrator_named(name).step(system, {&start, 1}, share * elastic_limit(system, start), work);
+      measured.see(
+          fmt::format("{}, {} of the elastic limit, {} iterations", name, share, work.newton_iterations),
+          work.newton_iterations > 1
+              ? double(work.stiffness_preparations) / double(work.newton_iterations) - 2
+              : NAN);
+    }
+  return measured.judged(
+      0, "the exact derivative, which proves symmetric, and that of conjugate gradients, once");
+}
+
+}  // namespace
+
+std::vector<Check> method_checks() {
+  const std::string limits = "our automatic steps; Hairer, Norsett, Wanner, section III.5";
+  std::vector<Check> checks;
+  for (const std::string method : {"backward-euler", "BDF2", "implicit-midpoint"})
+    checks.push_back({"methods.step-satisfies-its-equation." + method,
+                      "A step of " + method +
+                          " solves the nonlinear equation that defines it, prescribed particles and "
+                          "variable steps included.",
+                      "Hairer, Norsett, Wanner, Solving Ordinary Differential Equations",
+                      [method](const Subject& subject) { return satisfies_its_equations(subject, method); }});
+  const std::vector<Check> others = {
+      {"methods.linearised-step-solves-its-equation",
+       "A step of linearised backward Euler is the solution of (M - h D - h^2 K) v = M v_n + h F.",
+       "Baraff and Witkin 1998", linearised_step},
+      {"methods.newton-solves-large-steps",
+       "Newton's method solves steps up to fifty times the elastic limit of damped and heavily damped "
+       "crumpled sheets, and of a compressed undamped one: all but two of 36 at most.",
+       "what BMF03 section 3 expects of a fully implicit method", large_steps_finding},
+      {"methods.newton-knows-cloth-at-rest",
+       "A step of shapes at rest far from the origin is not called unfinished: no force is asked to vanish "
+       "below what "
+       "rounding makes of it.",
+       "floating-point arithmetic", rest_is_found},
+      {"methods.newton-is-quick-on-damped-cloth",
+       "Newton's method takes at most ten iterations a step on heavily damped cloth that turns and crumples, "
+       "at steps up to five times the elastic limit.",
+       "what BMF03 section 3 expects of a fully implicit method", newton_is_quick},
+      {"forces.damping-rate-bound-is-a-bound",
+       "The reference's bound on damping rates exceeds the largest rate of crumpled sheets.",
+       "Gershgorin's theorem", damping_bound_is_a_bound},
+      {"dynamics.explicit-steps-respect-damping",
+       "Automatic steps of explicit methods keep to the damping limit, those of the others to the elastic "
+       "limit alone.",
+       limits, explicit_steps_respect_damping},
+      {"dynamics.step-growth-is-limited",
+       "BDF2's steps grow by less than 1 + sqrt(2); one-step methods may grow at will.", limits,
+       growth_is_limited}};
+  checks.insert(checks.end(), others.begin(), others.end());
+  checks.push_back(
+      {"methods.newton-asks-no-more-than-it-needs",
+       "Where the elastic forces' derivative is definite, Newton's method asks for no second one.", "ours",
+       newton_asks_finding});
+  checks.push_back({"methods.damping-rate-bound-is-reached",
+                    "The bound on the damping rate is that of a single damper.", limits,
+                    damping_rate_is_reached});
+  return checks;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,296 @@
+// Runs: frames at their times, steps within their limits, and stops that say what happened.
+#include <cmath>
+
+#include "reference/dynamics/simulate.h"
+#include "reference/mesh/shapes.h"
+#include "verification/checks/dynamics/dynamics_checks.h"
+#include "verification/checks/moving_scenes.h"
+
+namespace foldproof {
+
+namespace {
+
+/// A run with all that its observer saw.
+struct Watched {
+  std::vector<State> frames;
+  std::vector<Diagnostics> rows;
+  Outcome outcome;
+};
+
+Watched watched(const System& system, const std::string& integrator, const State& start,
+                const Schedule& schedule) {
+  Watched run;
+  const Observer observer{[&](const State& s) { run.frames.push_back(s); },
+                          [&](const Diagnostics& row) { run.rows.push_back(row); }};
+  run.outcome = simulate(system, integrator_named(integrator), start, schedule, observer);
+  return run;
+}
+
+/// What is wrong with the frames and steps of a run that should have `frames` frames: the largest error in
+/// time [s], of a product and a sum that may be rounded as one; NaN for a wrong count or a step longer than
+/// the one asked for.
+double frame_error(const Watched& run, const Schedule& schedule, size_t frames) {
+  Worst worst;
+  if (run.frames.size() != frames || run.outcome.stop) worst.see(NAN);
+  const double start = run.frames.front().time, fixed = schedule.step.fixed;
+  for (size_t k = 0; k < run.frames.size(); ++k) {
+    const volatile double whole =
+        double(k) * schedule.frame_interval;  // rounded, whatever the compiler fuses
+    const double apart = std::min(schedule.end, start + whole),
+                 as_one = std::min(schedule.end, std::fma(double(k), schedule.frame_interval, start));
+    const double time = run.frames[k].time;
+    worst.see(std::min(std::abs(time - apart), std::abs(time - as_one)));
+  }
+  for (const Diagnostics& row : run.rows)
+    if (fixed > 0 && !(row.step <= fixed * (1 + 2e-9))) worst.see(NAN);
+  if (fixed == schedule.frame_interval && run.outcome.steps != long(frames) - 1) worst.see(NAN);
+  return worst.value();
+}
+
+Finding frames_finding(const Subject&) {
+  const double interval = 0.0113, length = 0.0517;  // four whole intervals and a rest
+  Scene scene = led_sheet();
+  scene.led.clear();  // their paths begin at time 0, these runs do not
+  Worst worst;
+  std::vector<double> starts, steps, errors;
+  for (double start_time : {0.21, -0.0171, -0.0083, -0.0231})
+    for (double fixed : {0.0017, 0.0113, 0.0}) {
+      System system = build_system(scene);
+      if (fixed == interval) system.forces.clear();  // a step so long suits free flight only
+      State start = start_state(scene);
+      start.time = start_time;
+      const Schedule schedule{start_time + length, interval, {fixed, 0.5, 0.1}, 100000};
+      const double error = frame_error(watched(system, "A", start, schedule), schedule, 6);
+      worst.see(error);
+      starts.push_back(start_time);
+      steps.push_back(fixed);
+      errors.push_back(error);
+    }
+  return {{worst.value(), 0, 0, "s",
+           "frame times are set, not summed up; a step longer than asked for, or a wrong count, gives NaN"},
+          {{"start", "s", starts},
+           {"step asked for, 0: automatic", "s", steps},
+           {"error of the times", "s", errors}},
+          ""};
+}
+
+/// Largest relative change of an edge's length over its rest length in a step h, by its present rate [1].
+double strain_in(const Scene& scene, const State& s, double h) {
+  Worst worst;
+  for (const Edge& edge : scene.mesh.edges) {
+    const double rest =
+        scene.stretch->rest_length_scale * (scene.mesh.rest.col(edge.b) - scene.mesh.rest.col(edge.a)).norm();
+    const Vector3 d = s.x.col(edge.b) - s.x.col(edge.a), dv = s.v.col(edge.b) - s.v.col(edge.a);
+    worst.see(std::abs(d.normalized().dot(dv)) * h / rest);
+  }
+  return worst.value();
+}
+
+Finding limits_finding(const Subject&) {
+  constexpr size_t least_steps = 4;  // fewer say nothing of how a step follows the cloth
+  Worst worst;
+  std::vector<double> speeds, used_limit, used_strain;
+  std::vector<std::string> ends;
+  for (double speed : {0.01, 0.4, 9.0, 25.0})
+    for (double strain : {0.013, 0.09}) {
+      Scene scene = free_sheet();
+      scene.v *= speed;
+      scene.schedule = {0.031, 0.0173, {0, 0.37, strain}, 100000};
+      const System system = build_system(scene);
+      State s = start_state(scene);
+      const Watched run = watched(system, "C", s, scene.schedule);
+      Worst of_limit, of_strain;
+      for (size_t n = 1; n < run.rows.size(); ++n) {  // the run again, step by step
+        const double h = run.rows[n].step;
+        of_limit.see(h / (0.37 * elastic_limit(system, s)));
+        of_strain.see(strain_in(scene, s, h) / strain);
+        Work work;
+        s = integrator_named("C").step(system, {&s, 1}, h, work);
+        s.time = run.rows[n].time;
+      }
+      if (run.rows.size() <= least_steps || largest_difference(s.x, run.outcome.last.x) != 0) worst.see(NAN);
+      ends.push_back(run.outcome.stop ? run.outcome.stop->reason : "the end");
+      speeds.push_back(speed);
+      used_limit.push_back(of_limit.value());
+      used_strain.push_back(of_strain.value());
+      worst.see(of_limit.value());
+      worst.see(of_strain.value());
+    }
+  return {{worst.value(), 1 + 2e-9, 0, "of the limit",
+           "both limits hold at the start of every step; 1e-9 is the hair by which a step may be "
+           "stretched to divide an interval evenly"},
+          {{"speed", "1", speeds},
+           {"of the elastic limit", "1", used_limit},
+           {"of the strain allowed", "1", used_strain},
+           {"came to", "1", ends}},
+          "The run is repeated step by step with the steps it reported, and must end with the same bits. "
+          "One in which a triangle loses its area, as may be at 25 m/s, is judged up to there."};
+}
+
+/// Statements about a stopped run, each true or false; the measured number is how many are false.
+struct Statements {
+  std::vector<std::string> names;
+  std::vector<double> holds;
+
+  void add(const std::string& name, bool is_true) {
+    names.push_back(name);
+    holds.push_back(is_true ? 1 : 0);
+  }
+
+  Finding finding(const std::string& note) const {
+    double wrong = names.empty() ? NAN : 0;
+    for (double one : holds) wrong += 1 - one;
+    return {{wrong, 0, 0, "false statements", "a statement is true or false"},
+            {{"statement", "1", names}, {"true", "1", holds}},
+            note};
+  }
+};
+
+bool all_finite(const std::vector<State>& frames) {
+  for (const State& s : frames)
+    if (!s.x.allFinite() || !s.v.allFinite()) return false;
+  return true;
+}
+
+void add_common(Statements& statements, const Watched& run) {
+  statements.add("it stopped", run.outcome.stop.has_value());
+  if (!run.outcome.stop) return;
+  statements.add("the time is that of the last good state", run.outcome.stop->time == run.outcome.last.time);
+  statements.add("the step is the one after the last good one",
+                 run.outcome.stop->step == run.outcome.steps + 1);
+  statements.add("all frames delivered are finite", all_finite(run.frames));
+  statements.add("the last good state is finite", all_finite({run.outcome.last}));
+}
+
+Finding divergence_finding(const Subject&) {
+  const Scene scene = undamped_sheet();
+  const System system = build_system(scene);
+  const State start = start_state(scene);
+  const double h = 3 * elastic_limit(system, start);
+  const Watched run = watched(system, "C", start, {400 * h, 2 * h, {h, 0.5, 0.1}, 100000});
+  Statements statements;
+  add_common(statements, run);
+  if (run.outcome.stop) {
+    const Stop& stop = *run.outcome.stop;
+    Work work;
+    const State& last = run.outcome.last;
+    const State next = integrator_named("C").step(system, {&last, 1}, h, work);
+    Eigen::Index farthest = 0;
+    (next.x - last.x).colwise().norm().maxCoeff(&farthest);
+    statements.add("the reason says divergence", stop.reason.find("divergence") != std::string::npos);
+    statements.add("the particle is the one that moved farthest", stop.particle == farthest);
+    const double size = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();
+    Worst leap;
+    for (size_t k = 1; k < run.frames.size(); ++k)
+      leap.see(largest_difference(run.frames[k].x, run.frames[k - 1].x) / size);
+    statements.add("within a frame no particle moves more than 20 sizes in its two steps",
+                   leap.value() <= 20);
+    statements.add("earlier frames were delivered",
+                   run.frames.size() >= 2 && long(run.frames.size()) == run.outcome.steps / 2 + 1);
+  }
+  return statements.finding("fixed steps of three times the elastic limit");
+}
+
+Finding nan_finding(const Subject&) {
+  Scene scene = led_sheet();
+  scene.stretch.reset();
+  scene.bending.reset();
+  System system = build_system(scene);
+  CustomForce force;
+  force.elastic = [](const State& s, PerParticle3& f) {
+    if (s.time > 0.0221) f(1, 5) = NAN;
+  };
+  system.forces.push_back(force);
+  const Watched run = watched(system, "C", start_state(scene), {0.1, 0.01, {0.0034, 0.5, 0.1}, 100000});
+  Statements statements;
+  add_common(statements, run);
+  if (run.outcome.stop) {
+    statements.add("the reason says NaN", run.outcome.stop->reason.find("NaN") != std::string::npos);
+    statements.add("the particle is 5", run.outcome.stop->particle == 5);
+    statements.add("the step is 7", run.outcome.stop->step == 7);
+    statements.add("three frames were delivered", run.frames.size() == 3);
+  }
+  return statements.finding("a force becomes NaN after 0.0221 s, in the seventh step");
+}
+
+Finding lost_triangle_finding(const Subject&) {
+  const double length = 0.43, duration = 0.05;
+  Scene scene = scene_of(make_hinge(length, 0.31), 0.21);
+  scene.bending = BendingMaterial{3.7e-4, 1.9e-6, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles = {0.31};
+  Motion squeeze;  // moves the first vertex into the shared edge
+  squeeze.velocity = Vector3(0, -0.9 * length / duration, 0);
+  scene.led = {{0, scene.x.col(0), squeeze}, {2, scene.x.col(2), Motion{}}, {3, scene.x.col(3), Motion{}}};
+  const Watched run =
+      watched(build_system(scene), "C", start_state(scene), {0.2, 0.01, {0.0025, 0.5, 0.1}, 100000});
+  Statements statements;
+  add_common(statements, run);
+  if (run.outcome.stop) {
+    const std::string& reason = run.outcome.stop->reason;
+    statements.add("the reason says what was lost",
+                   reason.find("triangle") != std::string::npos && reason.find("area") != std::string::npos);
+    statements.add("the reason names the four particles",
+                   reason.find("particles 0 1 2 3") != std::string::npos);
+    statements.add("a particle is named", run.outcome.stop->particle == 0);
+    statements.add("the step is 20", run.outcome.stop->step == 20);
+    statements.add("five frames were delivered", run.frames.size() == 5);
+  }
+  return statements.finding("a vertex is led into the opposite edge, which it reaches at the end of step 20");
+}
+
+Finding cap_finding(const Subject&) {
+  const Scene scene = free_sheet();
+  const Watched run =
+      watched(build_system(scene), "B", start_state(scene), {0.1, 0.01, {0.002, 0.5, 0.1}, 13});
+  Statements statements;
+  add_common(statements, run);
+  statements.add("13 steps were made", run.outcome.steps == 13);
+  if (run.outcome.stop) {
+    statements.add("the reason says cap", run.outcome.stop->reason.find("cap") != std::string::npos);
+    statements.add("no particle is blamed", run.outcome.stop->particle == -1);
+  }
+  return statements.finding("a cap of 13 steps");
+}
+
+Finding standstill_finding(const Subject&) {
+  const Scene scene = free_sheet();
+  State start = start_state(scene);
+  start.time = 1;
+  const Watched run = watched(build_system(scene), "B", start, {1.1, 0.01, {1e-17, 0.5, 0.1}, 20});
+  Statements statements;
+  add_common(statements, run);
+  statements.add("no step was made", run.outcome.steps == 0);
+  if (run.outcome.stop)
+    statements.add("the reason says too short",
+                   run.outcome.stop->reason.find("too short") != std::string::npos);
+  return statements.finding("fixed steps of 1e-17 s from t = 1 s on, where doubles lie 2e-16 s apart");
+}
+
+}  // namespace
+
+std::vector<Check> run_checks() {
+  const std::string ours = "our reading of BMF03 section 3", stops = "good practice";
+  return {
+      {"dynamics.frames-are-hit-exactly",
+       "Runs of the reference deliver frames at exactly their times, with steps no longer than asked for.",
+       ours, frames_finding},
+      {"dynamics.automatic-steps-respect-the-limits",
+       "Automatic steps of the reference keep the safety factor of the elastic limit and the strain allowed "
+       "a step.",
+       ours, limits_finding},
+      {"dynamics.divergence-stops-with-names",
+       "A diverging run of the reference stops and names time, step and particle.", stops,
+       divergence_finding},
+      {"dynamics.nan-stops-with-names",
+       "A run of the reference that meets NaN stops and names time, step and particle.", stops, nan_finding},
+      {"dynamics.lost-triangle-stops-with-names",
+       "A run of the reference that loses a triangle stops and names its particles.", stops,
+       lost_triangle_finding},
+      {"dynamics.steps-too-short-stop", "A run whose steps no longer advance the time stops and says so.",
+       stops, standstill_finding},
+      {"dynamics.step-cap-stops", "A run of the reference that reaches its cap on steps stops and says so.",
+       stops, cap_finding},
+  };
+}
+
+}  // namespace foldproof

@@ -1,0 +1,317 @@
+// The conjugate gradients of the reference against dense linear algebra, and what they promise.
+#include "verification/checks/dynamics/solver_checks.h"
+
+#include <cmath>
+
+#include "reference/dynamics/system.h"
+#include "reference/mesh/shapes.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/checks/solver_problems.h"
+#include "verification/oracles/dense_algebra.h"
+
+namespace foldproof {
+
+namespace {
+
+const char* name_of_scale(ResidualScale scale) {
+  return scale == ResidualScale::momentum ? "momentum" : "initial residual";
+}
+
+/// The columns that the checks of residuals share.
+struct ResidualTable {
+  std::vector<std::string> scale;
+  std::vector<double> step, tolerance, returned, recomputed;
+  std::vector<double>
+      size;  // |A| |w| of the solution, over the scale; A: the operator of mass-weighted velocities [1]
+
+  std::vector<Column> columns() const {
+    return {{"relative to", "1", scale},     {"half step", "s", step},
+            {"tolerance", "1", tolerance},   {"returned", "1", returned},
+            {"recomputed", "1", recomputed}, {"operator times solution", "of the scale", size}};
+  }
+};
+
+/// Of M^{-1/2} A M^{-1/2} [1].
+double largest_eigenvalue(const DenseProblem& dense) {
+  const Eigen::VectorXd root = dense.mass.cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd values =
+      oracles::symmetric_eigenvalues(root.asDiagonal() * dense.A * root.asDiagonal());
+  return values.maxCoeff();
+}
+
+ResidualTable residual_table() {
+  ResidualTable table;
+  for (const ResidualScale scale : {ResidualScale::momentum, ResidualScale::initial_residual})
+    for (double s : {2.3e-4, 3.1e-3, 0.047}) {
+      Problem problem = make_problem(led_sheet(), 91);
+      const DenseProblem dense = make_dense(problem, s);
+      const double largest = largest_eigenvalue(dense);
+      for (double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
+        PerParticle3 w = problem.guess;
+        Work work;
+        const Solve solve = solve_velocity(problem.damping, s, problem.system.mass,
+                                           problem.system.inverse_mass, {tolerance, 1000, scale}, w, work);
+        const Eigen::VectorXd r = dense.b - dense.A * Eigen::VectorXd(w.reshaped()(dense.free));
+        table.scale.push_back(name_of_scale(scale));
+        table.step.push_back(s);
+        table.tolerance.push_back(tolerance);
+        table.returned.push_back(solve.residual);
+        table.recomputed.push_back(weighted_norm(r, dense.mass) / scale_of(dense, scale));
+        const Eigen::VectorXd momentum = dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)));
+        table.size.push_back(largest * weighted_norm(momentum, dense.mass) / scale_of(dense, scale));
+      }
+    }
+  return table;
+}
+
+Finding promise_finding(const Subject&) {
+  const ResidualTable table = residual_table();
+  Worst worst;
+  for (size_t k = 0; k < table.step.size(); ++k) worst.see(table.recomputed[k] / table.tolerance[k]);
+  return {{worst.value(), 1.05, 0, "of the tolerance",
+           "the tolerance, and what the iteration's residual and the true one drift apart: some hundred "
+           "epsilon, a twentieth of the smallest tolerance, 1e-12"},
+          table.columns(),
+          "The residual b - (M - s D) w is recomputed with a dense D made of the modes of all dampers."};
+}
+
+Finding returned_finding(const Subject&) {
+  const ResidualTable table = residual_table();
+  Worst worst;
+  for (size_t k = 0; k < table.step.size(); ++k)
+    worst.see(std::abs(table.returned[k] - table.recomputed[k]) / (epsilon * table.size[k]));
+  return {{worst.value(), 8, 0, "epsilon of the operator's norm times the solution's",
+           "each iteration rounds r in proportion to the operator times the iterate (Greenbaum 1997), and "
+           "the first "
+           "few, whose corrections are the largest, decide"},
+          table.columns(),
+          ""};
+}
+
+Finding cholesky_finding(const Subject&) {
+  Worst worst;
+  std::vector<double> steps, errors, tolerances;
+  for (double s : {2.3e-4, 3.1e-3, 0.047})
+    for (double tolerance : {1e-3, 1e-11}) {
+      const Problem problem = make_problem(led_sheet(), 29);
+      const DenseProblem dense = make_dense(problem, s);
+      PerParticle3 w = problem.guess;
+      Work work;
+      solve_velocity(problem.damping, s, problem.system.mass, problem.system.inverse_mass,
+                     {tolerance, 1000, ResidualScale::momentum}, w, work);
+      const Eigen::VectorXd exact = oracles::solved_symmetric(dense.A, dense.b);
+      const Eigen::VectorXd error =
+          dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)) - exact);
+      steps.push_back(s);
+      tolerances.push_back(tolerance);
+      errors.push_back(weighted_norm(error, dense.mass) / scale_of(dense, ResidualScale::momentum));
+      worst.see(errors.back() / tolerance);
+      for (const PrescribedParticle& p : problem.system.led)
+        if (w.col(p.particle) != problem.guess.col(p.particle)) worst.see(INFINITY);
+    }
+  return {
+      {worst.value(), 1.05, 0, "of the tolerance",
+       "in the mass-weighted norm the operator is at least the identity, so that the error is at most the "
+       "residual; 5 % for rounding"},
+      {{"half step", "s", steps}, {"tolerance", "1", tolerances}, {"error over the velocity", "1", errors}},
+      "Known velocities are moved to the right-hand side there, and must come back unchanged here."};
+}
+
+/// Particles that are each damped at one of k rates: D has k distinct eigenvalues beside zero.
+Solve solve_with_rates(int k, unsigned seed) {
+  const int particles = 23;
+  Random random(seed);
+  PerParticle mass(particles);
+  for (double& m : mass) m = random.in(0.13, 0.57);
+  System system = make_system(mass);
+  CustomForce force;
+  force.damping = [mass, k](const State&, const PerParticle3& v, PerParticle3& f) {
+    for (Eigen::Index i = 0; i < mass.size(); ++i)
+      if (i % (k + 1) != 0) f.col(i) -= mass[i] * (1.7 + 3.1 * double(i % (k + 1))) * v.col(i);
+  };
+  system.forces.push_back(force);
+  PerParticle3 v = random.vectors(particles, 0.8);
+  Work work;
+  const State s{0, PerParticle3::Zero(3, particles), v};
+  const DampingOperator damping = damping_at(system.forces, s, work);
+  return solve_velocity(damping, 0.19, system.mass, system.inverse_mass,
+                        {1e-12, 100, ResidualScale::momentum}, v, work);
+}
+
+Finding eigenvalue_finding(const Subject&) {
+  Worst worst;
+  std::vector<double> distinct, iterations;
+  for (int k = 1; k <= 7; ++k) {
+    const Solve solve = solve_with_rates(k, 50 + unsigned(k));
+    distinct.push_back(k);
+    iterations.push_back(solve.iterations);
+    worst.see(std::abs(solve.iterations - k));
+    if (!solve.converged) worst.see(1);
+  }
+  return {{worst.value(), 0, 0, "iterations",
+           "conjugate gradients are exact after as many iterations as there are distinct eigenvalues in "
+           "the residual; particles without damping are not in it"},
+          {{"distinct eigenvalues", "1", distinct}, {"iterations", "1", iterations}},
+          ""};
+}
+
+/// Number of false reports of a solve that may not finish, and of one that cannot.
+Finding cap_finding(const Subject&) {
+  const Problem problem = make_problem(free_sheet(), 3);
+  const auto solve = [&](const SolverSettings& settings, PerParticle3 w, Work& work) {
+    return solve_velocity(problem.damping, 0.047, problem.system.mass, problem.system.inverse_mass, settings,
+                          w, work);
+  };
+  PerParticle3 spoiled = problem.guess;
+  spoiled(1, 6) = std::numeric_limits<double>::quiet_NaN();
+  Work capped, finished, broken;
+  const Solve cap = solve({1e-13, 3, ResidualScale::momentum}, problem.guess, capped);
+  const Solve whole = solve({1e-6, 500, ResidualScale::momentum}, problem.guess, finished);
+  const Solve nan = solve({1e-6, 500, ResidualScale::momentum}, spoiled, broken);
+  const std::vector<std::string> statements = {"a capped solve is not converged",
+                                               "it took the cap's iterations",
+                                               "its residual is above the tolerance",
+                                               "it is counted as unfinished",
+                                               "its residual is recorded",
+                                               "a whole solve is converged",
+                                               "it is not counted as unfinished",
+                                               "NaN is not converged",
+                                               "NaN is counted as unfinished",
+                                               "NaN is recorded"};
+  const std::vector<double> holds = {double(!cap.converged),
+                                     double(cap.iterations == 3 && capped.cg_iterations == 3),
+                                     double(cap.residual > 1e-13),
+                                     double(capped.unfinished_solves == 1),
+                                     double(capped.worst_residual == cap.residual),
+                                     double(whole.converged && whole.residual <= 1e-6),
+                                     double(finished.unfinished_solves == 0 && finished.solves == 1),
+                                     double(!nan.converged),
+                                     double(broken.unfinished_solves == 1),
+                                     double(std::isnan(broken.worst_residual))};
+  double wrong = 0;
+  for (double one : holds) wrong += 1 - one;
+  return {{wrong, 0, 0, "false reports", "a report is true or false"},
+          {{"statement", "1", statements}, {"true", "1", holds}},
+          ""};
+}
+
+Finding operator_finding(const Subject& subject) {
+  const double s = 0.047;
+  Stepper stepper(subject, free_sheet(), "C");
+  const State start = stepper.start();
+  const PerParticle mass = lumped_masses(stepper.scene().mesh, stepper.scene().density);
+  const Eigen::Index n = start.x.size();
+  Eigen::MatrixXd A(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    PerParticle3 unit = PerParticle3::Zero(3, start.x.cols());
+    unit.reshaped()[k] = 1 / std::sqrt(mass[k / 3]);
+    const PerParticle3 column = unit * mass.asDiagonal() - s * stepper.damping_forces(start, unit);
+    A.col(k) = PerParticle3(column * mass.cwiseSqrt().cwiseInverse().asDiagonal()).reshaped();
+  }
+  const double largest = A.cwiseAbs().maxCoeff();
+  const Eigen::VectorXd eigenvalues = oracles::symmetric_eigenvalues(A);
+  const double asymmetry = (A - A.transpose()).cwiseAbs().maxCoeff() / (epsilon * largest);
+  const double deficit = (1 - eigenvalues[0]) / (epsilon * eigenvalues[n - 1]);
+  Worst worst;
+  worst.see(asymmetry);
+  worst.see(deficit);
+  return {{worst.value(), 64, 0, "epsilon of the largest",
+           "an entry sums some twenty dampers of five roundings, half an epsilon each: 50; the smallest "
+           "eigenvalue, 1 but for "
+           "rounding, is found to about the square root of the matrix' size, 10, in epsilon of the largest"},
+          {{"asymmetry", "epsilon of the largest entry", std::vector<double>{asymmetry}},
+           {"smallest eigenvalue below 1", "epsilon of the largest", std::vector<double>{deficit}},
+           {"largest eigenvalue", "1", std::vector<double>{eigenvalues[n - 1]}}},
+          "the operator is I - s M^{-1/2} D M^{-1/2}"};
+}
+
+Finding rigid_finding(const Subject&) {
+  const Problem problem = make_problem(free_sheet(), 3);
+  const Vector3 spin(2.3, -1.7, 0.6), drift(0.4, 3.1, -0.7);
+  PerParticle3 v(3, problem.s.x.cols());
+  for (Eigen::Index i = 0; i < v.cols(); ++i) {
+    const Vector3 arm = problem.s.x.col(i);
+    v.col(i) = drift + spin.cross(arm);
+  }
+  const PerParticle3 before = v;
+  Work work;
+  const Solve solve = solve_velocity(problem.damping, 0.047, problem.system.mass, problem.system.inverse_mass,
+                                     {1e-12, 100, ResidualScale::momentum}, v, work);
+  Worst worst;
+  worst.see(solve.iterations);
+  worst.see(double((v.array() != before.array()).count()));
+  return {{worst.value(), 0, 0, "iterations",
+           "no damper resists a rigid motion: the explicit guess is the solution, and is not touched"},
+          {{"residual", "1", std::vector<double>{solve.residual}}},
+          ""};
+}
+
+/// |b - (M - s D) w| over |M w0|, weighted with the masses, of a problem without known velocities [1].
+double residual_left(const Problem& problem, double s, const PerParticle3& w) {
+  PerParticle3 damped = PerParticle3::Zero(3, w.cols());
+  problem.damping.add_product(w, damped);
+  const PerParticle& mass = problem.system.mass;
+  const PerParticle3 r = (problem.guess - w) * mass.asDiagonal() + s * damped;
+  const auto squared = [&](const PerParticle3& momentum) -> double {
+    return momentum.colwise().squaredNorm().dot(mass.cwiseInverse().transpose());
+  };
+  return std::sqrt(squared(r) / squared(problem.guess * mass.asDiagonal()));
+}
+
+Finding large_finding(const Subject&) {
+  constexpr double tolerance = 1e-7;
+  Measured measured("residual left", "of the tolerance");
+  for (const int cells :
+       {20, 22, 31, 45}) {  // 441, 529, 1024 and 2116 particles: less than one block, more, two blocks, five
+    Scene scene = scene_of(make_sheet({SheetPattern::one_diagonal, 0.7, 0.6, cells, cells}), 0.2);
+    scene.stretch = StretchMaterial{41, 0.053, 1};
+    scene.bending = BendingMaterial{0.0037, 0.00053, Weighting::rest, DampingFactor::edge, "sine"};
+    scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+    const Problem problem = make_problem(scene, 97);
+    PerParticle3 w = problem.guess;
+    Work work;
+    const SolverSettings settings{tolerance, 200, ResidualScale::momentum};
+    const Solve solve = solve_velocity(problem.damping, 3.1e-3, problem.system.mass,
+                                       problem.system.inverse_mass, settings, w, work);
+    measured.see(std::to_string(w.cols()) + " particles", residual_left(problem, 3.1e-3, w) / tolerance);
+    measured.see(std::to_string(w.cols()) + " particles, as returned",
+                 solve.converged ? solve.residual / tolerance : nan);
+  }
+  return measured.judged(1.05,
+                         "the tolerance, and what the iteration's residual and the true one drift apart");
+}
+
+}  // namespace
+
+std::vector<Check> solver_checks() {
+  const std::string source = "BMF03 section 3";
+  return {
+      {"solver.residual-promise-is-kept",
+       "The true residual of the reference's solve is below the tolerance, on both scales.", source,
+       promise_finding},
+      {"solver.returned-residual-is-true", "The residual that the reference's solve returns is the true one.",
+       source, returned_finding},
+      {"solver.iterate-is-the-dense-cholesky-solution",
+       "The reference's solve finds the velocities that a dense Cholesky factorization finds, known "
+       "velocities included.",
+       source, cholesky_finding},
+      {"solver.iterations-are-the-number-of-distinct-eigenvalues",
+       "The reference's solve takes as many iterations as the damping has distinct nonzero eigenvalues.",
+       source, eigenvalue_finding},
+      {"solver.large-cloth-is-solved-too",
+       "Cloth of many particles, which the reference's solve takes block by block, is solved to the "
+       "tolerance.",
+       "algebra", large_finding},
+      {"solver.cap-is-reported", "A solve of the reference that does not finish says so and is counted.",
+       source, cap_finding},
+      {"solver.operator-is-symmetric-positive-definite",
+       "The operator of the implicit velocity is symmetric, and at least the identity in the mass-weighted "
+       "norm.",
+       source, operator_finding},
+      {"solver.rigid-motion-needs-no-iteration",
+       "The reference's solve leaves a rigid motion as it is, without an iteration.", source, rigid_finding},
+  };
+}
+
+}  // namespace foldproof

@@ -1,0 +1,300 @@
+// The lines of the schemes, one by one: what is modified, what continues from what, what is led and counted.
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "reference/dynamics/integrator.h"
+#include "verification/checks/dynamics/dynamics_checks.h"
+#include "verification/checks/moving_scenes.h"
+
+namespace foldproof {
+
+namespace {
+
+/// sqrt(sum m_i |v_i|^2) [kg^(1/2) m/s].
+double mass_norm(const PerParticle3& v, const PerParticle& mass) {
+  return std::sqrt(v.colwise().squaredNorm().dot(mass.transpose()));
+}
+
+Finding trapezoidal_finding(const Subject& subject, const std::string& integrator) {
+  const double tolerance = 1e-12;
+  Scene scene = free_sheet();
+  scene.gravity = Vector3(0.7, -9.1, 1.9);
+  scene.solver.tolerance = tolerance;
+  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  Stepper stepper(subject, scene, integrator);
+  State now = stepper.start();
+  Worst worst;
+  std::vector<double> steps, errors;
+  for (double h : {2.1e-3, 3.7e-4, 1.3e-3, 4.9e-3}) {
+    const State next = stepper.step(now, h);
+    const PerParticle3 here = stepper.elastic_forces(now) + stepper.damping_forces(now, now.v);
+    const PerParticle3 there = stepper.elastic_forces(next) + stepper.damping_forces(next, next.v);
+    const PerParticle3 defect = next.v - now.v - h / 2 * (here + there) * mass.cwiseInverse().asDiagonal();
+    steps.push_back(h);
+    const PerParticle3 undamped =
+        next.v - h / 2 * stepper.damping_forces(next, next.v) * mass.cwiseInverse().asDiagonal();
+    errors.push_back(mass_norm(defect, mass) / mass_norm(undamped, mass));
+    worst.see(errors.back());
+    now = next;
+  }
+  return {{worst.value(), 2 * tolerance, 0, "1",
+           "the solve's tolerance, 1e-12 of the velocity before damping; as much again for rounding"},
+          {{"step", "s", steps}, {"defect of the trapezoidal rule over that velocity", "1", errors}},
+          ""};
+}
+
+/// What a filter was called with and what it left.
+struct Call {
+  Span span;
+  PerParticle3 given, left;
+};
+
+/// A free damped sheet with a filter that changes every velocity and writes down what it did.
+struct FilteredStep {
+  State now, next;
+  std::vector<Call> calls;
+};
+
+FilteredStep filtered_step(const std::string& integrator, double h) {
+  FilteredStep result;
+  const Scene scene = free_sheet();
+  System system = build_system(scene);
+  CustomFilter filter;
+  filter.modify = [&result](const Span& span, const State&, PerParticle3& v) {
+    const PerParticle3 given = v;
+    v *= 0.83;
+    v.colwise() += Vector3(0.07, -0.11, 0.05);
+    result.calls.push_back({span, given, v});
+  };
+  system.filters.emplace_back(filter);
+  result.now = start_state(scene);
+  result.now.time = 0.37;
+  Work work;
+  result.next = integrator_named(integrator).step(system, {&result.now, 1}, h, work);
+  return result;
+}
+
+Finding filter_finding(const Subject&, const std::string& integrator) {
+  const double h = 1.7e-3;
+  const FilteredStep step = filtered_step(integrator, h);
+  const bool ends = integrator != "B";
+  if (step.calls.size() != (ends ? 2 : 1))
+    return {{NAN, 0, 0, "numbers that differ", "the filter is called once for each velocity that is used"},
+            {},
+            "a wrong number of calls"};
+  const Call& move = step.calls.front();
+  const PerParticle3 moved = step.now.x + h * move.left;
+  double differing = numbers_that_differ(step.next.x, moved);
+  differing += (move.span.start != step.now.time) + (move.span.end != step.now.time + h);
+  if (ends) {
+    differing += numbers_that_differ(step.next.v, step.calls[1].left);
+    differing += (step.calls[1].span.start != step.next.time) + (step.calls[1].span.end != step.next.time);
+  }
+  return {
+      {differing, 0, 0, "numbers that differ",
+       "x + h v of the filtered velocity and the filtered end velocity are used as they are, bit for bit"},
+      {},
+      ends ? "The filter is called for the motion and for the end velocity."
+           : "The filter is called for the motion only."};
+}
+
+/// Velocity after one step of a particle with x'' = g - c x'; a filter adds d to the velocity that moves it.
+double end_velocity(const std::string& integrator, double h, double c, double g, double v, double d) {
+  const double m = 0.25;
+  System system = make_system(PerParticle::Constant(1, m));
+  CustomForce force;
+  force.elastic = [=](const State&, PerParticle3& f) { f.row(0).array() += m * g; };
+  force.damping = [=](const State&, const PerParticle3& w, PerParticle3& f) { f -= m * c * w; };
+  system.forces.push_back(force);
+  CustomFilter filter;
+  filter.modify = [=](const Span& span, const State&, PerParticle3& w) {
+    if (span.end > span.start) w(0, 0) += d;
+  };
+  system.filters.emplace_back(filter);
+  system.solver.tolerance = 1e-15;
+  Work work;
+  const State s{0, PerParticle3::Zero(3, 1), PerParticle3(Vector3(v, 0, 0))};
+  return integrator_named(integrator).step(system, {&s, 1}, h, work).v(0, 0);
+}
+
+/// The same by the printed lines: B continues from the filtered velocity, A and C do not.
+double printed_end_velocity(const std::string& integrator, double h, double c, double g, double v, double d) {
+  const double a = h * c / 2, kick = h / 2 * g;
+  if (integrator == "B") return (1 - a) * ((v + kick) / (1 + a) + d) + kick;
+  return ((1 - a) * v + 2 * kick) / (1 + a);
+}
+
+Finding continues_finding(const std::string& integrator) {
+  Worst worst;
+  std::vector<double> as, errors;
+  for (double c : {0.7, 11.0, 170.0}) {
+    const double h = 0.037, g = -9.3, v = 1.3, d = 0.59, a = h * c / 2;
+    const double size = (1 + a) * (v + d) + h * std::abs(g);
+    const double error =
+        end_velocity(integrator, h, c, g, v, d) - printed_end_velocity(integrator, h, c, g, v, d);
+    as.push_back(a);
+    errors.push_back(std::abs(error) / (epsilon * size));
+    worst.see(errors.back());
+  }
+  return {{worst.value(), 16, 0, "epsilon of the terms",
+           "some twenty roundings of half an epsilon each; the filter's change is 0.3 of the terms"},
+          {{"h c/2", "1", as}, {"error", "epsilon of the terms", errors}},
+          ""};
+}
+
+Scene held_scene() {
+  Scene scene = led_sheet();
+  for (PrescribedParticle& p : scene.led) p.motion = Motion{};
+  return scene;
+}
+
+Finding held_finding(const Subject& subject) {
+  Worst worst;
+  std::vector<std::string> names;
+  std::vector<double> counts;
+  for (const Integrator& integrator : paper_schemes()) {
+    Stepper stepper(subject, held_scene(), std::string(integrator.name));
+    State s = stepper.start();
+    double here = 0;
+    for (int n = 0; n < 50; ++n) {
+      s = stepper.step(s, n % 2 == 0 ? 1.9e-3 : 0.6e-3);
+      for (const PrescribedParticle& p : stepper.scene().led) {
+        here += numbers_that_differ(s.x.col(p.particle), p.start);
+        here += numbers_that_differ(s.v.col(p.particle), Vector3(Vector3::Zero()));
+      }
+    }
+    names.emplace_back(integrator.name);
+    counts.push_back(here);
+    worst.see(here);
+  }
+  return {{worst.value(), 0, 0, "numbers that differ",
+           "what is held has the velocity 0 and keeps every bit of its place"},
+          {{"integrator", "1", names}, {"numbers that differ", "1", counts}},
+          ""};
+}
+
+/// Where a led point is, straight from the definition of Motion, the rotation by Rodrigues' formula.
+State led_point(const PrescribedParticle& p, double t) {
+  const Motion& m = p.motion;
+  const double rate = m.angular_velocity.norm(), omega = 2 * std::numbers::pi * m.frequency;
+  const Vector3 arm = p.start - m.center,
+                axis = rate > 0 ? Vector3(m.angular_velocity / rate) : Vector3(0, 0, 1);
+  const Vector3 along = axis.dot(arm) * axis,
+                turned = along + std::cos(rate * t) * (arm - along) + std::sin(rate * t) * axis.cross(arm);
+  const double swing = std::sin(omega * t + m.phase) - std::sin(m.phase);
+  State point;
+  point.x = m.center + turned + t * m.velocity + swing * m.amplitude;
+  point.v = rate * axis.cross(turned) + m.velocity + omega * std::cos(omega * t + m.phase) * m.amplitude;
+  return point;
+}
+
+Finding led_finding(const Subject& subject, const std::string& integrator) {
+  Stepper stepper(subject, led_sheet(), integrator);
+  State s = stepper.start();
+  Worst worst;
+  for (int n = 0; n < 200; ++n) {
+    s = stepper.step(s, n % 3 == 0 ? 2.1e-3 : 0.8e-3);
+    for (const PrescribedParticle& p : stepper.scene().led) {
+      const State point = led_point(p, s.time);
+      const double fastest = p.motion.velocity.norm() +
+                             p.motion.angular_velocity.norm() * (p.start - p.motion.center).norm() +
+                             2 * std::numbers::pi * p.motion.frequency * p.motion.amplitude.norm();
+      worst.see((s.x.col(p.particle) - point.x).norm() / epsilon);
+      if (fastest > 0) worst.see((s.v.col(p.particle) - point.v).norm() / (epsilon * fastest));
+    }
+  }
+  return {{worst.value(), 16, 0, "epsilon of the size",
+           "two formulas of ten roundings each, for points within 1 m of the origin and phases up to 6 rad"},
+          {},
+          "Compared after each of 200 uneven steps; the size is 1 m, or the point's top speed."};
+}
+
+Finding counts_finding(const Subject& subject) {
+  Worst worst;
+  std::vector<std::string> names;
+  std::vector<double> solves;
+  const int steps = 7;
+  for (const Integrator& integrator : paper_schemes()) {
+    Stepper stepper(subject, led_sheet(), std::string(integrator.name));
+    stepper.run(stepper.start(), 1.3e-3, steps);
+    names.emplace_back(integrator.name);
+    solves.push_back(double(stepper.work().solves) / steps);
+    worst.see(std::abs(solves.back() - (integrator.name == "C" ? 2 : 1)));
+  }
+  return {{worst.value(), 0, 0, "solves a step",
+           "counts are exact: the paper's lists have one implicit line in A and B, two in C"},
+          {{"integrator", "1", names}, {"solves a step", "1", solves}},
+          ""};
+}
+
+Finding once_finding(const Subject& subject) {
+  Worst worst;
+  std::vector<std::string> names;
+  std::vector<double> preparations, products, iterations;
+  const int steps = 7;
+  for (const Integrator& integrator : paper_schemes()) {
+    Stepper stepper(subject, led_sheet(), std::string(integrator.name));
+    stepper.run(stepper.start(), 1.3e-3, steps);
+    const Work& work = stepper.work();
+    names.emplace_back(integrator.name);
+    preparations.push_back(double(work.damping_preparations) / steps);
+    products.push_back(double(work.damping_products) / steps);
+    iterations.push_back(double(work.cg_iterations) / steps);
+    worst.see(std::abs(double(work.damping_preparations - 2 * steps)));
+    worst.see(std::abs(double(work.elastic_evaluations - 2 * steps)));
+    // a product for each iteration, one for each solve's first residual, one for the explicit half step
+    worst.see(std::abs(double(work.damping_products - work.cg_iterations - work.solves - steps)));
+    if (work.cg_iterations < steps) worst.see(NAN);
+  }
+  return {
+      {worst.value(), 0, 0, "evaluations",
+       "counts are exact: a step sees two sets of positions, and every product uses what was prepared there"},
+      {{"integrator", "1", names},
+       {"preparations a step", "1", preparations},
+       {"products a step", "1", products},
+       {"iterations a step", "1", iterations}},
+      ""};
+}
+
+}  // namespace
+
+std::vector<Check> step_checks() {
+  const std::string source = "BMF03 section 3";
+  std::vector<Check> list = {
+      {"dynamics.lines-one-and-four-are-the-trapezoidal-rule.A",
+       "Scheme A: unmodified, the velocity follows the trapezoidal rule between the two ends of a step.",
+       source, [](const Subject& subject) { return trapezoidal_finding(subject, "A"); }},
+      {"dynamics.A-continues-from-the-unmodified-velocity",
+       "The reference's end velocity in A continues from v*, not from what a filter made of it.", source,
+       [](const Subject&) { return continues_finding("A"); }},
+      {"dynamics.B-continues-from-the-modified-velocity",
+       "The reference's end velocity in B continues from the filtered velocity.", source,
+       [](const Subject&) { return continues_finding("B"); }},
+      {"dynamics.C-continues-from-the-start-velocity",
+       "The reference's end velocity in C continues from v_n, whatever a filter did.", source,
+       [](const Subject&) { return continues_finding("C"); }},
+      {"dynamics.held-particles-stay", "Held particles do not move, whatever pulls at them.",
+       "our reading of BMF03 section 3", held_finding},
+      {"dynamics.solve-counts", "A and B solve once a step, C twice.", source, counts_finding},
+      {"dynamics.position-terms-are-computed-once",
+       "Forces and the position-dependent terms of damping are evaluated twice a step, however many products "
+       "a solve needs.",
+       source, once_finding}};
+  add_for_each_scheme(list,
+                      {"dynamics.filters-act-on-the-moving-velocity",
+                       "the reference moves the cloth with exactly the velocity that the filters left, "
+                       "and filters the end velocity where the paper does.",
+                       source,
+                       {}},
+                      filter_finding);
+  add_for_each_scheme(list,
+                      {"dynamics.led-particles-follow-their-path",
+                       "led particles are on their path, with its velocity, after every step.",
+                       "our reading of BMF03 section 3",
+                       {}},
+                      led_finding);
+  return list;
+}
+
+}  // namespace foldproof

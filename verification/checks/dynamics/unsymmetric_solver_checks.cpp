@@ -1,0 +1,179 @@
+// The reference's solver for Newton steps whose matrix is not symmetric, against dense linear algebra.
+#include <cmath>
+
+#include "reference/dynamics/biconjugate_gradient.h"
+#include "reference/dynamics/system.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/checks/dynamics/solver_checks.h"
+#include "verification/oracles/dense_algebra.h"
+
+namespace foldproof {
+
+namespace {
+
+/// M - s D - s^2 K of a moving, crumpled, damped sheet, as the reference has it and dense, and a right-hand
+/// side.
+struct NewtonProblem {
+  System system;
+  DampingOperator damping;
+  ForceDifferential derivative;
+  double s;
+  PerParticle3 r;                  // 3 x N [kg m/s]
+  Eigen::MatrixXd A;               // of the free coordinates, scaled with M^{-1/2} from both sides [1]
+  Eigen::VectorXd scaled_r;        // M^{-1/2} r of them [kg^1/2 m/s]
+  Eigen::VectorXd root_mass;       // [kg^1/2]
+  std::vector<Eigen::Index> free;  // coordinates
+
+  NewtonMatrix matrix() const { return {system.mass, system.inverse_mass, damping, derivative, s}; }
+};
+
+/// Columns of D and K come from products with unit vectors, and are put together here.
+void make_dense(NewtonProblem& problem) {
+  const Eigen::Index n = problem.r.size();
+  Eigen::MatrixXd whole(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    PerParticle3 unit = PerParticle3::Zero(3, n / 3), D = unit, K = unit;
+    unit.reshaped()[k] = 1;
+    problem.damping.add_product(unit, D);
+    problem.derivative.add_product(unit, K);
+    const PerParticle3 column =
+        unit * problem.system.mass.asDiagonal() - problem.s * D - problem.s * problem.s * K;
+    whole.col(k) = column.reshaped();
+    if (problem.system.inverse_mass[k / 3] != 0) problem.free.push_back(k);
+  }
+  problem.root_mass.resize(Eigen::Index(problem.free.size()));
+  for (size_t i = 0; i < problem.free.size(); ++i)
+    problem.root_mass[Eigen::Index(i)] = std::sqrt(problem.system.mass[problem.free[i] / 3]);
+  const Eigen::VectorXd inverse = problem.root_mass.cwiseInverse();
+  problem.A = inverse.asDiagonal() * whole(problem.free, problem.free) * inverse.asDiagonal();
+  problem.scaled_r = inverse.cwiseProduct(Eigen::VectorXd(problem.r.reshaped()(problem.free)));
+}
+
+/// With thirty times the damping of the scene.
+NewtonProblem make_newton_problem(Scene scene, double s, unsigned seed) {
+  scene.stretch->damping *= 30;
+  scene.bending->damping *= 30;
+  System system = build_system(scene);
+  const State state = start_state(scene);
+  Work uncounted;
+  const DampingOperator damping = damping_at(system.forces, state, uncounted);
+  const ForceDifferential derivative = force_differential_at(system.forces, state, uncounted);
+  NewtonProblem problem{std::move(system), damping, derivative, s, {}, {}, {}, {}, {}};
+  problem.r = Random(seed).vectors(state.x.cols(), 0.013);
+  for (const PrescribedParticle& p : problem.system.led) problem.r.col(p.particle).setZero();
+  make_dense(problem);
+  return problem;
+}
+
+std::vector<std::pair<std::string, NewtonProblem>> newton_problems() {
+  std::vector<std::pair<std::string, NewtonProblem>> problems;
+  for (const double s : {3.1e-3, 0.012, 0.041}) {
+    problems.emplace_back("free, s = " + std::to_string(s), make_newton_problem(free_sheet(), s, 53));
+    problems.emplace_back("led, s = " + std::to_string(s), make_newton_problem(led_sheet(), s, 59));
+  }
+  return problems;
+}
+
+/// M^{1/2} dw at the free coordinates.
+Eigen::VectorXd solved(const NewtonProblem& problem, double tolerance, Solve& solve) {
+  PerParticle3 dw;
+  Work work;
+  solve = solve_unsymmetric_step(problem.matrix(), {tolerance, 2000, ResidualScale::momentum}, problem.r, dw,
+                                 work);
+  return problem.root_mass.cwiseProduct(Eigen::VectorXd(dw.reshaped()(problem.free)));
+}
+
+Finding promise_is_kept(const Subject&) {
+  Measured measured("true residual over the tolerance", "1");
+  for (const auto& [name, problem] : newton_problems())
+    for (const double tolerance : {1e-1, 1e-3, 1e-6, 1e-9}) {
+      Solve solve{};
+      const Eigen::VectorXd dw = solved(problem, tolerance, solve);
+      const double residual = (problem.scaled_r - problem.A * dw).norm() / problem.scaled_r.norm();
+      measured.see(name + ", tolerance " + std::to_string(tolerance),
+                   solve.converged ? residual / tolerance : INFINITY);
+    }
+  return measured.judged(
+      1.05,
+      "the tolerance, and what the iteration's residual and the true one drift apart: epsilon "
+      "times the largest residual on the way, far below a twentieth of the smallest tolerance");
+}
+
+Finding is_the_dense_solution(const Subject&) {
+  Measured measured("error over what the tolerance allows", "1");
+  for (const auto& [name, problem] : newton_problems()) {
+    Solve solve{};
+    const double tolerance = 1e-8;
+    const Eigen::VectorXd error =
+        solved(problem, tolerance, solve) - oracles::solved(problem.A, problem.scaled_r);
+    const double least = oracles::singular_parts(problem.A).values.minCoeff();
+    measured.see(name, error.norm() * least / (tolerance * problem.scaled_r.norm()));
+  }
+  return measured.judged(
+      1.05, "an error is at most the residual over the matrix's least singular value; 5 % for rounding");
+}
+
+Finding unsymmetry_is_there(const Subject&) {
+  Measured measured("a thousandth over the asymmetry", "1");
+  const auto see = [&](const std::string& damped, const Scene& scene) {
+    const Eigen::MatrixXd A = make_newton_problem(scene, 0.012, 53).A;
+    measured.see(damped, 1e-3 * A.cwiseAbs().maxCoeff() / (A - A.transpose()).cwiseAbs().maxCoeff());
+  };
+  Scene springs = free_sheet(), hinges = free_sheet();
+  hinges.stretch->damping = springs.bending->damping = 0;
+  see("springs", springs);
+  see("hinges", hinges);
+  return measured.judged(
+      1,
+      "the checks of the solver beside this one would show little on a matrix that is symmetric: the "
+      "largest entry of A - A^T is more than a thousandth of that of A");
+}
+
+Finding work_is_counted(const Subject&) {
+  const NewtonProblem problem = make_newton_problem(free_sheet(), 0.012, 53);
+  PerParticle3 dw;
+  Work whole, capped;
+  const Solve finished =
+      solve_unsymmetric_step(problem.matrix(), {1e-8, 2000, ResidualScale::momentum}, problem.r, dw, whole);
+  const Solve cap =
+      solve_unsymmetric_step(problem.matrix(), {1e-13, 3, ResidualScale::momentum}, problem.r, dw, capped);
+  const std::vector<std::string> statements = {"two products with the damping an iteration",
+                                               "two products with the derivative an iteration",
+                                               "two counted iterations an iteration",
+                                               "a whole solve is converged",
+                                               "a capped solve is not converged",
+                                               "it took the cap's iterations"};
+  const std::vector<double> holds = {double(whole.damping_products == 2 * finished.iterations),
+                                     double(whole.stiffness_products == 2 * finished.iterations),
+                                     double(whole.cg_iterations == 2 * finished.iterations),
+                                     double(finished.converged && finished.residual <= 1e-8),
+                                     double(!cap.converged && cap.residual > 1e-13),
+                                     double(cap.iterations == 3 && capped.damping_products == 6)};
+  double wrong = 0;
+  for (const double one : holds) wrong += 1 - one;
+  return {{wrong, 0, 0, "false reports", "a report is true or false"},
+          {{"statement", "1", statements}, {"true", "1", holds}},
+          ""};
+}
+
+}  // namespace
+
+std::vector<Check> unsymmetric_solver_checks() {
+  const std::string source = "van der Vorst 1992";
+  return {
+      {"solver.unsymmetric-residual-promise-is-kept",
+       "The true residual of the reference's solve of an unsymmetric Newton step is below the tolerance.",
+       source, promise_is_kept},
+      {"solver.unsymmetric-step-is-the-dense-solution",
+       "The reference's solve of an unsymmetric Newton step finds what a dense factorization finds.", source,
+       is_the_dense_solution},
+      {"solver.newton-matrix-is-unsymmetric-on-damped-cloth",
+       "The matrix of a Newton step on moving, damped cloth is not symmetric.", source, unsymmetry_is_there},
+      {"solver.unsymmetric-work-is-counted",
+       "The reference's solve of an unsymmetric Newton step counts its products, and says when it is not "
+       "done.",
+       source, work_is_counted}};
+}
+
+}  // namespace foldproof

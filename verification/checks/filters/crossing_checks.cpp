@@ -1,0 +1,163 @@
+#include "verification/checks/filters/crossing_checks.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "reference/filters/feature_pair.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/oracles/feature_distance.h"
+
+namespace foldproof {
+
+namespace {
+
+/// Four points of one kind or another, made anew at each call.
+struct PointMaker {
+  std::string name;
+  Corners4 (*make)(Random& random);
+};
+
+Corners4 anywhere(Random& random) { return random.vectors(4, 1); }
+
+/// Few places, so that points, edges and planes coincide, edges are parallel or points, triangles lines.
+Corners4 on_a_lattice(Random& random) {
+  Corners4 x;
+  for (double& c : x.reshaped()) c = std::floor(random.in(-2, 3));
+  return x;
+}
+
+Corners4 far_away(Random& random) { return anywhere(random).colwise() + Vector3(1000, -998, 1001); }
+
+const std::vector<PointMaker>& makers() {
+  static const std::vector<PointMaker> all = {
+      {"anywhere", anywhere}, {"on a lattice", on_a_lattice}, {"far from the origin", far_away}};
+  return all;
+}
+
+constexpr PairKind kinds[] = {PairKind::vertex_triangle, PairKind::edge_edge};
+
+std::string name_of(PairKind kind) {
+  return kind == PairKind::vertex_triangle ? "vertex and triangle" : "two edges";
+}
+
+oracles::Estimate true_distance(PairKind kind, const Corners4& x) {
+  return oracles::feature_distance(kind == PairKind::vertex_triangle ? oracles::Features::vertex_and_triangle
+                                                                     : oracles::Features::edge_and_edge,
+                                   x);
+}
+
+/// Two edges whose directions differ by the sine s, one over the other or crossing it, within both; or a
+/// triangle whose angle at one corner is that small, and a vertex over it or in it.
+Corners4 thin(Random& random, PairKind kind, double s) {
+  Corners4 x = anywhere(random);
+  const Vector3 d = x.col(1) - x.col(0), across = random.vectors(1, 1).col(0);
+  const Vector3 n = d.cross(across).normalized();
+  const double height = random.in(0, 1) < 0.5 ? 0 : random.in_decades(1e-12, 1);
+  if (kind == PairKind::edge_edge) {
+    const Vector3 e = d + s * d.norm() * across;
+    x.col(2) = x.col(0) + random.in(0.2, 0.8) * d - random.in(0.2, 0.8) * e + height * n;
+    x.col(3) = x.col(2) + e;
+    return x;
+  }
+  x.col(2) = x.col(0) + d;
+  x.col(3) = x.col(0) + random.in(-1, 2) * d + s * d.norm() * across;
+  x.col(1) = x.col(0);
+  const double a = random.in(0, 1), b = random.in(0, 1 - a);
+  x.col(0) = (1 - a - b) * x.col(1) + a * x.col(2) + b * x.col(3) + height * n;
+  return x;
+}
+
+Finding distance_is_exact(const Subject&) {
+  Measured measured = roundings_of("max |x|");
+  for (const PairKind kind : kinds)
+    for (const PointMaker& maker : makers()) {
+      Random random(23);
+      Worst worst, uncertainty;
+      for (int k = 0; k < 3000; ++k) {
+        const Corners4 x = maker.make(random);
+        const double scale = epsilon * x.cwiseAbs().maxCoeff();
+        if (scale == 0) continue;  // all four in the origin
+        const oracles::Estimate truth = true_distance(kind, x);
+        worst.see(std::abs(nearness(kind, x).distance - truth.value) / scale);
+        uncertainty.see(truth.uncertainty / scale);
+      }
+      measured.see(name_of(kind) + ", " + maker.name, {worst.value(), uncertainty.value()});
+    }
+  return measured.judged(
+      16,
+      "each coordinate of what is between the nearest points is a sum of four products, and "
+      "errors of the weights move these points along their features, which changes their "
+      "distance in second order");
+}
+
+Finding thin_ones_are_as_good(const Subject&) {
+  Measured measured("largest error over the extent", "1");
+  for (const PairKind kind : kinds)
+    for (double s = 0.1; s > 1e-13; s /= 10) {
+      Random random(29);
+      Worst worst, uncertainty;
+      for (int k = 0; k < 300; ++k) {
+        const Corners4 x = thin(random, kind, s * random.in(0.3, 3));
+        const double extent = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
+        const oracles::Estimate truth = true_distance(kind, x);
+        worst.see(std::abs(nearness(kind, x).distance - truth.value) / extent);
+        uncertainty.see(truth.uncertainty / extent);
+      }
+      measured.see(name_of(kind) + fmt::format(", sine {:.0e}", s), {worst.value(), uncertainty.value()});
+    }
+  return measured.judged(
+      1e-9,
+      "features thinner or more parallel than that are asked at their sides and ends only, which "
+      "hides as much of their extent");
+}
+
+/// How far the weights are from those of two points, one of each feature [1].
+double weight_error(PairKind kind, const Eigen::Vector4d& w) {
+  const int first = kind == PairKind::vertex_triangle ? 1 : 2;
+  Worst worst;
+  worst.see(std::abs(w.head(first).sum() - 1));
+  worst.see(std::abs(w.tail(4 - first).sum() + 1));
+  for (int k = 0; k < 4; ++k) worst.see(k < first ? -w[k] : w[k]);
+  return worst.value();
+}
+
+Finding weights_lead_across(const Subject&) {
+  Measured measured = roundings_of("1, and of max |x|");
+  for (const PairKind kind : kinds)
+    for (const PointMaker& maker : makers()) {
+      Random random(31);
+      Worst worst;
+      for (int k = 0; k < 3000; ++k) {
+        const Corners4 x = maker.make(random);
+        const Nearness at = nearness(kind, x);
+        const double scale = std::max(x.cwiseAbs().maxCoeff(), 1.0);
+        worst.see(weight_error(kind, at.weights) / epsilon);
+        worst.see((x * at.weights - at.distance * at.normal).norm() / (epsilon * scale));
+        worst.see(std::abs(at.normal.norm() - (at.distance > 0 ? 1 : 0)) / epsilon);
+      }
+      measured.see(name_of(kind) + ", " + maker.name, worst.value());
+    }
+  return measured.judged(8, "sums of four products, a root and a division");
+}
+
+}  // namespace
+
+std::vector<Check> crossing_checks() {
+  const char* source = "Bridson, Fedkiw and Anderson (2002), section 6";
+  return {{"nearness.distance-is-exact",
+           "The distance of a vertex to a triangle, and of two edges, is the least of all points, degenerate "
+           "or not.",
+           source, distance_is_exact},
+          {"nearness.thin-ones-are-as-good",
+           "So it is for triangles as thin, and edges as nearly parallel, as one likes.", source,
+           thin_ones_are_as_good},
+          {"nearness.weights-lead-across",
+           "The weights are those of a point on each feature, and what is between these is the distance "
+           "along the normal.",
+           source, weights_lead_across}};
+}
+
+}  // namespace foldproof

@@ -1,0 +1,193 @@
+// Friction in motion: inclines at rest and moving, a belt, a turntable.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "reference/mesh/shapes.h"
+#include "verification/checks/filters/contact_checks.h"
+#include "verification/checks/contact_scenes.h"
+#include "verification/checks/measured.h"
+#include "verification/oracles/dense_algebra.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double g = 9.80665;   // m/s^2
+constexpr double h = 1. / 240;  // s
+
+/// Particles at rest on a slope of the angle al [rad] that moves along with a constant velocity.
+struct Slope {
+  Scene scene;
+  Vector3 normal, down;  // out of the slope, along it
+};
+
+Slope slope(double angle, double friction, const Vector3& velocity) {
+  Slope result{
+      loose_particles(3), {0, std::cos(angle), std::sin(angle)}, {0, -std::sin(angle), std::cos(angle)}};
+  SceneObject part = object_at("slope", HalfSpace{},
+                               {oracles::turn_between(Vector3::UnitZ(), result.normal), Vector3::Zero()});
+  part.object.friction = friction;
+  std::get<Motion>(std::get<RigidObject>(part.object.body).motion).velocity = velocity;
+  Scene& scene = result.scene;
+  scene.objects.push_back(part);
+  scene.gravity = Vector3(0, -g, 0);
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    scene.x.col(i) -= scene.x.col(i).dot(result.normal) * result.normal;
+    scene.v.col(i) = velocity;
+  }
+  return result;
+}
+
+/// How far the particles have slid on the slope, seen from it [m], and how far from it they are at worst [m].
+struct Slid {
+  double way, off;
+};
+
+Slid slid_on(const Subject& subject, const Slope& on, const Vector3& velocity, const std::string& integrator,
+             int steps) {
+  Stepper stepper(subject, on.scene, integrator);
+  const State start = stepper.start();
+  const State end = stepper.run(start, h, steps);
+  Worst off;
+  double way = 0;
+  for (Eigen::Index i = 0; i < start.x.cols(); ++i) {
+    const Vector3 moved = end.x.col(i) - start.x.col(i) - (end.time - start.time) * velocity;
+    off.see(std::abs(moved.dot(on.normal)));
+    way += moved.dot(on.down) / double(start.x.cols());
+  }
+  return {way, off.value()};
+}
+
+constexpr int steps = 240;
+
+/// tan(angle) a little below and a little above mu: at rest, and sliding by (sin - mu cos) g t^2/2.
+Finding slope_finding(const Subject& subject, const std::string& integrator, const Vector3& velocity) {
+  std::vector<double> friction, angle, ways, expected;
+  Worst worst;
+  for (const double mu : {0.23, 0.71})
+    for (const double over : {0.5, 0.999, 1.001, 1.4, 3.0}) {
+      const double al = std::atan(over * mu);
+      const Slid slid = slid_on(subject, slope(al, mu, velocity), velocity, integrator, steps);
+      const double time = h * steps;
+      const double acceleration = std::max(0.0, g * (std::sin(al) - mu * std::cos(al)));
+      friction.push_back(mu);
+      angle.push_back(al * 180 / M_PI);
+      ways.push_back(slid.way);
+      expected.push_back(acceleration * time * time / 2);
+      worst.see(std::abs(ways.back() - expected.back()));
+      worst.see(slid.off);
+    }
+  return {{worst.value(), 4000 * epsilon * (1 + velocity.norm()), 0, "m",
+           "240 steps of a motion that the schemes integrate exactly, of lengths up to 5 m: a few roundings "
+           "a step, "
+           "and those of the velocity add up over the steps that follow"},
+          {{"friction", "1", friction},
+           {"slope", "degrees", angle},
+           {"slid", "m", ways},
+           {"expected", "m", expected}},
+          ""};
+}
+
+Finding resting_slope(const Subject& subject, const std::string& integrator) {
+  return slope_finding(subject, integrator, Vector3::Zero());
+}
+
+Finding moving_slope(const Subject& subject, const std::string& integrator) {
+  return slope_finding(subject, integrator, {1.3, 0.4, -0.9});
+}
+
+/// Laid on a belt that runs at U: it slides for U/(mu g), gains half of the way, and then is carried.
+Finding belt_finding(const Subject& subject, const std::string& integrator) {
+  const double mu = 0.37, speed = 0.9;
+  const Vector3 belt(speed, 0, 0);
+  Slope flat = slope(0, mu, belt);
+  flat.scene.v.setZero();
+  Stepper stepper(subject, flat.scene, integrator);
+  State s = stepper.start();
+  const double x0 = s.x(0, 0), sliding = speed / (mu * g);  // m, s
+  Worst worst;
+  std::vector<double> times, places, expected;
+  for (int n = 1; n <= 120; ++n) {
+    s = stepper.step(s, h);
+    const double t = s.time;
+    const double exact = t < sliding ? mu * g * t * t / 2 : speed * (t - sliding / 2);
+    worst.see(std::abs(s.x(0, 0) - x0 - exact));
+    if (n % 10 == 0) {
+      times.push_back(t);
+      places.push_back(s.x(0, 0) - x0);
+      expected.push_back(exact);
+    }
+  }
+  return {{worst.value(), mu * g * h * h, 0, "m",
+           "exact while it slides; in the step in which it comes to be carried, friction may act a step too "
+           "long or "
+           "too short, which is worth mu g h^2 at most"},
+          {{"time", "s", times}, {"way", "m", places}, {"exact", "m", expected}},
+          ""};
+}
+
+/// A turntable at omega: particles within mu g/omega^2 of its axis ride.
+Finding turntable_finding(const Subject& subject, const std::string& integrator) {
+  const double mu = 0.9, omega = 3.1, coarse = 1. / 60;
+  Slope table = slope(0, mu, Vector3::Zero());
+  auto& motion = std::get<Motion>(std::get<RigidObject>(table.scene.objects[0].object.body).motion);
+  motion.angular_velocity = {0, omega, 0};
+  Scene& scene = table.scene;
+  scene.x.row(0).array() -= 0.3;
+  scene.x.row(2).setLinSpaced(-0.2, 0.3);
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
+    scene.v.col(i) = motion.angular_velocity.cross(Vector3(scene.x.col(i)));
+  Stepper stepper(subject, scene, integrator);
+  const State start = stepper.start();
+  const State end = stepper.run(start, coarse, 1200);
+  Worst drift;
+  std::vector<double> radii, drifts;
+  for (Eigen::Index i = 0; i < start.x.cols(); ++i) {
+    const Vector3 turned = rotated(start.x.col(i), motion.angular_velocity * end.time);
+    radii.push_back(Vector3(start.x.col(i)).norm());
+    drifts.push_back((end.x.col(i) - turned).norm());
+    drift.see(drifts.back());
+  }
+  return {
+      {drift.value(), 20000 * epsilon, 0, "m",
+       "1200 steps of 0.05 rad, each rounding positions of 0.7 m a few times; moving along the tangent would "
+       "carry "
+       "a particle outwards by a factor of sqrt(1 + (omega h)^2) a step, in these 20 s from 0.5 m to 2.5 m"},
+      {{"radius", "m", radii}, {"off its place", "m", drifts}},
+      ""};
+}
+
+}  // namespace
+
+std::vector<Check> friction_checks() {
+  std::vector<Check> list;
+  add_for_each_scheme(list,
+                      {"contact.a-slope-holds-or-lets-go",
+                       "a block on a slope stays to rounding if tan(al) <= mu, and else slides by "
+                       "g (sin(al) - mu cos(al)) t^2/2.",
+                       "mechanics",
+                       {}},
+                      resting_slope);
+  add_for_each_scheme(list,
+                      {"contact.a-moving-slope-holds-or-lets-go",
+                       "the same on a slope that moves at a constant velocity.",
+                       "mechanics",
+                       {}},
+                      moving_slope);
+  add_for_each_scheme(list,
+                      {"contact.a-belt-takes-along",
+                       "laid on a running belt, a block slides for U/(mu g) and is carried from then on.",
+                       "mechanics",
+                       {}},
+                      belt_finding);
+  add_for_each_scheme(list,
+                      {"contact.a-turntable-carries-without-drift",
+                       "a point that sticks to a turning object stays where it is on it.",
+                       "mechanics",
+                       {}},
+                      turntable_finding);
+  return list;
+}
+
+}  // namespace foldproof

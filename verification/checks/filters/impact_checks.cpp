@@ -1,0 +1,328 @@
+// Motion that leaves the cloth free of crossings, rigid zones, and cloth that starts crossing itself.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "reference/filters/cloth_pairs.h"
+#include "reference/filters/impact_zones.h"
+#include "reference/forces/degenerate.h"
+#include "verification/checks/layered_cloth.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/filters/self_collision_checks.h"
+#include "verification/oracles/exact_crossing_times.h"
+#include "verification/oracles/exact_crossings.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double span = 0.004;  // s
+
+/// Layers that would pass through each other in a step, answered by impulses or, with hardly any rounds of
+/// these, by zones.
+std::vector<std::pair<std::string, Layered>> fast_layers() {
+  std::vector<std::pair<std::string, Layered>> all;
+  for (const int rounds : {8, 1}) {
+    const bool zones = rounds == 1;
+    Layered wanted{3, 0.003, 0.001, zones ? 4.0 : 2.0, {0.002, 3, 0.2, rounds, true}, zones ? 12u : 11u};
+    all.push_back({zones ? "zones" : "impulses", wanted});
+  }
+  return all;
+}
+
+bool boxes_meet(const Corners4& a, const Corners4& b, int first) {
+  Eigen::AlignedBox3d one, other;
+  for (int k = 0; k < 4; ++k) (k < first ? one : other).extend(Vector3(a.col(k))).extend(Vector3(b.col(k)));
+  return one.intersects(other);
+}
+
+/// Pairs that the velocities v take through each other on the way to x + h v, as it is rounded.
+double meetings(const Scene& scene, const PerParticle3& v) {
+  const PerParticle3 end = scene.x + span * v;
+  double count = 0;
+  for (const FeaturePair& pair : all_pairs(scene.mesh)) {
+    const Corners4 from = corners_of(pair, scene.x), to = corners_of(pair, end);
+    const bool vertex = pair.kind == PairKind::vertex_triangle;
+    if (!boxes_meet(from, to, vertex ? 1 : 2)) continue;
+    count +=
+        oracles::ever_meet(vertex ? oracles::Features::vertex_and_triangle : oracles::Features::edge_and_edge,
+                           oracles::exact_motion(from, to - from));
+  }
+  return count;
+}
+
+Finding free_finding(const Subject& subject) {
+  Measured measured("pairs that meet on their way", "pairs");
+  for (const auto& [name, wanted] : fast_layers()) {
+    const Scene scene = layered_scene(wanted);
+    const double unanswered = meetings(scene, scene.v);
+    measured.see(name + " (" + std::to_string(int(unanswered)) + " without)",
+                 unanswered > 20 ? meetings(scene, kept_apart(subject, scene, {span, true})) : NAN);
+  }
+  return measured.judged(0, "all pairs of features, neighbours aside, asked in exact arithmetic");
+}
+
+/// Of pairs farther apart than a tenth of the thickness at the start, the least distance at the end over
+/// that.
+Finding distance_finding(const Subject& subject) {
+  Measured measured("a tenth of the thickness over the least distance after the step", "1");
+  for (const auto& [name, wanted] : fast_layers()) {
+    const Scene scene = layered_scene(wanted);
+    const double kept = 0.1 * wanted.settings.thickness;
+    const PerParticle3 end = scene.x + span * kept_apart(subject, scene, {span, true});
+    double least = INFINITY;
+    for (const FeaturePair& pair : all_pairs(scene.mesh))
+      if (nearness(pair.kind, corners_of(pair, scene.x)).distance > kept)
+        least = std::min(least, nearness(pair.kind, corners_of(pair, end)).distance);
+    measured.see(name, kept / least);
+  }
+  return measured.judged(
+      1,
+      "what starts farther apart than a tenth of the thickness stays so: that is the distance that "
+      "the planes between two features keep");
+}
+
+Finding energy_finding(const Subject& subject) {
+  Measured measured("kinetic energy after over before", "1");
+  for (auto [name, wanted] : fast_layers()) {
+    wanted.settings.stiffness = 0;
+    const Scene scene = layered_scene(wanted);
+    const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+    measured.see(name,
+                 kinetic_of(mass, kept_apart(subject, scene, {span, true})) / kinetic_of(mass, scene.v));
+  }
+  return measured.judged(
+      1,
+      "without springs every answer takes away relative velocity and adds none: impulses stop, friction "
+      "brakes, a zone's rigid motion is the least energy with its momentum");
+}
+
+/// Particles in a cloud, a plane, on a line, and two.
+std::vector<std::pair<std::string, PerParticle3>> clouds() {
+  Random random(21);
+  PerParticle3 cloud = random.vectors(17, 0.3), plane = random.vectors(9, 0.2), line = random.vectors(5, 0.2);
+  plane.row(1).setConstant(0.4);
+  for (Eigen::Index i = 1; i < line.cols(); ++i)
+    line.col(i) = line.col(0) + 0.037 * double(i * i) * Vector3(1, -2, 0.5);
+  return {{"cloud", cloud}, {"plane", plane}, {"line", line}, {"two", PerParticle3(random.vectors(2, 0.1))}};
+}
+
+struct Zone {
+  std::vector<int> members;
+  PerParticle mass, inverse_mass;
+  PerParticle3 v, after;
+  double missed;
+};
+
+Zone zone_of(const PerParticle3& x, int led) {
+  Random random(22);
+  Zone zone;
+  zone.v = random.vectors(x.cols(), 1.3);
+  zone.mass.resize(x.cols());
+  for (int i = 0; i < int(x.cols()); ++i) {
+    zone.members.push_back(i);
+    zone.mass[i] = random.in(0.001, 0.004);
+  }
+  zone.inverse_mass = zone.mass.cwiseInverse();
+  for (int i = 0; i < led; ++i) {
+    zone.inverse_mass[i] = 0;
+    zone.v.col(i) = Vector3(0.3, -0.2, 0.7) + Vector3(0.4, 1.1, -0.6).cross(Vector3(x.col(i)));
+  }
+  zone.after = zone.v;
+  zone.missed = move_as_one(zone.members, x, zone.mass, zone.inverse_mass, zone.after);
+  return zone;
+}
+
+Finding zone_momentum_finding(const Subject&) {
+  Measured measured = roundings_of("sum m |v|, times the zone's size for angular momentum");
+  for (const auto& [name, x] : clouds()) {
+    const Zone zone = zone_of(x, 0);
+    const PerParticle3 change = zone.after - zone.v;
+    const double scale = zone.v.colwise().norm().dot(zone.mass.transpose());
+    const double size = (x.colwise() - Vector3(x.rowwise().mean())).colwise().norm().maxCoeff();
+    measured.see(name + ", linear", momentum_of(zone.mass, change).norm() / (epsilon * scale));
+    measured.see(name + ", angular", turn_of(zone.mass, x, change).norm() / (epsilon * scale * size));
+  }
+  return measured.judged(
+      256,
+      "normal equations of six unknowns solved by their eigenvectors: some tens of roundings, times "
+      "the condition of the zone's inertia, below ten for these");
+}
+
+/// (x_i - x_j).(v_i - v_j) = 0: no distance changes; and what is led leads.
+Finding zone_rigid_finding(const Subject&) {
+  Measured measured("rate of distance, or difference from the velocity led, over the largest velocity", "1");
+  for (const auto& [name, x] : clouds())
+    for (const int led : {0, 1, 2}) {
+      const Zone zone = zone_of(x, led);
+      const double fastest = zone.v.colwise().norm().maxCoeff();
+      Worst worst;
+      worst.see(zone.missed / fastest);
+      for (Eigen::Index i = 0; i < x.cols(); ++i) {
+        if (i < led) worst.see((zone.after.col(i) - zone.v.col(i)).norm() / fastest);
+        for (Eigen::Index j = 0; j < i; ++j) {
+          const Vector3 apart = x.col(i) - x.col(j), rate = zone.after.col(i) - zone.after.col(j);
+          worst.see(std::abs(apart.dot(rate)) / (apart.norm() * fastest));
+        }
+      }
+      measured.see(name + ", " + std::to_string(led) + " led", worst.value());
+    }
+  return measured.judged(
+      256 * epsilon,
+      "a rigid motion to some hundred roundings, of velocities led by a rigid motion themselves");
+}
+
+Finding forced_finding(const Subject& subject) {
+  Measured measured("forced crossings that were accepted", "runs");
+  Scene scene = layered_scene({2, 0.003, 0.0005, 0, {0.002, 0, 0, 8, true}, 14});
+  for (int i = 0; i < 84; ++i) {
+    Motion motion;
+    motion.velocity = {0, 0, i < 42 ? 1.0 : -1.0};
+    scene.led.push_back({i, scene.x.col(i), motion});
+  }
+  double accepted = 1;
+  try {
+    kept_apart(subject, scene, {span, true});
+  } catch (const DegenerateElement&) {
+    accepted = 0;
+  }
+  measured.see("two held sheets led through each other", accepted);
+  return measured.judged(
+      0, "no velocity can keep apart what is led through each other: the run has to stop and say so");
+}
+
+Finding same_bits_finding(const Subject& subject) {
+  Measured measured("velocities that differ", "velocities");
+  const Scene scene = layered_scene(fast_layers()[1].second);
+  const PerParticle3 alone = kept_apart(subject, scene, {span, true});
+  std::vector<PerParticle3> answers(3);
+  std::vector<std::thread> threads;
+  for (PerParticle3& answer : answers)
+    threads.emplace_back([&] { answer = kept_apart(subject, scene, {span, true}); });
+  for (std::thread& thread : threads) thread.join();
+  double differ = 0;
+  for (const PerParticle3& answer : answers) differ += double((answer.array() != alone.array()).count());
+  measured.see("alone, and three at once", differ);
+  return measured.judged(0,
+                         "one order of pairs, fixed by the mesh and the boxes; no state but the arguments");
+}
+
+/// Pairs that one list has and the other has not, or has elsewhere.
+double differences(const std::vector<FeaturePair>& a, const std::vector<FeaturePair>& b) {
+  double count = std::abs(double(a.size()) - double(b.size()));
+  for (size_t k = 0; k < std::min(a.size(), b.size()); ++k)
+    count += a[k].kind != b[k].kind || a[k].particles != b[k].particles;
+  return count;
+}
+
+/// Pairs kept with 3 mm to spare, after random motions within and beyond them; with some particles marked,
+/// too.
+void see_choices(Measured& measured) {
+  const double margin = 0.004, spare = 0.003;
+  const Scene scene = layered_scene({4, 0.003, 0.001, 0, {0.004, 0, 0, 8, true}, 17});
+  const ClothTree cloth = make_cloth_tree(scene.mesh);
+  const KeptPairs kept = keep_pairs(cloth, scene.x, margin + spare);
+  Random random(17);
+  for (const double share : {0.0, 0.4, 0.97, 1.3}) {
+    const PerParticle3 x = scene.x + random.vectors(scene.x.cols(), share * spare / 2);
+    const PerParticle3 end = scene.x + random.vectors(scene.x.cols(), share * spare / 2);
+    std::vector<char> marked(size_t(x.cols()));
+    for (char& one : marked) one = random.in(0, 1) < 0.2;
+    for (const std::vector<char>& moved : {std::vector<char>{}, marked}) {
+      const auto chosen = chosen_pairs(kept, x, end, margin, moved);
+      const std::vector<FeaturePair> searched = near_pairs(cloth, x, end, margin, moved);
+      const std::string name = fmt::format("moved by {} of half of what is to spare, {}", share,
+                                           moved.empty() ? "all asked" : "some asked");
+      if (share > 1) measured.see(name, chosen ? NAN : 0);
+      if (share < 1)
+        measured.see(name, chosen && searched.size() > 50 ? differences(*chosen, searched) : NAN);
+    }
+  }
+}
+
+/// Numbers of a run's end that depend on whether pairs are remembered from step to step; NaN if none are.
+double numbers_that_memory_changes() {
+  Scene scene = layered_scene({3, 0.003, 0.001, 0.2, {0.004, 3, 0.2, 8, true}, 18});
+  scene.stretch = StretchMaterial{20, 0.02, 1};
+  const System system = build_system(scene);
+  State remembers = start_state(scene), forgets = remembers;
+  double reused = 0;
+  for (int n = 0; n < 60; ++n) {
+    const auto before = remembers.memory.pairs;
+    begin_step(system, remembers);
+    reused += before && remembers.memory.pairs == before;
+    Work uncounted;
+    remembers = integrator_named("C").step(system, {&remembers, 1}, 5e-4, uncounted);
+    forgets = integrator_named("C").step(system, {&forgets, 1}, 5e-4, uncounted);
+  }
+  return reused > 10
+             ? numbers_that_differ(remembers.x, forgets.x) + numbers_that_differ(remembers.v, forgets.v)
+             : NAN;
+}
+
+Finding kept_pairs_finding(const Subject&) {
+  Measured measured("pairs or numbers that differ", "1");
+  see_choices(measured);
+  measured.see("a run of 60 steps, and one that forgets", numbers_that_memory_changes());
+  return measured.judged(0,
+                         "the pairs that were kept are a list to choose from: what is chosen is what a "
+                         "search finds, in its order");
+}
+
+/// Two sheets that cross, pushed apart step by step: how many crossings are left.
+Finding untangle_finding(const Subject& subject) {
+  Measured measured("crossings left over those at the start", "1");
+  Scene scene = layered_scene({2, 0.003, 0.0002, 0, {0.002, 5, 0, 8, true}, 15});
+  for (Eigen::Index i = 42; i < 84; ++i)
+    scene.x(2, i) -= 0.2 * std::max(0.0, scene.x(0, i) + scene.x(1, i) - 0.17);  // a corner is below
+  scene.stretch = StretchMaterial{20, 0.02, 1};
+  const auto count = [&](const PerParticle3& x) {
+    return double(oracles::exact_crossings(x, scene.mesh.triangles).size());
+  };
+  const double start = count(scene.x);
+  Stepper stepper(subject, scene, "C");
+  const State end = stepper.run(stepper.start(), 0.001, 150);
+  measured.see(std::to_string(int(start)) + " at the start", start > 5 ? count(end.x) / start : NAN);
+  return measured.judged(0, "the line on which they cross cuts off a corner: it can shrink to nothing there");
+}
+
+}  // namespace
+
+std::vector<Check> impact_checks() {
+  return {
+      {"self-collision.a-step-is-free-of-crossings",
+       "Layers that would pass through each other in a step do not, by impulses or by rigid zones.",
+       "BMF03 section 5; Bridson, Fedkiw, Anderson 2002 section 7", free_finding},
+      {"self-collision.distances-do-not-fall-below-a-tenth",
+       "Features farther apart than a tenth of the thickness stay so.", "ours", distance_finding},
+      {"self-collision.takes-kinetic-energy-only",
+       "Without springs, keeping layers apart adds no kinetic energy.",
+       "Bridson, Fedkiw, Anderson 2002 section 7", energy_finding},
+      {"self-collision.zones-keep-momentum", "A rigid impact zone keeps linear and angular momentum.",
+       "Bridson, Fedkiw, Anderson 2002 section 7.5; Provot 1997", zone_momentum_finding},
+      {"self-collision.zones-are-rigid",
+       "A rigid impact zone changes no distance, and follows what is led in it.",
+       "Bridson, Fedkiw, Anderson 2002 section 7.5; Provot 1997", zone_rigid_finding},
+      {"self-collision.forced-crossings-stop-the-run",
+       "Prescribed motion that takes cloth through itself stops the run.", "ours", forced_finding},
+      {"self-collision.same-bits-every-time",
+       "The same cloth gets the same answer to the bit, alone or beside others.", "ours", same_bits_finding},
+      {"self-collision.kept-pairs-are-those-of-a-search",
+       "Pairs that are remembered from step to step spare searches and change no bit.", "ours",
+       kept_pairs_finding},
+      {"self-collision.tangles-come-apart",
+       "Cloth that starts crossing itself along a line that cuts off a corner is pushed out of the tangle.",
+       "Volino and Magnenat-Thalmann 2006", untangle_finding},
+  };
+}
+
+std::vector<Check> self_collision_checks() {
+  std::vector<Check> all = repulsion_checks();
+  for (Check& check : impact_checks()) all.push_back(std::move(check));
+  return all;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,190 @@
+// How objects move, and that nothing passes through them.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "verification/checks/filters/contact_checks.h"
+#include "verification/checks/contact_scenes.h"
+#include "verification/checks/measured.h"
+
+namespace foldproof {
+
+namespace {
+
+RigidMotion swing() {
+  Motion motion;
+  motion.velocity = {0.4, -0.2, 0.9};
+  motion.amplitude = {0.2, 0.5, -0.3};
+  motion.frequency = 0.8;
+  motion.phase = 0.4;
+  motion.center = {0.3, -0.7, 0.2};
+  motion.angular_velocity = {1.1, -0.6, 2.3};
+  return motion;
+}
+
+RigidMotion keyed() {
+  const auto pose = [](double angle, const Vector3& axis, const Vector3& place) {
+    return Pose{Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized())), place};
+  };
+  return make_keyframes({{0.3, pose(0.2, {1, 2, 3}, {0.1, 0.2, 0.3})},
+                         {0.9, pose(2.9, {-1, 0.4, 0.3}, {-0.3, 0.5, 0.1})},
+                         {2.1, pose(-1.7, {0.2, 1, -2}, {0.6, -0.2, 0.4})}});
+}
+
+/// The velocity of a body's point against the central difference of its places, each h away.
+Finding velocity_finding(const Subject&) {
+  Measured measured("difference over that of the places' derivative", "1");
+  const double small = 1e-4;
+  Random random(3);
+  for (const auto& [name, motion] :
+       {std::pair<const char*, RigidMotion>{"closed form", swing()}, {"keyframes", keyed()}}) {
+    Worst worst;
+    for (int k = 0; k < 60; ++k) {
+      const double t = random.in(0.35, 2);
+      if (std::abs(t - 0.9) < 2 * small) continue;
+      const Vector3 X = random.vectors(1, 0.8);
+      const Vector3 x = placed(pose_at(motion, t), X);
+      const Vector3 difference =
+          (placed(pose_at(motion, t + small), X) - placed(pose_at(motion, t - small), X)) / (2 * small);
+      worst.see((velocity_at(motion, x, t) - difference).norm() / (1 + difference.norm()));
+    }
+    measured.see(name, worst.value());
+  }
+  return measured.judged(
+      1e-6,
+      "a central difference over 1e-4 s errs by omega^3 X (1e-4)^2/6, some 1e-7, and by rounding "
+      "of some 1e-12");
+}
+
+/// On the keys themselves, and outside them at rest.
+Finding keyframe_finding(const Subject&) {
+  Measured measured = roundings_of("length");
+  const RigidMotion motion = keyed();
+  const std::vector<Keyframe>& keys = std::get<Keyframes>(motion).keys;
+  const Vector3 X(0.3, -0.5, 0.7);
+  Worst at_keys, between, outside;
+  for (const Keyframe& key : keys)
+    at_keys.see((placed(pose_at(motion, key.time), X) - placed(key.pose, X)).norm());
+  for (size_t k = 0; k + 1 < keys.size(); ++k) {  // half way: half the turn
+    const Pose half = pose_at(motion, (keys[k].time + keys[k + 1].time) / 2);
+    const Eigen::Quaterniond whole = keys[k + 1].pose.rotation * keys[k].pose.rotation.conjugate();
+    const Eigen::Quaterniond first = half.rotation * keys[k].pose.rotation.conjugate();
+    between.see(std::min((whole.coeffs() - (first * first).coeffs()).norm(),
+                         (whole.coeffs() + (first * first).coeffs()).norm()));
+  }
+  for (const double t : {-1.0, 0.1, 2.2, 9.0}) {
+    const Keyframe& key = t < 1 ? keys.front() : keys.back();
+    outside.see((placed(pose_at(motion, t), X) - placed(key.pose, X)).norm());
+    outside.see(velocity_at(motion, X, t).norm());
+  }
+  measured.see("at its keyframes", at_keys.value() / epsilon);
+  measured.see("half way between", between.value() / epsilon);
+  measured.see("before and after", outside.value() / epsilon);
+  return measured.judged(40, "a dozen products of unit quaternions and lengths below 1 m");
+}
+
+SceneObject with_motion(SceneObject part, const Vector3& velocity, const Vector3& turning) {
+  Motion motion;
+  motion.velocity = velocity;
+  motion.angular_velocity = turning;
+  std::get<RigidObject>(part.object.body).motion = motion;
+  return part;
+}
+
+double depth(const std::vector<SceneObject>& objects, const Vector3& p, double time) {
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (const SceneObject& part : objects)
+    deepest = std::max(deepest, -std::get<RigidObject>(part.object.body).at(p, {time, time, 0}).phi);
+  return deepest;
+}
+
+/// Points outside are shot, step after step, so that each moves by `way` [m] in a step in a random direction,
+/// seen from the first object: how deep any of them has come in [m].
+double deepest_shot(const Subject& subject, std::vector<SceneObject> objects, double way) {
+  const double h = 0.01;
+  Scene scene = loose_particles(15);
+  scene.objects = objects;
+  Random random(71);
+  State s{0, random.vectors(scene.x.cols(), 0.8), scene.v};
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i)
+    while (!(depth(objects, s.x.col(i), 0) < 0)) s.x.col(i) = random.vectors(1, 0.8);
+  Stepper stepper(subject, scene, "C");
+  Worst deepest;
+  for (int n = 0; n < 60; ++n) {
+    const PerParticle3 directions = random.vectors(s.x.cols(), 1);
+    for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
+      const auto& body = std::get<RigidObject>(objects[0].object.body);
+      const Vector3 with = body.at(s.x.col(i), {s.time, s.time + h, h}).velocity;
+      s.v.col(i) = with + way / h * Vector3(directions.col(i)).normalized();
+    }
+    s = stepper.step(s, h);
+    for (Eigen::Index i = 0; i < s.x.cols(); ++i) deepest.see(depth(objects, s.x.col(i), s.time));
+  }
+  return deepest.value();
+}
+
+const Pose at_rest;
+
+/// A convex object that does not turn lies behind its tangent planes, which the forecast is about.
+Finding convex_finding(const Subject& subject) {
+  const Vector3 drift(0.7, -0.4, 1.1);
+  const Pose above{Eigen::Quaterniond::Identity(), {0, 0, 0.03}};
+  const Box thin{{0.6, 0.5, 0.01}};
+  const SceneObject board = with_motion(object_at("board", thin, at_rest), drift, Vector3::Zero());
+  const SceneObject second = with_motion(object_at("second board", thin, above), drift, Vector3::Zero());
+  const SceneObject ball = with_motion(object_at("ball", Sphere{0.3}, at_rest), drift, Vector3::Zero());
+  Measured measured("depth", "m");
+  for (const double way : {0.005, 0.05, 0.7}) {
+    const std::string words = ", shots of " + std::to_string(way).substr(0, 5) + " m a step";
+    measured.see("ball" + words, deepest_shot(subject, {ball}, way));
+    measured.see("board 0.02 m thick" + words, deepest_shot(subject, {board}, way));
+  }
+  measured.see("two boards, 0.01 m apart, shots of 0.7 m", deepest_shot(subject, {board, second}, 0.7));
+  return measured.judged(1e-12,
+                         "rounding of positions of up to a metre in a frame that moves, over 60 steps");
+}
+
+/// A point outside must move by half the object's thickness in a step, seen from it, to pass where it is
+/// deepest.
+Finding limit_finding(const Subject& subject) {
+  const Vector3 drift(0.3, 0.2, -0.4), turning(2.1, -1.3, 0.8);
+  const SceneObject ring = with_motion(object_at("ring", Torus{0.5, 0.1}, at_rest), drift, turning);
+  const SceneObject board = with_motion(object_at("board", Box{{0.6, 0.5, 0.03}}, at_rest), drift, turning);
+  Measured measured("depth over half the thickness", "1");
+  for (const double part : {0.3, 0.9}) {
+    const std::string words = ", turning, at " + std::to_string(part).substr(0, 3) + " of the limit";
+    measured.see("ring" + words, deepest_shot(subject, {ring}, part * 0.1) / 0.1);
+    measured.see("board" + words, deepest_shot(subject, {board}, part * 0.03) / 0.03);
+  }
+  Finding finding = measured.judged(
+      0.9,
+      "a point that was outside has moved by 0.9 of half the thickness at most, and one that was inside is "
+      "on "
+      "its way out; at 1, where the object is deepest, it would be pushed out on the other side");
+  finding.note =
+      "the limit: a point must not move, seen from the object, by more than half its thickness in a step";
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Check> object_checks() {
+  return {
+      {"contact.object-velocity-is-its-motions", "An object's velocity is the derivative of its place.",
+       "kinematics", velocity_finding},
+      {"contact.keyframes-are-kept",
+       "A keyframed object is at its keyframes when it should be, half way it has turned by half, and "
+       "outside it rests.",
+       "kinematics", keyframe_finding},
+      {"contact.convex-objects-are-never-entered",
+       "No particle enters a convex object that does not turn, whatever its speed, and none passes a thin "
+       "board.",
+       "BMF03 section 5.2", convex_finding},
+      {"contact.nothing-tunnels-below-the-limit",
+       "At 0.9 of half an object's thickness a step, nothing passes through one that turns or is concave.",
+       "BMF03 section 5.2", limit_finding},
+  };
+}
+
+}  // namespace foldproof

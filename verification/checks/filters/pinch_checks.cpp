@@ -1,0 +1,287 @@
+// Points that two objects claim, and points that belong to several particles.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "reference/filters/object_collision.h"
+#include "verification/checks/filters/contact_checks.h"
+#include "verification/checks/contact_scenes.h"
+#include "verification/checks/measured.h"
+#include "verification/oracles/dense_algebra.h"
+
+namespace foldproof {
+
+namespace {
+
+/// d(psi)/dt = (v - v_a).N_a - (v - v_b).N_b for the difference psi of the two depths [m/s].
+double rate(const Known& a, const Known& b, const Vector3& v) {
+  return (v - a.velocity).dot(a.normal) - (v - b.velocity).dot(b.normal);
+}
+
+Finding equal_depth_finding(const Subject& subject) {
+  const Pinch pinch = known_pinch();
+  const PerParticle3 after = avoided(subject, pinch.scene, pinch.span, pinch.state);
+  Measured measured = roundings_of("depth and speed times step");
+  Worst worst;
+  for (Eigen::Index i = 0; i < after.cols(); ++i) {
+    const Vector3 p = pinch.state.x.col(i);
+    const Known a = pinch.first(p, pinch.span), b = pinch.second(p, pinch.span);
+    const double psi = a.phi - b.phi + pinch.tau * rate(a, b, after.col(i));
+    const double across = (a.normal - b.normal).norm();
+    worst.see(std::abs(psi) /
+              (epsilon * (1 + pinch.tau * Vector3(after.col(i)).norm()) / std::min(1.0, across)));
+  }
+  measured.see("two balls, " + std::to_string(after.cols()) + " particles inside both", worst.value());
+  return measured.judged(40, "as many roundings as a forecast against one object takes, twice");
+}
+
+/// The velocity along the surface between is shortened by at most the sum of both Coulomb limits, not turned.
+Finding pinch_friction_finding(const Subject& subject) {
+  const Pinch pinch = known_pinch();
+  const PerParticle3 after = avoided(subject, pinch.scene, pinch.span, pinch.state);
+  Measured measured = roundings_of("speed");
+  Worst worst;
+  double stuck = 0, slid = 0;
+  for (Eigen::Index i = 0; i < after.cols(); ++i) {
+    const Vector3 p = pinch.state.x.col(i), v = pinch.state.v.col(i), v_after = after.col(i);
+    const Known a = pinch.first(p, pinch.span), b = pinch.second(p, pinch.span);
+    const Vector3 n = (a.normal - b.normal).normalized(), mean = (a.velocity + b.velocity) / 2;
+    const auto tangent = [&](const Vector3& u) { return Vector3(u - u.dot(n) * n); };
+    const Vector3 sliding = tangent(v - mean), still = tangent(v_after - mean);
+    const auto push = [&](const Known& k) {
+      return std::max(0.0, -(k.phi / pinch.tau + (v - k.velocity).dot(k.normal)));
+    };
+    const double most = pinch.friction_first * push(a) + pinch.friction_second * push(b);
+    const double wanted = std::max(0.0, sliding.norm() - most);
+    (wanted > 0 ? slid : stuck) += 1;
+    worst.see((still - wanted * sliding.normalized()).norm() /
+              (epsilon * (1 / pinch.tau + v.norm() + mean.norm())));
+  }
+  measured.see("two balls",
+               stuck > 20 && slid > 20 ? worst.value() : std::numeric_limits<double>::quiet_NaN());
+  Finding finding = measured.judged(200,
+                                    "roundings of positions near 1 m over the step, magnified by at most "
+                                    "1/|N_a - N_b| where the normals of the two balls differ little");
+  finding.note = std::to_string(int(stuck)) + " particles stick, " + std::to_string(int(slid)) + " slide";
+  return finding;
+}
+
+/// A floor and a wall that meet in a corner, particles near it outside both.
+Scene corner() {
+  Scene scene = loose_particles(20);
+  const Eigen::Quaterniond wall = oracles::turn_between(Vector3::UnitZ(), Vector3(1, 0.2, 0.1));
+  scene.objects.push_back(object_at("floor", HalfSpace{}, {}));
+  scene.objects.push_back(object_at("wall", HalfSpace{}, {wall, Vector3::Zero()}));
+  return scene;
+}
+
+Finding each_object_finding(const Subject& subject) {
+  const Scene scene = corner();
+  const double h = 0.01;
+  const Span span{0, h, h};
+  Random random(31);
+  const Vector3 floor(0, 0, 1), wall = Vector3(1, 0.2, 0.1).normalized();
+  State state{0, scene.x, random.vectors(scene.x.cols(), 20)};
+  for (Eigen::Index i = 0; i < state.x.cols(); ++i)
+    state.x.col(i) =
+        random.in(0, 0.2) * wall + random.in(0.02, 0.2) * floor + Vector3(0, random.in(-1, 1), 0);
+  const PerParticle3 after = avoided(subject, scene, span, state);
+  Worst deepest;
+  double corrected_twice = 0;
+  for (Eigen::Index i = 0; i < after.cols(); ++i) {
+    const Vector3 p = state.x.col(i), end = p + h * after.col(i), free = p + h * state.v.col(i);
+    deepest.see(-std::min(end.dot(floor), end.dot(wall)));
+    corrected_twice += free.dot(floor) < 0 && free.dot(wall) < 0;
+  }
+  const double few = std::numeric_limits<double>::quiet_NaN();
+  return {{corrected_twice > 10 ? deepest.value() : few, 100 * epsilon, 0, "m",
+           "the second push leads out of the first object too, since the normals enclose less than a right "
+           "angle: "
+           "what remains is rounding of positions within 1 m and steps of 0.2 m"},
+          {{"particles that would enter both", "1", std::vector<double>{corrected_twice}}},
+          ""};
+}
+
+/// The half-spaces z >= 0 of a floor and of one turned about y, particles without friction between them.
+Scene wedge(double degrees) {
+  Scene scene = loose_particles(5);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vector3::UnitY()));
+  scene.objects.push_back(object_at("floor", HalfSpace{}, {}));
+  scene.objects.push_back(object_at("other", HalfSpace{}, {turn, Vector3::Zero()}));
+  return scene;
+}
+
+/// Particles outside both half-spaces that would enter both: held equally deep in both where the normals are
+/// more than 120 degrees apart; else on the surface of the one that corrects last, which lies in the other.
+Finding closing_finding(const Subject& subject) {
+  const double h = 0.01;
+  Random random(37);
+  Measured measured = roundings_of("place and way");
+  for (const double degrees : {95., 118., 122., 150.}) {
+    const Scene scene = wedge(degrees);
+    const double angle = degrees * std::numbers::pi / 180;
+    const Vector3 a = Vector3::UnitZ(), b(std::sin(angle), 0, std::cos(angle));
+    const Eigen::Matrix2d gram{{1, a.dot(b)}, {a.dot(b), 1}};
+    State state = still_at(scene.x);
+    for (Eigen::Index i = 0; i < state.x.cols(); ++i) {
+      const Eigen::Vector2d inwards = gram.inverse() * -Eigen::Vector2d(random.in(10, 20), random.in(10, 20));
+      state.x.col(i) = random.in(0.01, 0.05) * (a + b).normalized() + Vector3(0, random.in(-1, 1), 0);
+      state.v.col(i) = inwards[0] * a + inwards[1] * b + Vector3(0, random.in(-1, 1), 0);
+    }
+    const PerParticle3 after = avoided(subject, scene, {0, h, h}, state);
+    Worst worst;
+    for (Eigen::Index i = 0; i < after.cols(); ++i) {
+      const Vector3 end = state.x.col(i) + h * after.col(i);
+      const double apart = std::abs(end.dot(a) - end.dot(b));
+      const double nearest = std::min(std::abs(end.dot(a)), std::abs(end.dot(b)));
+      const bool held = degrees > 120;
+      const bool told_apart = (held ? nearest : apart) > 1e-3;  // m
+      const double size = Vector3(state.x.col(i)).norm() + h * Vector3(state.v.col(i)).norm();
+      worst.see(told_apart ? (held ? apart : nearest) / (epsilon * size) : nan);
+    }
+    measured.see(std::to_string(int(degrees)) + " degrees", worst.value());
+  }
+  return measured.judged(40, "as many roundings as a forecast against one object takes, twice");
+}
+
+/// Midpoints and centres get exactly the velocity of the response, by impulses that fall with the mass.
+Finding shares_finding(const Subject&) {
+  const Contact contact = known_contacts().front();
+  System system = build_system(contact.scene);
+  PerParticle inverse_mass = system.inverse_mass;
+  Random random(5);
+  for (Eigen::Index i = 0; i < inverse_mass.size(); ++i) inverse_mass[i] = i % 7 == 3 ? 0 : random.in(0.2, 3);
+  Measured measured = roundings_of("share");
+  Worst mean, ratio, held;
+  for (const CollisionPoint& point : collision_points(contact.scene.mesh, inverse_mass, PointKind::faces)) {
+    double sum = 0;
+    for (int k = 0; k < point.count; ++k) {
+      sum += point.shares[k] / point.count;
+      const double w = inverse_mass[point.particles[size_t(k)]], w0 = inverse_mass[point.particles[0]];
+      ratio.see(std::abs(point.shares[k] * w0 - point.shares[0] * w) / epsilon);
+      if (w == 0) held.see(std::abs(point.shares[k]) / epsilon);
+    }
+    mean.see(std::abs(sum - 1) / epsilon);
+  }
+  measured.see("the point takes the whole change", mean.value());
+  measured.see("shares are as the inverse masses", ratio.value());
+  measured.see("prescribed particles take none", held.value());
+  return measured.judged(40, "three divisions and sums of numbers near 1, shares up to 15 apart");
+}
+
+/// Triangles that lie across a ridge that none of their corners touches.
+Finding centres_finding(const Subject& subject) {
+  Scene scene = loose_particles(5);
+  scene.objects.push_back(
+      object_at("spike", Sphere{0.02}, {Eigen::Quaterniond::Identity(), Vector3(1. / 6, 1. / 12, -0.015)}));
+  State state{0, scene.x, PerParticle3::Zero(3, scene.x.cols())};
+  const double h = 0.01;
+  state.v.row(2).setConstant(-1);
+  std::vector<std::string> kinds = {"particles", "edges", "faces"};
+  std::vector<double> depth;
+  for (const PointKind kind : {PointKind::particles, PointKind::edges, PointKind::faces}) {
+    scene.collision.points = kind;
+    const PerParticle3 x = state.x + h * avoided(subject, scene, {0, h, h}, state);
+    Worst deepest;
+    for (const Triangle& t : scene.mesh.triangles) {
+      const Vector3 centre = (x.col(t[0]) + x.col(t[1]) + x.col(t[2])) / 3;
+      deepest.see(0.02 - (centre - Vector3(1. / 6, 1. / 12, -0.015)).norm());
+    }
+    depth.push_back(deepest.value());
+  }
+  const double too_easy = std::numeric_limits<double>::quiet_NaN();
+  return {{depth[0] > 1e-3 ? depth[2] : too_easy, 20 * epsilon, 0, "m",
+           "the centre comes down on the spike's top and is held there, but for roundings"},
+          {{"points", "", kinds}, {"depth of a centre", "m", depth}},
+          "not a number if the particles alone keep the centre out"};
+}
+
+/// A triangle of unlike particles whose centre alone is to be kept out of a ball that it comes down on.
+struct ComingDown {
+  ObjectCollision filter;
+  State state;
+};
+
+ComingDown coming_down() {
+  const SceneObject ball =
+      object_at("ball", Sphere{0.21}, {Eigen::Quaterniond::Identity(), Vector3(0.02, -0.03, -0.22)});
+  CollisionPoint centre;
+  centre.particles = {2, 0, 1};
+  centre.count = 3;
+  centre.shares = Vector3(0.6, 1.5, 0.9);
+  ComingDown made{{{ball.object}, {centre}},
+                  still_at(PerParticle3{{0.3, -0.2, -0.1}, {0.1, 0.3, -0.4}, {0.01, 0, -0.01}})};
+  made.state.v = PerParticle3{{0.7, -0.4, 0.2}, {0.3, 0.9, -0.6}, {-3.1, -2.6, -3.7}};
+  return made;
+}
+
+Finding change_finding(const Subject&) {
+  Measured measured = roundings_of("1 m/s");
+  const ComingDown down = coming_down();
+  const CollisionPoint& centre = down.filter.points[0];
+  PerParticle3 v = down.state.v;
+  Work work;
+  down.filter.correct({0, 0.01, 0.01}, down.state, v, work);
+  const PerParticle3 change = v - down.state.v;
+  const Vector3 of_centre = centre.mean(change);
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 of_corner = change.col(centre.particles[size_t(k)]);
+    measured.see("corner " + std::to_string(k + 1),
+                 (of_corner - centre.shares[k] * of_centre).norm() / epsilon);
+  }
+  measured.see("the ball is met", of_centre.norm() > 0.1 ? 0 : nan);
+  return measured.judged(32, "velocities of a few m/s, a mean of three and a product");
+}
+
+Finding counts_finding(const Subject&) {
+  Measured measured("questions and contacts that are counted wrongly", "1");
+  const ComingDown down = coming_down();
+  const auto miscounted = [&](const Span& span, const PerParticle3& start, long contacts) {
+    PerParticle3 v = start;
+    Work work;
+    down.filter.correct(span, down.state, v, work);
+    return std::abs(double(work.object_queries - 1)) + std::abs(double(work.object_contacts - contacts));
+  };
+  measured.see("a move into the ball", miscounted({0, 0.01, 0.01}, down.state.v, 1));
+  measured.see("a velocity at the end of a step", miscounted({0.01, 0.01, 0.01}, down.state.v, 0));
+  measured.see("a move away", miscounted({0, 0.01, 0.01}, -down.state.v, 0));
+  return measured.judged(0, "one point, asked once; a contact is a move that was changed");
+}
+
+}  // namespace
+
+std::vector<Check> pinch_checks() {
+  return {
+      {"contact.pinched-points-end-equally-deep",
+       "A point inside two objects is forecast to be equally deep in both: on the surface between them.",
+       "BMF03 section 5.1", equal_depth_finding},
+      {"contact.pinched-points-slide-by-coulomb",
+       "Along the surface between, friction takes at most what both objects' pushes allow from its motion "
+       "against "
+       "their mean.",
+       "BMF03 section 5.1", pinch_friction_finding},
+      {"contact.objects-that-close-hold-a-point-between",
+       "A point that would enter two objects is held between them where their normals are more than 120 "
+       "degrees "
+       "apart, and else led out of one after the other.",
+       "BMF03 section 5.2", closing_finding},
+      {"contact.an-object-that-is-not-the-nearest-counts",
+       "A point that is near one object and about to enter another is held out of both.", "BMF03 section 5.2",
+       each_object_finding},
+      {"contact.shares-are-the-least-impulses",
+       "Midpoints and centres pass the change of their velocity on to their particles by the least impulses.",
+       "mechanics", shares_finding},
+      {"contact.centres-pass-on-their-change-alone",
+       "Particles keep their velocities but for their shares of the change that the centre asks for.",
+       "mechanics", change_finding},
+      {"contact.contacts-are-counted",
+       "A point is asked once, and its contact counted where its move was changed.",
+       "our own: cases are judged by it", counts_finding},
+      {"contact.centres-are-held-out",
+       "With centres of triangles as points, a spike between the particles does not come through.",
+       "BMF03 section 5.2", centres_finding},
+  };
+}
+
+}  // namespace foldproof

@@ -1,0 +1,264 @@
+// What interface forecasting does to one point at one object (BMF03 section 5.2).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "verification/checks/filters/contact_checks.h"
+#include "verification/checks/contact_scenes.h"
+#include "verification/checks/measured.h"
+
+namespace foldproof {
+
+namespace {
+
+/// One particle before and after the correction, in the object's terms.
+struct Answer {
+  Known known;
+  Vector3 before, after;           // velocities [m/s]
+  double forecast;                 // phi + tau (v_p - v).N before [m]
+  double push;                     // change of the normal velocity [m/s]
+  Vector3 sliding, still_sliding;  // tangential relative velocity before and after [m/s]
+  double speed;                    // of all velocities that enter [m/s]
+};
+
+Answer answer_of(const Contact& contact, const PerParticle3& after, Eigen::Index i) {
+  Answer a;
+  a.known = contact.known(contact.state.x.col(i), contact.span);
+  a.before = contact.state.v.col(i);
+  a.after = after.col(i);
+  const Vector3& n = a.known.normal;
+  const Vector3 relative = a.before - a.known.velocity, relative_after = a.after - a.known.velocity;
+  a.forecast = a.known.phi + contact.tau * relative.dot(n);
+  a.push = (a.after - a.before).dot(n);
+  a.sliding = relative - relative.dot(n) * n;
+  a.still_sliding = relative_after - relative_after.dot(n) * n;
+  a.speed = a.before.norm() + a.known.velocity.norm() + std::abs(a.known.phi) / contact.tau;
+  return a;
+}
+
+/// How far from zero a forecast must be for its sign to be known in spite of rounding [m]; lengths are near 1
+/// m.
+double unsure(const Contact& contact) { return 100 * epsilon * (1 + 4 * contact.tau); }
+
+// What phi and the object's velocity inherit from a rounding of positions near 1 m, in velocities of a step
+// of a hundredth of a second: the scale of all bounds below.
+constexpr const char* why_roundings =
+    "a few dozen roundings on the way through the object's frame and back, of lengths of a metre, divided by "
+    "the "
+    "step where a mean velocity is made of them";
+double velocity_scale(const Contact& contact, const Answer& a) { return a.speed + 1 / contact.span.step; }
+
+/// The worst of a quantity in roundings over all particles of all contacts that `wanted` picks.
+Finding worst_over(const Subject& subject, const std::function<bool(const Contact&, const Answer&)>& wanted,
+                   const std::function<double(const Contact&, const Answer&)>& roundings) {
+  Measured measured = roundings_of("speed");
+  for (const Contact& contact : known_contacts()) {
+    const PerParticle3 after = avoided(subject, contact.scene, contact.span, contact.state);
+    Worst worst;
+    long asked = 0;
+    for (Eigen::Index i = 0; i < after.cols(); ++i) {
+      const Answer a = answer_of(contact, after, i);
+      if (!wanted(contact, a)) continue;
+      worst.see(roundings(contact, a));
+      ++asked;
+    }
+    measured.see(contact.name + ", " + std::to_string(asked) + " particles",
+                 asked > 20 ? worst.value() : std::numeric_limits<double>::quiet_NaN());
+  }
+  return measured.judged(40, why_roundings);
+}
+
+bool is_treated(const Contact& contact, const Answer& a) { return a.forecast < -unsure(contact); }
+
+Finding forecast_finding(const Subject& subject) {
+  return worst_over(subject, is_treated, [](const Contact& contact, const Answer& a) {
+    const double phi = a.known.phi + contact.tau * (a.after - a.known.velocity).dot(a.known.normal);
+    return std::abs(phi) / (epsilon * (contact.tau * velocity_scale(contact, a) + 1));
+  });
+}
+
+Finding coulomb_finding(const Subject& subject) {
+  return worst_over(subject, is_treated, [](const Contact& contact, const Answer& a) {
+    const double wanted = std::min(a.sliding.norm(), contact.friction * a.push);
+    return std::abs((a.sliding - a.still_sliding).norm() - wanted) / (epsilon * velocity_scale(contact, a));
+  });
+}
+
+Finding cone_finding(const Subject& subject) {
+  return worst_over(
+      subject, [](const Contact&, const Answer&) { return true; },
+      [](const Contact& contact, const Answer& a) {
+        const double beyond = (a.sliding - a.still_sliding).norm() - contact.friction * a.push;
+        return std::max(0.0, beyond) / (epsilon * velocity_scale(contact, a));
+      });
+}
+
+/// A part turned back, a part turned aside and a growth: none of the three may be there.
+Finding reversal_finding(const Subject& subject) {
+  return worst_over(subject, is_treated, [](const Contact& contact, const Answer& a) {
+    const double scale = epsilon * velocity_scale(contact, a);
+    const double speed = a.sliding.norm();
+    if (!(speed > 1e-9)) return a.still_sliding.norm() / scale;
+    const Vector3 direction = a.sliding / speed;
+    const double along = a.still_sliding.dot(direction);
+    const double aside = (a.still_sliding - along * direction).norm();
+    return std::max({0.0, -along, along - speed, aside, std::isnan(along) ? along : 0.0}) / scale;
+  });
+}
+
+Finding untouched_finding(const Subject& subject) {
+  double differ = 0, untreated = 0;
+  for (Contact contact : known_contacts())
+    for (const char* const response : {"forecast", "forecast_deepest"}) {
+      contact.scene.collision.response = response;
+      const PerParticle3 after = avoided(subject, contact.scene, contact.span, contact.state);
+      for (Eigen::Index i = 0; i < after.cols(); ++i) {
+        const Answer a = answer_of(contact, after, i);
+        if (!(a.forecast > unsure(contact))) continue;
+        ++untreated;
+        differ += numbers_that_differ(after.col(i), contact.state.v.col(i));
+      }
+    }
+  const double few = std::numeric_limits<double>::quiet_NaN();
+  return {{untreated > 100 ? differ : few, 0, 0, "numbers",
+           "a point that is forecast to be outside must keep its velocity, bit for bit"},
+          {{"untreated particles", "1", std::vector<double>{untreated}}},
+          ""};
+}
+
+//   N0   N1       over the step the plane turns by theta from N0 to N1 and takes the point's place with it; the point
+//    |  /         slides by w across N0, of which |w.N1| <= |w| sin(theta) is depth, and of a depth that it had
+//  --p-----w-->   1 - cos(theta) is left
+Finding turning_finding(const Subject& subject) {
+  Measured measured("deepest point after the step", "|w| sin(theta) + depth (1 - cos(theta))");
+  for (const Contact& contact : known_contacts()) {
+    const double h = contact.span.end - contact.span.start;
+    if (!contact.name.starts_with("slope") || contact.tau != contact.span.step) continue;
+    const PerParticle3 after = avoided(subject, contact.scene, contact.span, contact.state);
+    const Span end{contact.span.end, contact.span.end, contact.span.step};
+    Worst worst;
+    for (Eigen::Index i = 0; i < after.cols(); ++i) {
+      const Answer a = answer_of(contact, after, i);
+      if (!is_treated(contact, a)) continue;
+      const Known then = contact.known(contact.state.x.col(i) + h * a.after, end);
+      const double turned = a.known.normal.cross(then.normal).norm();
+      const double depth = std::abs(a.known.phi) * (1 - a.known.normal.dot(then.normal));
+      worst.see(-then.phi / (h * a.still_sliding.norm() * turned + depth + unsure(contact)));
+    }
+    measured.see(contact.name, worst.value());
+  }
+  return measured.judged(1, "geometry of a plane that turns, and roundings of lengths of a metre");
+}
+
+Finding galilean_finding(const Subject& subject) {
+  const Vector3 shared(5.3, -7.1, 3.7);
+  Measured measured = roundings_of("speed");
+  for (Contact contact : known_contacts()) {
+    contact.span = {0, contact.span.step, contact.span.step};  // at the time 0 the frames coincide
+    contact.state.time = 0;
+    Contact seen = contact;
+    seen.state.v.colwise() += shared;
+    auto& body = std::get<RigidObject>(seen.scene.objects[0].object.body);
+    std::get<Motion>(body.motion).velocity += shared;
+    const PerParticle3 here = avoided(subject, contact.scene, contact.span, contact.state);
+    PerParticle3 there = avoided(subject, seen.scene, seen.span, seen.state);
+    there.colwise() -= shared;
+    measured.see(contact.name, largest_difference(here, there) /
+                                   (epsilon * (1 / contact.span.step + shared.norm() + largest_speed(here))));
+  }
+  return measured.judged(40, why_roundings);
+}
+
+/// A sheet of particles through the middle of a body, row by row, each moving at random.
+struct Crossing {
+  Scene scene;
+  State state;
+};
+
+Crossing crossing(const std::vector<SceneObject>& parts) {
+  Crossing crossing{loose_particles(25), {}};
+  crossing.scene.objects = parts;
+  Random random(23);
+  const PerParticle3 x = crossing.scene.x.colwise() - crossing.scene.x.rowwise().mean();
+  crossing.state = {0, x + 0.01 * random.vectors(x.cols(), 1), random.vectors(x.cols(), 2)};
+  return crossing;
+}
+
+/// The same particles, each in a scene of its own.
+PerParticle3 avoided_alone(const Subject& subject, const Crossing& crossing, const Span& span) {
+  PerParticle3 all(3, crossing.state.x.cols());
+  for (Eigen::Index i = 0; i < all.cols(); ++i) {
+    Scene alone = loose_particles(2);
+    alone.objects = crossing.scene.objects;
+    const State state{0, crossing.state.x.col(i).replicate(1, alone.x.cols()),
+                      crossing.state.v.col(i).replicate(1, alone.x.cols())};
+    all.col(i) = avoided(subject, alone, span, state).col(0);
+  }
+  return all;
+}
+
+Finding neighbours_finding(const Subject& subject) {
+  constexpr double radius = 0.31, step = 0.01;
+  const DistanceFunction ball = [](const Vector3& p) { return Sphere{radius}.at(p); };
+  const auto tree = std::make_shared<const Octree>(make_octree(
+      {ball}, {Vector3::Constant(-0.5), 1, 6, 3, 1e-3, 0.05, 0.25, 0, HangingNodes::constrained}));
+  std::vector<std::string> bodies;
+  std::vector<double> changed, differ;
+  double worst = 0;
+  Motion turning, flying;
+  turning.angular_velocity = {0, 1, 3};
+  flying.velocity = {0, 0, -20};  // by its diameter in a step: it is met from afar
+  const SceneObject flies =
+      moving(object_at("two balls, one flying", Sphere{0.1}, {{1, 0, 0, 0}, {0.25, 0, 0.25}}), flying, 0.3);
+  const SceneObject still = object_at("", Sphere{0.1}, {{1, 0, 0, 0}, {-0.3, 0, 0}});
+  for (const std::vector<SceneObject>& parts :
+       {std::vector{moving(object_at("ball", Sphere{radius}, {}), turning, 0.3)},
+        std::vector{moving(object_at("octree", OctreeSolid{tree}, {}), turning, 0.3)},
+        std::vector{moving(object_at("pin", Capsule{0.03, 0.7}, {}), turning, 0.3)},
+        std::vector{flies, still}}) {
+    const Crossing crossed = crossing(parts);
+    const Span span{0, step, step};
+    const PerParticle3 together = avoided(subject, crossed.scene, span, crossed.state);
+    bodies.push_back(parts.front().object.name);
+    changed.push_back(double((together - crossed.state.v).colwise().any().count()));
+    differ.push_back(numbers_that_differ(together, avoided_alone(subject, crossed, span)));
+    worst = changed.back() > 0 ? worst + differ.back() : std::numeric_limits<double>::quiet_NaN();
+  }
+  return {{worst, 0, 0, "numbers",
+           "what is known of a neighbour may spare a question, but only where the answer cannot matter"},
+          {{"body", "1", bodies}, {"particles answered", "1", changed}, {"numbers that differ", "1", differ}},
+          "625 particles in rows through the middle of each body, together and one at a time"};
+}
+
+}  // namespace
+
+std::vector<Check> response_checks() {
+  return {
+      {"contact.forecast-ends-on-the-surface",
+       "A point that is treated is forecast to lie on the surface: phi + tau (v_p - v).N = 0.",
+       "BMF03 section 5.2", forecast_finding},
+      {"contact.untreated-points-keep-every-bit",
+       "A point that is forecast to stay outside keeps its velocity bit for bit.", "BMF03 section 5.2",
+       untouched_finding},
+      {"contact.friction-is-coulombs",
+       "Friction takes mu times the change of the normal velocity from the sliding velocity, or all of it.",
+       "BMF03 section 5.2", coulomb_finding},
+      {"contact.impulse-stays-in-the-cone", "The tangential impulse is at most mu times the normal one.",
+       "BMF03 section 5.2", cone_finding},
+      {"contact.sliding-is-never-reversed",
+       "Friction shortens the sliding velocity: it is not turned, not reversed and not enlarged, and zero "
+       "stays zero.",
+       "BMF03 section 5.2", reversal_finding},
+      {"contact.response-is-galilean", "Cloth and object that share one more velocity are answered alike.",
+       "mechanics", galilean_finding},
+      {"contact.turning-plane-is-entered-as-derived",
+       "A plane that turns in a step is entered by no more than the way that a point slides on it times the "
+       "sine of the turn.",
+       "BMF03 section 5.2", turning_finding},
+      {"contact.neighbours-do-not-matter",
+       "A particle is answered with the same bits alone and among its neighbours.", "BMF03 section 5.2",
+       neighbours_finding},
+  };
+}
+
+}  // namespace foldproof

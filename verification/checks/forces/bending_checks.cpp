@@ -1,0 +1,168 @@
+#include "verification/checks/forces/bending_checks.h"
+
+#include <algorithm>
+
+#include "verification/checks/measured.h"
+#include "verification/checks/specimens.h"
+
+namespace foldproof {
+
+namespace {
+
+using Measurement = double (*)(const PerParticle3& x, const PerParticle3& f);
+
+double net_force_of(const PerParticle3&, const PerParticle3& f) { return net_force(f); }
+
+const char* const why_sums =
+    "each hinge's forces cancel to a few roundings and about 20 hinge forces are added to a particle, a "
+    "rounding each";
+
+/// A law of momentum on all crumpled sheets and some hinges, for the materials given.
+Measured over_specimens(const Subject& subject, const std::vector<BendingMaterial>& materials,
+                        const std::string& scale, Measurement measure) {
+  std::vector<Specimen> specimens = crumpled_sheets();
+  for (const double angle : {0.7, -2.4, 3.1})
+    specimens.push_back(random_hinge(unsigned(60 + 10 * angle), angle));
+  Measured measured = roundings_of(scale);
+  for (Specimen& specimen : specimens) {
+    for (const BendingMaterial& material : materials) {
+      specimen.scene.bending = material;
+      const PerParticle3 f = Probe(subject, specimen.scene).elastic(specimen.state);
+      measured.see(described(specimen, material), measure(specimen.state.x, f));
+    }
+  }
+  return measured;
+}
+
+std::vector<BendingMaterial> paper_variants() {
+  std::vector<BendingMaterial> variants;
+  for (const BendingMaterial& material : bending_variants()) {
+    if (material.law == "sine") variants.push_back(material);
+  }
+  return variants;
+}
+
+Finding forces_sum_to_zero(const Subject& subject) {
+  return over_specimens(subject, paper_variants(), "sum |F_i|", net_force_of).judged(32, why_sums);
+}
+
+Finding torques_sum_to_zero(const Subject& subject) {
+  return over_specimens(subject, paper_variants(), "sum |x_i||F_i|", net_torque).judged(32, why_sums);
+}
+
+Finding other_laws_keep_momentum(const Subject& subject) {
+  std::vector<BendingMaterial> variants;
+  for (const BendingLaw& law : bending_laws()) {
+    for (BendingMaterial material : paper_variants()) {
+      material.law = law.name;
+      if (law.name != "sine") variants.push_back(material);
+    }
+  }
+  Finding forces = over_specimens(subject, variants, "sum |F_i|", net_force_of).judged(32, why_sums);
+  const Finding torques =
+      over_specimens(subject, variants, "sum |x_i||F_i|", net_torque).judged(32, why_sums);
+  forces.evidence[1].name = "net force";
+  forces.evidence.push_back(torques.evidence[1]);
+  forces.evidence[2].name = "net torque";
+  Worst worst;
+  worst.see(forces.verdict.measured);
+  worst.see(torques.verdict.measured);
+  forces.verdict.measured = worst.value();
+  forces.verdict.unit = "epsilon of the sum of sizes";
+  forces.note = "the sum of sizes is sum |F_i| for the net force, sum |x_i||F_i| for the net torque";
+  return forces;
+}
+
+/// What 50 digits say of the elastic forces of a whole specimen: the sum over its hinges, N each.
+struct Expected {
+  PerParticle3 force;  // 3 x N [N]
+  PerParticle
+      scale;  // sum over the hinges at a particle of what a rounding of the magnitude 1 would move [N]
+  PerParticle uncertainty;  // N
+};
+
+oracles::Quad<double> lifted(const Corners& x) {
+  oracles::Quad<double> quad;
+  for (int k = 0; k < 4; ++k) quad[k] = {x[k].x(), x[k].y(), x[k].z()};
+  return quad;
+}
+
+Expected expected_elastic(const Specimen& specimen) {
+  const Eigen::Index count = specimen.state.x.cols();
+  Expected expected{PerParticle3::Zero(3, count), PerParticle::Zero(count), PerParticle::Zero(count)};
+  for (size_t h = 0; h < specimen.scene.mesh.hinges.size(); ++h) {
+    const oracles::HingeInput input = hinge_input(specimen, h);
+    const auto force = oracles::bending_elastic_50(input);
+    const oracles::Quad<double> u = oracles::bending_mode(lifted(input.x));
+    const Corners& weighed = input.elastic_geometry == oracles::Geometry::rest ? input.rest : input.x;
+    const double c = oracles::anisotropy_factor(lifted(weighed));
+    const double largest = std::max({length(u[0]), length(u[1]), length(u[2]), length(u[3])});
+    const double scale = input.ke * c * largest * std::max(thinness(input.x), thinness(weighed));
+    for (int k = 0; k < 4; ++k) {
+      const int i = specimen.scene.mesh.hinges[h].particles[k];
+      expected.force.col(i) += force.value[k];
+      expected.scale[i] += scale;
+      expected.uncertainty[i] += force.uncertainty + epsilon * expected.force.col(i).norm();
+    }
+  }
+  return expected;
+}
+
+/// The worst particle, in units of epsilon times its scale.
+oracles::Estimate worst_difference(const PerParticle3& f, const Expected& expected) {
+  Worst difference, uncertainty;
+  for (Eigen::Index i = 0; i < f.cols(); ++i) {
+    const double unit = epsilon * expected.scale[i];
+    difference.see((f.col(i) - expected.force.col(i)).norm() / unit);
+    uncertainty.see(expected.uncertainty[i] / unit);
+  }
+  return {difference.value(), uncertainty.value()};
+}
+
+Finding force_is_as_defined(const Subject& subject) {
+  std::vector<Specimen> specimens = crumpled_sheets();
+  for (Specimen& hinge : hinges_of_all_angles()) specimens.push_back(std::move(hinge));
+  Measured measured = roundings_of("ke c |u| thinness");
+  for (size_t k = 0; k < specimens.size(); ++k) {
+    Specimen& specimen = specimens[k];
+    const bool is_sheet = specimen.scene.mesh.hinges.size() > 1;
+    for (const BendingMaterial& material : paper_variants()) {
+      if (is_sheet && (material.weighting == Weighting::rest) != (k % 2 == 0))
+        continue;  // sheets take them in turn
+      specimen.scene.bending = material;
+      const PerParticle3 f = Probe(subject, specimen.scene).elastic(specimen.state);
+      measured.see(described(specimen, material), worst_difference(f, expected_elastic(specimen)));
+    }
+  }
+  return measured.judged(64,
+                         "a hinge's force takes fewer than 64 roundings, and the normals magnify them by the "
+                         "triangles' thinness (longest side squared over twice the area)");
+}
+
+}  // namespace
+
+std::vector<Check> bending_checks() {
+  std::vector<Check> checks = {
+      {"bending.forces-sum-to-zero",
+       "The elastic bending forces on crumpled sheets and on single hinges sum to zero, with rest and with "
+       "current weighting.",
+       "BMF03 section 4", forces_sum_to_zero},
+      {"bending.torques-sum-to-zero",
+       "The torques of the elastic bending forces on crumpled sheets and single hinges sum to zero, with "
+       "either weighting.",
+       "BMF03 section 4", torques_sum_to_zero},
+      {"bending.other-laws-keep-momentum",
+       "Forces and torques still sum to zero when another function of the angle takes the sine's place.",
+       "BMF03 section 4: other magnitudes must multiply all four forces alike", other_laws_keep_momentum},
+      {"bending.force-is-as-defined",
+       "On crumpled sheets and on hinges of all angles, with rest angles, the elastic force is the printed "
+       "one to rounding.",
+       "BMF03 section 4, evaluated in 50 digits", force_is_as_defined}};
+  for (const auto& list : {bending_mode_checks(), bending_alternative_checks(), bending_angle_checks(),
+                           bending_energy_checks(), bending_damping_checks(), bending_shape_checks()}) {
+    checks.insert(checks.end(), list.begin(), list.end());
+  }
+  return checks;
+}
+
+}  // namespace foldproof

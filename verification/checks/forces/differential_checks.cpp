@@ -1,0 +1,212 @@
+#include "verification/checks/forces/differential_checks.h"
+
+#include <cmath>
+
+#include "verification/checks/measured.h"
+#include "verification/checks/specimens.h"
+#include "verification/oracles/dense_algebra.h"
+
+namespace foldproof {
+
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+/// The reference's K at the specimen's state, column by column: 3N x 3N [N/m].
+Matrix stiffness_of(const Specimen& specimen, Definiteness definiteness) {
+  const System system = build_system(specimen.scene);
+  Work uncounted;
+  const ForceDifferential differential =
+      elastic_differential_at(system.forces, specimen.state, definiteness, uncounted);
+  const Eigen::Index size = specimen.state.x.size();
+  Matrix K(size, size);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    PerParticle3 unit = PerParticle3::Zero(3, size / 3), product = unit;
+    unit.reshaped()[k] = 1;
+    differential.add_product(unit, product);
+    K.col(k) = product.reshaped();
+  }
+  return K;
+}
+
+/// The largest entry of a matrix without sign; NaN if any is.
+double largest_entry(const Matrix& matrix) { return matrix.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(); }
+
+Specimen with(Specimen specimen, const std::optional<BendingMaterial>& bending,
+              const std::optional<StretchMaterial>& stretch) {
+  specimen.scene.bending = bending;
+  specimen.scene.stretch = stretch;
+  return specimen;
+}
+
+BendingMaterial bending_by(std::string_view law, Weighting weighting) {
+  return {0.0037, 0, weighting, DampingFactor::edge, law};
+}
+
+Finding hinge_is_second_derivative(const Subject&) {
+  Measured measured = roundings_of("the largest entry times the thinness squared");
+  for (Specimen hinge : hinges_of_all_angles()) {
+    hinge.scene.bending = bending_by("sine", Weighting::rest);
+    const oracles::MatrixEstimate exact = oracles::bending_elastic_derivative_autodiff(hinge_input(hinge, 0));
+    const double scale = epsilon * largest_entry(exact.value) *
+                         std::pow(thinness(corners_of(hinge.scene.mesh.hinges[0], hinge.state.x)), 2);
+    const Matrix difference = stiffness_of(hinge, Definiteness::exact) - exact.value;
+    measured.see(hinge.name, {largest_entry(difference) / scale, exact.uncertainty / scale});
+  }
+  return measured.judged(
+      16,
+      "an entry is a sum of four products of a dozen factors: 48 roundings of either sign add up to some 7, "
+      "twice that "
+      "is allowed; a normal's rounding is magnified by the triangle's thinness, its derivative's once more");
+}
+
+/// Sheets and hinges with all that has a derivative: springs, both laws of bending, both at once.
+std::vector<Specimen> elastic_specimens() {
+  std::vector<Specimen> all;
+  const StretchMaterial springs{41.0, 0, 1.04};
+  for (const Specimen& sheet : small_crumpled_sheets()) {
+    all.push_back(with(sheet, {}, springs));
+    all.push_back(with(sheet, bending_by("cubic", Weighting::rest), {}));
+    all.push_back(with(sheet, bending_by("sine", Weighting::rest), springs));
+  }
+  return all;
+}
+
+/// dF/dx of the subject by central differences with Richardson's extrapolation, 3N x 3N [N/m], and how far
+/// the two steps disagree.
+struct Differences {
+  Matrix K;
+  double uncertainty;
+};
+
+Matrix central_differences(const Probe& probe, const State& s, double step) {
+  const Eigen::Index size = s.x.size();
+  Matrix K(size, size);
+  State moved = s;
+  for (Eigen::Index k = 0; k < size; ++k) {
+    moved.x.reshaped()[k] = s.x.reshaped()[k] + step;
+    const PerParticle3 ahead = probe.elastic(moved);
+    moved.x.reshaped()[k] = s.x.reshaped()[k] - step;
+    const PerParticle3 column = (ahead - probe.elastic(moved)) / (2 * step);
+    moved.x.reshaped()[k] = s.x.reshaped()[k];
+    K.col(k) = column.reshaped();
+  }
+  return K;
+}
+
+Differences differences_of(const Probe& probe, const State& s) {
+  const double step = 4e-4 * extent(s.x);
+  const Matrix coarse = central_differences(probe, s, step), fine = central_differences(probe, s, step / 2),
+               finest = central_differences(probe, s, step / 4);
+  const Matrix first = (4 * fine - coarse) / 3, second = (4 * finest - fine) / 3;
+  return {(16 * second - first) / 15, largest_entry(second - first)};
+}
+
+Finding matches_differences(const Subject& subject) {
+  Measured measured("largest difference over the largest entry", "1");
+  for (const Specimen& specimen : elastic_specimens()) {
+    const Differences differences = differences_of(Probe(subject, specimen.scene), specimen.state);
+    const double scale = largest_entry(differences.K);
+    const Matrix difference = stiffness_of(specimen, Definiteness::exact) - differences.K;
+    measured.see(specimen.name, {largest_entry(difference) / scale, differences.uncertainty / scale});
+  }
+  return measured.judged(
+      1e-9,
+      "rounding of differences at steps of 1e-4 of the cloth is epsilon over the step, 2e-12, "
+      "magnified some hundredfold by thin triangles; how far two extrapolations disagree is added; a missing "
+      "or "
+      "wrong term is of order 1");
+}
+
+Finding is_symmetric(const Subject&) {
+  Measured measured = roundings_of("the largest entry");
+  for (const Specimen& specimen : elastic_specimens())
+    for (const Definiteness definiteness : {Definiteness::exact, Definiteness::semidefinite}) {
+      const Matrix K = stiffness_of(specimen, definiteness);
+      measured.see(specimen.name, largest_entry(K - K.transpose()) / (epsilon * largest_entry(K)));
+    }
+  return measured.judged(
+      256,
+      "a hinge's rows and columns are summed by different formulas, each of a dozen roundings "
+      "magnified by crumpled triangles about ten times");
+}
+
+/// How far P is from the nearest negative semidefinite matrix to A in the Frobenius norm, which alone has
+/// P <= 0, A - P >= 0 and P (A - P) = 0; relative to |A|.
+double projection_error(const Matrix& A, const Matrix& P) {
+  const double scale = A.norm();
+  Worst worst;
+  worst.see(oracles::symmetric_eigenvalues(P).maxCoeff() / scale);
+  worst.see(-oracles::symmetric_eigenvalues(A - P).minCoeff() / scale);
+  worst.see((P * (A - P)).norm() / (scale * scale));
+  return worst.value() / epsilon;
+}
+
+Finding projection_is_nearest(const Subject&) {
+  Measured measured = roundings_of("the matrix");
+  for (Specimen hinge : hinges_of_all_angles()) {
+    hinge = with(hinge, bending_by("sine", Weighting::rest), {});
+    const Matrix exact = stiffness_of(hinge, Definiteness::exact);
+    measured.see(hinge.name, projection_error(exact, stiffness_of(hinge, Definiteness::semidefinite)));
+  }
+  return measured.judged(
+      64, "the eigenvalue decomposition of a 12 x 12 matrix is good to a few dozen roundings of its norm");
+}
+
+/// Two particles and the one spring of their length, by the reference alone.
+double spring_error(double stretch) {
+  StretchSprings springs{{{0, 1, 0.31, 23.0, 0}}};
+  State s = still_at(PerParticle3::Zero(3, 2));
+  s.x.col(1) = stretch * 0.31 * Vector3(2, -1, 2) / 3;
+  ForceDifferential exact, projected;
+  springs.add_elastic_differential(s, Definiteness::exact, exact);
+  springs.add_elastic_differential(s, Definiteness::semidefinite, projected);
+  return projection_error(exact.pairs[0].block, projected.pairs[0].block);
+}
+
+Finding spring_projection_is_nearest(const Subject&) {
+  Measured measured = roundings_of("the matrix");
+  for (const double stretch : {0.43, 0.97, 1.02, 1.7})
+    measured.see("length over rest length " + std::to_string(stretch), spring_error(stretch));
+  return measured.judged(16, "a 3 x 3 matrix of a few products");
+}
+
+Finding semidefinite_only_resists(const Subject&) {
+  Measured measured = roundings_of("the largest entry");
+  for (const Specimen& specimen : elastic_specimens()) {
+    const Matrix K = stiffness_of(specimen, Definiteness::semidefinite);
+    const Eigen::VectorXd values = oracles::symmetric_eigenvalues(0.5 * (K + K.transpose()));
+    measured.see(specimen.name, values.maxCoeff() / (epsilon * largest_entry(K)));
+  }
+  return measured.judged(
+      256, "a sum of some hundred negative semidefinite blocks, each so to a few dozen roundings");
+}
+
+}  // namespace
+
+std::vector<Check> differential_checks() {
+  const std::string what = "calculus; the methods BMF03 section 3 compares its schemes with need it";
+  const std::string projection = "Teran et al. 2005, section 6; Higham 1988";
+  return {
+      {"elastic-differential.hinge-is-second-derivative",
+       "The reference's hinge stiffness is the derivative of its force: 50 digits, autodiff, every angle.",
+       what, hinge_is_second_derivative},
+      {"elastic-differential.matches-force-differences",
+       "The reference's elastic derivative is that of the subject's forces, for springs, both bending laws, "
+       "and their sum.",
+       what, matches_differences},
+      {"elastic-differential.is-symmetric", "The reference's elastic derivative is symmetric.", what,
+       is_symmetric},
+      {"elastic-differential.hinge-projection-is-nearest",
+       "A hinge's semidefinite stiffness is the negative semidefinite matrix nearest to the exact one.",
+       projection, projection_is_nearest},
+      {"elastic-differential.spring-projection-is-nearest",
+       "A spring's semidefinite stiffness is the negative semidefinite matrix nearest to the exact one.",
+       projection, spring_projection_is_nearest},
+      {"elastic-differential.semidefinite-only-resists",
+       "With semidefinite elements no displacement of a crumpled sheet is pushed further.", projection,
+       semidefinite_only_resists},
+  };
+}
+
+}  // namespace foldproof

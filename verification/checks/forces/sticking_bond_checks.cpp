@@ -1,0 +1,329 @@
+// What bonds form and break, when, and that a state remembers them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "reference/dynamics/simulate.h"
+#include "reference/mesh/shapes.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/checks/forces/sticking_checks.h"
+#include "verification/checks/sticking_scenes.h"
+#include "verification/oracles/triangle_distance.h"
+
+namespace foldproof {
+
+namespace {
+
+/// The state with what a step begins with; dt is too short to matter.
+State begun(const Subject& subject, const Scene& scene, const State& s) {
+  return Stepper(subject, scene, "C").step(s, 1e-12);
+}
+
+/// A crumpled lower layer and particles all about it, all of which may stick to it, its own corners too.
+Scene crumpled_layers() {
+  Scene scene = scene_of(two_sheets(4, 0.3, 0.02), 0.2);
+  Random random(101);
+  scene.x += random.vectors(scene.x.cols(), 0.03);
+  StickyPatch patch = layer_patch(scene.mesh);
+  patch.particles.resize(size_t(scene.x.cols()));
+  std::iota(patch.particles.begin(), patch.particles.end(), 0);
+  patch.stiffness = 11;
+  patch.near = 0.033;
+  patch.far = 0.07;
+  scene.sticky = {patch};
+  return scene;
+}
+
+Finding forms_finding(const Subject& subject) {
+  const Scene scene = crumpled_layers();
+  const StickyPatch& patch = scene.sticky[0];
+  const State s = begun(subject, scene, start_state(scene));
+  std::set<std::pair<int, int>> found;  // particle and triangle
+  Worst off;
+  for (const Bond& bond : s.memory.bonds) {
+    found.insert({bond.particle, bond.triangle});
+    const auto [a, b, c] = patch.triangles[size_t(bond.triangle)];
+    const oracles::StuckParticle stuck{
+        scene.x.col(bond.particle), {{scene.x.col(a), scene.x.col(b), scene.x.col(c)}}, {bond.place}, 1, 1};
+    off.see((oracles::sticking_answer(stuck).target - stuck.x).norm() / (epsilon * extent(scene.x)));
+  }
+  double wrong = double(s.memory.bonds.size() - found.size()), several = 0;
+  for (int i = 0; i < int(scene.x.cols()); ++i) {
+    int count = 0;
+    for (int t = 0; t < int(patch.triangles.size()); ++t) {
+      const Triangle& corners = patch.triangles[size_t(t)];
+      const bool own = std::ranges::find(corners, i) != corners.end();
+      const bool near =
+          oracles::distance_to_triangles(scene.x, {corners}, scene.x.col(i)).value <= patch.near;
+      wrong += (near && !own) != found.contains({i, t});
+      count += near && !own;
+    }
+    several += count > 1;
+  }
+  Measured measured("wrong pairs, and places in roundings over 1000", "1");
+  measured.see("pairs of particle and triangle that should stick and do not, or the reverse", wrong);
+  measured.see("place at formation, in 1000 epsilon of the extent", off.value() / 1000);
+  measured.see("few particles with several triangles", several >= 8 ? 0 : NAN);
+  Finding finding =
+      measured.judged(0.9, "counts are exact; a foot's weights are magnified by the triangles' thinness");
+  finding.note =
+      fmt::format("{} bonds, {} particles of {} with several.", found.size(), several, scene.x.cols());
+  return finding;
+}
+
+Finding renewal_finding(const Subject& subject) {
+  const Scene scene = crumpled_layers();
+  Random random(7);
+  State s = start_state(scene), twice = s;
+  double differ = 0, changes = 0;
+  for (int n = 0; n < 12; ++n) {
+    const size_t before = s.memory.bonds.size();
+    s = begun(subject, scene, s);
+    twice = begun(subject, scene, s);
+    changes += s.memory.bonds.size() != before;
+    differ += std::abs(double(s.memory.bonds.size()) - double(twice.memory.bonds.size()));
+    for (size_t k = 0; k < std::min(s.memory.bonds.size(), twice.memory.bonds.size()); ++k)
+      differ += s.memory.bonds[k].place != twice.memory.bonds[k].place;
+    s.x += random.vectors(s.x.cols(), 0.03);
+  }
+  Finding finding{
+      {changes >= 6 ? differ : NAN, 0, 0, "bonds that differ", "what has been renewed is as it should be"},
+      {},
+      fmt::format("{} of 12 renewals changed the number of bonds.", changes)};
+  return finding;
+}
+
+/// A held particle above a palm that goes up and down past it.
+Finding again_finding(const Subject& subject) {
+  Motion motion;
+  motion.amplitude = {0, 0, 0.09};
+  motion.frequency = 1.7;
+  Scene scene = scene_of(make_hinge(0.1, 0.3), 0.2);
+  scene.x.colwise() += Vector3(0, 0, 0.017);
+  for (int i = 0; i < 4; ++i) scene.led.push_back({i, scene.x.col(i), Motion{}});
+  StickyPatch patch = palm(scene, 1, motion);
+  patch.stiffness = 30;
+  patch.near = 0.011;
+  patch.far = 0.041;
+  scene.sticky = {patch};
+
+  Stepper stepper(subject, scene, "B");
+  State s = stepper.start();
+  std::vector<double> offset(4, NAN);  // of each particle's target from it; NaN while it does not stick
+  std::vector<double> made(4, 0);
+  double wrong = 0;
+  for (int n = 0; n < 3000; ++n) {
+    const double level = 0.09 * std::sin(2 * M_PI * 1.7 * s.time);
+    std::vector<char> sticks(4, 0);
+    for (size_t i = 0; i < 4; ++i) {
+      const double height = scene.x(2, Eigen::Index(i)) - level;
+      if (std::abs(height - offset[i]) > patch.far) offset[i] = NAN;
+      if (std::isnan(offset[i]) && std::abs(height) <= patch.near) {
+        offset[i] = height;
+        ++made[i];
+      }
+      sticks[i] = !std::isnan(offset[i]);
+    }
+    s = stepper.step(s, 0.0013);
+    std::vector<char> found(4, 0);
+    for (const Bond& bond : s.memory.bonds) found[size_t(bond.particle)] = 1;
+    wrong += found != sticks;
+  }
+  return {{*std::ranges::min_element(made) >= 12 ? wrong : NAN, 0, 0, "steps with other bonds than predicted",
+           "bonds form within 11 mm and break beyond 41 mm of their target, as the palm's known height says"},
+          {{"particle", "1", std::vector<double>{0, 1, 2, 3}}, {"bonds made in 3.9 s", "1", made}},
+          ""};
+}
+
+Scene timed_palm() {
+  Scene scene = scene_of(make_hinge(0.1, 0.4), 0.2);
+  scene.gravity = Vector3(0, 0, -0.3);
+  StickyPatch patch = palm(scene, 1, Motion{});
+  patch.stiffness = 30;
+  patch.forecast_time = 0.01;
+  patch.near = 0.2;
+  patch.far = 0.3;
+  patch.from = 0.07;
+  patch.until = 0.23;
+  patch.release = 0.06;
+  scene.sticky = {patch};
+  return scene;
+}
+
+Finding timed_finding(const Subject& subject) {
+  const Scene scene = timed_palm();
+  Measured measured("steps with wrong bonds, or error of the stiffness", "1");
+  Stepper stepper(subject, scene, "C");
+  State s = stepper.start();
+  double wrong = 0;
+  for (int n = 0; n < 300; ++n) {
+    const bool active = s.time >= 0.07 && s.time < 0.23;
+    s = stepper.step(s, 0.001);
+    wrong += (s.memory.bonds.size() > 0) != active;
+  }
+  measured.see("bonds exactly from `from` until `until`", wrong);
+
+  const Probe probe(subject, scene);
+  State held = start_state(scene);
+  held.time = 0.1;
+  held = begun(subject, scene, held);
+  held.x.col(2) += Vector3(0.02, -0.03, 0.05);
+  const auto pull = [&](double t) -> Vector3 {
+    held.time = t;
+    return probe.elastic(held).col(2) - probe.elastic(start_state(scene)).col(2);
+  };
+  const double full = pull(0.1).norm();
+  for (const double part : {-0.2, 0.0, 0.3, 0.7, 1.0}) {
+    const double share = part > 0 ? std::pow(1 - part * part, 2) : 1;
+    measured.see(fmt::format("force after {} of the release", part),
+                 std::abs(pull(0.17 + 0.06 * part).norm() / full - share) / 1e-12);
+  }
+  return measured.judged(
+      0.9,
+      "counts are exact; the force is that of k0 (1 - q^2)^2 to a thousand roundings, q the "
+      "part of `release` that is over");
+}
+
+Finding events_finding(const Subject&) {
+  Scene scene = timed_palm();
+  scene.schedule.end = 0.31;
+  scene.schedule.frame_interval = 0.31;
+  scene.schedule.step.fixed = 0.0047;
+  const System system = build_system(scene);
+  std::vector<double> times;
+  Observer observer;
+  observer.step = [&](const Diagnostics& row) { times.push_back(row.time); };
+  simulate(system, integrator_named("C"), start_state(scene), scene.schedule, observer);
+  double missed = 0;
+  for (const double time : {0.07, 0.17, 0.23}) missed += std::ranges::count(times, time) != 1;
+  missed += std::abs(std::ranges::count_if(times, [](double t) { return t > 0.31; }));
+  return {{missed, 0, 0, "events that no step ends at",
+           "steps end where a patch begins, begins to let go, and ends"},
+          {},
+          ""};
+}
+
+Scene sheet_on_a_palm() {
+  Scene scene = free_sheet();
+  Motion motion;
+  motion.amplitude = {0.05, 0.02, 0.1};
+  motion.frequency = 3.1;
+  StickyPatch hand = palm(scene, 0.8, motion), cloth = hand;
+  hand.stiffness = 40;
+  hand.forecast_time = 0.011;
+  hand.near = 0.02;
+  hand.far = 0.031;
+  cloth = hand;
+  cloth.place = {};
+  cloth.velocity = {};
+  cloth.triangles = {scene.mesh.triangles.front(), scene.mesh.triangles.back()};
+  cloth.near = 0.2;
+  cloth.far = 0.3;
+  cloth.stiffness = 7;
+  scene.sticky = {hand, cloth};
+  return scene;
+}
+
+/// Numbers that differ at the end of two runs of which one is cut after `half` steps and goes on with the
+/// states alone.
+Finding memory_finding(const Subject& subject) {
+  constexpr int half = 9;
+  constexpr double h = 4e-4;
+  Measured measured("numbers that differ", "1");
+  for (const Integrator& integrator : integrators()) {
+    const std::string name(integrator.name);
+    const auto continued = [&](std::vector<State> past) {
+      Stepper stepper(subject, sheet_on_a_palm(), name);
+      for (int n = 0; n < half; ++n) past = {past.back(), stepper.step_after(past, h)};
+      return past;
+    };
+    const std::vector<State> cut = continued({start_state(sheet_on_a_palm())});
+    Stepper whole(subject, sheet_on_a_palm(), name);
+    std::vector<State> past = {whole.start()};
+    for (int n = 0; n < 2 * half; ++n) past = {past.back(), whole.step_after(past, h)};
+    const State a = continued(cut).back(), b = past.back();
+    measured.see(name + ", cut in two", numbers_that_differ(a.x, b.x) + numbers_that_differ(a.v, b.v) +
+                                            double(a.memory.bonds.size() != b.memory.bonds.size()));
+    std::vector<State> forgetful = cut;
+    for (State& s : forgetful) s.memory = {};
+    const State c = continued(forgetful).back();
+    measured.see(name + ", forgetting makes a difference", numbers_that_differ(c.x, b.x) > 0 ? 0 : 1);
+  }
+  return measured.judged(0, "a step is a function of its states: bonds are in them and nowhere else");
+}
+
+/// A triangle that rests by itself, with particles about it, `distance` away on all six sides.
+struct Surrounded {
+  StickyPatch patch;
+  State state;
+};
+
+Surrounded surrounded(double near, double distance) {
+  Surrounded made;
+  made.patch.name = "triangle";
+  made.patch.triangles = {{0, 1, 2}};
+  made.patch.place = [](double) -> PerParticle3 {
+    return PerParticle3{{0.13, 0.93, 0.13}, {0.21, 0.21, 1.11}, {0.37, 0.37, 0.37}};
+  };
+  made.patch.particles = {0, 1, 2, 3, 4, 5};
+  made.patch.stiffness = 3.7;
+  made.patch.near = near;
+  made.patch.far = 0.3 * near;  // of what it sticks to where it is, a particle is no distance away
+  made.state = still_at(PerParticle3{{0.13 - distance, 0.93 + distance, 0.35, 0.13, 0.35, 0.35},
+                                     {0.41, 0.21, 0.21 - distance, 1.11 + distance, 0.41, 0.41},
+                                     {0.37, 0.37, 0.37, 0.37, 0.37 - distance, 0.37 + distance}});
+  return made;
+}
+
+Finding sides_finding(const Subject&) {
+  Measured measured("particles of six that stick wrongly", "1");
+  for (const double near : {0.051, 0.43})
+    for (const double part : {0.4, 0.99, 1.01}) {
+      Surrounded made = surrounded(near, part * near);
+      Sticking{{made.patch}}.renew_bonds(made.state);
+      const double expected = part < 1 ? 6 : 0;
+      measured.see(fmt::format("{} of near = {} m", part, near),
+                   std::abs(double(made.state.memory.bonds.size()) - expected));
+    }
+  return measured.judged(
+      0,
+      "a particle sticks just where its distance is at most `near`, on whatever side, however "
+      "soon bonds break");
+}
+
+}  // namespace
+
+std::vector<Check> sticking_bond_checks() {
+  const std::string source = "BMF03 section 6";
+  return {{"sticking.forms-with-every-triangle-near",
+           "A particle comes to stick, where it is, to every triangle of a patch within `near` that it is no "
+           "corner of.",
+           source, forms_finding},
+          {"sticking.forms-on-every-side",
+           "Particles stick to a surface that moves by itself within `near` of it on each of six sides, and "
+           "not beyond.",
+           source, sides_finding},
+          {"sticking.renewing-twice-changes-nothing",
+           "Bonds that were renewed stay as they are when renewed again.", "our reading of BMF03 section 6",
+           renewal_finding},
+          {"sticking.breaks-and-forms-again",
+           "Bonds form and break as a palm comes and goes, many times, exactly when their distances say so.",
+           source, again_finding},
+          {"sticking.regions-vary-in-time",
+           "A patch is sticky from one time until another and lets go smoothly before that.", source,
+           timed_finding},
+          {"sticking.steps-end-at-its-times",
+           "The reference's steps end where a patch begins to be sticky, to let go, and to be no longer.",
+           "our reading of BMF03 section 6", events_finding},
+          {"sticking.memory-is-in-the-state",
+           "For every method: a run that is continued from its states ends with the same bits, and not "
+           "without their "
+           "memory.",
+           "our reading of BMF03 section 6", memory_finding}};
+}
+
+}  // namespace foldproof

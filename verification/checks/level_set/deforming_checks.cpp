@@ -1,0 +1,299 @@
+#include "verification/checks/level_set/deforming_checks.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <set>
+
+#include "reference/level_set/mesh_distance.h"
+#include "reference/level_set/object.h"
+#include "reference/level_set/octree_nodes.h"
+#include "reference/mesh/obj.h"
+#include "reference/mesh/shapes.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/checks/scratch_folder.h"
+#include "verification/seeds.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double radius = 0.13;     // m
+constexpr double tolerance = 1e-3;  // m
+
+OctreeSettings coarse_sampling() {
+  return {Vector3::Constant(-0.5), 1, 6, 3, tolerance, 0.06, 0.2, 0, HangingNodes::constrained};
+}
+
+Vector3 shift() { return {0.83, -0.24, 0.5}; }  // a direction, about 1 long
+
+/// A ball that has moved `way` along the shift by the first frame, and `way` on in each frame that follows.
+MeshSequence moving_ball(double way, std::vector<double> times) {
+  const auto deformation = [=](const Vector3& X, double t) -> Vector3 {
+    return X + (way * t / 0.04 - 0.5 * way) * shift().normalized();
+  };
+  return deformed_mesh(make_icosphere(radius, 3), deformation, std::move(times));
+}
+
+/// Points about the centre, no farther than `reach`.
+std::vector<Vector3> points_about(const Vector3& centre, double reach) {
+  std::mt19937 random(shifted(7741));
+  std::uniform_real_distribution<double> along(-reach, reach);
+  std::vector<Vector3> points;
+  for (int i = 0; i < 2000; ++i) {
+    const double x = along(random), y = along(random), z = along(random);
+    points.push_back(centre + Vector3(x, y, z));
+  }
+  return points;
+}
+
+/// The body's largest miss next to the surface at a part of the way from its first frame to its second, in
+/// tolerances.
+double carried_miss(const MeshSequence& ball, const DeformingBody& body, double part) {
+  const PerParticle3 x = (1 - part) * ball.positions[0] + part * ball.positions[1];
+  const MeshDistance exact = make_mesh_distance(x, ball.triangles);
+  Worst worst;
+  for (const Vector3& p : points_about(x.rowwise().mean(), 1.2 * radius)) {
+    const double phi = exact.at(p).phi;
+    if (std::abs(phi) > 0.03) continue;
+    worst.see(std::abs(deforming_at(body, p, part * ball.times[1]).phi - phi) / tolerance);
+  }
+  return worst.value();
+}
+
+Finding carried_ball_keeps_its_shape(const Subject&) {
+  Measured measured("largest miss", "tolerances");
+  for (const double way : {0.07, 0.41}) {
+    const MeshSequence ball = moving_ball(way, {0, 0.04});
+    const DeformingBody body = make_deforming_body(ball, coarse_sampling(), BetweenFrames::carried);
+    for (const double part : {0.25, 0.5, 0.9})
+      measured.see(std::to_string(way / (2 * radius)) + " diameters a frame, at " + std::to_string(part),
+                   carried_miss(ball, body, part));
+  }
+  return measured.judged(2,
+                         "a displacement that is the same everywhere adds nothing to what the octrees miss");
+}
+
+/// The distance from the middle of the way at which the blended phi is zero, across the motion [m]; 0 if it
+/// is positive even there.
+double blended_radius(double way) {
+  const DeformingBody body =
+      make_deforming_body(moving_ball(way, {0, 0.04}), coarse_sampling(), BetweenFrames::blended);
+  const Vector3 across = shift().unitOrthogonal();
+  double low = 0, high = 2 * radius;
+  if (deforming_at(body, Vector3::Zero(), 0.02).phi > 0) return 0;
+  while (high - low > 1e-9) {
+    const double middle = 0.5 * (low + high);
+    (deforming_at(body, middle * across, 0.02).phi < 0 ? low : high) = middle;
+  }
+  return low;
+}
+
+///                 p
+///              /  |  \        two balls of radius R, d apart: halfway, at the distance r from their line,
+///            /  r |    \      the mean of both distances is sqrt(r^2 + d^2/4) - R
+///          a ---- + ---- b
+Finding blended_ball_shrinks(const Subject&) {
+  Measured measured("miss of the radius", "tolerances");
+  for (const double way : {0.05, 0.11, 0.17, 0.29}) {
+    const double derived = std::sqrt(std::max(0.0, radius * radius - way * way / 4));
+    const double slope = derived / radius;  // of the blended phi there, along r
+    const double miss = std::abs(blended_radius(way) - derived) * (slope > 0 ? slope : 1);
+    measured.see(std::to_string(way / (2 * radius)) + " diameters a frame", miss / tolerance);
+  }
+  return measured.judged(3,
+                         "the two octrees miss by two tolerances, the ball of 1280 triangles misses the "
+                         "sphere by less than another");
+}
+
+/// A ball that turns about an axis off its centre: neighbouring points are displaced differently.
+MeshSequence turning_ball(double angle, int subdivisions) {
+  const Vector3 axis = Vector3(0.48, 0.6, -0.64);
+  const auto deformation = [=](const Vector3& X, double t) -> Vector3 {
+    return Eigen::AngleAxisd(angle * t / 0.04, axis) * (X + Vector3(0.07, 0.02, 0)) - Vector3(0.07, 0.02, 0);
+  };
+  return deformed_mesh(make_icosphere(radius, subdivisions), deformation, {0, 0.04});
+}
+
+/// How far the nodes of a frame err, over what they may: some roundings, and beyond the band half of what a
+/// cell may miss there, if |phi| is too large.
+double node_error(const DeformingFrame& frame, const MeshDistance& exact) {
+  const Octree& tree = frame.field;
+  const std::vector<OctreePlace> places = branch_places(tree);
+  Worst worst;
+  for (std::size_t b = 0; b < places.size(); ++b)
+    for (int n = 0; n < 27; ++n) {
+      const double phi = exact.at(node_position(tree.settings, places[b], n)).phi;
+      const double kept = tree.phi[std::size_t(tree.branches[b].channels)][std::size_t(n)];
+      const double rounding = 16 * epsilon * tree.settings.width;
+      const double more = (phi < 0 ? -1 : 1) * (kept - phi);
+      const double beyond = std::max(0.0, std::abs(phi) - tree.settings.band);
+      worst.see(more > 0 ? more / (rounding + tree.settings.beyond / 2 * beyond) : -more / rounding);
+    }
+  return worst.value();
+}
+
+/// Hanging nodes keep their own values, as they were found.
+OctreeSettings free_sampling() {
+  OctreeSettings settings = coarse_sampling();
+  settings.hanging = HangingNodes::free;
+  return settings;
+}
+
+Finding kept_nodes_err_as_bounded(const Subject&) {
+  Measured measured("largest error", "of what is allowed");
+  for (const double way : {0.003, 0.02, 0.33}) {
+    const MeshSequence ball = moving_ball(way, {0, 0.02, 0.04});
+    const DeformingBody body = make_deforming_body(ball, free_sampling(), BetweenFrames::carried);
+    for (std::size_t k = 0; k < body.frames.size(); ++k)
+      measured.see(std::to_string(way) + " m a frame, frame " + std::to_string(k),
+                   node_error(body.frames[k], make_mesh_distance(ball.positions[k], ball.triangles)));
+  }
+  return measured.judged(
+      1,
+      "a value is kept only if nothing lies nearer by more than half of what a cell may miss "
+      "beyond the band, and the surface cannot have passed the node");
+}
+
+Finding far_nodes_are_not_searched(const Subject&) {
+  const MeshSequence ball = moving_ball(0.003, {0, 0.02, 0.04});
+  const DeformingBody body = make_deforming_body(ball, free_sampling(), BetweenFrames::carried);
+  Measured measured("searched", "nodes that must be, and a tenth of the others");
+  for (std::size_t k = 1; k < body.frames.size(); ++k) {
+    const Octree& tree = body.frames[k].field;
+    std::set<std::array<double, 3>> all, near;
+    const std::vector<OctreePlace> places = branch_places(tree);
+    for (std::size_t b = 0; b < places.size(); ++b)
+      for (int n = 0; n < 27; ++n) {
+        const Vector3 p = node_position(tree.settings, places[b], n);
+        all.insert({p.x(), p.y(), p.z()});
+        if (std::abs(tree.phi[b][std::size_t(n)]) <= tree.settings.band) near.insert({p.x(), p.y(), p.z()});
+      }
+    const double must = double(near.size()) / double(all.size());
+    measured.see("frame " + std::to_string(k),
+                 double(body.frames[k].searches) / double(body.frames[k].nodes) / (must + 0.1 * (1 - must)));
+  }
+  return measured.judged(1,
+                         "what is in the band must be searched; a tenth of the rest is left to nodes that "
+                         "the frame before did not have");
+}
+
+Finding velocity_is_that_of_the_surface(const Subject&) {
+  Measured measured("largest difference", "largest speed");
+  const MeshSequence ball = turning_ball(0.3, 3);
+  const DeformingBody body = make_deforming_body(ball, coarse_sampling(), BetweenFrames::carried);
+  const PerParticle3 u = (ball.positions[1] - ball.positions[0]) / 0.04;
+  const double scale = u.colwise().norm().maxCoeff();
+  for (const double height : {-0.03, 0.0, 0.02, 0.05}) {
+    Worst worst;
+    for (const Triangle& t : ball.triangles) {
+      const PerParticle3& x = ball.positions[0];
+      const Vector3 a = x.col(t[0]), b = x.col(t[1]), c = x.col(t[2]);
+      const Vector3 middle = (a + b + c) / 3, normal = (b - a).cross(c - a).normalized();
+      const Vector3 expected = (u.col(t[0]) + u.col(t[1]) + u.col(t[2])) / 3;
+      worst.see((deforming_at(body, middle + height * normal, 0).velocity - expected).norm() / scale);
+    }
+    measured.see(std::to_string(height) + " m along N", worst.value());
+  }
+  return measured.judged(
+      0.05,
+      "a cell whose phi misses by the tolerance is h wide, h^2 = 4 tolerance r, and there a direction, whose "
+      "second derivatives are below 1.5/r^2, misses by 2.25 tolerance/r; twice that at hanging "
+      "nodes; r = 0.1 m at the deepest points");
+}
+
+Finding points_ride_along(const Subject&) {
+  Measured measured("largest distance from the path", "epsilon of the cube's width");
+  const MeshSequence ball = moving_ball(0.06, {0, 0.04, 0.07, 0.16});
+  const DeformingObject object{
+      std::make_shared<DeformingBody>(make_deforming_body(ball, coarse_sampling(), BetweenFrames::carried))};
+  for (const double start : {-0.02, 0.0, 0.013, 0.05})
+    for (const double duration : {0.007, 0.06, 0.2}) {
+      const auto clock = [](double t) { return std::clamp(t, 0.0, 0.16); };
+      const Vector3 way = 0.06 * (clock(start + duration) - clock(start)) / 0.04 * shift().normalized();
+      const Vector3 mean = object.at({0.03, 0.05, 0.02}, {start, start + duration, duration}).velocity;
+      measured.see("from " + std::to_string(start) + " s for " + std::to_string(duration) + " s",
+                   (duration * mean - way).norm() / epsilon);
+    }
+  return measured.judged(64,
+                         "up to four intervals, each with a division by its duration and the sum of the way");
+}
+
+Finding rests_outside_its_frames(const Subject&) {
+  Measured measured("differences", "1");
+  const MeshSequence ball = moving_ball(0.06, {0, 0.04});
+  for (const BetweenFrames between : {BetweenFrames::blended, BetweenFrames::carried}) {
+    const DeformingBody body = make_deforming_body(ball, coarse_sampling(), between);
+    double wrong = 0;
+    for (const Vector3& p : points_about(Vector3::Zero(), 0.3)) {
+      const DeformingPoint before = deforming_at(body, p, -0.01), after = deforming_at(body, p, 0.04);
+      wrong += before.phi != body.frames.front().field.at(p).phi || before.velocity.norm() != 0;
+      wrong += after.phi != body.frames.back().field.at(p).phi || after.velocity.norm() != 0;
+    }
+    measured.see(between == BetweenFrames::blended ? "blended" : "carried", wrong);
+  }
+  return measured.judged(0, "no arithmetic: the first frame's and the last one's own values");
+}
+
+Finding sequences_are_read(const Subject&) {
+  Measured measured("differences, and refusals without their reason", "1");
+  const ScratchFolder folder;
+  const MeshSequence ball = turning_ball(0.3, 1);
+  const auto lacks = [](const std::string& message, const char* part) {
+    return message.find(part) == std::string::npos;
+  };
+  measured.see("no files",
+               lacks(refusal([&] { read_obj_sequence(folder.file("."), 0.04); }), "no folder with"));
+  write_obj(folder.file("b0001.obj"), ball.positions[1], ball.triangles);
+  write_obj(folder.file("b0000.obj"), ball.positions[0], ball.triangles);
+  const MeshSequence read = read_obj_sequence(folder.file("."), 0.04);
+  measured.see("positions, bit for bit", !(read.positions == ball.positions && read.times == ball.times));
+  measured.see("no interval",
+               lacks(refusal([&] { read_obj_sequence(folder.file("."), 0); }), "must be positive"));
+  const TriangleMesh other = make_icosphere(radius, 2);
+  write_obj(folder.file("b0002.obj"), other.rest, other.triangles);
+  measured.see("other triangles",
+               lacks(refusal([&] { read_obj_sequence(folder.file("."), 0.04); }), "b0002.obj"));
+  MeshSequence back = ball;
+  back.times = {0.04, 0.04};
+  measured.see("times that do not rise",
+               lacks(refusal([&] { make_deforming_body(back, coarse_sampling(), BetweenFrames::carried); }),
+                     "must rise"));
+  return measured.judged(0, "17 digits keep every bit; each refusal must name its reason");
+}
+
+}  // namespace
+
+std::vector<Check> deforming_checks() {
+  const char* const source = "BMF03 section 5.1";
+  return {
+      {"deforming.carried-ball-keeps-its-shape",
+       "Interpolated along its motion a ball keeps its shape between frames, however far it moves.", source,
+       carried_ball_keeps_its_shape},
+      {"deforming.blended-ball-shrinks-as-derived",
+       "Interpolated at the point, a ball of radius R that moves by d shrinks to sqrt(R^2 - d^2/4) "
+       "across its motion, and vanishes beyond two radii.",
+       source, blended_ball_shrinks},
+      {"deforming.velocity-is-that-of-the-surface",
+       "Inside and outside alike, the velocity is that of the nearest surface point: constant along N.",
+       source, velocity_is_that_of_the_surface},
+      {"deforming.kept-nodes-err-as-bounded",
+       "A frame's values are exact in the band; beyond it those kept from the frame before err by no more "
+       "than half of what a cell may miss there, and have the right sign, however far the body moved.",
+       source, kept_nodes_err_as_bounded},
+      {"deforming.far-nodes-are-not-searched",
+       "Where the body moves little, nearest points are looked for in the band only.", source,
+       far_nodes_are_not_searched},
+      {"deforming.points-ride-along",
+       "The mean velocity over a span takes a point where the body takes it, across frames too.", source,
+       points_ride_along},
+      {"deforming.rests-outside-its-frames", "Before its first frame and after its last a body rests.",
+       source, rests_outside_its_frames},
+      {"deforming.sequences-are-read",
+       "A folder of OBJ files is read as it was written, and what is no sequence is refused.", source,
+       sequences_are_read}};
+}
+
+}  // namespace foldproof

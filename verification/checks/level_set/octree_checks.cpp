@@ -1,0 +1,269 @@
+#include "verification/checks/level_set/octree_checks.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "reference/level_set/object.h"
+#include "reference/level_set/octree_nodes.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/seeds.h"
+
+namespace foldproof {
+
+namespace {
+
+/// Points of the cube, uniform at random; the seed is fixed.
+std::vector<Vector3> random_points(int count, double half_width) {
+  std::mt19937 random(shifted(90211));
+  std::uniform_real_distribution<double> along(-half_width, half_width);
+  std::vector<Vector3> points;
+  for (int i = 0; i < count; ++i) {
+    const double x = along(random), y = along(random), z = along(random);
+    points.push_back({x, y, z});
+  }
+  return points;
+}
+
+Distance capsule_upright(const Vector3& p) { return Capsule{0.17, 0.13}.at(p); }
+Distance ball(const Vector3& p) { return Sphere{0.31}.at(p - Vector3(0.05, -0.02, 0.03)); }
+
+struct Body {
+  std::string name;
+  DistanceFunction distance;
+};
+
+std::vector<Body> smooth_bodies() {
+  return {{"sphere", ball}, {"tilted torus", tilted_torus}, {"capsule", capsule_upright}};
+}
+
+Finding jumps_nowhere(const Subject&) {
+  Measured measured("largest jump", "epsilon of the cube's width");
+  std::vector<double> jumps;
+  for (const Body& body : smooth_bodies())
+    for (const int depth : {4, 7}) {
+      const Octree tree = make_octree({body.distance}, sampling(depth, 3e-4, HangingNodes::constrained));
+      const Octree loose = make_octree({body.distance}, sampling(depth, 3e-4, HangingNodes::free));
+      measured.see(body.name + ", depth " + std::to_string(depth), largest_jump(tree, 20000) / epsilon);
+      jumps.push_back(largest_jump(loose, 20000));
+    }
+  Finding finding =
+      measured.judged(32,
+                      "each side adds the products of its eight corners with six roundings; a place rounded "
+                      "by epsilon/2 moves a "
+                      "trilinear value of slope 1 by as much, along three axes and on both sides");
+  finding.evidence.push_back({"with free nodes", "m", jumps});
+  return finding;
+}
+
+/// The tree's error in tolerances, at points of the inner half of the band.
+double worst_miss(const Body& body, const OctreeSettings& settings) {
+  const Octree tree = make_octree({body.distance}, settings);
+  Worst worst;
+  for (const Vector3& p : random_points(60000, 0.5)) {
+    const double phi = body.distance(p).phi;
+    if (std::abs(phi) <= 0.5 * settings.band) worst.see(std::abs(tree.at(p).phi - phi) / settings.tolerance);
+  }
+  return worst.value();
+}
+
+Finding misses_by_its_tolerance(const Subject&) {
+  Measured measured("largest miss", "tolerances");
+  for (const Body& body : smooth_bodies())
+    for (const double tolerance : {1.1e-3, 2.3e-4})
+      measured.see(body.name + " to " + std::to_string(tolerance) + " m",
+                   worst_miss(body, sampling(9, tolerance, HangingNodes::constrained)));
+  return measured.judged(
+      2,
+      "a leaf misses by the tolerance where its own corners are exact, and by as much again where "
+      "they are the interpolant of a coarse neighbour");
+}
+
+/// Levels of the eight leaves about a node, highest less lowest.
+int level_step(const Octree& tree, const Vector3& node) {
+  int low = 99, high = 0;
+  for (int side = 0; side < 8; ++side) {
+    const Vector3 toward(side & 1 ? 1 : -1, side & 2 ? 1 : -1, side & 4 ? 1 : -1);
+    const int level = leaf_at(tree, node + 1e-9 * toward).level;
+    low = std::min(low, level);
+    high = std::max(high, level);
+  }
+  return high - low;
+}
+
+Finding neighbours_differ_by_one_level(const Subject&) {
+  Measured measured("levels between neighbours", "1");
+  for (const Body& body : smooth_bodies()) {
+    const Octree tree = make_octree({body.distance}, sampling(7, 3e-4, HangingNodes::constrained));
+    Worst worst;
+    for (const OctreePlace& place : branch_places(tree))
+      for (int n = 0; n < 27; ++n) worst.see(level_step(tree, node_position(tree.settings, place, n)));
+    measured.see(body.name, worst.value());
+  }
+  return measured.judged(1, "constraints reach one level only, across faces, edges and corners alike");
+}
+
+/// Angle between the tree's normals and the exact ones next to the surface, over the finest cell's angle h/R.
+Finding normals_are_those_of_the_cells(const Subject&) {
+  Measured measured("largest angle", "finest cells over the least radius");
+  for (const int depth : {5, 6, 7}) {
+    const double h = std::ldexp(1, -depth), radius = 0.11;
+    OctreeSettings settings = sampling(depth, 1e-9, HangingNodes::constrained);
+    settings.band = 4 * h;
+    const Octree tree = make_octree({tilted_torus}, settings);
+    Worst worst;
+    for (const Vector3& p : random_points(60000, 0.5)) {
+      const Distance exact = tilted_torus(p);
+      if (!(std::abs(exact.phi) <= h)) continue;
+      const Vector3 n = tree.at(p).normal;
+      worst.see(std::atan2(n.cross(exact.normal).norm(), n.dot(exact.normal)) / (h / (radius - h)));
+    }
+    measured.see("h = 1/" + std::to_string(1 << depth) + " m", worst.value());
+  }
+  return measured.judged(
+      std::sqrt(3.0) / 2,
+      "the slope of a cell is exact at its centre, half a diagonal away at most, and a normal turns "
+      "by the way over the radius of curvature");
+}
+
+Finding goes_on_beyond_the_cube(const Subject&) {
+  Measured measured("share of what is allowed", "1");
+  OctreeSettings settings = sampling(7, 5e-4, HangingNodes::constrained);
+  settings.band = 1;  // the tolerance holds as far as the boundary
+  for (const Body& body : smooth_bodies()) {
+    const Octree tree = make_octree({body.distance}, settings);
+    Worst change, below;
+    for (const Vector3& p : random_points(3000, 1.3)) {
+      const Vector3 q = p.cwiseMax(-0.5).cwiseMin(0.5);
+      if (p == q) continue;
+      const double phi = tree.at(p).phi;
+      change.see(std::abs(phi - tree.at(q).phi) / (p - q).norm());
+      below.see((body.distance(p).phi - phi) / (2 * settings.tolerance));
+    }
+    measured.see(body.name + ", change over the way", change.value() * (1 - 16 * epsilon));
+    measured.see(body.name + ", below the distance over two tolerances", below.value());
+  }
+  return measured.judged(
+      1,
+      "the distance to one point changes by the way at most, but for rounding; and it is no less "
+      "than the distance to the surface, which that point misses as phi does");
+}
+
+/// An octree of a body that is led by keyframes: its answers against the body's own, and whether anything is
+/// asked of the body once the tree stands.
+Finding rides_with_its_body(const Subject&) {
+  long asked = 0;
+  const DistanceFunction counted = [&asked](const Vector3& p) {
+    ++asked;
+    return tilted_torus(p);
+  };
+  const OctreeSettings settings = sampling(8, 4e-4, HangingNodes::constrained);
+  const OctreeSolid solid{std::make_shared<const Octree>(make_octree({counted}, settings))};
+  const Eigen::Quaterniond turned(Eigen::AngleAxisd(1.1, Vector3(0.6, 0, -0.8)));
+  const Keyframes motion =
+      make_keyframes({{0, {}}, {0.7, {turned, {0.3, -0.2, 0.9}}}, {1.6, {turned * turned, {1.3, 0.4, 0.1}}}});
+  const RigidObject object{solid, {turned.conjugate(), {0.05, 0.1, -0.2}}, motion};
+  Measured measured("largest miss", "tolerances");
+  const long before = asked;
+  for (const double time : {0.0, 0.4, 1.1, 2.0}) {
+    const Pose pose = after(pose_at(motion, time), object.place);
+    Worst worst;
+    for (const Vector3& X : random_points(20000, 0.5)) {
+      const double phi = tilted_torus(X).phi;
+      if (std::abs(phi) > 0.5 * settings.band) continue;
+      const Vector3 x = pose.rotation * X + pose.translation;
+      worst.see(std::abs(object.at(x, {time, time, 0}).phi - phi) / settings.tolerance);
+    }
+    measured.see("at " + std::to_string(time) + " s", worst.value());
+  }
+  measured.see("distances asked for after it was built", double(asked - before));
+  return measured.judged(2, "as at rest: a rigid motion changes no distance");
+}
+
+Finding refuses_bad_settings(const Subject&) {
+  Measured measured("refusals without the reason", "1");
+  struct Bad {
+    std::string name, keyword;
+    std::function<void(OctreeSettings&)> spoil;
+  };
+  const std::vector<Bad> all = {
+      {"no width", "width", [](OctreeSettings& s) { s.width = 0; }},
+      {"a width that is no number", "width", [](OctreeSettings& s) { s.width = NAN; }},
+      {"no depth", "depth", [](OctreeSettings& s) { s.depth = 0; }},
+      {"a surface finer than the tree", "surface", [](OctreeSettings& s) { s.surface_depth = s.depth + 1; }},
+      {"no tolerance", "tolerance", [](OctreeSettings& s) { s.tolerance = 0; }},
+      {"a negative band", "band", [](OctreeSettings& s) { s.band = -0.1; }},
+      {"a negative reach", "reach", [](OctreeSettings& s) { s.reach = -0.1; }},
+      {"a cube that is too small", "reaches the boundary", [](OctreeSettings& s) { s.width = 0.4; }}};
+  for (const Bad& bad : all) {
+    OctreeSettings settings = sampling(5, 1e-3, HangingNodes::constrained);
+    bad.spoil(settings);
+    const std::string message = refusal([&] { make_octree({ball}, settings); });
+    measured.see(bad.name, message.find(bad.keyword) == std::string::npos);
+  }
+  const std::string message = refusal([] { make_octree({}, sampling(5, 1e-3, HangingNodes::constrained)); });
+  measured.see("no body", message.find("bodies") == std::string::npos);
+  return measured.judged(0, "each refusal must name its reason");
+}
+
+}  // namespace
+
+Distance tilted_torus(const Vector3& p) {
+  const Eigen::AngleAxisd turn(0.7, Vector3(0.36, -0.48, 0.8));
+  const Distance distance = Torus{0.29, 0.11}.at(turn.inverse() * (p - Vector3(0.02, 0.03, -0.04)));
+  return {distance.phi, turn * distance.normal};
+}
+
+OctreeSettings sampling(int depth, double tolerance, HangingNodes hanging) {
+  return {Vector3::Constant(-0.5), 1, depth, 2, tolerance, 0.06, 0.1, 0, hanging};
+}
+
+double largest_jump(const Octree& tree, int count, int deepest) {
+  std::vector<OctreePlace> places = branch_places(tree);
+  std::erase_if(places, [&](const OctreePlace& place) { return place.level == 0 || place.level > deepest; });
+  std::mt19937 random(shifted(41177));
+  std::uniform_int_distribution<std::size_t> any_branch(0, places.size() - 1);
+  std::uniform_int_distribution<int> any_axis(0, 2);
+  std::uniform_real_distribution<double> along(0, 1);
+  Worst worst;
+  for (int i = 0; i < count; ++i) {
+    const OctreePlace& place = places[any_branch(random)];
+    const Vector3 low = node_position(tree.settings, place, 0),
+                  high = node_position(tree.settings, place, 26);
+    const double x = along(random), y = along(random), z = along(random);
+    Vector3 above = low + (high - low).cwiseProduct(Vector3(x, y, z));
+    const int axis = any_axis(random);
+    above[axis] = low[axis];
+    Vector3 below = above;
+    below[axis] = std::nextafter(low[axis], -1e9);
+    worst.see(std::abs(tree.at(above).phi - tree.at(below).phi));
+  }
+  return worst.value();
+}
+
+std::vector<Check> octree_checks() {
+  const char* const source = "BMF03 section 5.1";
+  return {{"octree.is-continuous", "The octree's phi jumps nowhere, where cells of two sizes meet either.",
+           source, jumps_nowhere},
+          {"octree.misses-by-its-tolerance",
+           "In the band the octree's phi misses the distance by twice the tolerance at most.", source,
+           misses_by_its_tolerance},
+          {"octree.neighbours-differ-by-one-level", "Leaves that touch differ by one level at most.", source,
+           neighbours_differ_by_one_level},
+          {"octree.normals-are-first-order",
+           "Next to the surface the octree's N errs by half a cell's diagonal at most.", source,
+           normals_are_those_of_the_cells},
+          {"octree.goes-on-beyond-the-cube",
+           "Beyond its cube the octree's phi is continuous and no less than the distance.", source,
+           goes_on_beyond_the_cube},
+          {"octree.rides-with-its-body",
+           "The octree of a rigid body, built once, answers for it wherever it is and however it is turned.",
+           source, rides_with_its_body},
+          {"octree.bad-settings-are-refused", "Settings that make no tree are refused with the reason.",
+           source, refuses_bad_settings}};
+}
+
+}  // namespace foldproof

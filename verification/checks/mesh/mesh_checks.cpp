@@ -1,0 +1,247 @@
+#include "verification/checks/mesh/mesh_checks.h"
+
+#include <Eigen/Geometry>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "reference/mesh/obj.h"
+#include "reference/mesh/shapes.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/scratch_folder.h"
+#include "verification/checks/specimens.h"
+#include "verification/seeds.h"
+
+namespace foldproof {
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr double width = 0.47, height = 0.29;  // of all sheets [m]
+
+/// A mesh and what geometry says of it.
+struct Known {
+  std::string name;
+  TriangleMesh mesh;
+  int euler;    // V - E + F
+  double area;  // m^2; NaN if only the mesh knows
+};
+
+Sheet sheet_of(SheetPattern pattern) {
+  Sheet sheet;
+  sheet.pattern = pattern;
+  sheet.width = width;
+  sheet.height = height;
+  sheet.columns = 7;
+  sheet.rows = 5;
+  sheet.jitter = 0.31;
+  sheet.seed = shifted(83);
+  return sheet;
+}
+
+std::vector<Known> known_shapes() {
+  const std::vector<std::pair<std::string, SheetPattern>> patterns = {
+      {"one_diagonal", SheetPattern::one_diagonal},      {"alternating", SheetPattern::alternating},
+      {"union_jack", SheetPattern::union_jack},          {"criss_cross", SheetPattern::criss_cross},
+      {"equilateral", SheetPattern::equilateral},        {"jittered", SheetPattern::jittered},
+      {"random_delaunay", SheetPattern::random_delaunay}};
+  std::vector<Known> shapes;
+  for (const auto& [name, pattern] : patterns)
+    shapes.push_back({name, make_sheet(sheet_of(pattern)), 1, width * height});
+  const double disc = 0.5 * 24 * 0.31 * 0.31 * std::sin(2 * pi / 24);  // a regular polygon of 6 * 4 corners
+  const double cylinder = 11 * 2 * 0.13 * std::sin(pi / 11) * 0.37;    // 11 flat strips
+  const double side = 0.23 / std::sin(2 * pi / 5);  // of an icosahedron in a sphere of .23 m
+  shapes.push_back({"disc", make_disc(0.31, 4), 1, disc});
+  shapes.push_back({"cylinder", make_cylinder(0.13, 0.37, 11, 6), 0, cylinder});
+  shapes.push_back({"icosahedron", make_icosphere(0.23, 0), 2, 5 * std::sqrt(3.0) * side * side});
+  shapes.push_back({"icosphere", make_icosphere(0.23, 3), 2, std::nan("")});
+  shapes.push_back({"geodesic sphere", make_geodesic_sphere(0.23, 5), 2, std::nan("")});
+  const TriangleMesh coarse = make_sheet(sheet_of(SheetPattern::random_delaunay));
+  shapes.push_back({"divided sheet", divided(coarse, 4), 1, width * height});
+  shapes.push_back({"statue", small_statue(), 2, std::nan("")});
+  shapes.push_back({"hinge", make_hinge(0.17, 2.1), 1, 0.5 * (0.9 + 0.6) * 0.17 * 0.17});
+  return shapes;
+}
+
+Finding euler_characteristic_is_known(const Subject&) {
+  Measured measured("difference from the surface's", "1");
+  for (const Known& shape : known_shapes()) {
+    std::map<std::pair<int, int>, int> edges;
+    for (const Triangle& t : shape.mesh.triangles) {
+      for (int k = 0; k < 3; ++k) ++edges[std::minmax({t[k], t[(k + 1) % 3]})];
+    }
+    const int counted = shape.mesh.particles() - int(edges.size()) + int(shape.mesh.triangles.size());
+    measured.see(shape.name,
+                 std::abs(euler_characteristic(shape.mesh) - shape.euler) + std::abs(counted - shape.euler));
+  }
+  return measured.judged(0,
+                         "whole numbers: 1 for a sheet or a disc, 0 for an open cylinder, 2 for a closed "
+                         "surface without handles");
+}
+
+/// True if the triangle is (a, b, c) or the same begun elsewhere.
+bool runs(const Triangle& triangle, int a, int b, int c) {
+  return triangle == Triangle{a, b, c} || triangle == Triangle{b, c, a} || triangle == Triangle{c, a, b};
+}
+
+Finding hinges_are_oriented(const Subject&) {
+  Measured measured("hinges otherwise", "1");
+  for (const Known& shape : known_shapes()) {
+    int otherwise = 0;
+    for (const Hinge& hinge : shape.mesh.hinges) {
+      const auto [x1, x2, x3, x4] = hinge.particles;
+      const Edge& edge = shape.mesh.edges[hinge.edge];
+      int first = 0, second = 0;
+      for (const int t : edge.triangles) {
+        first += runs(shape.mesh.triangles[t], x1, x3, x4);
+        second += runs(shape.mesh.triangles[t], x2, x4, x3);
+      }
+      otherwise += !(first == 1 && second == 1 && std::min(x3, x4) == edge.a && std::max(x3, x4) == edge.b);
+    }
+    measured.see(shape.name, otherwise);
+  }
+  return measured.judged(
+      0, "every hinge must be (x1, x3, x4) and (x2, x4, x3) of its two triangles, as drawn in the paper");
+}
+
+Finding every_inner_edge_is_one_hinge(const Subject&) {
+  Measured measured("edges wrong", "1");
+  for (const Known& shape : known_shapes()) {
+    std::map<std::pair<int, int>, int> triangles, hinges;
+    for (const Triangle& t : shape.mesh.triangles) {
+      for (int k = 0; k < 3; ++k) ++triangles[std::minmax({t[k], t[(k + 1) % 3]})];
+    }
+    for (const Hinge& hinge : shape.mesh.hinges)
+      ++hinges[std::minmax({hinge.particles[2], hinge.particles[3]})];
+    int wrong = std::abs(int(triangles.size()) - int(shape.mesh.edges.size()));
+    for (const Edge& edge : shape.mesh.edges) {
+      const int count = triangles[{edge.a, edge.b}], hinge_count = hinges[{edge.a, edge.b}];
+      wrong += (count == 1) != (edge.triangles[1] < 0) || count > 2 || count < 1 || hinge_count != count - 1;
+    }
+    measured.see(shape.name, wrong);
+  }
+  return measured.judged(0,
+                         "edges and hinges are counted: one edge for each pair of neighbours, one hinge for "
+                         "each edge of two triangles");
+}
+
+Finding areas_and_masses_sum(const Subject&) {
+  Measured measured = roundings_of("of the exact value");
+  const double density = 0.37;
+  for (const Known& shape : known_shapes()) {
+    const double sum = triangle_areas(shape.mesh.triangles, shape.mesh.rest).sum();
+    const double exact = std::isnan(shape.area) ? sum : shape.area;
+    Worst worst;
+    worst.see(std::abs(sum - exact) / (epsilon * exact));
+    worst.see(std::abs(lumped_masses(shape.mesh, density).sum() - density * exact) /
+              (epsilon * density * exact));
+    worst.see(std::abs(edge_areas(shape.mesh).sum() - 3 * exact) / (epsilon * 3 * exact));
+    measured.see(shape.name, worst.value());
+  }
+  Finding finding =
+      measured.judged(64, "about ten roundings an area, with errors of either sign, added one by one");
+  finding.note =
+      "The exact value is the area, the mass, or three times the area for the edges' areas. Areas are those "
+      "of plane geometry; for the round sphere and the statue the mesh's own area stands in, and only masses "
+      "and edge areas are compared with it.";
+  return finding;
+}
+
+Finding obj_round_trip_is_exact(const Subject&) {
+  const ScratchFolder folder;
+  Measured measured("numbers that came back otherwise", "1");
+  Random random(311);
+  for (Known& shape : known_shapes()) {
+    PerParticle3 x = shape.mesh.rest + random.vectors(shape.mesh.rest.cols(), 1e-3);
+    x *= random.in_decades(1e-9, 1e7);
+    const std::string path = folder.file(shape.name + ".obj");
+    write_obj(path, x, shape.mesh.triangles);
+    const TriangleMesh back = read_obj(path);
+    int otherwise = int(back.triangles != shape.mesh.triangles) + 1000 * int(back.rest.cols() != x.cols());
+    for (Eigen::Index k = 0; k < std::min(x.size(), back.rest.size()); ++k) {
+      otherwise +=
+          std::bit_cast<uint64_t>(x.reshaped()[k]) != std::bit_cast<uint64_t>(back.rest.reshaped()[k]);
+    }
+    measured.see(shape.name, otherwise);
+  }
+  return measured.judged(0, "17 significant digits hold a double, so every bit must come back");
+}
+
+Finding pleats_are_isometric(const Subject&) {
+  Measured measured = roundings_of("of the size");
+  for (const double angle : {0.7, -1.9, 2.9}) {
+    for (const SheetPattern pattern : {SheetPattern::one_diagonal, SheetPattern::union_jack}) {
+      Sheet sheet = sheet_of(pattern);
+      sheet.columns = 9;
+      const TriangleMesh flat = make_sheet(sheet),
+                         folded = make_triangle_mesh(pleated(flat, 3, angle), flat.triangles);
+      Worst length, fold;
+      length.see((rest_lengths(folded) - rest_lengths(flat)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
+                 (epsilon * width));
+      int fold_lines = 0;
+      for (const Hinge& hinge : flat.hinges) {
+        const Corners x = corners_of(hinge, folded.rest);
+        const double found = std::abs(hinge_angle(x[0], x[1], x[2], x[3]));
+        const bool is_fold = found > 0.5 * std::abs(angle);
+        fold_lines += is_fold;
+        fold.see(std::abs(found - (is_fold ? std::abs(angle) : 0)) / (epsilon * pi));
+      }
+      fold.see(fold_lines == 2 * sheet.rows ? 0 : std::nan(""));
+      const std::string name = (pattern == SheetPattern::union_jack ? "union_jack" : "one_diagonal");
+      measured.see(name + " by " + std::to_string(angle) + " rad, lengths", length.value());
+      measured.see(name + " by " + std::to_string(angle) + " rad, angles", fold.value());
+    }
+  }
+  Finding finding = measured.judged(
+      64,
+      "a vertex is placed by adding up to nine columns; angles divide such errors by a cell, a ninth of the "
+      "width");
+  finding.note = "the size is the sheet's width for lengths, pi for angles";
+  return finding;
+}
+
+Finding hinge_folds_by_its_angle(const Subject&) {
+  Measured measured = roundings_of("pi");
+  for (const double angle : {-3.1, -1.7, -0.2, 0.0, 0.4, 1.5, 2.9}) {
+    const TriangleMesh mesh = make_hinge(0.23, angle);
+    const double found = hinge_angles(mesh, mesh.rest).at(0);
+    measured.see(std::to_string(angle) + " rad", std::abs(found - angle) / (epsilon * pi));
+  }
+  return measured.judged(16, "sine and cosine, placed and taken back, carry a few roundings of 1");
+}
+
+}  // namespace
+
+std::vector<Check> mesh_checks() {
+  const char* const source = "plane geometry and topology";
+  std::vector<Check> checks = {
+      {"mesh.euler-characteristic", "The reference's meshes have the Euler characteristic of their surfaces.",
+       source, euler_characteristic_is_known},
+      {"mesh.hinges-are-oriented-as-drawn",
+       "Every hinge of the reference's meshes is (x1, x3, x4) and (x2, x4, x3).", "BMF03 figure 1",
+       hinges_are_oriented},
+      {"mesh.every-inner-edge-is-one-hinge",
+       "The reference finds each edge once, and one hinge for each inner edge.", source,
+       every_inner_edge_is_one_hinge},
+      {"mesh.areas-and-masses-sum",
+       "The reference's areas, masses and edge areas sum to those of the surface.", source,
+       areas_and_masses_sum},
+      {"mesh.obj-round-trip-is-exact",
+       "A mesh that the reference writes and reads back is the same, bit for bit.", "the OBJ format",
+       obj_round_trip_is_exact},
+      {"mesh.pleats-are-isometric",
+       "The reference's pleats keep every length and fold by the angle asked for.", source,
+       pleats_are_isometric},
+      {"mesh.hinge-folds-by-its-angle",
+       "The reference's hinge is folded by the angle asked for, sign included.", "BMF03 section 4",
+       hinge_folds_by_its_angle}};
+  const std::vector<Check> refusals = mesh_refusal_checks();
+  checks.insert(checks.end(), refusals.begin(), refusals.end());
+  return checks;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,181 @@
+// The maps of signed distance by themselves.
+#include <cmath>
+#include <string>
+
+#include "reference/post/depth_map.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/checks/post/projection_checks.h"
+#include "verification/oracles/depth_maps.h"
+
+namespace foldproof {
+
+namespace {
+
+const std::string roundings_reason =
+    "a handful of operations, each off by half an epsilon of its result; a power's exponent, at most 12 "
+    "here, magnifies the roundings of its base";
+
+/// Bands from a tenth of a millimetre to a metre, with and without a least distance, shallow and deep.
+std::vector<DepthBand> bands() {
+  Random random(307);
+  std::vector<DepthBand> all;
+  for (int k = 0; k < 40; ++k) {
+    const double reach = random.in_decades(1e-4, 1);
+    all.push_back({k % 3 == 0 ? 0 : random.in(0.01, 0.4) * reach, reach, random.in(0.3, 6) * reach});
+  }
+  return all;
+}
+
+std::vector<DepthMap> bent_maps() { return {depth_map_named("power"), depth_map_named("blend")}; }
+
+Finding is_as_defined(const Subject&) {
+  Measured measured = roundings_of("tau + t^");
+  for (const DepthMap& map : bent_maps()) {
+    Worst worst;
+    for (const DepthBand& band : bands()) {
+      for (int k = 0; k <= 200; ++k) {
+        const double phi = -band.deepest + (band.reach + band.deepest) * (k / 200.0);
+        const oracles::Band same{band.nearest, band.reach, band.deepest};
+        const double exact = (map.name == "power" ? oracles::power_map : oracles::blend_map)(same, phi).value;
+        worst.see(std::abs(map.at(band, phi) - exact) / (epsilon * (band.reach + band.deepest)));
+      }
+    }
+    measured.see(std::string(map.name), worst.value());
+  }
+  return measured.judged(16, roundings_reason);
+}
+
+Finding ends_are_right(const Subject&) {
+  Measured measured = roundings_of("tau");
+  for (const DepthMap& map : depth_maps()) {
+    Worst deepest, at_reach;
+    for (const DepthBand& band : bands()) {
+      for (const double below : {1.0, 1.7, 40.0})
+        deepest.see(std::abs(map.at(band, -below * band.deepest) - band.nearest) / (epsilon * band.reach));
+      for (const double beyond : {1.0, 1.3, 900.0}) {  // those are not moved: not by a bit
+        const double phi = beyond * band.reach;  // divided, for a fused difference has the product's rounding
+        at_reach.see(std::abs(map.at(band, phi) / phi - 1) * beyond / epsilon);
+      }
+    }
+    measured.see(std::string(map.name) + ", from -t^ down", deepest.value());
+    measured.see(std::string(map.name) + ", from tau up", at_reach.value());
+  }
+  return measured.judged(8, "phi + t^ at -t^ is off by a rounding of t^, at most 6 tau");
+}
+
+/// A convex map misses the slope 1 over the last h by its second derivative, largest at tau, times h/2.
+double bend_at_reach(const DepthMap& map, const DepthBand& band) {
+  const double depths = band.reach + band.deepest, room = band.reach - band.nearest, w = room / 2;
+  return map.name == "power" ? (depths / room - 1) / depths : (1 - (room - w / 2) / (depths - w / 2)) / w;
+}
+
+Finding meets_the_identity_smoothly(const Subject&) {
+  Measured measured("|slope - 1| over what the second derivative allows", "1");
+  for (const DepthMap& map : bent_maps()) {
+    Worst worst;
+    for (const DepthBand& band : bands()) {
+      const double h = 1e-4 * band.reach, slope = (band.reach - map.at(band, band.reach - h)) / h;
+      worst.see(std::abs(slope - 1) / (bend_at_reach(map, band) * h / 2));
+    }
+    measured.see(std::string(map.name), worst.value());
+  }
+  return measured.judged(
+      1.001,
+      "Taylor's remainder over the last ten-thousandth of tau, and a rounding over that length, "
+      "1e-12 of a slope of 1 against 1e-5");
+}
+
+/// Depths that fall, and, if they have to rise, depths that stay, of those given in rising order.
+double disorder(const DepthMap& map, const DepthBand& band, bool has_to_rise) {
+  double wrong = 0, last = map.at(band, -band.deepest);
+  for (int k = 1; k <= 500; ++k) {
+    const double next = map.at(band, -band.deepest + (band.reach + band.deepest) * (k / 500.0));
+    wrong += !(has_to_rise ? next > last : next >= last);
+    last = next;
+  }
+  return wrong;
+}
+
+Finding order_is_kept(const Subject&) {
+  Measured measured("neighbours out of order", "1");
+  for (const DepthMap& map : depth_maps()) {
+    double wrong = 0;
+    for (const DepthBand& band : bands()) wrong += disorder(map, band, map.name == "blend");
+    measured.see(std::string(map.name), wrong);
+  }
+  Finding finding =
+      measured.judged(0,
+                      "f rises; of 500 steps over the band not one may fall, and for the blend none "
+                      "may stay");
+  finding.note =
+      "The power law rises too, but its steps at the bottom can be smaller than a rounding of eps.";
+  return finding;
+}
+
+Finding compression_is_bounded(const Subject&) {
+  Measured measured("compression over its bound", "1");
+  std::vector<double> of_power;
+  for (const DepthBand& band : bands()) {
+    const double depths = band.reach + band.deepest, room = band.reach - band.nearest, w = room / 2;
+    const double bound = (depths - w / 2) / (room - w / 2);
+    Worst worst, power;
+    for (int k = 0; k < 100; ++k) {
+      const double phi = -band.deepest + depths * (k / 100.0), step = depths / 100;
+      const auto compression = [&](const char* name) {
+        const DepthMap& map = depth_map_named(name);
+        return step / (map.at(band, phi + step) - map.at(band, phi));
+      };
+      worst.see(compression("blend") / bound);
+      power.see(compression("power"));
+    }
+    measured.see(std::to_string(bound) + " is the bound", worst.value());
+    of_power.push_back(power.value());
+  }
+  Finding finding = measured.judged(1 + 1e-12,
+                                    "by construction the slope is nowhere below m; 1e-12 for roundings of "
+                                    "differences a hundredth of the band apart");
+  finding.evidence.push_back({"compression by the power law", "1", of_power});
+  return finding;
+}
+
+Finding senseless_bands_are_refused(const Subject&) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  const std::vector<DepthBand> senseless = {{-0.01, 0.2, 1}, {0.2, 0.2, 1},    {0.3, 0.2, 1},
+                                            {0, 0.2, -1e-3}, {0, infinite, 1}, {0, 0.2, infinite},
+                                            {NAN, 0.2, 1},   {0, NAN, 1},      {0, 0.2, NAN}};
+  Measured measured("accepted", "1");
+  for (const DepthBand& band : senseless) {
+    const std::string name = "eps " + std::to_string(band.nearest) + ", tau " + std::to_string(band.reach) +
+                             ", t^ " + std::to_string(band.deepest);
+    double accepted = 1;
+    try {
+      check_band(band);
+    } catch (const InputError&) {
+      accepted = 0;
+    }
+    measured.see(name, accepted);
+  }
+  return measured.judged(0, "0 <= eps < tau and t^ >= 0, all finite, or there is no such map");
+}
+
+}  // namespace
+
+std::vector<Check> depth_map_checks() {
+  const std::string source = "BMF03 section 5.3";
+  return {
+      {"projection.map-is-as-defined", "The power law and the blend are those that their conditions define.",
+       source, is_as_defined},
+      {"projection.map-runs-from-eps-to-tau",
+       "Every map is eps from the deepest penetration down and phi from tau up.", source, ends_are_right},
+      {"projection.map-joins-smoothly", "The power law and the blend have slope 1 at tau.", source,
+       meets_the_identity_smoothly},
+      {"projection.map-keeps-order", "No map turns the order of two depths round.", source, order_is_kept},
+      {"projection.blend-compresses-boundedly",
+       "The blend presses no depths together by more than (tau + t^ - w/2)/(tau - eps - w/2).", source,
+       compression_is_bounded},
+      {"projection.senseless-bands-are-refused", "A band that no map can have is refused.", source,
+       senseless_bands_are_refused}};
+}
+
+}  // namespace foldproof

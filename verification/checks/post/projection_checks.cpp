@@ -1,0 +1,328 @@
+// Points moved out of objects: where they end, what is left alone.
+#include "verification/checks/post/projection_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <string>
+
+#include "verification/checks/measured.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/checks/projection_specimens.h"
+
+namespace foldproof {
+
+namespace {
+
+const std::string tolerance_reason =
+    "points arrive within the tolerance of 1e-12 m; the same again for roundings of distances below a metre, "
+    "a few 1e-16 each";
+constexpr double tolerance = 1e-12, twice = 2e-12;  // m
+
+std::string with(const ProjectionCase& specimen, const DepthMap& map) {
+  return specimen.name + ", " + std::string(map.name);
+}
+
+std::vector<ProjectionCase> unpinched_cases() {
+  std::vector<ProjectionCase> cases = solids_with_points();
+  cases.push_back(two_balls());
+  return cases;
+}
+
+Finding lands_where_the_map_says(const Subject&) {
+  Measured measured("largest miss", "m");
+  for (const ProjectionCase& specimen : unpinched_cases()) {
+    for (const DepthMap& map : depth_maps()) {
+      const FoldProjection projection = projection_by(std::string(map.name));
+      const ProjectedCloth cloth = projected(specimen, projection);
+      const PerParticle before = distances(specimen, specimen.x), after = distances(specimen, cloth.x);
+      Worst worst;
+      for (Eigen::Index i = 0; i < before.size(); ++i)
+        worst.see(std::abs(after[i] - map.at(projection.band, before[i])));
+      measured.see(with(specimen, map), worst.value());
+    }
+  }
+  return measured.judged(twice, tolerance_reason);
+}
+
+/// How far outside [eps, tau] the points are that began short of tau [m].
+double outside_band(const PerParticle& before, const PerParticle& after, const DepthBand& band) {
+  Worst worst;
+  for (Eigen::Index i = 0; i < before.size(); ++i)
+    if (before[i] <= band.reach) worst.see(std::max(band.nearest - after[i], after[i] - band.reach));
+  return worst.value();
+}
+
+Finding ends_in_the_band(const Subject&) {
+  Measured measured("distance outside [eps, tau]", "m");
+  for (const ProjectionCase& specimen : unpinched_cases()) {
+    for (const DepthMap& map : depth_maps()) {
+      const FoldProjection projection = projection_by(std::string(map.name));
+      const ProjectedCloth cloth = projected(specimen, projection);
+      measured.see(with(specimen, map), outside_band(distances(specimen, specimen.x),
+                                                     distances(specimen, cloth.x), projection.band));
+    }
+  }
+  return measured.judged(twice, tolerance_reason);
+}
+
+Finding no_point_is_left_inside(const Subject&) {
+  Measured measured("points inside", "1");
+  for (const ProjectionCase& specimen : unpinched_cases()) {
+    for (const DepthMap& map : depth_maps()) {
+      FoldProjection projection = projection_by(std::string(map.name));
+      projection.band.nearest = 0;
+      const ProjectedCloth cloth = projected(specimen, projection);
+      measured.see(with(specimen, map), double((distances(specimen, cloth.x).array() < 0).count()));
+    }
+  }
+  return measured.judged(
+      0,
+      "with eps = 0 too: arrived points lie on the outer side of f, so that not even a rounding "
+      "leaves one inside");
+}
+
+/// What must be said of a point that was at phi and is now at `after` [m].
+Fate expected_fate(const DepthMap& map, const FoldProjection& projection, double phi, double after) {
+  const double f = map.at(projection.band, phi);
+  if (!(f > phi)) return Fate::untouched;
+  return f <= after && after <= f + projection.tolerance ? Fate::moved : Fate::unfinished;
+}
+
+Finding senseless_ones_are_refused(const Subject&) {
+  Measured measured("projections that mean nothing and are not refused", "1");
+  const ProjectionCase specimen = two_balls();
+  const auto see = [&](const std::string& name, const std::function<void(FoldProjection&)>& spoil) {
+    FoldProjection projection = projection_by("plain");
+    spoil(projection);
+    measured.see(name, refusal([&] { projected(specimen, projection); }).empty() ? 1 : 0);
+  };
+  for (const double wrong : {0.0, -1e-9, double(NAN), double(INFINITY)})
+    see("tolerance " + std::to_string(wrong), [&](FoldProjection& p) { p.tolerance = wrong; });
+  for (const int wrong : {0, -3})
+    see(std::to_string(wrong) + " moves", [&](FoldProjection& p) { p.max_moves = wrong; });
+  see("tau below eps", [](FoldProjection& p) { p.band.reach = 0.5 * p.band.nearest; });
+  see("tau NaN", [](FoldProjection& p) { p.band.reach = NAN; });
+  see("no such map", [](FoldProjection& p) { p.map = "flat"; });
+  return measured.judged(0, "a tolerance and a cap above 0, a band and a map are needed");
+}
+
+Finding one_move_is_enough(const Subject&) {
+  Measured measured("points that do not arrive", "1");
+  const ProjectionCase specimen = two_balls();
+  for (const DepthMap& map : depth_maps()) {
+    FoldProjection projection = projection_by(std::string(map.name));
+    projection.max_moves = 1;
+    projection.tolerance = 1e-9;
+    const ProjectedCloth cloth = projected(specimen, projection);
+    measured.see(with(specimen, map), cloth.count(Fate::unfinished));
+    measured.see(with(specimen, map) + ", questions",
+                 std::abs(double(cloth.object_queries - cloth.x.cols() - cloth.count(Fate::moved))));
+  }
+  return measured.judged(0,
+                         "along the normal of an exact distance the first move arrives, and it is allowed");
+}
+
+Finding fates_are_true(const Subject&) {
+  Measured measured("points with another fate than their distances say, or that are not moved to the end",
+                    "1");
+  for (const ProjectionCase& specimen : unpinched_cases()) {
+    for (const DepthMap& map : depth_maps()) {
+      const FoldProjection projection = projection_by(std::string(map.name));
+      const ProjectedCloth cloth = projected(specimen, projection);
+      double wrong = cloth.count(Fate::unfinished);
+      for (Eigen::Index i = 0; i < cloth.before.size(); ++i)
+        wrong += cloth.fates[size_t(i)] != expected_fate(map, projection, cloth.before[i], cloth.after[i]);
+      measured.see(with(specimen, map), wrong);
+    }
+  }
+  return measured.judged(
+      0, "where there is room every point is moved to the end, and what is told of it is true");
+}
+
+/// Pairs, neighbours in depth, that changed their order by more than the tolerance.
+double disorder(const PerParticle& before, const PerParticle& after) {
+  std::vector<Eigen::Index> order(size_t(before.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return before[a] < before[b]; });
+  double wrong = 0;
+  for (size_t k = 1; k < order.size(); ++k) wrong += !(after[order[k]] >= after[order[k - 1]] - tolerance);
+  return wrong;
+}
+
+Finding order_of_depths_is_kept(const Subject&) {
+  Measured measured("neighbours in depth out of order", "1");
+  for (const ProjectionCase& specimen : unpinched_cases()) {
+    for (const DepthMap& map : depth_maps()) {
+      const ProjectedCloth cloth = projected(specimen, projection_by(std::string(map.name)));
+      measured.see(with(specimen, map),
+                   disorder(distances(specimen, specimen.x), distances(specimen, cloth.x)));
+    }
+  }
+  return measured.judged(0,
+                         "the deeper of two points stays the deeper, or comes to lie as far out, within the "
+                         "tolerance of 1e-12 m");
+}
+
+Finding moves_along_the_normal(const Subject&) {
+  Measured measured("distance off the exact place", "m");
+  for (const ProjectionCase& specimen : solids_with_points()) {
+    if (specimen.name != "sphere" && specimen.name != "half space") continue;
+    const RigidObject& body = std::get<RigidObject>(specimen.objects[0].body);
+    const Pose pose = after(pose_at(body.motion, specimen.time), body.place);
+    const ProjectedCloth cloth = projected(specimen, projection_by("blend"));
+    Worst worst;
+    for (Eigen::Index i = 0; i < cloth.x.cols(); ++i) {
+      const Vector3 p = unplaced(pose, specimen.x.col(i)), q = unplaced(pose, cloth.x.col(i));
+      const bool is_ball = specimen.name == "sphere";
+      const double phi = is_ball ? p.norm() - 0.41 : p.z();
+      const double move = depth_map_named("blend").at(projection_by("blend").band, phi) - phi;
+      worst.see((q - p - move * (is_ball ? Vector3(p.normalized()) : Vector3(0, 0, 1))).norm());
+    }
+    measured.see(specimen.name, worst.value());
+  }
+  return measured.judged(twice, "a point goes straight out by f - phi, nowhere else; " + tolerance_reason);
+}
+
+Finding far_points_are_untouched(const Subject&) {
+  Measured measured("numbers changed", "1");
+  for (const ProjectionCase& specimen : unpinched_cases()) {
+    for (const DepthMap& map : depth_maps()) {
+      const FoldProjection projection = projection_by(std::string(map.name));
+      const ProjectedCloth cloth = projected(specimen, projection);
+      const PerParticle before = distances(specimen, specimen.x);
+      double changed = 0;
+      for (Eigen::Index i = 0; i < before.size(); ++i) {
+        if (before[i] >= projection.band.reach)
+          changed += numbers_that_differ(cloth.x.col(i), specimen.x.col(i)) +
+                     (cloth.fates[size_t(i)] != Fate::untouched);
+      }
+      measured.see(with(specimen, map), changed);
+    }
+  }
+  return measured.judged(0, "not a bit of a point from tau up may change, and it is reported as untouched");
+}
+
+Finding pinched_points_are_left_alone(const Subject&) {
+  Measured measured("numbers changed", "1");
+  const ProjectionCase specimen = overlapping_balls();
+  for (const DepthMap& map : depth_maps()) {
+    const ProjectedCloth cloth = projected(specimen, projection_by(std::string(map.name)));
+    double changed = 0;
+    int pinched = 0;
+    for (Eigen::Index i = 0; i < cloth.x.cols(); ++i) {
+      const bool is_pinched = (specimen.x.col(i) - Vector3(-0.19, 0.03, 0.02)).norm() < 0.31 &&
+                              (specimen.x.col(i) - Vector3(0.17, -0.02, 0.05)).norm() < 0.27;
+      pinched += is_pinched;
+      changed += (cloth.fates[size_t(i)] == Fate::pinched) != is_pinched;
+      if (is_pinched) changed += numbers_that_differ(cloth.x.col(i), specimen.x.col(i));
+    }
+    measured.see(std::string(map.name) + ", " + std::to_string(pinched) + " pinched",
+                 pinched > 0 ? changed : NAN);
+  }
+  return measured.judged(
+      0, "not a bit of a point inside both balls may change, and just those are reported as pinched");
+}
+
+Finding plain_is_idempotent(const Subject&) {
+  Measured measured("numbers changed by the second projection", "1");
+  for (ProjectionCase specimen : unpinched_cases()) {
+    const FoldProjection projection = projection_by("plain");
+    specimen.x = projected(specimen, projection).x;
+    const ProjectedCloth again = projected(specimen, projection);
+    measured.see(specimen.name, numbers_that_differ(again.x, specimen.x));
+  }
+  return measured.judged(0, "what lies at eps or beyond is where plain projection wants it: not a bit moves");
+}
+
+Finding projecting_twice_compresses(const Subject&) {
+  Measured measured("room between -t^/2 and 0 after two projections, over that after one", "1");
+  ProjectionCase specimen = solids_with_points()[1];
+  for (const char* map : {"power", "blend"}) {
+    const FoldProjection projection = projection_by(map);
+    ProjectionCase line = specimen;
+    const RigidObject& body = std::get<RigidObject>(line.objects[0].body);
+    const Pose pose = after(pose_at(body.motion, line.time), body.place);
+    line.x.resize(3, 2);
+    line.x.col(0) = placed(pose, Vector3(0.41 - projection.band.deepest / 2, 0, 0));
+    line.x.col(1) = placed(pose, Vector3(0.41, 0, 0));
+    double room[2];
+    for (double& here : room) {
+      line.x = projected(line, projection).x;
+      const PerParticle phi = distances(line, line.x);
+      here = phi[1] - phi[0];
+    }
+    measured.see(map, room[1] / room[0]);
+  }
+  return measured.judged(
+      0.95,
+      "f(phi) = phi at tau alone, so a second projection presses together what the first one "
+      "left: by a twentieth at least, or the map would hardly move anything");
+}
+
+Finding gaps_without_room_are_reported(const Subject&) {
+  ProjectionCase specimen = two_balls();  // a gap of 0.17 m
+  const Vector3 left(-0.4, 0.03, 0.02), right(0.35, -0.02, 0.05);
+  const double apart = (right - left).norm(), gap = apart - 0.31 - 0.27;
+  specimen.x = PerParticle3(left + (right - left) * ((0.31 + gap / 2) / apart));
+  FoldProjection projection = projection_by("plain");
+  projection.band = {0.12, 0.2, 0.1};
+  const ProjectedCloth cloth = projected(specimen, projection);
+  const double before = distances(specimen, specimen.x)[0], reached = distances(specimen, cloth.x)[0];
+  return {{cloth.fates[0] == Fate::unfinished ? before - reached : NAN, tolerance, 0, "m",
+           "a point that cannot get where the map wants it is reported, and is no deeper than it was, within "
+           "1e-12 m"},
+          {{"gap", "m", std::vector<double>{gap}},
+           {"least distance asked for", "m", std::vector<double>{projection.band.nearest}},
+           {"distance before", "m", std::vector<double>{before}},
+           {"distance reached", "m", std::vector<double>{reached}}},
+          "measured is by how much the point came to lie deeper"};
+}
+
+}  // namespace
+
+std::vector<Check> projection_checks() {
+  const std::string source = "BMF03 section 5.3";
+  std::vector<Check> checks = depth_map_checks();
+  const std::vector<Check> own = {
+      {"projection.lands-where-the-map-says",
+       "A projected point has the signed distance that the map gives it.", source, lands_where_the_map_says},
+      {"projection.ends-in-the-band", "Points that began short of tau end in [eps, tau].", source,
+       ends_in_the_band},
+      {"projection.no-point-is-left-inside", "No point that is not pinched is inside after the projection.",
+       source, no_point_is_left_inside},
+      {"projection.what-means-nothing-is-refused",
+       "A projection without a tolerance, a move, a band or a map is refused in words.",
+       "a rule of this suite: bad input is refused in words", senseless_ones_are_refused},
+      {"projection.one-move-is-enough",
+       "Where distances are exact, a point needs one move, and as many are made as are allowed.", source,
+       one_move_is_enough},
+      {"projection.fates-are-true",
+       "Each point is told to be untouched, or moved to where the map wants it, just as its distances say; "
+       "none is left "
+       "on the way.",
+       "the promise of the reference's header", fates_are_true},
+      {"projection.order-of-depths-is-kept", "Of two points the deeper one stays the deeper.", source,
+       order_of_depths_is_kept},
+      {"projection.moves-along-the-normal", "Points go straight out along the object's normal.", source,
+       moves_along_the_normal},
+      {"projection.far-points-are-untouched", "Points from tau up keep every bit.", source,
+       far_points_are_untouched},
+      {"projection.pinched-points-are-left-alone", "Points inside two objects keep every bit.", source,
+       pinched_points_are_left_alone},
+      {"projection.plain-is-idempotent", "Plain projection done twice is plain projection.", source,
+       plain_is_idempotent},
+      {"projection.twice-compresses-more",
+       "The other maps, done twice, compress more: they are not idempotent.", source,
+       projecting_twice_compresses},
+      {"projection.gaps-without-room-are-reported",
+       "A point between objects closer than the map asks is reported and not made worse.", source,
+       gaps_without_room_are_reported}};
+  checks.insert(checks.end(), own.begin(), own.end());
+  for (const auto& part : {projection_exact_checks(), projection_cloth_checks(), projection_mesh_checks()})
+    checks.insert(checks.end(), part.begin(), part.end());
+  return checks;
+}
+
+}  // namespace foldproof

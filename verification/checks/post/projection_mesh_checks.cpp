@@ -1,0 +1,144 @@
+// Cloth brought out of a body that is a triangle mesh, known by exact distances or by a grid; whether it is
+// out is decided without either.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "reference/level_set/mesh_grid.h"
+#include "reference/mesh/shapes.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/post/projection_checks.h"
+#include "verification/checks/projection_specimens.h"
+#include "verification/checks/specimens.h"
+#include "verification/oracles/exact_geometry.h"
+#include "verification/seeds.h"
+
+namespace foldproof {
+
+namespace {
+
+/// The statue, as something that answers with its signed distance.
+struct KnownStatue {
+  std::string name;
+  Solid solid;
+  double margin;  // by how much the answer may be too large, between nodes and next to edges [m]
+};
+
+std::vector<KnownStatue> statues() {
+  const TriangleMesh& statue = small_statue();
+  const MeshDistance distance = make_mesh_distance(statue.rest, statue.triangles);
+  const std::shared_ptr<const Grid> grid = make_grid(distance, {48, 8, 3, MarchingOrder::second});
+  return {{"exact distances", MeshSolid{std::make_shared<MeshDistance>(distance)}, 1e-9},
+          {"grid of 48 cells", GridSolid{grid}, grid->lattice.spacing}};
+}
+
+/// A wavy sheet that cuts a centimetre into what is foremost.
+struct Worn {
+  TriangleMesh mesh;
+  ProjectionCase specimen;
+};
+
+Worn sheet_through(const KnownStatue& statue) {
+  Sheet sheet{SheetPattern::jittered, 0.4, 0.4, 40, 40};
+  sheet.jitter = 0.25;
+  sheet.seed = shifted(97);
+  Worn worn{make_sheet(sheet), {}};
+  const PerParticle3& body = small_statue().rest;
+  const Vector3 low = body.rowwise().minCoeff(), high = body.rowwise().maxCoeff(), middle = (low + high) / 2;
+  PerParticle3 x = worn.mesh.rest;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    x.col(i) += Vector3(middle.x() - 0.2, middle.y() - 0.2, high.z() - 0.01);
+    x(2, i) += 0.004 * std::sin(41 * x(0, i)) * std::cos(37 * x(1, i));
+  }
+  worn.specimen = {statue.name, {{"statue", RigidObject{statue.solid, {}, Motion{}}, 0}}, 0, x};
+  return worn;
+}
+
+oracles::TriangleSoup statue_surface() { return {small_statue().rest, small_statue().triangles}; }
+
+ProjectedCloth out_of(const Worn& worn, const std::string& map, double eps) {
+  FoldProjection projection = projection_by(map);
+  projection.band = {eps, eps + 0.01, 0.05};
+  projection.tolerance = 1e-10;
+  return projected(worn.specimen, projection);
+}
+
+double count_inside(const PerParticle3& x) {
+  const oracles::TriangleSoup surface = statue_surface();
+  double inside = 0;
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    inside += oracles::side_of(surface, x.col(i)) != oracles::Side::outside;
+  return inside;
+}
+
+Finding no_particle_is_left_inside(const Subject&) {
+  Measured measured("particles left inside", "1");
+  std::vector<double> before, without_room;
+  for (const KnownStatue& statue : statues()) {
+    const Worn worn = sheet_through(statue);
+    for (const char* map : {"plain", "blend"}) {
+      const ProjectedCloth cloth = out_of(worn, map, statue.margin);
+      measured.see(statue.name + ", " + map, count_inside(cloth.x));
+      before.push_back(count_inside(worn.specimen.x));
+      without_room.push_back(cloth.count(Fate::unfinished));
+    }
+  }
+  Finding finding =
+      measured.judged(0,
+                      "decided in whole numbers against the mesh: eps is a nanometre over exact distances, "
+                      "and a cell of the grid, "
+                      "by which a trilinear value next to an edge of the body may be too large");
+  finding.evidence.push_back({"particles inside before", "1", before});
+  finding.evidence.push_back({"particles without room", "1", without_room});
+  return finding;
+}
+
+double longest_edge(const TriangleMesh& mesh, const PerParticle3& x) {
+  double longest = 0;
+  for (const Edge& edge : mesh.edges) longest = std::max(longest, (x.col(edge.a) - x.col(edge.b)).norm());
+  return longest;
+}
+
+Finding no_triangle_is_left_inside(const Subject&) {
+  Measured measured("triangles left inside", "1");
+  std::vector<double> eps, without_room;
+  const oracles::TriangleSoup surface = statue_surface();
+  for (const KnownStatue& statue : statues()) {
+    const Worn worn = sheet_through(statue);
+    ProjectedCloth cloth = out_of(worn, "plain", 0);
+    double enough = 0;
+    for (int k = 0; k < 6; ++k) {
+      const double needed = longest_edge(worn.mesh, cloth.x) / std::sqrt(3.0) + statue.margin;
+      if (enough >= needed) break;
+      enough = 1.02 * needed;
+      cloth = out_of(worn, "plain", enough);
+    }
+    measured.see(statue.name,
+                 double(oracles::triangles_in_body({cloth.x, worn.mesh.triangles}, surface).size()));
+    eps.push_back(enough);
+    without_room.push_back(cloth.count(Fate::unfinished));
+  }
+  Finding finding =
+      measured.judged(0,
+                      "no point of a triangle is farther than L/sqrt(3) from all its corners, and phi "
+                      "falls by no more than the way");
+  finding.evidence.push_back({"eps", "m", eps});
+  finding.evidence.push_back({"particles without room", "1", without_room});
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Check> projection_mesh_checks() {
+  const std::string source = "BMF03 section 5.3";
+  return {{"projection.no-particle-is-left-in-a-mesh",
+           "No particle of cloth that was projected out of a triangle mesh is inside it.", source,
+           no_particle_is_left_inside},
+          {"projection.no-triangle-is-left-in-a-mesh",
+           "With an eps that suits its edges, no triangle of cloth that was projected out of a triangle mesh "
+           "meets it.",
+           source, no_triangle_is_left_inside}};
+}
+
+}  // namespace foldproof

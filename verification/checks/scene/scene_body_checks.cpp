@@ -1,0 +1,279 @@
+// Bodies of triangles in a case: sampled by an octree, and deforming.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <numbers>
+
+#include "reference/level_set/mesh_distance.h"
+#include "reference/mesh/obj.h"
+#include "reference/mesh/shapes.h"
+#include "verification/checks/measured.h"
+#include "verification/checks/scene/scene_checks.h"
+#include "verification/checks/scratch_folder.h"
+#include "verification/checks/trial_cases.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double radius = 0.13;                          // m
+constexpr double degree = 3.14159265358979323846 / 180;  // rad
+
+/// A ball as an OBJ file, and [[object]] of it with these keys.
+std::string ball_body(const ScratchFolder& folder, const std::string& keys) {
+  const TriangleMesh ball = make_icosphere(radius, 3);
+  write_obj(folder.file("ball.obj"), ball.rest, ball.triangles);
+  return "[[object]]\nmesh = \"ball.obj\"\n" + keys + "\n";
+}
+
+/// A case in the folder.
+Scene read_case_in(const ScratchFolder& folder, const std::string& tables) {
+  return read_case(tables, {}, folder.file("trial.toml"));
+}
+
+const Octree& octree_of(const Scene& scene) {
+  return *std::get<OctreeSolid>(std::get<RigidObject>(scene.objects.at(0).object.body).solid).tree;
+}
+
+/// The largest miss next to the surface, at points on both sides of the ball's faces [tolerances].
+double octree_miss(const Octree& tree) {
+  const TriangleMesh ball = make_icosphere(radius, 3);
+  const MeshDistance exact = make_mesh_distance(ball.rest, ball.triangles);
+  Random random(4451);
+  Worst worst;
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3 p = random.vectors(1, 1).col(0).normalized() * radius * random.in(0.9, 1.1);
+    worst.see(std::abs(tree.at(p).phi - exact.at(p).phi) / tree.settings.tolerance);
+  }
+  return worst.value();
+}
+
+Finding octree_finding(const Subject&) {
+  const ScratchFolder folder;
+  const Octree coarse = octree_of(read_case_in(folder, ball_body(folder, "field = \"octree\"\ncells = 23")));
+  const Octree given =
+      octree_of(read_case_in(folder, ball_body(folder, "field = \"octree\"\ncells = 41\ntolerance = 5e-4")));
+  const auto cell = [](const Octree& tree) {
+    return tree.settings.width / std::pow(2.0, tree.settings.depth);
+  };
+  const PerParticle3 x = make_icosphere(radius, 3).rest;
+  const double longest = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
+  Measured measured("miss in tolerances, or a hundred roundings off what was written", "1");
+  measured.see("finest cells", std::abs(cell(coarse) * 23 / longest - 1) / (100 * epsilon));
+  measured.see("finest cells, other number", std::abs(cell(given) * 41 / longest - 1) / (100 * epsilon));
+  measured.see("a tenth of a cell",
+               std::abs(coarse.settings.tolerance / (0.1 * cell(coarse)) - 1) / (100 * epsilon));
+  measured.see("tolerance as written", given.settings.tolerance == 5e-4 ? 0 : INFINITY);
+  measured.see("distances", octree_miss(coarse));
+  measured.see("distances, tolerance as written", octree_miss(given));
+  return measured.judged(2, "an octree keeps its tolerance, to which hanging nodes add another");
+}
+
+/// Where the point X of the body goes, by another road than the reference takes: about the
+/// centre of the arc, at R = height/angle beside the base.
+Vector3 bent(const Vector3& X, double angle, double height) {
+  const double R = height / angle, phi = X.y() / R;
+  return {R - (R - X.x()) * std::cos(phi), (R - X.x()) * std::sin(phi), X.z()};
+}
+
+Vector3 twisted(const Vector3& X, double angle, double height) {
+  return Eigen::AngleAxisd(angle * X.y() / height, Vector3::UnitY()) * X;
+}
+
+Vector3 breathed(const Vector3& X, double growth, double height) {
+  const double from_middle = 2 * X.y() / height - 1;
+  const double factor = 1 + growth * (1 - from_middle * from_middle);
+  return {factor * X.x(), X.y(), factor * X.z()};
+}
+
+using Shaping = std::function<Vector3(const Vector3& X, double share, double height)>;
+
+/// Largest distance of the drawn surface from the placed ball, deformed by hand; heights count from its
+/// lowest point [m].
+double surface_miss(const Scene& scene, const Shaping& shaping, double period, double t) {
+  const TriangleMesh ball = make_icosphere(radius, 3);
+  const Vector3 move(0.2, -0.1, 0.3);
+  PerParticle3 x(3, ball.particles());
+  for (int i = 0; i < ball.particles(); ++i)
+    x.col(i) = Eigen::AngleAxisd(30 * degree, Vector3(1, 2, 2) / 3) * ball.rest.col(i) + move;
+  const Vector3 low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff(), middle = (low + high) / 2;
+  const Vector3 base(middle.x(), low.y(), middle.z());
+  const double share = std::pow(std::sin(std::numbers::pi * t / period), 2);
+  const PerParticle3 seen = surface_at(scene.objects.at(0), t);
+  Worst worst;
+  for (int i = 0; i < ball.particles(); ++i)
+    worst.see((shaping(x.col(i) - base, share, (high - low).y()) + base - seen.col(i)).norm());
+  return worst.value();
+}
+
+const std::string place = "turn = { axis = [1, 2, 2], angle = 30 }\nmove = [0.2, -0.1, 0.3]\n";
+
+std::string deform(const std::string& kind, double amplitude, double period) {
+  return "[[object.deform]]\nkind = \"" + kind + "\"\namplitude = " + std::to_string(amplitude) +
+         "\nperiod = " + std::to_string(period) + "\n";
+}
+
+Finding deformation_finding(const Subject&) {
+  const ScratchFolder folder;
+  const std::string keys = place + "cells = 12\ninterval = 0.05\n";
+  Differences differences;
+  const auto see = [&](const std::string& what, const std::string& parts, const Shaping& shaping,
+                       double period) {
+    const Scene scene = read_case_in(folder, ball_body(folder, keys + parts));
+    for (const double t : {0.0, 0.05, 0.2, 0.3})
+      differences.see(what + " at " + std::to_string(t) + " s", surface_miss(scene, shaping, period, t), 1);
+    const PerParticle3 between = (surface_at(scene.objects[0], 0.1) + surface_at(scene.objects[0], 0.15)) / 2;
+    differences.see(what + " between frames",
+                    (surface_at(scene.objects[0], 0.125) - between).cwiseAbs().maxCoeff(), 1);
+  };
+  see(
+      "bend", deform("bend", 70, 0.47),
+      [](const Vector3& X, double share, double height) {
+        return share == 0 ? X : bent(X, 70 * degree * share, height);
+      },
+      0.47);
+  see(
+      "twist", deform("twist", -130, 0.31),
+      [](const Vector3& X, double share, double height) { return twisted(X, -130 * degree * share, height); },
+      0.31);
+  see(
+      "breathe", deform("breathe", 0.35, 0.61),
+      [](const Vector3& X, double share, double height) { return breathed(X, 0.35 * share, height); }, 0.61);
+  see(
+      "twist, then bend", deform("twist", 55, 0.4) + deform("bend", -40, 0.4),
+      [](const Vector3& X, double share, double height) {
+        const Vector3 x = twisted(X, 55 * degree * share, height);
+        return share == 0 ? x : bent(x, -40 * degree * share, height);
+      },
+      0.4);
+  return differences.finding(
+      100, "sines, cosines and products of lengths below 1 m, with a few dozen roundings in either way");
+}
+
+/// Two frames of a ball in a folder, whose name is returned.
+std::string written_frames(const ScratchFolder& folder) {
+  const TriangleMesh ball = make_icosphere(radius, 2);
+  const std::string frames = folder.file("frames");
+  std::filesystem::create_directory(frames);
+  write_obj(frames + "/b00.obj", ball.rest, ball.triangles);
+  write_obj(frames + "/b01.obj", 1.1 * ball.rest, ball.triangles);
+  return "frames";
+}
+
+Finding frames_finding(const Subject&) {
+  const ScratchFolder folder;
+  const std::string body = "[[object]]\nframes = \"" + written_frames(folder) +
+                           "\"\ninterval = 0.07\nfit = 0.5\ncells = 12\nmove = [0.2, -0.1, 0.3]\n";
+  const Scene carried = read_case_in(folder, body),
+              blended = read_case_in(folder, body + "between = \"blended\"\n");
+  const PerParticle3 x = make_icosphere(radius, 2).rest;
+  const double scale = 0.5 / (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
+  const PerParticle3 first = (scale * x).colwise() + Vector3(0.2, -0.1, 0.3),
+                     last = (1.1 * scale * x).colwise() + Vector3(0.2, -0.1, 0.3);
+  const SceneObject& part = carried.objects.at(0);
+  const auto& animated = [](const Scene& scene) -> const DeformingBody& {
+    return *std::get<DeformingObject>(scene.objects.at(0).object.body).body;
+  };
+  Differences differences;
+  differences.see("first frame", (surface_at(part, 0) - first).cwiseAbs().maxCoeff(), 1);
+  differences.see("second frame", (surface_at(part, 0.07) - last).cwiseAbs().maxCoeff(), 1);
+  differences.see("rests after it", (surface_at(part, 0.2) - last).cwiseAbs().maxCoeff(), 1);
+  differences.see("half way", (surface_at(part, 0.035) - (first + last) / 2).cwiseAbs().maxCoeff(), 1);
+  differences.is("carried by default", animated(carried).between == BetweenFrames::carried);
+  differences.is("blended if written", animated(blended).between == BetweenFrames::blended);
+  return differences.finding(32, "scaled, moved and averaged with a few roundings of lengths below 1 m");
+}
+
+/// The drawn surface lies on the level sets that the cloth meets, at frames and between.
+Finding surface_finding(const Subject&) {
+  const ScratchFolder folder;
+  Measured measured("largest distance of the drawn surface from the level set", "tolerances");
+  for (const std::string kind : {"bend", "twist", "breathe"}) {
+    const Scene scene =
+        read_case_in(folder, ball_body(folder, place + "cells = 16\ninterval = 0.02\n" +
+                                                   deform(kind, kind == "breathe" ? 0.3 : 40, 0.5)));
+    const auto& body = std::get<DeformingObject>(scene.objects.at(0).object.body);
+    const double tolerance = body.body->frames.front().field.settings.tolerance;
+    Worst worst;
+    for (const double t : {0.0, 0.02, 0.05, 0.23, 0.3}) {
+      const PerParticle3 x = surface_at(scene.objects[0], t);
+      for (Eigen::Index i = 0; i < x.cols(); ++i)
+        worst.see(std::abs(body.at(x.col(i), {t, t, 0}).phi) / tolerance);
+    }
+    measured.see(kind, worst.value());
+  }
+  return measured.judged(2,
+                         "octrees miss by their tolerance, to which hanging nodes add another; carried "
+                         "along, phi between frames errs "
+                         "by the square of the turn in a frame, 0.02 rad, of a displacement of 5 mm: 1e-6 m, "
+                         "a thousandth of it");
+}
+
+/// A folder of one file more than there may be frames, whose name is returned.
+std::string too_many_frames(const ScratchFolder& folder) {
+  const std::string frames = folder.file("many");
+  std::filesystem::create_directory(frames);
+  for (int k = 0; k <= 1000; ++k) std::ofstream(frames + "/" + std::to_string(k) + ".obj");
+  return "many";
+}
+
+std::vector<Refused> refusals(const ScratchFolder& folder) {
+  const auto body = [&](const std::string& keys) { return ball_body(folder, "cells = 8\n" + keys); };
+  const std::string twist = deform("twist", 20, 0.5),
+                    sphere = "[[object]]\nshape = \"sphere\"\nradius = 0.3\n";
+  const std::string frames = "[[object]]\nframes = \"" + written_frames(folder) + "\"\n";
+  return {
+      {body("field = \"octre\""), {"unknown field 'octre'", "octree", "exact"}},
+      {body("field = \"octree\"\ntolerance = 0"), {"'tolerance' must be > 0"}},
+      {body("field = \"octree\"\nrepair = \"winding\""), {"'repair' needs field = \"grid\""}},
+      {body("tolerance = 1e-3"), {"unknown key 'tolerance'"}},
+      {sphere + twist, {"needs a mesh", "statue"}},
+      {body("interval = 0.2\nvelocity = [0, 0, 1]\n" + twist), {"unknown key 'velocity'"}},
+      {body("field = \"grid\"\n" + twist), {"unknown field 'grid'", "octree"}},
+      {body("between = \"morphed\"\n" + twist), {"unknown between 'morphed'", "carried"}},
+      {body("interval = 1e-5\n" + twist), {"more than 1000 level sets", "interval"}},
+      {body("interval = 0\n" + twist), {"'interval' must be > 0"}},
+      {body("[[object.deform]]\nkind = \"melt\"\n"), {"unknown kind 'melt'", "breathe"}},
+      {body("[[object.deform]]\nkind = \"bend\"\namplitude = 3\n"), {"period"}},
+      {body("[[object.deform]]\nkind = \"bend\"\namplitude = 3\nperiod = 0\n"), {"'period' must be > 0"}},
+      {body("interval = 0.2\n" + deform("bend", 20, 0.5) + "toward = 3\n"), {"unknown key 'toward'"}},
+      {body("interval = 0.1\n" + deform("bend", 900, 0.6)),
+       {"frame 1", "0.100000 s", "meets triangle", "smaller amplitude"}},
+      {frames + twist, {"'frames' are an animation"}},
+      {frames + "mesh = \"ball.obj\"\n", {"and not both"}},
+      {frames + "interval = -1\n", {"'interval' must be > 0"}},
+      {"[[object]]\nframes = \"" + too_many_frames(folder) + "\"\n", {"1001 *.obj files", "at most 1000"}},
+      {"[[object]]\nframes = \"nowhere\"\n", {"no folder with"}}};
+}
+
+Finding refusal_finding(const Subject&) {
+  const ScratchFolder folder;
+  return refused_cases(refusals(folder), folder.file("trial.toml"));
+}
+
+}  // namespace
+
+std::vector<Check> scene_body_checks() {
+  const char* const source = "cases/README.md";
+  return {{"scene.octree-bodies-are-as-written",
+           "The octree of a body has the cells and the tolerance that the case says, and keeps it.", source,
+           octree_finding},
+          {"scene.deformations-are-as-written",
+           "A body bends, twists and breathes as the case says, about the axis through its middle.", source,
+           deformation_finding},
+          {"scene.frames-are-as-written",
+           "The frames of an animated body are scaled, placed and timed as the case says.", source,
+           frames_finding},
+          {"scene.deforming-surfaces-lie-on-their-level-sets",
+           "The surface that is drawn of a deforming body is that of the level sets that the cloth meets.",
+           "BMF03 section 5.1", surface_finding},
+          {"scene.wrong-bodies-are-refused",
+           "What a case must not say of octrees and deforming bodies is refused with file, line and what is "
+           "known.",
+           source, refusal_finding}};
+}
+
+}  // namespace foldproof

@@ -1,0 +1,139 @@
+// What is built of what a case file says.
+#include "verification/checks/scene/scene_checks.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reference/mesh/shapes.h"
+#include "reference/scene/scene.h"
+#include "verification/checks/moving_scenes.h"
+#include "verification/checks/trial_cases.h"
+
+namespace foldproof {
+
+namespace {
+
+/// The positions after 20 steps of a case.
+PerParticle3 end_of(const Scene& scene) {
+  const System system = build_system(scene);
+  State s = start_state(scene);
+  Work work;
+  for (int n = 0; n < 20; ++n) s = integrator_named(scene.integrator).step(system, {&s, 1}, 0.003, work);
+  return s.x;
+}
+
+Finding absent_finding(const Subject&) {
+  Differences differences;
+  const Scene nothing = read_case(""), falls = read_case("[gravity]\n");
+  const Scene zeros = read_case("[gravity]\n[stretch]\nstiffness = 0\n[bending]\nstiffness = 0\n");
+  const auto forces = [](const Scene& scene) { return double(build_system(scene).forces.size()); };
+  differences.see("forces of a case without any", forces(nothing), 1);
+  differences.see("forces of a case with gravity, less 1", forces(falls) - 1, 1);
+  differences.is("that force is gravity", std::holds_alternative<Gravity>(build_system(falls).forces[0]));
+  differences.see("forces of a case with three, less 3", forces(zeros) - 3, 1);
+  differences.see("filters and led particles",
+                  double(build_system(zeros).filters.size() + build_system(zeros).led.size()), 1);
+  differences.see("parts named, less 2", double(built_parts(falls, build_system(falls)).size()) - 2, 1);
+  differences.see("positions with gravity alone and with zero stiffnesses",
+                  largest_difference(end_of(falls), end_of(zeros)), extent(plain_positions()));
+  differences.see("positions without force and at rest",
+                  largest_difference(end_of(nothing), plain_positions()), extent(plain_positions()));
+  differences.see("default gravity", (*falls.gravity - Vector3(0, -9.80665, 0)).norm(), 9.80665);
+  return differences.finding(
+      0, "what is absent is not built; a stiffness of zero adds zeros, which change no digit");
+}
+
+Finding numbers_finding(const Subject&) {
+  const Scene scene = read_scene_text("title = \"Trial\"\nabout = \"Words\"\n" + small_sheet +
+                                          "[gravity]\nacceleration = [0.3, -0.7, 1.1]\n[stretch]\nstiffness "
+                                          "= 37.5\ndamping = 0.011\nrest_length_scale = 0.97\n"
+                                          "[bending]\nstiffness = 3.1e-4\ndamping = 2.3e-5\nweighting = "
+                                          "\"current\"\ndamping_factor = \"edge_squared_over_area\"\n"
+                                          "law = \"cubic\"\n[time]\nend = 0.31\nframes_per_second = "
+                                          "40\nintegrator = \"B\"\nsafety = 0.43\nstrain_per_step = 0.07\n"
+                                          "max_steps = 53\n[solver]\ntolerance = 3e-7\nmax_iterations = "
+                                          "17\nrelative_to = \"initial_residual\"\n",
+                                      "folder/trial.toml");
+  Differences differences;
+  const auto is = [&](const std::string& what, bool right) { differences.is(what, right); };
+  is("name, title, about", scene.name == "trial" && scene.title == "Trial" && scene.about == "Words");
+  is("density", scene.density == 0.23);
+  is("gravity", *scene.gravity == Vector3(0.3, -0.7, 1.1));
+  is("stretch", scene.stretch->stiffness == 37.5 && scene.stretch->damping == 0.011 &&
+                    scene.stretch->rest_length_scale == 0.97);
+  is("bending", scene.bending->stiffness == 3.1e-4 && scene.bending->damping == 2.3e-5);
+  is("weighting", scene.bending->weighting == Weighting::current);
+  is("damping factor", scene.bending->damping_factor == DampingFactor::edge_squared_over_area);
+  is("law", scene.bending->law == "cubic");
+  is("time", scene.schedule.end == 0.31 && scene.schedule.frame_interval == 1.0 / 40 &&
+                 scene.schedule.max_steps == 53);
+  is("automatic step", scene.schedule.step.fixed == 0 && scene.schedule.step.safety == 0.43 &&
+                           scene.schedule.step.strain_per_step == 0.07);
+  is("fixed step", read_case("").schedule.step.fixed == 0.003);
+  is("integrator", scene.integrator == "B" && read_case("").integrator == "A");
+  is("solver", scene.solver.tolerance == 3e-7 && scene.solver.max_iterations == 17);
+  is("scale of the residual", scene.solver.scale == ResidualScale::initial_residual &&
+                                  read_case("").solver.scale == ResidualScale::momentum);
+  is("solver of the system", build_system(scene).solver.tolerance == 3e-7);
+  is("defaults of bending",
+     read_case("[bending]\nstiffness = 1e-4\n").bending->weighting == Weighting::rest &&
+         read_case("[bending]\nstiffness = 1e-4\n").bending->law == "sine");
+  return differences.finding(0, "a number is read as it is written");
+}
+
+Finding overrides_finding(const Subject&) {
+  const std::string tables =
+      "[stretch]\nstiffness = 37.5\n[[hold]]\nparticles = [0]\n[[hold]]\nparticles = [3]\n";
+  const auto with = [&](std::vector<std::string> overrides) { return read_case(tables, overrides); };
+  Differences differences;
+  const auto is = [&](const std::string& what, bool right) { differences.is(what, right); };
+  const auto refused = [&](const std::string& assignment, const std::string& mention) {
+    try {
+      with({assignment});
+    } catch (const InputError& error) {
+      return std::string(error.what()).find(mention) != std::string::npos;
+    }
+    return false;
+  };
+  is("a number", with({"stretch.stiffness=53.25"}).stretch->stiffness == 53.25);
+  is("the last one counts", with({"stretch.stiffness=53.25", "stretch.stiffness=7"}).stretch->stiffness == 7);
+  is("a text without quotes", with({"time.integrator=C"}).integrator == "C");
+  is("a missing table is made", *with({"gravity.acceleration=[1, 2, 4]"}).gravity == Vector3(1, 2, 4));
+  const Scene picked = with({"hold.1.particles=[5, 7]"});
+  is("an entry of a list", picked.led.size() == 3 && picked.led[0].particle == 0 &&
+                               picked.led[1].particle == 5 && picked.led[2].particle == 7);
+  is("it is written into the case's text",
+     with({"stretch.stiffness=53.25"}).text.find("--set stretch.stiffness=53.25") != std::string::npos);
+  is("an unknown key is refused", refused("stretch.stifness=53", "--set: unknown key 'stifness'"));
+  is("a wrong value is refused", refused("stretch.stiffness=-3", "--set"));
+  is("a missing '=' is refused", refused("stretch.stiffness", "table.key=value"));
+  is("a path through a value is refused", refused("stretch.stiffness.x=3", "'stiffness' is not a table"));
+  is("an entry that is not there is refused", refused("hold.2.particles=[5]", "no hold.2"));
+  return differences.finding(0, "an override acts as if it stood in the file, or is refused");
+}
+
+}  // namespace
+
+std::vector<Check> scene_meaning_checks() {
+  const std::string source = "good practice";
+  return {
+      {"scene.absent-parts-build-nothing", "What a case of the reference does not name is not built.", source,
+       absent_finding},
+      {"scene.numbers-are-as-written", "A scene of the reference holds the numbers that its case file says.",
+       source, numbers_finding},
+      {"scene.overrides-act", "Overrides act on a case of the reference as if they stood in its file.",
+       source, overrides_finding},
+  };
+}
+
+std::vector<Check> scene_checks() {
+  std::vector<Check> all;
+  for (const auto& part : {scene_refusal_checks, scene_meaning_checks, scene_place_checks,
+                           scene_object_checks, scene_body_checks, scene_cloth_checks, seam_checks})
+    for (const Check& check : part()) all.push_back(check);
+  return all;
+}
+
+}  // namespace foldproof
