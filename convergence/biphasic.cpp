@@ -6,7 +6,7 @@
 #include "convergence/studies.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/checks/measured.h"
+#include "verification/specimens/measured.h"
 
 namespace foldproof {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "reference/filters/approach.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/exact_crossing_times.h"
 
 namespace foldproof {

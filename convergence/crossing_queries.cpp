@@ -4,7 +4,7 @@
 
 #include "convergence/crossing_families.h"
 #include "convergence/studies.h"
-#include "verification/checks/processor_time.h"
+#include "verification/processor_time.h"
 #include "verification/oracles/feature_distance.h"
 
 namespace foldproof {

@@ -7,7 +7,7 @@
 #include "convergence/wrinkle_measure.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

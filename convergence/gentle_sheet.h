@@ -2,7 +2,7 @@
 #pragma once
 
 #include "reference/scene/scene.h"
-#include "verification/checks/measured.h"
+#include "verification/specimens/measured.h"
 #include "verification/oracles/definitions.h"
 #include "verification/oracles/homogenised_bending.h"
 

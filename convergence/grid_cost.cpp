@@ -5,8 +5,8 @@
 
 #include "reference/level_set/narrow_band.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/moving_scenes.h"
-#include "verification/checks/processor_time.h"
+#include "verification/specimens/moving_scenes.h"
+#include "verification/processor_time.h"
 
 namespace foldproof {
 

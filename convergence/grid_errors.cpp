@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "verification/check.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

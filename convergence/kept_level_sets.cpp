@@ -11,7 +11,7 @@
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/checks/scratch_folder.h"
+#include "verification/specimens/scratch_folder.h"
 #include "verification/hdf5_file.h"
 #include "verification/kept_level_sets_file.h"
 

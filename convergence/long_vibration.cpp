@@ -7,7 +7,7 @@
 #include "convergence/sheet_modes.h"
 #include "convergence/trend.h"
 #include "reference/dynamics/integrator.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

@@ -8,7 +8,7 @@
 #include "convergence/studies.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

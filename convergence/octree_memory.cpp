@@ -9,7 +9,7 @@
 #include "reference/level_set/octree.h"
 #include "reference/level_set/octree_nodes.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/processor_time.h"
+#include "verification/processor_time.h"
 #include "verification/seeds.h"
 
 namespace foldproof {

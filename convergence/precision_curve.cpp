@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "verification/checks/processor_time.h"
+#include "verification/processor_time.h"
 
 namespace foldproof {
 

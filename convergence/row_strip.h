@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reference/mesh/shapes.h"
-#include "verification/checks/measured.h"
+#include "verification/specimens/measured.h"
 
 namespace foldproof {
 

@@ -5,8 +5,8 @@
 
 #include "convergence/studies.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/layered_cloth.h"
-#include "verification/checks/processor_time.h"
+#include "verification/specimens/layered_cloth.h"
+#include "verification/processor_time.h"
 
 namespace foldproof {
 

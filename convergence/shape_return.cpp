@@ -6,7 +6,7 @@
 #include "reference/forces/bending.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {

@@ -6,7 +6,7 @@
 
 #include "convergence/oracle_problem.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {

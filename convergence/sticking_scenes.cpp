@@ -6,7 +6,7 @@
 
 #include "convergence/stable_step.h"
 #include "convergence/step_matrix.h"
-#include "verification/checks/sticking_scenes.h"
+#include "verification/specimens/sticking_scenes.h"
 
 namespace foldproof {
 

@@ -7,8 +7,8 @@
 #include "convergence/studies.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/moving_scenes.h"
-#include "verification/checks/strain_scenes.h"
+#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/strain_scenes.h"
 
 namespace foldproof {
 

@@ -7,7 +7,7 @@
 #include "convergence/row_strip.h"
 #include "convergence/studies.h"
 #include "reference/dynamics/integrator.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/gsl.h"
 

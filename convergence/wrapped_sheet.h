@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "reference/mesh/shapes.h"
-#include "verification/checks/measured.h"
+#include "verification/specimens/measured.h"
 #include "verification/oracles/homogenised_bending.h"
 
 namespace foldproof {

@@ -4,7 +4,7 @@
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
 #include "scripts/program/bench_parts.h"
-#include "verification/checks/processor_time.h"
+#include "verification/processor_time.h"
 
 namespace foldproof {
 

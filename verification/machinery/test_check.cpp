@@ -7,7 +7,7 @@
 
 #include "reference/scene/key_file.h"
 #include "verification/check.h"
-#include "verification/checks/scratch_folder.h"
+#include "verification/specimens/scratch_folder.h"
 #include "verification/faults_file.h"
 #include "verification/subject.h"
 #include "verification/verdicts_file.h"

@@ -4,7 +4,7 @@
 
 #include "reference/mesh/shapes.h"
 #include "verification/cases/judge.h"
-#include "verification/checks/scratch_folder.h"
+#include "verification/specimens/scratch_folder.h"
 
 using namespace foldproof;
 using Catch::Matchers::Contains;

@@ -7,7 +7,7 @@
 #include "convergence/wrinkle_measure.h"
 #include "reference/bodies/makers.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/scratch_folder.h"
+#include "verification/specimens/scratch_folder.h"
 #include "verification/hdf5_file.h"
 #include "verification/stored_run_file.h"
 #include "verification/trajectory_file.h"

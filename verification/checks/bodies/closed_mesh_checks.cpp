@@ -11,11 +11,11 @@
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/level_set/level_set_checks.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
-#include "verification/checks/scratch_folder.h"
-#include "verification/checks/specimens.h"
-#include "verification/checks/ugly_solids.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/scratch_folder.h"
+#include "verification/specimens/specimens.h"
+#include "verification/specimens/ugly_solids.h"
 
 namespace foldproof {
 

@@ -8,8 +8,8 @@
 #include "reference/bodies/grid_content.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/level_set/level_set_checks.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/ugly_solids.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/ugly_solids.h"
 
 namespace foldproof {
 

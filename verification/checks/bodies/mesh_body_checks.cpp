@@ -6,9 +6,9 @@
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/level_set/level_set_checks.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/scratch_folder.h"
-#include "verification/checks/trial_cases.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/scratch_folder.h"
+#include "verification/specimens/trial_cases.h"
 
 namespace foldproof {
 

@@ -7,9 +7,9 @@
 
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/dynamics/solver_checks.h"
-#include "verification/checks/processor_time.h"
+#include "verification/processor_time.h"
 
 namespace foldproof {
 

@@ -5,7 +5,7 @@
 
 #include "reference/dynamics/system.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

@@ -6,10 +6,10 @@
 
 #include "reference/dynamics/simulate.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/checks/layered_cloth.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
-#include "verification/checks/sticking_scenes.h"
+#include "verification/specimens/layered_cloth.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/sticking_scenes.h"
 
 namespace foldproof {
 

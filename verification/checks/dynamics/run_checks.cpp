@@ -4,7 +4,7 @@
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

@@ -5,9 +5,9 @@
 
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
-#include "verification/checks/solver_problems.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/solver_problems.h"
 #include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {

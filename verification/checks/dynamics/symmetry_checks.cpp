@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

@@ -3,8 +3,8 @@
 
 #include "reference/dynamics/biconjugate_gradient.h"
 #include "reference/dynamics/system.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/dynamics/solver_checks.h"
 #include "verification/oracles/dense_algebra.h"
 

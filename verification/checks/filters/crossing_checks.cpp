@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "reference/filters/feature_pair.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/feature_distance.h"
 
 namespace foldproof {

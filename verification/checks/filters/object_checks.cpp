@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "verification/checks/filters/contact_checks.h"
-#include "verification/checks/contact_scenes.h"
-#include "verification/checks/measured.h"
+#include "verification/specimens/contact_scenes.h"
+#include "verification/specimens/measured.h"
 
 namespace foldproof {
 

@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "reference/filters/cloth_pairs.h"
-#include "verification/checks/layered_cloth.h"
-#include "verification/checks/measured.h"
+#include "verification/specimens/layered_cloth.h"
+#include "verification/specimens/measured.h"
 #include "verification/checks/filters/self_collision_checks.h"
 
 namespace foldproof {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "reference/dynamics/system.h"
-#include "verification/checks/strain_scenes.h"
+#include "verification/specimens/strain_scenes.h"
 #include "verification/oracles/limited_spring.h"
 
 namespace foldproof {

@@ -4,8 +4,8 @@
 
 #include "reference/dynamics/system.h"
 #include "verification/checks/filters/strain_limit_checks.h"
-#include "verification/checks/strain_scenes.h"
-#include "verification/checks/trial_cases.h"
+#include "verification/specimens/strain_scenes.h"
+#include "verification/specimens/trial_cases.h"
 
 namespace foldproof {
 

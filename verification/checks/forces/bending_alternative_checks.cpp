@@ -2,9 +2,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "verification/checks/bending_alternatives.h"
+#include "verification/specimens/bending_alternatives.h"
 #include "verification/checks/forces/bending_checks.h"
-#include "verification/checks/measured.h"
+#include "verification/specimens/measured.h"
 
 namespace foldproof {
 

@@ -7,8 +7,8 @@
 
 #include "reference/forces/degenerate.h"
 #include "verification/checks/forces/bending_checks.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/specimens.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "verification/checks/measured.h"
-#include "verification/checks/specimens.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

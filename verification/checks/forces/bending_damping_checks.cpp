@@ -2,8 +2,8 @@
 
 #include "verification/checks/forces/bending_checks.h"
 #include "verification/checks/forces/damping_laws.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/specimens.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "verification/checks/forces/bending_checks.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/specimens.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/specimens.h"
 #include "verification/checks/forces/work.h"
 
 namespace foldproof {

@@ -4,9 +4,9 @@
 
 #include "reference/mesh/shapes.h"
 #include "verification/checks/forces/bending_checks.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
-#include "verification/checks/specimens.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/specimens.h"
 #include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {

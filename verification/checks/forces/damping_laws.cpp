@@ -1,6 +1,6 @@
 #include "verification/checks/forces/damping_laws.h"
 
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {

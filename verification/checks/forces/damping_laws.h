@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "verification/checks/measured.h"
+#include "verification/specimens/measured.h"
 
 namespace foldproof {
 

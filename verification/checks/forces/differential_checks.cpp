@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "verification/checks/measured.h"
-#include "verification/checks/specimens.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/specimens.h"
 #include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "verification/check.h"
-#include "verification/checks/measured.h"
+#include "verification/specimens/measured.h"
 
 namespace foldproof {
 

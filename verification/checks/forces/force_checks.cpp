@@ -5,8 +5,8 @@
 #include "reference/dynamics/system.h"
 #include "reference/forces/bending.h"
 #include "verification/checks/forces/differential_checks.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/specimens.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/specimens.h"
 #include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {

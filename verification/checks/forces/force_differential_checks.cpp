@@ -6,8 +6,8 @@
 #include "reference/dynamics/system.h"
 #include "reference/forces/springs.h"
 #include "verification/checks/forces/differential_checks.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/specimens.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/specimens.h"
 #include "verification/oracles/force_derivatives.h"
 
 namespace foldproof {

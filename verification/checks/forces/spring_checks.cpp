@@ -3,8 +3,8 @@
 
 #include "verification/checks/forces/damping_laws.h"
 #include "verification/checks/forces/force_checks.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/specimens.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/specimens.h"
 #include "verification/checks/forces/spring_sheet.h"
 #include "verification/checks/forces/work.h"
 #include "verification/oracles/definitions.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "verification/checks/measured.h"
+#include "verification/specimens/measured.h"
 #include "verification/oracles/exact_solutions.h"
 
 namespace foldproof {

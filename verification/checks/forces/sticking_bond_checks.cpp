@@ -8,10 +8,10 @@
 
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/forces/sticking_checks.h"
-#include "verification/checks/sticking_scenes.h"
+#include "verification/specimens/sticking_scenes.h"
 #include "verification/oracles/triangle_distance.h"
 
 namespace foldproof {

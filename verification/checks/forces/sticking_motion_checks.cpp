@@ -6,10 +6,10 @@
 #include <memory>
 
 #include "reference/dynamics/simulate.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/forces/sticking_checks.h"
-#include "verification/checks/sticking_scenes.h"
+#include "verification/specimens/sticking_scenes.h"
 
 namespace foldproof {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

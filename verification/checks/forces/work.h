@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "verification/checks/measured.h"
+#include "verification/specimens/measured.h"
 #include "verification/oracles/estimate.h"
 
 namespace foldproof {

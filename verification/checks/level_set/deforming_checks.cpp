@@ -11,9 +11,9 @@
 #include "reference/level_set/octree_nodes.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
-#include "verification/checks/scratch_folder.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/scratch_folder.h"
 #include "verification/seeds.h"
 
 namespace foldproof {

@@ -5,10 +5,10 @@
 
 #include "reference/level_set/narrow_band.h"
 #include "verification/checks/level_set/level_set_checks.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
-#include "verification/checks/specimens.h"
-#include "verification/checks/ugly_solids.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/specimens.h"
+#include "verification/specimens/ugly_solids.h"
 
 namespace foldproof {
 

@@ -3,10 +3,10 @@
 
 #include "reference/level_set/mesh_distance.h"
 #include "verification/checks/level_set/level_set_checks.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
-#include "verification/checks/specimens.h"
-#include "verification/checks/ugly_solids.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/specimens.h"
+#include "verification/specimens/ugly_solids.h"
 #include "verification/oracles/triangle_distance.h"
 
 namespace foldproof {

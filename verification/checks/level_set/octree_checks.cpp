@@ -8,8 +8,8 @@
 
 #include "reference/level_set/object.h"
 #include "reference/level_set/octree_nodes.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/seeds.h"
 
 namespace foldproof {

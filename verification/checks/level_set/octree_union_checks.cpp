@@ -3,8 +3,8 @@
 #include <random>
 
 #include "reference/level_set/octree_nodes.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/level_set/octree_checks.h"
 #include "verification/seeds.h"
 

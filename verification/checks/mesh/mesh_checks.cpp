@@ -10,9 +10,9 @@
 
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/scratch_folder.h"
-#include "verification/checks/specimens.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/scratch_folder.h"
+#include "verification/specimens/specimens.h"
 #include "verification/seeds.h"
 
 namespace foldproof {

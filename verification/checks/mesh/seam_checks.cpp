@@ -8,8 +8,8 @@
 #include "reference/mesh/seams.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/scene/scene_checks.h"
-#include "verification/checks/scratch_folder.h"
-#include "verification/checks/trial_cases.h"
+#include "verification/specimens/scratch_folder.h"
+#include "verification/specimens/trial_cases.h"
 #include "verification/seeds.h"
 
 namespace foldproof {

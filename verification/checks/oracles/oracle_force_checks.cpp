@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "verification/checks/oracles/oracle_checks.h"
-#include "verification/checks/specimens.h"
+#include "verification/specimens/specimens.h"
 #include "verification/oracles/definitions.h"
 #include "verification/oracles/exact_solutions.h"
 #include "verification/oracles/force_derivatives.h"

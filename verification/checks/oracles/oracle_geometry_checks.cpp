@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/oracles/oracle_checks.h"
 #include "verification/oracles/crossing_subdivision.h"
 #include "verification/oracles/exact_crossings.h"

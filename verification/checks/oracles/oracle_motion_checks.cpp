@@ -4,7 +4,7 @@
 #include <complex>
 #include <numbers>
 
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/oracles/oracle_checks.h"
 #include "verification/oracles/amplification.h"
 #include "verification/oracles/dense_algebra.h"

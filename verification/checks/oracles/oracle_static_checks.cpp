@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/oracles/oracle_checks.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/depth_maps.h"

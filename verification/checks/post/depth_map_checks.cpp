@@ -3,8 +3,8 @@
 #include <string>
 
 #include "reference/post/depth_map.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/post/projection_checks.h"
 #include "verification/oracles/depth_maps.h"
 

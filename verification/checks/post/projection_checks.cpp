@@ -7,9 +7,9 @@
 #include <numeric>
 #include <string>
 
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
-#include "verification/checks/projection_specimens.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/projection_specimens.h"
 
 namespace foldproof {
 

@@ -5,10 +5,10 @@
 
 #include "reference/mesh/shapes.h"
 #include "reference/mesh/subdivision.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/post/projection_checks.h"
-#include "verification/checks/projection_specimens.h"
+#include "verification/specimens/projection_specimens.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/seeds.h"
 

@@ -7,10 +7,10 @@
 
 #include "reference/level_set/mesh_grid.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/measured.h"
+#include "verification/specimens/measured.h"
 #include "verification/checks/post/projection_checks.h"
-#include "verification/checks/projection_specimens.h"
-#include "verification/checks/specimens.h"
+#include "verification/specimens/projection_specimens.h"
+#include "verification/specimens/specimens.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/seeds.h"
 

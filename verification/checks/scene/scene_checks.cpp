@@ -8,8 +8,8 @@
 
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/checks/moving_scenes.h"
-#include "verification/checks/trial_cases.h"
+#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/trial_cases.h"
 
 namespace foldproof {
 

@@ -6,7 +6,7 @@
 
 #include "reference/mesh/shapes.h"
 #include "verification/checks/scene/scene_checks.h"
-#include "verification/checks/trial_cases.h"
+#include "verification/specimens/trial_cases.h"
 
 namespace foldproof {
 

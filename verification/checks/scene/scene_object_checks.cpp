@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "verification/checks/scene/scene_checks.h"
-#include "verification/checks/trial_cases.h"
+#include "verification/specimens/trial_cases.h"
 
 namespace foldproof {
 

@@ -4,9 +4,9 @@
 #include <fstream>
 
 #include "reference/mesh/obj.h"
-#include "verification/checks/scratch_folder.h"
+#include "verification/specimens/scratch_folder.h"
 #include "verification/checks/forces/sticking_checks.h"
-#include "verification/checks/trial_cases.h"
+#include "verification/specimens/trial_cases.h"
 
 namespace foldproof {
 

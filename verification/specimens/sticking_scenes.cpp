@@ -1,4 +1,4 @@
-#include "verification/checks/sticking_scenes.h"
+#include "verification/specimens/sticking_scenes.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "reference/mesh/shapes.h"
-#include "verification/checks/contact_scenes.h"
+#include "verification/specimens/contact_scenes.h"
 
 namespace foldproof {
 

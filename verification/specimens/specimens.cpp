@@ -1,4 +1,4 @@
-#include "verification/checks/specimens.h"
+#include "verification/specimens/specimens.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

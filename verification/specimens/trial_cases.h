@@ -7,7 +7,7 @@
 
 #include "reference/scene/scene.h"
 #include "verification/check.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

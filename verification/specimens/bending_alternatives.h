@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "verification/checks/specimens.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

@@ -1,4 +1,4 @@
-#include "verification/checks/scratch_folder.h"
+#include "verification/specimens/scratch_folder.h"
 
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-#include "verification/checks/layered_cloth.h"
+#include "verification/specimens/layered_cloth.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
-#include "verification/checks/projection_specimens.h"
+#include "verification/specimens/projection_specimens.h"
 
 #include <Eigen/Geometry>
 
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

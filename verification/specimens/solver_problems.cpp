@@ -1,8 +1,8 @@
-#include "verification/checks/solver_problems.h"
+#include "verification/specimens/solver_problems.h"
 
 #include <cmath>
 
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reference/scene/scene.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/definitions.h"
 
 namespace foldproof {

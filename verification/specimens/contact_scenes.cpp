@@ -1,4 +1,4 @@
-#include "verification/checks/contact_scenes.h"
+#include "verification/specimens/contact_scenes.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "verification/checks/trial_cases.h"
+#include "verification/specimens/trial_cases.h"
 
 #include <algorithm>
 

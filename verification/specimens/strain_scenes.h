@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "reference/scene/scene.h"
-#include "verification/checks/measured.h"
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

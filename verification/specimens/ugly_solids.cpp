@@ -1,4 +1,4 @@
-#include "verification/checks/ugly_solids.h"
+#include "verification/specimens/ugly_solids.h"
 
 #include <cmath>
 

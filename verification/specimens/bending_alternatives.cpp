@@ -1,4 +1,4 @@
-#include "verification/checks/bending_alternatives.h"
+#include "verification/specimens/bending_alternatives.h"
 
 #include <Eigen/Geometry>
 

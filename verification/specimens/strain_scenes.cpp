@@ -1,10 +1,10 @@
-#include "verification/checks/strain_scenes.h"
+#include "verification/specimens/strain_scenes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "verification/checks/specimens.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

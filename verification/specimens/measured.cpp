@@ -1,11 +1,11 @@
-#include "verification/checks/measured.h"
+#include "verification/specimens/measured.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <exception>
 #include <limits>
 
-#include "verification/checks/moving_scenes.h"
+#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 
