@@ -12,8 +12,8 @@
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/hdf5_file.h"
-#include "verification/kept_level_sets_file.h"
+#include "verification/files/hdf5_file.h"
+#include "verification/files/kept_level_sets_file.h"
 
 namespace foldproof {
 

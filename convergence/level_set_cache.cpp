@@ -12,9 +12,9 @@
 #include "reference/mesh/shapes.h"
 #include "verification/processor_time.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/hdf5_file.h"
-#include "verification/kept_level_sets_file.h"
-#include "verification/level_set_cache_file.h"
+#include "verification/files/hdf5_file.h"
+#include "verification/files/kept_level_sets_file.h"
+#include "verification/files/level_set_cache_file.h"
 
 namespace foldproof {
 

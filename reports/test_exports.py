@@ -136,7 +136,7 @@ class ExportedFiles(WithCase):
 
 
 def program_xdmf(file: str, times: np.ndarray, shape: tuple[int, ...], triangles: int) -> str:
-    """The XDMF that verification/trajectory_file.cpp writes: its own text, filled in."""
+    """The XDMF that verification/files/trajectory_file.cpp writes: its own text, filled in."""
     source = (REPORTS.parent / "verification" / "trajectory_file.cpp").read_text(encoding="utf-8")
     head, frame = (source.split(f'{name} = R"(', 1)[1].split(')";', 1)[0] for name in ("xdmf_head", "xdmf_frame"))
     filled = [frame.replace("{time:.17g}", f"{time:.17g}").format(frame=k, file=file, triangles=triangles, particles=shape[1],

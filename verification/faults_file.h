@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "verification/results_file.h"
+#include "verification/files/results_file.h"
 
 namespace foldproof {
 

@@ -20,7 +20,7 @@
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
-#include "verification/whole_file.h"
+#include "verification/files/whole_file.h"
 
 namespace foldproof {
 

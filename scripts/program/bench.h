@@ -1,6 +1,6 @@
 #pragma once
 
-#include "verification/results_file.h"
+#include "verification/files/results_file.h"
 
 namespace foldproof {
 

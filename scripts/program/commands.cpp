@@ -23,7 +23,7 @@
 #include "verification/all_checks.h"
 #include "verification/faults_file.h"
 #include "verification/seeds.h"
-#include "verification/verdicts_file.h"
+#include "verification/files/verdicts_file.h"
 
 namespace foldproof {
 

@@ -7,7 +7,7 @@
 #include "scripts/program/commands.h"
 #include "scripts/program/json_text.h"
 #include "verification/oracles/exact_crossings.h"
-#include "verification/stored_run_file.h"
+#include "verification/files/stored_run_file.h"
 
 namespace foldproof {
 

@@ -1,7 +1,7 @@
 // Ruling the paper's claims from a run.
 #pragma once
 
-#include "verification/results_file.h"
+#include "verification/files/results_file.h"
 
 namespace foldproof {
 

@@ -19,8 +19,8 @@
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
-#include "verification/stored_run_file.h"
-#include "verification/trajectory_file.h"
+#include "verification/files/stored_run_file.h"
+#include "verification/files/trajectory_file.h"
 
 namespace foldproof {
 

@@ -7,7 +7,7 @@
 #include "scripts/program/jobs.h"
 #include "verification/cases/expectations.h"
 #include "verification/check.h"
-#include "verification/results_file.h"
+#include "verification/files/results_file.h"
 #include "verification/subject.h"
 
 namespace foldproof {

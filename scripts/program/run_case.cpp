@@ -11,9 +11,9 @@
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/cases/judge.h"
-#include "verification/checkpoint_file.h"
-#include "verification/kept_level_sets_file.h"
-#include "verification/trajectory_file.h"
+#include "verification/files/checkpoint_file.h"
+#include "verification/files/kept_level_sets_file.h"
+#include "verification/files/trajectory_file.h"
 
 namespace foldproof {
 

@@ -6,7 +6,7 @@
 #include "reference/dynamics/simulate.h"
 #include "verification/cases/expectations.h"
 #include "verification/check.h"
-#include "verification/results_file.h"
+#include "verification/files/results_file.h"
 
 namespace foldproof {
 

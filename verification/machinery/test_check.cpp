@@ -10,7 +10,7 @@
 #include "verification/specimens/scratch_folder.h"
 #include "verification/faults_file.h"
 #include "verification/subject.h"
-#include "verification/verdicts_file.h"
+#include "verification/files/verdicts_file.h"
 
 using namespace foldproof;
 

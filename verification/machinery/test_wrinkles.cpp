@@ -8,9 +8,9 @@
 #include "reference/bodies/makers.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/hdf5_file.h"
-#include "verification/stored_run_file.h"
-#include "verification/trajectory_file.h"
+#include "verification/files/hdf5_file.h"
+#include "verification/files/stored_run_file.h"
+#include "verification/files/trajectory_file.h"
 
 using namespace foldproof;
 using std::numbers::pi;

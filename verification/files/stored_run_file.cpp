@@ -1,10 +1,10 @@
-#include "verification/stored_run_file.h"
+#include "verification/files/stored_run_file.h"
 
 #include <stdexcept>
 #include <utility>
 
 #include "reference/bodies/makers.h"
-#include "verification/hdf5_file.h"
+#include "verification/files/hdf5_file.h"
 
 namespace foldproof {
 

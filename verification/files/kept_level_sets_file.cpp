@@ -1,4 +1,4 @@
-#include "verification/kept_level_sets_file.h"
+#include "verification/files/kept_level_sets_file.h"
 
 #include <filesystem>
 #include <mutex>
@@ -7,8 +7,8 @@
 
 #include "reference/bodies/deforming_content.h"
 #include "reference/bodies/grid_content.h"
-#include "verification/hdf5_file.h"
-#include "verification/level_set_cache_file.h"
+#include "verification/files/hdf5_file.h"
+#include "verification/files/level_set_cache_file.h"
 
 namespace foldproof {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "verification/results_file.h"
+#include "verification/files/results_file.h"
 
 namespace foldproof {
 

@@ -1,4 +1,4 @@
-#include "verification/whole_file.h"
+#include "verification/files/whole_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
-#include "verification/provenance_file.h"
+#include "verification/files/provenance_file.h"
 
-#include "verification/hdf5_file.h"
+#include "verification/files/hdf5_file.h"
 
 namespace foldproof {
 

@@ -1,12 +1,12 @@
-#include "verification/studies_file.h"
+#include "verification/files/studies_file.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include "verification/findings_file.h"
-#include "verification/hdf5_file.h"
+#include "verification/files/findings_file.h"
+#include "verification/files/hdf5_file.h"
 
 namespace foldproof {
 

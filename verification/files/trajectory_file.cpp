@@ -1,14 +1,14 @@
-#include "verification/trajectory_file.h"
+#include "verification/files/trajectory_file.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <filesystem>
 
-#include "verification/findings_file.h"
-#include "verification/hdf5_file.h"
-#include "verification/verdicts_file.h"
-#include "verification/whole_file.h"
+#include "verification/files/findings_file.h"
+#include "verification/files/hdf5_file.h"
+#include "verification/files/verdicts_file.h"
+#include "verification/files/whole_file.h"
 
 namespace foldproof {
 

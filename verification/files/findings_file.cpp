@@ -1,6 +1,6 @@
-#include "verification/findings_file.h"
+#include "verification/files/findings_file.h"
 
-#include "verification/hdf5_file.h"
+#include "verification/files/hdf5_file.h"
 
 namespace foldproof {
 

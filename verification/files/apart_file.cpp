@@ -1,4 +1,4 @@
-#include "verification/apart_file.h"
+#include "verification/files/apart_file.h"
 
 #include <sys/resource.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-#include "verification/hdf5_file.h"
+#include "verification/files/hdf5_file.h"
 
 #include <hdf5.h>
 
@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "verification/apart_file.h"
-#include "verification/whole_file.h"
+#include "verification/files/apart_file.h"
+#include "verification/files/whole_file.h"
 
 namespace foldproof {
 

@@ -1,11 +1,11 @@
-#include "verification/verdicts_file.h"
+#include "verification/files/verdicts_file.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "verification/whole_file.h"
+#include "verification/files/whole_file.h"
 
 namespace foldproof {
 

@@ -1,10 +1,10 @@
-#include "verification/results_file.h"
+#include "verification/files/results_file.h"
 
 #include <fmt/format.h>
 
-#include "verification/findings_file.h"
-#include "verification/hdf5_file.h"
-#include "verification/studies_file.h"
+#include "verification/files/findings_file.h"
+#include "verification/files/hdf5_file.h"
+#include "verification/files/studies_file.h"
 
 namespace foldproof {
 

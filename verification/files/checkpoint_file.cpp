@@ -1,4 +1,4 @@
-#include "verification/checkpoint_file.h"
+#include "verification/files/checkpoint_file.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "reference/bodies/content_key.h"
-#include "verification/hdf5_file.h"
+#include "verification/files/hdf5_file.h"
 
 namespace foldproof {
 

@@ -6,7 +6,7 @@
 
 #include "verification/check.h"
 #include "verification/claims.h"
-#include "verification/provenance_file.h"
+#include "verification/files/provenance_file.h"
 
 namespace foldproof {
 

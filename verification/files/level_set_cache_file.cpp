@@ -1,4 +1,4 @@
-#include "verification/level_set_cache_file.h"
+#include "verification/files/level_set_cache_file.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "reference/bodies/deforming_content.h"
-#include "verification/hdf5_file.h"
+#include "verification/files/hdf5_file.h"
 
 namespace foldproof {
 

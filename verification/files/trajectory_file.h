@@ -8,7 +8,7 @@
 #include "reference/dynamics/simulate.h"
 #include "reference/scene/scene.h"
 #include "verification/check.h"
-#include "verification/provenance_file.h"
+#include "verification/files/provenance_file.h"
 
 namespace foldproof {
 
