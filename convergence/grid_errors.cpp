@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "verification/check.h"
+#include "verification/verdict.h"
 #include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {

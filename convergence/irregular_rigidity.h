@@ -1,7 +1,7 @@
 // Part of bending-rigidity: sheets whose triangles do not repeat themselves.
 #pragma once
 
-#include "verification/check.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 

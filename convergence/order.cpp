@@ -5,7 +5,7 @@
 #include <string>
 
 #include "reference/types.h"
-#include "verification/check.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 

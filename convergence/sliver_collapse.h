@@ -1,7 +1,7 @@
 // When a ribbon of slivers loses a triangle, and that the step does not decide it.
 #pragma once
 
-#include "verification/check.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 

@@ -9,7 +9,7 @@
 #include "scripts/program/commands.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
-#include "verification/golden.h"
+#include "verification/oracles/golden.h"
 
 namespace foldproof {
 namespace {

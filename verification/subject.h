@@ -8,7 +8,7 @@
 
 #include "reference/scene/scene.h"
 #include "reference/types.h"
-#include "verification/check.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 

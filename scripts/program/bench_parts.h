@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "reference/scene/scene.h"
-#include "verification/check.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 

@@ -20,8 +20,8 @@
 #include "scripts/program/report_commands.h"
 #include "scripts/program/run_all.h"
 #include "scripts/program/run_case.h"
-#include "verification/all_checks.h"
-#include "verification/faults_file.h"
+#include "verification/checks.h"
+#include "verification/faults/faults_file.h"
 #include "verification/seeds.h"
 #include "verification/files/verdicts_file.h"
 

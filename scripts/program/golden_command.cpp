@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scripts/program/commands.h"
-#include "verification/golden.h"
+#include "verification/oracles/golden.h"
 
 namespace foldproof {
 

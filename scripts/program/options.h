@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scripts/program/jobs.h"
-#include "verification/check.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 

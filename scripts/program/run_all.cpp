@@ -10,7 +10,7 @@
 #include "convergence/studies.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/run_case.h"
-#include "verification/all_checks.h"
+#include "verification/checks.h"
 
 namespace foldproof {
 

@@ -5,7 +5,7 @@
 
 #include "reference/dynamics/simulate.h"
 #include "verification/cases/expectations.h"
-#include "verification/check.h"
+#include "verification/verdict.h"
 #include "verification/files/results_file.h"
 
 namespace foldproof {

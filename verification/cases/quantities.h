@@ -8,7 +8,7 @@
 #include "reference/dynamics/simulate.h"
 #include "reference/scene/scene.h"
 #include "verification/cases/repetition.h"
-#include "verification/check.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 

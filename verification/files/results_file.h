@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "verification/check.h"
-#include "verification/claims.h"
+#include "verification/verdict.h"
+#include "verification/claims/claims.h"
 #include "verification/files/provenance_file.h"
 
 namespace foldproof {

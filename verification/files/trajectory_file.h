@@ -7,7 +7,7 @@
 
 #include "reference/dynamics/simulate.h"
 #include "reference/scene/scene.h"
-#include "verification/check.h"
+#include "verification/verdict.h"
 #include "verification/files/provenance_file.h"
 
 namespace foldproof {

@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "reference/scene/key_file.h"
-#include "verification/check.h"
+#include "verification/verdict.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/faults_file.h"
+#include "verification/faults/faults_file.h"
 #include "verification/subject.h"
 #include "verification/files/verdicts_file.h"
 

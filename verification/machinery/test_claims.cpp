@@ -6,8 +6,8 @@
 #include <set>
 
 #include "convergence/studies.h"
-#include "verification/all_checks.h"
-#include "verification/claims.h"
+#include "verification/checks.h"
+#include "verification/claims/claims.h"
 
 using namespace foldproof;
 

@@ -6,7 +6,7 @@
 #include "reference/filters/object_response.h"
 #include "reference/forces/sticking.h"
 #include "reference/post/depth_map.h"
-#include "verification/golden.h"
+#include "verification/oracles/golden.h"
 
 using namespace foldproof;
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "verification/check.h"
+#include "verification/verdict.h"
 #include "verification/oracles/estimate.h"
 #include "verification/subject.h"
 

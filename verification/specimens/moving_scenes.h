@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "reference/scene/scene.h"
-#include "verification/check.h"
+#include "verification/verdict.h"
 #include "verification/seeds.h"
 #include "verification/subject.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "verification/check.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 

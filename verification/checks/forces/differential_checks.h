@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "verification/check.h"
+#include "verification/verdict.h"
 #include "verification/specimens/measured.h"
 
 namespace foldproof {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "verification/check.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 

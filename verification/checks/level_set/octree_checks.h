@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reference/level_set/octree.h"
-#include "verification/check.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "verification/check.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "verification/check.h"
+#include "verification/verdict.h"
 #include "verification/oracles/estimate.h"
 
 namespace foldproof {

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "verification/claims.h"
+#include "verification/claims/claims.h"
 
 namespace foldproof {
 

@@ -1,7 +1,7 @@
 // Claims of BMF03 section 4: the bending element.
 #include <algorithm>
 
-#include "verification/claims.h"
+#include "verification/claims/claims.h"
 
 namespace foldproof {
 

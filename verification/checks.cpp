@@ -1,4 +1,4 @@
-#include "verification/all_checks.h"
+#include "verification/checks.h"
 
 #include "verification/checks/forces/bending_checks.h"
 #include "verification/checks/filters/contact_checks.h"

@@ -1,4 +1,4 @@
-#include "verification/golden.h"
+#include "verification/oracles/golden.h"
 
 #include <array>
 #include <cmath>

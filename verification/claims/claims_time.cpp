@@ -1,7 +1,7 @@
 // Claims of BMF03 section 3: time integration and the linear solve.
 #include <fmt/format.h>
 
-#include "verification/claims.h"
+#include "verification/claims/claims.h"
 
 namespace foldproof {
 

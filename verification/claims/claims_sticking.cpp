@@ -1,5 +1,5 @@
 // Claims of BMF03 section 6: dynamic sticking constraints.
-#include "verification/claims.h"
+#include "verification/claims/claims.h"
 
 namespace foldproof {
 

@@ -1,4 +1,4 @@
-#include "verification/faults_file.h"
+#include "verification/faults/faults_file.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "verification/claims.h"
+#include "verification/claims/claims.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "verification/check.h"
+#include "verification/verdict.h"
 
 #include <chrono>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Claims about constraints on the motion: strain limits (BMF03 section 3).
-#include "verification/claims.h"
+#include "verification/claims/claims.h"
 
 namespace foldproof {
 

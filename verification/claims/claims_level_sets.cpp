@@ -1,7 +1,7 @@
 // Claims of BMF03 section 5.1 on how the objects' level sets are stored, updated and interpolated.
 #include <utility>
 
-#include "verification/claims.h"
+#include "verification/claims/claims.h"
 
 namespace foldproof {
 

@@ -1,4 +1,4 @@
-// The list of seeded faults, verification/faults.toml.
+// The list of seeded faults, verification/faults/faults.toml.
 #pragma once
 
 #include <string>
