@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tests of scripts/record_needs, in a small repository of their own: scripts/test_record_needs.py"""
+"""Tests of scripts/record_needs, in a small repository of their own: scripts/tests/test_record_needs.py"""
 from __future__ import annotations
 
 import json

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Tests of the program as a user meets it: commands, exit codes, messages, files.
 
-scripts/test_program.py [--program FILE] [ProgramTest.test_...]      --program: another than build/foldproof
+scripts/tests/test_program.py [--program FILE] [ProgramTest.test_...]      --program: another than build/foldproof
 """
 
 import json

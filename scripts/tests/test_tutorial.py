@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs the commands of reports/TUTORIAL.md from top to bottom, and compares what they print with what stands there.
 
-Usage: scripts/test_tutorial.py [--update]     --update prints what each command says, instead of comparing
+Usage: scripts/tests/test_tutorial.py [--update]     --update prints what each command says, instead of comparing
 Exit code: 0 all as it stands there; 1 not so.
 """
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Tests of `foldproof ablate`: what a scene needs, its own error from finer and coarser meshes, results that stay.
 
-scripts/test_ablate.py [AblateTest.test_...]
+scripts/tests/test_ablate.py [AblateTest.test_...]
 """
 
 import json

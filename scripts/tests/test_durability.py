@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Tests that nothing is lost: kills at any moment, full disks, missing rights.
 
-Usage: scripts/test_durability.py [--kills N] [options of unittest]   (default: 10 kills)
+Usage: scripts/tests/test_durability.py [--kills N] [options of unittest]   (default: 10 kills)
 """
 
 import json

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "verification/machinery/hinge_specimens.h"
+#include "verification/tests/hinge_specimens.h"
 #include "verification/oracles/cloth.h"
 #include "verification/oracles/definitions.h"
 #include "verification/oracles/driven_hinge.h"

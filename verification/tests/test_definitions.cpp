@@ -5,7 +5,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "verification/machinery/hinge_specimens.h"
+#include "verification/tests/hinge_specimens.h"
 #include "verification/oracles/definitions.h"
 #include "verification/oracles/exact_solutions.h"
 #include "verification/oracles/heavy_cantilever.h"
