@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "convergence/ablation.h"
-#include "convergence/coarser_mesh.h"
-#include "convergence/finer_scene.h"
+#include "convergence/any_case/ablation.h"
+#include "convergence/any_case/coarser_mesh.h"
+#include "convergence/any_case/finer_scene.h"
 #include "reference/forces/bending.h"
 #include "reference/mesh/shapes.h"
 

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "convergence/order.h"
-#include "convergence/time_order.h"
+#include "convergence/integrators/time_order.h"
 #include "reference/types.h"
 
 namespace foldproof {

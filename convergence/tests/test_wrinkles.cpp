@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "convergence/section_profile.h"
-#include "convergence/wrinkle_measure.h"
+#include "convergence/contact/section_profile.h"
+#include "convergence/contact/wrinkle_measure.h"
 #include "reference/bodies/makers.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/scratch_folder.h"

@@ -11,9 +11,9 @@
 #include <optional>
 #include <set>
 
-#include "convergence/ablation.h"
-#include "convergence/coarser_mesh.h"
-#include "convergence/finer_scene.h"
+#include "convergence/any_case/ablation.h"
+#include "convergence/any_case/coarser_mesh.h"
+#include "convergence/any_case/finer_scene.h"
 #include "reference/bodies/makers.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/json_text.h"

@@ -1,7 +1,7 @@
 // Speed of the test for crossings of moving features.
 #include <vector>
 
-#include "convergence/crossing_families.h"
+#include "convergence/contact/crossing_families.h"
 #include "scripts/program/bench_parts.h"
 
 namespace foldproof {

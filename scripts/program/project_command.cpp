@@ -9,8 +9,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "convergence/section_profile.h"
-#include "convergence/wrinkle_measure.h"
+#include "convergence/contact/section_profile.h"
+#include "convergence/contact/wrinkle_measure.h"
 #include "reference/bodies/makers.h"
 #include "reference/mesh/subdivision.h"
 #include "reference/post/fold_projection.h"

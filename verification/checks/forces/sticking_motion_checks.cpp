@@ -62,7 +62,7 @@ Finding follows_finding(const Subject& subject) {
   const StickyPatch& patch = scene.sticky[0];
   const double a = largest_acceleration(motion, scene.x), h = 0.0012;
   const double soft = mass * a / patch.stiffness, q = h * patch.forecast_time * patch.stiffness / (2 * mass);
-  const double late = soft * q * q / (1 + q);  // derived in convergence/sticking_lag.cpp
+  const double late = soft * q * q / (1 + q);  // derived in convergence/sticking/sticking_lag.cpp
   const double part = (soft + late) / patch.far;
   Measured measured("largest distance from its place over what was derived", "1");
   for (const Integrator& integrator : paper_schemes()) {

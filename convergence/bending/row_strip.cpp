@@ -1,0 +1,140 @@
+#include "convergence/bending/row_strip.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "verification/oracles/dense_algebra.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr int cells_across = 3;  // an odd number of whole cells; equilateral: edges
+
+Scene strip_scene(const StripPattern& pattern, int panels, double spacing, const StripLoad& load) {
+  const double edge = spacing / pattern.spacing_over_edge;
+  const double length = (panels + 1) * spacing, width = cells_across * edge;
+  const bool along_x = pattern.along == 0;
+  const Sheet sheet{pattern.pattern, along_x ? length : width, along_x ? width : length,
+                    along_x ? panels + 1 : cells_across, along_x ? cells_across : panels + 1};
+  Scene scene = scene_of(make_sheet(sheet), strip_density);
+  scene.bending = BendingMaterial{strip_ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  if (load.gravity > 0) scene.gravity = Vector3(0, 0, -load.gravity);
+  if (load.stretch > 0) scene.stretch = StretchMaterial{load.stretch, 0, 1};
+  return scene;
+}
+
+/// Generalised forces: turning a panel [N m] carries all rows behind it, stretching it [N] too. Slopes first,
+/// then strains (forces times the spacing [N m]).
+Eigen::VectorXd generalised_forces(const RowStrip& strip, const Eigen::VectorXd& unknowns) {
+  const Eigen::Index n = strip.panels();
+  const Eigen::VectorXd slopes = unknowns.head(n), lengths = strip.spacing() * unknowns.tail(n);
+  const Eigen::Matrix2Xd force = strip.forces(strip.rows(slopes, lengths));
+  Eigen::VectorXd generalised(2 * n);
+  Eigen::Vector2d behind = Eigen::Vector2d::Zero();
+  for (Eigen::Index k = n - 1; k >= 0; --k) {
+    behind += force.col(k + 2);
+    const Eigen::Vector2d along(std::cos(slopes[k]), std::sin(slopes[k])), across(-along.y(), along.x());
+    generalised[k] = lengths[k] * across.dot(behind);
+    generalised[n + k] = strip.spacing() * along.dot(behind);
+  }
+  return generalised;
+}
+
+Eigen::MatrixXd jacobian(const RowStrip& strip, const Eigen::VectorXd& unknowns) {
+  constexpr double change = 1e-6;  // rad and strain
+  Eigen::MatrixXd matrix(unknowns.size(), unknowns.size());
+  for (Eigen::Index k = 0; k < unknowns.size(); ++k) {
+    Eigen::VectorXd ahead = unknowns, behind = unknowns;
+    ahead[k] += change;
+    behind[k] -= change;
+    matrix.col(k) = (generalised_forces(strip, ahead) - generalised_forces(strip, behind)) / (2 * change);
+  }
+  return matrix;
+}
+
+}  // namespace
+
+const std::vector<StripPattern>& strip_patterns() {
+  static const std::vector<StripPattern> patterns = {
+      {"equilateral", SheetPattern::equilateral, 1, std::numbers::sqrt3 / 2},
+      {"squares, one diagonal", SheetPattern::one_diagonal, 0, 1},
+      {"squares, rows of alternating diagonal", SheetPattern::alternating, 0, 1},
+      {"squares, union jack", SheetPattern::union_jack, 0, 1}};
+  return patterns;
+}
+
+RowStrip::RowStrip(const Subject& subject, const StripPattern& pattern, int panels, const StripLoad& load)
+    : pattern_(pattern),
+      panels_(panels),
+      spacing_(strip_length / (panels + 0.5)),
+      width_(cells_across * spacing_ / pattern.spacing_over_edge),
+      load_(load),
+      scene_(strip_scene(pattern, panels, spacing_, load)),
+      probe_(subject, scene_) {
+  for (Eigen::Index i = 0; i < scene_.x.cols(); ++i)
+    row_of_.push_back(int(std::lround(scene_.mesh.rest(pattern.along, i) / spacing_)));
+}
+
+Eigen::Matrix2Xd RowStrip::rows(const Eigen::VectorXd& slopes, const Eigen::VectorXd& lengths) const {
+  Eigen::Matrix2Xd places = Eigen::Matrix2Xd::Zero(2, panels_ + 2);
+  places(0, 1) = spacing_;
+  for (int k = 0; k < panels_; ++k)
+    places.col(k + 2) =
+        places.col(k + 1) + lengths[k] * Eigen::Vector2d(std::cos(slopes[k]), std::sin(slopes[k]));
+  return places;
+}
+
+Eigen::Matrix2Xd RowStrip::forces(const Eigen::Matrix2Xd& rows) const {
+  PerParticle3 x = scene_.mesh.rest;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    x(pattern_.along, i) = rows(0, row_of_[size_t(i)]);
+    x(2, i) = rows(1, row_of_[size_t(i)]);
+  }
+  const PerParticle3 force = probe_.elastic(still_at(std::move(x)));
+  Eigen::Matrix2Xd sums = Eigen::Matrix2Xd::Zero(2, rows.cols());
+  for (Eigen::Index i = 0; i < force.cols(); ++i)
+    sums.col(row_of_[size_t(i)]) += Eigen::Vector2d(force(pattern_.along, i), force(2, i));
+  sums(1, sums.cols() - 1) -= load_.tip * width_;
+  return sums;
+}
+
+StripAtRest level(const RowStrip& strip) {
+  StripAtRest flat;
+  flat.slopes = Eigen::VectorXd::Zero(strip.panels());
+  flat.lengths = Eigen::VectorXd::Constant(strip.panels(), strip.spacing());
+  return flat;
+}
+
+StripAtRest at_rest(const RowStrip& strip, StripAtRest start) {
+  constexpr int most_steps = 40;
+  constexpr double longest = 0.3;  // of one step [rad]: keeps the chain from folding on its way
+  const Eigen::Index n = strip.panels();
+  Eigen::VectorXd unknowns(2 * n);
+  unknowns << start.slopes, start.lengths / strip.spacing();
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < most_steps; ++i) {
+    const Eigen::VectorXd step =
+        oracles::solved(jacobian(strip, unknowns), -generalised_forces(strip, unknowns));
+    Worst largest;
+    for (const double change : step) largest.see(std::abs(change));
+    const double size = largest.value();
+    unknowns += (size > longest ? longest / size : 1.0) * step;
+    start.last_step = size;
+    if (!(size > 1e-7) && !(size < 0.5 * before)) break;  // NaN ends it too
+    before = size;
+  }
+  start.slopes = unknowns.head(n);
+  start.lengths = strip.spacing() * unknowns.tail(n);
+  const Eigen::Matrix2Xd places = strip.rows(start.slopes, start.lengths);
+  start.reach = places(0, n + 1) - strip.spacing() / 2;
+  start.drop = -places(1, n + 1);
+  Worst strain;
+  for (Eigen::Index k = 0; k < n; ++k) strain.see(std::abs(unknowns[n + k] - 1));
+  start.strain = strain.value();
+  return start;
+}
+
+}  // namespace foldproof

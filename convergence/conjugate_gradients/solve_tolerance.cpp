@@ -1,0 +1,230 @@
+// solve-tolerance: how loose the implicit solves may be before order and error suffer.
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "convergence/order.h"
+#include "convergence/work_precision/precision_problem.h"
+#include "convergence/studies.h"
+#include "reference/dynamics/integrator.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double exact = 1e-14;        // tolerance that stands for exact solves
+constexpr double of_the_cases = 1e-8;  // the shipped cases' usual tolerance
+constexpr double order_kept = 0.1, error_kept = 0.1;
+
+/// The damped sheet; its fastest mode is overdamped several times.
+PrecisionProblem damped_sheet(Tier tier) {
+  constexpr double relaxation = 0.02;  // s
+  const int cells = tier == Tier::quick ? 6 : 12;
+  return {"sheet",
+          "the damped sheet",
+          hanging_sheet(cells, relaxation),
+          0.25,
+          FirstOpinion::runge_kutta,
+          "C",
+          2,
+          2,
+          16,
+          infinite};
+}
+
+std::vector<double> tolerances(Tier tier) {
+  std::vector<double> all = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, of_the_cases, SolverSettings{}.tolerance,
+                             exact};
+  if (tier == Tier::full)
+    all = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, exact};
+  return all;
+}
+
+/// One scheme with one tolerance over all steps.
+struct TolerantRuns {
+  std::string scheme;
+  double tolerance;
+  Convergence errors;              // over the motion [1], against the step [s]
+  std::vector<double> iterations;  // mean of a solve
+  std::vector<double> applications;
+
+  double order() const { return pair_orders(errors).back(); }
+};
+
+TolerantRuns runs_with(const Subject& subject, const PrecisionProblem& problem, const PrecisionTruth& truth,
+                       const Integrator& scheme, double tolerance) {
+  constexpr std::array<int, 3> finer = {2, 4, 8};  // steps over those at the elastic limit
+  TolerantRuns runs{std::string(scheme.name), tolerance, {}, {}, {}};
+  runs.errors.floor = truth.uncertainty;
+  Scene scene = problem.scene;
+  scene.integrator = runs.scheme;
+  scene.solver.tolerance = tolerance;
+  for (int times : finer) {
+    const int steps = times * int(std::ceil(problem.end / truth.elastic_limit));
+    const PlannedRun run = run_planned(subject, scene, {problem.end, steps, infinite, infinite});
+    runs.errors.steps.push_back(problem.end / steps);
+    runs.errors.errors.push_back(largest_distance(run.last.x, truth.x) / truth.motion);
+    runs.iterations.push_back(double(run.work.cg_iterations) / double(run.work.solves));
+    runs.applications.push_back(operator_applications(run.work));
+  }
+  return runs;
+}
+
+/// How far looseness shifts the last pair's order, and the largest relative change of an error.
+struct Harm {
+  double order, error;
+};
+
+Harm harm_of(const TolerantRuns& loose, const TolerantRuns& tight) {
+  Worst error;
+  for (size_t i = 0; i < loose.errors.errors.size(); ++i)
+    error.see(std::abs(loose.errors.errors[i] / tight.errors.errors[i] - 1));
+  return {std::abs(loose.order() - tight.order()), error.value()};
+}
+
+/// All tolerances of one scheme, loose to tight; the last stands for exact solves.
+using SchemeRuns = std::vector<TolerantRuns>;
+
+NamedFinding order_is_kept(const std::vector<SchemeRuns>& schemes, double tolerance,
+                           const std::string& whose) {
+  Worst worst;
+  std::vector<std::string> names;
+  std::vector<double> orders, exact_orders, errors;
+  for (const SchemeRuns& runs : schemes) {
+    for (const TolerantRuns& run : runs) {
+      if (run.tolerance != tolerance) continue;
+      const Harm harm = harm_of(run, runs.back());
+      names.push_back(run.scheme);
+      orders.push_back(run.order());
+      exact_orders.push_back(runs.back().order());
+      errors.push_back(harm.error);
+      worst.see(harm.order);
+    }
+  }
+  const Verdict verdict{names.empty() ? nan : worst.value(), order_kept / 10, 0, "1",
+                        "a tenth of what the order studies allow an order to be off, so that they judge the "
+                        "scheme and not its solves"};
+  return {
+      "solve-tolerance." + whose + "-leaves-the-order",
+      "With the " + whose + " tolerance of the solves, the orders of A, B and C are those of exact solves.",
+      {verdict,
+       {{"scheme", "1", names},
+        {"order", "1", orders},
+        {"order with exact solves", "1", exact_orders},
+        {"largest relative change of an error", "1", errors}},
+       "measured is the largest shift of the order of the two finest runs"}};
+}
+
+Table loosest(const std::vector<SchemeRuns>& schemes) {
+  std::vector<std::string> names;
+  std::vector<double> tolerance, exact_orders, orders, loose_iterations, exact_iterations;
+  for (const SchemeRuns& runs : schemes) {
+    const TolerantRuns& tight = runs.back();
+    size_t first = runs.size() - 1;
+    for (; first > 0; --first) {
+      const Harm harm = harm_of(runs[first - 1], tight);
+      if (!(harm.order <= order_kept && harm.error <= error_kept)) break;
+    }
+    names.push_back(tight.scheme);
+    tolerance.push_back(runs[first].tolerance);
+    orders.push_back(runs[first].order());
+    exact_orders.push_back(tight.order());
+    loose_iterations.push_back(runs[first].iterations.back());
+    exact_iterations.push_back(tight.iterations.back());
+  }
+  return {"loosest",
+          "The loosest tolerance that keeps the order within 0.1 and every error within 10 % of exact solves",
+          {{"scheme", "1", names},
+           {"loosest tolerance", "1", tolerance},
+           {"order with it", "1", orders},
+           {"order with exact solves", "1", exact_orders},
+           {"iterations a solve", "1", loose_iterations},
+           {"with exact solves", "1", exact_iterations}}};
+}
+
+Table all_runs(const std::vector<SchemeRuns>& schemes) {
+  std::vector<std::string> names;
+  std::array<std::vector<double>, 5> numbers;
+  for (const SchemeRuns& runs : schemes) {
+    for (const TolerantRuns& run : runs) {
+      for (size_t i = 0; i < run.iterations.size(); ++i) {
+        names.push_back(run.scheme);
+        const std::array<double, 5> row = {run.tolerance, run.errors.steps[i], 100 * run.errors.errors[i],
+                                           run.iterations[i], run.applications[i]};
+        for (size_t k = 0; k < row.size(); ++k) numbers[k].push_back(row[k]);
+      }
+    }
+  }
+  return {"runs",
+          "Error and cost with each tolerance",
+          {{"scheme", "1", names},
+           {"tolerance", "1", numbers[0]},
+           {"step", "s", numbers[1]},
+           {"error", "%", numbers[2]},
+           {"iterations a solve", "1", numbers[3]},
+           {"operator applications", "1", numbers[4]}}};
+}
+
+/// A curve for each scheme and each of the coarsest and the finest step.
+Figure figure_of(const std::vector<SchemeRuns>& schemes) {
+  Figure figure{
+      "error-against-tolerance",
+      "Error against the tolerance of the solves",
+      {"tolerance", "1", Scale::log},
+      {"position error over the motion", "%", Scale::log},
+      nan,
+      "Largest position error at the end, with the coarsest and with the finest step. Where a curve is "
+      "level the step decides on the error, where it rises the solves do.",
+      {}};
+  const size_t finest = schemes.front().front().iterations.size() - 1;
+  const std::array<std::pair<size_t, const char*>, 2> levels = {{{0, "coarsest"}, {finest, "finest"}}};
+  for (const auto& [level, words] : levels) {
+    for (const SchemeRuns& runs : schemes) {
+      Curve curve{runs.front().scheme + ", " + words + " step", {}, {}, 100 * runs.front().errors.floor, {}};
+      for (const TolerantRuns& run : runs) {
+        curve.x.push_back(run.tolerance);
+        curve.y.push_back(100 * run.errors.errors[level]);
+      }
+      figure.curves.push_back(std::move(curve));
+    }
+  }
+  return figure;
+}
+
+StudyResult run_solve_tolerance(const Subject& subject, Tier tier, const Progress& progress) {
+  const PrecisionProblem problem = damped_sheet(tier);
+  const PrecisionTruth truth = truth_of(subject, problem);
+  std::vector<SchemeRuns> schemes;
+  const std::vector<double> all = tolerances(tier);
+  double done = 0;
+  for (const Integrator& scheme : paper_schemes()) {
+    SchemeRuns runs;
+    for (double tolerance : all) {
+      runs.push_back(runs_with(subject, problem, truth, scheme, tolerance));
+      progress(++done / double(all.size() * paper_schemes().size()));
+    }
+    schemes.push_back(std::move(runs));
+  }
+  StudyResult result;
+  result.findings = {order_is_kept(schemes, SolverSettings{}.tolerance, "default"),
+                     order_is_kept(schemes, of_the_cases, "usual")};
+  result.figures = {figure_of(schemes)};
+  result.tables = {loosest(schemes), all_runs(schemes)};
+  return result;
+}
+
+}  // namespace
+
+Study solve_tolerance() {
+  return {
+      "solve-tolerance", "The default tolerance of the solves leaves the order of A, B and C alone.",
+      "BMF03 section 3",
+      "How loose may a solve be? A damped sheet, whose fastest mode is overdamped several times, is run with "
+      "A, B and C at half, a quarter and an eighth of the elastic limit while the relative residual at which "
+      "conjugate gradients stop goes from a tenth down to rounding. Errors are against an extrapolated RK4, "
+      "which solves nothing.",
+      run_solve_tolerance};
+}
+
+}  // namespace foldproof

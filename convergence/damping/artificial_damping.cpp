@@ -1,0 +1,210 @@
+// artificial-damping: what a method takes from, or adds to, vibrations that nothing damps, mode by mode and
+// over a hundred periods.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "convergence/damping/long_vibration.h"
+#include "convergence/damping/one_sided_damping.h"
+#include "convergence/order.h"
+#include "convergence/damping/sheet_modes.h"
+#include "convergence/studies.h"
+#include "reference/dynamics/integrator.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr std::array<double, 3> parts_of_limit = {1. / 4, 1. / 8, 1. / 16};  // steps over 2/omega_max
+
+// ---- every mode against the derived factors
+
+/// What a method does to all modes, undamped at three steps, and damped at the middle one.
+struct Response {
+  Integrator method;
+  std::vector<double> steps;                        // s
+  std::vector<std::vector<oracles::Factors>> free;  // undamped: a row a step
+  Relaxation relaxation;
+  std::vector<oracles::Factors> damped;  // at steps[1]
+};
+
+Response response_of(const Subject& subject, const VibratingSheet& sheet, const Integrator& method) {
+  // damping ratios up to 0.3 across the plane and 0.12 in it, so that no mode is lost in 30 steps
+  const double relaxation = 0.6 * sheet.limit / 2;
+  Response response{method, {}, {}, {0.4 * relaxation, relaxation}, {}};
+  for (const double part : parts_of_limit) {
+    response.steps.push_back(part * sheet.limit);
+    response.free.push_back(factors_of(subject, sheet, method, {}, response.steps.back()));
+  }
+  response.damped = factors_of(subject, sheet, method, response.relaxation, response.steps[1]);
+  return response;
+}
+
+NamedFinding as_derived(const VibratingSheet& sheet, const Response& response) {
+  const std::string name(response.method.name);
+  Worst worst;
+  Column omega_h{"omega h", "1", std::vector<double>{}}, ratios{"damping ratio", "1", std::vector<double>{}},
+      measured{"|factor|", "1", std::vector<double>{}},
+      errors{"error of the factors", "1", std::vector<double>{}};
+  const auto see = [&](const SheetMode& mode, const Relaxation& relaxation, double h,
+                       const oracles::Factors& factors) {
+    const oracles::Oscillator oscillator = oscillator_of(mode, relaxation);
+    const double error = distance_of(factors, oracles::step_factors(name, oscillator, h));
+    worst.see(error);
+    std::get<0>(omega_h.values).push_back(mode.frequency * h);
+    std::get<0>(ratios.values).push_back(oscillator.damping / (2 * mode.frequency));
+    std::get<0>(measured.values).push_back(decay_of(factors));
+    std::get<0>(errors.values).push_back(error);
+  };
+  for (size_t i = 0; i < sheet.modes.size(); ++i) {
+    for (size_t s = 0; s < response.steps.size(); ++s)
+      see(sheet.modes[i], {}, response.steps[s], response.free[s][i]);
+    see(sheet.modes[i], response.relaxation, response.steps[1], response.damped[i]);
+  }
+  return {"artificial-damping.modes." + name,
+          "A step of " + name +
+              " multiplies each vibration of a sheet, damped or not, by the factors derived from the method.",
+          {{worst.value(), factor_noise, 0, "1", why_factor_noise}, {omega_h, ratios, measured, errors}, ""}};
+}
+
+/// Powers of the step in what an undamped mode loses per period, by the expansion of |factor|.
+struct LossLaw {
+  std::string name, words;
+  double order;
+};
+
+std::vector<LossLaw> loss_laws() {
+  return {{"forward-euler", "grow by omega h pi per period", 1},
+          {"RK2", "grow by (omega h)^3 pi/4 per period", 3},
+          {"SSP-RK3", "lose (omega h)^3 pi/12 per period", 3},
+          {"RK4", "lose (omega h)^5 pi/72 per period", 5},
+          {"backward-euler", "lose omega h pi per period", 1},
+          {"linear-backward-euler", "lose omega h pi per period", 1},
+          {"BDF2", "lose (omega h)^3 pi/2 per period", 3}};
+}
+
+NamedFinding order_of_loss(const VibratingSheet& sheet, const Response& response, const LossLaw& law) {
+  const size_t fastest =
+      size_t(std::ranges::max_element(sheet.modes, {}, &SheetMode::frequency) - sheet.modes.begin());
+  Convergence losses;
+  Worst shift;
+  for (size_t s = 0; s < response.steps.size(); ++s) {
+    const double h = response.steps[s];
+    losses.steps.push_back(h);
+    losses.errors.push_back(std::abs(loss_per_period(sheet.modes[fastest], response.free[s][fastest], h)));
+  }
+  const Estimate deviation = order_deviation(losses, law.order, 1);
+  std::vector<double> orders = pair_orders(losses);
+  orders.insert(orders.begin(), nan);
+  return {"artificial-damping.order." + law.name,
+          "Under " + law.name + " undamped vibrations " + law.words + ".",
+          {{deviation.value, 0.25, deviation.uncertainty, "1",
+            "a loss of another power of the step is off by 2 (by 1 at least); at omega h = 1/8 the next term "
+            "of the expansion leaves some hundredths"},
+           {{"step", "s", losses.steps},
+            {"|change of amplitude per period|", "1", losses.errors},
+            {"order of the pair", "1", orders}},
+           "measured is |order - expected| of the last pair, on the fastest mode of the sheet"}};
+}
+
+// ---- what is shown
+
+Curve loss_curve(const VibratingSheet& sheet, const Response& response) {
+  const double h = response.steps.front();
+  std::vector<std::pair<double, double>> points;
+  Worst grows;
+  for (size_t i = 0; i < sheet.modes.size(); ++i) {
+    const double loss = loss_per_period(sheet.modes[i], response.free.front()[i], h);
+    const double least = 2 * std::numbers::pi / (sheet.modes[i].frequency * h) * 1e-9;
+    points.emplace_back(sheet.modes[i].frequency * h, std::abs(loss) > least ? std::abs(loss) : nan);
+    if (std::abs(loss) > least) grows.see(-loss);
+  }
+  std::ranges::sort(points, {}, &std::pair<double, double>::first);
+  Curve curve{std::string(response.method.name) + (grows.value() > 0 ? ", grows" : ""), {}, {}, nan, {}};
+  for (const auto& [omega_h, loss] : points) {
+    curve.x.push_back(omega_h);
+    curve.y.push_back(loss);
+  }
+  return curve;
+}
+
+Figure loss_figure(const VibratingSheet& sheet, const std::vector<Response>& responses) {
+  Figure figure{
+      "loss",
+      "What undamped vibrations lose",
+      {"omega h", "1", Scale::log},
+      {"|change of amplitude| per period", "1", Scale::log},
+      nan,
+      "Each marker is one mode of the sheet, at a step of a quarter of the elastic limit. A, B, C and the "
+      "implicit midpoint rule change no amplitude beyond 1e-9 a step, and are not drawn.",
+      {}};
+  for (const Response& response : responses)
+    for (const LossLaw& law : loss_laws())
+      if (law.name == response.method.name) figure.curves.push_back(loss_curve(sheet, response));
+  return figure;
+}
+
+/// By how much the decay of damped modes differs from the exact one.
+Figure decay_figure(const VibratingSheet& sheet, const std::vector<Response>& responses) {
+  Figure figure{
+      "decay",
+      "Decay of damped vibrations",
+      {"omega h", "1", Scale::log},
+      {"|rate of decay over the exact one - 1|", "1", Scale::log},
+      nan,
+      "Bending modes of the sheet, at a step of an eighth of the elastic limit, damped in proportion to "
+      "their stiffness: the damping ratio is 1.2 omega h.",
+      {}};
+  for (const Response& response : responses) {
+    Curve curve{std::string(response.method.name), {}, {}, nan, {}};
+    const double h = response.steps[1];
+    for (size_t i = 0; i < sheet.modes.size(); ++i) {
+      if (sheet.modes[i].kind != ModeKind::bending) continue;
+      const oracles::Oscillator oscillator = oscillator_of(sheet.modes[i], response.relaxation);
+      curve.x.push_back(sheet.modes[i].frequency * h);
+      const double exact = std::log(decay_of(oracles::exact_factors(oscillator, h)));
+      curve.y.push_back(std::abs(std::log(decay_of(response.damped[i])) / exact - 1));
+    }
+    figure.curves.push_back(std::move(curve));
+  }
+  return figure;
+}
+
+void add_responses(const Subject& subject, const VibratingSheet& sheet, StudyResult& result) {
+  std::vector<Response> responses;
+  for (const Integrator& method : integrators()) {
+    responses.push_back(response_of(subject, sheet, method));
+    result.findings.push_back(as_derived(sheet, responses.back()));
+    for (const LossLaw& law : loss_laws())
+      if (law.name == method.name) result.findings.push_back(order_of_loss(sheet, responses.back(), law));
+  }
+  result.figures.push_back(loss_figure(sheet, responses));
+  result.figures.push_back(decay_figure(sheet, responses));
+}
+
+StudyResult run_artificial_damping(const Subject& subject, Tier tier, const Progress& progress) {
+  const VibratingSheet sheet = make_vibrating_sheet(tier == Tier::quick ? 3 : 6);
+  StudyResult result;
+  add_responses(subject, sheet, result);
+  progress(0.4);
+  add_one_sided_damping(subject, sheet, result);
+  progress(0.5);
+  add_long_vibrations(subject, tier, result);
+  progress(1);
+  return result;
+}
+
+}  // namespace
+
+Study artificial_damping() {
+  return {"artificial-damping",
+          "Schemes A, B and C damp only what is damped; backward Euler damps every vibration, the faster the "
+          "more.",
+          "BMF03 section 3",
+          "All vibrations of a flat, free sheet are excited at once, and what a step of each method makes of "
+          "each of them is held against the factor derived from the method. Then a crumpling sheet vibrates "
+          "for a hundred periods of its slowest mode: does its energy have a trend?",
+          run_artificial_damping};
+}
+
+}  // namespace foldproof

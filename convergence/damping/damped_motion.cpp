@@ -1,0 +1,209 @@
+#include "convergence/damping/damped_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "convergence/integrators/oracle_problem.h"
+#include "convergence/damping/sheet_modes.h"
+#include "reference/mesh/shapes.h"
+#include "verification/specimens/moving_scenes.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double runaway = 1e9;
+
+/// Coordinates of a state along fixed directions: sum over particles of weights . (x - x0) and of weights .
+/// v.
+struct Coordinates {
+  PerParticle3 start;                 // x0, 3 x N [m]
+  std::vector<PerParticle3> weights;  // 3 x N each
+  std::vector<double> ways, speeds;   // the whole way [m], the speed at the start [m/s], of each
+
+  std::vector<double> progress(const State& s) const {
+    std::vector<double> list;
+    for (size_t i = 0; i < weights.size(); ++i)
+      list.push_back(weights[i].cwiseProduct(s.x - start).sum() / ways[i]);
+    return list;
+  }
+  std::vector<double> speed(const State& s) const {
+    std::vector<double> list;
+    for (size_t i = 0; i < weights.size(); ++i)
+      list.push_back(weights[i].cwiseProduct(s.v).sum() / speeds[i]);
+    return list;
+  }
+};
+
+void measure_by(const Coordinates& coordinates, DampedMotion& motion) {
+  const auto shared = std::make_shared<Coordinates>(coordinates);
+  motion.progress = [shared](const State& s) { return shared->progress(s); };
+  motion.speed = [shared](const State& s) { return shared->speed(s); };
+}
+
+Vector3 row3(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
+
+/// Total change of the hinge's angle [rad], by an oracle that integrates until e^-40 of the motion is left.
+double whole_fold(const DampedMotion& motion) {
+  const ExactEnd end = exact_end(motion.scene, oracle_of(motion.scene), 40 / motion.rate, 1e-11);
+  return hinge_angles(motion.scene.mesh, end.state.x).front() -
+         hinge_angles(motion.scene.mesh, motion.scene.x).front();
+}
+
+}  // namespace
+
+DampedMotion expanding_triangle() {
+  constexpr double edge = 0.37, density = 0.19, damping = 0.013, way = 1e-6;  // m, kg/m^2, N s/m, m
+  const double radius = edge / std::sqrt(3.0);
+  PerParticle3 rest(3, 3), outward(3, 3);
+  for (int i = 0; i < 3; ++i) {
+    const double angle = 0.3 + 2 * EIGEN_PI / 3 * i;
+    outward.col(i) = row3({std::cos(angle), std::sin(angle), 0});
+    rest.col(i) = radius * outward.col(i);
+  }
+  DampedMotion motion{"triangle",
+                      "an expanding triangle",
+                      scene_of(make_triangle_mesh(rest, {{0, 1, 2}}), density),
+                      9 * damping / (density * edge * edge),
+                      {},
+                      {},
+                      {}};
+  motion.scene.stretch = StretchMaterial{0, damping, 1};
+  motion.scene.solver.tolerance = 1e-13;
+  const double speed = way * motion.rate, rate = motion.rate;
+  motion.scene.v = speed * outward;
+  motion.exact = [rest, outward, way, speed, rate](double t) {
+    const double left = std::exp(-rate * t);
+    return State{t, rest + way * (1 - left) * outward, speed * left * outward};
+  };
+  measure_by({rest, {outward / 3}, {way}, {speed}}, motion);
+  return motion;
+}
+
+DampedMotion folding_hinge() {
+  constexpr double length = 0.23, density = 0.31, damping = 0.0017, spring_damping = 0.011, fold = 0.8;
+  const TriangleMesh mesh = make_hinge(length, -0.35);
+  DampedMotion motion{"hinge", "a folding hinge", scene_of(mesh, density), 0, {}, {}, {}};
+  Scene& scene = motion.scene;
+  scene.stretch = StretchMaterial{0, spring_damping, 1};
+  scene.bending = BendingMaterial{0, damping, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles = {0};
+  scene.solver.tolerance = 1e-11;
+
+  // v = -s M^{-1} u turns the angle at the rate s sum |u_i|^2/m_i, damped at the rate kd |E| sum |u_i|^2/m_i
+  const PerParticle mass = lumped_masses(mesh, density);
+  const Eigen::Matrix<double, 3, 4> mode =
+      bending_mode(hinge_shape(scene.x.col(0), scene.x.col(1), scene.x.col(2), scene.x.col(3)));
+  const double mobility = mode.colwise().squaredNorm().dot(mass.cwiseInverse().transpose());
+  motion.rate = damping * length * mobility;
+  scene.v = -fold * motion.rate / mobility * mode * mass.cwiseInverse().asDiagonal();
+
+  motion.exact = [scene](double t) {
+    const oracles::ClothState end = exact_end(scene, oracle_of(scene), t, 1e-11).state;
+    return State{t, end.x, end.v};
+  };
+  const double start = hinge_angles(mesh, scene.x).front(), way = whole_fold(motion);
+  motion.progress = [mesh, start, way](const State& s) -> std::vector<double> {
+    return {(hinge_angles(mesh, s.x).front() - start) / way};
+  };
+  const double speed = fold * motion.rate;
+  motion.speed = [speed](const State& s) -> std::vector<double> {
+    const Eigen::Matrix<double, 3, 4> u =
+        bending_mode(hinge_shape(s.x.col(0), s.x.col(1), s.x.col(2), s.x.col(3)));
+    return {-u.cwiseProduct(s.v).sum() / speed};
+  };
+  return motion;
+}
+
+DampedMotion sheet_in_plane(int cells) {
+  constexpr double relaxation = 0.011, way = 1e-9;  // s, kg^1/2 m of every mode's coordinate
+  const Scene elastic = sheet_at_rest(cells, {relaxation, 0});
+  DampedMotion motion{"sheet", "a sheet", elastic, 0, {}, {}, {}};
+  Scene& scene = motion.scene;
+  scene.stretch->stiffness = 0;
+  scene.bending.reset();
+  scene.solver.tolerance = 1e-12;
+
+  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  Coordinates coordinates{scene.x, {}, {}, {}};
+  std::vector<double> rates;
+  std::vector<PerParticle3> shapes;
+  Random random(83);
+  for (const SheetMode& mode : modes_of(elastic)) {
+    if (mode.kind != ModeKind::stretch) continue;
+    rates.push_back(relaxation * mode.frequency * mode.frequency);
+    const double speed = (random.in(-1, 1) < 0 ? -way : way) * rates.back();
+    shapes.push_back(mode.shape);
+    coordinates.weights.push_back(mode.shape * mass.asDiagonal());
+    coordinates.speeds.push_back(speed);
+    coordinates.ways.push_back(speed / rates.back());
+    scene.v += speed * mode.shape;
+  }
+  motion.rate = *std::ranges::max_element(rates);
+  motion.exact = [coordinates, rates, shapes](double t) {
+    State s{t, coordinates.start, PerParticle3::Zero(3, coordinates.start.cols())};
+    for (size_t i = 0; i < rates.size(); ++i) {
+      const double left = std::exp(-rates[i] * t);
+      s.x += coordinates.ways[i] * (1 - left) * shapes[i];
+      s.v += coordinates.speeds[i] * left * shapes[i];
+    }
+    return s;
+  };
+  measure_by(coordinates, motion);
+  return motion;
+}
+
+DampedRun run_damped(const Subject& subject, const DampedMotion& motion, std::string_view method, double a,
+                     int steps) {
+  const double h = 2 * a / motion.rate;
+  Stepper stepper(subject, motion.scene, std::string(method));
+  std::vector<State> past = {stepper.start()};
+  DampedRun run;
+  const PerParticle mass = lumped_masses(motion.scene.mesh, motion.scene.density);
+  const double start = motion.scene.v.colwise().squaredNorm().dot(mass.transpose());
+  const auto record = [&] {
+    run.progress.push_back(motion.progress(past.back()));
+    run.speed.push_back(motion.speed(past.back()));
+    run.kinetic_energy.push_back(past.back().v.colwise().squaredNorm().dot(mass.transpose()) / start);
+    return std::ranges::all_of(run.progress.back(), [](double p) { return std::abs(p) < runaway; });
+  };
+  record();
+  if (method == "BDF2") {
+    past.push_back(motion.exact(h));
+    record();
+  }
+  while (int(run.progress.size()) <= steps) {
+    State next = stepper.step_after(past, h);
+    if (past.size() > 1) past.erase(past.begin());
+    past.push_back(std::move(next));
+    if (!record()) break;
+  }
+  run.work = stepper.work();
+  return run;
+}
+
+double farthest(const DampedRun& run) {
+  Worst largest;
+  for (const std::vector<double>& row : run.progress)
+    for (const double progress : row) largest.see(progress);
+  return largest.value();
+}
+
+double backward(const DampedRun& run) {
+  Worst largest;
+  for (size_t n = 1; n < run.progress.size(); ++n)
+    for (size_t i = 0; i < run.progress[n].size(); ++i)
+      largest.see(run.progress[n - 1][i] - run.progress[n][i]);
+  return largest.value();
+}
+
+double misconduct(const DampedRun& run) {
+  Worst worst;
+  worst.see(backward(run));
+  worst.see(farthest(run) - 1);
+  return worst.value();
+}
+
+}  // namespace foldproof

@@ -1,0 +1,250 @@
+// monotonicity: how motions come to rest that damping alone brings there, in steps far longer than they last.
+#include <cmath>
+#include <limits>
+
+#include "convergence/damping/damped_motion.h"
+#include "convergence/damping/monotonicity_figures.h"
+#include "convergence/damping/nonlinear_hinge.h"
+#include "convergence/damping/overdamped.h"
+#include "convergence/studies.h"
+#include "reference/dynamics/integrator.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double rounding = 1e-8;  // of the way
+constexpr const char* why_rounding =
+    "the way is a millionth of the triangle's size, so that each of up to 500 steps rounds by some 1e-10 of "
+    "it; in nothing else does a linear motion differ from the derived one";
+constexpr double turning = 1e-5;  // of the way
+constexpr const char* why_turning =
+    "the ways on the sheet are nanometres, to which positions are rounded by 1e-8, and which leave 1e-7 of "
+    "nonlinearity; a method that overshoots does so by a good part of the way";
+
+// ---- the derived ways of schemes A, B and C (pure damping, r = (1 - a)/(1 + a) a step)
+
+struct Ways {
+  double first, total;  // over the exact one [1]
+};
+
+Ways derived_ways(const std::string& scheme, double a) {
+  if (scheme == "A") return {2 * a * (1 - a), 1 - a * a};
+  return {2 * a / (1 + a), 1};
+}
+
+std::string ways_in_words(const std::string& scheme) {
+  return scheme == "A" ? "2a(1 - a) of its way in the first step and 1 - a^2 of it in all"
+                       : "2a/(1 + a) of its way in the first step and all of it in the end";
+}
+
+NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& motions,
+                                  const std::string& scheme) {
+  Worst worst;
+  Column as{"h c/2", "1", std::vector<double>{}},
+      firsts{"first step over the way", "1", std::vector<double>{}},
+      totals{"all over the way", "1", std::vector<double>{}};
+  for (const double a : {0.2, 0.7, 1.6, 4.3, 10.0, 25.0}) {
+    const int steps = int(std::ceil(30 / -std::log(std::abs((1 - a) / (1 + a)))));
+    const DampedRun run = run_damped(subject, motions.triangle, scheme, a, steps);
+    const double first = run.progress[1][0], total = run.progress.back()[0];
+    const Ways derived = derived_ways(scheme, a);
+    worst.see(std::abs(first - derived.first) / (1 + a * a));
+    worst.see(std::abs(total - derived.total) / (1 + a * a));
+    std::get<0>(as.values).push_back(a);
+    std::get<0>(firsts.values).push_back(first);
+    std::get<0>(totals.values).push_back(total);
+  }
+  return {
+      "monotonicity.way." + scheme,
+      "Under scheme " + scheme + " a motion that is only damped goes " + ways_in_words(scheme) +
+          ", a = h c/2.",
+      {{worst.value(), rounding, 0, "of (1 + a^2) times the way", why_rounding}, {as, firsts, totals}, ""}};
+}
+
+// ---- scheme A
+
+NamedFinding overshoots(const Subject& subject, const DampedMotions& motions) {
+  constexpr double a = 10;
+  Worst worst;
+  MotionRows rows("farthest in the wrong direction", "ways");
+  for (const DampedMotion* motion : {&motions.triangle, &motions.sheet}) {
+    const double wrong = backward(run_damped(subject, *motion, "A", a, 12));
+    worst.see(100 / wrong);
+    rows.add(*motion, a, wrong);
+  }
+  return {"monotonicity.overshoots.A",
+          "Scheme A is not monotone: at h c/2 = 10 its explicit half step throws the cloth back by more than "
+          "a hundred times the way that it should go.",
+          {{worst.value(), 1, 0, "1",
+            "measured is a hundred over the way back; derived are 2a(a - 1) = 180 in one step"},
+           rows.columns(),
+           ""}};
+}
+
+NamedFinding is_stable(const Subject& subject, const DampedMotions& motions) {
+  Worst worst;
+  MotionRows rows("largest kinetic energy after the start", "of the start's");
+  for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
+    for (const double a : {1.6, 10.0, 100.0}) {
+      const std::vector<double> energies = run_damped(subject, *motion, "A", a, 40).kinetic_energy;
+      Worst largest;
+      for (size_t n = 1; n < energies.size(); ++n) largest.see(energies[n]);
+      worst.see(largest.value());
+      rows.add(*motion, a, largest.value());
+    }
+  return {"monotonicity.stable.A",
+          "Scheme A is stable under damping however large: linear motions never have more kinetic energy "
+          "than at the start.",
+          {{worst.value(), 1, 0, "of the start's energy",
+            "each step multiplies the speed of a mode by (1 - a)/(1 + a), whose size is below 1"},
+           rows.columns(),
+           "Judged in the energy of all modes together: thrown twenty thousand ways off (2 a^2 at a = 100), "
+           "the fast modes leak into the slow ones, since the sheet is not quite linear."}};
+}
+
+// ---- schemes B and C
+
+NamedFinding is_bounded(const Subject& subject, const DampedMotions& motions, const std::string& scheme) {
+  Worst worst;
+  MotionRows rows("farthest", "ways");
+  for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
+    for (const double a : {0.7, 4.3, 25.0, 110.0}) {
+      const double far = farthest(run_damped(subject, *motion, scheme, a, 30));
+      worst.see(far);
+      rows.add(*motion, a, far);
+    }
+  return {"monotonicity.bounded." + scheme,
+          "Scheme " + scheme +
+              " overshoots a linear motion by no more than the way itself, however large the damping.",
+          {{worst.value(), 2, 0, "ways", "derived: the farthest is 2a/(1 + a) of the way, in the first step"},
+           rows.columns(),
+           ""}};
+}
+
+NamedFinding alternates(const Subject& subject, const DampedMotions& motions, const std::string& scheme) {
+  double kept = 0;
+  MotionRows rows("steps that keep the direction", "of 8");
+  for (const double a : {1.6, 4.3, 10.0, 25.0}) {
+    const DampedRun run = run_damped(subject, motions.triangle, scheme, a, 8);
+    double here = 0;
+    for (size_t n = 1; n < run.speed.size(); ++n)
+      if (!(run.speed[n][0] * run.speed[n - 1][0] < 0)) ++here;
+    kept += here;
+    rows.add(motions.triangle, a, here);
+  }
+  return {"monotonicity.alternates." + scheme,
+          "Scheme " + scheme +
+              " is not monotone in the strict sense: for h c/2 > 1 the velocity changes its sign in "
+              "every step.",
+          {{kept, 0, 0, "steps", "derived: a step multiplies the velocity by (1 - a)/(1 + a) < 0"},
+           rows.columns(),
+           ""}};
+}
+
+NamedFinding monotone_below_one(const Subject& subject, const DampedMotions& motions,
+                                const std::string& scheme) {
+  Worst worst;
+  MotionRows rows("overshoot or way back", "ways");
+  for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
+    for (const double a : {0.2, 0.7, 0.95}) {
+      const double wrong = misconduct(run_damped(subject, *motion, scheme, a, 40));
+      worst.see(wrong);
+      rows.add(*motion, a, wrong);
+    }
+  return {"monotonicity.below-one." + scheme,
+          "Scheme " + scheme + " is monotone while h c/2 < 1.",
+          {{worst.value(), turning, 0, "of the way", why_turning}, rows.columns(), ""}};
+}
+
+// ---- fully implicit methods
+
+NamedFinding is_monotone(const Subject& subject, const DampedMotions& motions, const std::string& method) {
+  Worst worst;
+  MotionRows rows("overshoot or way back", "ways");
+  for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
+    for (const double a : {0.7, 4.3, 25.0, 400.0}) {
+      const double wrong = misconduct(run_damped(subject, *motion, method, a, 30));
+      worst.see(wrong);
+      rows.add(*motion, a, wrong);
+    }
+  return {
+      "monotonicity.monotone." + method,
+      "Linear motions are monotone at any step under " + method + ": nothing overshoots, nothing turns back.",
+      {{worst.value(), turning, 0, "of the way", why_turning}, rows.columns(), ""}};
+}
+
+/// The farthest that BDF2 gets from two exact values of v' = -c v: its recurrence on v, with x = (1 - v) of
+/// the way, since it keeps v + c x exactly.
+double farthest_by_bdf2(double a, int steps) {
+  double before = 1, now = std::exp(-2 * a);
+  Worst largest;
+  largest.see(1 - now);
+  for (int n = 1; n < steps; ++n) {
+    const double next = (4 * now - before) / (3 + 4 * a);
+    before = now;
+    now = next;
+    largest.see(1 - now);
+  }
+  return largest.value();
+}
+
+std::vector<NamedFinding> bdf2_findings(const Subject& subject, const DampedMotions& motions) {
+  Worst least, error;
+  MotionRows rows("farthest", "ways");
+  for (const double a : {0.5, 1.6, 4.3, 10.0}) {
+    const double far = farthest(run_damped(subject, motions.triangle, "BDF2", a, 30));
+    least.see(far > 1 ? 0.01 / (far - 1) : std::numeric_limits<double>::infinity());
+    error.see(std::abs(far - farthest_by_bdf2(a, 30)));
+    rows.add(motions.triangle, a, far);
+  }
+  return {{"monotonicity.overshoots.BDF2",
+           "BDF2, started exactly, is not monotone at large steps: it overshoots by more than a hundredth of "
+           "the way.",
+           {{least.value(), 1, 0, "1", "measured is a hundredth over the overshoot"}, rows.columns(), ""}},
+          {"monotonicity.way.BDF2",
+           "BDF2, started exactly, overshoots as its recurrence says, by a tenth of the way at most.",
+           {{error.value(), rounding, 0, "of the way", why_rounding}, rows.columns(), ""}}};
+}
+
+StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& progress) {
+  const DampedMotions motions{expanding_triangle(), folding_hinge(),
+                              sheet_in_plane(tier == Tier::quick ? 3 : 6)};
+  StudyResult result;
+  for (const Integrator& scheme : paper_schemes())
+    result.findings.push_back(goes_its_derived_way(subject, motions, std::string(scheme.name)));
+  result.findings.push_back(overshoots(subject, motions));
+  result.findings.push_back(is_stable(subject, motions));
+  for (const std::string scheme : {"B", "C"}) {
+    result.findings.push_back(is_bounded(subject, motions, scheme));
+    result.findings.push_back(alternates(subject, motions, scheme));
+    result.findings.push_back(monotone_below_one(subject, motions, scheme));
+  }
+  progress(0.3);
+  for (const std::string method : {"backward-euler", "linear-backward-euler"})
+    result.findings.push_back(is_monotone(subject, motions, method));
+  for (NamedFinding& finding : bdf2_findings(subject, motions)) result.findings.push_back(std::move(finding));
+  add_nonlinear_hinge(subject, motions.hinge, result);
+  progress(0.6);
+  result.figures = monotonicity_figures(subject, motions, tier);
+  progress(0.8);
+  add_overdamped(subject, tier, result);
+  progress(1);
+  return result;
+}
+
+}  // namespace
+
+Study monotonicity() {
+  return {"monotonicity",
+          "In steps far longer than the damping's time A overshoots without bound, B and C by the way itself "
+          "at most, though they swing; backward Euler alone is monotone.",
+          "BMF03 section 3",
+          "Three motions that damping alone brings to rest: a triangle that expands (linear, known exactly), "
+          "a hinge that folds (nonlinear, known by an oracle), a sheet whose modes all move. How far does "
+          "each method go over the way, and does it turn back? c is the damping rate of the fastest motion, "
+          "h the step.",
+          run_monotonicity};
+}
+
+}  // namespace foldproof

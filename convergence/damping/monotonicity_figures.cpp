@@ -1,0 +1,137 @@
+#include "convergence/damping/monotonicity_figures.h"
+
+#include <cmath>
+
+#include "reference/dynamics/integrator.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double least_shown = 1e-6;  // of the way
+
+std::vector<double> ratios(double from, double to, int count) {
+  std::vector<double> list;
+  for (int i = 0; i < count; ++i) list.push_back(from * std::pow(to / from, double(i) / (count - 1)));
+  return list;
+}
+
+Figure first_step_figure(const Subject& subject, const DampedMotions& motions) {
+  Figure figure{"first-step",
+                "First step of a damped motion",
+                {"h c/2", "1", Scale::log},
+                {"|first step| over the whole way", "1", Scale::log},
+                nan,
+                "The exact motion goes 1 - exp(-h c) of its way. Above h c/2 = 1 the steps of A and RK2 lead "
+                "backwards. BDF2 is left out: its first step is another method's.",
+                {}};
+  const std::vector<double> as = ratios(0.05, 40, 16);
+  for (const Integrator& method : integrators()) {
+    if (method.history > 1) continue;
+    Curve curve{std::string(method.name), as, {}, nan, {}};
+    for (const double a : as)
+      curve.y.push_back(std::abs(run_damped(subject, motions.triangle, method.name, a, 1).progress[1][0]));
+    figure.curves.push_back(std::move(curve));
+  }
+  Curve exact{"exact", as, {}, nan, {}};
+  for (const double a : as) exact.y.push_back(1 - std::exp(-2 * a));
+  figure.curves.push_back(std::move(exact));
+  return figure;
+}
+
+constexpr double shown_a = 10;
+
+Figure distance_figure(const Subject& subject, const DampedMotions& motions) {
+  Figure figure{
+      "distance",
+      "A damped motion at h c/2 = 10",
+      {"step", "1", Scale::linear},
+      {"distance from the exact place of rest, over the way", "1", Scale::log},
+      nan,
+      "The exact motion is over before the first step ends. Explicit methods are unstable here; A comes to "
+      "rest a hundred ways off.",
+      {}};
+  for (const Integrator& method : integrators()) {
+    Curve curve{std::string(method.name), {}, {}, nan, {}};
+    const DampedRun run = run_damped(subject, motions.triangle, method.name, shown_a, 24);
+    for (size_t n = 0; n < run.progress.size(); ++n) {
+      const double distance = std::abs(run.progress[n][0] - 1);
+      curve.x.push_back(double(n));
+      curve.y.push_back(distance > least_shown && distance < 1e6 ? distance : nan);
+    }
+    figure.curves.push_back(std::move(curve));
+  }
+  return figure;
+}
+
+/// Which methods a history shows, and what to say of them.
+struct Shown {
+  std::vector<std::string> methods;
+  std::string caption;
+};
+
+Shown shown_of_triangle() {
+  return {{"B", "C", "implicit-midpoint", "BDF2", "backward-euler"},
+          "Those methods whose motion stays near: B, C and the implicit midpoint rule swing about the place "
+          "of rest, BDF2 (started exactly) passes it once, backward Euler comes from one side."};
+}
+
+Shown shown_of_hinge() {
+  return {
+      {"B", "C", "linear-backward-euler"},
+      "Those methods all of whose solves succeed; the table has the others. The hinge's damping falls as it "
+      "unfolds: C, which takes the explicit part first, does not come back."};
+}
+
+Figure history_figure(const Subject& subject, const DampedMotion& motion, const Shown& shown) {
+  Figure figure{"history-" + motion.name,
+                "Coming to rest at h c/2 = 10: " + motion.words,
+                {"step", "1", Scale::linear},
+                {"way gone over the exact one", "1", Scale::linear},
+                nan,
+                shown.caption,
+                {}};
+  for (const std::string& method : shown.methods) {
+    Curve curve{method, {}, {}, nan, {}};
+    const DampedRun run = run_damped(subject, motion, method, shown_a, 16);
+    for (size_t n = 0; n < run.progress.size(); ++n) {
+      curve.x.push_back(double(n));
+      curve.y.push_back(run.progress[n][0]);
+    }
+    figure.curves.push_back(std::move(curve));
+  }
+  return figure;
+}
+
+Figure sheet_figure(const Subject& subject, const DampedMotions& motions, Tier tier) {
+  Figure figure{
+      "sheet",
+      "Overshoot on a damped sheet",
+      {"h c/2 of the fastest mode", "1", Scale::log},
+      {"largest overshoot or way back of a mode, over its way", "1", Scale::log},
+      nan,
+      "All modes in the plane of the sheet move at first, and damping stops them. Backward Euler neither "
+      "overshoots nor turns back at any step, A, B, C and the implicit midpoint rule neither below 1. BDF2 "
+      "is started exactly.",
+      {}};
+  const std::vector<double> as = ratios(0.1, 100, tier == Tier::quick ? 10 : 25);
+  for (const std::string method : {"A", "B", "C", "BDF2", "implicit-midpoint"}) {
+    Curve curve{method, as, {}, nan, {}};
+    for (const double a : as) {
+      const double wrong = misconduct(run_damped(subject, motions.sheet, method, a, 20));
+      curve.y.push_back(wrong > least_shown && wrong < 1e5 ? wrong : nan);
+    }
+    figure.curves.push_back(std::move(curve));
+  }
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> monotonicity_figures(const Subject& subject, const DampedMotions& motions, Tier tier) {
+  return {first_step_figure(subject, motions), distance_figure(subject, motions),
+          history_figure(subject, motions.triangle, shown_of_triangle()),
+          history_figure(subject, motions.hinge, shown_of_hinge()), sheet_figure(subject, motions, tier)};
+}
+
+}  // namespace foldproof

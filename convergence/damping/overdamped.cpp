@@ -1,0 +1,225 @@
+// How every method comes to rest against stiffness that damping outweighs.
+#include "convergence/damping/overdamped.h"
+
+#include <cmath>
+
+#include "convergence/damping/overdamped_motion.h"
+#include "reference/dynamics/integrator.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double least_shown = 1e-6;  // of the way
+constexpr double most_shown = 1e6;    // ways
+constexpr double turning = 1e-5;      // of the way
+constexpr const char* why_turning =
+    "the ways are nanometres, to which positions are rounded by 1e-8, and which leave 1e-7 of nonlinearity; "
+    "a method that overshoots does so by a good part of the way";
+
+/// How far a velocity points away from rest at most, or rises again, over that at the start.
+double velocity_misconduct(const DampedRun& run) {
+  Worst worst;
+  for (size_t n = 1; n < run.speed.size(); ++n)
+    for (size_t i = 0; i < run.speed[n].size(); ++i) {
+      worst.see(-run.speed[n][i]);
+      worst.see(run.speed[n][i] - run.speed[n - 1][i]);
+    }
+  return worst.value();
+}
+
+/// Positions and velocities of a run, each by the worse of overshoot and way back.
+struct Misconduct {
+  double position, velocity;
+};
+
+Misconduct misconduct_of(const DampedRun& run) { return {misconduct(run), velocity_misconduct(run)}; }
+
+struct SheetRows {
+  Column a{"h c/2", "1", std::vector<double>{}}, position{"positions", "ways", std::vector<double>{}},
+      velocity{"velocities", "of the start's", std::vector<double>{}};
+
+  void add(double at, const Misconduct& measured) {
+    std::get<0>(a.values).push_back(at);
+    std::get<0>(position.values).push_back(measured.position);
+    std::get<0>(velocity.values).push_back(measured.velocity);
+  }
+  std::vector<Column> columns() const { return {a, position, velocity}; }
+};
+
+NamedFinding sheet_is_monotone(const Subject& subject, const DampedMotion& sheet, const std::string& method) {
+  Worst worst;
+  SheetRows rows;
+  for (const double a : {0.7, 4.3, 25.0, 400.0}) {
+    const Misconduct wrong = misconduct_of(run_damped(subject, sheet, method, a, 30));
+    worst.see(wrong.position);
+    worst.see(wrong.velocity);
+    rows.add(a, wrong);
+  }
+  return {"monotonicity.overdamped-sheet.monotone." + method,
+          "On an overdamped sheet with stiffness neither a position nor a velocity overshoots or turns back "
+          "at any step under " +
+              method + ".",
+          {{worst.value(), turning, 0, "of the way or of the speed", why_turning}, rows.columns(), ""}};
+}
+
+NamedFinding sheet_is_thrown_back(const Subject& subject, const DampedMotion& sheet) {
+  constexpr double a = 10;
+  SheetRows rows;
+  const Misconduct wrong = misconduct_of(run_damped(subject, sheet, "A", a, 12));
+  rows.add(a, wrong);
+  return {
+      "monotonicity.overdamped-sheet.overshoots.A",
+      "On an overdamped sheet with stiffness scheme A throws a mode back by more than fifty times its way at "
+      "h c/2 = 10, a step at which it is stable.",
+      {{50 / wrong.position, 1, 0, "1",
+        "measured is fifty over the way back; derived for half of the way fast is a^2 - a = 90 in the first "
+        "step"},
+       rows.columns(),
+       ""}};
+}
+
+NamedFinding sheet_is_bounded(const Subject& subject, const DampedMotion& sheet, const std::string& scheme) {
+  Worst worst;
+  SheetRows rows;
+  for (const double a : {0.7, 2.2, 4.3, 7.0, 12.0}) {
+    const Misconduct wrong = misconduct_of(run_damped(subject, sheet, scheme, a, 30));
+    worst.see(wrong.position);
+    worst.see(wrong.velocity);
+    rows.add(a, wrong);
+  }
+  return {"monotonicity.overdamped-sheet.bounded." + scheme,
+          "On an overdamped sheet with stiffness scheme " + scheme +
+              " overshoots or turns back by less than the way itself, in positions, and less than twice the "
+              "speed of the start, in velocities.",
+          {{worst.value(), 2, 0, "ways or speeds",
+            "derived without stiffness: a velocity is multiplied by (1 - a)/(1 + a), more than -1, so that "
+            "it swings by less than twice its size; that part of a position that decays fast overshoots by "
+            "less than itself"},
+           rows.columns(),
+           ""}};
+}
+
+NamedFinding sheet_swings(const Subject& subject, const DampedMotion& sheet, const std::string& scheme) {
+  Worst worst;
+  SheetRows rows;
+  for (const double a : {2.2, 4.3, 7.0, 12.0}) {
+    const Misconduct wrong = misconduct_of(run_damped(subject, sheet, scheme, a, 30));
+    worst.see(0.1 / wrong.velocity);
+    rows.add(a, wrong);
+  }
+  return {"monotonicity.overdamped-sheet.swings." + scheme,
+          "On an overdamped sheet with stiffness velocities change sign under " + scheme +
+              " at steps with h c/2 > 2, by more than a tenth of those at the start.",
+          {{worst.value(), 1, 0, "1",
+            "each swing is to be a tenth of the velocity at the start or more: measured is a tenth over the "
+            "smallest of the four"},
+           rows.columns(),
+           ""}};
+}
+
+NamedFinding hinge_closes_monotonically(const Subject& subject, const DampedMotion& hinge,
+                                        const std::string& method) {
+  Worst worst;
+  MotionRows rows("overshoot or way back", "ways");
+  for (const double a : {0.2, 0.7, 4.3, 25.0, 110.0, 400.0}) {
+    const DampedRun run = run_damped(subject, hinge, method, a, 40);
+    const double wrong = run.work.unfinished_solves == 0 ? misconduct(run) : nan;
+    worst.see(wrong);
+    rows.add(hinge, a, wrong);
+  }
+  return {
+      "monotonicity.closing-hinge." + method,
+      "An overdamped hinge that closes by nearly two radians neither passes its rest angle nor turns back "
+      "under " +
+          method + ", at any step.",
+      {{worst.value(), 1e-7, 0, "of the way",
+        "forty solves, each to 1e-11 of the momentum that the hinge would have at its fast rate, a thousand "
+        "times its own"},
+       rows.columns(),
+       "A solve that did not finish would count as NaN."}};
+}
+
+// ---- what is shown
+
+Figure sheet_figure(const std::string& name, const std::string& of) {
+  return {name,
+          "Overshoot on an overdamped sheet with stiffness: " + of,
+          {"h c/2 of the fastest mode", "1", Scale::log},
+          {"largest overshoot or way back of a mode, over its start", "1", Scale::log},
+          nan,
+          "Every mode starts displaced and on its way to rest. All modes are damped at least four times "
+          "critically. Curves of methods that are monotone everywhere are empty and left out; where one ends "
+          "to the right, the method is unstable. BDF2 is started exactly.",
+          {}};
+}
+
+/// The values worth a marker, if there is any.
+void add_curve(const std::string& method, const std::vector<double>& as, std::vector<double> values,
+               Figure& figure) {
+  bool any = false;
+  for (double& value : values) {
+    if (!(value > least_shown && value < most_shown)) value = nan;
+    any |= std::isfinite(value);
+  }
+  if (any) figure.curves.push_back({method, as, values, nan, {}});
+}
+
+void add_figures(const Subject& subject, const DampedMotion& sheet, Tier tier, StudyResult& result) {
+  const int count = tier == Tier::quick ? 9 : 21;
+  std::vector<double> as;
+  for (int i = 0; i < count; ++i) as.push_back(0.1 * std::pow(1000.0, double(i) / (count - 1)));
+  Figure positions = sheet_figure("overdamped-positions", "positions"),
+         velocities = sheet_figure("overdamped-velocities", "velocities");
+  for (const Integrator& method : integrators()) {
+    std::vector<double> x, v;
+    for (const double a : as) {
+      const Misconduct wrong = misconduct_of(run_damped(subject, sheet, method.name, a, 20));
+      x.push_back(wrong.position);
+      v.push_back(wrong.velocity);
+    }
+    add_curve(std::string(method.name), as, x, positions);
+    add_curve(std::string(method.name), as, v, velocities);
+  }
+  result.figures.push_back(std::move(positions));
+  result.figures.push_back(std::move(velocities));
+}
+
+Table closing_table(const Subject& subject, const DampedMotion& hinge) {
+  Column method{"method", "1", std::vector<std::string>{}}, as{"h c/2", "1", std::vector<double>{}},
+      wrong{"overshoot or way back", "ways", std::vector<double>{}},
+      newton{"Newton iterations", "a step", std::vector<double>{}},
+      unfinished{"unfinished solves", "1", std::vector<double>{}};
+  for (const Integrator& integrator : integrators())
+    for (const double a : {0.7, 4.3, 25.0, 400.0}) {
+      if (integrator.family != Family::fully_implicit) continue;
+      const DampedRun run = run_damped(subject, hinge, integrator.name, a, 40);
+      std::get<1>(method.values).push_back(std::string(integrator.name));
+      std::get<0>(as.values).push_back(a);
+      std::get<0>(wrong.values).push_back(misconduct(run));
+      std::get<0>(newton.values).push_back(double(run.work.newton_iterations) / double(run.speed.size() - 1));
+      std::get<0>(unfinished.values).push_back(double(run.work.unfinished_solves));
+    }
+  return {"closing-hinge",
+          "An overdamped hinge that closes by nearly two radians: what fully implicit methods make of it",
+          {method, as, wrong, newton, unfinished}};
+}
+
+}  // namespace
+
+void add_overdamped(const Subject& subject, Tier tier, StudyResult& result) {
+  const DampedMotion sheet = overdamped_sheet(tier == Tier::quick ? 2 : 4), hinge = closing_hinge();
+  for (const std::string method : {"backward-euler", "linear-backward-euler"})
+    result.findings.push_back(sheet_is_monotone(subject, sheet, method));
+  result.findings.push_back(sheet_is_thrown_back(subject, sheet));
+  for (const std::string scheme : {"B", "C"}) {
+    result.findings.push_back(sheet_is_bounded(subject, sheet, scheme));
+    result.findings.push_back(sheet_swings(subject, sheet, scheme));
+  }
+  result.findings.push_back(sheet_swings(subject, sheet, "implicit-midpoint"));
+  result.findings.push_back(hinge_closes_monotonically(subject, hinge, "backward-euler"));
+  add_figures(subject, sheet, tier, result);
+  result.tables.push_back(closing_table(subject, hinge));
+}
+
+}  // namespace foldproof

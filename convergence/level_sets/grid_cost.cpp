@@ -1,0 +1,91 @@
+#include "convergence/level_sets/grid_cost.h"
+
+#include <cmath>
+#include <string>
+
+#include "reference/level_set/narrow_band.h"
+#include "reference/mesh/shapes.h"
+#include "verification/specimens/moving_scenes.h"
+#include "verification/processor_time.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr int points = 4000;
+
+/// A grid of a mesh: what it holds, how long it took, how far it errs.
+struct GridCost {
+  double cells, nodes, megabytes, band_nodes;
+  double band, marching;  // processor time [s]
+  double error;           // largest of phi at random points within three cells of the surface [m]
+  double h;               // m
+};
+
+GridCost cost_of(const MeshDistance& mesh, int cells) {
+  const Bounds& bounds = mesh.tree.nodes[0].bounds;
+  const Lattice lattice = lattice_about(bounds, cells, 3);
+  const double start = processor_seconds();
+  const Seeds seeds = narrow_band(mesh, lattice, 3);
+  const double band = processor_seconds() - start;
+  const double middle = processor_seconds();
+  const Grid grid = march(lattice, seeds, MarchingOrder::second);
+  const double marching = processor_seconds() - middle;
+  Random random(113);
+  Worst error;
+  for (int i = 0; i < points; ++i) {
+    const Vector3 on_surface = mesh.corners[size_t(random.in(0, double(mesh.corners.size())))][0];
+    const Vector3 p = on_surface + random.vectors(1, 1.7 * lattice.spacing).col(0);
+    error.see(std::abs(grid.at(p).phi - mesh.at(p).phi));
+  }
+  return {double(cells),
+          double(lattice.size()),
+          8e-6 * double(lattice.size()),
+          double(seeds.nodes.size()),
+          band,
+          marching,
+          error.value(),
+          lattice.spacing};
+}
+
+std::vector<double> column(const std::vector<GridCost>& costs, double GridCost::*what) {
+  std::vector<double> values;
+  for (const GridCost& cost : costs) values.push_back(cost.*what);
+  return values;
+}
+
+}  // namespace
+
+void add_grid_costs(const std::vector<int>& cells, StudyResult& result) {
+  const TriangleMesh statue = make_statue(1, 4);
+  const MeshDistance mesh = make_mesh_distance(statue.rest, statue.triangles);
+  std::vector<GridCost> costs;
+  for (const int n : cells) costs.push_back(cost_of(mesh, n));
+  result.tables.push_back(
+      {"cost",
+       "Grids about a statue of " + std::to_string(statue.triangles.size()) + " triangles, 1 m high",
+       {{"cells along the longest side", "1", column(costs, &GridCost::cells)},
+        {"nodes", "1", column(costs, &GridCost::nodes)},
+        {"grid", "MB", column(costs, &GridCost::megabytes)},
+        {"nodes in a band of three cells", "1", column(costs, &GridCost::band_nodes)},
+        {"band", "s", column(costs, &GridCost::band)},
+        {"second-order marching", "s", column(costs, &GridCost::marching)},
+        {"largest error within three cells", "m", column(costs, &GridCost::error)}}});
+  Figure figure{"error-against-memory",
+                "Error of a grid about a statue against its memory",
+                {"memory", "MB", Scale::log},
+                {"largest error of phi", "m", Scale::log},
+                nan,
+                "At random points within three cells of the surface, against the exact distance to the mesh. "
+                "Edges of the "
+                "mesh are kinks of phi, where trilinear values err by O(h), and memory grows with h^-3.",
+                {}};
+  figure.curves = {{"regular grid, exact band",
+                    column(costs, &GridCost::megabytes),
+                    column(costs, &GridCost::error),
+                    nan,
+                    {}}};
+  result.figures.push_back(std::move(figure));
+}
+
+}  // namespace foldproof

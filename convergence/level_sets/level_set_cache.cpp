@@ -1,0 +1,220 @@
+// level-set-cache: level sets computed once, for many runs; and files that must not be trusted.
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+
+#include "convergence/level_sets/kept_level_sets.h"
+#include "convergence/studies.h"
+#include "reference/bodies/deforming_content.h"
+#include "reference/mesh/shapes.h"
+#include "verification/processor_time.h"
+#include "verification/specimens/scratch_folder.h"
+#include "verification/files/hdf5_file.h"
+#include "verification/files/kept_level_sets_file.h"
+#include "verification/files/level_set_cache_file.h"
+
+namespace foldproof {
+
+namespace {
+
+/// A ball that bends, in three frames.
+MeshSequence animation(int subdivisions) {
+  const auto bent = [](const Vector3& X, double t) -> Vector3 {
+    return X + t * Vector3(0.3 * X.y() * X.y(), 1.1 * X.x() * X.x(), 0.4 * X.z());
+  };
+  return deformed_mesh(make_icosphere(0.21, subdivisions), bent, {0, 0.3, 0.7});
+}
+
+OctreeSettings settings(int depth) {
+  return {Vector3::Constant(-0.5), 1, depth, 3, 1e-3, 0.04, 0.3, 0, HangingNodes::constrained};
+}
+
+struct Kept {
+  std::shared_ptr<const DeformingBody> body;
+  bool was_loaded = false;
+  std::string why_refused;  // why the file that was there was not taken; empty if none was, or it was taken
+};
+
+/// The body as a program gets it that keeps level sets in the folder.
+Kept kept(const std::string& folder, const MeshSequence& sequence, const OctreeSettings& how) {
+  Kept result;
+  const auto listen = [&](const std::string& line) {
+    result.was_loaded |= line.starts_with("level sets loaded");
+    if (const size_t at = line.find("refused: "); at != std::string::npos)
+      result.why_refused = line.substr(at);
+  };
+  result.body = caching_makers(folder, listen).make_deforming_body(sequence, how, BetweenFrames::carried);
+  return result;
+}
+
+/// Where it is kept.
+std::string file_of(const std::string& folder, const MeshSequence& sequence, const OctreeSettings& how) {
+  return (std::filesystem::path(folder) / (origin_key(sequence, how) + ".h5")).string();
+}
+
+/// Answers that differ in a bit, at points and times of all kinds.
+double different_answers(const DeformingBody& a, const DeformingBody& b) {
+  double different = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vector3 p(std::sin(1.3 * i), std::sin(2.9 * i + 1), std::sin(4.7 * i + 2));
+    const double t = 0.8 * std::abs(std::sin(0.7 * i)) - 0.05;
+    const DeformingPoint x = deforming_at(a, 0.6 * p, t), y = deforming_at(b, 0.6 * p, t);
+    different += !(x.phi == y.phi && x.normal == y.normal && x.velocity == y.velocity);
+  }
+  return different;
+}
+
+struct Costs {
+  double build, load;  // processor time [s]
+  double megabytes;    // of the file
+};
+
+NamedFinding loaded_is_the_same(Costs& costs) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch.file("kept");
+  double start = processor_seconds();
+  const Kept built = kept(folder, animation(3), settings(6));
+  costs.build = processor_seconds() - start;
+  costs.megabytes = double(std::filesystem::file_size(file_of(folder, animation(3), settings(6)))) / 1e6;
+  start = processor_seconds();
+  const Kept loaded = kept(folder, animation(3), settings(6));
+  costs.load = processor_seconds() - start;
+  const double wrong =
+      (built.was_loaded ? 1 : 0) + (loaded.was_loaded ? 0 : 1) + different_answers(*built.body, *loaded.body);
+  return {
+      "level-set-cache.loaded-is-the-same",
+      "Level sets that were computed before are loaded, and answer bit for bit as those that were computed.",
+      {{wrong, 0, 0, "1", "values are stored in full"}, {}, "measured is the number of answers that differ"}};
+}
+
+NamedFinding loading_is_cheap(const Costs& costs) {
+  return {"level-set-cache.loading-is-cheap",
+          "Loading takes a tenth of the time of computing, or less.",
+          {{costs.load / costs.build, 0.1, 0, "1",
+            "a tenth: with it ten runs cost about one computation more than the first; measured in processor "
+            "time, which other programs on the machine do not lengthen much"},
+           {{"computing", "s", std::vector<double>{costs.build}},
+            {"loading", "s", std::vector<double>{costs.load}},
+            {"file", "MB", std::vector<double>{costs.megabytes}}},
+           ""}};
+}
+
+/// Something that makes a good file unfit for what is asked next.
+struct Spoiling {
+  std::string name, reason;  // the reason that must be given
+  std::function<void(const std::string& path)> file;
+  std::function<void(MeshSequence&, OctreeSettings&)> request;
+};
+
+void keep_file(const std::string&) {}
+void keep_request(MeshSequence&, OctreeSettings&) {}
+
+void cut_to(const std::string& path, double share) {
+  std::filesystem::resize_file(path, std::uintmax_t(share * double(std::filesystem::file_size(path))));
+}
+
+/// Turns a bit in a value of a file.
+void turn_bit(const std::string& path, std::uintmax_t from_end) {
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  const auto place = std::streamoff(std::filesystem::file_size(path) - from_end);
+  file.seekg(place);
+  const char byte = char(file.get());
+  file.seekp(place);
+  file.put(char(byte ^ 4));
+}
+
+/// A body without sense, written with the keys that belong to it.
+void write_unsound(const std::string& path) {
+  DeformingBody body = make_deforming_body(animation(2), settings(4), BetweenFrames::carried);
+  body.frames[1].field.branches[3].children += 1;
+  write_level_sets(path, body, origin_key(animation(2), settings(4)));
+}
+
+std::vector<Spoiling> spoilings() {
+  return {
+      {"not there", "", [](const std::string& path) { std::filesystem::remove(path); }, keep_request},
+      {"cut at half", "whole HDF5 file", [](const std::string& path) { cut_to(path, 0.5); }, keep_request},
+      {"cut at its last byte", "whole HDF5 file", [](const std::string& path) { cut_to(path, 1 - 1e-7); },
+       keep_request},
+      {"empty", "whole HDF5 file", [](const std::string& path) { cut_to(path, 0); }, keep_request},
+      {"a text", "whole HDF5 file", [](const std::string& path) { std::ofstream(path) << "level sets\n"; },
+       keep_request},
+      {"another HDF5 file", "cannot read",
+       [](const std::string& path) { Hdf5::create_file(path).attribute("version", 1); }, keep_request},
+      {"a bit turned", "",
+       [](const std::string& path) { turn_bit(path, std::filesystem::file_size(path) / 3); }, keep_request},
+      {"branches that do not fit", "branches", write_unsound, keep_request},
+      {"a vertex moved by a rounding", "computed from another", keep_file,
+       [](MeshSequence& s, OctreeSettings&) {
+         s.positions[1](2, 7) = std::nextafter(s.positions[1](2, 7), 1.0);
+       }},
+      {"a triangle turned", "computed from another", keep_file,
+       [](MeshSequence& s, OctreeSettings&) {
+         s.triangles[5] = {s.triangles[5][1], s.triangles[5][2], s.triangles[5][0]};
+       }},
+      {"another time", "computed from another", keep_file,
+       [](MeshSequence& s, OctreeSettings&) { s.times[1] = 0.31; }},
+      {"another tolerance", "computed from another", keep_file,
+       [](MeshSequence&, OctreeSettings& how) { how.tolerance = 1.01e-3; }}};
+}
+
+NamedFinding unfit_files_are_refused() {
+  const ScratchFolder scratch;
+  const std::string folder = scratch.file("kept"), good = file_of(folder, animation(2), settings(4)),
+                    spoilt = scratch.file("spoilt");
+  kept(folder, animation(2), settings(4));
+  std::vector<std::string> names, reasons;
+  std::vector<double> wrong;
+  Worst worst;
+  for (const Spoiling& spoiling : spoilings()) {
+    MeshSequence sequence = animation(2);
+    OctreeSettings how = settings(4);
+    spoiling.request(sequence, how);
+    std::filesystem::create_directories(spoilt);
+    const std::string path = file_of(spoilt, sequence, how);
+    std::filesystem::copy_file(good, path, std::filesystem::copy_options::overwrite_existing);
+    spoiling.file(path);
+    const bool is_there = std::filesystem::exists(path);
+    const Kept rebuilt = kept(spoilt, sequence, how), again = kept(spoilt, sequence, how);
+    const bool is_refused = !rebuilt.was_loaded && rebuilt.why_refused.empty() != is_there &&
+                            rebuilt.why_refused.find(spoiling.reason) != std::string::npos;
+    names.push_back(spoiling.name);
+    const size_t name_at = rebuilt.why_refused.find(".h5");
+    reasons.push_back(name_at == std::string::npos ? "no file" : rebuilt.why_refused.substr(name_at + 3));
+    wrong.push_back((is_refused ? 0 : 1) + (again.was_loaded ? 0 : 1));
+    worst.see(wrong.back());
+  }
+  return {"level-set-cache.unfit-files-are-refused",
+          "A file that is cut, damaged, foreign or computed from something else is refused with the reason, "
+          "and replaced.",
+          {{worst.value(), 0, 0, "1", "each must be refused, and the new file be good"},
+           {{"file", "", names}, {"refused or replaced wrongly", "1", wrong}, {"reason", "", reasons}},
+           ""}};
+}
+
+StudyResult run_level_set_cache(const Subject&, Tier, const Progress& progress) {
+  Costs costs{};
+  StudyResult result;
+  result.findings.push_back(loaded_is_the_same(costs));
+  result.findings.push_back(loading_is_cheap(costs));
+  progress(0.2);
+  result.findings.push_back(unfit_files_are_refused());
+  progress(0.7);
+  result.findings.push_back(runs_with_kept_level_sets_are_the_same());
+  result.findings.push_back(unfit_grids_are_refused());
+  return result;
+}
+
+}  // namespace
+
+Study level_set_cache() {
+  return {"level-set-cache", "Level sets computed beforehand serve many runs.", "BMF03 section 5.1",
+          "A whole animation's level sets are stored in a file with the key of what they were computed from. "
+          "What does a second run pay, and can it be fooled?",
+          run_level_set_cache};
+}
+
+}  // namespace foldproof

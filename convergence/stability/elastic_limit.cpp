@@ -1,0 +1,178 @@
+// elastic-limit: the largest stable step of undamped motion, and how it shrinks with the cells.
+#include <algorithm>
+#include <cmath>
+
+#include "convergence/order.h"
+#include "convergence/stability/stable_step.h"
+#include "convergence/studies.h"
+#include "reference/dynamics/integrator.h"
+#include "verification/subject.h"
+
+namespace foldproof {
+
+namespace {
+
+/// What resists: springs or hinges, and the exponent of the cells' width that follows for the step.
+struct Regime {
+  std::string name, words;
+  double stretch, bending;  // Y [N/m], ke [J]
+  double exponent;          // of the width in the largest stable step
+};
+
+std::vector<Regime> regimes() {
+  return {{"springs", "springs alone", 29, 0, 1}, {"bending", "bending alone", 0, 0.0071, 2}};
+}
+
+Regime both_regimes() { return {"both", "springs and bending", 29, 0.0071, nan}; }
+
+Scene undamped_sheet(const Regime& regime, int cells) {
+  Scene scene = flat_sheet(cells);
+  if (regime.stretch > 0) scene.stretch = StretchMaterial{regime.stretch, 0, 1};
+  if (regime.bending > 0)
+    scene.bending = BendingMaterial{regime.bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
+  return scene;
+}
+
+/// Limits of one regime over all meshes.
+struct Limits {
+  Convergence exact;           // 2/omega [s] over the width of a cell [m]
+  std::vector<double> bounds;  // the reference's elastic limit [s]
+};
+
+Limits limits_of(const Subject& subject, const Regime& regime, const std::vector<int>& meshes) {
+  Limits limits;
+  for (int cells : meshes) {
+    const Scene scene = undamped_sheet(regime, cells);
+    limits.exact.steps.push_back(flat_side / cells);
+    limits.exact.errors.push_back(2 / fastest_mode(subject, scene).omega);
+    limits.bounds.push_back(elastic_limit(build_system(scene), start_state(scene)));
+  }
+  return limits;
+}
+
+NamedFinding exponent_of(const Regime& regime, const Limits& limits) {
+  const Estimate deviation = order_deviation(limits.exact, regime.exponent, 1);
+  std::vector<double> orders = pair_orders(limits.exact);
+  orders.insert(orders.begin(), nan);
+  const Verdict verdict{deviation.value, 0.05, 0, "1",
+                        "a whole exponent would be off by 1; what the border does to the fastest mode dies "
+                        "out as the cells become many"};
+  return {"elastic-limit.exponent." + regime.name,
+          "With " + regime.words +
+              ", the largest stable step is proportional to the cells' width to the power " +
+              (regime.exponent == 1 ? "one." : "two."),
+          {verdict,
+           {{"width of a cell", "m", limits.exact.steps},
+            {"2/omega", "s", limits.exact.errors},
+            {"exponent", "1", orders}},
+           "measured is |exponent - expected| of the last pair"}};
+}
+
+NamedFinding bound_of(const Regime& regime, const Limits& limits) {
+  Worst worst;
+  std::vector<double> ratios;
+  for (size_t i = 0; i < limits.bounds.size(); ++i) {
+    ratios.push_back(limits.bounds[i] / limits.exact.errors[i]);
+    worst.see(ratios.back());
+  }
+  const Verdict verdict{worst.value(), 1, 0.01 * worst.value(), "1",
+                        "the bound on the frequency must not lie below it"};
+  return {
+      "elastic-limit.bound-is-safe." + regime.name,
+      "With " + regime.words + ", the reference's elastic limit is no longer than the largest stable step.",
+      {verdict,
+       {{"width of a cell", "m", limits.exact.steps}, {"elastic limit over 2/omega", "1", ratios}},
+       "power iteration approaches omega from below, which errs towards passing; the uncertainty is the one "
+       "percent within which runs confirm 2/omega"}};
+}
+
+/// On a flat sheet at rest springs act in its plane and hinges across it: neither adds to the other.
+NamedFinding smaller_of_both(const std::vector<Limits>& alone, const Limits& both) {
+  Worst worst;
+  std::vector<double> springs, bending;
+  for (size_t i = 0; i < both.exact.errors.size(); ++i) {
+    springs.push_back(alone[0].exact.errors[i]);
+    bending.push_back(alone[1].exact.errors[i]);
+    worst.see(std::abs(both.exact.errors[i] / std::min(springs.back(), bending.back()) - 1));
+  }
+  const Verdict verdict{worst.value(), 0.01, 0, "1",
+                        "power iteration has found the frequencies to better than a hundredth"};
+  return {
+      "elastic-limit.both.is-the-smaller",
+      "With springs and bending, the largest stable step is the smaller of the two: springs' on wide cells, "
+      "bending's on narrow ones.",
+      {verdict,
+       {{"width of a cell", "m", both.exact.steps},
+        {"2/omega, both", "s", both.exact.errors},
+        {"2/omega, springs alone", "s", springs},
+        {"2/omega, bending alone", "s", bending}},
+       ""}};
+}
+
+NamedFinding scheme_limit(const Subject& subject, const Regime& regime, const Integrator& integrator) {
+  Scene scene = undamped_sheet(regime, 6);
+  scene.integrator = std::string(integrator.name);
+  const double ratio =
+      largest_stable_step(subject, scene, fastest_mode(subject, scene).omega, {0.8, 1.2, 8, 600});
+  const Verdict verdict{std::abs(ratio - 1), 0.01, 0, "1",
+                        "the bisection ends at a width of a sixth of that, and a run this long tells growth "
+                        "rates that much beyond the limit"};
+  const std::string name(integrator.name);
+  return {"elastic-limit.is-two-over-omega." + regime.name + "." + name,
+          "With " + regime.words + ", the largest stable step of scheme " + name +
+              " on an undamped flat sheet is 2/omega.",
+          {verdict, {{"largest stable step over 2/omega", "1", std::vector<double>{ratio}}}, ""}};
+}
+
+StudyResult run_elastic_limit(const Subject& subject, Tier tier, const Progress& progress) {
+  std::vector<int> meshes = {4, 8, 16, 32};
+  if (tier == Tier::full) meshes.push_back(64);
+  StudyResult result;
+  Figure figure{"largest-step",
+                "Largest stable step of undamped motion",
+                {"width of a cell", "m", Scale::log},
+                {"2/omega", "s", Scale::log},
+                nan,
+                "Springs' limit falls with the width, hinges' with its square.",
+                {}};
+  double done = 0;
+  const double parts = 1 + double(regimes().size() * (1 + paper_schemes().size()));
+  std::vector<Limits> alone;
+  for (const Regime& regime : regimes()) {
+    const Limits limits = limits_of(subject, regime, meshes);
+    result.findings.push_back(exponent_of(regime, limits));
+    result.findings.push_back(bound_of(regime, limits));
+    figure.curves.push_back({regime.words, limits.exact.steps, limits.exact.errors, nan,
+                             pair_orders(limits.exact), regime.exponent});
+    figure.curves.push_back(
+        {regime.words + ", the solver's bound", limits.exact.steps, limits.bounds, nan, {}});
+    alone.push_back(limits);
+    progress(++done / parts);
+    for (const Integrator& integrator : paper_schemes()) {
+      result.findings.push_back(scheme_limit(subject, regime, integrator));
+      progress(++done / parts);
+    }
+  }
+  const Limits both = limits_of(subject, both_regimes(), meshes);
+  result.findings.push_back(smaller_of_both(alone, both));
+  figure.curves.push_back({both_regimes().words, both.exact.steps, both.exact.errors, nan, {}});
+  progress(1);
+  result.figures.push_back(std::move(figure));
+  return result;
+}
+
+}  // namespace
+
+Study elastic_limit_study() {
+  return {"elastic-limit",
+          "The largest stable step of undamped motion is 2/omega for schemes A, B and C; it is proportional "
+          "to the cells' width where springs dominate, and to its square where bending does.",
+          "BMF03 section 3",
+          "A flat, free, undamped sheet is disturbed a little. Its fastest mode is found by power iteration "
+          "on the elastic forces, the largest stable step of each scheme by bisection on runs that stay "
+          "bounded or do not. The paper gives the limit as proportional to the width; hinges alone make it "
+          "fall with the square.",
+          run_elastic_limit};
+}
+
+}  // namespace foldproof

@@ -1,0 +1,196 @@
+#include "convergence/stability/explicit_limits.h"
+
+#include <cmath>
+
+#include "convergence/order.h"
+#include "convergence/stability/stable_step.h"
+#include "convergence/stability/step_matrix.h"
+#include "reference/dynamics/integrator.h"
+#include "reference/mesh/shapes.h"
+#include "verification/oracles/stability.h"
+
+namespace foldproof {
+
+namespace {
+
+Scene damped_sheet(int cells, const Damping& damping) {
+  Scene scene = flat_sheet(cells);
+  if (damping.springs > 0) scene.stretch = StretchMaterial{29, damping.springs, 1};
+  if (damping.bending > 0)
+    scene.bending = BendingMaterial{0.0071, damping.bending, Weighting::rest, DampingFactor::edge, "sine"};
+  return scene;
+}
+
+/// The largest eigenvalue of -M^{-1} D [1/s]; from below.
+double largest_damping_rate(const Subject& subject, const Scene& scene) {
+  return largest_eigenvalue(scene, damping_operator(subject, scene)).value;
+}
+
+NamedFinding damping_exponent(const Damping& damping, const Convergence& limits, double exponent) {
+  const Estimate deviation = order_deviation(limits, exponent, 1);
+  std::vector<double> orders = pair_orders(limits);
+  orders.insert(orders.begin(), nan);
+  return {
+      "stability-sheet.damping-exponent." + damping.name,
+      "With " + damping.words +
+          " the largest stable step of a fully explicit method is proportional to the cells' width to the "
+          "power " +
+          (exponent == 2 ? "two." : "three."),
+      {{deviation.value, 0.1, 0, "1",
+        "another whole exponent is off by 1; what the border does to the fastest mode dies out as the "
+        "cells become many"},
+       {{"width of a cell", "m", limits.steps},
+        {"2/rate of damping", "s", limits.errors},
+        {"exponent", "1", orders}},
+       "measured is |exponent - expected| of the last pair; 2/rate is forward Euler's and RK2's limit, "
+       "where damping decides"}};
+}
+
+}  // namespace
+
+std::vector<Damping> dampings() {
+  return {{"springs", "damped springs", 0.3, 0},
+          {"bending", "damped bending", 0, 0.01},
+          {"both", "both damped", 0.3, 0.01}};
+}
+
+void add_refinement(const Subject& subject, Tier tier, StudyResult& result) {
+  std::vector<int> meshes = {4, 8, 16, 32};
+  if (tier == Tier::full) meshes.push_back(64);
+  Figure figure{"over-width",
+                "What limits a step as the cells become small",
+                {"width of a cell", "m", Scale::log},
+                {"largest stable step", "s", Scale::log},
+                nan,
+                "2/omega limits schemes A and B, and C where nothing is damped; 2/rate of damping limits "
+                "forward Euler and explicit midpoint.",
+                {}};
+  Curve elastic{"2/omega, springs", {}, {}, nan, {}, 1};
+  for (const int cells : meshes) {
+    elastic.x.push_back(flat_side / cells);
+    elastic.y.push_back(2 / fastest_mode(subject, damped_sheet(cells, dampings()[0])).omega);
+  }
+  figure.curves.push_back(std::move(elastic));
+  for (const auto& [damping, exponent] : {std::pair(dampings()[0], 2.0), std::pair(dampings()[1], 3.0)}) {
+    Convergence limits;
+    for (const int cells : meshes) {
+      limits.steps.push_back(flat_side / cells);
+      limits.errors.push_back(2 / largest_damping_rate(subject, damped_sheet(cells, damping)));
+    }
+    result.findings.push_back(damping_exponent(damping, limits, exponent));
+    figure.curves.push_back(
+        {"2/rate, " + damping.words, limits.steps, limits.errors, nan, pair_orders(limits), exponent});
+  }
+  result.figures.push_back(std::move(figure));
+}
+
+namespace {
+
+// ---- the paper's example: cells of a tenth
+
+/// A sheet of side 1 whose modulus, damping and density are 1: steps over one unit of time.
+Scene unit_sheet(int cells) {
+  Scene scene = scene_of(make_sheet({SheetPattern::union_jack, 1, 1, cells, cells}), 1);
+  scene.stretch = StretchMaterial{1, 1, 1};
+  return scene;
+}
+
+/// Steps a unit of time takes, by method: mixed and three explicit ones.
+struct StepCounts {
+  std::vector<double> widths, mixed, euler, midpoint, classical;
+};
+
+StepCounts step_counts(const Subject& subject, const std::vector<int>& meshes) {
+  StepCounts counts;
+  for (const int cells : meshes) {
+    const Scene scene = unit_sheet(cells);
+    const double omega = fastest_mode(subject, scene).omega;
+    const auto rates = oracles::oscillator_rates(omega, largest_damping_rate(subject, scene) / (2 * omega));
+    const auto steps = [&](int order) { return 1 / oracles::largest_runge_kutta_step(order, rates).value; };
+    counts.widths.push_back(1. / cells);
+    counts.mixed.push_back(omega / 2);
+    counts.euler.push_back(steps(1));
+    counts.midpoint.push_back(steps(2));
+    counts.classical.push_back(steps(4));
+  }
+  return counts;
+}
+
+Table table_of(const StepCounts& counts) {
+  return {"steps",
+          "Steps in one unit of time of a sheet whose side, modulus, damping and density are 1",
+          {{"width of a cell", "1", counts.widths},
+           {"schemes A and B", "1", counts.mixed},
+           {"forward Euler", "1", counts.euler},
+           {"explicit midpoint", "1", counts.midpoint},
+           {"classical Runge-Kutta 4", "1", counts.classical}}};
+}
+
+/// The index of the mesh with ten cells a side.
+constexpr size_t tenth = 1;
+
+NamedFinding an_order_of_magnitude(const StepCounts& counts) {
+  const double factor = counts.classical[tenth] / counts.mixed[tenth];
+  return {"stability-sheet.a-tenth.order-of-magnitude",
+          "At a width of a tenth a fully explicit method needs at least ten times the steps of a mixed one.",
+          {{10 / factor, 1, 0, "1", "the paper's example: 10 steps against 100"},
+           table_of(counts).columns,
+           "measured is ten over the factor between classical Runge-Kutta, which steps furthest, and A"}};
+}
+
+NamedFinding factor_exponent(const StepCounts& counts) {
+  Convergence factors{counts.widths, {}, 0};
+  for (size_t i = 0; i < counts.widths.size(); ++i)
+    factors.errors.push_back(counts.classical[i] / counts.mixed[i]);
+  const Estimate deviation = order_deviation(factors, -1, 1);
+  return {"stability-sheet.a-tenth.factor-exponent",
+          "The factor between the steps of explicit and mixed methods grows as one over the width of a cell.",
+          {{deviation.value, 0.1, 0, "1", "a factor that stayed, or grew with the square, is off by 1"},
+           {{"width of a cell", "1", factors.steps}, {"steps of RK4 over those of A", "1", factors.errors}},
+           "measured is |exponent + 1| of the last pair"}};
+}
+
+/// At a tenth the steps are also found by trying: runs of the whole sheet, and for A, which leaves its limit
+/// too slowly for runs when damping is heavy, the matrix of the fastest mode.
+NamedFinding by_trying(const Subject& subject, const Integrator& integrator, double expected) {
+  Scene scene = unit_sheet(10);
+  const FastestMode mode = fastest_mode(subject, scene);
+  double steps = nan;
+  if (integrator.family == Family::mixed) {
+    const double h = 1 / expected;
+    steps = 1 / largest_constant_step(
+                    stepped_motion(subject, motion_along(scene, mode.shape, mode.omega), integrator.name),
+                    {0.5 * h, 4 * h, 1e-6, 14});
+  } else {
+    scene.integrator = std::string(integrator.name);
+    const double fraction = mode.omega / (2 * expected);
+    steps = mode.omega / 2 /
+            largest_stable_step(subject, scene, mode.omega, {0.9 * fraction, 1.1 * fraction, 7, 2400});
+  }
+  return {
+      "stability-sheet.a-tenth.by-trying." + std::string(integrator.name),
+      "Stepping confirms the steps that " + std::string(integrator.title) + " needs at a width of a tenth.",
+      {{std::abs(steps / expected - 1), 0.01, 0, "1",
+        "a disturbance grows a thousandfold in 2400 steps from a third of a percent beyond the limit on; the "
+        "bisection ends at a sixth of a percent"},
+       {{"steps in a unit of time", "1", std::vector<double>{steps}},
+        {"as known", "1", std::vector<double>{expected}}},
+       ""}};
+}
+
+}  // namespace
+
+void add_tenth(const Subject& subject, Tier tier, StudyResult& result) {
+  std::vector<int> meshes = {5, 10, 20};
+  if (tier == Tier::full) meshes.insert(meshes.end(), {40, 80});
+  const StepCounts counts = step_counts(subject, meshes);
+  result.findings.push_back(an_order_of_magnitude(counts));
+  result.findings.push_back(factor_exponent(counts));
+  for (const auto& [name, expected] :
+       {std::pair("A", counts.mixed[tenth]), std::pair("forward-euler", counts.euler[tenth]),
+        std::pair("RK2", counts.midpoint[tenth]), std::pair("RK4", counts.classical[tenth])})
+    result.findings.push_back(by_trying(subject, integrator_named(name), expected));
+  result.tables.push_back(table_of(counts));
+}
+
+}  // namespace foldproof

@@ -1,0 +1,83 @@
+#include "convergence/stability/step_jump.h"
+
+#include <cmath>
+
+#include "convergence/stability/stable_step.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double fraction = 0.9;                  // s: the long step over 2/omega
+constexpr double room = 1 - fraction * fraction;  // 1 - s^2
+constexpr int jump = 100;
+
+/// A sheet that vibrates in one mode.
+struct Vibration {
+  const Subject& subject;
+  const Scene& scene;
+  const FastestMode& mode;
+  Prepared& prepared;
+};
+
+double energy(const Vibration& of, const State& s) {
+  const PerParticle mass = lumped_masses(of.scene.mesh, of.scene.density);
+  return 0.5 * s.v.colwise().squaredNorm().dot(mass.transpose()) +
+         offered(of.subject.potential_energy, "potential_energy")(of.prepared, s);
+}
+
+/// Energies after the jump over that at the start [1].
+struct EnergyRange {
+  Worst largest, over_least;  // largest, and one over the least
+};
+
+EnergyRange after_jump(const Vibration& of, double phase) {
+  const double h = fraction * 2 / of.mode.omega;
+  State s = start_state(of.scene);
+  s.x += small_disturbance * of.mode.shape;
+  const double start = energy(of, s);
+  Work uncounted;
+  const long fine = std::lround(phase / of.mode.omega / (h / jump));
+  for (long i = 0; i < fine; ++i) s = of.subject.step(of.prepared, {&s, 1}, h / jump, uncounted);
+  EnergyRange range;
+  for (int i = 0; i < 60; ++i) {
+    s = of.subject.step(of.prepared, {&s, 1}, h, uncounted);
+    range.largest.see(energy(of, s) / start);
+    range.over_least.see(start / energy(of, s));
+  }
+  return range;
+}
+
+}  // namespace
+
+// At the step h = s (2/omega) the leapfrog keeps Q = v^2/2 + (1 - s^2) omega^2 x^2/2 of an undamped mode.
+// Whatever its phase, the energy E at the jump gives a Q in [(1 - s^2) E, E]; afterwards the energy lies in
+// [Q, Q/(1 - s^2)].
+NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& scheme) {
+  scene.integrator = scheme;
+  const auto prepared = offered(subject.prepare, "prepare")(scene);
+  offered(subject.step, "step");
+  const FastestMode mode = fastest_mode(subject, scene);
+  Worst worst;
+  std::vector<double> phases, least, most;
+  for (int k = 0; k < 8; ++k) {
+    phases.push_back(2 * M_PI * k / 8);
+    const EnergyRange range = after_jump({subject, scene, mode, *prepared}, phases.back());
+    least.push_back(1 / range.over_least.value());
+    most.push_back(range.largest.value());
+    worst.see(range.largest.value() * room);
+    worst.see(range.over_least.value() * room);
+  }
+  return {
+      "hard-limits.step-jump." + scheme,
+      "When the step jumps by 1 : 100 to s (2/omega), s = 0.9, the energy of scheme " + scheme +
+          " stays within [1 - s^2, 1/(1 - s^2)] of what it was.",
+      {{worst.value(), 1.01, 0, "1",
+        "one for the derived range; a hundredth for the vibration being not quite the fastest mode alone"},
+       {{"phase at the jump", "rad", phases},
+        {"least energy after it, over the start's", "1", least},
+        {"largest energy after it, over the start's", "1", most}},
+       "measured is how far the range is used: the largest energy, or one over the least, times 1 - s^2"}};
+}
+
+}  // namespace foldproof

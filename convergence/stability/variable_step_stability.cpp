@@ -1,0 +1,234 @@
+// variable-step-stability: steps that are stable each by itself need not be so in turn.
+#include <cmath>
+
+#include "convergence/stability/bdf2_growing_steps.h"
+#include "convergence/ranges.h"
+#include "convergence/stability/stable_step.h"
+#include "convergence/stability/step_matrix.h"
+#include "convergence/studies.h"
+#include "reference/dynamics/integrator.h"
+#include "reference/mesh/shapes.h"
+#include "verification/oracles/exact_solutions.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double short_step = 0.69, long_step = 1.99;  // omega h of the worst pair of stable steps
+
+/// Spectral radius of two steps in turn, by the derived matrices.
+double exact_radius(std::string_view scheme, double zeta, double first, double second) {
+  const oracles::Oscillator oscillator{1, 2 * zeta, 0, 0};
+  return spectral_radius(oracles::step_matrix(derived_scheme(scheme), oscillator, second) *
+                         oracles::step_matrix(derived_scheme(scheme), oscillator, first));
+}
+
+/// The same by stepping; first and second are omega h.
+double stepped_radius(const SteppedMotion& of, double first, double second) {
+  return spectral_radius(pair_matrix(of, first / of.motion.omega0, second / of.motion.omega0));
+}
+
+// ---- one oscillator
+
+NamedFinding resonance_finding(const Subject& subject, const std::string& scheme) {
+  const SteppedMotion of = stepped_motion(subject, hinge_oscillator(0), scheme);
+  const double pair = stepped_radius(of, short_step, long_step);
+  const std::vector<double> alone = {stepped_radius(of, short_step, short_step),
+                                     stepped_radius(of, long_step, long_step)};
+  Worst either;
+  for (const double radius : alone) either.see(radius);
+  const Verdict verdict{either.value() / pair, 0.5, 0, "1",
+                        "growth by more than two in each pair of steps is no rounding, and no slow drift"};
+  return {"variable-step-stability.resonance." + scheme,
+          "Undamped, steps of .69/omega and 1.99/omega in turn make scheme " + scheme +
+              " grow, though each alone is stable: a step below the limit does not suffice if steps vary.",
+          {verdict,
+           {{"spectral radius of the pair", "1", std::vector<double>{pair}},
+            {"of two short steps", "1", std::vector<double>{alone[0]}},
+            {"of two long steps", "1", std::vector<double>{alone[1]}}},
+           "measured is the larger spectral radius of two equal steps over that of the pair"}};
+}
+
+NamedFinding damped_finding(const Subject& subject, const std::string& scheme) {
+  std::vector<double> ratios = {0.5, 0.7, 1, 2, 5, 20}, radii;
+  Worst worst;
+  for (const double zeta : ratios) {
+    radii.push_back(
+        stepped_radius(stepped_motion(subject, hinge_oscillator(zeta), scheme), short_step, long_step));
+    worst.see(radii.back());
+  }
+  return {
+      "variable-step-stability.damping-cures." + scheme,
+      "A damping ratio of a half or more makes steps of .69/omega and 1.99/omega in turn stable in scheme " +
+          scheme + ".",
+      {{worst.value(), 1, 0, "1", "a spectral radius above 1 grows"},
+       {{"damping ratio", "1", ratios}, {"spectral radius of the pair", "1", radii}},
+       "measured is the largest of the radii"}};
+}
+
+/// The damping ratio from which on a pair of steps no longer grows; 0 if it never does.
+double curing_ratio(const std::string& scheme, double first, double second) {
+  double grows = 0, stays = 1;
+  if (exact_radius(scheme, 0, first, second) <= 1 + 1e-9) return 0;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = (grows + stays) / 2;
+    (exact_radius(scheme, middle, first, second) > 1 ? grows : stays) = middle;
+  }
+  return stays;
+}
+
+Map ratio_map(const Subject& subject, const std::string& method, int fineness) {
+  Map map{"pair-" + method,
+          "Steps of 1.99/omega and shorter ones in turn, method " + method,
+          {"shorter step over longer one", "1", Scale::linear},
+          {"damping ratio", "1", Scale::linear},
+          evenly(0.02, 1, 14 * fineness),
+          evenly(0, 0.6, 8 * fineness),
+          {},
+          "spectral radius of a pair of steps",
+          "1",
+          Scale::linear,
+          "Above 1 a disturbance grows from pair to pair, though each step alone is stable.",
+          {}};
+  for (const double zeta : map.y_values) {
+    const SteppedMotion of = stepped_motion(subject, hinge_oscillator(zeta), method);
+    for (const double ratio : map.x_values)
+      map.values.push_back(stepped_radius(of, ratio * long_step, long_step));
+  }
+  return map;
+}
+
+void add_border(const std::string& scheme, Map& map) {
+  Curve curve{"spectral radius 1, derived", {}, {}, nan, {}};
+  for (const double ratio : evenly(0.02, 1, 197)) {
+    const double zeta = curing_ratio(scheme, ratio * long_step, long_step);
+    curve.x.push_back(ratio);
+    curve.y.push_back(zeta > 0 ? zeta : nan);
+  }
+  map.curves.push_back(std::move(curve));
+  map.caption += " Below the curve, from the derived matrices, pairs grow.";
+}
+
+NamedFinding map_finding(const std::string& scheme, const Map& map) {
+  Worst worst;
+  for (size_t iy = 0, i = 0; iy < map.y_values.size(); ++iy)
+    for (const double ratio : map.x_values) {
+      const double exact = exact_radius(scheme, map.y_values[iy], ratio * long_step, long_step);
+      worst.see(std::abs(map.values[i++] / exact - 1));
+    }
+  return {
+      "variable-step-stability.as-derived." + scheme,
+      "The spectral radius of two steps in turn of scheme " + scheme +
+          " is that of the derived matrices, over step ratios and damping ratios.",
+      {{worst.value(), 1e-6, 0, "1",
+        "entries are found to 1e-12 or so; where the two eigenvalues coincide that moves them by its root"},
+       {{"points compared", "1", std::vector<double>{double(map.values.size())}}},
+       "measured is the largest relative deviation over the map"}};
+}
+
+/// Where an undamped pair grows: over both steps.
+Map both_steps_map(const Subject& subject, int fineness) {
+  Map map{
+      "undamped-steps",
+      "Two steps in turn without damping",
+      {"first step, omega h", "1", Scale::linear},
+      {"second step, omega h", "1", Scale::linear},
+      evenly(0.05, 2, 12 * fineness + 1),
+      evenly(0.05, 2, 12 * fineness + 1),
+      {},
+      "spectral radius of a pair of steps",
+      "1",
+      Scale::linear,
+      "Schemes A, B and C agree without damping. Each of these steps alone is stable; off the diagonal some "
+      "pairs resonate, most of all with a step near the limit.",
+      {}};
+  const SteppedMotion of = stepped_motion(subject, hinge_oscillator(0), "A");
+  for (const double second : map.y_values)
+    for (const double first : map.x_values) map.values.push_back(stepped_radius(of, first, second));
+  return map;
+}
+
+// ---- the sheet
+
+/// The largest size of a disturbance of the sheet over 300 pairs of steps, over that at the start.
+double sheet_growth(const Subject& subject, Scene scene, const std::string& scheme, double zeta) {
+  constexpr int pairs = 300;
+  constexpr double enough = 1e6, stretch = 29;
+  scene.stretch = StretchMaterial{stretch, 0, 1};
+  const double omega = fastest_mode(subject, scene).omega;
+  scene.stretch->damping = 2 * zeta * stretch / omega;
+  scene.integrator = scheme;
+  const auto prepared = offered(subject.prepare, "prepare")(scene);
+  offered(subject.step, "step");
+  State s = start_state(scene);
+  s.x += small_disturbance * disturbance_shape(s.x.cols());
+  const double start = (s.x - scene.x).norm();
+  Worst worst;
+  Work uncounted;
+  for (int i = 0; i < 2 * pairs && !(worst.value() >= enough); ++i) {
+    const double h = (i % 2 == 0 ? short_step : long_step) / omega;
+    s = subject.step(*prepared, {&s, 1}, h, uncounted);
+    worst.see((s.x - scene.x).norm() / start);
+  }
+  return worst.value();
+}
+
+void add_sheet_findings(const Subject& subject, const std::string& scheme, StudyResult& result) {
+  const Scene scene = scene_of(make_sheet({SheetPattern::union_jack, 0.61, 0.61, 5, 5}), 0.23);
+  const double undamped = sheet_growth(subject, scene, scheme, 0);
+  const double damped = sheet_growth(subject, scene, scheme, 0.5);
+  result.findings.push_back(
+      {"variable-step-stability.sheet-grows." + scheme,
+       "An undamped sheet grows under scheme " + scheme +
+           " with steps of .69 and 1.99 over its highest frequency in turn.",
+       {{1e3 / undamped, 1, 0, "1", "a thousand times its size is beyond what bounded modes can add up to"},
+        {{"largest size over the start's", "1", std::vector<double>{undamped}}},
+        "measured is a thousand over the growth"}});
+  result.findings.push_back(
+      {"variable-step-stability.sheet-cured." + scheme,
+       "A sheet whose highest mode has a damping ratio of a half does not grow under the same steps of "
+       "scheme " +
+           scheme + ".",
+       {{damped / 10, 1, 0, "1",
+         "a mode near its limit may exceed its start, by 1/sqrt(1 - (omega h/2)^2) = 10 at 1.99/omega"},
+        {{"largest size over the start's", "1", std::vector<double>{damped}}},
+        "measured is the growth over ten"}});
+}
+
+StudyResult run_variable_step_stability(const Subject& subject, Tier tier, const Progress& progress) {
+  const int fineness = tier == Tier::quick ? 3 : 10;
+  StudyResult result;
+  double done = 0;
+  for (const std::string scheme : {"A", "B", "C"}) {
+    result.findings.push_back(resonance_finding(subject, scheme));
+    result.findings.push_back(damped_finding(subject, scheme));
+    Map map = ratio_map(subject, scheme, fineness);
+    result.findings.push_back(map_finding(scheme, map));
+    add_border(scheme, map);
+    result.maps.push_back(std::move(map));
+    add_sheet_findings(subject, scheme, result);
+    progress(++done / 5);
+  }
+  result.maps.push_back(ratio_map(subject, "BDF2", fineness));
+  result.maps.push_back(both_steps_map(subject, fineness));
+  progress(++done / 5);
+  for (NamedFinding& finding : bdf2_growing_steps(subject)) result.findings.push_back(std::move(finding));
+  progress(1);
+  return result;
+}
+
+}  // namespace
+
+Study variable_step_stability() {
+  return {"variable-step-stability",
+          "Steps that are stable each by itself can resonate in turn: undamped, A, B and C more than double "
+          "in each pair of .69/omega and 1.99/omega; a damping ratio of a half cures it.",
+          "BMF03 section 3",
+          "The paper asks for a scheme whose step may vary. Two steps in turn are the product of two step "
+          "matrices, found by stepping a hinge whose corner is an oscillator, and compared with the derived "
+          "ones; the same steps are then taken on a sheet. BDF2 has a limit of its own: steps must not grow "
+          "by more than 1 + sqrt(2) each.",
+          run_variable_step_stability};
+}
+
+}  // namespace foldproof

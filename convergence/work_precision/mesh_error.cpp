@@ -1,0 +1,216 @@
+// mesh-error: what the mesh leaves of the error, beside what the step leaves.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "convergence/order.h"
+#include "convergence/work_precision/precision_problem.h"
+#include "convergence/studies.h"
+#include "reference/mesh/shapes.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double width = 0.83, height = 0.71;  // m
+constexpr double end = 0.15;                   // s
+constexpr int coarsest = 4;                    // cells along each side
+
+/// Held along its upper edge, swung by a smooth velocity. Every constant is a property of the cloth, none of
+/// the mesh.
+Scene swung_sheet(int cells) {
+  Scene scene = scene_of(make_sheet({SheetPattern::one_diagonal, width, height, cells, cells}), 0.19);
+  scene.integrator = "C";
+  scene.gravity = Vector3(0, -9.81, 0);
+  scene.stretch = StretchMaterial{47, 0.047, 1};
+  scene.bending =
+      BendingMaterial{3e-3, 1.5e-6, Weighting::rest, DampingFactor::edge_squared_over_area, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  scene.solver.tolerance = 1e-10;
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    const double a = scene.mesh.rest(0, i) / width, below = 1 - scene.mesh.rest(1, i) / height;
+    scene.v.col(i) = Vector3(0.2, 0, 1.1 + 0.5 * std::cos(2.9 * a)) * below * below;
+  }
+  for (int i = cells * (cells + 1); i < scene.mesh.particles(); ++i)
+    scene.led.push_back({i, scene.mesh.rest.col(i), {}});
+  return scene;
+}
+
+/// One mesh: where the particles of the coarsest mesh end, with a small step and with larger ones.
+struct MeshRun {
+  int cells;
+  double limit;         // the elastic limit, the solver's bound [s]
+  PerParticle3 x;       // extrapolated in the step, 3 x N of the coarsest mesh [m]
+  double uncertainty;   // of x, by the step: all of the extrapolation's correction [m]
+  double time_error;    // at the automatic rule's share of the elastic limit [m]
+  double applications;  // of force operators, in that run
+  double farthest;      // that any particle got [m]
+};
+
+/// The share of the elastic limit that automatic steps take.
+double usual_share() { return StepRule{}.safety; }
+
+/// Of the particles of a finer mesh, those of the coarsest.
+PerParticle3 shared(const PerParticle3& x, int cells) {
+  const int every = cells / coarsest;
+  PerParticle3 picked(3, (coarsest + 1) * (coarsest + 1));
+  for (int row = 0, k = 0; row <= coarsest; ++row)
+    for (int column = 0; column <= coarsest; ++column, ++k)
+      picked.col(k) = x.col(every * (row * (cells + 1) + column));
+  return picked;
+}
+
+MeshRun run_mesh(const Subject& subject, int cells) {
+  const Scene scene = swung_sheet(cells);
+  MeshRun mesh{cells, elastic_limit(build_system(scene), start_state(scene)), {}, 0, 0, 0, 0};
+  const int usual = int(std::ceil(end / (usual_share() * mesh.limit)));
+  const PlannedRun coarse = run_planned(subject, scene, {end, usual, infinite, infinite});
+  const PlannedRun fine = run_planned(subject, scene, {end, 2 * usual, infinite, infinite});
+  const PerParticle3 correction = (fine.last.x - coarse.last.x) / 3;
+  mesh.x = shared(fine.last.x + correction, cells);
+  mesh.uncertainty = largest_distance(mesh.x, shared(fine.last.x, cells));
+  mesh.time_error = largest_distance(mesh.x, shared(coarse.last.x, cells));
+  mesh.applications = operator_applications(coarse.work);
+  mesh.farthest = fine.farthest;
+  return mesh;
+}
+
+/// Differences of neighbouring meshes [m] against the coarser one's cells [m].
+Convergence differences(const std::vector<MeshRun>& meshes) {
+  Convergence result;
+  for (size_t i = 0; i + 1 < meshes.size(); ++i) {
+    result.steps.push_back(width / meshes[i].cells);
+    result.errors.push_back(largest_distance(meshes[i].x, meshes[i + 1].x));
+    result.floor = std::max(result.floor, meshes[i].uncertainty + meshes[i + 1].uncertainty);
+  }
+  return result;
+}
+
+/// What a mesh errs by [m], from its difference to the next finer one and the order that was observed:
+///   e(dx) - e(dx/2) = e(dx) (1 - 2^-order)
+std::vector<double> space_errors(const Convergence& differences, double order) {
+  std::vector<double> errors;
+  for (double difference : differences.errors) errors.push_back(difference / (1 - std::pow(2, -order)));
+  return errors;
+}
+
+NamedFinding second_order(const Convergence& errors) {
+  const Estimate deviation = order_deviation(errors, 2, 1);
+  std::vector<double> orders = pair_orders(errors);
+  orders.insert(orders.begin(), nan);
+  const Verdict verdict{
+      deviation.value, 0.5, deviation.uncertainty, "1",
+      "first order would be off by 1; half of that is left to the border, whose springs and "
+      "hinges lack a neighbour, on meshes this coarse"};
+  return {"mesh-error.second-order-in-the-cells",
+          "Positions of a smooth motion converge with second order in the cells' width.",
+          {verdict,
+           {{"width of a cell", "m", errors.steps},
+            {"difference to half the width", "m", errors.errors},
+            {"order of the pair", "1", orders}},
+           "measured is |order - 2| of the last pair, at the particles of the coarsest mesh"}};
+}
+
+/// The usual step: the share of the elastic limit that automatic steps take.
+NamedFinding step_errs_less(const std::vector<MeshRun>& meshes, const std::vector<double>& space) {
+  Worst worst, uncertainty;
+  std::vector<double> cells, time;
+  for (size_t i = 0; i < space.size(); ++i) {
+    cells.push_back(meshes[i].cells);
+    time.push_back(meshes[i].time_error);
+    worst.see(time.back() / space[i]);
+    uncertainty.see(meshes[i].uncertainty / space[i]);
+  }
+  const Verdict verdict{worst.value(), 0.1, uncertainty.value(), "1",
+                        "a tenth: then a shorter step would lessen the whole error by no more than that"};
+  return {
+      "mesh-error.the-usual-step-errs-a-tenth-of-the-mesh",
+      "At the share of the elastic limit that automatic steps take, the step's error is less than a tenth "
+      "of the mesh's.",
+      {verdict,
+       {{"cells along a side", "1", cells},
+        {"error of the mesh", "m", space},
+        {"error of the step", "m", time}},
+       "measured is the largest ratio of the two"}};
+}
+
+Table balance(const std::vector<MeshRun>& meshes, const std::vector<double>& space) {
+  std::vector<std::vector<double>> columns(8);
+  for (size_t i = 0; i < space.size(); ++i) {
+    const MeshRun& mesh = meshes[i];
+    const double equal = usual_share() * std::sqrt(space[i] / mesh.time_error);
+    const double row[] = {double(mesh.cells),
+                          width / mesh.cells,
+                          mesh.limit,
+                          100 * space[i] / mesh.farthest,
+                          100 * mesh.time_error / mesh.farthest,
+                          mesh.time_error / space[i],
+                          equal,
+                          mesh.applications};
+    for (size_t k = 0; k < columns.size(); ++k) columns[k].push_back(row[k]);
+  }
+  return {"balance",
+          "Error of the mesh and of the step (scheme C at half the elastic limit), over the motion",
+          {{"cells along a side", "1", columns[0]},
+           {"width of a cell", "m", columns[1]},
+           {"elastic limit", "s", columns[2]},
+           {"error of the mesh", "%", columns[3]},
+           {"error of the step", "%", columns[4]},
+           {"step's error over the mesh's", "1", columns[5]},
+           {"step over elastic limit at which both are equal", "1", columns[6]},
+           {"operator applications", "1", columns[7]}}};
+}
+
+Figure figure_of(const std::vector<MeshRun>& meshes, const Convergence& errors,
+                 const std::vector<double>& space) {
+  Figure figure{"errors",
+                "Errors of the mesh and of the step",
+                {"width of a cell", "m", Scale::log},
+                {"position error", "m", Scale::log},
+                2,
+                "Largest component at the particles of the coarsest mesh, at the end of the motion. The step "
+                "is half the elastic limit of its mesh, so that it shrinks with the cells.",
+                {}};
+  figure.curves.push_back({"mesh", errors.steps, space, nan, pair_orders(errors)});
+  Curve step{"step, half the elastic limit", {}, {}, nan, {}};
+  for (const MeshRun& mesh : meshes) {
+    step.x.push_back(width / mesh.cells);
+    step.y.push_back(mesh.time_error);
+  }
+  figure.curves.push_back(std::move(step));
+  return figure;
+}
+
+StudyResult run_mesh_error(const Subject& subject, Tier tier, const Progress& progress) {
+  const int levels = tier == Tier::quick ? 4 : 5;
+  std::vector<MeshRun> meshes;
+  for (int level = 0; level < levels; ++level) {
+    meshes.push_back(run_mesh(subject, coarsest << level));
+    progress(std::pow(8, level + 1 - levels));
+  }
+  const Convergence errors = differences(meshes);
+  const std::vector<double> space = space_errors(errors, pair_orders(errors).back());
+  StudyResult result;
+  result.findings = {second_order(errors), step_errs_less(meshes, space)};
+  result.figures = {figure_of(meshes, errors, space)};
+  result.tables = {balance(meshes, space)};
+  return result;
+}
+
+}  // namespace
+
+Study mesh_error() {
+  return {
+      "mesh-error", "On a smooth motion the mesh errs more than a step of half the elastic limit does.",
+      "ours",
+      "How fine should the step be for my mesh? A sheet held along its upper edge swings by a smooth "
+      "velocity, on meshes each of which halves the cells of the one before. Errors of the mesh come from "
+      "neighbouring meshes at the particles that they share, with the step's error extrapolated away; errors "
+      "of the step from two steps on one mesh. Where springs decide on the elastic limit it is proportional "
+      "to the cells' width, so that with second order in both, the ratio of the two errors is the same on "
+      "every mesh.",
+      run_mesh_error};
+}
+
+}  // namespace foldproof

@@ -1,0 +1,119 @@
+#include "convergence/work_precision/precision_curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "verification/processor_time.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double coarsest = 1. / 8;      // steps of the first run over those at the elastic limit
+constexpr double far_away = 20;          // displacement over the motion beyond which a run is stopped [1]
+constexpr int most_repeats = 4;          // of a run that is timed
+constexpr double enough_seconds = 0.03;  // after which it is not repeated
+
+struct TimedRun {
+  PlannedRun run;
+  double seconds;  // least of all repeats
+};
+
+TimedRun timed(const Subject& subject, const Scene& scene, const RunPlan& plan) {
+  const double start = processor_seconds();
+  TimedRun best{run_planned(subject, scene, plan), 0};
+  best.seconds = processor_seconds() - start;
+  double spent = best.seconds;
+  for (int i = 1; i < most_repeats && spent < enough_seconds; ++i) {
+    const double before = processor_seconds();
+    run_planned(subject, scene, plan);
+    const double one = processor_seconds() - before;
+    best.seconds = std::min(best.seconds, one);
+    spent += one;
+  }
+  return best;
+}
+
+double log_between(double from, double to, double part) {
+  return std::exp((1 - part) * std::log(from) + part * std::log(to));
+}
+
+int measured_runs(const PrecisionCurve& curve) {
+  return int(
+      std::ranges::count_if(curve.runs, [](const PrecisionRun& run) { return !std::isnan(run.error); }));
+}
+
+/// The work of a run with so many steps: that of the two runs before it, continued linearly; 0 if they do not
+/// tell.
+double expected_work(const PrecisionCurve& curve, int steps) {
+  if (curve.runs.size() < 2) return 0;
+  const PrecisionRun &last = curve.runs.back(), &before = curve.runs[curve.runs.size() - 2];
+  if (last.part < 1 || before.part < 1) return 0;
+  return last.applications +
+         (last.applications - before.applications) / (last.steps - before.steps) * (steps - last.steps);
+}
+
+}  // namespace
+
+Mark mark_of(const PrecisionRun& run) {
+  if (std::isnan(run.error)) return Mark::diverged;
+  return run.work.unfinished_solves > 0 ? Mark::unfinished : Mark::measured;
+}
+
+PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& problem,
+                               const PrecisionTruth& truth, const Integrator& integrator,
+                               double finest_error) {
+  PrecisionCurve curve{integrator, {}};
+  Scene scene = problem.scene;
+  scene.integrator = std::string(integrator.name);
+  double count = std::max(2., coarsest * problem.end / truth.elastic_limit);
+  for (bool again = true; again; count *= problem.ratio) {
+    const RunPlan plan{problem.end, int(std::lround(count)), far_away * truth.motion, problem.budget};
+    const bool is_short = plan.steps > problem.end / truth.elastic_limit;
+    if (is_short && expected_work(curve, plan.steps) > problem.budget) break;
+    const auto [run, seconds] = timed(subject, scene, plan);
+    if (run.ending == Ending::over_budget) {
+      if (is_short) break;
+      continue;  // long steps can be dearer than short ones, for Newton's method
+    }
+    const double error =
+        run.ending == Ending::reached ? largest_distance(run.last.x, truth.x) / truth.motion : nan;
+    curve.runs.push_back({plan.steps, error <= lost ? error : nan, operator_applications(run.work), seconds,
+                          double(run.steps) / plan.steps, run.work});
+    again = !(error <= finest_error) || measured_runs(curve) < problem.least_points;
+  }
+  return curve;
+}
+
+std::string_view words_of(LimitedBy limit) {
+  switch (limit) {
+    case LimitedBy::accuracy:
+      return "accuracy";
+    case LimitedBy::stability:
+      return "stability";
+    case LimitedBy::not_tried:
+      return "longer steps not tried";
+    case LimitedBy::not_reached:
+      return "not reached in range";
+  }
+  return "";
+}
+
+Price price_at(const PrecisionCurve& curve, double end, double wanted) {
+  const std::vector<PrecisionRun>& runs = curve.runs;
+  size_t first = runs.size();
+  while (first > 0 && runs[first - 1].error <= wanted) --first;
+  if (first == runs.size()) return {LimitedBy::not_reached, nan, nan, nan, nan};
+  const PrecisionRun& fine = runs[first];
+  const double step = end / fine.steps, unfinished = double(fine.work.unfinished_solves);
+  if (first == 0) return {LimitedBy::not_tried, step, fine.applications, fine.seconds, unfinished};
+  const PrecisionRun& coarse = runs[first - 1];
+  if (std::isnan(coarse.error))
+    return {LimitedBy::stability, step, fine.applications, fine.seconds, unfinished};
+  const double part = std::log(coarse.error / wanted) / std::log(coarse.error / fine.error);
+  return {LimitedBy::accuracy, log_between(end / coarse.steps, step, part),
+          log_between(coarse.applications, fine.applications, part),
+          log_between(coarse.seconds, fine.seconds, part), unfinished};
+}
+
+}  // namespace foldproof

@@ -1,0 +1,220 @@
+// What the runs of the work-precision study decide.
+#include <algorithm>
+#include <cmath>
+
+#include "convergence/work_precision/work_precision.h"
+
+namespace foldproof {
+
+namespace {
+
+/// A tenth of the finest error that prices are read off at.
+NamedFinding reference_is_known(const PrecisionScene& scene) {
+  const Verdict verdict{scene.truth.uncertainty, wanted_errors.back() / 10, 0, "1",
+                        "a tenth of the smallest error that a price is read off at, so that it shifts no "
+                        "price by more than a tenth of a run's error"};
+  return {"work-precision.reference-is-known." + scene.problem.name,
+          "Two opinions on where " + scene.problem.thing + " ends agree to a ten-thousandth of its motion.",
+          {verdict,
+           {{"largest motion", "m", std::vector<double>{scene.truth.motion}},
+            {"disagreement and own uncertainty", "1", std::vector<double>{scene.truth.uncertainty}}},
+           (scene.problem.first == FirstOpinion::oracle ? "GSL and extrapolated scheme "
+                                                        : "extrapolated RK4 and extrapolated scheme ") +
+               scene.problem.second}};
+}
+
+/// By what an error shrinks when the step is halved, from a pair of runs.
+double shrinkage(const PrecisionRun& coarse, const PrecisionRun& fine) {
+  return std::pow(fine.error / coarse.error, std::log(2.) / std::log(double(fine.steps) / coarse.steps));
+}
+
+/// The index of the finest run that, with the one before it, can be told from the reference; 0 if there is
+/// none.
+size_t finest_judged(const PrecisionCurve& curve, double uncertainty) {
+  constexpr double above = 10;  // the uncertainty, so that it shifts an error by no more than a tenth
+  size_t i = curve.runs.empty() ? 0 : curve.runs.size() - 1;
+  while (i > 0 && curve.runs[i].error <= above * uncertainty) --i;
+  return i > 0 && std::isnan(curve.runs[i - 1].error) ? 0 : i;
+}
+
+/// The two finest runs of every curve, where each method is closest to its asymptotic range.
+NamedFinding errors_fall(const PrecisionScene& scene) {
+  constexpr int least_judged = 6;  // of the eleven methods
+  Worst worst, worst_with_uncertainty;
+  std::vector<std::string> methods;
+  std::vector<double> coarse, fine, shrinkages;
+  std::string left_out;
+  for (const PrecisionCurve& curve : scene.curves) {
+    const size_t i = finest_judged(curve, scene.truth.uncertainty);
+    if (i == 0) {
+      left_out += " " + std::string(curve.integrator.name);
+      continue;
+    }
+    methods.emplace_back(curve.integrator.name);
+    coarse.push_back(curve.runs[i - 1].error);
+    fine.push_back(curve.runs[i].error);
+    shrinkages.push_back(shrinkage(curve.runs[i - 1], curve.runs[i]));
+    worst.see(shrinkages.back());
+    worst_with_uncertainty.see(shrinkages.back() * (1 + 2 * scene.truth.uncertainty / fine.back()));
+  }
+  if (int(methods.size()) < least_judged) worst.see(nan);
+  const Verdict verdict{
+      worst.value(), std::sqrt(0.5), worst_with_uncertainty.value() - worst.value(), "1",
+      "an error of first order is halved with the step, one that does not fall stays 1; the "
+      "bound is half an order, midway between the two in the logarithm"};
+  return {
+      "work-precision.errors-fall." + scene.problem.name,
+      "On " + scene.problem.thing + ", errors fall with the step at the end of every method's range.",
+      {verdict,
+       {{"method", "1", methods},
+        {"error of the run before", "1", coarse},
+        {"error of the finest run", "1", fine},
+        {"error left when the step is halved", "1", shrinkages}},
+       "measured is the largest factor that a halved step leaves of the error, from the two finest runs that "
+       "err ten times more than the reference" +
+           (left_out.empty() ? "" : "; without two such runs within the budget:" + left_out)}};
+}
+
+/// The largest step at a wanted error among the fully explicit methods [s]; NaN if none reaches it.
+double largest_explicit_step(const PrecisionScene& scene, double wanted) {
+  double largest = nan;
+  for (const PrecisionCurve& curve : scene.curves) {
+    if (curve.integrator.family != Family::fully_explicit) continue;
+    const double step = price_at(curve, scene.problem.end, wanted).step;
+    if (!(step <= largest) && !std::isnan(step)) largest = step;
+  }
+  return largest;
+}
+
+/// One scheme's largest step at a wanted error [s].
+double step_of(const PrecisionScene& scene, std::string_view scheme, double wanted) {
+  return price_at(curve_of(scene, scheme), scene.problem.end, wanted).step;
+}
+
+/// Damping limits explicit steps at best to 2.785/c (RK4), elasticity those of A and B to 2/omega.
+NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
+  constexpr double runge_kutta_reach = 2.785 / 2;  // of RK4 along the negative real axis, over that of Euler
+  const double predicted = scene.truth.elastic_2_over / (runge_kutta_reach * scene.truth.damping_2_over);
+  Worst worst;
+  std::vector<std::string> schemes;
+  std::vector<double> wanted, mixed, fully_explicit, ratios;
+  for (double error : wanted_errors) {
+    for (const char* scheme : {"A", "B"}) {
+      schemes.emplace_back(scheme);
+      wanted.push_back(error);
+      mixed.push_back(step_of(scene, scheme, error));
+      fully_explicit.push_back(largest_explicit_step(scene, error));
+      ratios.push_back(mixed.back() / fully_explicit.back());
+      if (error == wanted_errors.front()) worst.see(predicted / ratios.back());
+    }
+  }
+  const double runs_apart = scene.problem.ratio * scene.problem.ratio;
+  const Verdict verdict{
+      worst.value(), runs_apart, 0, "1",
+      "both steps are known to the ratio of neighbouring runs, and their quotient to its square"};
+  return {
+      "work-precision.mixed-steps-are-larger." + scene.problem.name,
+      "On " + scene.problem.thing +
+          ", schemes A and B reach one percent of error with steps larger than the best explicit "
+          "method's by the ratio of the elastic limit to the explicit damping limit.",
+      {verdict,
+       {{"scheme", "1", schemes},
+        {"error", "1", wanted},
+        {"its largest step", "s", mixed},
+        {"largest step of explicit methods", "s", fully_explicit},
+        {"their ratio", "1", ratios},
+        {"ratio of the limits", "1", std::vector<double>(wanted.size(), predicted)}},
+       "measured is the ratio of the limits over the least ratio of the steps at one percent; at a tenth of "
+       "it accuracy, not stability, decides on the steps of A and B"}};
+}
+
+/// By what the fastest mode grows in a whole run of B with a step h >= 2/omega [1]: z = -1 - g solves
+///   (1 + a) z^2 + (h^2 omega^2 - 2) z + 1 - a = 0,   g = (h^2 omega^2/2 - 2)/a to first order, a = h c/2.
+double growth_beyond(const PrecisionScene& scene, double h) {
+  const double beyond = std::pow(h / scene.truth.elastic_2_over, 2), a = h / scene.truth.damping_2_over;
+  return std::pow(1 + std::max(0., 2 * beyond - 2) / a, scene.problem.end / h);
+}
+
+/// A lasting motion takes back what a short one forgives: steps beyond 2/omega.
+NamedFinding within_the_limit(const PrecisionScene& scene) {
+  Worst worst;
+  std::vector<double> steps, growths;
+  for (double error : wanted_errors) {
+    steps.push_back(step_of(scene, "B", error));
+    growths.push_back(growth_beyond(scene, steps.back()));
+    worst.see(steps.back() / scene.truth.elastic_2_over);
+  }
+  return {
+      "work-precision.steps-within-the-limit." + scene.problem.name,
+      "On " + scene.problem.thing +
+          ", the largest step with which B reaches a wanted error is at most 2/omega, as nearly as a step is "
+          "known.",
+      {{worst.value(), scene.problem.ratio, 0, "1",
+        "beyond 2/omega the fastest mode grows only by about (h^2 omega^2/2 - 2)/a a step, a = h c/2, and a "
+        "step is known only to the ratio of neighbouring runs"},
+       {{"error", "1", std::vector<double>(wanted_errors.begin(), wanted_errors.end())},
+        {"largest step of B", "s", steps},
+        {"growth of the fastest mode in the run", "1", growths}},
+       "measured is the largest of the steps over 2/omega"}};
+}
+
+/// Where h c is large C moves positions with F/c at the step's start, as forward Euler would: the error is
+/// then of first order in h (order reduction), while A and B keep the middle of the step.
+NamedFinding C_needs_shorter_steps(const PrecisionScene& scene) {
+  const double error = wanted_errors.front(), ratio = step_of(scene, "C", error) / step_of(scene, "B", error);
+  return {
+      "work-precision.C-needs-shorter-steps." + scene.problem.name,
+      "On " + scene.problem.thing + ", C reaches one percent of error only with steps less than half of B's.",
+      {{ratio, 0.5, 0, "1", "both steps are known to the ratio of neighbouring runs, the root of two"},
+       {{"largest step of C", "s", std::vector<double>{step_of(scene, "C", error)}},
+        {"largest step of B", "s", std::vector<double>{step_of(scene, "B", error)}}},
+       "measured is the ratio of the steps. Where h c is large, C moves positions by h F/c of the step's "
+       "start: its error falls with the first power of h until h c is small"}};
+}
+
+/// C's solves over A's at equal numbers of steps.
+NamedFinding one_more_solve(const std::vector<PrecisionScene>& scenes) {
+  Worst worst;
+  std::vector<std::string> things;
+  std::vector<double> steps, solves, work;
+  for (const PrecisionScene& scene : scenes) {
+    for (const PrecisionRun& a : curve_of(scene, "A").runs) {
+      for (const PrecisionRun& c : curve_of(scene, "C").runs) {
+        if (a.steps != c.steps || std::isnan(a.error) || std::isnan(c.error)) continue;
+        things.push_back(scene.problem.thing);
+        steps.push_back(a.steps);
+        solves.push_back(double(c.work.solves) / double(a.work.solves));
+        work.push_back(c.applications / a.applications);
+        worst.see(std::abs(solves.back() - 2));
+      }
+    }
+  }
+  const Verdict verdict{solves.empty() ? nan : worst.value(), 0, 0, "1",
+                        "counted: two solves a step against one"};
+  return {"work-precision.C-solves-twice-as-often-as-A",
+          "At equal steps scheme C has two implicit solves where A has one.",
+          {verdict,
+           {{"scene", "1", things},
+            {"steps", "1", steps},
+            {"solves of C over those of A", "1", solves},
+            {"operator applications of C over those of A", "1", work}},
+           "measured is the largest |ratio of the solves - 2|"}};
+}
+
+}  // namespace
+
+std::vector<NamedFinding> precision_findings(const std::vector<PrecisionScene>& scenes) {
+  std::vector<NamedFinding> findings;
+  for (const PrecisionScene& scene : scenes) {
+    findings.push_back(reference_is_known(scene));
+    findings.push_back(errors_fall(scene));
+    if (scene.problem.name != "heavy-sheet") continue;
+    findings.push_back(mixed_steps_are_larger(scene));
+    findings.push_back(within_the_limit(scene));
+    findings.push_back(C_needs_shorter_steps(scene));
+  }
+  findings.push_back(one_more_solve(scenes));
+  return findings;
+}
+
+}  // namespace foldproof
