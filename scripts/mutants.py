@@ -19,7 +19,7 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
 PROGRAM = BUILD / "foldproof"
-TESTS = BUILD / "machinery"
+TESTS = BUILD / "tests"
 APART_FOLDER = BUILD / "faults" / "apart"
 CLOCK = 240  # s: how long a mutant may run
 

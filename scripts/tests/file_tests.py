@@ -8,7 +8,7 @@ from pathlib import Path
 
 import h5py
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "build" / "foldproof"
 SEED = 20030726
 CLOCK = 300  # s: what takes longer hangs

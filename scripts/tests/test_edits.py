@@ -7,9 +7,10 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from edits import applied, changes_of, place_of, sample, tokens_of  # noqa: E402
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 KERNEL = (ROOT / "reference/forces/springs.cpp").read_text(encoding="utf-8")
 
 QUIET = r'''#include "a - b.h"

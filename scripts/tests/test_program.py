@@ -18,7 +18,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(sys.argv.pop(2)) if sys.argv[1:2] == ["--program"] else ROOT / "build" / "foldproof"
 
 HINGE_ROW = [0.03, 0.12, 0.01, 0.05, -0.09, 0.04, 0, 0, 0, 0.11, 0.005, -0.003]  # x1 x2 x3 x4

@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 NEEDED = ("scripts/record_needs", "reports/case_digest.py", "reports/unreadable.py", "reports/whole_file.py")
 
 
