@@ -29,7 +29,7 @@ namespace foldproof {
 
 namespace {
 
-std::string faults_path() { return project_folder() + "/verification/faults.toml"; }
+std::string faults_path() { return project_folder() + "/verification/faults/faults.toml"; }
 
 RunRecord new_run(const Options& options) {
   RunRecord run;

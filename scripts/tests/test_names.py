@@ -50,7 +50,7 @@ class Names(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
         cls.listed = json.loads(said(str(PROGRAM), "list", "--json"))
-        cls.tests = set(said(str(TESTS), "--list-test-names-only").splitlines())
+        cls.tests = set(subprocess.run([TESTS, "--list-test-names-only"], capture_output=True, text=True, check=False).stdout.splitlines())
         for file in sorted((ROOT / "scripts/tests").glob("test_*.py")):
             cls.tests |= set(re.findall(r"^    def (test_\w+)\(", file.read_text(encoding="utf-8"), re.M))
 
