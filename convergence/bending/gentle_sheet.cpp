@@ -1,4 +1,4 @@
-#include "convergence/bending/gentle_sheet.h"
+#include "convergence/bending/bending_rigidity.h"
 
 #include <cmath>
 

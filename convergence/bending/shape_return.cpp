@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "convergence/studies.h"
+#include "convergence/bending/studies.h"
 #include "reference/forces/bending.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"

@@ -5,7 +5,7 @@
 
 #include "convergence/order.h"
 #include "convergence/bending/row_strip.h"
-#include "convergence/studies.h"
+#include "convergence/bending/studies.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/dense_algebra.h"

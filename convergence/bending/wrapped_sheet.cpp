@@ -1,4 +1,4 @@
-#include "convergence/bending/wrapped_sheet.h"
+#include "convergence/bending/bending_rigidity.h"
 
 #include <cmath>
 #include <numbers>

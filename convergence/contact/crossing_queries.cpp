@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "convergence/contact/crossing_families.h"
-#include "convergence/studies.h"
+#include "convergence/contact/studies.h"
 #include "verification/processor_time.h"
 #include "verification/oracles/feature_distance.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "convergence/contact/section_profile.h"
-#include "convergence/studies.h"
+#include "convergence/contact/studies.h"
 #include "convergence/contact/wrinkle_measure.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "convergence/studies.h"
+#include "convergence/contact/studies.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/layered_cloth.h"
 #include "verification/processor_time.h"

@@ -1,4 +1,4 @@
-#include "convergence/damping/overdamped_motion.h"
+#include "convergence/damping/monotonicity.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "convergence/order.h"
-#include "convergence/studies.h"
+#include "convergence/integrators/studies.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/moving_scenes.h"

@@ -1,4 +1,4 @@
-#include "convergence/level_sets/grid_errors.h"
+#include "convergence/level_sets/level_set_resolution.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "convergence/ranges.h"
 #include "convergence/sticking/sticking_scenes.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/studies.h"
+#include "convergence/sticking/studies.h"
 #include "reference/dynamics/integrator.h"
 
 namespace foldproof {

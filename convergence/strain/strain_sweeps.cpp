@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "convergence/order.h"
-#include "convergence/studies.h"
+#include "convergence/strain/studies.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/moving_scenes.h"

@@ -10,7 +10,7 @@
 #include "reference/bodies/self_intersection.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/level_set/level_set_checks.h"
+#include "verification/checks/bodies/body_checks.h"
 #include "verification/specimens/measured.h"
 #include "verification/specimens/moving_scenes.h"
 #include "verification/specimens/scratch_folder.h"

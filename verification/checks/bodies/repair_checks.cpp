@@ -8,7 +8,7 @@
 #include "reference/bodies/repair.h"
 #include "reference/bodies/winding.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/level_set/level_set_checks.h"
+#include "verification/checks/bodies/body_checks.h"
 #include "verification/specimens/measured.h"
 #include "verification/specimens/moving_scenes.h"
 #include "verification/specimens/specimens.h"

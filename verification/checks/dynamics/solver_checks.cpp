@@ -1,5 +1,5 @@
 // The conjugate gradients of the reference against dense linear algebra, and what they promise.
-#include "verification/checks/dynamics/solver_checks.h"
+#include "verification/checks/dynamics/dynamics_checks.h"
 
 #include <cmath>
 

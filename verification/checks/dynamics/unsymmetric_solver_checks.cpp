@@ -5,7 +5,7 @@
 #include "reference/dynamics/system.h"
 #include "verification/specimens/measured.h"
 #include "verification/specimens/moving_scenes.h"
-#include "verification/checks/dynamics/solver_checks.h"
+#include "verification/checks/dynamics/dynamics_checks.h"
 #include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {

@@ -4,7 +4,7 @@
 
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/filters/contact_checks.h"
+#include "verification/checks/filters/filter_checks.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/oracles/dense_algebra.h"
 

@@ -1,4 +1,4 @@
-#include "verification/checks/filters/crossing_checks.h"
+#include "verification/checks/filters/filter_checks.h"
 
 #include <fmt/format.h>
 

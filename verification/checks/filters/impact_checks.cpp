@@ -11,7 +11,7 @@
 #include "reference/forces/degenerate.h"
 #include "verification/specimens/layered_cloth.h"
 #include "verification/specimens/measured.h"
-#include "verification/checks/filters/self_collision_checks.h"
+#include "verification/checks/filters/filter_checks.h"
 #include "verification/oracles/exact_crossing_times.h"
 #include "verification/oracles/exact_crossings.h"
 
@@ -317,12 +317,6 @@ std::vector<Check> impact_checks() {
        "Cloth that starts crossing itself along a line that cuts off a corner is pushed out of the tangle.",
        "Volino and Magnenat-Thalmann 2006", untangle_finding},
   };
-}
-
-std::vector<Check> self_collision_checks() {
-  std::vector<Check> all = repulsion_checks();
-  for (Check& check : impact_checks()) all.push_back(std::move(check));
-  return all;
 }
 
 }  // namespace foldproof

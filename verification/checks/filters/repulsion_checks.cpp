@@ -7,7 +7,7 @@
 #include "reference/filters/cloth_pairs.h"
 #include "verification/specimens/layered_cloth.h"
 #include "verification/specimens/measured.h"
-#include "verification/checks/filters/self_collision_checks.h"
+#include "verification/checks/filters/filter_checks.h"
 
 namespace foldproof {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "verification/checks/filters/contact_checks.h"
+#include "verification/checks/filters/filter_checks.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/measured.h"
 

@@ -1,6 +1,6 @@
 // What one correction by strain limits does: to one spring, exactly; to a cloth, whatever the order of
 // sweeps.
-#include "verification/checks/filters/strain_limit_checks.h"
+#include "verification/checks/filters/filter_checks.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -250,7 +250,6 @@ std::vector<Check> strain_limit_checks() {
             "Where no spring would leave its limits, velocities are left as they are, bit for bit.", source,
             untouched_within_limits_finding}})
     list.push_back(check);
-  for (const Check& check : strain_step_checks()) list.push_back(check);
   return list;
 }
 

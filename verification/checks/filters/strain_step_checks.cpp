@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "reference/dynamics/system.h"
-#include "verification/checks/filters/strain_limit_checks.h"
+#include "verification/checks/filters/filter_checks.h"
 #include "verification/specimens/strain_scenes.h"
 #include "verification/specimens/trial_cases.h"
 

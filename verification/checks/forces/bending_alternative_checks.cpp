@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "verification/specimens/bending_alternatives.h"
-#include "verification/checks/forces/bending_checks.h"
+#include "verification/checks/forces/force_checks.h"
 #include "verification/specimens/measured.h"
 
 namespace foldproof {

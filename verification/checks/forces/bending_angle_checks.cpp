@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "reference/forces/degenerate.h"
-#include "verification/checks/forces/bending_checks.h"
+#include "verification/checks/forces/force_checks.h"
 #include "verification/specimens/measured.h"
 #include "verification/specimens/specimens.h"
 

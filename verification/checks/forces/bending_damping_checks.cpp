@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "verification/checks/forces/bending_checks.h"
+#include "verification/checks/forces/force_checks.h"
 #include "verification/checks/forces/damping_laws.h"
 #include "verification/specimens/measured.h"
 #include "verification/specimens/specimens.h"

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "reference/mesh/shapes.h"
-#include "verification/checks/forces/bending_checks.h"
+#include "verification/checks/forces/force_checks.h"
 #include "verification/specimens/measured.h"
 #include "verification/specimens/moving_scenes.h"
 #include "verification/specimens/specimens.h"

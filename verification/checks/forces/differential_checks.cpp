@@ -1,4 +1,4 @@
-#include "verification/checks/forces/differential_checks.h"
+#include "verification/checks/forces/force_checks.h"
 
 #include <cmath>
 

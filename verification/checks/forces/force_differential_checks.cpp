@@ -5,7 +5,8 @@
 
 #include "reference/dynamics/system.h"
 #include "reference/forces/springs.h"
-#include "verification/checks/forces/differential_checks.h"
+#include "verification/checks/forces/force_checks.h"
+#include "verification/checks/forces/derivatives.h"
 #include "verification/specimens/measured.h"
 #include "verification/specimens/specimens.h"
 #include "verification/oracles/force_derivatives.h"

@@ -10,7 +10,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/measured.h"
 #include "verification/specimens/moving_scenes.h"
-#include "verification/checks/forces/sticking_checks.h"
+#include "verification/checks/forces/force_checks.h"
 #include "verification/specimens/sticking_scenes.h"
 #include "verification/oracles/triangle_distance.h"
 

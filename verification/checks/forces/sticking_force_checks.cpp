@@ -8,10 +8,10 @@
 
 #include "reference/dynamics/system.h"
 #include "reference/forces/degenerate.h"
-#include "verification/checks/forces/differential_checks.h"
+#include "verification/checks/forces/force_checks.h"
+#include "verification/checks/forces/derivatives.h"
 #include "verification/specimens/measured.h"
 #include "verification/specimens/moving_scenes.h"
-#include "verification/checks/forces/sticking_checks.h"
 #include "verification/specimens/sticking_scenes.h"
 #include "verification/oracles/dense_algebra.h"
 

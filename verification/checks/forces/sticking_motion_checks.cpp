@@ -8,7 +8,7 @@
 #include "reference/dynamics/simulate.h"
 #include "verification/specimens/measured.h"
 #include "verification/specimens/moving_scenes.h"
-#include "verification/checks/forces/sticking_checks.h"
+#include "verification/checks/forces/force_checks.h"
 #include "verification/specimens/sticking_scenes.h"
 
 namespace foldproof {

@@ -1,4 +1,4 @@
-#include "verification/checks/level_set/deforming_checks.h"
+#include "verification/checks/level_set/level_set_checks.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,4 +1,5 @@
-#include "verification/checks/level_set/octree_checks.h"
+#include "verification/checks/level_set/level_set_checks.h"
+#include "verification/checks/level_set/octree_samples.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -218,7 +218,7 @@ Finding hinge_folds_by_its_angle(const Subject&) {
 
 std::vector<Check> mesh_checks() {
   const char* const source = "plane geometry and topology";
-  std::vector<Check> checks = {
+  return {
       {"mesh.euler-characteristic", "The reference's meshes have the Euler characteristic of their surfaces.",
        source, euler_characteristic_is_known},
       {"mesh.hinges-are-oriented-as-drawn",
@@ -239,9 +239,6 @@ std::vector<Check> mesh_checks() {
       {"mesh.hinge-folds-by-its-angle",
        "The reference's hinge is folded by the angle asked for, sign included.", "BMF03 section 4",
        hinge_folds_by_its_angle}};
-  const std::vector<Check> refusals = mesh_refusal_checks();
-  checks.insert(checks.end(), refusals.begin(), refusals.end());
-  return checks;
 }
 
 }  // namespace foldproof

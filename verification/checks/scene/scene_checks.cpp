@@ -128,12 +128,4 @@ std::vector<Check> scene_meaning_checks() {
   };
 }
 
-std::vector<Check> scene_checks() {
-  std::vector<Check> all;
-  for (const auto& part : {scene_refusal_checks, scene_meaning_checks, scene_place_checks,
-                           scene_object_checks, scene_body_checks, scene_cloth_checks, seam_checks})
-    for (const Check& check : part()) all.push_back(check);
-  return all;
-}
-
 }  // namespace foldproof
