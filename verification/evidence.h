@@ -11,6 +11,9 @@ namespace foldproof {
 /// A number that is not there: no floor, no slope, a gap in a curve.
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+/// The unit that roundings are counted in.
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
 /// One column of evidence; the columns of a finding have the same length.
 struct Column {
   std::string name, unit;

@@ -10,7 +10,7 @@
 #include "reference/scene/scene.h"
 #include "verification/oracles/definitions.h"
 #include "verification/oracles/homogenised_bending.h"
-#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
 
 namespace foldproof {
 

@@ -6,8 +6,8 @@
 #include "reference/forces/bending.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

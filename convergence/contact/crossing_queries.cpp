@@ -4,8 +4,9 @@
 
 #include "convergence/contact/crossing_families.h"
 #include "convergence/contact/studies.h"
-#include "verification/processor_time.h"
 #include "verification/oracles/feature_distance.h"
+#include "verification/processor_time.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

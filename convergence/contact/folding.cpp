@@ -7,7 +7,7 @@
 #include "convergence/contact/wrinkle_measure.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

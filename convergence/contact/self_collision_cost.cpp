@@ -5,8 +5,9 @@
 
 #include "convergence/contact/studies.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/layered_cloth.h"
 #include "verification/processor_time.h"
+#include "verification/specimens/layered_cloth.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

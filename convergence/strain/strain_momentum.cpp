@@ -8,7 +8,8 @@
 #include "reference/dynamics/integrator.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/evidence.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

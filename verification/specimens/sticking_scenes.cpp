@@ -7,6 +7,7 @@
 
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/contact_scenes.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

@@ -9,6 +9,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/checks/bodies/body_checks.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/refusal.h"
 #include "verification/specimens/ugly_solids.h"
 
 namespace foldproof {

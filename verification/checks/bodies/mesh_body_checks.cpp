@@ -7,6 +7,8 @@
 #include "reference/mesh/shapes.h"
 #include "verification/checks/bodies/body_checks.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/refusal.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/trial_cases.h"
 

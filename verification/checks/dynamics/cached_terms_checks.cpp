@@ -7,7 +7,6 @@
 
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
 #include "verification/processor_time.h"
 

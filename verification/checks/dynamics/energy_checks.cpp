@@ -5,9 +5,11 @@
 
 #include "reference/dynamics/simulate.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/specimens/specimens.h"
+#include "verification/evidence.h"
 #include "verification/oracles/definitions.h"
+#include "verification/specimens/moving_sheets.h"
+#include "verification/specimens/paper_schemes.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

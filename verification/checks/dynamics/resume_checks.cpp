@@ -8,7 +8,7 @@
 #include "verification/checks/dynamics/dynamics_checks.h"
 #include "verification/specimens/layered_cloth.h"
 #include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/sticking_scenes.h"
 
 namespace foldproof {

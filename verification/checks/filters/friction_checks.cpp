@@ -5,9 +5,11 @@
 
 #include "reference/mesh/shapes.h"
 #include "verification/checks/filters/filter_checks.h"
-#include "verification/specimens/contact_scenes.h"
-#include "verification/specimens/measured.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/contact_scenes.h"
+#include "verification/specimens/paper_schemes.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

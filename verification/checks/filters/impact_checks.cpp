@@ -9,11 +9,15 @@
 #include "reference/filters/cloth_pairs.h"
 #include "reference/filters/impact_zones.h"
 #include "reference/forces/degenerate.h"
-#include "verification/specimens/layered_cloth.h"
-#include "verification/specimens/measured.h"
 #include "verification/checks/filters/filter_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/exact_crossing_times.h"
 #include "verification/oracles/exact_crossings.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/layered_cloth.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

@@ -1,13 +1,15 @@
 // What one correction by strain limits does: to one spring, exactly; to a cloth, whatever the order of
 // sweeps.
+#include "reference/dynamics/system.h"
 #include "verification/checks/filters/filter_checks.h"
-
+#include "verification/evidence.h"
+#include "verification/oracles/limited_spring.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/strain_scenes.h"
 #include <Eigen/Geometry>
 #include <cmath>
-
-#include "reference/dynamics/system.h"
-#include "verification/specimens/strain_scenes.h"
-#include "verification/oracles/limited_spring.h"
 
 namespace foldproof {
 

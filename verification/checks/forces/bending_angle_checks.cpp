@@ -7,7 +7,10 @@
 
 #include "reference/forces/degenerate.h"
 #include "verification/checks/forces/force_checks.h"
+#include "verification/evidence.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 
 namespace foldproof {

@@ -1,9 +1,10 @@
 #include "verification/checks/forces/force_checks.h"
-
-#include <algorithm>
-
+#include "verification/evidence.h"
+#include "verification/specimens/balance.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
+#include <algorithm>
 
 namespace foldproof {
 

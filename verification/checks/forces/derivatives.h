@@ -1,7 +1,7 @@
 // Derivatives of forces as dense matrices: the reference's, and by differences.
 #pragma once
 
-#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
 
 namespace foldproof {
 

@@ -1,13 +1,15 @@
 #include "verification/checks/forces/force_checks.h"
-#include "verification/checks/forces/derivatives.h"
-
-#include <cmath>
-
 #include "reference/dynamics/system.h"
 #include "reference/forces/bending.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/specimens.h"
+#include "verification/checks/forces/derivatives.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/refusal.h"
+#include "verification/specimens/specimens.h"
+#include <cmath>
 
 namespace foldproof {
 

@@ -8,11 +8,17 @@
 
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/forces/force_checks.h"
-#include "verification/specimens/sticking_scenes.h"
+#include "verification/evidence.h"
 #include "verification/oracles/triangle_distance.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_sheets.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/specimens.h"
+#include "verification/specimens/stepper.h"
+#include "verification/specimens/sticking_scenes.h"
 
 namespace foldproof {
 

@@ -8,12 +8,16 @@
 
 #include "reference/dynamics/system.h"
 #include "reference/forces/degenerate.h"
-#include "verification/checks/forces/force_checks.h"
 #include "verification/checks/forces/derivatives.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/specimens/sticking_scenes.h"
+#include "verification/checks/forces/force_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/balance.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/specimens.h"
+#include "verification/specimens/sticking_scenes.h"
 
 namespace foldproof {
 

@@ -6,9 +6,11 @@
 #include <memory>
 
 #include "reference/dynamics/simulate.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/forces/force_checks.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_sheets.h"
+#include "verification/specimens/stepper.h"
 #include "verification/specimens/sticking_scenes.h"
 
 namespace foldproof {

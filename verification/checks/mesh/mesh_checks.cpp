@@ -10,10 +10,12 @@
 
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
+#include "verification/evidence.h"
+#include "verification/seeds.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/random.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/specimens.h"
-#include "verification/seeds.h"
 
 namespace foldproof {
 

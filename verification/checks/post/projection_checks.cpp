@@ -7,9 +7,10 @@
 #include <numeric>
 #include <string>
 
+#include "verification/specimens/differences.h"
 #include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/specimens/projection_specimens.h"
+#include "verification/specimens/refusal.h"
 
 namespace foldproof {
 

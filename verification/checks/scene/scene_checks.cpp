@@ -8,7 +8,7 @@
 
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/differences.h"
 #include "verification/specimens/trial_cases.h"
 
 namespace foldproof {
