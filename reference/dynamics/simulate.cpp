@@ -198,7 +198,7 @@ void run_to(double target, Run& run) {
         return;
       }
       Work work;
-      work.bonds = long(now.memory.bonds.size());
+      work.bonds = long(now.bonds.size());
       State next = integrator.step(system, history.past(), h, work);
       if (h == left) next.time = target;  // no rounding between a frame's time and its state's
       outcome.stop = fault_in(now, next, watch.size(), number);

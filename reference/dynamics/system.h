@@ -36,8 +36,8 @@ double elastic_limit(const System& system, const State& s);
 ///   limit   the elastic limit [s]
 double widened_limit(const System& system, const State& s, double limit);
 
-/// What forms or breaks does so once a step, before it: bonds of sticking; and pairs of cloth that are kept
-/// for it. A second call changes nothing.
+/// Once a step, before it: bonds of sticking form and break, and self-collision renews its cache of pairs.
+/// A second call changes nothing.
 void begin_step(const System& system, State& s);
 
 struct Energies {

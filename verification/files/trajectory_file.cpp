@@ -88,9 +88,9 @@ struct BondRows {
   }
 
   void add(const State& s) {
-    const double count = double(s.memory.bonds.size());
+    const double count = double(s.bonds.size());
     counts.add(&count);
-    for (const Bond& bond : s.memory.bonds) {
+    for (const Bond& bond : s.bonds) {
       const double row[] = {double(bond.patch), double(bond.triangle), double(bond.particle)};
       bonds.add(row);
       places.add(bond.place.data());
