@@ -40,13 +40,7 @@ double widened_limit(const System& system, const State& s, double limit);
 /// A second call changes nothing.
 void begin_step(const System& system, State& s);
 
-struct Energies {
-  double kinetic = 0, stretch = 0, bending = 0, gravity = 0, custom = 0, sticking = 0;  // J
-
-  double total() const { return kinetic + stretch + bending + gravity + custom + sticking; }
-};
-
-Energies energies(const System& system, const State& s);
+Energies energies(const System& system, const State& s);  // J
 
 Vector3 linear_momentum(const System& system, const State& s);   // sum m v [kg m/s]
 Vector3 angular_momentum(const System& system, const State& s);  // sum m x x v about the origin [kg m^2/s]

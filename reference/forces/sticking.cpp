@@ -159,15 +159,16 @@ void add_row_sums(int particle, const std::vector<TriangleFrame>& frames, double
       rows[frame.corners[size_t(i)]] += coefficient * norm_of_corner(frame, i) * sum;
 }
 
-void Sticking::add_spring_bound(const State& s, PerParticle& rows) const {
+void Sticking::add_stiffness_bound(const State& s, PerParticle& rows) const {
   for (const StickyTarget& target : targets_at(s)) {
     const double along = target.stiffness + target.fading * target.distance * target.distance;
     add_row_sums(target.particle, target.frames, std::max(target.stiffness, std::abs(along)), rows);
   }
+  add_bound_beyond_forecasts(s, rows);
 }
 
 // (dJ)^T F is a sum of three terms over pairs of corners, each at most |height| |F| |g_i| |g_j| |dx_j|.
-void Sticking::add_turning_bound(const State& s, PerParticle& rows) const {
+void Sticking::add_bound_beyond_forecasts(const State& s, PerParticle& rows) const {
   for (const StickyTarget& target : targets_at(s)) {
     const double force = pull_of(target, s).norm();
     for (const TriangleFrame& frame : target.frames) {

@@ -15,7 +15,7 @@ namespace foldproof {
 
 namespace {
 
-const char* const checkpoint_format = "foldproof checkpoint 1";
+const char* const checkpoint_format = "foldproof checkpoint 2";
 
 /// Writes numbers one after the other, or reads them back; one list of fields serves both ways.
 class Numbers64 {
