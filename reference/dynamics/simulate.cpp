@@ -106,15 +106,8 @@ class Watch {
     row.damping_work = damping_work_;
     row.linear_momentum = linear_momentum(system_, s);
     row.angular_momentum = angular_momentum(system_, s);
-    row.cg_iterations = work.cg_iterations;
-    row.cg_residual = work.worst_residual;
     row.step_over_elastic_limit = h / limit;
-    row.object_contacts = work.object_contacts;
-    row.strain_left = work.strain_left;
-    row.close_pairs = work.close_pairs;
-    row.crossings = work.crossings;
-    row.zone_particles = work.zone_particles;
-    row.bonds = work.bonds;
+    row.work = work;
     row.seconds = seconds();
     observer_.step(row);
   }
