@@ -66,7 +66,7 @@ Subject reference_subject() {
     if (!sticks(reference.system)) return reference.integrator.step(reference.system, past, dt, work);
     std::vector<State> begun(past.begin(), past.end());
     begin_step(reference.system, begun.back());
-    work.bonds += long(begun.back().memory.bonds.size());
+    work.bonds += long(begun.back().bonds.size());
     return reference.integrator.step(reference.system, begun, dt, work);
   };
   return subject;

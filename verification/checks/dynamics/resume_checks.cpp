@@ -40,7 +40,7 @@ void add(const State& s, Numbers& all) {
   all.push_back(s.time);
   all.insert(all.end(), s.x.data(), s.x.data() + s.x.size());
   all.insert(all.end(), s.v.data(), s.v.data() + s.v.size());
-  for (const Bond& b : s.memory.bonds)
+  for (const Bond& b : s.bonds)
     all.insert(all.end(),
                {double(b.patch), double(b.triangle), double(b.particle), b.place[0], b.place[1], b.place[2]});
 }
