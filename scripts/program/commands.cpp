@@ -21,7 +21,7 @@
 #include "scripts/program/run_all.h"
 #include "scripts/program/run_case.h"
 #include "verification/checks.h"
-#include "verification/faults/faults_file.h"
+#include "verification/faults/faults.h"
 #include "verification/seeds.h"
 #include "verification/files/verdicts_file.h"
 
@@ -29,7 +29,7 @@ namespace foldproof {
 
 namespace {
 
-std::string faults_path() { return project_folder() + "/verification/faults/faults.toml"; }
+std::string faults_folder() { return project_folder() + "/verification/faults"; }
 
 RunRecord new_run(const Options& options) {
   RunRecord run;
@@ -46,7 +46,7 @@ RunRecord new_run(const Options& options) {
 
 /// Names the faults, writes the files that were asked for, prints, and gives the exit code.
 int conclude(RunRecord& run, const Options& options, const std::string& file) {
-  run.faults = read_faults(faults_path());
+  run.faults = read_faults(faults_folder());
   name_faults(run.faults, run.records);
   if (!file.empty()) {
     make_folder(options.out);
@@ -198,7 +198,7 @@ int run_studies(const Options& options) {
   run_selection(select({options.names, {"study"}}, tier), reference_subject(), tier, options.running, run);
   if (options.names.empty()) {
     refuse_claims_of_lost_findings(run);
-    refuse_faults_of_lost_findings(read_faults(faults_path()), run);
+    refuse_faults_of_lost_findings(read_faults(faults_folder()), run);
   }
   rule_covered_claims(run);
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
@@ -239,7 +239,7 @@ int verify(const Options& options) {
   run_jobs(jobs, "checks, studies and cases", options.running, run);
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   rule_all_claims(run);
-  run.faults = read_faults(faults_path());
+  run.faults = read_faults(faults_folder());
   refuse_faults_of_lost_findings(run.faults, run);
   name_faults(run.faults, run.records);
   write_run(options.out + "/run.h5", run);

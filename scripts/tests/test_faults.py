@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tests of what scripts/faults remembers of earlier runs: which faults --resume skips, and which it runs again."""
+"""Tests of scripts/faults: which faults --resume skips and which it runs again; in which file a fault stands."""
 from __future__ import annotations
 
 import sys
@@ -79,6 +79,14 @@ class Resume(unittest.TestCase):
     def test_nothing_is_known_of_another_program(self) -> None:
         self.assertNotEqual(FAULTS.known_file("one"), FAULTS.known_file("another"))
         self.assertEqual(FAULTS.recall([SLIP], self.known), [])
+
+
+class Rooms(unittest.TestCase):
+    def test_the_room_of_a_file_is_its_folder_or_its_name_where_it_has_none(self) -> None:
+        for file, room in (("reference/forces/springs.cpp", "forces"), ("verification/verdict.cpp", "verdict"),
+                           ("verification/checks/forces/spring_checks.cpp", "checks"), ("reference/types.h", "types"),
+                           ("convergence/order.cpp", "convergence"), ("scripts/program/jobs.cpp", "program")):
+            self.assertEqual(FAULTS.room_of(file), room)
 
 
 if __name__ == "__main__":
