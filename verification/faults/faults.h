@@ -16,14 +16,14 @@ struct Fault {
   std::string outcome;                       // "caught", "SURVIVED", ..., or "not run"
 };
 
-/// The room of a source file, which names the file of its faults. Of "reference/A/..." and "verification/A/..." it is
-/// A; of a file right there, its name without the ending; of "convergence/..." "convergence"; of "scripts/program/..."
-/// "program". Empty for any other file.
+/// The room of a source file, which names the file of its faults: the folder below reference/ or
+/// verification/, or the file's name without its ending if it is right there; "convergence"; "program" for
+/// scripts/program/. Empty for any other file.
 std::string room_of(const std::string& file);
 
-/// The faults of every *.toml in the folder but equivalent_mutants.toml, in the order of file names. Throws InputError
-/// "file:line: ..." for a row that lacks a key, has an unknown one, stands in the file of another room, or has the
-/// name of an earlier row; and for a folder without faults.
+/// The faults of every *.toml in the folder but equivalent_mutants.toml, in the order of file names. Throws
+/// InputError "file:line: ..." for a row that lacks a key, has an unknown one, stands in the file of another
+/// room, or has the name of an earlier row; "folder: ..." for a folder without such files.
 std::vector<Fault> read_faults(const std::string& folder);
 
 /// Writes into each record the names of the faults that it catches.
