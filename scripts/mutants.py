@@ -20,6 +20,7 @@ ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
 PROGRAM = BUILD / "foldproof"
 TESTS = BUILD / "tests"
+PROGRAM_TESTS = ROOT / "scripts/tests/test_program.py"
 APART_FOLDER = BUILD / "faults" / "apart"
 CLOCK = 240  # s: how long a mutant may run
 
@@ -98,11 +99,12 @@ def sources_of(unit: Unit) -> list[Path]:
 
 
 def key_of(plan: Plan) -> str:
-    """Changes with whatever can change an answer of the unedited programs: their code, but not the commit's name in
-    it, and the cases."""
+    """Changes with whatever can change an answer of the unedited programs, or of a test of them: their code, but not
+    the commit's name in it, the cases, the claims, and the script that tests the program."""
     objects = [BUILD / unit.object for unit in plan.units if not any(path.name == "build_facts.h" for path in unit.made_from)]
     key = hashlib.sha256()
-    for path in objects + sorted((ROOT / "cases").rglob("*.*")):
+    read = sorted((ROOT / "cases").rglob("*.*")) + sorted((ROOT / "verification/claims").glob("*.toml"))
+    for path in objects + read + [PROGRAM_TESTS]:
         key.update(path.read_bytes())
     return key.hexdigest()
 

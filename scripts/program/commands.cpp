@@ -21,7 +21,8 @@
 #include "scripts/program/run_all.h"
 #include "scripts/program/run_case.h"
 #include "verification/checks.h"
-#include "verification/faults/faults_file.h"
+#include "verification/claims/read_claims.h"
+#include "verification/faults/faults.h"
 #include "verification/seeds.h"
 #include "verification/files/verdicts_file.h"
 #include "verification/subjects/reference_subject.h"
@@ -30,7 +31,9 @@ namespace foldproof {
 
 namespace {
 
-std::string faults_path() { return project_folder() + "/verification/faults/faults.toml"; }
+std::vector<Claim> written_claims() { return read_claims(project_folder() + "/verification/claims"); }
+
+std::string faults_folder() { return project_folder() + "/verification/faults"; }
 
 RunRecord new_run(const Options& options) {
   RunRecord run;
@@ -47,7 +50,7 @@ RunRecord new_run(const Options& options) {
 
 /// Names the faults, writes the files that were asked for, prints, and gives the exit code.
 int conclude(RunRecord& run, const Options& options, const std::string& file) {
-  run.faults = read_faults(faults_path());
+  run.faults = read_faults(faults_folder());
   name_faults(run.faults, run.records);
   if (!file.empty()) {
     make_folder(options.out);
@@ -142,7 +145,7 @@ int list(const Options& options) {
   if (options.json) {
     json["case_findings"] = names_of_case_findings();
     json["claims"] = nlohmann::json::array();
-    for (const Claim& claim : all_claims())
+    for (const Claim& claim : written_claims())
       json["claims"].push_back({{"id", claim.id}, {"findings", findings_named_in(claim)}});
     fmt::print("{}\n", json_text(json));
     return all_hold;
@@ -186,22 +189,24 @@ int simulate_case(const Options& options) {
 }
 
 int run_checks(const Options& options) {
+  const std::vector<Claim> claims = written_claims();
   RunRecord run = new_run(options);
   const Tier tier = tier_of(options);
   run_selection(select({options.names, {"check"}}, tier), reference_subject(), tier, options.running, run);
-  rule_covered_claims(run);
+  rule_covered_claims(claims, run);
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
 }
 
 int run_studies(const Options& options) {
+  const std::vector<Claim> claims = written_claims();
   RunRecord run = new_run(options);
   const Tier tier = tier_of(options);
   run_selection(select({options.names, {"study"}}, tier), reference_subject(), tier, options.running, run);
   if (options.names.empty()) {
-    refuse_claims_of_lost_findings(run);
-    refuse_faults_of_lost_findings(read_faults(faults_path()), run);
+    refuse_claims_of_lost_findings(claims, run);
+    refuse_faults_of_lost_findings(read_faults(faults_folder()), run);
   }
-  rule_covered_claims(run);
+  rule_covered_claims(claims, run);
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
 }
 
@@ -229,6 +234,7 @@ int run_bench(const Options& options) {
 }
 
 int verify(const Options& options) {
+  const std::vector<Claim> claims = written_claims();
   make_folder(options.out);
   RunRecord run = new_run(options);
   const auto start = std::chrono::steady_clock::now();
@@ -239,8 +245,8 @@ int verify(const Options& options) {
   announce(jobs, run, options.out);
   run_jobs(jobs, "checks, studies and cases", options.running, run);
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  rule_all_claims(run);
-  run.faults = read_faults(faults_path());
+  rule_all_claims(claims, run);
+  run.faults = read_faults(faults_folder());
   refuse_faults_of_lost_findings(run.faults, run);
   name_faults(run.faults, run.records);
   write_run(options.out + "/run.h5", run);

@@ -31,17 +31,17 @@ bool is_in(const std::string& finding, const RunRecord& run) {
 
 }  // namespace
 
-void rule_all_claims(RunRecord& run) {
-  for (const Claim& claim : all_claims()) add_ruled(claim, run);
+void rule_all_claims(const std::vector<Claim>& claims, RunRecord& run) {
+  for (const Claim& claim : claims) add_ruled(claim, run);
 }
 
-void rule_covered_claims(RunRecord& run) {
-  for (const Claim& claim : all_claims())
+void rule_covered_claims(const std::vector<Claim>& claims, RunRecord& run) {
+  for (const Claim& claim : claims)
     if (is_covered(claim, run.records)) add_ruled(claim, run);
 }
 
-void refuse_claims_of_lost_findings(const RunRecord& run) {
-  for (const Claim& claim : all_claims())
+void refuse_claims_of_lost_findings(const std::vector<Claim>& claims, const RunRecord& run) {
+  for (const Claim& claim : claims)
     for (const std::string& finding : findings_named_in(claim))
       if (claim.recorded != Standing::undecided && is_made_by_a_study(finding, run) && !is_in(finding, run))
         throw InputError(

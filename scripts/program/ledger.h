@@ -1,5 +1,7 @@
-// Ruling the paper's claims from a run.
+// Ruling the claims of papers from a run.
 #pragma once
+
+#include <vector>
 
 #include "verification/files/results_file.h"
 
@@ -7,14 +9,14 @@ namespace foldproof {
 
 /// Rules every claim. Throws std::runtime_error naming a claim whose text asks for a number that the run
 /// lacks.
-void rule_all_claims(RunRecord& run);
+void rule_all_claims(const std::vector<Claim>& claims, RunRecord& run);
 
 /// Rules the claims all of whose findings are in the run.
-void rule_covered_claims(RunRecord& run);
+void rule_covered_claims(const std::vector<Claim>& claims, RunRecord& run);
 
 /// For a run of all studies: throws InputError if a decided claim names a finding of a study that the study
 /// does not make.
-void refuse_claims_of_lost_findings(const RunRecord& run);
+void refuse_claims_of_lost_findings(const std::vector<Claim>& claims, const RunRecord& run);
 
 /// For a run of all studies: throws InputError if a fault names a finding of a study that the study does not
 /// make. (Names of checks and cases are known without a run: scripts/tests/test_names.py.)

@@ -70,12 +70,14 @@ class Names(unittest.TestCase):
 
     def test_a_fault_whose_text_is_gone_is_refused(self) -> None:
         sound = FAULTS.read_faults()[0]
-        self.assertIsNone(FAULTS.wrong_row(sound))
+        room = FAULTS.room_of(sound.file)
+        self.assertIsNone(FAULTS.wrong_row(sound, room))
+        self.assertIn(f"belongs in {room}.toml", FAULTS.wrong_row(sound, "another") or "")
         for wrong, words in ((sound._replace(find="no such text in any file"), "occurs 0 times"),
                              (sound._replace(find=";"), "must occur exactly once"),
                              (sound._replace(file="reference/nowhere.cpp"), "is not a .cpp or .h file"),
                              (sound._replace(caught_by=(), caught_by_tests=()), "who catches it")):
-            self.assertIn(words, FAULTS.wrong_row(wrong) or "")
+            self.assertIn(words, FAULTS.wrong_row(wrong, room) or "")
         self.assertFalse(self.exists("bending.forces-sum-to-nothing"))
         self.assertTrue(issubclass(Unusable, Exception))
 

@@ -249,25 +249,24 @@ std::string filled(const std::string& text, const std::vector<Record>& records) 
   return with_placeholders(text, [&](const Placeholder& wanted) { return value_of(wanted, records); });
 }
 
-std::vector<std::string> findings_named_in(const Claim& claim) {
+std::vector<std::string> findings_in_text(const std::string& text) {
   std::vector<std::string> names;
-  for (const Decider& decider : claim.decided_by) names.push_back(decider.finding);
-  with_placeholders(claim.why + claim.condition, [&](const Placeholder& wanted) {
+  with_placeholders(text, [&](const Placeholder& wanted) {
     for (const Place& place : wanted.places) names.push_back(place.finding);
     return std::string();
   });
   return names;
 }
 
-// ---- a whole claim
-
-std::vector<Claim> all_claims() {
-  std::vector<Claim> claims = time_claims();
-  for (Claim& claim : bending_claims()) claims.push_back(std::move(claim));
-  for (Claim& claim : object_claims()) claims.push_back(std::move(claim));
-  for (Claim& claim : sticking_claims()) claims.push_back(std::move(claim));
-  return claims;
+std::vector<std::string> findings_named_in(const Claim& claim) {
+  std::vector<std::string> names;
+  for (const Decider& decider : claim.decided_by) names.push_back(decider.finding);
+  for (const std::string& text : {claim.why, claim.condition})
+    for (const std::string& name : findings_in_text(text)) names.push_back(name);
+  return names;
 }
+
+// ---- a whole claim
 
 bool is_covered(const Claim& claim, const std::vector<Record>& records) {
   const std::vector<std::string> names = findings_named_in(claim);

@@ -1,4 +1,5 @@
-// The ledger: every claim of the paper that this suite decides, and how findings decide it.
+// A claim of a paper, and the rule by which findings decide it. The claims themselves are data: see
+// read_claims.h.
 #pragma once
 
 #include <string>
@@ -27,8 +28,9 @@ struct Decider {
   Role role;
 };
 
-/// A sentence of the paper in our words.
+/// A sentence of a paper in our words.
 struct Claim {
+  std::string paper;        // its key: "BMF03"
   std::string id, section;  // section: where the paper says it
   std::string statement;
   std::vector<Decider> decided_by;
@@ -44,15 +46,6 @@ struct ClaimRecord {
   Standing ruling;
 };
 
-/// All claims, in the order of their ids.
-std::vector<Claim> all_claims();
-std::vector<Claim> time_claims();       // claims_time.cpp: BMF03 section 3
-std::vector<Claim> strain_claims();     // claims_constraints.cpp: T11 and T12, part of time_claims
-std::vector<Claim> bending_claims();    // claims_bending.cpp: BMF03 section 4
-std::vector<Claim> level_set_claims();  // claims_level_sets.cpp: BMF03 section 5.1, part of object_claims
-std::vector<Claim> object_claims();     // claims_objects.cpp: BMF03 section 5, objects
-std::vector<Claim> sticking_claims();   // claims_sticking.cpp: BMF03 section 6
-
 /// The ruling that these findings give; the table stands above its definition.
 Standing ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records);
 
@@ -66,6 +59,10 @@ Standing ruling(const std::vector<Decider>& deciders, const std::vector<Record>&
 ///   {largest of: a, b, ...}    the largest of several of these, which must have the same unit; also bare
 /// Throws std::runtime_error naming the placeholder if the run has no such number.
 std::string filled(const std::string& text, const std::vector<Record>& records);
+
+/// The findings whose numbers the placeholders of a text ask for. Throws std::runtime_error for a brace that
+/// is not closed.
+std::vector<std::string> findings_in_text(const std::string& text);
 
 /// The findings that a claim rests on or takes numbers from; some more than once.
 std::vector<std::string> findings_named_in(const Claim& claim);

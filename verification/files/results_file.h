@@ -6,6 +6,7 @@
 
 #include "verification/verdict.h"
 #include "verification/claims/claims.h"
+#include "verification/faults/faults.h"
 #include "verification/files/provenance_file.h"
 
 namespace foldproof {
@@ -14,14 +15,6 @@ struct CaseRecord {
   std::string name, file, title, about;  // file: relative to run.h5
   double seconds = 0;
   std::string stopped;  // "" or the reason
-};
-
-/// A seeded fault: a textual edit of one file, and who must notice it.
-struct Fault {
-  std::string name, file, find, replace, law;
-  std::vector<std::string> caught_by;        // findings
-  std::vector<std::string> caught_by_tests;  // test cases
-  std::string outcome;                       // "caught", "SURVIVED", ..., or "not run"
 };
 
 struct RunRecord {

@@ -44,7 +44,7 @@ nlohmann::json as_json(const ClaimRecord& record) {
           {"kind", "claim"},
           {"id", claim.id},
           {"section", claim.section},
-          {"source", "BMF03 section " + claim.section},
+          {"source", claim.paper + " section " + claim.section},
           {"statement", claim.statement},
           {"ruling", name_of(record.ruling)},
           {"recorded", name_of(claim.recorded)},

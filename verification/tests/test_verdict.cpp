@@ -8,7 +8,7 @@
 #include "reference/scene/key_file.h"
 #include "verification/verdict.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/faults/faults_file.h"
+#include "verification/faults/faults.h"
 #include "verification/subjects/reference_subject.h"
 #include "verification/files/verdicts_file.h"
 
@@ -103,11 +103,13 @@ TEST_CASE("verdicts as JSON and XML: each outcome stands as it is, and none but 
 TEST_CASE("faults are read with who catches them, and a key that no one knows is refused") {
   const ScratchFolder folder;
   const std::string row =
-      "[[fault]]\nname = \"slip\"\nfile = \"a.cpp\"\nfind = \"+\"\nreplace = \"-\"\nlaw = \"sums\"\n";
-  const std::string path = folder.file("faults.toml");
+      "[[fault]]\nname = \"slip\"\nfile = \"reference/mesh/a.cpp\"\nfind = \"+\"\nreplace = \"-\"\n"
+      "law = \"sums\"\n";
+  const std::string path = folder.file("mesh.toml");
   std::ofstream(path) << row << "caught_by = [\"sums.add-up\"]\nfast = true\n"
                       << "caught_by_tests = [\"one, and another\", \"test_sums\"]\n";
-  const std::vector<Fault> faults = read_faults(path);
+  std::ofstream(folder.file("equivalent_mutants.toml")) << "[[mutant]]\n";
+  const std::vector<Fault> faults = read_faults(folder.file("."));
   REQUIRE(faults.size() == 1);
   CHECK(faults[0].caught_by == std::vector<std::string>{"sums.add-up"});
   CHECK(faults[0].caught_by_tests == std::vector<std::string>{"one, and another", "test_sums"});
@@ -118,7 +120,41 @@ TEST_CASE("faults are read with who catches them, and a key that no one knows is
   CHECK(records[0].faults == std::vector<std::string>{"slip"});
   CHECK(records[1].faults.empty());
   std::ofstream(path) << row << "caught_bye = [\"sums.add-up\"]\n";
-  CHECK_THROWS_WITH(read_faults(path), Catch::Contains("caught_bye"));
+  CHECK_THROWS_WITH(read_faults(folder.file(".")),
+                    Catch::Contains("mesh.toml:7: ") && Catch::Contains("caught_bye"));
+}
+
+TEST_CASE("a fault in the file of another room, and a name that is taken, are refused") {
+  const auto row = [](const std::string& name, const std::string& file) {
+    return "[[fault]]\nname = \"" + name + "\"\nfile = \"" + file +
+           "\"\nfind = \"+\"\nreplace = \"-\"\nlaw = \"sums\"\n";
+  };
+  const ScratchFolder folder;
+  CHECK_THROWS_WITH(read_faults(folder.file(".")), Catch::Contains("there is no list of faults"));
+  CHECK_THROWS_WITH(read_faults(folder.file("nowhere")), Catch::Contains("there is no list of faults"));
+  std::ofstream(folder.file("forces.toml")) << row("one", "reference/forces/a.cpp");
+  std::ofstream(folder.file("mesh.toml")) << row("two", "reference/mesh/a.cpp");
+  CHECK(read_faults(folder.file(".")).size() == 2);
+  std::ofstream(folder.file("mesh.toml")) << row("two", "reference/forces/a.cpp");
+  CHECK_THROWS_WITH(read_faults(folder.file(".")),
+                    Catch::Contains("mesh.toml:3: ") && Catch::Contains("belongs in forces.toml"));
+  std::ofstream(folder.file("mesh.toml")) << row("two", "scripts/faults");
+  CHECK_THROWS_WITH(read_faults(folder.file(".")),
+                    Catch::Contains("mesh.toml:3: ") && Catch::Contains("no list"));
+  std::ofstream(folder.file("mesh.toml")) << row("one", "reference/mesh/a.cpp");
+  CHECK_THROWS_WITH(
+      read_faults(folder.file(".")),
+      Catch::Contains("mesh.toml:2: the name 'one' is taken at ") && Catch::Contains("forces.toml:2"));
+}
+
+TEST_CASE("the room of a file is its folder, or its name where it has none") {
+  CHECK(room_of("reference/forces/springs.cpp") == "forces");
+  CHECK(room_of("verification/checks/forces/spring_checks.cpp") == "checks");
+  CHECK(room_of("verification/verdict.cpp") == "verdict");
+  CHECK(room_of("reference/types.h") == "types");
+  CHECK(room_of("convergence/stability/sheet.cpp") == "convergence");
+  CHECK(room_of("scripts/program/jobs.cpp") == "program");
+  CHECK(room_of("scripts/faults").empty());
 }
 
 TEST_CASE("a map is written with one value for each of its points, or refused") {

@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+"""Tests of scripts/faults: which faults --resume skips and which it runs again; in which file a fault stands."""
+from __future__ import annotations
+
+import sys
+import tempfile
+import unittest
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
+from pathlib import Path
+from types import ModuleType
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "scripts"))
+
+
+def script(name: str) -> ModuleType:
+    """A script of scripts/ as a module; they have no ending."""
+    spec = spec_from_loader(name, SourceFileLoader(name, str(ROOT / "scripts" / name)))
+    assert spec is not None and spec.loader is not None
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+FAULTS = script("faults")
+SLIP = FAULTS.Fault("slip", "reference/forces/springs.cpp", "+", "-", "sums add up", ("sums.add-up",), ("a test",))
+HIDDEN = FAULTS.Fault("hidden", "reference/forces/springs.cpp", "a", "b", "none", equivalent="no one can see it")
+ROW = {"name": "sums.add-up", "outcome": "fails", "measured": 3.5, "bound": 0.25, "margin": 14.0}
+
+
+class Resume(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.known = Path(folder.name) / "below" / "known.jsonl"
+
+    def remember(self, fault: tuple, outcome: str) -> tuple:
+        result = FAULTS.Result(fault, outcome, "a detail", 1.5, [ROW], [])
+        FAULTS.remember(result, self.known)
+        return result
+
+    def test_caught_and_equivalent_faults_are_recalled_as_they_were(self) -> None:
+        results = [self.remember(SLIP, "caught"), self.remember(HIDDEN, "equivalent")]
+        self.assertEqual(FAULTS.recall([SLIP, HIDDEN], self.known), results)
+        self.assertEqual(FAULTS.recall([HIDDEN], self.known), results[1:])
+        self.assertEqual(FAULTS.remaining([SLIP, HIDDEN], results[1:]), [SLIP])
+
+    def test_faults_that_survived_or_gave_an_error_run_again(self) -> None:
+        for outcome in ("SURVIVED", "ERROR"):
+            self.remember(SLIP, outcome)
+            self.assertEqual(FAULTS.recall([SLIP], self.known), [])
+
+    def test_the_last_outcome_counts(self) -> None:
+        self.remember(SLIP, "caught")
+        self.remember(SLIP, "SURVIVED")
+        self.assertEqual(FAULTS.recall([SLIP], self.known), [])
+        last = self.remember(SLIP, "caught")
+        self.assertEqual(FAULTS.recall([SLIP], self.known), [last])
+
+    def test_a_row_with_any_other_key_runs_again(self) -> None:
+        self.remember(SLIP, "caught")
+        others = [SLIP._replace(**{key: "another"}) for key in ("name", "file", "find", "replace", "law", "equivalent")]
+        others += [SLIP._replace(**{key: ("another",)}) for key in ("caught_by", "caught_by_tests")]
+        others += [SLIP._replace(**{key: True}) for key in ("fast", "loops", "crash")]
+        self.assertEqual(len(others), len(FAULTS.Fault._fields))
+        self.assertEqual(len({FAULTS.key_of_row(fault) for fault in [SLIP, *others]}), len(others) + 1)
+        self.assertEqual(FAULTS.recall(others, self.known), [])
+
+    def test_an_unfinished_line_loses_only_its_own_fault(self) -> None:
+        first = self.remember(HIDDEN, "equivalent")
+        with open(self.known, "a", encoding="utf-8") as file:
+            file.write('\n{"row": "cut of')
+        self.assertEqual(FAULTS.recall([SLIP, HIDDEN], self.known), [first])
+        second = self.remember(SLIP, "caught")
+        self.assertEqual(FAULTS.recall([SLIP, HIDDEN], self.known), [second, first])
+
+    def test_nothing_is_known_of_another_program(self) -> None:
+        self.assertNotEqual(FAULTS.known_file("one"), FAULTS.known_file("another"))
+        self.assertEqual(FAULTS.recall([SLIP], self.known), [])
+
+
+class Rooms(unittest.TestCase):
+    def test_the_room_of_a_file_is_its_folder_or_its_name_where_it_has_none(self) -> None:
+        for file, room in (("reference/forces/springs.cpp", "forces"), ("verification/verdict.cpp", "verdict"),
+                           ("verification/checks/forces/spring_checks.cpp", "checks"), ("reference/types.h", "types"),
+                           ("convergence/order.cpp", "convergence"), ("scripts/program/jobs.cpp", "program")):
+            self.assertEqual(FAULTS.room_of(file), room)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,133 @@
+#include "verification/claims/read_claims.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <initializer_list>
+#include <map>
+
+#include "reference/scene/key_file.h"
+
+namespace foldproof {
+
+namespace {
+
+std::string written_text(const KeyTable& keys, const std::string& key) {
+  const std::string text = keys.text(key);
+  if (text.find_first_not_of(" \n") == std::string::npos)
+    throw InputError(keys.where(key) + ": '" + key + "' is empty");
+  return text;
+}
+
+/// A text with placeholders, see `filled`.
+std::string text_with_numbers(const KeyTable& keys, const std::string& key) {
+  const std::string text = written_text(keys, key);
+  try {
+    findings_in_text(text);
+  } catch (const std::runtime_error& error) {
+    throw InputError(keys.where(key) + ": " + error.what());
+  }
+  return text;
+}
+
+/// The word whose name the key holds.
+template <class Word>
+Word word_of(const KeyTable& keys, const std::string& key, std::initializer_list<Word> words) {
+  const std::string wanted = keys.text(key);
+  std::string known;
+  for (const Word word : words) {
+    if (wanted == name_of(word)) return word;
+    known += (known.empty() ? "" : ", ") + std::string(name_of(word));
+  }
+  throw InputError(keys.where(key) + ": unknown " + key + " '" + wanted + "'; known: " + known);
+}
+
+/// Part of the name of a finding, claim.ID, and of a group in run.h5.
+std::string id_of(const KeyTable& row) {
+  const std::string id = written_text(row, "id");
+  const auto is_allowed = [](unsigned char c) { return std::isalnum(c) || c == '-'; };
+  if (!std::ranges::all_of(id, is_allowed))
+    throw InputError(row.where("id") + ": the id '" + id + "' may have letters, digits and '-' only");
+  return id;
+}
+
+/// Checks [paper] and returns its key, by which claims are cited.
+std::string paper_of(const KeyTable& root) {
+  const auto paper = root.table("paper");
+  if (!paper) throw InputError(root.where() + ": there is no [paper]");
+  written_text(*paper, "title");
+  if (paper->texts("authors").empty()) throw InputError(paper->where("authors") + ": 'authors' is empty");
+  paper->integer("year");
+  return written_text(*paper, "key");
+}
+
+std::vector<Decider> deciders_of(const KeyTable& row) {
+  std::vector<Decider> deciders;
+  for (const auto& entry : row.tables("decided_by")) {
+    const std::string finding = written_text(*entry, "finding");
+    if (std::ranges::any_of(deciders, [&](const Decider& earlier) { return earlier.finding == finding; }))
+      throw InputError(entry->where("finding") + ": the finding '" + finding + "' is named twice");
+    deciders.push_back({finding, word_of(*entry, "role", {Role::supports, Role::limits, Role::contradicts})});
+  }
+  if (deciders.empty()) throw InputError(row.where("decided_by") + ": no finding decides this claim");
+  return deciders;
+}
+
+/// Empty for a claim that is not recorded as conditional.
+std::string condition_of(const KeyTable& row, Standing recorded) {
+  const std::string conditional(name_of(Standing::conditional));
+  if (recorded == Standing::conditional) {
+    if (!row.has("condition"))
+      throw InputError(row.where("recorded") + ": '" + conditional + "' needs the key 'condition'");
+    return text_with_numbers(row, "condition");
+  }
+  if (row.has("condition"))
+    throw InputError(row.where("condition") + ": a condition is given, but '" + conditional +
+                     "' is not recorded");
+  return "";
+}
+
+Claim claim_of(const KeyTable& row, const std::string& paper) {
+  Claim claim{paper,
+              id_of(row),
+              written_text(row, "section"),
+              written_text(row, "statement"),
+              deciders_of(row),
+              word_of(row, "recorded",
+                      {Standing::confirmed, Standing::conditional, Standing::refuted, Standing::undecided}),
+              "",
+              text_with_numbers(row, "why")};
+  claim.condition = condition_of(row, claim.recorded);
+  return claim;
+}
+
+}  // namespace
+
+std::vector<Claim> read_claims(const std::string& folder) {
+  std::vector<std::filesystem::path> paths;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".toml") paths.push_back(entry.path());
+  if (paths.empty()) throw InputError(folder + ": there are no claims, PAPER.toml");
+  std::sort(paths.begin(), paths.end());
+
+  std::vector<Claim> claims;
+  std::map<std::string, std::string> places;  // of each id
+  for (const std::filesystem::path& path : paths) {
+    const auto root = parse_keys(read_text(path.string()), path.string());
+    const std::string paper = paper_of(*root);
+    const auto rows = root->tables("claim");
+    if (rows.empty()) throw InputError(path.string() + ": there is no [[claim]]");
+    for (const auto& row : rows) {
+      claims.push_back(claim_of(*row, paper));
+      const auto [first, is_new] = places.try_emplace(claims.back().id, row->where("id"));
+      if (!is_new)
+        throw InputError(row->where("id") + ": the id '" + claims.back().id + "' is taken at " +
+                         first->second);
+    }
+    root->refuse_unused();
+  }
+  return claims;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,72 @@
+#include "verification/faults/faults.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "reference/scene/key_file.h"
+
+namespace foldproof {
+
+namespace {
+
+Fault fault_of(const KeyTable& row) {
+  Fault fault{
+      row.text("name"), row.text("file"), row.text("find"), row.text("replace"), row.text("law"), {}, {},
+      "not run"};
+  if (row.has("equivalent")) fault.outcome = "equivalent: " + row.text("equivalent");
+  if (row.has("caught_by")) fault.caught_by = row.texts("caught_by");
+  if (row.has("caught_by_tests")) fault.caught_by_tests = row.texts("caught_by_tests");
+  for (const char* mark : {"fast", "loops", "crash"}) row.flag_or(mark, false);  // for the runner alone
+  return fault;
+}
+
+std::vector<std::filesystem::path> files_of_faults(const std::string& folder) {
+  std::vector<std::filesystem::path> paths;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".toml" && entry.path().stem() != "equivalent_mutants")
+      paths.push_back(entry.path());
+  if (paths.empty()) throw InputError(folder + ": there is no list of faults, ROOM.toml");
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+}  // namespace
+
+std::string room_of(const std::string& file) {
+  if (file.starts_with("convergence/")) return "convergence";
+  if (file.starts_with("scripts/program/")) return "program";
+  if (!file.starts_with("reference/") && !file.starts_with("verification/")) return "";
+  const size_t start = file.find('/') + 1;
+  return file.substr(start, file.find_first_of("/.", start) - start);
+}
+
+std::vector<Fault> read_faults(const std::string& folder) {
+  std::vector<Fault> faults;
+  std::map<std::string, std::string> places;  // of each name
+  for (const std::filesystem::path& path : files_of_faults(folder)) {
+    const auto root = parse_keys(read_text(path.string()), path.string());
+    for (const auto& row : root->tables("fault")) {
+      faults.push_back(fault_of(*row));
+      const Fault& fault = faults.back();
+      const auto [first, is_new] = places.try_emplace(fault.name, row->where("name"));
+      if (!is_new)
+        throw InputError(row->where("name") + ": the name '" + fault.name + "' is taken at " + first->second);
+      if (const std::string room = room_of(fault.file); room != path.stem())
+        throw InputError(row->where("file") + ": a fault in '" + fault.file + "' belongs in " +
+                         (room.empty() ? "no list" : room + ".toml"));
+    }
+    root->refuse_unused();
+  }
+  return faults;
+}
+
+void name_faults(const std::vector<Fault>& faults, std::vector<Record>& records) {
+  for (Record& record : records)
+    for (const Fault& fault : faults)
+      if (std::find(fault.caught_by.begin(), fault.caught_by.end(), record.name) != fault.caught_by.end())
+        record.faults.push_back(fault.name);
+}
+
+}  // namespace foldproof

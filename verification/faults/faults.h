@@ -1,0 +1,32 @@
+// The seeded faults: verification/faults/ROOM.toml, one file for each room of the code that they edit.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "verification/verdict.h"
+
+namespace foldproof {
+
+/// A seeded fault: a textual edit of one file, and who must notice it.
+struct Fault {
+  std::string name, file, find, replace, law;
+  std::vector<std::string> caught_by;        // findings
+  std::vector<std::string> caught_by_tests;  // test cases
+  std::string outcome;                       // "caught", "SURVIVED", ..., or "not run"
+};
+
+/// The room of a source file, which names the file of its faults: the folder below reference/ or
+/// verification/, or the file's name without its ending if it is right there; "convergence"; "program" for
+/// scripts/program/. Empty for any other file.
+std::string room_of(const std::string& file);
+
+/// The faults of every *.toml in the folder but equivalent_mutants.toml, in the order of file names. Throws
+/// InputError "file:line: ..." for a row that lacks a key, has an unknown one, stands in the file of another
+/// room, or has the name of an earlier row; "folder: ..." for a folder without such files.
+std::vector<Fault> read_faults(const std::string& folder);
+
+/// Writes into each record the names of the faults that it catches.
+void name_faults(const std::vector<Fault>& faults, std::vector<Record>& records);
+
+}  // namespace foldproof
