@@ -16,31 +16,32 @@ namespace foldproof {
 
 namespace {
 
-/// The quantity's value at a frame, 0 where it makes no sense for the scene.
-double value_of(const char* key, const Scene& scene, const State& frame) {
-  const Quantity& quantity = *find_quantity(key);
-  return quantity.refusal && !quantity.refusal(scene).empty() ? 0 : quantity.of_frame(scene, frame);
+/// Depth inside an object at a frame [m]; 0 where there is none.
+double depth_at(const Scene& scene, std::span<const Object> objects, const State& frame) {
+  return objects.empty() ? 0 : value_at(*find_quantity("stays_outside"), scene, objects, frame);
 }
 
-RunObserved watched(const Case& shown, int particles) {
+RunObserved watched(const Case& shown, const LevelSetMakers& level_sets, int particles) {
   const Scene& scene = shown.scene;
+  const Built built = build(scene, level_sets);
+  const std::span<const Object> objects = objects_of(built.system);
   RunObserved run;
   std::map<double, double> energy;
-  CaseJudge judge(shown);
+  CaseJudge judge(shown, objects, level_sets);
   Worst deepest, crossings;
   const Observer observer{[&](const State& s) {
                             judge.enter(s);
                             run.times.push_back(s.time);
                             run.x.push_back(s.x.leftCols(particles));
-                            deepest.see(value_of("stays_outside", scene, s));
+                            deepest.see(depth_at(scene, objects, s));
                             crossings.see(self_crossings(scene, s));
                           },
                           [&](const Diagnostics& row) {
                             judge.enter(row);
                             energy[row.time] = row.energy.total();
                           }};
-  const Outcome outcome = simulate(build_system(scene), integrator_named(scene.integrator),
-                                   start_state(scene), scene.schedule, observer);
+  const Outcome outcome =
+      simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule, observer);
   for (const double t : run.times) run.energy.push_back(energy.contains(t) ? energy.at(t) : nan);
   run.deepest = deepest.value();
   run.crossings = crossings.value();
@@ -107,11 +108,11 @@ std::string_view name_of(Need need) {
   return "not missed here";
 }
 
-RunObserved observed(const Case& shown, int particles) {
+RunObserved observed(const Case& shown, const LevelSetMakers& level_sets, int particles) {
   const auto start = std::chrono::steady_clock::now();
   RunObserved run;
   try {
-    run = watched(shown, particles);
+    run = watched(shown, level_sets, particles);
   } catch (const std::exception& error) {
     run.stopped = error.what();
   }

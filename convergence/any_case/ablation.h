@@ -47,9 +47,10 @@ struct RunObserved {
   std::vector<std::string> failed;  // of those that do not hold
 };
 
-/// Runs the case. particles: of these only, the first ones, positions are kept. An error in building or
-/// running is told in `stopped`.
-RunObserved observed(const Case& shown, int particles);
+/// Runs the case. particles: of these only, the first ones, positions are kept. level_sets: of its bodies;
+/// they should remember those that were made (bodies/makers.h). An error in building or running is told in
+/// `stopped`.
+RunObserved observed(const Case& shown, const LevelSetMakers& level_sets, int particles);
 
 /// The case with another scene: what is expected of the case and makes no sense for that scene is left out.
 Case with_scene(const Case& shown, Scene scene);

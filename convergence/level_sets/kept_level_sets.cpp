@@ -37,10 +37,9 @@ std::string case_text(const ScratchFolder& folder) {
 }
 
 State end_of_run(const std::string& text, const std::string& path, const LevelSetMakers& makers) {
-  const Scene scene = read_scene_text(text, path, {}, makers, {});
-  return simulate(build_system(scene), integrator_named(scene.integrator), start_state(scene), scene.schedule,
-                  {})
-      .last;
+  const Scene scene = read_scene_text(text, path);
+  const Built built = build(scene, makers);
+  return simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule, {}).last;
 }
 
 /// Something that makes a good file of a grid unfit.

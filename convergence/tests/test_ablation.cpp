@@ -176,7 +176,7 @@ TEST_CASE("a coarser mesh is compared where it lies on the finer one") {
 TEST_CASE("a case names its coarser mesh beside its reasons") {
   const std::string path = "coarser_mesh_trial.toml";
   std::ofstream(path) << text << "[ablation]\ncoarser_mesh = \"cloth.rows=2\"\n\"gravity\" = \"a reason\"\n";
-  const Case shown = case_of_file(path);
+  const Case shown = read_case(path);
   CHECK(shown.coarser_mesh == std::vector<std::string>{"cloth.rows=2"});
   REQUIRE(shown.declared.size() == 1);
   CHECK(shown.declared[0].part == "gravity");

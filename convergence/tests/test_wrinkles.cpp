@@ -5,7 +5,6 @@
 
 #include "convergence/contact/section_profile.h"
 #include "convergence/contact/wrinkle_measure.h"
-#include "reference/bodies/makers.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/files/hdf5_file.h"
@@ -74,7 +73,7 @@ TEST_CASE("a stored simulation is read back bit for bit, overrides and all") {
   const System system = build_system(scene);
   State s = start_state(scene);
   {
-    TrajectoryFile file(folder.file("small.h5"), scene, system, {});
+    TrajectoryFile file(folder.file("small.h5"), scene, system, objects_of(system), {});
     file.add_frame(s);
     s.time = 0.1;
     s.x.array() += 0.1234567;
@@ -82,7 +81,7 @@ TEST_CASE("a stored simulation is read back bit for bit, overrides and all") {
     file.add_frame(s);
     file.finish("", 0, {});
   }
-  const StoredRun run = read_stored_run(folder.file("small.h5"), computing_makers());
+  const StoredRun run = read_stored_run(folder.file("small.h5"));
   CHECK(run.scene.mesh.rest == scene.mesh.rest);
   CHECK(run.scene.text == scene.text);
   REQUIRE(run.scene.objects.size() == 1);
@@ -94,8 +93,7 @@ TEST_CASE("a stored simulation is read back bit for bit, overrides and all") {
 TEST_CASE("what is no stored simulation is refused with the file's name") {
   const ScratchFolder folder;
   { Hdf5::create_file(folder.file("other.h5")).attribute("title", std::string("something else")); }
-  CHECK_THROWS_WITH(read_stored_run(folder.file("other.h5"), computing_makers()),
+  CHECK_THROWS_WITH(read_stored_run(folder.file("other.h5")),
                     Catch::Contains("other.h5: is no stored simulation"));
-  CHECK_THROWS_WITH(read_stored_run(folder.file("missing.h5"), computing_makers()),
-                    Catch::Contains("missing.h5"));
+  CHECK_THROWS_WITH(read_stored_run(folder.file("missing.h5")), Catch::Contains("missing.h5"));
 }

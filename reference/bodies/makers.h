@@ -22,6 +22,10 @@ struct LevelSetMakers {
 /// Those that compute whatever they are asked for.
 LevelSetMakers computing_makers();
 
+/// Those that ask `makers` once for the same thing, and hand out what they made to all who ask again, in any
+/// thread. They and their copies share what they keep, as long as one of them lives.
+LevelSetMakers remembering(const LevelSetMakers& makers);
+
 /// The octree of one mesh: that of an animation of one frame.
 std::shared_ptr<const Octree> make_octree(const LevelSetMakers& makers, const PerParticle3& x,
                                           const std::vector<Triangle>& triangles,

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "reference/bodies/self_intersection.h"
+#include "reference/scene/field_recipe.h"
 
 namespace foldproof {
 
@@ -18,10 +19,10 @@ Scene scene_of(TriangleMesh mesh, double density) {
 
 namespace {
 
-ObjectCollision object_collision(const Scene& scene, const PerParticle& inverse_mass) {
+ObjectCollision object_collision(const Scene& scene, const System& system, const LevelSetMakers& level_sets) {
   ObjectCollision filter;
-  for (const SceneObject& part : scene.objects) filter.objects.push_back(part.object);
-  filter.points = collision_points(scene.mesh, inverse_mass, scene.collision.points);
+  filter.objects = build_objects(scene, level_sets);
+  filter.points = collision_points(scene.mesh, system.inverse_mass, scene.collision.points);
   filter.response = response_named(scene.collision.response);
   filter.forecast_time = scene.collision.forecast_time;
   return filter;
@@ -40,7 +41,22 @@ StrainLimiter strain_limiter(const Scene& scene, const PerParticle& inverse_mass
 
 }  // namespace
 
-System build_system(const Scene& scene) {
+std::vector<Object> build_objects(const Scene& scene, const LevelSetMakers& level_sets) {
+  std::vector<Object> objects;
+  for (const SceneObject& part : scene.objects) {
+    objects.push_back(part.object);
+    if (part.field) make_field(*part.field, level_sets, objects.back().body);
+  }
+  return objects;
+}
+
+std::span<const Object> objects_of(const System& system) {
+  for (const Filter& filter : system.filters)
+    if (const auto* collision = std::get_if<ObjectCollision>(&filter)) return collision->objects;
+  return {};
+}
+
+Built build(const Scene& scene, const LevelSetMakers& level_sets) {
   System system = make_system(lumped_masses(scene.mesh, scene.density));
   if (scene.gravity) system.forces.push_back(Gravity{*scene.gravity, system.mass});
   if (scene.stretch) system.forces.push_back(make_springs(scene.mesh, *scene.stretch));
@@ -48,11 +64,13 @@ System build_system(const Scene& scene) {
   if (!scene.sticky.empty()) system.forces.push_back(Sticking{scene.sticky});
   for (const PrescribedParticle& particle : scene.led) prescribe(system, particle);
   if (scene.strain_limits) system.filters.push_back(strain_limiter(scene, system.inverse_mass));
-  if (!scene.objects.empty()) system.filters.push_back(object_collision(scene, system.inverse_mass));
+  if (!scene.objects.empty()) system.filters.push_back(object_collision(scene, system, level_sets));
   if (scene.self_collision) system.filters.push_back(self_collision(scene, system));
   system.solver = scene.solver;
-  return system;
+  return {std::move(system), start_state(scene)};
 }
+
+System build_system(const Scene& scene) { return build(scene, computing_makers()).system; }
 
 PerParticle3 surface_at(const SceneObject& part, double t) {
   if (part.animation) return positions_at(*part.animation, t);

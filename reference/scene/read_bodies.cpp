@@ -74,16 +74,10 @@ void refuse_links_outside(const std::string& folder, const std::string& case_fol
     refuse_outside(entry.path().string(), case_folder, where);
 }
 
-/// What a maker of level sets answers; its refusal of what `cells` asks for gets that key's place.
-template <class Make>
-auto made(const KeyTable& keys, const Make& make) {
-  try {
-    return make();
-  } catch (const InputError& error) {
-    const std::string said = error.what();
-    if (!said.starts_with("grid: ") && !said.starts_with("octree: ")) throw;
-    throw InputError(keys.where("cells") + ": " + said);
-  }
+/// The recipe with the place of the key that says how fine the field is.
+template <class Recipe>
+std::shared_ptr<const FieldRecipe> recipe_of(const KeyTable& keys, Recipe of) {
+  return std::make_shared<const FieldRecipe>(FieldRecipe{std::move(of), keys.where("cells")});
 }
 
 MeshSequence read_frames(const KeyTable& keys, const CaseAround& around) {
@@ -153,9 +147,9 @@ BodyShape read_mesh_body(const KeyTable& keys, const CaseAround& around) {
       int(count_or(keys, "cells", 64));  // known to all fields, so that one --set changes between them
   ObjectSurface surface{soup.rest, soup.triangles};
   if (field == Field::grid) {
+    if (repair == Repair::refuse) make_closed_mesh(soup);  // for its refusals
     const GridMethod method{cells, 4, 3, MarchingOrder::second};
-    auto grid = made(keys, [&] { return around.makers.make_level_set(soup, method, repair); });
-    return {GridSolid{std::move(grid)}, std::move(surface)};
+    return {GridSolid{}, std::move(surface), recipe_of(keys, GridRecipe{std::move(soup), method, repair})};
   }
   if (repair != Repair::refuse)
     throw InputError(
@@ -164,11 +158,10 @@ BodyShape read_mesh_body(const KeyTable& keys, const CaseAround& around) {
   const TriangleMesh mesh = make_closed_mesh(std::move(soup));
   if (field == Field::octree) {
     const OctreeSettings settings = read_octree(keys, bounds_of(mesh.rest), read_cell(keys, mesh.rest));
-    auto octree = made(keys, [&] { return make_octree(around.makers, mesh.rest, mesh.triangles, settings); });
-    return {OctreeSolid{std::move(octree)}, std::move(surface)};
+    return {OctreeSolid{}, std::move(surface),
+            recipe_of(keys, OctreeRecipe{mesh.rest, mesh.triangles, settings})};
   }
-  return {MeshSolid{std::make_shared<const MeshDistance>(make_mesh_distance(mesh.rest, mesh.triangles))},
-          std::move(surface)};
+  return {MeshSolid{}, std::move(surface), recipe_of(keys, ExactRecipe{mesh.rest, mesh.triangles})};
 }
 
 DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, const CaseAround& around) {
@@ -189,8 +182,8 @@ DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, cons
     bounds.extend(bounds_of(animation.positions[k]));
   }
   const OctreeSettings settings = read_octree(keys, bounds, read_cell(keys, animation.positions.front()));
-  auto body = made(keys, [&] { return around.makers.make_deforming_body(animation, settings, between); });
-  return {std::make_shared<const MeshSequence>(animation), std::move(body)};
+  const auto shared = std::make_shared<const MeshSequence>(std::move(animation));
+  return {shared, recipe_of(keys, AnimationRecipe{shared, settings, between})};
 }
 
 }  // namespace foldproof

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "reference/bodies/makers.h"
 #include "reference/level_set/solid.h"
 #include "reference/motion/pose.h"
+#include "reference/scene/field_recipe.h"
 #include "reference/scene/key_file.h"
 #include "reference/scene/object_surface.h"
 #include "reference/scene/scene_limits.h"
@@ -17,26 +17,26 @@ namespace foldproof {
 struct CaseAround {
   std::string folder;  // where relative files of the case are looked for
   double end;          // of the run [s]
-  const LevelSetMakers& makers;
   const SceneLimits& limits;
 };
 
 /// A solid in its own frame, with its surface.
 struct BodyShape {
-  Solid solid;
+  Solid solid;  // without its field if there is a recipe of it
   ObjectSurface surface;
+  std::shared_ptr<const FieldRecipe> field = {};
 };
 
 /// Do the keys say that the body deforms: `frames` or [[object.deform]]?
 bool is_deforming(const KeyTable& keys);
 
 /// `shape = "statue"` or `mesh`, as the exact distance, a grid or an octree of it: `field`, `cells`,
-/// `tolerance`.
+/// `tolerance`. Throws InputError for a mesh that is not closed, unless it is to be repaired.
 BodyShape read_mesh_body(const KeyTable& keys, const CaseAround& around);
 
 struct DeformingShape {
   std::shared_ptr<const MeshSequence> animation;
-  std::shared_ptr<const DeformingBody> body;
+  std::shared_ptr<const FieldRecipe> field;
 };
 
 /// `frames` or [[object.deform]] of a body of triangles, in its place before it deforms. Throws InputError

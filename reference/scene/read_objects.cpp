@@ -71,6 +71,7 @@ void read_rigid(const KeyTable& keys, const Pose& place, const CaseAround& aroun
     part.vertices.col(i) = placed(place, shape.surface.vertices.col(i));
   part.triangles = std::move(shape.surface.triangles);
   part.object.body = RigidObject{std::move(shape.solid), place, read_rigid_motion(keys)};
+  part.field = std::move(shape.field);
 }
 
 void read_deforming(const KeyTable& keys, const Pose& place, const CaseAround& around, SceneObject& part) {
@@ -78,7 +79,8 @@ void read_deforming(const KeyTable& keys, const Pose& place, const CaseAround& a
   part.vertices = shape.animation->positions.front();
   part.triangles = shape.animation->triangles;
   part.animation = std::move(shape.animation);
-  part.object.body = DeformingObject{std::move(shape.body)};
+  part.object.body = DeformingObject{};
+  part.field = std::move(shape.field);
 }
 
 SceneObject read_object(const KeyTable& keys, const CaseAround& around, size_t number) {

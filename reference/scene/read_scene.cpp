@@ -138,8 +138,12 @@ void refuse_overflow(const KeyTable& cloth, const Scene& scene) {
     throw InputError(cloth.where() + ": a particle has the mass 0, or one that is not finite");
 }
 
-Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSetMakers& makers,
-                 const SceneLimits& limits) {
+}  // namespace
+
+Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
+  const std::filesystem::path file(of.path);
+  const std::string folder = file.parent_path().string();
+  const KeyTable& keys = *of.keys;
   const auto cloth = keys.table("cloth"), time = keys.table("time");
   if (!cloth || !time) throw InputError(keys.where() + ": a case needs the tables [cloth] and [time]");
   PlacedMesh placed = read_cloth_mesh(*cloth, folder, limits);
@@ -161,12 +165,39 @@ Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSet
   for (const auto& hold : keys.tables("hold")) read_hold(*hold, scene);
   refuse_overflow(*cloth, scene);
   read_time(*time, scene);
-  read_objects(keys, {folder, scene.schedule.end, makers, limits}, scene);
+  read_objects(keys, {folder, scene.schedule.end, limits}, scene);
   if (const auto self = keys.table("self_collision"))
     scene.self_collision = read_self_collision(*self, scene.mesh);
   read_sticky(keys, folder, scene);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
   if (const auto self = keys.table("self_collision")) refuse_tangled_start(*self, scene);
+  scene.name = file.stem().string();
+  scene.folder = folder;
+  scene.text = of.text;
+  return scene;
+}
+
+CaseKeys parse_case_text(const std::string& text, const std::string& path,
+                         const std::vector<std::string>& overrides) {
+  refuse_name(std::filesystem::path(path).stem().string(), path);
+  CaseKeys of{path, text, parse_keys(text, path)};
+  for (const std::string& assignment : overrides) {
+    set_key(*of.keys, assignment);
+    of.text += "\n# --set " + assignment;
+  }
+  return of;
+}
+
+CaseKeys parse_case(const std::string& path, const std::vector<std::string>& overrides) {
+  if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": there is no such case file");
+  return parse_case_text(read_text(path), path, overrides);
+}
+
+namespace {
+
+Scene scene_alone(const CaseKeys& of, const SceneLimits& limits) {
+  Scene scene = scene_from(of, limits);
+  const KeyTable& keys = *of.keys;
   keys.leave("expect");    // what must hold of the run: whoever judges it reads that table
   keys.leave("ablation");  // why parts are there or left out: whoever toggles them reads that table
   keys.refuse_unused();
@@ -175,34 +206,13 @@ Scene scene_from(const KeyTable& keys, const std::string& folder, const LevelSet
 
 }  // namespace
 
-Scene read_scene_text(const std::string& text, const std::string& path,
-                      const std::vector<std::string>& overrides, const LevelSetMakers& makers,
-                      const SceneLimits& limits) {
-  const std::filesystem::path file(path);
-  refuse_name(file.stem().string(), path);
-  const auto keys = parse_keys(text, path);
-  for (const std::string& assignment : overrides) set_key(*keys, assignment);
-  Scene scene = scene_from(*keys, file.parent_path().string(), makers, limits);
-  scene.name = file.stem().string();
-  scene.folder = file.parent_path().string();
-  scene.text = text;
-  for (const std::string& assignment : overrides) scene.text += "\n# --set " + assignment;
-  return scene;
-}
-
-Scene read_scene_text(const std::string& text, const std::string& path,
-                      const std::vector<std::string>& overrides) {
-  return read_scene_text(text, path, overrides, computing_makers(), {});
-}
-
-Scene read_scene(const std::string& path, const std::vector<std::string>& overrides,
-                 const LevelSetMakers& makers) {
-  if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": there is no such case file");
-  return read_scene_text(read_text(path), path, overrides, makers, {});
-}
-
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
-  return read_scene(path, overrides, computing_makers());
+  return scene_alone(parse_case(path, overrides), {});
+}
+
+Scene read_scene_text(const std::string& text, const std::string& path,
+                      const std::vector<std::string>& overrides, const SceneLimits& limits) {
+  return scene_alone(parse_case_text(text, path, overrides), limits);
 }
 
 }  // namespace foldproof

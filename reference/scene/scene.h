@@ -1,8 +1,9 @@
-// What a case says, read and checked, before anything is built of it.
+// What a case says, read and checked, before anything is built of it: a recipe.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,13 @@
 namespace foldproof {
 
 struct LevelSetMakers;  // bodies/makers.h
+struct FieldRecipe;     // scene/field_recipe.h
 
 /// An object, and its surface as triangles: for pictures, not for the collisions.
 struct SceneObject {
-  Object object;
-  std::string shape;                // in words
+  Object object;  // if there is a recipe of its body's field, the body lacks it until it is built
+  std::shared_ptr<const FieldRecipe> field;  // of a body of triangles, else none
+  std::string shape;                         // in words
   PerParticle3 vertices;            // 3 x V, before its motion, or in its first frame if it deforms [m]
   std::vector<Triangle> triangles;  // outward
   std::shared_ptr<const MeshSequence> animation;  // of a body that deforms, else none
@@ -72,25 +75,51 @@ struct Scene {
 /// A scene of the mesh at rest in its rest shape, without any force.
 Scene scene_of(TriangleMesh mesh, double density);
 
-/// Reads a case file. Throws InputError "file:line: ..." for anything that it does not understand; see
-/// cases/README.md for the keys.
+/// A case file, parsed once: whoever reads a part of it asks this tree.
+struct CaseKeys {
+  std::string path, text;          // the file's, overrides noted at the end of the text
+  std::shared_ptr<KeyTable> keys;  // with the overrides
+};
+
+/// Parses a case file. Throws InputError "file:line: ..." for what is no TOML.
 ///   overrides   "a.b=c", applied in order
-///   makers      of the level sets of its bodies; without them these are computed
+CaseKeys parse_case(const std::string& path, const std::vector<std::string>& overrides);
+
+/// The same of text; `path` names it in messages, and relative mesh files are looked for beside it.
+CaseKeys parse_case_text(const std::string& text, const std::string& path,
+                         const std::vector<std::string>& overrides);
+
+/// The scene that the keys describe; no level set is computed. Throws InputError "file:line: ..." for
+/// anything that it does not understand, but leaves keys that it does not know to refuse_unused of the tree,
+/// after all of it was read. See cases/README.md for the keys.
+Scene scene_from(const CaseKeys& of, const SceneLimits& limits = {});
+
+/// The scene of a case file alone: its tables [expect] and [ablation] are left aside. Throws InputError as
+/// above, and for any other key that nobody knows.
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
-Scene read_scene(const std::string& path, const std::vector<std::string>& overrides,
-                 const LevelSetMakers& makers);
-
-/// The same from text; `path` names it in messages, and relative mesh files are looked for beside it.
 Scene read_scene_text(const std::string& text, const std::string& path,
-                      const std::vector<std::string>& overrides = {});
-Scene read_scene_text(const std::string& text, const std::string& path,
-                      const std::vector<std::string>& overrides, const LevelSetMakers& makers,
-                      const SceneLimits& limits);
+                      const std::vector<std::string>& overrides = {}, const SceneLimits& limits = {});
 
-/// Builds what the scene names, and nothing else.
+/// What moves, and where it starts.
+struct Built {
+  System system;
+  State start;
+};
+
+/// Builds what the scene names, and nothing else. level_sets: who makes those of its bodies. Throws
+/// InputError, that names the key's place where it was read from a file, for a level set that cannot be made.
+Built build(const Scene& scene, const LevelSetMakers& level_sets);
+
+/// The system of build(), its level sets computed.
 System build_system(const Scene& scene);
 
 State start_state(const Scene& scene);
+
+/// The scene's objects, with the fields of their bodies.
+std::vector<Object> build_objects(const Scene& scene, const LevelSetMakers& level_sets);
+
+/// Those that a system was built with; they belong to it.
+std::span<const Object> objects_of(const System& system);
 
 /// What was built, a phrase for each part: "289 particles, 512 triangles", "gravity", "800 springs", ...
 std::vector<std::string> built_parts(const Scene& scene, const System& system);

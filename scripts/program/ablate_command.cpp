@@ -29,6 +29,7 @@ namespace {
 /// A case and all runs that are asked of it.
 struct Ablation {
   Case shown;
+  LevelSetMakers level_sets;    // of all its runs; each is made once
   std::optional<Case> coarser;  // with the coarser mesh that it names
   std::vector<ScenePart> parts;
   RunObserved scene, half_steps, other_mesh;
@@ -44,9 +45,10 @@ double asked_end(const Case& shown) {
   return shown.ablated_until > 0 ? std::min(whole, shown.ablated_until) : whole;
 }
 
-Ablation planned(const std::string& file, const Options& options, const LevelSetMakers& makers) {
-  Ablation plan{case_of_file(file, options.overrides, makers), {}, {}, {}, {}, {}, {}, 0, {}, {}};
+Ablation planned(const std::string& file, const Options& options, const LevelSetMakers& level_sets) {
+  Ablation plan{read_case(file, options.overrides), level_sets, {}, {}, {}, {}, {}, {}, 0, {}, {}};
   const Case& shown = plan.shown;
+  build(shown.scene, level_sets);  // refuses now what cannot be built; its level sets serve every run
   plan.parts = parts_of(shown.scene);
   refuse_unknown_parts(shown, plan.parts);
   plan.toggled.resize(plan.parts.size());
@@ -56,7 +58,7 @@ Ablation planned(const std::string& file, const Options& options, const LevelSet
     throw InputError(file + ": [ablation] does without a finer mesh, and names a coarser one");
   std::vector<std::string> overrides = options.overrides;
   overrides.insert(overrides.end(), shown.coarser_mesh.begin(), shown.coarser_mesh.end());
-  plan.coarser = case_of_file(file, overrides, makers);
+  plan.coarser = read_case(file, overrides);
   try {
     coarseness(shown.scene.mesh, plan.coarser->scene.mesh);
   } catch (const InputError& error) {
@@ -80,7 +82,7 @@ Job job_of(Ablation& one, double length, const Case& shown, std::function<Scene(
             try {
               Scene scene = change(shown.scene);
               scene.schedule.end = asked_end(shown);
-              into = observed(with_scene(shown, std::move(scene)), particles);
+              into = observed(with_scene(shown, std::move(scene)), one.level_sets, particles);
             } catch (const std::exception& error) {
               into.stopped = error.what();
             }
@@ -248,12 +250,12 @@ void print(const Ablation& one) {
 
 std::vector<Ablation> asked_of(const Options& options) {
   std::vector<Ablation> all;
-  const LevelSetMakers makers = makers_of(options.cache);
+  const LevelSetMakers level_sets = remembering(makers_of(options.cache));
   std::vector<std::string> files = options.names;
   if (files.empty())
     for (const std::string& name : built_in_cases(tier_of(options)))
       files.push_back(project_folder() + "/cases/" + name + ".toml");
-  for (const std::string& file : files) all.push_back(planned(file, options, makers));
+  for (const std::string& file : files) all.push_back(planned(file, options, level_sets));
   return all;
 }
 

@@ -100,13 +100,14 @@ std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance
   for (const std::string& name : hard_cases())
     jobs.push_back({"case." + name, length, [name](const Progress& progress) {
                       RunRecord part;
-                      part.records = judge_case(built_in_case(name), progress);
+                      const BuiltCase of = built_case(built_in_case(name), computing_makers());
+                      part.records = judge_case(of, progress);
                       return part;
                     }});
   for (const std::string& name : shown_cases(tier_of(options)))
     jobs.push_back(
         {"case." + name, length, [name, makers, folder = options.out, provenance](const Progress& progress) {
-           CaseRun done = run_case(built_in_case(name, makers), folder, provenance, progress);
+           CaseRun done = run_case(built_case(built_in_case(name), makers), folder, provenance, progress);
            RunRecord part;
            part.cases = {done.record};
            part.records = std::move(done.findings);
@@ -165,12 +166,12 @@ int list(const Options& options) {
 
 int simulate_case(const Options& options) {
   make_folder(options.out);
-  const Case shown = case_of_file(options.file, options.overrides, makers_of(options.cache));
-  const Scene& scene = shown.scene;
-  say(fmt::format("{}: {}", scene.name, fmt::join(built_parts(scene, build_system(scene)), "; ")));
+  const BuiltCase of = built_case(read_case(options.file, options.overrides), makers_of(options.cache));
+  const Scene& scene = of.shown.scene;
+  say(fmt::format("{}: {}", scene.name, fmt::join(built_parts(scene, of.built.system), "; ")));
   ProgressLine line("simulate " + scene.name);
   const CaseRun run =
-      run_case_with_checkpoints(shown, options.out, options.resumes ? Start::last_checkpoint : Start::anew,
+      run_case_with_checkpoints(of, options.out, options.resumes ? Start::last_checkpoint : Start::anew,
                                 provenance(options.command), [&](double part) { line.show(part); });
   const Work& work = run.outcome.work;
   RunRecord expected;

@@ -43,10 +43,10 @@ struct Source {
 
 Source source_of(const Options& options) {
   Source source;
-  source.run = read_stored_run(options.file, makers_of(options.cache));
+  source.run = read_stored_run(options.file);
   const Scene& scene = source.run.scene;
-  for (const SceneObject& part : scene.objects) source.objects.push_back(part.object);
-  if (source.objects.empty()) throw InputError(options.file + ": its case names no object to project out of");
+  if (scene.objects.empty()) throw InputError(options.file + ": its case names no object to project out of");
+  source.objects = build_objects(scene, makers_of(options.cache));
   const SubdivisionRule rule = options.rule == "loop" ? SubdivisionRule::loop : SubdivisionRule::midpoint;
   source.finer = subdivision(scene.mesh, rule, options.levels);
   source.scene = scene;
@@ -136,7 +136,7 @@ Report project_all(const Source& source, const Options& options) {
   report.file = source.scene.name + ".h5";
   const System system = make_system(lumped_masses(source.scene.mesh, source.scene.density));
   TrajectoryFile file((std::filesystem::path(options.out) / report.file).string(), source.scene, system,
-                      provenance(options.command));
+                      source.objects, provenance(options.command));
   ProgressLine progress("project " + source.run.scene.name);
   for (std::size_t k = 0; k < source.run.times.size(); ++k) {
     State s = source.frame(k);

@@ -129,7 +129,7 @@ Job job_of(const Study& study, const Subject& subject, Tier tier, const std::vec
 Job job_of(const Case& shown, const std::vector<std::string>& wanted) {
   return {"case." + shown.scene.name, 60, [shown, wanted](const Progress& progress) {
             RunRecord part;
-            part.records = wanted_of(judge_case(shown, progress), wanted, "");
+            part.records = wanted_of(judge_case(built_case(shown, computing_makers()), progress), wanted, "");
             return part;
           }};
 }

@@ -7,7 +7,6 @@
 #include <functional>
 #include <optional>
 
-#include "reference/bodies/makers.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/cases/judge.h"
@@ -22,10 +21,11 @@ namespace {
 /// Makes a run happen before an observer.
 using Runner = std::function<Outcome(const Observer&)>;
 
-Runner from_the_start(const Scene& scene) {
-  return [&scene](const Observer& observer) {
-    return simulate(build_system(scene), integrator_named(scene.integrator), start_state(scene),
-                    scene.schedule, observer);
+Runner from_the_start(const BuiltCase& of) {
+  return [&of](const Observer& observer) {
+    const Scene& scene = of.shown.scene;
+    return simulate(of.built.system, integrator_named(scene.integrator), of.built.start, scene.schedule,
+                    observer);
   };
 }
 
@@ -45,8 +45,8 @@ Observer writing_checkpoints(const Observer& observer, const CheckpointFolder& c
 }
 
 /// What was handed out up to the last checkpoint is handed out again; then the run goes on.
-Runner from_checkpoints(const Scene& scene, const CheckpointFolder& checkpoints, Start start) {
-  return [&scene, &checkpoints, start](const Observer& observer) {
+Runner from_checkpoints(const BuiltCase& of, const CheckpointFolder& checkpoints, Start start) {
+  return [&of, &checkpoints, start](const Observer& observer) {
     std::optional<Checkpoint> last;
     const auto replay = [&](const CheckpointRecord& record) {
       for (const Diagnostics& row : record.rows) observer.step(row);
@@ -63,15 +63,16 @@ Runner from_checkpoints(const Scene& scene, const CheckpointFolder& checkpoints,
                : "there is no checkpoint to resume from: started anew");
     std::vector<Diagnostics> rows;
     const Observer all = writing_checkpoints(observer, checkpoints, rows);
-    if (!last) return from_the_start(scene)(all);
-    return resume(build_system(scene), integrator_named(scene.integrator), *last, scene.schedule, all);
+    if (!last) return from_the_start(of)(all);
+    const Scene& scene = of.shown.scene;
+    return resume(of.built.system, integrator_named(scene.integrator), *last, scene.schedule, all);
   };
 }
 
 /// Runs the case; `also` watches beside the judge.
-std::vector<Record> judged_run(const Case& shown, const Runner& run, const Observer& also,
+std::vector<Record> judged_run(const BuiltCase& of, const Runner& run, const Observer& also,
                                const Progress& progress, Outcome& outcome) {
-  CaseJudge judge(shown);
+  CaseJudge judge(of.shown, objects_of(of.built.system), of.level_sets);
   outcome = run({[&](const State& s) {
                    judge.enter(s);
                    if (also.frame) also.frame(s);
@@ -79,7 +80,7 @@ std::vector<Record> judged_run(const Case& shown, const Runner& run, const Obser
                  [&](const Diagnostics& row) {
                    judge.enter(row);
                    if (also.step) also.step(row);
-                   progress(row.time / shown.scene.schedule.end);
+                   progress(row.time / of.shown.scene.schedule.end);
                  },
                  [&](const Checkpoint& now) {
                    judge.enter(now);
@@ -88,16 +89,12 @@ std::vector<Record> judged_run(const Case& shown, const Runner& run, const Obser
   return judge.judged(outcome);
 }
 
-std::string trajectory_path(const Scene& scene, const std::string& folder) {
-  return (std::filesystem::path(folder) / (scene.name + ".h5")).string();
-}
-
-CaseRun recorded_run(const Case& shown, const Runner& run, TrajectoryFile& trajectory,
+CaseRun recorded_run(const BuiltCase& of, const Runner& run, TrajectoryFile& trajectory,
                      const Progress& progress) {
-  const Scene& scene = shown.scene;
+  const Scene& scene = of.shown.scene;
   const auto start = std::chrono::steady_clock::now();
   CaseRun done;
-  done.findings = judged_run(shown, run,
+  done.findings = judged_run(of, run,
                              {[&](const State& s) { trajectory.add_frame(s); },
                               [&](const Diagnostics& row) { trajectory.add_diagnostics(row); }},
                              progress, done.outcome);
@@ -109,29 +106,41 @@ CaseRun recorded_run(const Case& shown, const Runner& run, TrajectoryFile& traje
   return done;
 }
 
-}  // namespace
-
-CaseRun run_case(const Case& shown, const std::string& folder, const Provenance& provenance,
-                 const Progress& progress) {
-  const Scene& scene = shown.scene;
-  TrajectoryFile trajectory(trajectory_path(scene, folder), scene, build_system(scene), provenance);
-  return recorded_run(shown, from_the_start(scene), trajectory, progress);
+TrajectoryFile trajectory_file(const BuiltCase& of, const std::string& folder, const Provenance& provenance) {
+  const Scene& scene = of.shown.scene;
+  const System& system = of.built.system;
+  const std::string path = (std::filesystem::path(folder) / (scene.name + ".h5")).string();
+  return TrajectoryFile(path, scene, system, objects_of(system), provenance);
 }
 
-CaseRun run_case_with_checkpoints(const Case& shown, const std::string& folder, Start start,
+}  // namespace
+
+BuiltCase built_case(Case shown, const LevelSetMakers& level_sets) {
+  const LevelSetMakers kept = remembering(level_sets);
+  Built built = build(shown.scene, kept);
+  return {std::move(shown), kept, std::move(built)};
+}
+
+CaseRun run_case(const BuiltCase& of, const std::string& folder, const Provenance& provenance,
+                 const Progress& progress) {
+  TrajectoryFile trajectory = trajectory_file(of, folder, provenance);
+  return recorded_run(of, from_the_start(of), trajectory, progress);
+}
+
+CaseRun run_case_with_checkpoints(const BuiltCase& of, const std::string& folder, Start start,
                                   const Provenance& provenance, const Progress& progress) {
-  const Scene& scene = shown.scene;
+  const Scene& scene = of.shown.scene;
   const std::string kept = (std::filesystem::path(folder) / (scene.name + ".checkpoints")).string();
   const CheckpointFolder checkpoints(kept, identity_of(scene, program_identity()));
-  TrajectoryFile trajectory(trajectory_path(scene, folder), scene, build_system(scene), provenance);
-  CaseRun done = recorded_run(shown, from_checkpoints(scene, checkpoints, start), trajectory, progress);
+  TrajectoryFile trajectory = trajectory_file(of, folder, provenance);
+  CaseRun done = recorded_run(of, from_checkpoints(of, checkpoints, start), trajectory, progress);
   checkpoints.remove_from(0);
   return done;
 }
 
-std::vector<Record> judge_case(const Case& shown, const Progress& progress) {
+std::vector<Record> judge_case(const BuiltCase& of, const Progress& progress) {
   Outcome outcome;
-  return judged_run(shown, from_the_start(shown.scene), {}, progress, outcome);
+  return judged_run(of, from_the_start(of), {}, progress, outcome);
 }
 
 std::vector<std::string> shown_cases(Tier tier) {
@@ -164,10 +173,8 @@ std::vector<std::string> built_in_cases(Tier tier) {
   return all;
 }
 
-Case built_in_case(const std::string& name) { return built_in_case(name, computing_makers()); }
-
-Case built_in_case(const std::string& name, const LevelSetMakers& makers) {
-  return with_usual_expectations(case_of_file(project_folder() + "/cases/" + name + ".toml", {}, makers));
+Case built_in_case(const std::string& name) {
+  return with_usual_expectations(read_case(project_folder() + "/cases/" + name + ".toml"));
 }
 
 LevelSetMakers makers_of(const std::string& cache) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/bodies/makers.h"
 #include "reference/dynamics/simulate.h"
 #include "verification/cases/expectations.h"
 #include "verification/verdict.h"
@@ -16,8 +17,18 @@ struct CaseRun {
   Outcome outcome;
 };
 
+/// A case and what is built of it, once: it is described, judged and run by this.
+struct BuiltCase {
+  Case shown;
+  LevelSetMakers level_sets;  // of its bodies; each is made once
+  Built built;
+};
+
+/// level_sets: who makes those of its bodies.
+BuiltCase built_case(Case shown, const LevelSetMakers& level_sets);
+
 /// Simulates the case and writes <folder>/<name>.h5 and .xdmf.
-CaseRun run_case(const Case& shown, const std::string& folder, const Provenance& provenance,
+CaseRun run_case(const BuiltCase& of, const std::string& folder, const Provenance& provenance,
                  const Progress& progress);
 
 /// How a run is kept from being lost.
@@ -28,11 +39,11 @@ enum class Start {
 
 /// The same, and the same to the bit, with a checkpoint at every frame in <folder>/<name>.checkpoints, which
 /// is removed when the run's files are whole.
-CaseRun run_case_with_checkpoints(const Case& shown, const std::string& folder, Start start,
+CaseRun run_case_with_checkpoints(const BuiltCase& of, const std::string& folder, Start start,
                                   const Provenance& provenance, const Progress& progress);
 
 /// The same without files: what is expected, judged.
-std::vector<Record> judge_case(const Case& shown, const Progress& progress);
+std::vector<Record> judge_case(const BuiltCase& of, const Progress& progress);
 
 /// The cases that `verify` runs, cases/<name>.toml of the project: those that it shows, and those at the edge
 /// of what the method takes, which it only judges.
@@ -45,7 +56,6 @@ std::vector<std::string> built_in_cases(Tier tier);
 
 /// Reads cases/<name>.toml of the project, and adds what is expected of every shipped case.
 Case built_in_case(const std::string& name);
-Case built_in_case(const std::string& name, const LevelSetMakers& makers);
 
 /// Makers that keep level sets in a folder and say so; those that compute them if it has no name.
 LevelSetMakers makers_of(const std::string& cache);

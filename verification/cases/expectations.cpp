@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "reference/bodies/makers.h"
 #include "reference/scene/key_file.h"
 #include "verification/cases/quantities.h"
 
@@ -28,7 +27,6 @@ Expectation read_entry(const KeyTable& expect, const std::string& key, const Sce
   Expectation expectation{key, entry->number(bound), entry->text("why")};
   if (quantity->sense == Sense::at_least && !(expectation.bound > 0))
     throw InputError(entry->where(bound) + ": at_least must be > 0, for nothing falls short of less");
-  entry->refuse_unused();
   if (expectation.why.empty())
     throw InputError(entry->where("why") + ": 'why' is empty; a bound carries its reason in words");
   return expectation;
@@ -80,19 +78,14 @@ void add_unless_stated(const Expectation& usual, std::vector<Expectation>& all) 
 
 }  // namespace
 
-Case case_of_file(const std::string& path, const std::vector<std::string>& overrides) {
-  return case_of_file(path, overrides, computing_makers());
-}
-
-Case case_of_file(const std::string& path, const std::vector<std::string>& overrides,
-                  const LevelSetMakers& makers) {
-  Case result{read_scene(path, overrides, makers), {}, {}};
-  const auto keys = parse_keys(read_text(path), path);
-  for (const std::string& assignment : overrides) set_key(*keys, assignment);
-  if (const auto expect = keys->table("expect"))
+Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
+  const CaseKeys of = parse_case(path, overrides);
+  Case result{scene_from(of), {}, {}};
+  if (const auto expect = of.keys->table("expect"))
     for (const auto& [key, value] : expect->entries)
       result.expectations.push_back(read_entry(*expect, key, result.scene));
-  if (const auto ablation = keys->table("ablation")) read_ablation(*ablation, result);
+  if (const auto ablation = of.keys->table("ablation")) read_ablation(*ablation, result);
+  of.keys->refuse_unused();
   return result;
 }
 

@@ -32,14 +32,11 @@ struct Case {
   double ablated_until = 0;  // of [ablation]: how much of the run is asked [s]; 0: all of it
 };
 
-/// Reads the case file's scene and its tables [expect] and [ablation]. Throws InputError "file:line: ..." for
-/// what read_scene refuses, an unknown quantity, one that makes no sense for the scene, and an entry without
-/// bound or reason.
+/// Reads the case file's scene and its tables [expect] and [ablation], from one tree of keys. Throws
+/// InputError "file:line: ..." for what read_scene refuses, an unknown quantity, one that makes no sense for
+/// the scene, and an entry without bound or reason.
 ///   overrides   "a.b=c", applied in order; expect.KEY.at_most=... is one, too
-///   makers      of the level sets of its bodies; without them these are computed
-Case case_of_file(const std::string& path, const std::vector<std::string>& overrides = {});
-Case case_of_file(const std::string& path, const std::vector<std::string>& overrides,
-                  const LevelSetMakers& makers);
+Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
 /// Adds what is expected of every shipped case that does not say otherwise: that it runs to its end; where
 /// the forces have an energy and nothing is driven, that the energy is accounted for; that it repeats itself;

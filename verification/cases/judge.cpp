@@ -27,13 +27,13 @@ std::string note_of(const Quantity& quantity, const Expectation& expectation, do
 
 void CaseJudge::enter(const State& frame) {
   for (size_t k = 0; k < seen_.size(); ++k)
-    if (const auto of_frame = find_quantity(case_.expectations[k].key)->of_frame)
-      seen_[k].see(of_frame(case_.scene, frame));
+    if (const Quantity& quantity = *find_quantity(case_.expectations[k].key); !quantity.of_run)
+      seen_[k].see(value_at(quantity, case_.scene, objects_, frame));
 }
 
 std::vector<Record> CaseJudge::judged(const Outcome& outcome) const {
   std::vector<Record> records;
-  const RunSeen run{case_.scene, book_, outcome, repetition_};
+  const RunSeen run{case_.scene, book_, outcome, repetition_, objects_};
   for (size_t k = 0; k < seen_.size(); ++k) {
     const Expectation& expectation = case_.expectations[k];
     const Quantity& quantity = *find_quantity(expectation.key);

@@ -11,7 +11,11 @@ namespace foldproof {
 /// Give it every row of diagnostics, every frame and every checkpoint of the run; then ask.
 class CaseJudge {
  public:
-  explicit CaseJudge(const Case& of) : case_(of), repetition_(of.scene), seen_(of.expectations.size()) {}
+  /// of: must outlive it.
+  ///   objects      of the system that runs, which must outlive it
+  ///   level_sets   for a system built anew; they should remember those that were made (bodies/makers.h)
+  CaseJudge(const Case& of, std::span<const Object> objects, const LevelSetMakers& level_sets)
+      : case_(of), objects_(objects), repetition_(of.scene, level_sets), seen_(of.expectations.size()) {}
 
   void enter(const Diagnostics& row) {
     book_.enter(row, case_.scene.schedule.end);
@@ -26,6 +30,7 @@ class CaseJudge {
 
  private:
   const Case& case_;
+  std::span<const Object> objects_;
   RunBook book_;
   Repetition repetition_;
   std::vector<Worst> seen_;  // largest over the frames, one for each expectation

@@ -84,10 +84,8 @@ double length_change(const Scene& scene, const State& s) {
   return worst.value();
 }
 
-/// What the scene's objects say about each particle in a frame.
-std::vector<Nearest> nearest_at(const Scene& scene, const State& s) {
-  std::vector<Object> objects;
-  for (const SceneObject& part : scene.objects) objects.push_back(part.object);
+/// What the objects say about each particle in a frame.
+std::vector<Nearest> nearest_at(std::span<const Object> objects, const State& s) {
   ObjectsDuring now(objects, {s.time, s.time, 0});
   std::vector<Nearest> nearest;
   for (Eigen::Index i = 0; i < s.x.cols(); ++i) nearest.push_back(nearest_of(now.at(s.x.col(i))));
@@ -95,22 +93,22 @@ std::vector<Nearest> nearest_at(const Scene& scene, const State& s) {
 }
 
 /// Of free particles. Pinched ones are inside by what pinches them, and not counted.
-double penetration(const Scene& scene, const State& s) {
+double penetration(const Scene& scene, std::span<const Object> objects, const State& s) {
   std::vector<char> free(size_t(s.x.cols()), 1);
   for (const PrescribedParticle& p : scene.led) free[size_t(p.particle)] = 0;
   Worst worst;
-  const std::vector<Nearest> nearest = nearest_at(scene, s);
+  const std::vector<Nearest> nearest = nearest_at(objects, s);
   for (size_t i = 0; i < nearest.size(); ++i)
     if (free[i] && !nearest[i].pinched()) worst.see(-nearest[i].first.phi);
   return worst.value();
 }
 
-double depth_at_end(const RunSeen& run) { return penetration(run.scene, run.outcome.last); }
+double depth_at_end(const RunSeen& run) { return penetration(run.scene, run.objects, run.outcome.last); }
 
 /// How far a pinched particle is from the surface where its two objects are equally deep, at most.
-double off_centre(const Scene& scene, const State& s) {
+double off_centre(const Scene&, std::span<const Object> objects, const State& s) {
   Worst worst;
-  for (const Nearest& nearest : nearest_at(scene, s)) {
+  for (const Nearest& nearest : nearest_at(objects, s)) {
     if (!nearest.pinched()) continue;
     const double slope = (nearest.first.normal - nearest.second.normal).norm();
     worst.see(std::abs(nearest.first.phi - nearest.second.phi) / slope);
@@ -118,9 +116,9 @@ double off_centre(const Scene& scene, const State& s) {
   return worst.value();
 }
 
-double pinched_particles(const Scene& scene, const State& s) {
+double pinched_particles(const Scene&, std::span<const Object> objects, const State& s) {
   double count = 0;
-  for (const Nearest& nearest : nearest_at(scene, s)) count += nearest.pinched() ? 1 : 0;
+  for (const Nearest& nearest : nearest_at(objects, s)) count += nearest.pinched() ? 1 : 0;
   return count;
 }
 
@@ -249,16 +247,16 @@ std::vector<Quantity> quantities_of_shape_and_place() {
        nullptr, without_springs},
       {"stays_outside", "m",
        "No free particle is deeper inside an object than this, those between two apart.", Sense::at_most,
-       penetration, nullptr, without_objects},
+       nullptr, nullptr, without_objects, penetration},
       {"lies_inside", "m",
        "At the end some free particle is this deep inside an object, those between two apart.",
        Sense::at_least, nullptr, depth_at_end, without_objects},
       {"makes_contact", "points", "Objects correct the motion of some points in some step.", Sense::at_least,
        nullptr, contacts, without_objects},
-      {"pinches", "particles", "Particles are inside two objects at once.", Sense::at_least,
-       pinched_particles, nullptr, without_objects},
+      {"pinches", "particles", "Particles are inside two objects at once.", Sense::at_least, nullptr, nullptr,
+       without_objects, pinched_particles},
       {"stays_between", "m", "Particles inside two objects stay where they are equally deep in both.",
-       Sense::at_most, off_centre, nullptr, without_objects},
+       Sense::at_most, nullptr, nullptr, without_objects, off_centre},
       {"crosses_itself", "pairs",
        "In no frame does an edge of the cloth meet a triangle of it, touching included.", Sense::at_most,
        self_crossings, nullptr, nullptr},
@@ -291,6 +289,11 @@ const std::vector<Quantity>& quantities() {
     return all;
   }();
   return table;
+}
+
+double value_at(const Quantity& quantity, const Scene& scene, std::span<const Object> objects,
+                const State& frame) {
+  return quantity.of_objects ? quantity.of_objects(scene, objects, frame) : quantity.of_frame(scene, frame);
 }
 
 const Quantity* find_quantity(std::string_view key) {

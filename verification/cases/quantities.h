@@ -1,6 +1,7 @@
 // What can be expected of a case: quantities measured while it runs, each with its unit and its claim.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,7 @@ struct RunSeen {
   const RunBook& book;
   const Outcome& outcome;
   const Repetition& repetition;
+  std::span<const Object> objects = {};
 };
 
 enum class Sense { at_most, at_least };
@@ -45,12 +47,18 @@ struct Quantity {
   const char* claim;  // one sentence, true when the expectation holds
   Sense sense;
   /// At one frame's state; the largest over all frames counts. nullptr: the quantity belongs to the whole
-  /// run.
+  /// run, or asks the objects.
   double (*of_frame)(const Scene& scene, const State& frame);
   double (*of_run)(const RunSeen& run);  // nullptr: the quantity belongs to frames
   std::string (*refusal)(
       const Scene& scene);  // why it makes no sense for the scene, or ""; nullptr: always does
+  /// As of_frame, of a quantity that asks the objects.
+  double (*of_objects)(const Scene& scene, std::span<const Object> objects, const State& frame) = nullptr;
 };
+
+/// The quantity's value at a frame; it must not belong to the whole run. objects: the scene's, as built.
+double value_at(const Quantity& quantity, const Scene& scene, std::span<const Object> objects,
+                const State& frame);
 
 /// The rows of cloth that sticks (sticking_quantities.cpp).
 std::vector<Quantity> sticking_quantities();

@@ -24,11 +24,12 @@ bool has_same_bits(const Diagnostics& a, const Diagnostics& b) {
 }
 
 /// The rows of the next `count` steps.
-std::vector<Diagnostics> rows_after(const Checkpoint& from, const Scene& scene, std::size_t count) {
+std::vector<Diagnostics> rows_after(const Checkpoint& from, const Scene& scene,
+                                    const LevelSetMakers& level_sets, std::size_t count) {
   std::vector<Diagnostics> rows;
   Schedule schedule = scene.schedule;
   schedule.max_steps = from.steps + long(count);
-  resume(build_system(scene), integrator_named(scene.integrator), from, schedule,
+  resume(build(scene, level_sets).system, integrator_named(scene.integrator), from, schedule,
          {{}, [&](const Diagnostics& row) { rows.push_back(row); }});
   return rows;
 }
@@ -49,8 +50,9 @@ void Repetition::enter(const Diagnostics& row) {
 double Repetition::steps_that_differ() const {
   std::size_t differing = 0, seen = 0;
   for (const Part& part : parts_) {
-    const auto again =
-        std::async(std::launch::async, [&] { return rows_after(part.from, scene_, part.rows.size()); }).get();
+    const auto again = std::async(std::launch::async, [&] {
+                         return rows_after(part.from, scene_, level_sets_, part.rows.size());
+                       }).get();
     for (std::size_t k = 0; k < part.rows.size(); ++k)
       differing += k >= again.size() || !has_same_bits(part.rows[k], again[k]);
     seen += part.rows.size();

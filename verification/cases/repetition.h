@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "reference/bodies/makers.h"
 #include "reference/dynamics/simulate.h"
 #include "reference/scene/scene.h"
 
@@ -12,8 +13,8 @@ namespace foldproof {
 /// in the middle and before the last frame, and the ten steps after each.
 class Repetition {
  public:
-  /// scene: must outlive it.
-  explicit Repetition(const Scene& scene) : scene_(scene) {}
+  /// scene: must outlive it. level_sets: of the system built anew.
+  Repetition(const Scene& scene, const LevelSetMakers& level_sets) : scene_(scene), level_sets_(level_sets) {}
 
   void enter(const Checkpoint& at);
   void enter(const Diagnostics& row);
@@ -29,6 +30,7 @@ class Repetition {
   };
 
   const Scene& scene_;
+  LevelSetMakers level_sets_;
   std::vector<Part> parts_;
 };
 

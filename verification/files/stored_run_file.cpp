@@ -3,7 +3,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "reference/bodies/makers.h"
 #include "verification/files/hdf5_file.h"
 
 namespace foldproof {
@@ -11,7 +10,7 @@ namespace foldproof {
 namespace {
 
 /// A case text as it is stored: that of the file, and a line "# --set KEY=VALUE" for each override.
-Scene scene_of_text(const std::string& text, const std::string& path, const LevelSetMakers& makers) {
+Scene scene_of_text(const std::string& text, const std::string& path) {
   const std::string mark = "\n# --set ";
   std::vector<std::string> overrides;
   std::size_t end = text.size(), at = text.rfind(mark);
@@ -20,7 +19,7 @@ Scene scene_of_text(const std::string& text, const std::string& path, const Leve
     end = at;
     at = at == 0 ? std::string::npos : text.rfind(mark, at - 1);
   }
-  return read_scene_text(text.substr(0, end), path, overrides, makers, {});
+  return read_scene_text(text.substr(0, end), path, overrides);
 }
 
 }  // namespace
@@ -63,12 +62,12 @@ StoredFrames read_stored_frames(const std::string& path) {
   return run;
 }
 
-StoredRun read_stored_run(const std::string& path, const LevelSetMakers& makers) {
+StoredRun read_stored_run(const std::string& path) {
   StoredRun run;
   try {
     const Hdf5 file = Hdf5::open_file(path);
     const std::string case_file = file.read_text("case_folder") + "/" + file.read_text("case_name") + ".toml";
-    run.scene = scene_of_text(file.read_text("case_text"), case_file, makers);
+    run.scene = scene_of_text(file.read_text("case_text"), case_file);
     run.scene.title = file.read_text("title");
     const Hdf5 frames = file.open_group("frames");
     run.times = frames.read_doubles("time");

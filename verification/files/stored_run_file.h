@@ -31,6 +31,6 @@ StoredFrames read_stored_frames(const std::string& path);
 /// Reads a stored simulation; meshes that its case names by a relative path are looked for beside the case
 /// file that was simulated, those of --set from the working folder. Throws InputError naming the file if it
 /// holds no simulation, or one of another cloth than its case text says.
-StoredRun read_stored_run(const std::string& path, const LevelSetMakers& makers);
+StoredRun read_stored_run(const std::string& path);
 
 }  // namespace foldproof

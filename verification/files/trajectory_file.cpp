@@ -134,12 +134,12 @@ struct TrajectoryFile::Content {
   std::vector<GrowingDataset> rows;  // scalars, in the order of `scalars` below
   GrowingDataset linear, angular;
   std::vector<ObjectRows> objects;
-  std::vector<Object> solids;
+  std::span<const Object> solids;
   std::vector<GrowingDataset> distances;  // one if there are objects
   std::vector<BondRows> bonds;            // one if anything is sticky
   std::vector<double> frame_times;
 
-  Content(const std::string& to, const Scene& scene)
+  Content(const std::string& to, const Scene& scene, std::span<const Object> built)
       : path(to),
         particles(Shape::value_type(scene.mesh.particles())),
         triangles(scene.mesh.triangles.size()),
@@ -151,8 +151,8 @@ struct TrajectoryFile::Content {
         velocities(frames, "velocities", "m/s", {particles, 3}),
         linear(diagnostics, "linear_momentum", "kg m/s", {3}),
         angular(diagnostics, "angular_momentum", "kg m^2/s", {3}),
-        objects(write_objects(file, scene)) {
-    for (const SceneObject& part : scene.objects) solids.push_back(part.object);
+        objects(write_objects(file, scene)),
+        solids(built) {
     if (!solids.empty()) distances.emplace_back(frames, "object_distance", "m", Shape{particles});
     if (!scene.sticky.empty()) bonds.emplace_back(file.group("sticky"), scene);
   }
@@ -218,8 +218,8 @@ void named(const std::string& path, const Write& write) {
 }  // namespace
 
 TrajectoryFile::TrajectoryFile(const std::string& path, const Scene& scene, const System& system,
-                               const Provenance& provenance)
-    : content_((refuse_unless_replaceable(path), std::make_unique<Content>(path, scene))) {
+                               std::span<const Object> objects, const Provenance& provenance)
+    : content_((refuse_unless_replaceable(path), std::make_unique<Content>(path, scene, objects))) {
   const Hdf5& file = content_->file;
   write_provenance(file, provenance);
   file.attribute("case_name", scene.name);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,9 @@ namespace foldproof {
 /// file.
 class TrajectoryFile {
  public:
-  /// scene: must outlive the file.
+  /// scene, and its objects as they were built: must outlive the file.
   TrajectoryFile(const std::string& path, const Scene& scene, const System& system,
-                 const Provenance& provenance);
+                 std::span<const Object> objects, const Provenance& provenance);
   ~TrajectoryFile();
   TrajectoryFile(const TrajectoryFile&) = delete;
   TrajectoryFile& operator=(const TrajectoryFile&) = delete;

@@ -1,10 +1,9 @@
 // The reader of case files: whatever the text, a scene of finite numbers, or an InputError that names its
-// place. Level sets are not computed, OBJ files are read from the folder beside the targets alone, and meshes
-// are small.
+// place. Reading computes no level set; OBJ files are read from the folder beside the targets alone, and
+// meshes are small.
 #include <cstdint>
 #include <string>
 
-#include "reference/bodies/makers.h"
 #include "reference/scene/scene.h"
 #include "verification/fuzz/finding.h"
 
@@ -15,15 +14,6 @@ namespace {
 // As in a case file's own folder; whatever else a file names is not looked for.
 const std::string folder = FUZZ_FOLDER;
 constexpr const char* known_files[] = {"tetrahedron.obj", "sheet.obj", "frames"};
-
-LevelSetMakers makers_of_nothing() {
-  return {[](const TriangleSoup&, const GridMethod&, Repair) { return std::shared_ptr<const Grid>(); },
-          [](const MeshSequence&, const OctreeSettings&, BetweenFrames) {
-            auto body = std::make_shared<DeformingBody>();
-            body->frames.resize(1);
-            return std::shared_ptr<const DeformingBody>(std::move(body));
-          }};
-}
 
 bool is_known(const std::string& file) {
   for (const char* known : known_files)
@@ -70,12 +60,11 @@ void require_sound(const Scene& scene) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace foldproof;
   const std::string text(reinterpret_cast<const char*>(data), size);
-  static const LevelSetMakers makers = makers_of_nothing();
   constexpr SceneLimits small = {200, 4};
   const std::string path = folder + "/fuzz.toml";
   try {
     if (names_other_files(*parse_keys(text, path))) return -1;
-    require_sound(read_scene_text(text, path, {}, makers, small));
+    require_sound(read_scene_text(text, path, {}, small));
   } catch (const InputError& error) {
     require(std::string(error.what()).starts_with(folder), "a refusal names its place");
   }

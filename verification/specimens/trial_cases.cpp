@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "reference/bodies/makers.h"
 #include "reference/mesh/shapes.h"
 
 namespace foldproof {
 
-Scene read_case(const std::string& tables, const std::vector<std::string>& overrides,
-                const std::string& path) {
+Scene trial_scene(const std::string& tables, const std::vector<std::string>& overrides,
+                  const std::string& path) {
   return read_scene_text(small_sheet + tables + short_time, path, overrides);
 }
 
@@ -26,7 +27,7 @@ Finding refused_cases(const std::vector<Refused>& cases, const std::string& path
   for (const Refused& refused : cases) {
     std::string message;
     try {
-      read_case(refused.tables, {}, path);
+      build(trial_scene(refused.tables, {}, path), computing_makers());
     } catch (const InputError& error) {
       message = error.what();
     }

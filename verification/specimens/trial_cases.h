@@ -31,8 +31,8 @@ step = 0.003
 )";
 
 /// The sheet, some tables, the time. path: of the case file, beside or below which its meshes lie.
-Scene read_case(const std::string& tables, const std::vector<std::string>& overrides = {},
-                const std::string& path = "trial.toml");
+Scene trial_scene(const std::string& tables, const std::vector<std::string>& overrides = {},
+                  const std::string& path = "trial.toml");
 
 /// Tables that have to be refused, and words of the message.
 struct Refused {
@@ -40,7 +40,7 @@ struct Refused {
   std::vector<std::string> words;
 };
 
-/// How many are accepted, or refused without file and line or one of the words.
+/// How many are accepted and built, or refused without file and line or one of the words.
 Finding refused_cases(const std::vector<Refused>& cases, const std::string& path = "trial.toml");
 
 /// The positions of that sheet, 3 x N [m].

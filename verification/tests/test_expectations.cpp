@@ -31,14 +31,15 @@ Case trial(const std::string& more) {
   const ScratchFolder folder;
   const std::string path = folder.file("trial.toml");
   std::ofstream(path) << sheet << more;
-  return case_of_file(path);
+  return read_case(path);
 }
 
 std::vector<Record> judged(const Case& shown) {
-  CaseJudge judge(shown);
   const Scene& scene = shown.scene;
+  const Built built = build(scene, computing_makers());
+  CaseJudge judge(shown, objects_of(built.system), computing_makers());
   const Outcome outcome =
-      simulate(build_system(scene), integrator_named(scene.integrator), start_state(scene), scene.schedule,
+      simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule,
                {[&](const State& s) { judge.enter(s); }, [&](const Diagnostics& row) { judge.enter(row); }});
   return judge.judged(outcome);
 }
@@ -88,6 +89,33 @@ TEST_CASE(
   CHECK(driven.expectations.size() == 3);
 }
 
+TEST_CASE("a case's level sets are made when it is built, each of them once") {
+  const std::string statue = "[[object]]\nshape = \"statue\"\nheight = 0.1\nsubdivisions = 1\ncells = 9\n";
+  const std::string twist = "[[object.deform]]\nkind = \"twist\"\namplitude = 3\nperiod = 0.1\n";
+  const Case shown = trial(statue + statue + statue + "field = \"octree\"\n" + statue + twist + statue +
+                           "between = \"blended\"\n" + twist);
+  int grids = 0, bodies = 0;
+  const LevelSetMakers compute = computing_makers();
+  const LevelSetMakers kept =
+      remembering({[&](const TriangleSoup& soup, const GridMethod& method, Repair repair) {
+                     ++grids;
+                     return compute.make_level_set(soup, method, repair);
+                   },
+                   [&](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
+                     ++bodies;
+                     return compute.make_deforming_body(sequence, settings, between);
+                   }});
+  for (int times = 0; times < 2; ++times) {
+    const Built built = build(shown.scene, kept);
+    const std::span<const Object> objects = objects_of(built.system);
+    REQUIRE(objects.size() == 5);
+    CHECK(std::get<DeformingObject>(objects[3].body).body->between == BetweenFrames::carried);
+    CHECK(std::get<DeformingObject>(objects[4].body).body->between == BetweenFrames::blended);
+    CHECK(grids == 1);   // two objects of one shape share it
+    CHECK(bodies == 3);  // the octree, and either way between frames
+  }
+}
+
 TEST_CASE("expect: what crosses is counted, and a case that keeps cloth from itself gives its own reason") {
   Case shown = trial("[expect.crosses_itself]\nat_most = 1\nwhy = \"w\"\n");
   CHECK(find_quantity("crosses_itself")->of_frame(shown.scene, start_state(shown.scene)) == 0);
@@ -109,7 +137,7 @@ TEST_CASE("expect: what is left of a height and of angles is that of the end, ov
   Outcome outcome;
   outcome.last = start_state(shown.scene);
   const RunBook book;
-  const Repetition repetition(shown.scene);
+  const Repetition repetition(shown.scene, computing_makers());
   const RunSeen run{shown.scene, book, outcome, repetition};
   CHECK(find_quantity("keeps_its_height")->of_run(run) == 1);
   CHECK(find_quantity("crumples_by")->of_run(run) == 0);
@@ -135,7 +163,7 @@ TEST_CASE("expect: creases are counted line by line, and lie half a wavelength a
   Outcome outcome;
   outcome.last = State{0, scene.mesh.rest, PerParticle3::Zero(3, scene.mesh.particles())};
   const RunBook book;
-  const Repetition repetition(scene);
+  const Repetition repetition(scene, computing_makers());
   const RunSeen run{scene, book, outcome, repetition};
   const Quantity &creases = *find_quantity("creases"), &wavelength = *find_quantity("wrinkle_wavelength");
   CHECK(creases.of_run(run) == 0);

@@ -63,7 +63,7 @@ TEST_CASE("level sets of more cells than a machine holds are refused with the pl
   const std::string cloth = "shape = \"hinge\"\nlength = 1\nangle = 9\n";
   const std::string body =
       "[[object]]\nshape = \"statue\"\nheight = 1\nsubdivisions = 3\ncells = 1000000000\n";
-  CHECK_THROWS_WITH(cloth_of(cloth + body), Contains("some.toml:10: grid: 1000000000 cells"));
+  CHECK_THROWS_WITH(build_system(cloth_of(cloth + body)), Contains("some.toml:10: grid: 1000000000 cells"));
   CHECK_THROWS_WITH(cloth_of(cloth + body + "field = \"octree\"\n"),
                     Contains("some.toml:10: 'cells' must be"));
 }

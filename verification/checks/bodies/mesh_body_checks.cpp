@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "reference/bodies/makers.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/bodies/body_checks.h"
@@ -24,7 +25,8 @@ std::string body(const std::string& file, const std::string& keys) {
 
 /// A case that lies beside the file.
 Scene read_case_beside(const std::string& file, const std::string& keys) {
-  return read_case(body(file, keys), {}, std::filesystem::path(file).replace_filename("trial.toml").string());
+  const std::string path = std::filesystem::path(file).replace_filename("trial.toml").string();
+  return trial_scene(body(file, keys), {}, path);
 }
 
 /// The direction of the triangles that are left out first [1].
@@ -66,7 +68,7 @@ Finding open_bodies_are_refused(const Subject&) {
 /// Largest error of phi over points at distances 0.5 to 1.2 from the ball's centre, half of them below or
 /// above where triangles may be missing [cells].
 double error_of(const Scene& scene, double cell) {
-  const auto& solid = std::get<RigidObject>(scene.objects.at(0).object.body);
+  const auto solid = std::get<RigidObject>(build_objects(scene, computing_makers()).at(0).body);
   Random random(109);
   Worst worst;
   for (int i = 0; i < 500; ++i) {

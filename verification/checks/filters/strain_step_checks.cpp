@@ -208,15 +208,15 @@ const std::string springs = "[stretch]\nstiffness = 12\n";
 
 Finding read_finding(const Subject&) {
   Differences differences;
-  const StrainLimits usual = *read_case(springs + "[strain_limits]\n").strain_limits;
+  const StrainLimits usual = *trial_scene(springs + "[strain_limits]\n").strain_limits;
   differences.see("default extension", usual.extension - 0.1, 0.1);
   differences.see("default compression", usual.compression, 1);
   differences.is("the default order is gauss_seidel", usual.order == SweepOrder::gauss_seidel);
   for (const NamedOrder& named : sweep_orders()) {
-    const Scene scene = read_case(springs +
-                                  "[strain_limits]\nextension = 0.23\ncompression = 0.07\nsweeps = 9\n"
-                                  "tolerance = 3e-4\norder = \"" +
-                                  named.name + (named.name == "coloured" ? "\"\nthreads = 3\n" : "\"\n"));
+    const Scene scene = trial_scene(springs +
+                                    "[strain_limits]\nextension = 0.23\ncompression = 0.07\nsweeps = 9\n"
+                                    "tolerance = 3e-4\norder = \"" +
+                                    named.name + (named.name == "coloured" ? "\"\nthreads = 3\n" : "\"\n"));
     const StrainLimits& read = *scene.strain_limits;
     differences.see("extension", read.extension - 0.23, 0.23);
     differences.see("compression", read.compression - 0.07, 0.07);
@@ -226,12 +226,12 @@ Finding read_finding(const Subject&) {
     differences.is("order " + named.name, read.order == named.order);
   }
   const std::string ball = "[[object]]\nshape = \"sphere\"\nradius = 0.1\n";
-  const System both = build_system(read_case(springs + ball + "[strain_limits]\n"));
+  const System both = build_system(trial_scene(springs + ball + "[strain_limits]\n"));
   differences.is("limits come before objects", both.filters.size() == 2 &&
                                                    std::holds_alternative<StrainLimiter>(both.filters[0]) &&
                                                    std::holds_alternative<ObjectCollision>(both.filters[1]));
-  differences.is("without the table no filter is built", build_system(read_case(springs)).filters.empty());
-  const Scene scene = read_case(springs + "[strain_limits]\nextension = 0.25\n");
+  differences.is("without the table no filter is built", build_system(trial_scene(springs)).filters.empty());
+  const Scene scene = trial_scene(springs + "[strain_limits]\nextension = 0.25\n");
   const std::vector<std::string> parts = built_parts(scene, build_system(scene));
   differences.is("a run says what was built",
                  std::any_of(parts.begin(), parts.end(), [](const std::string& part) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "reference/bodies/makers.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
@@ -33,11 +34,14 @@ std::string ball_body(const ScratchFolder& folder, const std::string& keys) {
 
 /// A case in the folder.
 Scene read_case_in(const ScratchFolder& folder, const std::string& tables) {
-  return read_case(tables, {}, folder.file("trial.toml"));
+  return trial_scene(tables, {}, folder.file("trial.toml"));
 }
 
-const Octree& octree_of(const Scene& scene) {
-  return *std::get<OctreeSolid>(std::get<RigidObject>(scene.objects.at(0).object.body).solid).tree;
+/// The first object as it is built.
+Object first_object(const Scene& scene) { return build_objects(scene, computing_makers()).at(0); }
+
+Octree octree_of(const Scene& scene) {
+  return *std::get<OctreeSolid>(std::get<RigidObject>(first_object(scene).body).solid).tree;
 }
 
 /// The largest miss next to the surface, at points on both sides of the ball's faces [tolerances].
@@ -176,16 +180,16 @@ Finding frames_finding(const Subject&) {
   const PerParticle3 first = (scale * x).colwise() + Vector3(0.2, -0.1, 0.3),
                      last = (1.1 * scale * x).colwise() + Vector3(0.2, -0.1, 0.3);
   const SceneObject& part = carried.objects.at(0);
-  const auto& animated = [](const Scene& scene) -> const DeformingBody& {
-    return *std::get<DeformingObject>(scene.objects.at(0).object.body).body;
+  const auto between = [](const Scene& scene) {
+    return std::get<DeformingObject>(first_object(scene).body).body->between;
   };
   Differences differences;
   differences.see("first frame", (surface_at(part, 0) - first).cwiseAbs().maxCoeff(), 1);
   differences.see("second frame", (surface_at(part, 0.07) - last).cwiseAbs().maxCoeff(), 1);
   differences.see("rests after it", (surface_at(part, 0.2) - last).cwiseAbs().maxCoeff(), 1);
   differences.see("half way", (surface_at(part, 0.035) - (first + last) / 2).cwiseAbs().maxCoeff(), 1);
-  differences.is("carried by default", animated(carried).between == BetweenFrames::carried);
-  differences.is("blended if written", animated(blended).between == BetweenFrames::blended);
+  differences.is("carried by default", between(carried) == BetweenFrames::carried);
+  differences.is("blended if written", between(blended) == BetweenFrames::blended);
   return differences.finding(32, "scaled, moved and averaged with a few roundings of lengths below 1 m");
 }
 
@@ -197,7 +201,7 @@ Finding surface_finding(const Subject&) {
     const Scene scene =
         read_case_in(folder, ball_body(folder, place + "cells = 16\ninterval = 0.02\n" +
                                                    deform(kind, kind == "breathe" ? 0.3 : 40, 0.5)));
-    const auto& body = std::get<DeformingObject>(scene.objects.at(0).object.body);
+    const auto body = std::get<DeformingObject>(first_object(scene).body);
     const double tolerance = body.body->frames.front().field.settings.tolerance;
     Worst worst;
     for (const double t : {0.0, 0.02, 0.05, 0.23, 0.3}) {

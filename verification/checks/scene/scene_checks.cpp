@@ -26,8 +26,8 @@ PerParticle3 end_of(const Scene& scene) {
 
 Finding absent_finding(const Subject&) {
   Differences differences;
-  const Scene nothing = read_case(""), falls = read_case("[gravity]\n");
-  const Scene zeros = read_case("[gravity]\n[stretch]\nstiffness = 0\n[bending]\nstiffness = 0\n");
+  const Scene nothing = trial_scene(""), falls = trial_scene("[gravity]\n");
+  const Scene zeros = trial_scene("[gravity]\n[stretch]\nstiffness = 0\n[bending]\nstiffness = 0\n");
   const auto forces = [](const Scene& scene) { return double(build_system(scene).forces.size()); };
   differences.see("forces of a case without any", forces(nothing), 1);
   differences.see("forces of a case with gravity, less 1", forces(falls) - 1, 1);
@@ -71,22 +71,22 @@ Finding numbers_finding(const Subject&) {
                  scene.schedule.max_steps == 53);
   is("automatic step", scene.schedule.step.fixed == 0 && scene.schedule.step.safety == 0.43 &&
                            scene.schedule.step.strain_per_step == 0.07);
-  is("fixed step", read_case("").schedule.step.fixed == 0.003);
-  is("integrator", scene.integrator == "B" && read_case("").integrator == "A");
+  is("fixed step", trial_scene("").schedule.step.fixed == 0.003);
+  is("integrator", scene.integrator == "B" && trial_scene("").integrator == "A");
   is("solver", scene.solver.tolerance == 3e-7 && scene.solver.max_iterations == 17);
   is("scale of the residual", scene.solver.scale == ResidualScale::initial_residual &&
-                                  read_case("").solver.scale == ResidualScale::momentum);
+                                  trial_scene("").solver.scale == ResidualScale::momentum);
   is("solver of the system", build_system(scene).solver.tolerance == 3e-7);
   is("defaults of bending",
-     read_case("[bending]\nstiffness = 1e-4\n").bending->weighting == Weighting::rest &&
-         read_case("[bending]\nstiffness = 1e-4\n").bending->law == "sine");
+     trial_scene("[bending]\nstiffness = 1e-4\n").bending->weighting == Weighting::rest &&
+         trial_scene("[bending]\nstiffness = 1e-4\n").bending->law == "sine");
   return differences.finding(0, "a number is read as it is written");
 }
 
 Finding overrides_finding(const Subject&) {
   const std::string tables =
       "[stretch]\nstiffness = 37.5\n[[hold]]\nparticles = [0]\n[[hold]]\nparticles = [3]\n";
-  const auto with = [&](std::vector<std::string> overrides) { return read_case(tables, overrides); };
+  const auto with = [&](std::vector<std::string> overrides) { return trial_scene(tables, overrides); };
   Differences differences;
   const auto is = [&](const std::string& what, bool right) { differences.is(what, right); };
   const auto refused = [&](const std::string& assignment, const std::string& mention) {

@@ -253,26 +253,26 @@ const std::string crossed =
 
 Finding self_collision_finding(const Subject&) {
   const std::string table = "[self_collision]\nthickness = 0.002\n";
-  const SelfCollisionSettings usual = *read_case(table).self_collision,
-                              all = *read_case(
+  const SelfCollisionSettings usual = *trial_scene(table).self_collision,
+                              all = *trial_scene(
                                          table +
                                          "stiffness = 170\nfriction = 0.3\nrounds = 7\nuntangle = false\n")
                                          .self_collision;
   const Scene tangled = sheet_case(crossed, table),
-              balls = read_case("[[object]]\nshape = \"sphere\"\nradius = 0.1\nmove = [0, 0, 3]\n" + table);
+              balls = trial_scene("[[object]]\nshape = \"sphere\"\nradius = 0.1\nmove = [0, 0, 3]\n" + table);
   Differences differences;
   differences.is("thickness", usual.thickness == 0.002);
   differences.is("stiffness and friction are zero by default", usual.stiffness == 0 && usual.friction == 0);
   differences.is("untangles by default", usual.untangle && !all.untangle);
   differences.is("stiffness, friction", all.stiffness == 170 && all.friction == 0.3);
   differences.is("rounds", all.rounds == 7);
-  differences.is("a run says what was built", has_part(read_case(table + "friction = 0.3\n"),
+  differences.is("a run says what was built", has_part(trial_scene(table + "friction = 0.3\n"),
                                                        "self-collision (thickness 0.002 m, friction 0.3)"));
   differences.is("and that it starts crossed", has_part(tangled, "which starts crossing itself"));
   const System system = build_system(balls);
   differences.is("cloth meets itself after objects",
                  system.filters.size() == 2 && std::holds_alternative<SelfCollision>(system.filters[1]));
-  differences.is("absent, it is not built", build_system(read_case("")).filters.empty());
+  differences.is("absent, it is not built", build_system(trial_scene("")).filters.empty());
   return differences.finding(0, "a number is read as it is written; what is not named is not built");
 }
 

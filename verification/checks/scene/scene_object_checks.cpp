@@ -68,7 +68,7 @@ void see_places(const Scene& scene, Differences& differences) {
 }
 
 Finding meaning_finding(const Subject&) {
-  const Scene scene = read_case(three_objects);
+  const Scene scene = trial_scene(three_objects);
   Differences differences;
   differences.is("there are three", scene.objects.size() == 3);
   differences.see("friction", scene.objects.at(0).object.friction - 0.31, 1);
@@ -83,14 +83,14 @@ Finding meaning_finding(const Subject&) {
   differences.is("response", filter.response.name == "projection");
   const size_t points = size_t(scene.mesh.particles()) - 1 + scene.mesh.edges.size();
   differences.is("particles but the held one, and midpoints", filter.points.size() == points);
-  const Scene one = read_case("[[object]]\nshape = \"sphere\"\nradius = 0.3\n", {"object.radius=0.7"});
+  const Scene one = trial_scene("[[object]]\nshape = \"sphere\"\nradius = 0.3\n", {"object.radius=0.7"});
   differences.see("the only entry needs no number", distance_of(one.objects.at(0), {1, 0, 0}, 0) - 0.3, 1);
   return differences.finding(30, "rotations and distances of lengths below 2 m: a dozen roundings each");
 }
 
 /// The surface that is drawn lies on the solid, but for its facets.
 Finding surface_finding(const Subject&) {
-  const Scene scene = read_case(three_objects);
+  const Scene scene = trial_scene(three_objects);
   Worst off;
   double outward = 0, triangles = 0;
   for (const SceneObject& part : scene.objects) {

@@ -17,7 +17,7 @@ constexpr double degree = std::numbers::pi / 180;
 
 std::vector<int> held_by(const std::string& table) {
   std::vector<int> particles;
-  for (const PrescribedParticle& p : read_case("[[hold]]\n" + table).led) particles.push_back(p.particle);
+  for (const PrescribedParticle& p : trial_scene("[[hold]]\n" + table).led) particles.push_back(p.particle);
   return particles;
 }
 
@@ -33,11 +33,11 @@ Finding hold_finding(const Subject&) {
   is("particles", held_by("particles = [7, 2]") == std::vector<int>{7, 2});
   is("box", left.size() == 8 && held_by("box = [[-0.01, -0.01, -0.01], [0.16, 1.0, 0.01]]") == left);
   is("top", top.size() == 10 && held_by("top = 0.35") == top);
-  const Scene scene = read_case(
+  const Scene scene = trial_scene(
       "[[hold]]\nparticles = [7]\nvelocity = [0.1, 0.2, 0.4]\namplitude = [0.3, 0.5, 0.7]\nfrequency = "
       "1.7\nphase = 33\n"
       "center = [0.6, 0.9, 1.1]\nangular_velocity = [10, -20, 35]\n");
-  const Motion timed = read_case("[[hold]]\nparticles = [7]\nfrom = 0.13\nuntil = 0.29\n").led.at(0).motion;
+  const Motion timed = trial_scene("[[hold]]\nparticles = [7]\nfrom = 0.13\nuntil = 0.29\n").led.at(0).motion;
   is("from, until", timed.from == 0.13 && timed.until == 0.29);
   const PrescribedParticle& p = scene.led.at(0);
   is("start", p.start == Vector3(rest.col(7)));
@@ -64,7 +64,7 @@ Finding hold_finding(const Subject&) {
 
 Finding start_finding(const Subject&) {
   const Scene scene =
-      read_case("[start]\nstretch = 1.07\nvelocity = [0.3, -0.5, 0.9]\nspin = [40, -70, 110]\n");
+      trial_scene("[start]\nstretch = 1.07\nvelocity = [0.3, -0.5, 0.9]\nspin = [40, -70, 110]\n");
   const PerParticle3 rest = plain_positions();
   const Vector3 center = rest.rowwise().mean(), spin = degree * Vector3(40, -70, 110);
   Worst x, v, size, speed;
@@ -75,7 +75,7 @@ Finding start_finding(const Subject&) {
     x.see((scene.x.col(i) - center - arm).norm());
     v.see((scene.v.col(i) - Vector3(0.3, -0.5, 0.9) - spin.cross(arm)).norm());
   }
-  const PerParticle3 shaken = read_case("[start]\nnoise = 0.004\nseed = 5\n").x - rest;
+  const PerParticle3 shaken = trial_scene("[start]\nnoise = 0.004\nseed = 5\n").x - rest;
   Differences differences;
   differences.see("positions", x.value(), size.value());
   differences.see("velocities", v.value(), speed.value());
@@ -84,10 +84,11 @@ Finding start_finding(const Subject&) {
                  shaken.cwiseAbs().maxCoeff() <= 0.004 && shaken.cwiseAbs().maxCoeff() > 0.0036);
   differences.is("noise has both signs", shaken.minCoeff() < -0.0036 && shaken.maxCoeff() > 0.0036);
   differences.see("the seed fixes the noise",
-                  largest_difference(shaken, read_case("[start]\nnoise = 0.004\nseed = 5\n").x - rest),
+                  largest_difference(shaken, trial_scene("[start]\nnoise = 0.004\nseed = 5\n").x - rest),
                   0.004);
-  differences.is("another seed gives other noise",
-                 largest_difference(shaken, read_case("[start]\nnoise = 0.004\nseed = 6\n").x - rest) > 1e-3);
+  differences.is(
+      "another seed gives other noise",
+      largest_difference(shaken, trial_scene("[start]\nnoise = 0.004\nseed = 6\n").x - rest) > 1e-3);
   return differences.finding(
       32, "a few roundings of each of the terms that lengths and velocities are summed from");
 }

@@ -25,8 +25,8 @@ const std::string values = "stiffness = 41\nforecast_time = 0.013\nnear = 0.009\
 
 /// The only patch of a case with these regions.
 StickyPatch patch_of(const std::string& surface, const std::string& particles, const std::string& more = "") {
-  return read_case(ball + "[[sticky]]\nsurface = " + surface + "\nparticles = " + particles + "\n" + values +
-                   more)
+  return trial_scene(ball + "[[sticky]]\nsurface = " + surface + "\nparticles = " + particles + "\n" +
+                     values + more)
       .sticky.at(0);
 }
 
@@ -38,7 +38,7 @@ std::vector<Triangle> chosen_triangles(const Scene& scene, const std::function<b
 }
 
 Finding regions_finding(const Subject&) {
-  const Scene sheet = read_case("");
+  const Scene sheet = trial_scene("");
   const std::vector<Triangle>& all = sheet.mesh.triangles;
   Differences differences;
   const StickyPatch plain = patch_of("{ of = \"cloth\" }", "{}");
