@@ -90,7 +90,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a case's level sets are made when it is built, each of them once") {
-  const std::string statue = "[[object]]\nshape = \"statue\"\nheight = 0.1\nsubdivisions = 1\ncells = 9\n";
+  const std::string statue = "[[object]]\nshape = \"statue\"\nheight = 0.1\nsubdivisions = 3\ncells = 9\n";
   const std::string twist = "[[object.deform]]\nkind = \"twist\"\namplitude = 3\nperiod = 0.1\n";
   const Case shown = trial(statue + statue + statue + "field = \"octree\"\n" + statue + twist + statue +
                            "between = \"blended\"\n" + twist);
