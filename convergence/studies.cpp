@@ -1,5 +1,16 @@
 #include "convergence/studies.h"
 
+#include "convergence/bending/studies.h"
+#include "convergence/conjugate_gradients/studies.h"
+#include "convergence/contact/studies.h"
+#include "convergence/damping/studies.h"
+#include "convergence/integrators/studies.h"
+#include "convergence/level_sets/studies.h"
+#include "convergence/stability/studies.h"
+#include "convergence/sticking/studies.h"
+#include "convergence/strain/studies.h"
+#include "convergence/work_precision/studies.h"
+
 namespace foldproof {
 
 std::vector<Study> all_studies() {

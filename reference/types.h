@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <iterator>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,21 +23,12 @@ struct Bond {
   Vector3 place;  // weights of the triangle's second and third corner [1], height above it [m]
 };
 
-struct KeptPairs;  // filters/cloth_pairs.h
-
-/// What lasts from step to step beside positions and velocities.
-struct Memory {
-  std::vector<Bond> bonds;  // by patch, particle, triangle
-  std::shared_ptr<const KeptPairs>
-      pairs;  // that may come near each other; they spare a search and change no bit
-};
-
-/// Positions and velocities at one time, and what must be remembered.
+/// Positions, velocities and bonds at one time: all that a step depends on.
 struct State {
-  double time = 0;  // s
-  PerParticle3 x;   // 3 x N [m]
-  PerParticle3 v;   // 3 x N [m/s]
-  Memory memory = {};
+  double time = 0;               // s
+  PerParticle3 x;                // 3 x N [m]
+  PerParticle3 v;                // 3 x N [m/s]
+  std::vector<Bond> bonds = {};  // by patch, particle, triangle
 };
 
 /// Counted work: what a method costs, whatever the machine. Returned or added to, never global.

@@ -53,9 +53,6 @@ struct Subject {
   std::function<State(Prepared&, std::span<const State> past, double dt, Work& work)> step;
 };
 
-/// The plain solver of reference/.
-Subject reference_subject();
-
 /// Throws NotOffered if the operation is empty.
 template <class Operation>
 const Operation& offered(const Operation& operation, const char* name) {

@@ -1,4 +1,4 @@
-#include "convergence/any_case/scene_parts.h"
+#include "convergence/any_case/ablation.h"
 
 #include <algorithm>
 #include <cmath>

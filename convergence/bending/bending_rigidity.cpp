@@ -4,10 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "convergence/bending/irregular_rigidity.h"
+#include "convergence/bending/bending_rigidity.h"
 #include "convergence/order.h"
-#include "convergence/studies.h"
-#include "convergence/bending/wrapped_sheet.h"
+#include "convergence/bending/studies.h"
 #include "verification/subject.h"
 
 namespace foldproof {

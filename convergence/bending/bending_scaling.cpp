@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "convergence/order.h"
-#include "convergence/studies.h"
+#include "convergence/bending/studies.h"
 #include "reference/mesh/shapes.h"
 #include "verification/subject.h"
 

@@ -1,7 +1,7 @@
 // buckling: the load at which a compressed strip leaves its plane, and how fast it does so beyond.
 #include <cmath>
 
-#include "convergence/studies.h"
+#include "convergence/bending/studies.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/subject.h"

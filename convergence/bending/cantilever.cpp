@@ -3,7 +3,7 @@
 
 #include "convergence/order.h"
 #include "convergence/bending/row_strip.h"
-#include "convergence/studies.h"
+#include "convergence/bending/studies.h"
 #include "verification/oracles/heavy_cantilever.h"
 #include "verification/oracles/tip_load.h"
 

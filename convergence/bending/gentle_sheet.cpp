@@ -1,4 +1,6 @@
-#include "convergence/bending/gentle_sheet.h"
+#include "convergence/bending/bending_rigidity.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/specimens.h"
 
 #include <cmath>
 

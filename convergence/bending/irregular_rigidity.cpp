@@ -1,10 +1,9 @@
-#include "convergence/bending/irregular_rigidity.h"
+#include "convergence/bending/bending_rigidity.h"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "convergence/bending/gentle_sheet.h"
 #include "reference/mesh/shapes.h"
 #include "verification/seeds.h"
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

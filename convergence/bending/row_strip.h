@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
 
 namespace foldproof {
 

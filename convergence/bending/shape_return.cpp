@@ -2,12 +2,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "convergence/studies.h"
+#include "convergence/bending/studies.h"
 #include "reference/forces/bending.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

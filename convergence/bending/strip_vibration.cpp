@@ -3,13 +3,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "convergence/order.h"
 #include "convergence/bending/row_strip.h"
-#include "convergence/studies.h"
+#include "convergence/bending/studies.h"
+#include "convergence/order.h"
 #include "reference/dynamics/integrator.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/gsl.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/specimens.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

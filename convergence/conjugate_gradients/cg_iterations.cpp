@@ -7,7 +7,7 @@
 
 #include "convergence/conjugate_gradients/cg_cost.h"
 #include "convergence/order.h"
-#include "convergence/studies.h"
+#include "convergence/conjugate_gradients/studies.h"
 #include "verification/subject.h"
 
 namespace foldproof {

@@ -5,7 +5,7 @@
 
 #include "convergence/order.h"
 #include "convergence/work_precision/precision_problem.h"
-#include "convergence/studies.h"
+#include "convergence/conjugate_gradients/studies.h"
 #include "reference/dynamics/integrator.h"
 
 namespace foldproof {

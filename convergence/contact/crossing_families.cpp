@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "verification/specimens/random.h"
+
 namespace foldproof {
 
 namespace {

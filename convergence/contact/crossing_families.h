@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "reference/filters/approach.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/exact_crossing_times.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

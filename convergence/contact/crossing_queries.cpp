@@ -3,9 +3,10 @@
 #include <optional>
 
 #include "convergence/contact/crossing_families.h"
-#include "convergence/studies.h"
-#include "verification/processor_time.h"
+#include "convergence/contact/studies.h"
 #include "verification/oracles/feature_distance.h"
+#include "verification/processor_time.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

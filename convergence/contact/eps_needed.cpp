@@ -4,7 +4,7 @@
 #include <string>
 
 #include "convergence/order.h"
-#include "convergence/studies.h"
+#include "convergence/contact/studies.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"
 #include "verification/oracles/exact_geometry.h"

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "convergence/contact/section_profile.h"
-#include "convergence/studies.h"
+#include "convergence/contact/studies.h"
 #include "convergence/contact/wrinkle_measure.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

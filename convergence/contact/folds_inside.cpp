@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "convergence/contact/contact_runs.h"
-#include "convergence/studies.h"
+#include "convergence/contact/studies.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"
 #include "verification/oracles/dense_algebra.h"

@@ -4,7 +4,7 @@
 
 #include "convergence/contact/contact_runs.h"
 #include "convergence/order.h"
-#include "convergence/studies.h"
+#include "convergence/contact/studies.h"
 #include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "convergence/contact/contact_runs.h"
-#include "convergence/studies.h"
+#include "convergence/contact/studies.h"
 
 namespace foldproof {
 

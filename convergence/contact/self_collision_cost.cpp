@@ -3,10 +3,11 @@
 #include <cmath>
 #include <limits>
 
-#include "convergence/studies.h"
+#include "convergence/contact/studies.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/layered_cloth.h"
 #include "verification/processor_time.h"
+#include "verification/specimens/layered_cloth.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include "convergence/studies.h"
+#include "convergence/contact/studies.h"
 #include "convergence/contact/wrinkle_measure.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"

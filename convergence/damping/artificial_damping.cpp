@@ -4,11 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "convergence/damping/long_vibration.h"
-#include "convergence/damping/one_sided_damping.h"
+#include "convergence/damping/artificial_damping.h"
 #include "convergence/order.h"
 #include "convergence/damping/sheet_modes.h"
-#include "convergence/studies.h"
+#include "convergence/damping/studies.h"
 #include "reference/dynamics/integrator.h"
 
 namespace foldproof {

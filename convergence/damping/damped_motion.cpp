@@ -5,10 +5,11 @@
 #include <cmath>
 #include <memory>
 
-#include "convergence/integrators/oracle_problem.h"
 #include "convergence/damping/sheet_modes.h"
+#include "convergence/integrators/oracle_problem.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

@@ -1,13 +1,11 @@
-#include "convergence/damping/long_vibration.h"
-
+#include "convergence/damping/artificial_damping.h"
+#include "convergence/damping/sheet_modes.h"
+#include "reference/dynamics/integrator.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/stepper.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "convergence/damping/sheet_modes.h"
-#include "convergence/damping/trend.h"
-#include "reference/dynamics/integrator.h"
-#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

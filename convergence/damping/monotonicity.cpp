@@ -3,10 +3,8 @@
 #include <limits>
 
 #include "convergence/damping/damped_motion.h"
-#include "convergence/damping/monotonicity_figures.h"
-#include "convergence/damping/nonlinear_hinge.h"
-#include "convergence/damping/overdamped.h"
-#include "convergence/studies.h"
+#include "convergence/damping/monotonicity.h"
+#include "convergence/damping/studies.h"
 #include "reference/dynamics/integrator.h"
 
 namespace foldproof {

@@ -1,4 +1,4 @@
-#include "convergence/damping/monotonicity_figures.h"
+#include "convergence/damping/monotonicity.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "convergence/damping/nonlinear_hinge.h"
+#include "convergence/damping/monotonicity.h"
 
 #include <limits>
 

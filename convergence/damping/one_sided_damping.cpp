@@ -1,4 +1,4 @@
-#include "convergence/damping/one_sided_damping.h"
+#include "convergence/damping/artificial_damping.h"
 
 #include <algorithm>
 #include <cmath>

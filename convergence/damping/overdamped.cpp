@@ -1,9 +1,8 @@
 // How every method comes to rest against stiffness that damping outweighs.
-#include "convergence/damping/overdamped.h"
+#include "convergence/damping/monotonicity.h"
 
 #include <cmath>
 
-#include "convergence/damping/overdamped_motion.h"
 #include "reference/dynamics/integrator.h"
 
 namespace foldproof {

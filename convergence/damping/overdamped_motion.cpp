@@ -1,13 +1,11 @@
-#include "convergence/damping/overdamped_motion.h"
-
+#include "convergence/damping/monotonicity.h"
+#include "convergence/damping/sheet_modes.h"
+#include "convergence/integrators/oracle_problem.h"
+#include "reference/mesh/shapes.h"
+#include "verification/specimens/random.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "convergence/integrators/oracle_problem.h"
-#include "convergence/damping/sheet_modes.h"
-#include "reference/mesh/shapes.h"
-#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

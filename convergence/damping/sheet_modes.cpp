@@ -6,8 +6,9 @@
 
 #include "convergence/integrators/oracle_problem.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

@@ -1,4 +1,4 @@
-#include "convergence/damping/trend.h"
+#include "convergence/damping/artificial_damping.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "convergence/integrators/oracle_problem.h"
-#include "convergence/studies.h"
+#include "convergence/integrators/studies.h"
 #include "convergence/integrators/time_order.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/driven_hinge.h"

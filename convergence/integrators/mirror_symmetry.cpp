@@ -3,7 +3,7 @@
 #include <limits>
 #include <random>
 
-#include "convergence/studies.h"
+#include "convergence/integrators/studies.h"
 #include "reference/mesh/shapes.h"
 #include "verification/seeds.h"
 #include "verification/subject.h"

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convergence/integrators/studies.h"
 #include "convergence/order.h"
-#include "convergence/studies.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/evidence.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

@@ -10,6 +10,7 @@
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/cloth.h"
 #include "verification/subject.h"
+#include "convergence/study.h"
 
 namespace foldproof {
 

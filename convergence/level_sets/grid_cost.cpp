@@ -1,12 +1,10 @@
-#include "convergence/level_sets/grid_cost.h"
-
-#include <cmath>
-#include <string>
-
+#include "convergence/level_sets/level_set_resolution.h"
 #include "reference/level_set/narrow_band.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/processor_time.h"
+#include "verification/specimens/random.h"
+#include <cmath>
+#include <string>
 
 namespace foldproof {
 

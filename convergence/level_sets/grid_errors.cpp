@@ -1,11 +1,9 @@
-#include "convergence/level_sets/grid_errors.h"
-
+#include "convergence/level_sets/level_set_resolution.h"
+#include "verification/specimens/random.h"
+#include "verification/verdict.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "verification/verdict.h"
-#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

@@ -1,7 +1,7 @@
 // Findings of the study level-set-cache about the folder of level sets that a case may use.
 #pragma once
 
-#include "verification/verdict.h"
+#include "convergence/study.h"
 
 namespace foldproof {
 

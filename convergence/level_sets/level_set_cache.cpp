@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "convergence/level_sets/kept_level_sets.h"
-#include "convergence/studies.h"
+#include "convergence/level_sets/studies.h"
 #include "reference/bodies/deforming_content.h"
 #include "reference/mesh/shapes.h"
 #include "verification/processor_time.h"

@@ -2,10 +2,9 @@
 // costs.
 #include <cmath>
 
-#include "convergence/level_sets/grid_cost.h"
-#include "convergence/level_sets/grid_errors.h"
+#include "convergence/level_sets/level_set_resolution.h"
 #include "convergence/order.h"
-#include "convergence/studies.h"
+#include "convergence/level_sets/studies.h"
 
 namespace foldproof {
 

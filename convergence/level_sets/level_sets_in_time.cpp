@@ -4,7 +4,7 @@
 #include <random>
 
 #include "convergence/order.h"
-#include "convergence/studies.h"
+#include "convergence/level_sets/studies.h"
 #include "reference/level_set/deforming.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/mesh/shapes.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <random>
 
-#include "convergence/studies.h"
+#include "convergence/level_sets/studies.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/octree.h"
 #include "reference/level_set/octree_nodes.h"

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "convergence/order.h"
-#include "convergence/studies.h"
+#include "convergence/level_sets/studies.h"
 #include "reference/level_set/grid.h"
 #include "reference/level_set/octree.h"
 #include "verification/seeds.h"

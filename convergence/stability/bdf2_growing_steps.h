@@ -2,6 +2,7 @@
 #pragma once
 
 #include "verification/subject.h"
+#include "convergence/study.h"
 
 namespace foldproof {
 

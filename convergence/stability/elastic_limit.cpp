@@ -4,7 +4,7 @@
 
 #include "convergence/order.h"
 #include "convergence/stability/stable_step.h"
-#include "convergence/studies.h"
+#include "convergence/stability/studies.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/subject.h"
 

@@ -1,4 +1,4 @@
-#include "convergence/stability/explicit_limits.h"
+#include "convergence/stability/stability_sheet.h"
 
 #include <cmath>
 

@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "convergence/ranges.h"
-#include "convergence/stability/sliver_collapse.h"
+#include "convergence/stability/hard_limits.h"
 #include "convergence/stability/stable_step.h"
-#include "convergence/stability/step_jump.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/studies.h"
+#include "convergence/stability/studies.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
 

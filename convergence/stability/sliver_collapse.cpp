@@ -1,4 +1,4 @@
-#include "convergence/stability/sliver_collapse.h"
+#include "convergence/stability/hard_limits.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "convergence/stability/stability_map.h"
+#include "convergence/stability/stability_sheet.h"
 
 #include <cmath>
 #include <utility>

@@ -5,7 +5,7 @@
 
 #include "convergence/ranges.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/studies.h"
+#include "convergence/stability/studies.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/exact_solutions.h"
 #include "verification/oracles/stability.h"

@@ -3,11 +3,10 @@
 #include <cmath>
 
 #include "convergence/order.h"
-#include "convergence/stability/explicit_limits.h"
+#include "convergence/stability/stability_sheet.h"
 #include "convergence/ranges.h"
-#include "convergence/stability/stability_map.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/studies.h"
+#include "convergence/stability/studies.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/stability.h"
 

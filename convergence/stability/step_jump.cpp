@@ -1,4 +1,4 @@
-#include "convergence/stability/step_jump.h"
+#include "convergence/stability/hard_limits.h"
 
 #include <cmath>
 

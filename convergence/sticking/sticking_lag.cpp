@@ -9,7 +9,7 @@
 #include "convergence/ranges.h"
 #include "convergence/sticking/sticking_scenes.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/studies.h"
+#include "convergence/sticking/studies.h"
 #include "reference/dynamics/integrator.h"
 
 namespace foldproof {
@@ -57,7 +57,7 @@ Lag measured_lag(const Subject& subject, const std::string& method, double k, do
   std::complex<double> sum = 0;
   while (s.time < settled + watched) {
     s = offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
-    if (s.memory.bonds.empty()) return {nan, nan};
+    if (s.bonds.empty()) return {nan, nan};
     if (s.time < settled) continue;
     seen.push_back(std::complex<double>(s.x(0, 0), s.x(1, 0)) * std::polar(1.0, -turning * s.time) - arm);
     sum += seen.back();

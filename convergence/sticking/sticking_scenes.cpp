@@ -15,7 +15,7 @@ namespace {
 /// What the first step makes of the start's bonds, everything else at rest.
 State begun(const Subject& subject, Prepared& prepared, State s) {
   Work uncounted;
-  s.memory = offered(subject.step, "step")(prepared, {&s, 1}, 1e-12, uncounted).memory;
+  s.bonds = offered(subject.step, "step")(prepared, {&s, 1}, 1e-12, uncounted).bonds;
   return s;
 }
 

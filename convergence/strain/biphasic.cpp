@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "convergence/studies.h"
+#include "convergence/strain/studies.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
 #include "verification/specimens/measured.h"

@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "convergence/order.h"
-#include "convergence/studies.h"
+#include "convergence/strain/studies.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/evidence.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "convergence/order.h"
-#include "convergence/studies.h"
+#include "convergence/strain/studies.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/evidence.h"
+#include "verification/specimens/differences.h"
 #include "verification/specimens/strain_scenes.h"
 
 namespace foldproof {

@@ -5,7 +5,7 @@
 
 #include "convergence/order.h"
 #include "convergence/work_precision/precision_problem.h"
-#include "convergence/studies.h"
+#include "convergence/work_precision/studies.h"
 #include "reference/mesh/shapes.h"
 
 namespace foldproof {

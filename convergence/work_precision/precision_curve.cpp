@@ -1,4 +1,4 @@
-#include "convergence/work_precision/precision_curve.h"
+#include "convergence/work_precision/work_precision.h"
 
 #include <algorithm>
 #include <cmath>

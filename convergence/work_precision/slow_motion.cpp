@@ -1,4 +1,4 @@
-#include "convergence/work_precision/slow_motion.h"
+#include "convergence/work_precision/work_precision.h"
 
 #include <cmath>
 

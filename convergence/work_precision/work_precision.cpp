@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include "convergence/work_precision/slow_motion.h"
-#include "convergence/studies.h"
+#include "convergence/work_precision/studies.h"
 
 namespace foldproof {
 

@@ -9,7 +9,7 @@ State end_of_step(const System& system, const State& now, double h, StepVelociti
   correct(system.filters, {now.time, end, h}, now, v.move, work);
   v.end += v.move - unfiltered;
   impose(velocities_at(system.led, end), v.end);
-  State next{end, now.x + h * v.move, v.end, now.memory};
+  State next{end, now.x + h * v.move, v.end, now.bonds};
   correct(system.filters, {end, end, h}, next, next.v, work);
   return next;
 }

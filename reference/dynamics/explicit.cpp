@@ -30,7 +30,7 @@ Rate rate_at(const System& system, const State& s, Work& work) {
 /// now + h sum_i weights_i rate_i, at the time t [s]; prescribed particles where they are then.
 State advanced(const System& system, const State& now, double t, const std::vector<double>& weights,
                const std::vector<Rate>& rates, double h) {
-  State s{t, now.x, now.v, now.memory};
+  State s{t, now.x, now.v, now.bonds};
   for (size_t i = 0; i < weights.size(); ++i) {
     s.x += h * weights[i] * rates[i].velocity;
     s.v += h * weights[i] * rates[i].acceleration;

@@ -20,15 +20,15 @@ constexpr double least_decrease = 1e-4;  // of the residual or of the work left,
 
 /// The stage equation's data: see the header.
 struct Stage {
-  double time;     // t [s]
-  PerParticle3 X;  // 3 x N [m]
-  PerParticle3 V;  // 3 x N [m/s]
-  double s;        // s
-  Memory memory;   // of the state that the step starts from
+  double time;              // t [s]
+  PerParticle3 X;           // 3 x N [m]
+  PerParticle3 V;           // 3 x N [m/s]
+  double s;                 // s
+  std::vector<Bond> bonds;  // of the state that the step starts from
 };
 
 State state_of(const Stage& stage, const PerParticle3& w) {
-  return {stage.time, stage.X + stage.s * w, w, stage.memory};
+  return {stage.time, stage.X + stage.s * w, w, stage.bonds};
 }
 
 double norm_of(const PerParticle3& momentum, const PerParticle& inverse_mass) {
@@ -206,7 +206,7 @@ PerParticle3 solve_stage(const System& system, const State& now, Stage& stage, W
 
 State backward_euler(const System& system, std::span<const State> past, double h, Work& work) {
   const State& now = past.back();
-  Stage stage{now.time + h, now.x, now.v, h, now.memory};
+  Stage stage{now.time + h, now.x, now.v, h, now.bonds};
   const PerParticle3 w = solve_stage(system, now, stage, work);
   return end_of_step(system, now, h, {w, w}, work);
 }
@@ -215,7 +215,7 @@ State linearised_backward_euler(const System& system, std::span<const State> pas
   const State& now = past.back();
   PerParticle3 w = now.v;
   impose(mean_velocities(system.led, now.x, now.time, h), w);
-  const Stage stage{now.time + h, now.x, now.v, h, now.memory};
+  const Stage stage{now.time + h, now.x, now.v, h, now.bonds};
   const Solve solve = solve_linearised(system, now, stage, system.solver, w, work);
   if (!solve.converged) ++work.unfinished_solves;
   keep_worst(work.worst_residual, solve.residual);
@@ -224,7 +224,7 @@ State linearised_backward_euler(const System& system, std::span<const State> pas
 
 State implicit_midpoint(const System& system, std::span<const State> past, double h, Work& work) {
   const State& now = past.back();
-  Stage stage{now.time + h / 2, now.x, now.v, h / 2, now.memory};
+  Stage stage{now.time + h / 2, now.x, now.v, h / 2, now.bonds};
   const PerParticle3 w = solve_stage(system, now, stage, work);
   return end_of_step(system, now, h, {w, 2 * w - now.v}, work);
 }
@@ -237,7 +237,7 @@ State bdf2(const System& system, std::span<const State> past, double h, Work& wo
   // s = h (1 + r)/(1 + 2 r)
   const double r = h / (now.time - before.time);
   const double p = r * r / (1 + 2 * r), s = h * (1 + r) / (1 + 2 * r);
-  Stage stage{now.time + h, now.x + p * (now.x - before.x), now.v + p * (now.v - before.v), s, now.memory};
+  Stage stage{now.time + h, now.x + p * (now.x - before.x), now.v + p * (now.v - before.v), s, now.bonds};
   const PerParticle3 w = solve_stage(system, now, stage, work);
   return end_of_step(system, now, h, {(stage.X + stage.s * w - now.x) / h, w}, work);
 }

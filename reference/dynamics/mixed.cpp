@@ -45,7 +45,7 @@ State mixed_explicit_implicit(const System& system, std::span<const State> past,
   PerParticle3 v_move = v_half;
   impose(mean_velocities(system.led, now.x, now.time, h), v_move);
   correct(system.filters, {now.time, end, h}, now, v_move, work);
-  State next{end, now.x + h * v_move, v_move, now.memory};
+  State next{end, now.x + h * v_move, v_move, now.bonds};
 
   // velocity: trapezoidal rule, continued from the half-step velocity before its modification
   const Forces there = forces_at(system, next, work);
@@ -63,7 +63,7 @@ State central_newmark(const System& system, std::span<const State> past, double 
   PerParticle3 v_half =
       implicit_half_step(system, here, now.v, mean_velocities(system.led, now.x, now.time, h), h, work);
   correct(system.filters, {now.time, end, h}, now, v_half, work);
-  State next{end, now.x + h * v_half, v_half, now.memory};
+  State next{end, now.x + h * v_half, v_half, now.bonds};
 
   // velocity: the rest of the step, explicit, from the modified half-step velocity
   const Forces there = forces_at(system, next, work);
@@ -81,7 +81,7 @@ State variable_step_newmark(const System& system, std::span<const State> past, d
   PerParticle3 v_move =
       implicit_half_step(system, here, now.v, mean_velocities(system.led, now.x, now.time, h), h, work);
   correct(system.filters, {now.time, end, h}, now, v_move, work);
-  State next{end, now.x + h * v_move, v_move, now.memory};
+  State next{end, now.x + h * v_move, v_move, now.bonds};
 
   // velocity: trapezoidal rule from v_n, as in scheme A
   const PerParticle3 v_half = explicit_half_step(system, here, now.v, now.v, h, work);

@@ -15,8 +15,8 @@ namespace {
 // A particle that crosses ten times the cloth's own size in one step is taken for divergence.
 constexpr double sizes_per_step = 10;
 
-// Of a frame's interval: an event as close to a frame as this happens at it, lest a step be as short as a
-// rounding.
+// Of a frame's interval: events closer to a frame than this snap to it, so no step is as short as rounding
+// error.
 constexpr double closest_event = 1e-9;
 
 void check(const Schedule& schedule, const State& start) {
@@ -63,183 +63,6 @@ std::optional<Stop> fault_in(const State& now, const State& next, double size, l
               worst};
 }
 
-class Watch {
- public:
-  /// from: where the run starts, or goes on.
-  Watch(const System& system, const Observer& observer, const Checkpoint& from)
-      : system_(system),
-        observer_(observer),
-        size_(from.size),
-        seconds_before_(from.seconds),
-        damping_work_(from.damping_work),
-        power_before_(from.damping_power) {}
-
-  double size() const { return size_; }  // of the cloth at the start [m]
-
-  void frame(const State& s) const {
-    if (observer_.frame) observer_.frame(s);
-  }
-
-  /// Hands the run's checkpoint on, with what the watch itself remembers.
-  void checkpoint(const std::function<Checkpoint()>& of_run) const {
-    if (!observer_.checkpoint) return;
-    Checkpoint now = of_run();
-    now.size = size_;
-    now.damping_work = damping_work_;
-    now.damping_power = power_before_;
-    now.seconds = seconds();
-    observer_.checkpoint(now);
-  }
-
-  bool wants_rows() const { return bool(observer_.step); }
-
-  /// limit: the elastic limit where the step began [s].
-  void step(const State& s, double h, double limit, const Work& work) {
-    if (!wants_rows()) return;
-    Diagnostics row;
-    row.time = s.time;
-    row.step = h;
-    row.energy = energies(system_, s);
-    const double power = damping_power(s);
-    damping_work_ += h / 2 * (power_before_ + power);
-    power_before_ = power;
-    row.damping_work = damping_work_;
-    row.linear_momentum = linear_momentum(system_, s);
-    row.angular_momentum = angular_momentum(system_, s);
-    row.cg_iterations = work.cg_iterations;
-    row.cg_residual = work.worst_residual;
-    row.step_over_elastic_limit = h / limit;
-    row.object_contacts = work.object_contacts;
-    row.strain_left = work.strain_left;
-    row.close_pairs = work.close_pairs;
-    row.crossings = work.crossings;
-    row.zone_particles = work.zone_particles;
-    row.bonds = work.bonds;
-    row.seconds = seconds();
-    observer_.step(row);
-  }
-
- private:
-  double seconds() const {  // since the start of the run
-    return seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
-  double damping_power(const State& s) const {  // v.(D v) [W]
-    Work uncounted;
-    PerParticle3 force = PerParticle3::Zero(3, s.x.cols());
-    damping_at(system_.forces, s, uncounted).add_product(s.v, force);
-    return force.cwiseProduct(s.v).sum();
-  }
-
-  const System& system_;
-  const Observer& observer_;
-  double size_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double seconds_before_;  // of clock time, in the part of the run before a checkpoint
-  double damping_work_, power_before_;
-};
-
-/// What a run is made of.
-struct Run {
-  const Integrator& integrator;
-  const Schedule& schedule;
-  Watch& watch;
-  Events events;
-  History history;
-  Outcome outcome;
-
-  Checkpoint checkpoint(long frame, double start_time) const {
-    return {history.past(), frame, outcome.steps, outcome.work, start_time, 0, events.last(), 0, 0, 0};
-  }
-};
-
-/// A run as it is at the checkpoint.
-Run run_from(const Checkpoint& from, const System& system, const Integrator& integrator,
-             const Schedule& schedule, Watch& watch) {
-  const double tolerance = closest_event * schedule.frame_interval;
-  Outcome outcome;
-  outcome.steps = from.steps;
-  outcome.work = from.work;
-  return {integrator,
-          schedule,
-          watch,
-          {system, from.start_time, tolerance, from.event_time},
-          {from.past, integrator.history},
-          std::move(outcome)};
-}
-
-/// The longest even part of the time `left` that is no longer than `wanted` [s]; a hair of tolerance so that
-/// 0.1 s in steps of 0.01 s are 10 steps, not 11.
-double even_part(double left, double wanted) {
-  const double parts = std::ceil(left / wanted * (1 - 1e-9));
-  return parts <= 1 ? left : left / parts;
-}
-
-/// Advances the history to the time `target` without an event, or sets outcome.stop.
-void run_to(double target, Run& run) {
-  auto& [integrator, schedule, watch, events, history, outcome] = run;
-  const System& system = events.system();
-  while (history.now().time < target && !outcome.stop) {
-    State& now = history.now();
-    const long number = outcome.steps + 1;
-    if (number > schedule.max_steps) {
-      outcome.stop = Stop{"the cap on the number of steps was reached", now.time, number, -1};
-      return;
-    }
-    try {
-      begin_step(system, now);
-      const double left = target - now.time;
-      const bool asks_for_limit = watch.wants_rows() || !(schedule.step.fixed > 0);
-      const double limit = asks_for_limit ? elastic_limit(system, now) : 0;
-      const double h =
-          even_part(left, step_allowed(system, integrator, history.past(), schedule.step, limit));
-      if (!(now.time + h > now.time)) {
-        outcome.stop = Stop{"a step became too short to advance the time", now.time, number, -1};
-        return;
-      }
-      Work work;
-      work.bonds = long(now.memory.bonds.size());
-      State next = integrator.step(system, history.past(), h, work);
-      if (h == left) next.time = target;  // no rounding between a frame's time and its state's
-      outcome.stop = fault_in(now, next, watch.size(), number);
-      if (outcome.stop) return;
-      watch.step(next, h, limit, work);
-      add(outcome.work, work);
-      history.advance(std::move(next));
-      ++outcome.steps;
-    } catch (const DegenerateElement& error) {
-      outcome.stop = Stop{error.what(), now.time, number, error.particles.front()};
-    }
-  }
-}
-
-/// Advances the history to the time `target` and across all events until then, after each of which it starts
-/// anew.
-void run_across_events(double target, Run& run) {
-  const double close = closest_event * run.schedule.frame_interval;
-  while (!run.outcome.stop && run.history.now().time < target) {
-    const double due = run.events.next();
-    run_to(due < target - close ? due : target, run);
-    if (!run.outcome.stop && due <= run.history.now().time + close)
-      run.history = History(run.events.passed(run.history.now()), run.integrator.history);
-  }
-}
-
-/// Runs on from this frame, of a run that began at `start` [s].
-Outcome run_to_end(long frame, double start, Run& run) {
-  const Schedule& schedule = run.schedule;
-  while (!run.outcome.stop && run.history.now().time < schedule.end) {
-    ++frame;
-    const double target = std::min(schedule.end, start + double(frame) * schedule.frame_interval);
-    run_across_events(target, run);
-    if (run.outcome.stop) break;
-    run.watch.frame(run.history.now());
-    run.watch.checkpoint([&] { return run.checkpoint(frame, start); });
-  }
-  run.outcome.last = run.history.now();
-  return run.outcome;
-}
-
 /// limit: the elastic limit [s].
 double automatic_step(const System& system, const Integrator& integrator, const State& s,
                       const StepRule& rule, double limit) {
@@ -253,6 +76,195 @@ double automatic_step(const System& system, const Integrator& integrator, const 
   const double wanted = std::min(rule.safety * limit, step_by_strain_rate(system, s, rule.strain_per_step));
   if (std::isnan(wanted)) throw DegenerateElement("the elastic limit of the step is not a number", {-1});
   return wanted;
+}
+
+/// The longest step that divides the time `left` evenly and is no longer than `wanted` [s]; a hair of
+/// tolerance so that 0.1 s in steps of 0.01 s are 10 steps, not 11.
+double even_step(double left, double wanted) {
+  const double parts = std::ceil(left / wanted * (1 - 1e-9));
+  return parts <= 1 ? left : left / parts;
+}
+
+/// A run under way: it starts, steps from frame to frame, and stops.
+class Run {
+ public:
+  /// The run as it was at the checkpoint.
+  Run(const System& system, const Integrator& integrator, const Schedule& schedule, const Observer& observer,
+      const Checkpoint& from);
+
+  /// Hands out the start: its frame, row and checkpoint.
+  void start();
+
+  /// Steps until the end, or until something goes wrong, and hands out every frame on the way.
+  Outcome finish();
+
+ private:
+  void step_to_frame(double target);
+  void step_to(double target);
+  void step(double target);
+  void hand_out_row(const State& s, double h, double limit, const Work& work);
+  void hand_out_checkpoint() const;
+  double seconds() const;
+  double damping_power(const State& s) const;
+
+  const System& system_;  // as given; that of events_ is stepped
+  const Integrator& integrator_;
+  const Schedule& schedule_;
+  const Observer& observer_;
+  std::chrono::steady_clock::time_point clock_start_ = std::chrono::steady_clock::now();
+  // what a checkpoint keeps
+  Events events_;
+  History history_;
+  long frame_, steps_;
+  Work work_;
+  double start_time_;              // s
+  double size_;                    // of the cloth at the start [m]
+  double damping_work_;            // J
+  double damping_power_;           // at the latest row [W]
+  double seconds_before_;          // of clock time, in the part of the run before the checkpoint
+  std::optional<Stop> stop_ = {};  // what went wrong
+};
+
+Run::Run(const System& system, const Integrator& integrator, const Schedule& schedule,
+         const Observer& observer, const Checkpoint& from)
+    : system_(system),
+      integrator_(integrator),
+      schedule_(schedule),
+      observer_(observer),
+      events_(system, from.start_time, closest_event * schedule.frame_interval, from.event_time),
+      history_(from.past, integrator.history),
+      frame_(from.frame),
+      steps_(from.steps),
+      work_(from.work),
+      start_time_(from.start_time),
+      size_(from.size),
+      damping_work_(from.damping_work),
+      damping_power_(from.damping_power),
+      seconds_before_(from.seconds) {}
+
+void Run::start() {
+  const State& now = history_.now();
+  if (observer_.frame) observer_.frame(now);
+  try {
+    if (observer_.step) hand_out_row(now, 0, elastic_limit(system_, now), {});
+  } catch (const DegenerateElement& error) {
+    stop_ = Stop{error.what(), now.time, 0, error.particles.front()};
+    return;
+  }
+  hand_out_checkpoint();
+}
+
+Outcome Run::finish() {
+  while (!stop_ && history_.now().time < schedule_.end) {
+    const double next_frame = start_time_ + double(frame_ + 1) * schedule_.frame_interval;
+    step_to_frame(std::min(schedule_.end, next_frame));
+    if (stop_) break;
+    ++frame_;
+    if (observer_.frame) observer_.frame(history_.now());
+    hand_out_checkpoint();
+  }
+  return {history_.now(), steps_, work_, stop_};
+}
+
+/// Steps to the time `target` across all events until then, after each of which the history starts anew.
+void Run::step_to_frame(double target) {
+  const double close = closest_event * schedule_.frame_interval;
+  while (!stop_ && history_.now().time < target) {
+    const double due = events_.next();
+    step_to(due < target - close ? due : target);
+    if (!stop_ && due <= history_.now().time + close)
+      history_ = History(events_.passed(history_.now()), integrator_.history);
+  }
+}
+
+/// Steps to the time `target`, with no event on the way.
+void Run::step_to(double target) {
+  while (!stop_ && history_.now().time < target) {
+    const double time = history_.now().time;
+    const long number = steps_ + 1;
+    if (number > schedule_.max_steps) {
+      stop_ = Stop{"the cap on the number of steps was reached", time, number, -1};
+      return;
+    }
+    try {
+      step(target);
+    } catch (const DegenerateElement& error) {
+      stop_ = Stop{error.what(), time, number, error.particles.front()};
+    }
+  }
+}
+
+/// One step towards the time `target`.
+void Run::step(double target) {
+  const System& system = events_.system();
+  State& now = history_.now();
+  const long number = steps_ + 1;
+  begin_step(system, now);
+  const double left = target - now.time;
+  const bool asks_for_limit = observer_.step || !(schedule_.step.fixed > 0);
+  const double limit = asks_for_limit ? elastic_limit(system, now) : 0;
+  const double h = even_step(left, step_allowed(system, integrator_, history_.past(), schedule_.step, limit));
+  if (!(now.time + h > now.time)) {
+    stop_ = Stop{"a step became too short to advance the time", now.time, number, -1};
+    return;
+  }
+  Work work;
+  work.bonds = long(now.bonds.size());
+  State next = integrator_.step(system, history_.past(), h, work);
+  if (h == left) next.time = target;  // no rounding between a frame's time and its state's
+  stop_ = fault_in(now, next, size_, number);
+  if (stop_) return;
+  hand_out_row(next, h, limit, work);
+  add(work_, work);
+  history_.advance(std::move(next));
+  ++steps_;
+}
+
+/// limit: the elastic limit where the step began [s].
+void Run::hand_out_row(const State& s, double h, double limit, const Work& work) {
+  if (!observer_.step) return;
+  Diagnostics row;
+  row.time = s.time;
+  row.step = h;
+  row.energy = energies(system_, s);
+  const double power = damping_power(s);
+  damping_work_ += h / 2 * (damping_power_ + power);
+  damping_power_ = power;
+  row.damping_work = damping_work_;
+  row.linear_momentum = linear_momentum(system_, s);
+  row.angular_momentum = angular_momentum(system_, s);
+  row.step_over_elastic_limit = h / limit;
+  row.work = work;
+  row.seconds = seconds();
+  observer_.step(row);
+}
+
+void Run::hand_out_checkpoint() const {
+  if (!observer_.checkpoint) return;
+  observer_.checkpoint({.past = history_.past(),
+                        .frame = frame_,
+                        .steps = steps_,
+                        .work = work_,
+                        .start_time = start_time_,
+                        .size = size_,
+                        .event_time = events_.last(),
+                        .damping_work = damping_work_,
+                        .damping_power = damping_power_,
+                        .seconds = seconds()});
+}
+
+/// Clock time since the start of the run.
+double Run::seconds() const {
+  const std::chrono::duration<double> since = std::chrono::steady_clock::now() - clock_start_;
+  return seconds_before_ + since.count();
+}
+
+/// v.(D v) [W].
+double Run::damping_power(const State& s) const {
+  Work uncounted;
+  PerParticle3 force = PerParticle3::Zero(3, s.x.cols());
+  damping_at(system_.forces, s, uncounted).add_product(s.v, force);
+  return force.cwiseProduct(s.v).sum();
 }
 
 }  // namespace
@@ -274,16 +286,9 @@ Outcome simulate(const System& system, const Integrator& integrator, const State
   at_start.past = {start};
   at_start.start_time = at_start.event_time = start.time;
   at_start.size = diagonal_of(start.x);
-  Watch watch(system, observer, at_start);
-  Run run = run_from(at_start, system, integrator, schedule, watch);
-  watch.frame(start);
-  try {
-    if (watch.wants_rows()) watch.step(start, 0, elastic_limit(system, start), {});
-  } catch (const DegenerateElement& error) {
-    run.outcome.stop = Stop{error.what(), start.time, 0, error.particles.front()};
-  }
-  if (!run.outcome.stop) watch.checkpoint([&] { return run.checkpoint(0, start.time); });
-  return run_to_end(0, start.time, run);
+  Run run(system, integrator, schedule, observer, at_start);
+  run.start();
+  return run.finish();
 }
 
 Outcome resume(const System& system, const Integrator& integrator, const Checkpoint& from,
@@ -291,9 +296,7 @@ Outcome resume(const System& system, const Integrator& integrator, const Checkpo
   if (from.past.empty() || from.past.back().x.cols() != system.mass.size())
     throw InputError("a checkpoint without a state, or of another number of particles");
   check(schedule, from.past.back());
-  Watch watch(system, observer, from);
-  Run run = run_from(from, system, integrator, schedule, watch);
-  return run_to_end(from.frame, from.start_time, run);
+  return Run(system, integrator, schedule, observer, from).finish();
 }
 
 }  // namespace foldproof

@@ -36,14 +36,8 @@ struct Diagnostics {
   Energies energy;            // J
   double damping_work = 0;    // work done by the damping forces so far, by the trapezoidal rule [J]
   Vector3 linear_momentum, angular_momentum;  // kg m/s, kg m^2/s about the origin
-  long cg_iterations = 0;                     // in this step
-  double cg_residual = 0;                     // worst of this step's solves, relative
   double step_over_elastic_limit = 0;         // of the state that the step began at [1]
-  long object_contacts = 0;                   // points whose motion in this step an object corrected
-  double strain_left = 0;                     // largest violation of a strain limit left in this step [1]
-  long close_pairs = 0, crossings = 0;        // of cloth with itself, answered in this step
-  long zone_particles = 0;                    // particles that moved in rigid impact zones in this step
-  long bonds = 0;                             // of sticking, at this step's start
+  Work work;                                  // of this step
   double seconds = 0;                         // since the start of the run, clock time
 };
 
@@ -51,20 +45,15 @@ struct Diagnostics {
 /// long, the rest as double.
 template <class SomeDiagnostics, class See>
 void for_each_number_of_row(SomeDiagnostics& d, const See& see) {
-  auto& e = d.energy;
-  for (auto* value :
-       {&d.time, &d.step, &e.kinetic, &e.stretch, &e.bending, &e.gravity, &e.custom, &e.sticking,
-        &d.damping_work, &d.cg_residual, &d.step_over_elastic_limit, &d.strain_left})
-    see(*value);
-  for (auto* count :
-       {&d.cg_iterations, &d.object_contacts, &d.close_pairs, &d.crossings, &d.zone_particles, &d.bonds})
-    see(*count);
+  for (auto* value : {&d.time, &d.step, &d.damping_work, &d.step_over_elastic_limit}) see(*value);
+  for (auto term : energy_terms) see(d.energy.*term);
   for (auto* momentum : {&d.linear_momentum, &d.angular_momentum})
     for (auto& component : *momentum) see(component);
+  for_each_number_of_work(d.work, see);
 }
 
-// Whoever adds a number is stopped here until it is shown above.
-static_assert(sizeof(Diagnostics) == 25 * sizeof(double) && sizeof(Energies) == 6 * sizeof(double));
+// A new number must be shown above.
+static_assert(sizeof(Diagnostics) == sizeof(Energies) + sizeof(Work) + 11 * sizeof(double));
 
 struct Stop {
   std::string reason;

@@ -35,16 +35,19 @@ double elastic_limit(const System& system, const State& s) {
 
 double widened_limit(const System& system, const State& s, double limit) {
   double forecast = std::numeric_limits<double>::infinity();
-  for (const Force& force : system.forces)
-    if (const auto* sticking = std::get_if<Sticking>(&force)) forecast = sticking->shortest_forecast(s);
+  for_each_force(system.forces, [&](const auto& force) {
+    if constexpr (requires { force.shortest_forecast(s); })
+      forecast = std::min(forecast, force.shortest_forecast(s));
+  });
   if (std::isinf(forecast)) return limit;
   const double others = 2 / frequency_beyond_forecasts(system.forces, s, system.inverse_mass);
   return std::max(limit, std::min(others, 2 * forecast));
 }
 
 void begin_step(const System& system, State& s) {
-  for (const Force& force : system.forces)
-    if (const auto* sticking = std::get_if<Sticking>(&force)) sticking->renew_bonds(s);
+  for_each_force(system.forces, [&](const auto& force) {
+    if constexpr (requires { force.renew_bonds(s); }) force.renew_bonds(s);
+  });
   for (const Filter& filter : system.filters)
     if (const auto* self = std::get_if<SelfCollision>(&filter)) self->renew_pairs(s);
 }
@@ -52,14 +55,7 @@ void begin_step(const System& system, State& s) {
 Energies energies(const System& system, const State& s) {
   Energies e;
   e.kinetic = 0.5 * s.v.colwise().squaredNorm().dot(system.mass.transpose());
-  for (const Force& force : system.forces) {
-    const double energy = std::visit([&](const auto& part) { return part.energy(s); }, force);
-    if (std::holds_alternative<Gravity>(force)) e.gravity += energy;
-    if (std::holds_alternative<StretchSprings>(force)) e.stretch += energy;
-    if (std::holds_alternative<Bending>(force)) e.bending += energy;
-    if (std::holds_alternative<Sticking>(force)) e.sticking += energy;
-    if (std::holds_alternative<CustomForce>(force)) e.custom += energy;
-  }
+  for_each_force(system.forces, [&](const auto& force) { e.*force.energy_term += force.energy(s); });
   return e;
 }
 

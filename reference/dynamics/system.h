@@ -36,17 +36,11 @@ double elastic_limit(const System& system, const State& s);
 ///   limit   the elastic limit [s]
 double widened_limit(const System& system, const State& s, double limit);
 
-/// What forms or breaks does so once a step, before it: bonds of sticking; and pairs of cloth that are kept
-/// for it. A second call changes nothing.
+/// Once a step, before it: bonds of sticking form and break, and self-collision renews its cache of pairs.
+/// A second call changes nothing.
 void begin_step(const System& system, State& s);
 
-struct Energies {
-  double kinetic = 0, stretch = 0, bending = 0, gravity = 0, custom = 0, sticking = 0;  // J
-
-  double total() const { return kinetic + stretch + bending + gravity + custom + sticking; }
-};
-
-Energies energies(const System& system, const State& s);
+Energies energies(const System& system, const State& s);  // J
 
 Vector3 linear_momentum(const System& system, const State& s);   // sum m v [kg m/s]
 Vector3 angular_momentum(const System& system, const State& s);  // sum m x x v about the origin [kg m^2/s]

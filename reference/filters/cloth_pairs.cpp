@@ -209,23 +209,23 @@ std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& 
   return std::move(search.found);
 }
 
-KeptPairs keep_pairs(const ClothTree& cloth, const PerParticle3& x, double margin) {
+PairCache make_pair_cache(const ClothTree& cloth, const PerParticle3& x, double margin) {
   return {particle_boxes(x, x, margin), near_pairs(cloth, x, x, margin)};
 }
 
-bool hold_at(const KeptPairs& kept, const PerParticle3& x, double margin) {
-  return lie_within(particle_boxes(x, x, margin), kept.boxes);
+bool cache_is_valid(const PairCache& cache, const PerParticle3& x, double margin) {
+  return lie_within(particle_boxes(x, x, margin), cache.boxes);
 }
 
-std::optional<std::vector<FeaturePair>> chosen_pairs(const KeptPairs& kept, const PerParticle3& x,
-                                                     const PerParticle3& end, double margin,
-                                                     const std::vector<char>& moved) {
+std::optional<std::vector<FeaturePair>> pairs_from_cache(const PairCache& cache, const PerParticle3& x,
+                                                         const PerParticle3& end, double margin,
+                                                         const std::vector<char>& moved) {
   // features whose boxes overlap now overlapped in the larger boxes, too; which pair comes first the tree
   // alone decides
   const std::vector<Bounds> boxes = particle_boxes(x, end, margin);
-  if (!lie_within(boxes, kept.boxes)) return {};
+  if (!lie_within(boxes, cache.boxes)) return {};
   std::vector<FeaturePair> chosen;
-  for (const FeaturePair& pair : kept.pairs)
+  for (const FeaturePair& pair : cache.pairs)
     if (overlap(pair, boxes) && is_asked(pair, moved)) chosen.push_back(pair);
   return chosen;
 }

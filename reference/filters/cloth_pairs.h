@@ -34,21 +34,22 @@ ClothTree make_cloth_tree(const TriangleMesh& mesh);
 std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& x, const PerParticle3& end,
                                     double margin, const std::vector<char>& moved = {});
 
-/// Pairs that were searched for once with a margin to spare, from which later searches choose.
-struct KeptPairs {
+/// Pairs found by one search with a margin to spare. The boxes are the key: as long as particles stay inside
+/// them, later searches only choose from these pairs.
+struct PairCache {
   std::vector<Bounds> boxes;       // N: of the particles, widened by half that margin
   std::vector<FeaturePair> pairs;  // near_pairs of them
 };
 
-KeptPairs keep_pairs(const ClothTree& cloth, const PerParticle3& x, double margin);
+PairCache make_pair_cache(const ClothTree& cloth, const PerParticle3& x, double margin);
 
-/// Is every particle of x, widened by margin/2, still in the box that it was kept with?
-bool hold_at(const KeptPairs& kept, const PerParticle3& x, double margin);
+/// Is every particle of x, widened by margin/2, inside its box?
+bool cache_is_valid(const PairCache& cache, const PerParticle3& x, double margin);
 
-/// What near_pairs answers for the same cloth, in the same order; nothing if a particle leaves its box on the
-/// way.
-std::optional<std::vector<FeaturePair>> chosen_pairs(const KeptPairs& kept, const PerParticle3& x,
-                                                     const PerParticle3& end, double margin,
-                                                     const std::vector<char>& moved = {});
+/// The pairs that near_pairs finds for the same cloth, in the same order; nothing if a particle leaves its
+/// box on the way.
+std::optional<std::vector<FeaturePair>> pairs_from_cache(const PairCache& cache, const PerParticle3& x,
+                                                         const PerParticle3& end, double margin,
+                                                         const std::vector<char>& moved = {});
 
 }  // namespace foldproof

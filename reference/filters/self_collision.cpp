@@ -12,7 +12,7 @@ namespace foldproof {
 namespace {
 
 constexpr double kept_share = 0.1;    // of the thickness: the distance that no motion may undercut
-constexpr double spare_share = 0.12;  // of the mean edge: the margin to spare of pairs that are kept
+constexpr double spare_share = 0.12;  // of the mean edge: the margin to spare of the cache
 constexpr double untangling_time =
     0.01;  // s: in it what pierces moves by a thickness against what it pierces
 
@@ -36,16 +36,16 @@ struct Step {
   void move_zones(ImpactZones& zones, std::vector<char>& leads);
 };
 
-/// near_pairs, from those that s remembers if they will do.
-std::vector<FeaturePair> pairs_of(const ClothTree& cloth, const State& s, const PerParticle3& end,
+/// near_pairs, from the filter's cache where it reaches.
+std::vector<FeaturePair> pairs_of(const SelfCollision& filter, const PerParticle3& x, const PerParticle3& end,
                                   double margin, const std::vector<char>& moved = {}) {
-  if (s.memory.pairs)
-    if (auto chosen = chosen_pairs(*s.memory.pairs, s.x, end, margin, moved)) return std::move(*chosen);
-  return near_pairs(cloth, s.x, end, margin, moved);
+  if (const std::shared_ptr<const PairCache> cache = filter.cache->load())
+    if (auto chosen = pairs_from_cache(*cache, x, end, margin, moved)) return std::move(*chosen);
+  return near_pairs(filter.cloth, x, end, margin, moved);
 }
 
 std::vector<FeaturePair> Step::pairs() const {
-  std::vector<FeaturePair> found = pairs_of(filter.cloth, s, s.x + h * v, 2 * keep(), moved);
+  std::vector<FeaturePair> found = pairs_of(filter, s.x, s.x + h * v, 2 * keep(), moved);
   if (!tangled.empty()) leave_out_tangled(tangled, found);
   return found;
 }
@@ -116,16 +116,17 @@ void Step::move_zones(ImpactZones& zones, std::vector<char>& leads) {
 
 }  // namespace
 
-void SelfCollision::renew_pairs(State& s) const {
+void SelfCollision::renew_pairs(const State& s) const {
   const double spare = spare_share * cloth.mean_edge;
+  const std::shared_ptr<const PairCache> latest = cache->load();
   // half of it is left for the step to come
-  if (s.memory.pairs && hold_at(*s.memory.pairs, s.x, settings.thickness + spare / 2)) return;
-  s.memory.pairs = std::make_shared<const KeptPairs>(keep_pairs(cloth, s.x, settings.thickness + spare));
+  if (latest && cache_is_valid(*latest, s.x, settings.thickness + spare / 2)) return;
+  cache->store(std::make_shared<const PairCache>(make_pair_cache(cloth, s.x, settings.thickness + spare)));
 }
 
 void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, Work& work) const {
   const double h = span.step;
-  std::vector<FeaturePair> close = pairs_of(cloth, s, s.x, settings.thickness);
+  std::vector<FeaturePair> close = pairs_of(*this, s.x, s.x, settings.thickness);
   std::vector<char> tangled;
   if (!at_start.empty()) {
     const CrossingTriangles crossing = self_intersections(s.x, cloth.triangles);

@@ -3,6 +3,9 @@
 // crossings.
 #pragma once
 
+#include <atomic>
+#include <memory>
+
 #include "reference/filters/cloth_pairs.h"
 #include "reference/filters/repulsion.h"
 #include "reference/filters/untangling.h"
@@ -10,6 +13,10 @@
 #include "reference/types.h"
 
 namespace foldproof {
+
+/// A filter's latest cache; empty before the first. Copies of a filter, and threads that step different states
+/// of one system, share it: each replaces it as a whole.
+using LatestPairCache = std::atomic<std::shared_ptr<const PairCache>>;
 
 /// The filter. It comes last: objects first, then cloth against itself.
 /// The velocity that moves the cloth leaves it with a proof: of every pair of features whose boxes meet on
@@ -23,10 +30,11 @@ struct SelfCollision {
   ClothTree cloth;
   PerParticle mass, inverse_mass;   // N [kg], [1/kg]; the latter 0 for prescribed particles
   CrossingTriangles at_start = {};  // pairs that cross before the first step
+  std::shared_ptr<LatestPairCache> cache = std::make_shared<LatestPairCache>();
 
-  /// Pairs that may come near each other in the next steps, if those that s remembers will not do. They spare
-  /// most searches and change no bit: correct() does without where they do not reach.
-  void renew_pairs(State& s) const;
+  /// Makes the cache anew if it is not valid at s, with a margin to spare for the next steps. It spares most
+  /// searches and changes no bit: correct() searches where the cache does not reach.
+  void renew_pairs(const State& s) const;
 
   /// Throws DegenerateElement where prescribed particles force the cloth through itself.
   void correct(const Span& span, const State& s, PerParticle3& v, Work& work) const;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reference/forces/damping.h"
+#include "reference/forces/energies.h"
 #include "reference/forces/force_differential.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/types.h"
@@ -102,6 +103,7 @@ Vector12 edge_gradient(const Vector3& x3, const Vector3& x4);
 Vector12 weight_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4);
 
 struct Bending {
+  static constexpr auto energy_term = &Energies::bending;
   BendingMaterial material;
   std::vector<BendingHinge> hinges;
 

@@ -6,68 +6,51 @@ namespace foldproof {
 
 PerParticle3 elastic_forces(const std::vector<Force>& forces, const State& s, Work& work) {
   PerParticle3 f = PerParticle3::Zero(3, s.x.cols());
-  for (const Force& force : forces) std::visit([&](const auto& part) { part.add_elastic(s, f); }, force);
+  for_each_force(forces, [&](const auto& force) { force.add_elastic(s, f); });
   ++work.elastic_evaluations;
   return f;
 }
 
-namespace {
-
-void prepare(const CustomForce& force, const State& s, DampingOperator& damping) {
-  if (!force.damping) return;
-  damping.custom.push_back([&force, s](const PerParticle3& v, PerParticle3& f) { force.damping(s, v, f); });
+void CustomForce::prepare_damping(const State& s, DampingOperator& terms) const {
+  if (!damping) return;
+  terms.custom.push_back([this, s](const PerParticle3& v, PerParticle3& f) { damping(s, v, f); });
 }
 
-}  // namespace
+void CustomForce::add_elastic_differential(const State& s, Definiteness, ForceDifferential& sum) const {
+  if (!differential) return;
+  sum.custom.push_back([this, s](const PerParticle3& dx, PerParticle3& df) { differential(s, dx, df); });
+}
+
+void CustomForce::add_force_differential(const State& s, ForceDifferential& sum) const {
+  add_elastic_differential(s, Definiteness::exact, sum);
+}
 
 DampingOperator damping_at(const std::vector<Force>& forces, const State& s, Work& work) {
   DampingOperator damping;
-  for (const Force& force : forces) {
-    if (const auto* springs = std::get_if<StretchSprings>(&force)) springs->prepare_damping(s, damping);
-    if (const auto* bending = std::get_if<Bending>(&force)) bending->prepare_damping(s, damping);
-    if (const auto* sticking = std::get_if<Sticking>(&force)) sticking->prepare_damping(s, damping);
-    if (const auto* custom = std::get_if<CustomForce>(&force)) prepare(*custom, s, damping);
-  }
+  for_each_force(forces, [&](const auto& force) {
+    if constexpr (requires { force.prepare_damping(s, damping); }) force.prepare_damping(s, damping);
+  });
   ++work.damping_preparations;
   return damping;
 }
 
-namespace {
-
-void add_differential(const CustomForce& force, const State& s, ForceDifferential& differential) {
-  if (!force.differential) return;
-  differential.custom.push_back(
-      [&force, s](const PerParticle3& dx, PerParticle3& df) { force.differential(s, dx, df); });
-}
-
-}  // namespace
-
 ForceDifferential elastic_differential_at(const std::vector<Force>& forces, const State& s,
                                           Definiteness definiteness, Work& work) {
   ForceDifferential differential;
-  for (const Force& force : forces) {
-    if (const auto* springs = std::get_if<StretchSprings>(&force))
-      springs->add_elastic_differential(s, definiteness, differential);
-    if (const auto* bending = std::get_if<Bending>(&force))
-      bending->add_elastic_differential(s, definiteness, differential);
-    if (const auto* sticking = std::get_if<Sticking>(&force))
-      sticking->add_elastic_differential(s, definiteness, differential);
-    if (const auto* custom = std::get_if<CustomForce>(&force)) add_differential(*custom, s, differential);
-  }
+  for_each_force(forces, [&](const auto& force) {
+    if constexpr (requires { force.add_elastic_differential(s, definiteness, differential); })
+      force.add_elastic_differential(s, definiteness, differential);
+  });
   ++work.stiffness_preparations;
   return differential;
 }
 
 ForceDifferential force_differential_at(const std::vector<Force>& forces, const State& s, Work& work) {
   ForceDifferential differential;
-  for (const Force& force : forces) {
-    if (const auto* springs = std::get_if<StretchSprings>(&force))
-      springs->add_force_differential(s, differential);
-    if (const auto* bending = std::get_if<Bending>(&force)) bending->add_force_differential(s, differential);
-    if (const auto* sticking = std::get_if<Sticking>(&force))
-      sticking->add_force_differential(s, differential);
-    if (const auto* custom = std::get_if<CustomForce>(&force)) add_differential(*custom, s, differential);
-  }
+  for_each_force(forces, [&](const auto& force) {
+    if constexpr (requires { force.add_force_differential(s, differential); })
+      force.add_force_differential(s, differential);
+  });
   ++work.stiffness_preparations;
   return differential;
 }
@@ -101,14 +84,11 @@ double frequency_of(const PerParticle& rows, const PerParticle& inverse_mass) {
 
 PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& s, StickingPart part) {
   PerParticle rows = PerParticle::Zero(s.x.cols());
-  for (const Force& force : forces) {
-    if (const auto* springs = std::get_if<StretchSprings>(&force)) springs->add_stiffness_bound(s, rows);
-    if (const auto* bending = std::get_if<Bending>(&force)) bending->add_stiffness_bound(s, rows);
-    if (const auto* sticking = std::get_if<Sticking>(&force)) {
-      if (part == StickingPart::all) sticking->add_spring_bound(s, rows);
-      sticking->add_turning_bound(s, rows);
-    }
-  }
+  for_each_force(forces, [&](const auto& force) {
+    if constexpr (requires { force.add_bound_beyond_forecasts(s, rows); })
+      if (part == StickingPart::beyond_forecasts) return force.add_bound_beyond_forecasts(s, rows);
+    if constexpr (requires { force.add_stiffness_bound(s, rows); }) force.add_stiffness_bound(s, rows);
+  });
   return rows;
 }
 

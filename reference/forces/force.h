@@ -8,6 +8,7 @@
 
 #include "reference/forces/bending.h"
 #include "reference/forces/damping.h"
+#include "reference/forces/energies.h"
 #include "reference/forces/force_differential.h"
 #include "reference/forces/gravity.h"
 #include "reference/forces/springs.h"
@@ -18,6 +19,8 @@ namespace foldproof {
 
 /// A force written on the spot, for manufactured solutions and experiments. Empty functions add nothing.
 struct CustomForce {
+  static constexpr auto energy_term = &Energies::custom;
+
   std::function<void(const State& s, PerParticle3& f)> elastic;  // may depend on s.time; not on s.v
   std::function<void(const State& s, const PerParticle3& v, PerParticle3& f)>
       damping;  // linear in v, symmetric, dissipating
@@ -29,19 +32,35 @@ struct CustomForce {
     if (elastic) elastic(s, f);
   }
   double energy(const State& s) const { return potential ? potential(s) : 0; }
+  void prepare_damping(const State& s, DampingOperator& terms) const;
+  void add_elastic_differential(const State& s, Definiteness, ForceDifferential& sum) const;
+  void add_force_differential(const State& s, ForceDifferential& sum) const;
 };
 
-/// One force: an elastic or external part that depends on time and positions, and an energy. Damping is
-/// collected apart, by damping_at.
+/// One force: an elastic or external part that depends on time and positions, and an energy. It may have more,
+/// which the functions below ask for by name:
+///   prepare_damping(s, damping)                                  it damps
+///   add_elastic_differential(s, definiteness, differential),
+///   add_force_differential(s, differential)                      fully implicit methods know its derivative
+///   add_stiffness_bound(s, rows)                                 it limits automatic steps
+///   add_bound_beyond_forecasts(s, rows), shortest_forecast(s)    forecasts keep a part of it stable
+///   renew_bonds(s)                                               its bonds form and break before a step
 template <class F>
-concept ForceModel = requires(const F force, const State s, PerParticle3 f) {
+concept ForceModel = requires(const F force, const State s, PerParticle3 f, Energies energies) {
   force.add_elastic(s, f);  // f += F_e(t, x); adds and clears nothing
   { force.energy(s) } -> std::convertible_to<double>;
+  { energies.*F::energy_term } -> std::same_as<double&>;  // where its energy is counted
 };
 
 using Force = std::variant<Gravity, StretchSprings, Bending, Sticking, CustomForce>;
 static_assert(ForceModel<Gravity> && ForceModel<StretchSprings> && ForceModel<Bending> &&
               ForceModel<Sticking> && ForceModel<CustomForce>);
+
+/// Calls act(force) with each force, of its own type, in their order.
+template <class Act>
+void for_each_force(const std::vector<Force>& forces, const Act& act) {
+  for (const Force& force : forces) std::visit(act, force);
+}
 
 /// All elastic and external forces [N], 3 x N.
 PerParticle3 elastic_forces(const std::vector<Force>& forces, const State& s, Work& work);

@@ -1,11 +1,14 @@
 #pragma once
 
+#include "reference/forces/energies.h"
 #include "reference/types.h"
 
 namespace foldproof {
 
 /// A uniform force density: m_i g on every particle.
 struct Gravity {
+  static constexpr auto energy_term = &Energies::gravity;
+
   Vector3 acceleration;  // g [m/s^2]
   PerParticle mass;      // N [kg]
 

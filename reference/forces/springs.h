@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reference/forces/damping.h"
+#include "reference/forces/energies.h"
 #include "reference/forces/force_differential.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/types.h"
@@ -31,6 +32,7 @@ struct StretchMaterial {
 };
 
 struct StretchSprings {
+  static constexpr auto energy_term = &Energies::stretch;
   std::vector<Spring> springs;
 
   /// Throws DegenerateElement when the ends of a spring coincide: its direction is lost there.

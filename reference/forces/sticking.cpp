@@ -41,12 +41,12 @@ struct Surface {
 
 StickyTarget target_of(const StickyPatch& patch, const State& s, const Surface& surface, size_t first,
                        size_t count) {
-  const Bond& bond = s.memory.bonds[first];
+  const Bond& bond = s.bonds[first];
   const PerParticle3& x = patch.place ? surface.x : s.x;
   StickyTarget target{bond.patch, bond.particle, first, count, {}, Vector3::Zero(), 0, 0, 0, {}};
   for (size_t k = first; k < first + count; ++k) {
-    const Triangle& corners = patch.triangles.at(size_t(s.memory.bonds[k].triangle));
-    target.frames.push_back(frame_of(corners, x, s.memory.bonds[k].place, 1 / double(count)));
+    const Triangle& corners = patch.triangles.at(size_t(s.bonds[k].triangle));
+    target.frames.push_back(frame_of(corners, x, s.bonds[k].place, 1 / double(count)));
     if (!target.frames.back().slopes.allFinite())
       throw DegenerateElement("a triangle of sticky '" + patch.name + "' has no area", {bond.particle});
   }
@@ -70,7 +70,7 @@ double norm_of_corner(const TriangleFrame& frame, int i) {
 
 std::vector<StickyTarget> Sticking::targets_at(const State& s) const {
   std::vector<StickyTarget> targets;
-  const std::vector<Bond>& bonds = s.memory.bonds;
+  const std::vector<Bond>& bonds = s.bonds;
   Surface surface;  // of the patch that the bonds at hand stick to
   for (size_t first = 0, end = 0; first < bonds.size(); first = end) {
     const Bond& bond = bonds[first];
@@ -159,15 +159,16 @@ void add_row_sums(int particle, const std::vector<TriangleFrame>& frames, double
       rows[frame.corners[size_t(i)]] += coefficient * norm_of_corner(frame, i) * sum;
 }
 
-void Sticking::add_spring_bound(const State& s, PerParticle& rows) const {
+void Sticking::add_stiffness_bound(const State& s, PerParticle& rows) const {
   for (const StickyTarget& target : targets_at(s)) {
     const double along = target.stiffness + target.fading * target.distance * target.distance;
     add_row_sums(target.particle, target.frames, std::max(target.stiffness, std::abs(along)), rows);
   }
+  add_bound_beyond_forecasts(s, rows);
 }
 
 // (dJ)^T F is a sum of three terms over pairs of corners, each at most |height| |F| |g_i| |g_j| |dx_j|.
-void Sticking::add_turning_bound(const State& s, PerParticle& rows) const {
+void Sticking::add_bound_beyond_forecasts(const State& s, PerParticle& rows) const {
   for (const StickyTarget& target : targets_at(s)) {
     const double force = pull_of(target, s).norm();
     for (const TriangleFrame& frame : target.frames) {
@@ -180,7 +181,7 @@ void Sticking::add_turning_bound(const State& s, PerParticle& rows) const {
 
 double Sticking::shortest_forecast(const State& s) const {
   double shortest = std::numeric_limits<double>::infinity();
-  for (const Bond& bond : s.memory.bonds)
+  for (const Bond& bond : s.bonds)
     shortest = std::min(shortest, patches.at(size_t(bond.patch)).forecast_time);
   return shortest;
 }

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "reference/forces/damping.h"
+#include "reference/forces/energies.h"
 #include "reference/forces/force_differential.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/types.h"
@@ -59,6 +60,7 @@ struct StickyTarget {
 
 /// At most one in a system: bonds name its patches by their places in the list.
 struct Sticking {
+  static constexpr auto energy_term = &Energies::sticking;
   std::vector<StickyPatch> patches;
 
   /// Breaks and makes bonds, once a step; a second call changes nothing. Bonds of a particle to a patch break
@@ -81,10 +83,11 @@ struct Sticking {
                                 ForceDifferential& differential) const;
   void add_force_differential(const State& s, ForceDifferential& differential) const;
 
-  /// Add to rows (N [N/m]) each particle's share of a bound on the stiffness of the springs, and on that of
-  /// what turns with the frames of cloth while they pull; see forces/force.h.
-  void add_spring_bound(const State& s, PerParticle& rows) const;
-  void add_turning_bound(const State& s, PerParticle& rows) const;
+  /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see forces/force.h. It
+  /// is that of the springs, and that beyond what forecasts keep stable: of frames of cloth that turn while
+  /// springs pull.
+  void add_stiffness_bound(const State& s, PerParticle& rows) const;
+  void add_bound_beyond_forecasts(const State& s, PerParticle& rows) const;
 
   /// The shortest tau_s of a patch that has bonds [s]; infinite without any.
   double shortest_forecast(const State& s) const;

@@ -84,7 +84,7 @@ void Sticking::renew_bonds(State& s) const {
     const StickyPatch& patch = patches[size_t(target.patch)];
     if (!is_active(patch, s.time) || !(target.distance <= patch.far)) continue;
     stuck.insert({target.patch, target.particle});
-    const auto first = s.memory.bonds.begin() + std::ptrdiff_t(target.first);
+    const auto first = s.bonds.begin() + std::ptrdiff_t(target.first);
     bonds.insert(bonds.end(), first, first + std::ptrdiff_t(target.count));
   }
   for (size_t k = 0; k < patches.size(); ++k) {
@@ -93,7 +93,7 @@ void Sticking::renew_bonds(State& s) const {
     add_new_bonds({patches[k], int(k), patches[k].place ? surface : s.x}, s, stuck, bonds);
   }
   std::ranges::sort(bonds, {}, [](const Bond& b) { return std::tuple(b.patch, b.particle, b.triangle); });
-  s.memory.bonds = std::move(bonds);
+  s.bonds = std::move(bonds);
 }
 
 }  // namespace foldproof

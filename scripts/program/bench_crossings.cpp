@@ -3,6 +3,7 @@
 
 #include "convergence/contact/crossing_families.h"
 #include "scripts/program/bench_parts.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

@@ -11,8 +11,8 @@
 #include "reference/dynamics/integrator.h"
 #include "reference/bodies/makers.h"
 #include "scripts/program/bench.h"
-#include "scripts/program/evaluate.h"
-#include "scripts/program/evaluate_crossings.h"
+#include "verification/subjects/bending_rows.h"
+#include "verification/subjects/crossing_queries.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/ledger.h"
 #include "scripts/program/progress.h"
@@ -24,6 +24,7 @@
 #include "verification/faults/faults_file.h"
 #include "verification/seeds.h"
 #include "verification/files/verdicts_file.h"
+#include "verification/subjects/reference_subject.h"
 
 namespace foldproof {
 

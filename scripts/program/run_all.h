@@ -6,7 +6,7 @@
 
 #include "scripts/program/jobs.h"
 #include "verification/cases/expectations.h"
-#include "verification/verdict.h"
+#include "convergence/study.h"
 #include "verification/files/results_file.h"
 #include "verification/subject.h"
 

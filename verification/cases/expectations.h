@@ -18,7 +18,7 @@ struct Expectation {
 
 /// One entry of [ablation]: `"part" = "why"`. A part that is there though nothing that `foldproof ablate`
 /// measures needs it, or is left out though its presence would show; parts are named as
-/// convergence/any_case/scene_parts.h names them.
+/// convergence/any_case/ablation.h names them.
 struct Declared {
   std::string part, why;
 };

@@ -189,7 +189,7 @@ void RunBook::enter(const Diagnostics& row, double end) {
                         std::abs(row.energy.gravity - start.energy.gravity)});
   largest_kinetic = std::max(largest_kinetic, row.energy.kinetic);
   linear.see((row.linear_momentum - start.linear_momentum).norm());
-  contacts = std::max(contacts, row.object_contacts);
+  contacts = std::max(contacts, row.work.object_contacts);
   last_kinetic = row.energy.kinetic;
   angular.see((row.angular_momentum - start.angular_momentum).norm());
   if (row.time <= 0.1 * end) {

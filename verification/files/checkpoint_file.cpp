@@ -15,7 +15,7 @@ namespace foldproof {
 
 namespace {
 
-const char* const checkpoint_format = "foldproof checkpoint 1";
+const char* const checkpoint_format = "foldproof checkpoint 2";
 
 /// Writes numbers one after the other, or reads them back; one list of fields serves both ways.
 class Numbers64 {
@@ -82,7 +82,7 @@ StateArrays arrays_of(const State& s) {
   StateArrays arrays{{s.time}, {}};
   for (const PerParticle3* part : {&s.x, &s.v})
     arrays.numbers.insert(arrays.numbers.end(), part->data(), part->data() + part->size());
-  for (const Bond& bond : s.memory.bonds) {
+  for (const Bond& bond : s.bonds) {
     arrays.numbers.insert(arrays.numbers.end(), bond.place.data(), bond.place.data() + 3);
     arrays.bonds.insert(arrays.bonds.end(), {bond.patch, bond.triangle, bond.particle});
   }
@@ -102,7 +102,7 @@ State state_of(const StateArrays& arrays) {
   at += 6 * particles;
   for (std::size_t k = 0; k < bonds; ++k, at += 3) {
     const int* names = arrays.bonds.data() + 3 * k;
-    s.memory.bonds.push_back({names[0], names[1], names[2], {at[0], at[1], at[2]}});
+    s.bonds.push_back({names[0], names[1], names[2], {at[0], at[1], at[2]}});
   }
   return s;
 }

@@ -88,9 +88,9 @@ struct BondRows {
   }
 
   void add(const State& s) {
-    const double count = double(s.memory.bonds.size());
+    const double count = double(s.bonds.size());
     counts.add(&count);
-    for (const Bond& bond : s.memory.bonds) {
+    for (const Bond& bond : s.bonds) {
       const double row[] = {double(bond.patch), double(bond.triangle), double(bond.particle)};
       bonds.add(row);
       places.add(bond.place.data());
@@ -193,15 +193,15 @@ constexpr Scalar scalars[] = {
     {"custom_energy", "J", [](const Diagnostics& d) { return d.energy.custom; }},
     {"sticking_energy", "J", [](const Diagnostics& d) { return d.energy.sticking; }},
     {"damping_work", "J", [](const Diagnostics& d) { return d.damping_work; }},
-    {"cg_iterations", "1", [](const Diagnostics& d) { return double(d.cg_iterations); }},
-    {"cg_residual", "1", [](const Diagnostics& d) { return d.cg_residual; }},
+    {"cg_iterations", "1", [](const Diagnostics& d) { return double(d.work.cg_iterations); }},
+    {"cg_residual", "1", [](const Diagnostics& d) { return d.work.worst_residual; }},
     {"step_over_elastic_limit", "1", [](const Diagnostics& d) { return d.step_over_elastic_limit; }},
-    {"object_contacts", "1", [](const Diagnostics& d) { return double(d.object_contacts); }},
-    {"strain_left", "1", [](const Diagnostics& d) { return d.strain_left; }},
-    {"close_pairs", "1", [](const Diagnostics& d) { return double(d.close_pairs); }},
-    {"crossings", "1", [](const Diagnostics& d) { return double(d.crossings); }},
-    {"zone_particles", "1", [](const Diagnostics& d) { return double(d.zone_particles); }},
-    {"bonds", "1", [](const Diagnostics& d) { return double(d.bonds); }},
+    {"object_contacts", "1", [](const Diagnostics& d) { return double(d.work.object_contacts); }},
+    {"strain_left", "1", [](const Diagnostics& d) { return d.work.strain_left; }},
+    {"close_pairs", "1", [](const Diagnostics& d) { return double(d.work.close_pairs); }},
+    {"crossings", "1", [](const Diagnostics& d) { return double(d.work.crossings); }},
+    {"zone_particles", "1", [](const Diagnostics& d) { return double(d.work.zone_particles); }},
+    {"bonds", "1", [](const Diagnostics& d) { return double(d.work.bonds); }},
     {"seconds", "s", [](const Diagnostics& d) { return d.seconds; }},
 };
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "reference/types.h"
-#include "scripts/program/evaluate.h"
+#include "verification/subjects/bending_rows.h"
 #include "verification/fuzz/finding.h"
 
 namespace foldproof {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "reference/types.h"
-#include "scripts/program/evaluate_crossings.h"
+#include "verification/subjects/crossing_queries.h"
 #include "verification/fuzz/finding.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

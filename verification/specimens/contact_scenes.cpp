@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/mesh/shapes.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "reference/scene/scene.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/subject.h"
 
 namespace foldproof {

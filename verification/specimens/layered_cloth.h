@@ -3,7 +3,6 @@
 
 #include "reference/filters/feature_pair.h"
 #include "reference/scene/scene.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/subject.h"
 
 namespace foldproof {

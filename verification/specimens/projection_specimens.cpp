@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

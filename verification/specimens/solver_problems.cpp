@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

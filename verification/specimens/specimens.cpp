@@ -7,6 +7,7 @@
 
 #include "reference/mesh/shapes.h"
 #include "verification/seeds.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 
@@ -136,6 +137,11 @@ Scene hinge_scene(const Corners& rest, double rest_angle) {
   Scene scene = scene_of(make_triangle_mesh(state_of(rest).x, {{0, 2, 3}, {1, 3, 2}}), 0.19);
   scene.rest_angles = {rest_angle};
   return scene;
+}
+
+State still_at(PerParticle3 x) {
+  PerParticle3 v = PerParticle3::Zero(3, x.cols());
+  return {0, std::move(x), std::move(v)};
 }
 
 State state_of(const Corners& x) {

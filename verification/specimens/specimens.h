@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "reference/scene/scene.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/definitions.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 
@@ -53,6 +53,9 @@ std::vector<Specimen> hinges_of_all_angles();
 Scene hinge_scene(const Corners& rest, double rest_angle);
 
 State state_of(const Corners& x);
+
+/// The positions x (3 x N [m]) without motion.
+State still_at(PerParticle3 x);
 
 Corners corners_of(const Hinge& hinge, const PerParticle3& x);
 

@@ -7,6 +7,7 @@
 
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/contact_scenes.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 
@@ -35,7 +36,7 @@ void stick(StuckSpecimen& specimen, int particle, const std::vector<int>& triang
     stuck.corners.push_back({y.col(a), y.col(b), y.col(c)});
     stuck.places.push_back(place);
     if (!patch.place) particles.insert(particles.end(), {a, b, c});
-    specimen.state.memory.bonds.push_back({0, t, particle, place});
+    specimen.state.bonds.push_back({0, t, particle, place});
   }
   const Vector3 away = random.vectors(1, 1).col(0).normalized();
   stuck.x = oracles::sticking_answer(stuck).target + part * patch.far * away;

@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "reference/scene/scene.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

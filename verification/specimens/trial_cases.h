@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "reference/scene/scene.h"
+#include "verification/evidence.h"
 #include "verification/verdict.h"
-#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

@@ -7,8 +7,9 @@
 #include "reference/bodies/deforming_content.h"
 #include "reference/bodies/grid_content.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/level_set/level_set_checks.h"
+#include "verification/checks/bodies/body_checks.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/refusal.h"
 #include "verification/specimens/ugly_solids.h"
 
 namespace foldproof {

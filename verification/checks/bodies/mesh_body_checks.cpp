@@ -5,8 +5,10 @@
 
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/level_set/level_set_checks.h"
+#include "verification/checks/bodies/body_checks.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/refusal.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/trial_cases.h"
 

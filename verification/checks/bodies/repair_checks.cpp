@@ -2,15 +2,16 @@
 #include <cmath>
 
 #include "reference/bodies/closed_mesh.h"
-#include "reference/level_set/mesh_grid.h"
 #include "reference/bodies/mesh_inspection.h"
 #include "reference/bodies/ray_parity.h"
 #include "reference/bodies/repair.h"
 #include "reference/bodies/winding.h"
+#include "reference/level_set/mesh_grid.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/level_set/level_set_checks.h"
+#include "verification/checks/bodies/body_checks.h"
+#include "verification/evidence.h"
 #include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/ugly_solids.h"
 

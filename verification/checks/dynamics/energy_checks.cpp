@@ -5,9 +5,11 @@
 
 #include "reference/dynamics/simulate.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/specimens/specimens.h"
+#include "verification/evidence.h"
 #include "verification/oracles/definitions.h"
+#include "verification/specimens/moving_sheets.h"
+#include "verification/specimens/paper_schemes.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
@@ -129,8 +131,8 @@ Finding diagnostics_finding(const Subject&) {
     const State& begun_at = run.frames[n - (n > 0)];
     worst.see(std::abs(row.step_over_elastic_limit - row.step / elastic_limit(system, begun_at)) / epsilon);
     worst.see(std::abs(row.step - (n == 0 ? 0 : h)) / (epsilon * 9 * h));
-    if (n > 0 && !(row.cg_iterations > 0 && row.cg_residual <= scene.solver.tolerance && row.seconds >= 0))
-      worst.see(NAN);
+    const bool is_solved = row.work.cg_iterations > 0 && row.work.worst_residual <= scene.solver.tolerance;
+    if (n > 0 && !(is_solved && row.seconds >= 0)) worst.see(NAN);
   }
   return {{worst.value(), 512, 0, "epsilon of the quantity",
            "up to a hundred terms of ten roundings each, which add up like a random walk to a hundred and "

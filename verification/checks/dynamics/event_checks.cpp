@@ -6,9 +6,8 @@
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/oracles/exact_solutions.h"
+#include "verification/specimens/measured.h"
 
 namespace foldproof {
 

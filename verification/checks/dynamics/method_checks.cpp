@@ -6,10 +6,14 @@
 
 #include "reference/dynamics/simulate.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/specimens/specimens.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_sheets.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/specimens.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

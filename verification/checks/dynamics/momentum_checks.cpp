@@ -5,7 +5,12 @@
 
 #include "reference/dynamics/system.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/evidence.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/moving_sheets.h"
+#include "verification/specimens/paper_schemes.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

@@ -3,9 +3,11 @@
 
 #include "reference/dynamics/integrator.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/exact_solutions.h"
+#include "verification/specimens/paper_schemes.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

@@ -8,7 +8,7 @@
 #include "verification/checks/dynamics/dynamics_checks.h"
 #include "verification/specimens/layered_cloth.h"
 #include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/sticking_scenes.h"
 
 namespace foldproof {
@@ -40,7 +40,7 @@ void add(const State& s, Numbers& all) {
   all.push_back(s.time);
   all.insert(all.end(), s.x.data(), s.x.data() + s.x.size());
   all.insert(all.end(), s.v.data(), s.v.data() + s.v.size());
-  for (const Bond& b : s.memory.bonds)
+  for (const Bond& b : s.bonds)
     all.insert(all.end(),
                {double(b.patch), double(b.triangle), double(b.particle), b.place[0], b.place[1], b.place[2]});
 }

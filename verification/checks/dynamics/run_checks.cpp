@@ -4,7 +4,8 @@
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/moving_sheets.h"
 
 namespace foldproof {
 

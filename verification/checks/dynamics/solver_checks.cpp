@@ -1,14 +1,15 @@
 // The conjugate gradients of the reference against dense linear algebra, and what they promise.
-#include "verification/checks/dynamics/solver_checks.h"
-
-#include <cmath>
-
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/specimens/solver_problems.h"
+#include "verification/checks/dynamics/dynamics_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_sheets.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/solver_problems.h"
+#include "verification/specimens/stepper.h"
+#include <cmath>
 
 namespace foldproof {
 

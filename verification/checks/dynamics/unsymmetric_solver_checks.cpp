@@ -3,10 +3,12 @@
 
 #include "reference/dynamics/biconjugate_gradient.h"
 #include "reference/dynamics/system.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/checks/dynamics/solver_checks.h"
+#include "verification/checks/dynamics/dynamics_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_sheets.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

@@ -4,9 +4,10 @@
 
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/filters/contact_checks.h"
-#include "verification/specimens/contact_scenes.h"
+#include "verification/checks/filters/filter_checks.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/contact_scenes.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

@@ -1,14 +1,12 @@
-#include "verification/checks/filters/crossing_checks.h"
-
+#include "reference/filters/feature_pair.h"
+#include "verification/checks/filters/filter_checks.h"
+#include "verification/evidence.h"
+#include "verification/oracles/feature_distance.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/random.h"
 #include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
-
-#include "reference/filters/feature_pair.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/oracles/feature_distance.h"
 
 namespace foldproof {
 

@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "reference/mesh/shapes.h"
-#include "verification/checks/filters/contact_checks.h"
-#include "verification/specimens/contact_scenes.h"
-#include "verification/specimens/measured.h"
+#include "verification/checks/filters/filter_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/contact_scenes.h"
+#include "verification/specimens/paper_schemes.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "verification/checks/filters/contact_checks.h"
+#include "verification/checks/filters/filter_checks.h"
+#include "verification/evidence.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

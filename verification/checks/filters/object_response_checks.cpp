@@ -4,8 +4,10 @@
 #include <cmath>
 #include <functional>
 
-#include "verification/checks/filters/contact_checks.h"
+#include "verification/checks/filters/filter_checks.h"
+#include "verification/evidence.h"
 #include "verification/specimens/contact_scenes.h"
+#include "verification/specimens/differences.h"
 #include "verification/specimens/measured.h"
 
 namespace foldproof {

@@ -5,10 +5,13 @@
 #include <numbers>
 
 #include "reference/filters/object_collision.h"
-#include "verification/checks/filters/contact_checks.h"
+#include "verification/checks/filters/filter_checks.h"
+#include "verification/evidence.h"
+#include "verification/oracles/dense_algebra.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/measured.h"
-#include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

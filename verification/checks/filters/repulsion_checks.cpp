@@ -5,9 +5,11 @@
 #include <numeric>
 
 #include "reference/filters/cloth_pairs.h"
+#include "verification/checks/filters/filter_checks.h"
+#include "verification/evidence.h"
 #include "verification/specimens/layered_cloth.h"
 #include "verification/specimens/measured.h"
-#include "verification/checks/filters/self_collision_checks.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

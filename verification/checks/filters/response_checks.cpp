@@ -3,9 +3,12 @@
 #include <cmath>
 #include <limits>
 
-#include "verification/checks/filters/contact_checks.h"
+#include "verification/checks/filters/filter_checks.h"
+#include "verification/evidence.h"
 #include "verification/specimens/contact_scenes.h"
+#include "verification/specimens/differences.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

@@ -1,13 +1,15 @@
 // What one correction by strain limits does: to one spring, exactly; to a cloth, whatever the order of
 // sweeps.
-#include "verification/checks/filters/strain_limit_checks.h"
-
+#include "reference/dynamics/system.h"
+#include "verification/checks/filters/filter_checks.h"
+#include "verification/evidence.h"
+#include "verification/oracles/limited_spring.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/strain_scenes.h"
 #include <Eigen/Geometry>
 #include <cmath>
-
-#include "reference/dynamics/system.h"
-#include "verification/specimens/strain_scenes.h"
-#include "verification/oracles/limited_spring.h"
 
 namespace foldproof {
 
@@ -250,7 +252,6 @@ std::vector<Check> strain_limit_checks() {
             "Where no spring would leave its limits, velocities are left as they are, bit for bit.", source,
             untouched_within_limits_finding}})
     list.push_back(check);
-  for (const Check& check : strain_step_checks()) list.push_back(check);
   return list;
 }
 

@@ -3,7 +3,13 @@
 #include <cmath>
 
 #include "reference/dynamics/system.h"
-#include "verification/checks/filters/strain_limit_checks.h"
+#include "verification/checks/filters/filter_checks.h"
+#include "verification/evidence.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/paper_schemes.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/stepper.h"
 #include "verification/specimens/strain_scenes.h"
 #include "verification/specimens/trial_cases.h"
 

@@ -2,9 +2,13 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "verification/checks/forces/force_checks.h"
+#include "verification/evidence.h"
+#include "verification/specimens/balance.h"
 #include "verification/specimens/bending_alternatives.h"
-#include "verification/checks/forces/bending_checks.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

@@ -6,8 +6,11 @@
 #include <numbers>
 
 #include "reference/forces/degenerate.h"
-#include "verification/checks/forces/bending_checks.h"
+#include "verification/checks/forces/force_checks.h"
+#include "verification/evidence.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 
 namespace foldproof {

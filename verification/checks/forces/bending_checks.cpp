@@ -1,9 +1,10 @@
-#include "verification/checks/forces/bending_checks.h"
-
-#include <algorithm>
-
+#include "verification/checks/forces/force_checks.h"
+#include "verification/evidence.h"
+#include "verification/specimens/balance.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
+#include <algorithm>
 
 namespace foldproof {
 
@@ -142,7 +143,7 @@ Finding force_is_as_defined(const Subject& subject) {
 }  // namespace
 
 std::vector<Check> bending_checks() {
-  std::vector<Check> checks = {
+  return {
       {"bending.forces-sum-to-zero",
        "The elastic bending forces on crumpled sheets and on single hinges sum to zero, with rest and with "
        "current weighting.",
@@ -158,11 +159,6 @@ std::vector<Check> bending_checks() {
        "On crumpled sheets and on hinges of all angles, with rest angles, the elastic force is the printed "
        "one to rounding.",
        "BMF03 section 4, evaluated in 50 digits", force_is_as_defined}};
-  for (const auto& list : {bending_mode_checks(), bending_alternative_checks(), bending_angle_checks(),
-                           bending_energy_checks(), bending_damping_checks(), bending_shape_checks()}) {
-    checks.insert(checks.end(), list.begin(), list.end());
-  }
-  return checks;
 }
 
 }  // namespace foldproof

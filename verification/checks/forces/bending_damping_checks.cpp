@@ -1,8 +1,11 @@
 #include <cmath>
 
-#include "verification/checks/forces/bending_checks.h"
 #include "verification/checks/forces/damping_laws.h"
+#include "verification/checks/forces/force_checks.h"
+#include "verification/evidence.h"
+#include "verification/specimens/balance.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 
 namespace foldproof {

@@ -1,9 +1,12 @@
 #include <cmath>
 
-#include "verification/checks/forces/bending_checks.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/specimens.h"
+#include "verification/checks/forces/force_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

@@ -3,11 +3,13 @@
 #include <functional>
 
 #include "reference/mesh/shapes.h"
-#include "verification/checks/forces/bending_checks.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/specimens/specimens.h"
+#include "verification/checks/forces/force_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/specimens.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 

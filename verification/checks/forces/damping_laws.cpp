@@ -1,7 +1,9 @@
 #include "verification/checks/forces/damping_laws.h"
 
-#include "verification/specimens/moving_scenes.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
 
 namespace foldproof {
 

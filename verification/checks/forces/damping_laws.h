@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
 
 namespace foldproof {
 

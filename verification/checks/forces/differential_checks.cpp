@@ -1,10 +1,11 @@
-#include "verification/checks/forces/differential_checks.h"
-
-#include <cmath>
-
-#include "verification/specimens/measured.h"
-#include "verification/specimens/specimens.h"
+#include "verification/checks/forces/force_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/specimens.h"
+#include <cmath>
 
 namespace foldproof {
 

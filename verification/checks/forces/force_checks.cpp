@@ -1,13 +1,15 @@
 #include "verification/checks/forces/force_checks.h"
-
-#include <cmath>
-
 #include "reference/dynamics/system.h"
 #include "reference/forces/bending.h"
-#include "verification/checks/forces/differential_checks.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/specimens.h"
+#include "verification/checks/forces/derivatives.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/refusal.h"
+#include "verification/specimens/specimens.h"
+#include <cmath>
 
 namespace foldproof {
 
@@ -260,8 +262,7 @@ Finding unknown_laws_are_refused(const Subject&) {
 }  // namespace
 
 std::vector<Check> force_checks() {
-  std::vector<Check> checks = spring_checks();
-  const std::vector<Check> own = {
+  return {
       {"gravity.force-is-weight",
        "Gravity pulls on each particle with its share of the triangles' mass times g.", "Newton",
        gravity_is_weight},
@@ -287,8 +288,6 @@ std::vector<Check> force_checks() {
       {"forces.row-bounds-are-reached-at-rest",
        "At a hinge's rest angle the bound on each particle's row is the row's own sum.",
        "calculus: there the matrix is -ke c u u^T / 2", rows_are_reached}};
-  checks.insert(checks.end(), own.begin(), own.end());
-  return checks;
 }
 
 }  // namespace foldproof

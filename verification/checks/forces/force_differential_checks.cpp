@@ -5,10 +5,15 @@
 
 #include "reference/dynamics/system.h"
 #include "reference/forces/springs.h"
-#include "verification/checks/forces/differential_checks.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/specimens.h"
+#include "verification/checks/forces/derivatives.h"
+#include "verification/checks/forces/force_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/force_derivatives.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

@@ -3,11 +3,14 @@
 
 #include "verification/checks/forces/damping_laws.h"
 #include "verification/checks/forces/force_checks.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/specimens.h"
 #include "verification/checks/forces/spring_sheet.h"
 #include "verification/checks/forces/work.h"
+#include "verification/evidence.h"
 #include "verification/oracles/definitions.h"
+#include "verification/specimens/balance.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "verification/specimens/measured.h"
+#include "verification/evidence.h"
 #include "verification/oracles/exact_solutions.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

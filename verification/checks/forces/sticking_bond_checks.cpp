@@ -8,11 +8,17 @@
 
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/checks/forces/sticking_checks.h"
-#include "verification/specimens/sticking_scenes.h"
+#include "verification/checks/forces/force_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/triangle_distance.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/moving_sheets.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/specimens.h"
+#include "verification/specimens/stepper.h"
+#include "verification/specimens/sticking_scenes.h"
 
 namespace foldproof {
 
@@ -44,14 +50,14 @@ Finding forms_finding(const Subject& subject) {
   const State s = begun(subject, scene, start_state(scene));
   std::set<std::pair<int, int>> found;  // particle and triangle
   Worst off;
-  for (const Bond& bond : s.memory.bonds) {
+  for (const Bond& bond : s.bonds) {
     found.insert({bond.particle, bond.triangle});
     const auto [a, b, c] = patch.triangles[size_t(bond.triangle)];
     const oracles::StuckParticle stuck{
         scene.x.col(bond.particle), {{scene.x.col(a), scene.x.col(b), scene.x.col(c)}}, {bond.place}, 1, 1};
     off.see((oracles::sticking_answer(stuck).target - stuck.x).norm() / (epsilon * extent(scene.x)));
   }
-  double wrong = double(s.memory.bonds.size() - found.size()), several = 0;
+  double wrong = double(s.bonds.size() - found.size()), several = 0;
   for (int i = 0; i < int(scene.x.cols()); ++i) {
     int count = 0;
     for (int t = 0; t < int(patch.triangles.size()); ++t) {
@@ -81,13 +87,13 @@ Finding renewal_finding(const Subject& subject) {
   State s = start_state(scene), twice = s;
   double differ = 0, changes = 0;
   for (int n = 0; n < 12; ++n) {
-    const size_t before = s.memory.bonds.size();
+    const size_t before = s.bonds.size();
     s = begun(subject, scene, s);
     twice = begun(subject, scene, s);
-    changes += s.memory.bonds.size() != before;
-    differ += std::abs(double(s.memory.bonds.size()) - double(twice.memory.bonds.size()));
-    for (size_t k = 0; k < std::min(s.memory.bonds.size(), twice.memory.bonds.size()); ++k)
-      differ += s.memory.bonds[k].place != twice.memory.bonds[k].place;
+    changes += s.bonds.size() != before;
+    differ += std::abs(double(s.bonds.size()) - double(twice.bonds.size()));
+    for (size_t k = 0; k < std::min(s.bonds.size(), twice.bonds.size()); ++k)
+      differ += s.bonds[k].place != twice.bonds[k].place;
     s.x += random.vectors(s.x.cols(), 0.03);
   }
   Finding finding{
@@ -130,7 +136,7 @@ Finding again_finding(const Subject& subject) {
     }
     s = stepper.step(s, 0.0013);
     std::vector<char> found(4, 0);
-    for (const Bond& bond : s.memory.bonds) found[size_t(bond.particle)] = 1;
+    for (const Bond& bond : s.bonds) found[size_t(bond.particle)] = 1;
     wrong += found != sticks;
   }
   return {{*std::ranges::min_element(made) >= 12 ? wrong : NAN, 0, 0, "steps with other bonds than predicted",
@@ -163,7 +169,7 @@ Finding timed_finding(const Subject& subject) {
   for (int n = 0; n < 300; ++n) {
     const bool active = s.time >= 0.07 && s.time < 0.23;
     s = stepper.step(s, 0.001);
-    wrong += (s.memory.bonds.size() > 0) != active;
+    wrong += (s.bonds.size() > 0) != active;
   }
   measured.see("bonds exactly from `from` until `until`", wrong);
 
@@ -247,9 +253,9 @@ Finding memory_finding(const Subject& subject) {
     for (int n = 0; n < 2 * half; ++n) past = {past.back(), whole.step_after(past, h)};
     const State a = continued(cut).back(), b = past.back();
     measured.see(name + ", cut in two", numbers_that_differ(a.x, b.x) + numbers_that_differ(a.v, b.v) +
-                                            double(a.memory.bonds.size() != b.memory.bonds.size()));
+                                            double(a.bonds.size() != b.bonds.size()));
     std::vector<State> forgetful = cut;
-    for (State& s : forgetful) s.memory = {};
+    for (State& s : forgetful) s.bonds = {};
     const State c = continued(forgetful).back();
     measured.see(name + ", forgetting makes a difference", numbers_that_differ(c.x, b.x) > 0 ? 0 : 1);
   }
@@ -287,7 +293,7 @@ Finding sides_finding(const Subject&) {
       Sticking{{made.patch}}.renew_bonds(made.state);
       const double expected = part < 1 ? 6 : 0;
       measured.see(fmt::format("{} of near = {} m", part, near),
-                   std::abs(double(made.state.memory.bonds.size()) - expected));
+                   std::abs(double(made.state.bonds.size()) - expected));
     }
   return measured.judged(
       0,

@@ -8,12 +8,16 @@
 
 #include "reference/dynamics/system.h"
 #include "reference/forces/degenerate.h"
-#include "verification/checks/forces/differential_checks.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/checks/forces/sticking_checks.h"
-#include "verification/specimens/sticking_scenes.h"
+#include "verification/checks/forces/derivatives.h"
+#include "verification/checks/forces/force_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/balance.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/specimens.h"
+#include "verification/specimens/sticking_scenes.h"
 
 namespace foldproof {
 
@@ -159,7 +163,7 @@ StuckSpecimen drawn_away(double d) {
   specimen.scene.sticky = {patch};
   specimen.state = start_state(specimen.scene);
   specimen.state.x.col(0) = d * Vector3(2, -3, 6) / 7;
-  specimen.state.memory.bonds = {{0, 0, 0, Vector3(0, 0.5, 0)}};  // the square's middle
+  specimen.state.bonds = {{0, 0, 0, Vector3(0, 0.5, 0)}};  // the square's middle
   return specimen;
 }
 
@@ -200,7 +204,7 @@ Finding surface_finding(const Subject& subject) {
     const int i = specimen.particles[k][0];
     Vector3 velocity = Vector3::Zero();
     for (size_t b = 0; b < specimen.stuck[k].corners.size(); ++b) {
-      const Triangle& triangle = patch.triangles[size_t(specimen.state.memory.bonds[2 * k + b].triangle)];
+      const Triangle& triangle = patch.triangles[size_t(specimen.state.bonds[2 * k + b].triangle)];
       for (size_t c = 0; c < 3; ++c)
         velocity += answer.derivative.block<3, 3>(0, Eigen::Index(9 * b + 3 * c)) *
                     corner_velocities.col(triangle[c]);

@@ -6,9 +6,11 @@
 #include <memory>
 
 #include "reference/dynamics/simulate.h"
+#include "verification/checks/forces/force_checks.h"
+#include "verification/specimens/differences.h"
 #include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/checks/forces/sticking_checks.h"
+#include "verification/specimens/moving_sheets.h"
+#include "verification/specimens/stepper.h"
 #include "verification/specimens/sticking_scenes.h"
 
 namespace foldproof {
@@ -72,7 +74,7 @@ Finding follows_finding(const Subject& subject) {
     Worst worst;
     for (int n = 0; n < 1500; ++n) {
       s = stepper.step(s, h);
-      if (s.memory.bonds.size() < 3) worst.see(NAN);
+      if (s.bonds.size() < 3) worst.see(NAN);
       for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
         // rigid motion of the particle's own start: its place in the palm's frame
         const Vector3 place = placed(pose_at(motion, s.time), scene.x.col(i));
@@ -132,13 +134,13 @@ Finding deforming_finding(const Subject& subject) {
     oracles::StuckParticle stuck{Vector3::Zero(), {}, {}, 1, 1};
     const PerParticle3 now = surface_at(part, s.time);
     Worst worst;
-    for (const Bond& bond : s.memory.bonds) {
+    for (const Bond& bond : s.bonds) {
       stuck.corners = {{now.col(0), now.col(1), now.col(2)}};
       stuck.places = {bond.place};
       worst.see((oracles::sticking_answer(stuck).target - s.x.col(bond.particle)).norm());
     }
-    measured.see(fmt::format("{:.3f} s, {} bonds", s.time, s.memory.bonds.size()),
-                 s.memory.bonds.size() == 3 ? worst.value() : NAN);
+    measured.see(fmt::format("{:.3f} s, {} bonds", s.time, s.bonds.size()),
+                 s.bonds.size() == 3 ? worst.value() : NAN);
   }
   return measured.judged(
       1e-4,

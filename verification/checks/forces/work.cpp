@@ -4,7 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "verification/specimens/moving_scenes.h"
+#include "verification/evidence.h"
+#include "verification/specimens/probe.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

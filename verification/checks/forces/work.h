@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "verification/specimens/measured.h"
 #include "verification/oracles/estimate.h"
+#include "verification/specimens/probe.h"
 
 namespace foldproof {
 

@@ -1,20 +1,19 @@
-#include "verification/checks/level_set/deforming_checks.h"
-
-#include <Eigen/Geometry>
-#include <cmath>
-#include <filesystem>
-#include <random>
-#include <set>
-
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/object.h"
 #include "reference/level_set/octree_nodes.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/specimens/scratch_folder.h"
+#include "verification/checks/level_set/level_set_checks.h"
+#include "verification/evidence.h"
 #include "verification/seeds.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/refusal.h"
+#include "verification/specimens/scratch_folder.h"
+#include <Eigen/Geometry>
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <set>
 
 namespace foldproof {
 

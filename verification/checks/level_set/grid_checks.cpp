@@ -5,8 +5,9 @@
 
 #include "reference/level_set/narrow_band.h"
 #include "verification/checks/level_set/level_set_checks.h"
+#include "verification/evidence.h"
 #include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/ugly_solids.h"
 

@@ -1,4 +1,4 @@
-// Checks of level sets: of triangle meshes, on grids. One function a file, and their sum.
+// Checks of level sets: exact distances, grids, octrees, bodies that deform. A function a file; the list of all is verification/checks.cpp.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,11 @@
 
 namespace foldproof {
 
-std::vector<Check> mesh_distance_checks();  // mesh_distance_checks.cpp
-std::vector<Check> grid_checks();           // grid_checks.cpp
-std::vector<Check> marching_checks();       // marching_checks.cpp
-std::vector<Check> closed_mesh_checks();    // closed_mesh_checks.cpp
-std::vector<Check> mesh_body_checks();      // mesh_body_checks.cpp: bodies of case files
-std::vector<Check> repair_checks();         // repair_checks.cpp: ray parity, winding numbers, repair
-std::vector<Check> content_checks();        // content_checks.cpp: keys and soundness of what is kept
-
-/// All of them.
-std::vector<Check> level_set_checks();
+std::vector<Check> mesh_distance_checks();  // the exact distance to a mesh
+std::vector<Check> grid_checks();           // values between nodes
+std::vector<Check> marching_checks();       // fast marching
+std::vector<Check> octree_checks();         // the adaptively sampled distance of one body
+std::vector<Check> octree_union_checks();   // several bodies on one tree
+std::vector<Check> deforming_checks();      // level sets at frames and between them
 
 }  // namespace foldproof

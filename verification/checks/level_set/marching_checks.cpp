@@ -7,8 +7,8 @@
 
 #include "reference/level_set/fast_marching.h"
 #include "verification/checks/level_set/level_set_checks.h"
+#include "verification/evidence.h"
 #include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
 
 namespace foldproof {
 

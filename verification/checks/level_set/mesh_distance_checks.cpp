@@ -3,11 +3,12 @@
 
 #include "reference/level_set/mesh_distance.h"
 #include "verification/checks/level_set/level_set_checks.h"
+#include "verification/evidence.h"
+#include "verification/oracles/triangle_distance.h"
 #include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/ugly_solids.h"
-#include "verification/oracles/triangle_distance.h"
 
 namespace foldproof {
 

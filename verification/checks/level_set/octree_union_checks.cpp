@@ -3,10 +3,11 @@
 #include <random>
 
 #include "reference/level_set/octree_nodes.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/checks/level_set/octree_checks.h"
+#include "verification/checks/level_set/level_set_checks.h"
+#include "verification/checks/level_set/octree_samples.h"
+#include "verification/evidence.h"
 #include "verification/seeds.h"
+#include "verification/specimens/measured.h"
 
 namespace foldproof {
 

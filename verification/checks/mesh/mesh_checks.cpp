@@ -10,10 +10,12 @@
 
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
+#include "verification/evidence.h"
+#include "verification/seeds.h"
 #include "verification/specimens/measured.h"
+#include "verification/specimens/random.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/specimens.h"
-#include "verification/seeds.h"
 
 namespace foldproof {
 
@@ -218,7 +220,7 @@ Finding hinge_folds_by_its_angle(const Subject&) {
 
 std::vector<Check> mesh_checks() {
   const char* const source = "plane geometry and topology";
-  std::vector<Check> checks = {
+  return {
       {"mesh.euler-characteristic", "The reference's meshes have the Euler characteristic of their surfaces.",
        source, euler_characteristic_is_known},
       {"mesh.hinges-are-oriented-as-drawn",
@@ -239,9 +241,6 @@ std::vector<Check> mesh_checks() {
       {"mesh.hinge-folds-by-its-angle",
        "The reference's hinge is folded by the angle asked for, sign included.", "BMF03 section 4",
        hinge_folds_by_its_angle}};
-  const std::vector<Check> refusals = mesh_refusal_checks();
-  checks.insert(checks.end(), refusals.begin(), refusals.end());
-  return checks;
 }
 
 }  // namespace foldproof

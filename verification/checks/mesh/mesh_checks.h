@@ -1,5 +1,4 @@
-// Checks of the reference's meshes: what is built of triangles, what is refused. One function a file, and
-// their sum.
+// Checks of meshes. A function a file; the list of all is verification/checks.cpp.
 #pragma once
 
 #include <vector>
@@ -8,9 +7,8 @@
 
 namespace foldproof {
 
-std::vector<Check> mesh_refusal_checks();  // mesh_refusal_checks.cpp
-
-/// Refusals and all other checks of meshes.
-std::vector<Check> mesh_checks();
+std::vector<Check> mesh_checks();          // what is built of triangles
+std::vector<Check> mesh_refusal_checks();  // meshes that are refused
+std::vector<Check> seam_checks();          // panels that are sewn together
 
 }  // namespace foldproof

@@ -4,8 +4,9 @@
 
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/measured.h"
 #include "verification/checks/mesh/mesh_checks.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/refusal.h"
 #include "verification/specimens/scratch_folder.h"
 
 namespace foldproof {

@@ -7,7 +7,7 @@
 #include "reference/mesh/obj.h"
 #include "reference/mesh/seams.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/scene/scene_checks.h"
+#include "verification/checks/mesh/mesh_checks.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/trial_cases.h"
 #include "verification/seeds.h"

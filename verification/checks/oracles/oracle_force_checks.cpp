@@ -4,12 +4,14 @@
 #include <numbers>
 
 #include "verification/checks/oracles/oracle_checks.h"
-#include "verification/specimens/specimens.h"
+#include "verification/evidence.h"
 #include "verification/oracles/definitions.h"
 #include "verification/oracles/exact_solutions.h"
 #include "verification/oracles/force_derivatives.h"
 #include "verification/oracles/scalars.h"
 #include "verification/oracles/sticking.h"
+#include "verification/specimens/random.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/oracles/oracle_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/crossing_subdivision.h"
 #include "verification/oracles/exact_crossings.h"
 #include "verification/oracles/exact_geometry.h"
@@ -14,6 +14,7 @@
 #include "verification/oracles/solid_prisms.h"
 #include "verification/oracles/triangle_distance.h"
 #include "verification/oracles/whole_polynomial.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

@@ -4,8 +4,8 @@
 #include <complex>
 #include <numbers>
 
-#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/oracles/oracle_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/amplification.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/exact_solutions.h"
@@ -14,6 +14,7 @@
 #include "verification/oracles/limited_spring.h"
 #include "verification/oracles/scalars.h"
 #include "verification/oracles/stability.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

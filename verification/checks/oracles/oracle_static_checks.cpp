@@ -3,14 +3,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/oracles/oracle_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/depth_maps.h"
 #include "verification/oracles/gsl.h"
 #include "verification/oracles/heavy_cantilever.h"
 #include "verification/oracles/homogenised_bending.h"
 #include "verification/oracles/tip_load.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

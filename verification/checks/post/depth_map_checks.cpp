@@ -3,10 +3,11 @@
 #include <string>
 
 #include "reference/post/depth_map.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/post/projection_checks.h"
+#include "verification/evidence.h"
 #include "verification/oracles/depth_maps.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

@@ -7,9 +7,10 @@
 #include <numeric>
 #include <string>
 
+#include "verification/specimens/differences.h"
 #include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/specimens/projection_specimens.h"
+#include "verification/specimens/refusal.h"
 
 namespace foldproof {
 
@@ -284,8 +285,7 @@ Finding gaps_without_room_are_reported(const Subject&) {
 
 std::vector<Check> projection_checks() {
   const std::string source = "BMF03 section 5.3";
-  std::vector<Check> checks = depth_map_checks();
-  const std::vector<Check> own = {
+  return {
       {"projection.lands-where-the-map-says",
        "A projected point has the signed distance that the map gives it.", source, lands_where_the_map_says},
       {"projection.ends-in-the-band", "Points that began short of tau end in [eps, tau].", source,
@@ -319,10 +319,6 @@ std::vector<Check> projection_checks() {
       {"projection.gaps-without-room-are-reported",
        "A point between objects closer than the map asks is reported and not made worse.", source,
        gaps_without_room_are_reported}};
-  checks.insert(checks.end(), own.begin(), own.end());
-  for (const auto& part : {projection_exact_checks(), projection_cloth_checks(), projection_mesh_checks()})
-    checks.insert(checks.end(), part.begin(), part.end());
-  return checks;
 }
 
 }  // namespace foldproof

@@ -1,4 +1,4 @@
-// Checks of the fold-preserving projection. One function a file, and their sum.
+// Checks of the fold-preserving projection. A function a file; the list of all is verification/checks.cpp.
 #pragma once
 
 #include <vector>
@@ -7,14 +7,10 @@
 
 namespace foldproof {
 
-std::vector<Check> depth_map_checks();  // depth_map_checks.cpp
-std::vector<Check>
-projection_exact_checks();  // projection_exact_checks.cpp: triangles against objects, without rounding
-
-std::vector<Check> projection_cloth_checks();  // projection_cloth_checks.cpp: pinched and subdivided cloth
-std::vector<Check> projection_mesh_checks();   // projection_mesh_checks.cpp: out of a triangle mesh
-
-/// Maps, moves of points, triangles.
-std::vector<Check> projection_checks();
+std::vector<Check> projection_checks();        // moves of points
+std::vector<Check> depth_map_checks();         // maps of depth
+std::vector<Check> projection_exact_checks();  // triangles against objects, without rounding
+std::vector<Check> projection_cloth_checks();  // pinched and subdivided cloth
+std::vector<Check> projection_mesh_checks();   // out of a triangle mesh
 
 }  // namespace foldproof

@@ -5,12 +5,14 @@
 
 #include "reference/mesh/shapes.h"
 #include "reference/mesh/subdivision.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/post/projection_checks.h"
-#include "verification/specimens/projection_specimens.h"
+#include "verification/evidence.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/seeds.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/projection_specimens.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 

@@ -5,12 +5,11 @@
 #include <string>
 
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/measured.h"
-#include "verification/specimens/moving_scenes.h"
 #include "verification/checks/post/projection_checks.h"
-#include "verification/specimens/projection_specimens.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/seeds.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/projection_specimens.h"
 
 namespace foldproof {
 

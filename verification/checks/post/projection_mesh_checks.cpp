@@ -7,12 +7,12 @@
 
 #include "reference/level_set/mesh_grid.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/measured.h"
 #include "verification/checks/post/projection_checks.h"
-#include "verification/specimens/projection_specimens.h"
-#include "verification/specimens/specimens.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/seeds.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/projection_specimens.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 

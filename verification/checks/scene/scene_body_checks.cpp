@@ -10,8 +10,10 @@
 #include "reference/level_set/mesh_distance.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
-#include "verification/specimens/measured.h"
 #include "verification/checks/scene/scene_checks.h"
+#include "verification/evidence.h"
+#include "verification/specimens/measured.h"
+#include "verification/specimens/random.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/trial_cases.h"
 

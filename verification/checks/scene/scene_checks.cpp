@@ -8,7 +8,7 @@
 
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/specimens/moving_scenes.h"
+#include "verification/specimens/differences.h"
 #include "verification/specimens/trial_cases.h"
 
 namespace foldproof {
@@ -126,14 +126,6 @@ std::vector<Check> scene_meaning_checks() {
       {"scene.overrides-act", "Overrides act on a case of the reference as if they stood in its file.",
        source, overrides_finding},
   };
-}
-
-std::vector<Check> scene_checks() {
-  std::vector<Check> all;
-  for (const auto& part : {scene_refusal_checks, scene_meaning_checks, scene_place_checks,
-                           scene_object_checks, scene_body_checks, scene_cloth_checks, seam_checks})
-    for (const Check& check : part()) all.push_back(check);
-  return all;
 }
 
 }  // namespace foldproof

@@ -1,3 +1,4 @@
+// Checks of what a case file can say. A function a file; the list of all is verification/checks.cpp.
 #pragma once
 
 #include <vector>
@@ -6,17 +7,12 @@
 
 namespace foldproof {
 
-std::vector<Check> scene_refusal_checks();  // scene_refusal_checks.cpp: what a case file may not say
-std::vector<Check> scene_meaning_checks();  // scene_checks.cpp: what is built of what it says
-std::vector<Check>
-scene_place_checks();  // scene_place_checks.cpp: where the cloth is, how it starts and is held
-std::vector<Check> scene_object_checks();  // scene_object_checks.cpp: objects and how cloth meets them
-std::vector<Check> scene_body_checks();  // scene_body_checks.cpp: bodies of triangles, sampled and deforming
-std::vector<Check>
-scene_cloth_checks();              // scene_cloth_checks.cpp: shapes, copies, folds, cloth meeting itself
-std::vector<Check> seam_checks();  // seam_checks.cpp: panels that are sewn together
-
-/// All of the above.
-std::vector<Check> scene_checks();
+std::vector<Check> scene_refusal_checks();   // what a case file may not say
+std::vector<Check> scene_meaning_checks();   // what is built of what it says (scene_checks.cpp)
+std::vector<Check> scene_place_checks();     // where the cloth is, how it starts and is held
+std::vector<Check> scene_object_checks();    // objects and how cloth meets them
+std::vector<Check> scene_body_checks();      // bodies of triangles, sampled and deforming
+std::vector<Check> scene_cloth_checks();     // shapes, copies, folds, cloth meeting itself
+std::vector<Check> sticking_scene_checks();  // what a case file says of sticking
 
 }  // namespace foldproof

@@ -6,6 +6,7 @@
 
 #include "reference/mesh/shapes.h"
 #include "verification/checks/scene/scene_checks.h"
+#include "verification/specimens/differences.h"
 #include "verification/specimens/trial_cases.h"
 
 namespace foldproof {

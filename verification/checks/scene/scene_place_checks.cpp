@@ -1,15 +1,13 @@
 // Where a case file puts the cloth, and how it starts and is held.
+#include "reference/mesh/shapes.h"
+#include "reference/scene/scene.h"
 #include "verification/checks/scene/scene_checks.h"
-
+#include "verification/specimens/differences.h"
+#include "verification/specimens/trial_cases.h"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "reference/mesh/shapes.h"
-#include "reference/scene/scene.h"
-#include "verification/specimens/moving_scenes.h"
-#include "verification/specimens/trial_cases.h"
 
 namespace foldproof {
 

@@ -5,7 +5,7 @@
 
 #include "reference/mesh/obj.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/checks/forces/sticking_checks.h"
+#include "verification/checks/scene/scene_checks.h"
 #include "verification/specimens/trial_cases.h"
 
 namespace foldproof {

@@ -1,0 +1,11 @@
+// The studies of this room: what does a solve cost, and how loose may it be?
+#pragma once
+
+#include "convergence/study.h"
+
+namespace foldproof {
+
+Study cg_iterations();    // cg-iterations: cost of the implicit solves
+Study solve_tolerance();  // solve-tolerance: how loose a solve may be before the order suffers
+
+}  // namespace foldproof

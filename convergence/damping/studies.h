@@ -1,0 +1,11 @@
+// The studies of this room: what is damped, by the method and by the material?
+#pragma once
+
+#include "convergence/study.h"
+
+namespace foldproof {
+
+Study artificial_damping();  // artificial-damping: what methods take from vibrations that nothing damps
+Study monotonicity();        // monotonicity: coming to rest in steps longer than the damping's time
+
+}  // namespace foldproof

@@ -1,0 +1,13 @@
+// The studies of this room: which order has each method in time, and what does it keep?
+#pragma once
+
+#include "convergence/study.h"
+
+namespace foldproof {
+
+Study hinge_time_order();  // time-order.hinge: errors at the end of a driven hinge's motion against the step
+Study sheet_time_order();  // time-order.sheet: the same on a hanging sheet
+Study momentum_drift();    // momentum-drift: angular momentum of a free sheet
+Study mirror_symmetry();   // mirror-symmetry: how rounding breaks it
+
+}  // namespace foldproof

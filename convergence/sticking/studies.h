@@ -1,0 +1,10 @@
+// The studies of this room: how does what sticks follow?
+#pragma once
+
+#include "convergence/study.h"
+
+namespace foldproof {
+
+Study sticking_lag();  // sticking-lag: lag, limits and cost of what sticks, with forecasts and without
+
+}  // namespace foldproof

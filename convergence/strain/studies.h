@@ -1,0 +1,12 @@
+// The studies of this room: what do limits of strain do?
+#pragma once
+
+#include "convergence/study.h"
+
+namespace foldproof {
+
+Study strain_sweeps();    // strain-sweeps: sweeps of strain limiting over mesh and order
+Study strain_momentum();  // strain-momentum: angular momentum at the strain limits
+Study biphasic();         // biphasic: weak springs with limits under a growing load
+
+}  // namespace foldproof

@@ -1,0 +1,36 @@
+// A study measures a rate or a cost over a range: its findings are judged like checks, its curves are evidence.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "verification/verdict.h"
+
+namespace foldproof {
+
+struct NamedFinding {
+  std::string name;   // the study's name, a dot, and which of its measurements
+  std::string claim;  // one sentence
+  Finding finding;
+};
+
+struct StudyResult {
+  std::vector<NamedFinding> findings;
+  std::vector<Figure> figures;
+  std::vector<Map> maps;
+  std::vector<Table> tables;
+};
+
+struct Study {
+  std::string name, claim, source;
+  std::string about;  // a paragraph for the report
+  std::function<StudyResult(const Subject&, Tier, const Progress&)> run;
+};
+
+/// Runs a study: one record for each of its findings; one that failed, with the message, if it threw.
+std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const Subject& subject, Tier tier,
+                                                      const Progress& progress);
+
+}  // namespace foldproof

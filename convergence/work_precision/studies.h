@@ -1,0 +1,11 @@
+// The studies of this room: which method reaches an error at the least work?
+#pragma once
+
+#include "convergence/study.h"
+
+namespace foldproof {
+
+Study work_precision();  // work-precision: error against work and seconds, all methods
+Study mesh_error();      // mesh-error: error of the mesh beside that of the step
+
+}  // namespace foldproof

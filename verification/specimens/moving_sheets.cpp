@@ -1,0 +1,84 @@
+#include "verification/specimens/moving_sheets.h"
+
+#include <algorithm>
+
+#include "reference/mesh/shapes.h"
+#include "verification/seeds.h"
+#include "verification/specimens/random.h"
+
+namespace foldproof {
+
+namespace {
+
+Sheet irregular_sheet() {
+  Sheet sheet;
+  sheet.pattern = SheetPattern::random_delaunay;
+  sheet.width = 0.7;
+  sheet.height = 0.55;
+  sheet.columns = 5;
+  sheet.rows = 4;
+  sheet.seed = shifted(31);
+  return sheet;
+}
+
+Sheet jittered_sheet() {
+  Sheet sheet;
+  sheet.pattern = SheetPattern::jittered;
+  sheet.width = 0.6;
+  sheet.columns = 5;
+  sheet.rows = 4;
+  sheet.jitter = 0.27;
+  sheet.seed = shifted(17);
+  return sheet;
+}
+
+/// Displaces and sets in motion at random: a tenth of an edge in the plane, a third of one across it, and
+/// less where triangles are thin: they are neither to be turned over nor folded back.
+void crumple(Scene& scene, unsigned seed) {
+  Random random(seed);
+  const Eigen::Index count = scene.x.cols();
+  const double size = std::min(0.013, 0.2 * least_height(scene.mesh.triangles, scene.mesh.rest));  // m
+  PerParticle3 shift = random.vectors(count, size);
+  shift.row(2) *= 3;
+  scene.x += shift;
+  scene.v = random.vectors(count, size / 0.042);
+  for (double& angle : scene.rest_angles) angle = random.in(-0.6, 0.7);
+}
+
+Scene sheet_of(const Sheet& sheet, unsigned seed) {
+  Scene scene = scene_of(make_sheet(sheet), 0.23);
+  scene.stretch = StretchMaterial{37, 0.011, 0.97};
+  scene.bending = BendingMaterial{3.1e-4, 2.3e-5, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  crumple(scene, seed);
+  return scene;
+}
+
+}  // namespace
+
+Scene free_sheet() { return sheet_of(irregular_sheet(), 5); }
+
+Scene undamped_sheet() {
+  Scene scene = free_sheet();
+  scene.stretch->damping = 0;
+  scene.bending->damping = 0;
+  return scene;
+}
+
+Scene led_sheet() {
+  Scene scene = sheet_of(jittered_sheet(), 7);
+  scene.gravity = Vector3(0.7, -9.1, 1.9);
+  Motion swing;
+  swing.velocity = Vector3(0.11, -0.07, 0.19);
+  swing.amplitude = Vector3(0.013, 0.021, -0.017);
+  swing.frequency = 3.7;
+  swing.phase = 0.45;
+  Motion turn;
+  turn.velocity = Vector3(-0.05, 0.23, 0.03);
+  turn.center = Vector3(0.37, -0.21, 0.15);
+  turn.angular_velocity = Vector3(0.8, -1.3, 2.1);
+  scene.led = {{0, scene.x.col(0), Motion{}}, {4, scene.x.col(4), swing}, {13, scene.x.col(13), turn}};
+  return scene;
+}
+
+}  // namespace foldproof

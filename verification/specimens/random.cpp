@@ -1,0 +1,15 @@
+#include "verification/specimens/random.h"
+
+#include <cmath>
+
+namespace foldproof {
+
+double Random::in_decades(double low, double high) { return std::exp(in(std::log(low), std::log(high))); }
+
+PerParticle3 Random::vectors(Eigen::Index count, double size) {
+  PerParticle3 result(3, count);
+  for (double& component : result.reshaped()) component = in(-size, size);
+  return result;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,146 @@
+// Verdicts: what holds, what fails, and that nothing that is NaN or stopped ever passes.
+#include <catch2/catch.hpp>
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+#include "reference/scene/key_file.h"
+#include "verification/verdict.h"
+#include "verification/specimens/scratch_folder.h"
+#include "verification/faults/faults_file.h"
+#include "verification/subjects/reference_subject.h"
+#include "verification/files/verdicts_file.h"
+
+using namespace foldproof;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+Check check_that(std::function<Finding(const Subject&)> run) {
+  return {"group.name", "A sentence.", "nowhere", std::move(run)};
+}
+
+}  // namespace
+
+TEST_CASE("a verdict holds, fails, or cannot be decided") {
+  CHECK(ruling({1.0, 2.0, 0.5, "1", ""}) == Ruling::holds);
+  CHECK(ruling({1.5, 2.0, 0.5, "1", ""}) == Ruling::holds);
+  CHECK(ruling({1.75, 2.0, 0.5, "1", ""}) == Ruling::inconclusive);
+  CHECK(ruling({2.25, 2.0, 0.5, "1", ""}) == Ruling::inconclusive);
+  CHECK(ruling({2.75, 2.0, 0.5, "1", ""}) == Ruling::fails);
+}
+
+TEST_CASE("NaN never holds, wherever it stands") {
+  CHECK(ruling({not_a_number, 2.0, 0.0, "1", ""}) == Ruling::fails);
+  CHECK(ruling({1.0, not_a_number, 0.0, "1", ""}) == Ruling::fails);
+  CHECK(ruling({1.0, 2.0, not_a_number, "1", ""}) == Ruling::fails);
+  CHECK(ruling({1.0, std::numeric_limits<double>::infinity(), 0.0, "1", ""}) == Ruling::fails);
+  CHECK(ruling({3.0, 2.0, -2.0, "1", ""}) == Ruling::fails);
+}
+
+TEST_CASE("Worst keeps a NaN whatever comes after it") {
+  Worst worst;
+  worst.see(3);
+  CHECK(worst.value() == 3);
+  worst.see(not_a_number);
+  worst.see(5);
+  CHECK(worst.value() != worst.value());
+}
+
+TEST_CASE("a check that throws fails and says why; one that is not offered is not applicable") {
+  const Subject subject = reference_subject();
+  const Record broken = run_check(
+      check_that([](const Subject&) -> Finding { throw std::runtime_error("out of cloth"); }), subject);
+  CHECK(broken.outcome == "fails");
+  CHECK(broken.finding.note.find("out of cloth") != std::string::npos);
+  const Record absent =
+      run_check(check_that([](const Subject&) -> Finding { throw NotOffered{"step"}; }), subject);
+  CHECK(absent.outcome == "not applicable");
+}
+
+TEST_CASE("an operation that a subject lacks is reported by name") {
+  Subject subject = reference_subject();
+  subject.step = nullptr;
+  CHECK_THROWS_AS(offered(subject.step, "step"), NotOffered);
+}
+
+TEST_CASE("verdicts as JSON: NaN becomes null, names stay") {
+  RunRecord run;
+  Record record;
+  record.name = "odd \"name\" <b>";
+  record.outcome = "fails";
+  record.finding.verdict.measured = not_a_number;
+  run.records.push_back(record);
+  const std::string json = verdicts_json(run);
+  CHECK(json.find("\"measured\": null") != std::string::npos);
+  CHECK(json.find("odd \\\"name\\\" <b>") != std::string::npos);
+}
+
+TEST_CASE("verdicts as JSON and XML: each outcome stands as it is, and none but what holds passes") {
+  RunRecord run;
+  for (const char* outcome : {"holds", "fails", "inconclusive", "not applicable"}) {
+    Record record;
+    record.name = std::string("that it ") + outcome;
+    record.outcome = outcome;
+    record.finding.note = "1 < 2 & 3";
+    run.records.push_back(record);
+  }
+  const std::string json = verdicts_json(run);
+  for (const Record& record : run.records) {
+    INFO(record.outcome);
+    CHECK(json.find("\"outcome\": \"" + record.outcome + "\"") != std::string::npos);
+  }
+  const ScratchFolder folder;
+  write_verdicts(folder.file("."), run);
+  const std::string xml = read_text(folder.file("junit.xml"));
+  CHECK(xml.find("tests=\"4\" failures=\"2\" errors=\"0\" skipped=\"1\"") != std::string::npos);
+  CHECK(xml.find("1 &lt; 2 &amp; 3") != std::string::npos);
+  CHECK(xml.find("1 < 2") == std::string::npos);
+}
+
+TEST_CASE("faults are read with who catches them, and a key that no one knows is refused") {
+  const ScratchFolder folder;
+  const std::string row =
+      "[[fault]]\nname = \"slip\"\nfile = \"a.cpp\"\nfind = \"+\"\nreplace = \"-\"\nlaw = \"sums\"\n";
+  const std::string path = folder.file("faults.toml");
+  std::ofstream(path) << row << "caught_by = [\"sums.add-up\"]\nfast = true\n"
+                      << "caught_by_tests = [\"one, and another\", \"test_sums\"]\n";
+  const std::vector<Fault> faults = read_faults(path);
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].caught_by == std::vector<std::string>{"sums.add-up"});
+  CHECK(faults[0].caught_by_tests == std::vector<std::string>{"one, and another", "test_sums"});
+  Record record;
+  record.name = "sums.add-up";
+  std::vector<Record> records = {record, {}};
+  name_faults(faults, records);
+  CHECK(records[0].faults == std::vector<std::string>{"slip"});
+  CHECK(records[1].faults.empty());
+  std::ofstream(path) << row << "caught_bye = [\"sums.add-up\"]\n";
+  CHECK_THROWS_WITH(read_faults(path), Catch::Contains("caught_bye"));
+}
+
+TEST_CASE("a map is written with one value for each of its points, or refused") {
+  const Map whole{"map",
+                  "Title",
+                  {"x", "m", Scale::linear},
+                  {"y", "s", Scale::log},
+                  {1, 3, 7},
+                  {0.5, 4},
+                  {11, 12, 13, 21, 22, not_a_number},
+                  "quantity",
+                  "1",
+                  Scale::linear,
+                  "",
+                  {}};
+  Map short_of_one = whole;
+  short_of_one.values.pop_back();
+  RunRecord run;
+  run.studies.push_back({"study", "", "", "", 0, {}, {whole}, {}});
+  const ScratchFolder folder;
+  const std::string path = folder.file("map.h5");
+  CHECK_NOTHROW(write_run(path, run));
+  run.studies[0].maps = {short_of_one};
+  CHECK_THROWS_WITH(write_run(path, run), Catch::Contains("5 values for 3 x 2 points"));
+}
