@@ -20,10 +20,10 @@ sys.dont_write_bytecode = True
 import numpy as np  # noqa: E402
 from PIL import Image, ImageDraw, ImageFont  # noqa: E402
 
-from data.case_fields import Field, fields_of  # noqa: E402
 from data.quantities import number_text  # noqa: E402
 from data.results import Case, load_case  # noqa: E402
 from data.unreadable import Unreadable, told  # noqa: E402
+from pictures.case_fields import Field, fields_of  # noqa: E402
 from pictures.case_pictures import length_text, nice_length, shown_frames  # noqa: E402
 from pictures.case_scene import CaseScene, slowed  # noqa: E402
 from pictures.cloth_picture import picture_of  # noqa: E402

@@ -10,7 +10,7 @@ from math import cos, radians, sin
 
 import numpy as np
 
-from data.case_fields import area_normals
+from data.cloth_values import area_normals
 
 MARGIN = 0.05              # of the picture's size, on each side
 LARGEST_WIDTH = 600        # pixels of a finished picture

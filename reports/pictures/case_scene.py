@@ -3,9 +3,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from data.case_fields import Field
 from data.results import Case
 from pictures.camera import Camera, choose_camera, frames_that_set_the_scale
+from pictures.case_fields import Field
 from pictures.cloth_picture import Cloth, Scenery
 
 NEAR = 0.35                         # of the cloth's size: parts of objects this near to it are in the picture

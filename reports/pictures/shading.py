@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from data.case_fields import area_normals
+from data.cloth_values import area_normals
 from pictures.camera import Camera
 from pictures.look import BACK, FILL_LIGHT, FRONT, GROUND, GROUND_FADES, KEY_LIGHT, OBJECT, field_colours
 from pictures.raster import Raster, SeenSamples, faces_viewer

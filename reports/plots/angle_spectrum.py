@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from data.case_fields import angles_at, hinges_of
+from data.cloth_values import angles_at, hinges_of
 from data.results import Case
 from plots.plot_style import COLOURS, INK, Plot, finish, label_axes, new_figure, scale_axis
 

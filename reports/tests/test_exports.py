@@ -14,7 +14,7 @@ sys.dont_write_bytecode = True
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
-from data.case_fields import all_values  # noqa: E402
+from data.cloth_values import all_values  # noqa: E402
 from tests.made_up_case import TWO, WithCase  # noqa: E402
 
 REPORTS = Path(__file__).resolve().parents[1]

@@ -20,11 +20,12 @@ import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib import image  # noqa: E402
 
-from data.case_fields import all_values, edges_of, fields_of, most_telling  # noqa: E402
+from data.cloth_values import all_values, edges_of  # noqa: E402
 from data.results import load_case  # noqa: E402
 from make_report import make_report  # noqa: E402
 from pages.chromium import Browser  # noqa: E402
 from pictures.camera import choose_camera  # noqa: E402
+from pictures.case_fields import fields_of, most_telling  # noqa: E402
 from pictures.case_scene import CaseScene, slowed  # noqa: E402
 from pictures.cloth_picture import Cloth, Scenery, picture_of, webp_bytes  # noqa: E402
 from pictures.look import BACK, FRONT  # noqa: E402

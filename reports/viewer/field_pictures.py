@@ -9,9 +9,10 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import ListedColormap, Normalize
 
-from data.case_fields import Field, edges_of, fields_of, most_telling
+from data.cloth_values import edges_of
 from data.quantities import number_text, unit_text
 from data.results import Case
+from pictures.case_fields import Field, fields_of, most_telling
 from pictures.case_pictures import picture_uri, shown_frames
 from pictures.cloth_picture import picture_of
 from pictures.look import field_colours

@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from data.case_fields import Field
 from data.quantities import unit_text
 from data.results import Case
 from pictures.camera import frames_that_set_the_scale
+from pictures.case_fields import Field
 from pictures.case_scene import ENDLESS, CaseScene, slowed
 from pictures.look import BACK, FILL_LIGHT, FRONT, GROUND, GROUND_FADES, MARK, OBJECT, SET_BACK, STUCK, colour_stops
 from pictures.shading import world_light
