@@ -20,10 +20,10 @@ sys.dont_write_bytecode = True
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
-from case_fields import all_values  # noqa: E402
-from results import Case, load_case  # noqa: E402
-from unreadable import Unreadable, told  # noqa: E402
-from whole_file import write_whole  # noqa: E402
+from data.cloth_values import all_values  # noqa: E402
+from data.results import Case, load_case  # noqa: E402
+from data.unreadable import Unreadable, told  # noqa: E402
+from data.whole_file import write_whole  # noqa: E402
 
 
 @dataclass

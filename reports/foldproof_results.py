@@ -15,9 +15,9 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from hdf5_values import Column
-from results import CaseEntry, Claim, Finding, OnAxes, Study, StudyMap, load_case, load_run
-from unreadable import Unreadable
+from data.hdf5_values import Column
+from data.results import CaseEntry, Claim, Finding, OnAxes, Study, StudyMap, load_case, load_run
+from data.unreadable import Unreadable
 
 __all__ = ["Results", "Trajectory", "Unreadable", "columns_of_study", "evidence_of", "load_results", "load_trajectory"]
 

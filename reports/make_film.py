@@ -20,16 +20,16 @@ sys.dont_write_bytecode = True
 import numpy as np  # noqa: E402
 from PIL import Image, ImageDraw, ImageFont  # noqa: E402
 
-from case_fields import Field, fields_of  # noqa: E402
-from case_pictures import length_text, nice_length, shown_frames  # noqa: E402
-from case_scene import CaseScene, slowed  # noqa: E402
-from cloth_picture import picture_of  # noqa: E402
-from look import colour_stops  # noqa: E402
-from plot_style import font_path, with_unit  # noqa: E402
-from quantities import number_text  # noqa: E402
-from results import Case, load_case  # noqa: E402
-from unreadable import Unreadable, told  # noqa: E402
-from view_data import field_ticks, frames_to_turn  # noqa: E402
+from data.quantities import number_text  # noqa: E402
+from data.results import Case, load_case  # noqa: E402
+from data.unreadable import Unreadable, told  # noqa: E402
+from pictures.case_fields import Field, fields_of  # noqa: E402
+from pictures.case_pictures import length_text, nice_length, shown_frames  # noqa: E402
+from pictures.case_scene import CaseScene, slowed  # noqa: E402
+from pictures.cloth_picture import picture_of  # noqa: E402
+from pictures.look import colour_stops  # noqa: E402
+from plots.plot_style import font_path, with_unit  # noqa: E402
+from viewer.view_data import field_ticks, frames_to_turn  # noqa: E402
 
 FIELDS = ("strain", "angle", "phi", "speed")
 STILL = 0.6                         # seconds that the last frame stays

@@ -22,26 +22,26 @@ from typing import Any
 
 sys.dont_write_bytecode = True
 
-from angle_spectrum import plot_angle_spectrum  # noqa: E402
-from chromium import NoBrowser, find_browser  # noqa: E402
-from case_pictures import make_pictures  # noqa: E402
-from case_plots import plot_diagnostics  # noqa: E402
-from compare import compare, read_side  # noqa: E402
-from contact_maps import plot_contacts  # noqa: E402
-from field_pictures import make_field_view  # noqa: E402
-from hard_cases import findings_by_case  # noqa: E402
-from kill_matrix import load_mutation  # noqa: E402
-from ledger import claim_views  # noqa: E402
-from map_plots import plot_study_map  # noqa: E402
-from needs import load_needs  # noqa: E402
-from page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison  # noqa: E402
-from plot_style import use_style  # noqa: E402
-from printed import print_page  # noqa: E402
-from results import Case, CaseEntry, Run, Study, case_entry_of_file, load_case, load_run  # noqa: E402
-from study_plots import plot_study_figure  # noqa: E402
-from trust import load_coverage, load_variants, tolerances_of, unended_run  # noqa: E402
-from unreadable import Unreadable, told  # noqa: E402
-from whole_file import write_whole  # noqa: E402
+from data.results import Case, CaseEntry, Run, Study, case_entry_of_file, load_case, load_run  # noqa: E402
+from data.unreadable import Unreadable, told  # noqa: E402
+from data.whole_file import write_whole  # noqa: E402
+from pages.chromium import NoBrowser, find_browser  # noqa: E402
+from pages.compare import compare, read_side  # noqa: E402
+from pages.hard_cases import findings_by_case  # noqa: E402
+from pages.kill_matrix import load_mutation  # noqa: E402
+from pages.ledger import claim_views  # noqa: E402
+from pages.needs import load_needs  # noqa: E402
+from pages.page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison  # noqa: E402
+from pages.printed import print_page  # noqa: E402
+from pages.trust import load_coverage, load_variants, tolerances_of, unended_run  # noqa: E402
+from pictures.case_pictures import make_pictures  # noqa: E402
+from plots.angle_spectrum import plot_angle_spectrum  # noqa: E402
+from plots.case_plots import plot_diagnostics  # noqa: E402
+from plots.contact_maps import plot_contacts  # noqa: E402
+from plots.map_plots import plot_study_map  # noqa: E402
+from plots.plot_style import use_style  # noqa: E402
+from plots.study_plots import plot_study_figure  # noqa: E402
+from viewer.field_pictures import make_field_view  # noqa: E402
 
 SHIPPED_CASES = Path(__file__).resolve().parent.parent / "cases"
 VIEWS = 4_000_000                   # characters that the data of all views of a page may take, shared equally

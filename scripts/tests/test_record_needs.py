@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-NEEDED = ("scripts/record_needs", "reports/case_digest.py", "reports/unreadable.py", "reports/whole_file.py")
+NEEDED = ("scripts/record_needs", "reports/data/case_digest.py", "reports/data/unreadable.py",
+          "reports/data/whole_file.py")
 
 
 class Recorded(unittest.TestCase):
@@ -23,7 +24,7 @@ class Recorded(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
         for name in NEEDED:
-            (self.root / name).parent.mkdir(exist_ok=True)
+            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.root / name)
         (self.root / "cases").mkdir()
         for case in ("fold", "bag"):

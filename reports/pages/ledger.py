@@ -1,0 +1,61 @@
+"""The ledger of claims as the page shows it: sorted by section. Rulings are the program's."""
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from data.results import Claim, Finding
+
+RULINGS = ("confirmed", "confirmed under a condition", "refuted", "undecided")
+
+
+@dataclass
+class Deciding:
+    """A finding that decides a claim; None where the run has no finding of this name."""
+    name: str
+    role: str          # "supports" | "limits" | "contradicts"
+    finding: Finding | None
+
+
+@dataclass
+class ClaimView:
+    """One row of the ledger."""
+    claim: Claim
+    deciding: list[Deciding]
+
+    @property
+    def as_recorded(self) -> bool:
+        """False if another ruling was expected."""
+        return not self.claim.recorded or self.claim.recorded == self.claim.ruling
+
+
+def claim_views(claims: Iterable[Claim], findings: Iterable[Finding]) -> list[ClaimView]:
+    """All rows of the ledger."""
+    known = {finding.name: finding for finding in findings}
+    return [_view(claim, known) for claim in claims]
+
+
+def ruling_counts(views: Iterable[ClaimView]) -> list[tuple[str, int]]:
+    """How many claims have each ruling; only those that occur."""
+    return counted_rulings(view.claim for view in views)
+
+
+def counted_rulings(claims: Iterable[Claim]) -> list[tuple[str, int]]:
+    """The same of claims themselves."""
+    counted = Counter(claim.ruling for claim in claims)
+    others = sorted(set(counted) - set(RULINGS))
+    return [(ruling, counted[ruling]) for ruling in (*RULINGS, *others) if counted[ruling]]
+
+
+def by_section(views: Iterable[ClaimView]) -> list[tuple[str, list[ClaimView]]]:
+    """Rows by the section of the paper, in the order of their first row."""
+    grouped: dict[str, list[ClaimView]] = {}
+    for view in views:
+        grouped.setdefault(view.claim.section, []).append(view)
+    return list(grouped.items())
+
+
+def _view(claim: Claim, known: dict[str, Finding]) -> ClaimView:
+    deciding = [Deciding(name, role, known.get(name)) for name, role in claim.decided_by]
+    return ClaimView(claim, deciding)

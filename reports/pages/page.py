@@ -1,0 +1,287 @@
+"""Puts what was read and drawn into the page. Groups, counts and sorts for display; decides nothing."""
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from math import isnan, log10
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from data import quantities
+from data.results import Case, CaseEntry, Column, Fault, Finding, Run, Study
+from pages import ledger
+from pages.answers import cheapest_of
+from pages.compare import Comparison
+from pages.figure_words import figure_keys, figure_notes, order_table
+from pages.hard_cases import STUDIES as HARD_STUDIES, CaseFindings, is_of_case
+from pages.kill_matrix import Mutation, kill_tables
+from pages.ledger import ClaimView
+from pages.needs import Needs
+from pages.trust import Coverage, Tolerances, Variants
+from pictures.case_pictures import PictureRow, length_text
+from plots.map_plots import map_notes
+from plots.plot_style import Plot
+from viewer.field_pictures import FieldView
+
+REPORTS = Path(__file__).resolve().parents[1]
+TEMPLATES = (REPORTS / "pages", REPORTS / "viewer")
+OUTCOMES = ("holds", "fails", "inconclusive", "not applicable")
+WHOLE_TABLE, WHOLE_STUDY_TABLE = 12, 60   # rows; longer tables show FIRST_ROWS and LAST_ROWS
+FIRST_ROWS, LAST_ROWS = 7, 3
+FIRST_STUDIES = ("work-precision", "stability-oscillator", "stability-sheet", "variable-step-stability")
+MOST_OPEN = 5                       # findings that do not plainly hold, on the first screen
+STYLES = ("pages/style.css", "viewer/view.css", "pages/opening.css", "pages/print.css")
+MARGIN_DECADES = (-4.0, 1.0)        # log10(measured / bound) at the ends of the margin bar
+
+
+@dataclass
+class CaseView:
+    """A case with its pictures and plots; `problem` says why there are none."""
+    entry: CaseEntry
+    anchor: str
+    case: Case | None = None
+    row: PictureRow | None = None
+    turning: FieldView | None = None
+    plots: list[tuple[str, Plot]] = field(default_factory=list)
+    problem: str = ""
+    foreign: str = ""               # why the file is not the one that the run wrote
+
+
+@dataclass
+class StudyView:
+    """A study with its plots, in the order of its figures and of its maps, and its findings."""
+    study: Study
+    anchor: str
+    plots: list[Plot]
+    maps: list[Plot]
+    findings: list[Finding]
+
+
+@dataclass
+class Page:
+    """All that the template shows."""
+    provenance: dict[str, Any]
+    claims: list[ClaimView]
+    checks: list[Finding]
+    studies: list[StudyView]
+    other_findings: list[Finding]   # of studies or kinds that have no section of their own
+    cases: list[CaseView]
+    rates: list[Finding]
+    bench_studies: list[StudyView]
+    bench_provenance: dict[str, Any]
+    faults: list[Fault]
+    tolerances: Tolerances
+    case_findings: list[CaseFindings] = field(default_factory=list)
+    hard_findings: list[CaseFindings] = field(default_factory=list)   # of cases/hard
+    coverage: Coverage | None = None
+    needs: Needs | None = None      # which of its parts each scene needs
+    variants: Variants | None = None
+    alone: bool = False             # simulations that no run of the verification made
+    unended: str = ""               # why this is not what was run last
+    mutation: Mutation | None = None   # what scripts/mutate found, where that lies beside the run
+
+    def first_studies(self) -> list[StudyView]:
+        """The studies that help to choose an integrator, in the order of FIRST_STUDIES."""
+        wanted = [view for view in self.studies if view.study.name in FIRST_STUDIES]
+        return sorted(wanted, key=lambda view: FIRST_STUDIES.index(view.study.name))
+
+    def hard_studies(self) -> list[StudyView]:
+        """The studies that stand with the hard cases."""
+        return [view for view in self.studies if view.study.name in HARD_STUDIES]
+
+    def other_studies(self) -> list[StudyView]:
+        """All other studies, as the run lists them."""
+        return [view for view in self.studies if view.study.name not in FIRST_STUDIES + HARD_STUDIES]
+
+    def all_findings(self) -> list[Finding]:
+        """All that the page shows, once each."""
+        of_studies = [finding for view in self.studies + self.bench_studies for finding in view.findings]
+        of_cases = [finding for case in self.case_findings + self.hard_findings for finding in case.findings]
+        return self.checks + of_studies + self.other_findings + of_cases + self.rates
+
+
+def render(page: Page) -> str:
+    """The whole report as one HTML text."""
+    environment = new_environment()
+    environment.globals.update(
+        keys=figure_keys, notes=figure_notes, map_notes=map_notes, orders=order_table, table=shown_rows, groups=group_by_prefix,
+        margin=margin_percent, plain=all_hold, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE,
+        most_open=MOST_OPEN, viewer=Markup(_viewer()), rulings=ledger.ruling_counts, sections=ledger.by_section,
+        cheapest=cheapest_of(view.study for view in page.studies),
+        known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
+        by_file=faults_by_file, fault_outcomes=fault_outcomes, kill_tables=kill_tables(page.faults),
+        known_findings={finding.name for finding in page.all_findings()}, commands=commands_of(page),
+        of_case={finding.name: case for case in page.case_findings + page.hard_findings
+                 for finding in case.findings}.get)
+    return environment.get_template("page.html.j2").render(page=page, said=page.provenance)
+
+
+def commands_of(page: Page) -> dict[str, str]:
+    """What repeats findings of simulations that no run of the verification made: the command that made each."""
+    if not page.alone:
+        return {}
+    made_by = {view.entry.name: str(view.case.about_run.get("command", "")) for view in page.cases if view.case}
+    return {finding.name: made_by[group.name] for group in page.case_findings + page.hard_findings
+            for finding in group.findings if made_by.get(group.name)}
+
+
+def render_comparison(comparison: Comparison) -> str:
+    """The page of two runs as one HTML text."""
+    environment = new_environment()
+    environment.globals.update(rulings=ledger.counted_rulings)
+    return environment.get_template("compare.html.j2").render(said=comparison)
+
+
+def new_environment() -> Environment:
+    """What all templates share."""
+    environment = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined,
+                              trim_blocks=True, lstrip_blocks=True)
+    environment.filters.update(number=quantities.number_html, known=quantities.known_html, unit=quantities.unit_text,
+                               seconds=quantities.seconds_html, bar_length=length_text)
+    environment.globals.update(
+        quantity=quantities.quantity_html, ratio=quantities.ratio_of, isnan=isnan, anchor=Anchors().of,
+        outcome_class=outcome_class, counts=count_outcomes, style=Markup(_text_of(*STYLES)), script=Markup(_text_of("pages/filter.js")))
+    return environment
+
+
+class Anchors:
+    """Permanent ids: a name is its own anchor where HTML allows; the same name gets the same anchor each
+    time."""
+
+    def __init__(self) -> None:
+        self._taken: dict[str, str] = {}
+
+    def of(self, name: str) -> str:
+        """The anchor of a name."""
+        wanted = re.sub(r"[^\w.\-]+", "-", name).strip("-") or "unnamed"
+        while self._taken.setdefault(wanted, name) != name:
+            wanted += "-2"
+        return wanted
+
+
+class CaughtCount:
+    """How many of a finding's seeded faults were caught; None where the run's folder has no outcomes."""
+
+    def __init__(self, faults: list[Fault]) -> None:
+        self._caught = {fault.name for fault in faults if fault.outcome == "caught"}
+        self.known = any(fault.outcome in ("caught", "SURVIVED") for fault in faults)
+
+    def of(self, finding: Finding) -> int:
+        """How many of the faults that name this finding were caught."""
+        return sum(name in self._caught for name in finding.faults)
+
+
+def faults_by_file(faults: Iterable[Fault]) -> list[tuple[str, list[Fault]]]:
+    """Faults by the file that they edit, files in the order of their first fault."""
+    grouped: dict[str, list[Fault]] = {}
+    for fault in faults:
+        grouped.setdefault(fault.file, []).append(fault)
+    return list(grouped.items())
+
+
+def fault_outcomes(faults: list[Fault]) -> list[tuple[str, int]]:
+    """How many faults have each outcome; all together where none is known."""
+    if not CaughtCount(faults).known:
+        return [("faults" if len(faults) != 1 else "fault", len(faults))]
+    return list(Counter(fault.outcome or "not run" for fault in faults).items())
+
+
+def outcome_class(outcome: str) -> str:
+    """The CSS class of an outcome."""
+    return re.sub(r"[^a-z]+", "-", outcome.lower()).strip("-") or "unknown"
+
+
+def count_outcomes(findings: Iterable[Finding]) -> list[tuple[str, int]]:
+    """How many findings have each outcome; the four usual ones always, others where they occur."""
+    counted = Counter(finding.outcome for finding in findings)
+    others = sorted(set(counted) - set(OUTCOMES))
+    return [(outcome, counted[outcome]) for outcome in (*OUTCOMES, *others)]
+
+
+def all_hold(findings: Iterable[Finding]) -> bool:
+    """Whether nothing asks to be looked at: every finding holds or does not apply."""
+    return all(finding.outcome in ("holds", "not applicable") for finding in findings)
+
+
+def group_by_prefix(findings: Iterable[Finding]) -> list[tuple[str, list[Finding]]]:
+    """Findings by the part of their name before the first dot, groups in the order of their first member."""
+    grouped: dict[str, list[Finding]] = {}
+    for finding in findings:
+        grouped.setdefault(finding.name.split(".")[0], []).append(finding)
+    return list(grouped.items())
+
+
+def margin_percent(finding: Finding) -> float | None:
+    """Length of the margin bar in percent, on a logarithmic scale; None where measured/bound says nothing."""
+    ratio = quantities.ratio_of(finding.measured, finding.bound)
+    if isnan(ratio):
+        return None
+    low, high = MARGIN_DECADES
+    return 100.0 * min(max((log10(max(ratio, 1e-300)) - low) / (high - low), 0.0), 1.0)
+
+
+@dataclass
+class ShownTable:
+    """A table ready to be set: heads with units, the rows shown first and last, and how many lie between."""
+    heads: list[tuple[str, str, bool]]   # name, unit, whether it holds numbers
+    first: list[tuple[Markup, ...]]
+    left_out: int
+    last: list[tuple[Markup, ...]]
+
+
+def shown_rows(columns: list[Column], most: int = WHOLE_TABLE) -> ShownTable:
+    """What is shown of a table, all of it up to `most` rows; vectors are set as one column for each component."""
+    flat = [part for column in columns for part in _components(column)]
+    count = max((len(column.values) for column in flat), default=0)
+    whole = count <= most
+    kept = [*range(count)] if whole else [*range(FIRST_ROWS), *range(count - LAST_ROWS, count)]
+    cells = [quantities.cells_html(column.values[row] if row < len(column.values) else "" for row in kept)
+             for column in flat]
+    rows = list(zip(*cells))
+    cut = len(rows) if whole else FIRST_ROWS
+    heads = [(column.name.replace("_", " "), column.unit, column.values.dtype.kind == "f") for column in flat]
+    return ShownTable(heads, rows[:cut], count - len(rows), rows[cut:])
+
+
+def _components(column: Column) -> list[Column]:
+    if column.values.ndim == 1:
+        return [column]
+    flat = column.values.reshape(len(column.values), -1)
+    names = "xyz" if flat.shape[1] == 3 else [str(k + 1) for k in range(flat.shape[1])]
+    return [Column(f"{column.name} {name}", column.unit, flat[:, k]) for k, name in enumerate(names)]
+
+
+def findings_by_section(run: Run, bench: Run | None) -> tuple[list[Finding], list[Finding], list[Finding]]:
+    """Checks but those of cases; findings that no section of a study shows; rates of work."""
+    known = {study.name for study in run.studies + (bench.studies if bench else [])}
+    findings = run.findings + (bench.findings if bench else [])
+    checks = [finding for finding in findings if finding.kind == "check" and not is_of_case(finding)]
+    rates = [finding for finding in findings if finding.kind == "bench"]
+    others = [finding for finding in findings if finding.kind not in ("check", "bench")
+              and finding.study not in known]
+    return checks, others, rates
+
+
+def faults_of(run: Run) -> list[Fault]:
+    """The seeded faults of the run; where it lists none, the names that its findings mention."""
+    if run.faults:
+        return run.faults
+    mentioned: dict[str, list[str]] = {}
+    for finding in run.findings:
+        for fault in finding.faults:
+            mentioned.setdefault(fault, []).append(finding.name)
+    return [Fault(name, "", "", "", "", caught_by, "not run") for name, caught_by in mentioned.items()]
+
+
+def _text_of(*names: str) -> str:
+    return "".join((REPORTS / name).read_text(encoding="utf-8") for name in names)
+
+
+def _viewer() -> str:
+    """The program of the views, with names of its own."""
+    return '"use strict";\n{\n' + _text_of("viewer/viewer_data.js", "viewer/viewer_gl.js", "viewer/viewer.js") + "}\n"

@@ -1,0 +1,149 @@
+"""How far to trust the run: margins of all bounds, lines that the run reaches. Sorts and counts; decides nothing."""
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+
+from data.results import Finding
+from data.unreadable import reading
+
+TIGHTEST = 10     # findings shown unasked
+
+
+@dataclass
+class Tolerance:
+    """A bound and how much of it is used up: (measured + uncertainty) / bound."""
+    finding: Finding
+    used: float
+
+
+@dataclass
+class Tolerances:
+    """Findings by the part of their bound that is used, the tightest first; and those whose bound is zero."""
+    ranked: list[Tolerance]
+    exact: list[Finding]       # bound zero: nothing may differ, so there is no margin
+    one_sided: list[Finding]   # below a bound of zero or less: the share of it that is used says nothing
+
+    def tightest(self) -> list[Tolerance]:
+        """Those that stand nearest to their bound, fulfilled or not."""
+        return self.ranked[:TIGHTEST]
+
+    def below(self, part: float) -> int:
+        """How many use less than this part of their bound."""
+        return sum(entry.used < part for entry in self.ranked)
+
+
+@dataclass
+class CoveredFile:
+    """One source file of the method: lines and branches, and which lines never ran."""
+    name: str
+    lines: int
+    lines_reached: int
+    branches: int
+    branches_taken: int
+    missed: str
+
+
+@dataclass
+class Coverage:
+    """What scripts/coverage counted."""
+    commit: str
+    ran: str
+    least: float               # percent of lines
+    total: CoveredFile
+    files: list[CoveredFile]   # the least covered first
+
+
+@dataclass
+class VariantRun:
+    """One correct variant of the program, and how many of its findings did not hold."""
+    variant: str               # "clang", "fma", "seeds", ...
+    asked: str                 # what was asked of it
+    findings: int
+    alarms: list[str]          # names of those that did not hold
+
+
+@dataclass
+class Variants:
+    """What scripts/variants found."""
+    commit: str
+    runs: list[VariantRun]
+
+    def findings(self) -> int:
+        return sum(run.findings for run in self.runs)
+
+    def alarms(self) -> int:
+        return sum(len(run.alarms) for run in self.runs)
+
+
+def tolerances_of(findings: Iterable[Finding]) -> Tolerances:
+    """All findings that were judged against a bound."""
+    judged = [finding for finding in findings if finding.outcome in ("holds", "fails", "inconclusive")]
+    ranked = [Tolerance(finding, used) for finding in judged if isfinite(used := used_of(finding))]
+    ranked.sort(key=lambda entry: -entry.used)
+    others = [finding for finding in judged if finding.bound <= 0]
+    return Tolerances(ranked, [finding for finding in others if finding.bound == 0 and not finding.measured < 0],
+                      [finding for finding in others if finding.bound < 0 or finding.measured < 0])
+
+
+def used_of(finding: Finding) -> float:
+    """The part of the bound that is used; NaN where that says nothing."""
+    if not finding.bound > 0:
+        return float("nan")
+    return (finding.measured + finding.uncertainty) / finding.bound
+
+
+def load_coverage(file: Path) -> Coverage | None:
+    """The counts of `scripts/coverage --out DIR/coverage.json`; None if there are none. Throws Unreadable
+    for another file."""
+    if not file.is_file():
+        return None
+    with reading(file):
+        told = json.loads(file.read_text(encoding="utf-8"))
+        files = [_covered(row["file"], row, _ranges(row["lines_missed"])) for row in told["files"] if row["lines"]]
+        files.sort(key=lambda row: row.lines_reached / max(row.lines, 1))
+        return Coverage(told["commit"], told["ran"], told["least"], _covered("all", told["total"], ""), files)
+
+
+def load_variants(file: Path) -> Variants | None:
+    """The outcomes of `scripts/variants --out DIR/variants.json`; None if there are none. Throws Unreadable
+    for another file."""
+    if not file.is_file():
+        return None
+    with reading(file):
+        told = json.loads(file.read_text(encoding="utf-8"))
+        runs = [VariantRun(row["variant"], " ".join(row["options"]), row["findings"],
+                           [alarm["name"] for alarm in row["false_alarms"]]) for row in told["runs"]]
+        return Variants(told.get("commit", "not recorded"), runs)
+
+
+def unended_run(file: Path) -> str:
+    """What to say if the last run into this folder did not come to its end; "" if it did, or if there is no file.
+    Throws Unreadable for another file."""
+    if not file.is_file():
+        return ""
+    with reading(file):
+        told = json.loads(file.read_text(encoding="utf-8"))
+        waiting, begun = sum(finding["outcome"] == "did not run" for finding in told["findings"]), told["program"]["date"]
+    if not waiting:
+        return ""
+    return (f"The last run into this folder, begun {begun}, did not come to its end: {waiting} checks, studies "
+            "and cases of it have no result. What is shown here is older.")
+
+
+def _covered(name: str, row: dict, missed: str) -> CoveredFile:
+    return CoveredFile(name, row["lines"], row["lines_reached"], row["branches"], row["branches_taken"], missed)
+
+
+def _ranges(numbers: list[int]) -> str:
+    """1, 2, 3, 7 as "1–3, 7"."""
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][1] + 1:
+            runs[-1][1] = number
+        else:
+            runs.append([number, number])
+    return ", ".join(str(first) if first == last else f"{first}–{last}" for first, last in runs)

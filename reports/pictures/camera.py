@@ -1,0 +1,115 @@
+"""One camera for all the pictures of a case, chosen from the positions alone (up is +y).
+
+The projection is orthographic: a scale bar then holds for every length across the view, and pictures of a
+row compare.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import cos, radians, sin
+
+import numpy as np
+
+from data.cloth_values import area_normals
+
+MARGIN = 0.05              # of the picture's size, on each side
+LARGEST_WIDTH = 600        # pixels of a finished picture
+LARGEST_HEIGHT = 880       # pixels
+RUNAWAY = 30.0             # a frame larger than this many times the first does not set the scale
+AZIMUTHS = range(-90, 90, 15)  # degrees, about +y from +z
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Orthographic: `right`, `up`, `toward` (the viewer) are orthonormal; `corner` is the lower left of the
+    picture."""
+    right: np.ndarray
+    up: np.ndarray
+    toward: np.ndarray
+    corner: tuple[float, float]    # along right and up [m]
+    metres: tuple[float, float]    # width and height of the picture [m]
+    pixels_per_metre: float
+
+    @property
+    def pixels(self) -> tuple[int, int]:
+        """Width and height of the finished picture."""
+        return (max(8, round(self.metres[0] * self.pixels_per_metre)),
+                max(8, round(self.metres[1] * self.pixels_per_metre)))
+
+    def scaled_to(self, width: int, height: int) -> Camera:
+        """The same view for a picture of at most so many pixels."""
+        return replace(self, pixels_per_metre=min(width / self.metres[0], height / self.metres[1]))
+
+    def project(self, x: np.ndarray, supersampling: int) -> tuple[np.ndarray, np.ndarray]:
+        """Pixel coordinates (N x 2, y downwards) and nearness to the viewer (N) [m] of points x (N x 3)
+        [m]."""
+        scale = self.pixels_per_metre * supersampling
+        across = (x @ self.right - self.corner[0]) * scale
+        down = (self.corner[1] + self.metres[1] - x @ self.up) * scale
+        return np.stack([across, down], axis=1), x @ self.toward
+
+
+def choose_camera(frames: list[np.ndarray], triangles: np.ndarray, landmarks: np.ndarray | None = None) -> Camera:
+    """A camera that holds all frames (each N x 3 [m]) and landmarks (M x 3 [m]), a little to the side of where
+    most of the cloth faces the viewer."""
+    frames = frames_that_set_the_scale(frames)
+    normals = np.concatenate([area_normals(x, triangles[:: max(1, len(triangles) // 4000)]) for x in frames])
+    normals = normals[np.isfinite(normals).all(axis=1)]
+    elevation = _elevation(normals)
+    azimuth = _azimuth(normals, elevation)
+    right, up, toward = _axes(azimuth, elevation)
+    points = frames if landmarks is None else [*frames, landmarks]
+    return fit_camera(np.concatenate(points), right, up, toward)
+
+
+def fit_camera(points: np.ndarray, right: np.ndarray, up: np.ndarray, toward: np.ndarray) -> Camera:
+    """The camera with these axes that just holds all points (N x 3 [m]), with a margin."""
+    across, upward = points @ right, points @ up
+    low = np.array([across.min(), upward.min()])
+    size = np.array([np.ptp(across), np.ptp(upward)])
+    least = max(0.12 * size.max(), 1e-9)
+    wanted = np.maximum(size, least) + 2 * MARGIN * max(size.max(), least)
+    corner = low - (wanted - size) / 2
+    scale = min(LARGEST_WIDTH / wanted[0], LARGEST_HEIGHT / wanted[1])
+    return Camera(right, up, toward, corner=(float(corner[0]), float(corner[1])),
+                  metres=(float(wanted[0]), float(wanted[1])), pixels_per_metre=float(scale))
+
+
+def frames_that_set_the_scale(frames: list[np.ndarray]) -> list[np.ndarray]:
+    """Those of the frames (each N x 3 [m]) whose particles are all finite and not far outside the first; if there are
+    none, the first with zeros for what is infinite."""
+    finite = [x[np.isfinite(x).all(axis=1)] if not np.isfinite(x).all() else x for x in frames]
+    size = np.ptp(finite[0], axis=0).max() if len(finite[0]) else 1.0
+    centre = finite[0].mean(axis=0) if len(finite[0]) else np.zeros(3)
+    kept = [x for x, whole in zip(finite, frames)
+            if len(x) == len(whole) and np.abs(x - centre).max() <= RUNAWAY * max(size, 1e-12)]
+    return kept or [np.nan_to_num(frames[0], posinf=0.0, neginf=0.0)]
+
+
+def _axes(azimuth: float, elevation: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    a, e = radians(azimuth), radians(elevation)
+    toward = np.array([sin(a) * cos(e), sin(e), cos(a) * cos(e)])
+    right = np.array([cos(a), 0.0, -sin(a)])
+    return right, np.cross(toward, right), toward
+
+
+def _elevation(normals: np.ndarray) -> float:
+    """Degrees; higher for cloth that mostly lies flat."""
+    total = np.linalg.norm(normals, axis=1).sum()
+    lying = np.abs(normals[:, 1]).sum() / total if total > 0 else 0.0
+    return 14.0 + 20.0 * float(np.clip((lying - 0.45) / 0.4, 0.0, 1.0))
+
+
+def _azimuth(normals: np.ndarray, elevation: float) -> float:
+    """Degrees: 28 to the side of the fullest view, on the side that shows more, and facing the cloth's
+    front."""
+    def shown(azimuth: float) -> float:
+        return float(np.abs(normals @ _axes(azimuth, elevation)[2]).sum())
+
+    seen = {azimuth: shown(azimuth) for azimuth in AZIMUTHS}
+    fullest = max(seen, key=lambda azimuth: seen[azimuth])
+    if not max(seen.values()) > 1.15 * min(seen.values()):
+        fullest = 0
+    azimuth = max((fullest + 28.0, fullest - 28.0), key=shown)
+    front = float((normals @ _axes(azimuth, elevation)[2]).sum())
+    return azimuth if front >= -1e-3 * shown(azimuth) else azimuth + 180.0

@@ -1,0 +1,76 @@
+"""Tests of numbers, labels, tables and maps by themselves; run with reports/tests/test_reports.py."""
+from __future__ import annotations
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from data.quantities import number_text, quantity_html, quantity_text, seconds_html, unit_text
+from data.results import Column, load_run
+from pages.page import margin_percent, shown_rows
+from plots.contact_maps import laid_flat
+from plots.map_plots import edges_of, map_notes
+from plots.study_plots import spread
+from tests.made_up_run import put_run
+
+
+class Pieces(unittest.TestCase):
+    """Numbers, labels and pictures by themselves."""
+
+    def test_numbers(self) -> None:
+        written = {1.234e-14: "1.23×10⁻¹⁴", -0.5: "−0.5", 12345.0: "12\u202f345", 0.0: "0", 0.10421: "0.104",
+                   float("nan"): "NaN", float("-inf"): "−∞", 1e-9: "1×10⁻⁹", 2.5e9: "2.5×10⁹"}
+        for value, text in written.items():
+            self.assertEqual(number_text(value), text)
+        self.assertEqual(unit_text("kg m^2/s"), "kg m²/s")
+        self.assertIn("<sup>−9</sup>", quantity_html(1e-9, "N"))
+        self.assertEqual((quantity_text(0.5, "m/s"), quantity_text(0.5, "1")), ("0.5 m/s", "0.5"))
+
+    def test_short_durations_are_not_zero(self) -> None:
+        for value in (0.0, 0.004):
+            self.assertIn("&lt;", seconds_html(value))
+        self.assertNotIn("&lt;", seconds_html(0.05))
+
+    def test_cells_of_a_map_lie_around_their_points(self) -> None:
+        self.assertTrue(np.allclose(edges_of(np.array([1.0, 2.0, 4.0]), "linear"), [0.5, 1.5, 3.0, 5.0]))
+        self.assertTrue(np.allclose(edges_of(np.array([1.0, 100.0]), "log"), [0.1, 10.0, 1000.0]))
+
+    def test_a_map_with_all_its_values_needs_no_note(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            put_run(Path(folder))
+            studies = load_run(Path(folder) / "run.h5").studies
+        study_map = next(study for study in studies if study.maps).maps[0]
+        self.assertEqual(len(map_notes(study_map)), 1)
+        study_map.values = np.abs(np.nan_to_num(study_map.values, nan=1.0))
+        self.assertEqual(map_notes(study_map), [])
+
+    def test_long_tables_say_what_they_leave_out(self) -> None:
+        shown = shown_rows([Column("step", "1", np.arange(1001.0))])
+        self.assertEqual(len(shown.first) + shown.left_out + len(shown.last), 1001)
+
+    def test_margin_bar_says_nothing_about_nan(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            put_run(Path(folder))
+            findings = load_run(Path(folder) / "run.h5").findings
+        self.assertIsNone(margin_percent(findings[1]))
+        self.assertAlmostEqual(margin_percent(findings[0]), 100 * (np.log10(3.2 / 44) + 4) / 5)
+
+    def test_labels_keep_their_order_and_distance(self) -> None:
+        placed = spread([0.5, 0.5, 0.51, 0.98], 0.1)
+        self.assertEqual(placed, sorted(placed))
+        self.assertGreater(min(np.diff(placed)), 0.099)
+
+
+class ContactMaps(unittest.TestCase):
+    def test_a_tube_is_unrolled_and_a_flat_sheet_keeps_its_shape(self) -> None:
+        angles, heights = np.meshgrid(np.linspace(-np.pi, np.pi, 25)[:-1], np.linspace(0.0, 0.5, 5))
+        tube = np.column_stack([0.2 * np.cos(angles.ravel()), heights.ravel(), 0.2 * np.sin(angles.ravel())])
+        flat = laid_flat(tube)
+        np.testing.assert_allclose(np.ptp(flat, axis=0), [0.2 * 2 * np.pi * 23 / 24, 0.5])
+        sheet = np.column_stack([angles.ravel(), heights.ravel(), np.full(angles.size, 0.3)])
+        np.testing.assert_array_equal(laid_flat(sheet), sheet[:, :2])
+
+    def test_a_shape_that_cannot_be_laid_flat_has_no_map(self) -> None:
+        self.assertIsNone(laid_flat(np.random.default_rng(5).normal(size=(50, 3))))
