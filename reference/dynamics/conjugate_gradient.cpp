@@ -14,13 +14,14 @@ double squared_norm(const Eigen::Ref<const PerParticle3>& r,
   return r.colwise().squaredNorm().dot(inverse_mass.transpose());
 }
 
-/// Runs pass(first, count) over N particles, a block after the other, so that each line of it finds in the
-/// cache what the line before it left there.
-template <class Pass>
-void in_blocks(Eigen::Index particles, const Pass& pass) {
-  constexpr Eigen::Index block = 512;  // of which a vector takes 12 kB
+/// The sum of part(first, count) over blocks of particles, block by block: a long sum rounds less so.
+template <class Part>
+double sum_of_blocks(Eigen::Index particles, const Part& part) {
+  constexpr Eigen::Index block = 512;
+  double sum = 0;
   for (Eigen::Index first = 0; first < particles; first += block)
-    pass(first, std::min(block, particles - first));
+    sum += part(first, std::min(block, particles - first));
+  return sum;
 }
 
 /// D p at free particles, 0 at prescribed ones.
@@ -66,11 +67,10 @@ Solve iterate(const Product& A, const PerParticle& inverse_mass, const SolverSet
     if (curvature <= 0) return {iterations, residual, false, true};
 
     const double alpha = rr / curvature, rr_before = rr;
-    rr = 0;
-    in_blocks(r.cols(), [&](Eigen::Index first, Eigen::Index count) {
-      v.middleCols(first, count) += alpha * p.middleCols(first, count);
-      r.middleCols(first, count) -= alpha * q.middleCols(first, count);
-      rr += squared_norm(r.middleCols(first, count), inverse_mass.segment(first, count));
+    v += alpha * p;
+    r -= alpha * q;
+    rr = sum_of_blocks(r.cols(), [&](Eigen::Index first, Eigen::Index count) {
+      return squared_norm(r.middleCols(first, count), inverse_mass.segment(first, count));
     });
     p = r * inverse_mass.asDiagonal() + (rr / rr_before) * p;
     residual = std::sqrt(rr) / scale;
@@ -90,15 +90,12 @@ Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle
     q.setZero();
     damping.add_product(p, q);
     ++work.damping_products;
-    double curvature = 0;
-    in_blocks(p.cols(), [&](Eigen::Index first, Eigen::Index count) {
-      auto rows = q.middleCols(first, count);
-      rows = p.middleCols(first, count) * mass.segment(first, count).asDiagonal() - s * rows;
-      for (Eigen::Index i = 0; i < count; ++i)
-        if (inverse_mass[first + i] == 0) rows.col(i).setZero();
-      curvature += p.middleCols(first, count).cwiseProduct(rows).sum();
+    q = p * mass.asDiagonal() - s * q;
+    for (Eigen::Index i = 0; i < q.cols(); ++i)
+      if (inverse_mass[i] == 0) q.col(i).setZero();
+    return sum_of_blocks(p.cols(), [&](Eigen::Index first, Eigen::Index count) {
+      return p.middleCols(first, count).cwiseProduct(q.middleCols(first, count)).sum();
     });
-    return curvature;
   };
 
   // the residual of the explicit guess: b - (M - s D) w0 = s D w0

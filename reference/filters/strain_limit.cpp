@@ -1,13 +1,12 @@
 #include "reference/filters/strain_limit.h"
 
 #include <algorithm>
-#include <barrier>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <thread>
 
 #include <Eigen/Geometry>
+
+#include "reference/fast/colour_threads.h"
 
 namespace foldproof {
 
@@ -74,7 +73,8 @@ class Sweeps {
   /// number: of the sweep, from 0.
   Seen sweep(int number) {
     if (limiter_.limits.order == SweepOrder::jacobi) return all_at_once();
-    if (limiter_.limits.order == SweepOrder::coloured) return by_colours();
+    const bool is_coloured = limiter_.limits.order == SweepOrder::coloured;
+    if (is_coloured && limiter_.limits.threads > 1) return on_threads();
     const bool backwards = limiter_.limits.order == SweepOrder::alternating && number % 2 == 1;
     Seen seen;
     if (backwards)
@@ -87,16 +87,8 @@ class Sweeps {
 
   /// The largest violation now, over the rest length [1].
   double left() const {
-    std::vector<double> worst(size_t(limiter_.limits.threads), 0);
-    on_threads([&](int thread) {
-      const auto [first, last] = part_of(0, int(limiter_.springs.size()), thread);
-      for (int i = first; i < last; ++i) {
-        const double violation = asked(limiter_.springs[size_t(i)]).violation;
-        keep_worst(worst[size_t(thread)], violation);
-      }
-    });
     double largest = 0;
-    for (const double part : worst) keep_worst(largest, part);
+    for (const LimitedSpring& spring : limiter_.springs) keep_worst(largest, asked(spring).violation);
     return largest;
   }
 
@@ -139,15 +131,12 @@ class Sweeps {
     if (enter(spring, needed, seen)) push(spring, needed.share);
   }
 
-  Seen by_colours() {
+  /// A coloured sweep on threads: same bits, since springs of a colour share no particle and are sorted by
+  /// colour.
+  Seen on_threads() {
     std::vector<Seen> seen(size_t(limiter_.limits.threads));
-    std::barrier colour_done(limiter_.limits.threads);
-    on_threads([&](int thread) {
-      for (size_t c = 0; c + 1 < limiter_.colours.size(); ++c) {
-        const auto [first, last] = part_of(limiter_.colours[c], limiter_.colours[c + 1], thread);
-        for (int i = first; i < last; ++i) correct(limiter_.springs[size_t(i)], seen[size_t(thread)]);
-        colour_done.arrive_and_wait();
-      }
+    run_colours_on_threads(limiter_.colours, limiter_.limits.threads, [&](int first, int last, int thread) {
+      for (int i = first; i < last; ++i) correct(limiter_.springs[size_t(i)], seen[size_t(thread)]);
     });
     Seen sum;
     for (const Seen& part : seen) sum.add(part);
@@ -175,18 +164,6 @@ class Sweeps {
       push(spring, share / std::max(meeting[size_t(spring.a)], meeting[size_t(spring.b)]));
     }
     return seen;
-  }
-
-  /// The part of [first, last) that falls to a thread.
-  std::pair<int, int> part_of(int first, int last, int thread) const {
-    const long count = last - first, threads = limiter_.limits.threads;
-    return {first + int(count * thread / threads), first + int(count * (thread + 1) / threads)};
-  }
-
-  void on_threads(const std::function<void(int)>& run) const {
-    std::vector<std::jthread> others;
-    for (int thread = 1; thread < limiter_.limits.threads; ++thread) others.emplace_back(run, thread);
-    run(0);
   }
 
   const StrainLimiter& limiter_;

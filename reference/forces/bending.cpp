@@ -16,43 +16,6 @@ constexpr double pi = 3.14159265358979323846;
 // eaten the normal.
 constexpr double smallest_height_squared = 1e-20;
 
-/// hinge_shape, compiled into the loops over hinges: as a call, its result would pass through memory.
-[[gnu::always_inline]] inline HingeShape shape_at(const Vector3& x1, const Vector3& x2, const Vector3& x3,
-                                                  const Vector3& x4) {
-  const Vector3 E = x4 - x3, to1 = x1 - x4, to2 = x2 - x4;
-  const Vector3 N1 = (x1 - x3).cross(to1), N2 = to2.cross(x2 - x3);
-  const double E_squared = E.squaredNorm(), N1_squared = N1.squaredNorm(), N2_squared = N2.squaredNorm();
-  const Eigen::Array2d length = Eigen::Array2d(N1_squared, N2_squared).sqrt(), per_length = 1 / length;
-  const double edge = std::sqrt(E_squared), per_edge_squared = 1 / E_squared;
-  const double per_length1 = per_length[0], per_length2 = per_length[1];
-
-  HingeShape shape;
-  shape.u1 = (edge * per_length1 * per_length1) * N1;
-  shape.u2 = (edge * per_length2 * per_length2) * N2;
-  shape.b1 = -to1.dot(E) * per_edge_squared;
-  shape.b2 = -to2.dot(E) * per_edge_squared;
-  shape.edge = edge;
-  shape.area_sum = length[0] + length[1];
-  const double smallest = smallest_height_squared * E_squared * E_squared;
-  shape.degenerate = !(N1_squared > smallest && N2_squared > smallest);
-
-  // sin(theta) = (n1 x n2).e^ is the height of x2 below the first triangle's plane over its distance from the
-  // edge. Folded less than a right angle, sin(theta/2) = sin(theta)/(2 cos(theta/2)): exactly 0 when flat, no
-  // digit lost beside it. Beyond, the printed sqrt((1 - n1.n2)/2), which is accurate just there.
-  const double cosine = N1.dot(N2) * (per_length1 * per_length2);
-  const double sine = N1.dot(x3 - x2) * (edge * per_length1 * per_length2);
-  shape.sin_half =
-      cosine >= 0 ? sine / std::sqrt(2 + 2 * cosine) : std::copysign(std::sqrt(0.5 - 0.5 * cosine), sine);
-  return shape;
-}
-
-[[gnu::always_inline]] inline HingeShape checked_shape_at(const BendingHinge& hinge, const PerParticle3& x) {
-  const auto [i1, i2, i3, i4] = hinge.particles;
-  const HingeShape shape = shape_at(x.col(i1), x.col(i2), x.col(i3), x.col(i4));
-  if (shape.degenerate) throw DegenerateElement("a triangle of a hinge has lost its area", {i1, i2, i3, i4});
-  return shape;
-}
-
 void add_forces(const std::array<int, 4>& particles, const HingeShape& shape, double magnitude,
                 PerParticle3& f) {
   const Vector3 f1 = magnitude * shape.u1, f2 = magnitude * shape.u2;
@@ -108,7 +71,31 @@ const BendingLaw& bending_law(std::string_view name) {
 }
 
 HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4) {
-  return shape_at(x1, x2, x3, x4);
+  const Vector3 E = x4 - x3, to1 = x1 - x4, to2 = x2 - x4;
+  const Vector3 N1 = (x1 - x3).cross(to1), N2 = to2.cross(x2 - x3);
+  const double E_squared = E.squaredNorm(), N1_squared = N1.squaredNorm(), N2_squared = N2.squaredNorm();
+  const Eigen::Array2d length = Eigen::Array2d(N1_squared, N2_squared).sqrt(), per_length = 1 / length;
+  const double edge = std::sqrt(E_squared), per_edge_squared = 1 / E_squared;
+  const double per_length1 = per_length[0], per_length2 = per_length[1];
+
+  HingeShape shape;
+  shape.u1 = (edge * per_length1 * per_length1) * N1;
+  shape.u2 = (edge * per_length2 * per_length2) * N2;
+  shape.b1 = -to1.dot(E) * per_edge_squared;
+  shape.b2 = -to2.dot(E) * per_edge_squared;
+  shape.edge = edge;
+  shape.area_sum = length[0] + length[1];
+  const double smallest = smallest_height_squared * E_squared * E_squared;
+  shape.degenerate = !(N1_squared > smallest && N2_squared > smallest);
+
+  // sin(theta) = (n1 x n2).e^ is the height of x2 below the first triangle's plane over its distance from the
+  // edge. Folded less than a right angle, sin(theta/2) = sin(theta)/(2 cos(theta/2)): exactly 0 when flat, no
+  // digit lost beside it. Beyond, the printed sqrt((1 - n1.n2)/2), which is accurate just there.
+  const double cosine = N1.dot(N2) * (per_length1 * per_length2);
+  const double sine = N1.dot(x3 - x2) * (edge * per_length1 * per_length2);
+  shape.sin_half =
+      cosine >= 0 ? sine / std::sqrt(2 + 2 * cosine) : std::copysign(std::sqrt(0.5 - 0.5 * cosine), sine);
+  return shape;
 }
 
 double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4) {
@@ -117,7 +104,10 @@ double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, cons
 }
 
 HingeShape checked_shape_of(const BendingHinge& hinge, const PerParticle3& x) {
-  return checked_shape_at(hinge, x);
+  const auto [i1, i2, i3, i4] = hinge.particles;
+  const HingeShape shape = hinge_shape(x.col(i1), x.col(i2), x.col(i3), x.col(i4));
+  if (shape.degenerate) throw DegenerateElement("a triangle of a hinge has lost its area", {i1, i2, i3, i4});
+  return shape;
 }
 
 double angle_of(const BendingHinge& hinge, const PerParticle3& x) {
@@ -138,11 +128,12 @@ Eigen::Matrix<double, 3, 4> bending_mode(const HingeShape& shape) {
   return u;
 }
 
-void Bending::add_elastic(const State& s, PerParticle3& f) const {
+// Flattened, here and below: the loop holds hinge_shape itself, whose result would else pass through memory.
+[[gnu::flatten]] void Bending::add_elastic(const State& s, PerParticle3& f) const {
   const BendingLaw& law = bending_law(material.law);
   const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
   for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_shape_at(hinge, s.x);
+    const HingeShape shape = checked_shape_of(hinge, s.x);
     const double magnitude = is_sine ? shape.sin_half - hinge.sin_half_rest
                                      : law.magnitude(angle_of(hinge, s.x), hinge.rest_angle);
     add_forces(hinge.particles, shape,
@@ -154,18 +145,18 @@ double Bending::energy(const State& s) const {
   const BendingLaw& law = bending_law(material.law);
   double sum = 0;
   for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_shape_at(hinge, s.x);
+    const HingeShape shape = checked_shape_of(hinge, s.x);
     sum +=
         weight_of(hinge, shape, material.weighting) * law.potential(angle_of(hinge, s.x), hinge.rest_angle);
   }
   return material.stiffness * sum;
 }
 
-void Bending::prepare_damping(const State& s, DampingOperator& damping) const {
+[[gnu::flatten]] void Bending::prepare_damping(const State& s, DampingOperator& damping) const {
   if (material.damping == 0) return;
   damping.hinges.reserve(damping.hinges.size() + hinges.size());
   for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_shape_at(hinge, s.x);
+    const HingeShape shape = checked_shape_of(hinge, s.x);
     const double factor = material.damping_factor == DampingFactor::edge
                               ? shape.edge
                               : shape.edge * shape.edge / shape.area_sum;
@@ -203,14 +194,14 @@ Eigen::Vector4d mode_gradient_rows(const HingeShape& shape, const std::array<int
 
 }  // namespace
 
-void Bending::add_stiffness_bound(const State& s, PerParticle& rows) const {
+[[gnu::flatten]] void Bending::add_stiffness_bound(const State& s, PerParticle& rows) const {
   // One hinge's stiffness matrix is ke c (magnitude' u u^T - magnitude grad u). A row of the first sums to
   // |u_i| sum |u_j|; the second counts where a hinge is far from its rest angle. With current weighting the
   // change of c itself is left out.
   const BendingLaw& law = bending_law(material.law);
   const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
   for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_shape_at(hinge, s.x);
+    const HingeShape shape = checked_shape_of(hinge, s.x);
     const double weight = material.stiffness * weight_of(hinge, shape, material.weighting);
     const double theta = is_sine ? 0 : angle_of(hinge, s.x);
     const double slope = is_sine ? 0.5 * std::sqrt(std::max(0.0, 1 - shape.sin_half * shape.sin_half))
@@ -249,7 +240,7 @@ Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material,
     const double theta0 = rest_angles[h];
     if (!(std::abs(theta0) <= pi)) throw InputError("bending: rest angles must lie in [-pi, pi] rad");
     BendingHinge hinge{mesh.hinges[h].particles, 0, theta0, std::sin(theta0 / 2)};
-    const HingeShape shape = checked_shape_at(hinge, mesh.rest);
+    const HingeShape shape = checked_shape_of(hinge, mesh.rest);
     hinge.rest_weight = shape.edge * shape.edge / shape.area_sum;
     bending.hinges.push_back(hinge);
   }
