@@ -10,7 +10,7 @@
 namespace foldproof {
 
 /// Do two triangles have a point in common beyond the vertices and the edge that they share by number?
-/// Touching counts, and so does lying in one plane and overlapping. Exact, see exact_sign.h. Both must have
+/// Touching counts, and so does lying in one plane and overlapping. Exact, see mesh/exact_sign.h. Both must have
 /// area and differ in a vertex.
 bool intersect(const PerParticle3& x, const Triangle& s, const Triangle& t);
 

@@ -16,7 +16,7 @@ namespace foldproof {
 /// A mesh made ready for queries. The sign is that of (p - nearest point) . n with n the normal of the nearest
 /// feature: the face's, the sum of both faces' at an edge, the sum weighted by the angles of the corners at a
 /// vertex (Baerentzen and Aanaes 2005). On a closed, consistently oriented surface without self-intersections
-/// that sign is right everywhere; on others it is not, see closed_mesh.h.
+/// that sign is right everywhere; on others it is not, see bodies/closed_mesh.h.
 ///
 /// Accuracy: |phi| to a few roundings of |p| and of the mesh's extent. Closer than that the sign is open.
 struct MeshDistance {
