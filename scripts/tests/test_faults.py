@@ -5,23 +5,11 @@ from __future__ import annotations
 import sys
 import tempfile
 import unittest
-from importlib.machinery import SourceFileLoader
-from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
-from types import ModuleType
 
-ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "scripts"))
 
-
-def script(name: str) -> ModuleType:
-    """A script of scripts/ as a module; they have no ending."""
-    spec = spec_from_loader(name, SourceFileLoader(name, str(ROOT / "scripts" / name)))
-    assert spec is not None and spec.loader is not None
-    module = module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+from script_module import ROOT, script  # noqa: E402
 
 
 FAULTS = script("faults")

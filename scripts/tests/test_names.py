@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Names that one file gives to what stands in another: every name in faults, claims, needs and equivalent mutants exists.
 
-Runs in seconds, before anything is compiled or simulated for it: scripts/tests/test_names.py [--program FILE]
+Runs in seconds; nothing is compiled or simulated for it.
 Findings of studies are known here by their study; that the study makes them is asked where studies run (`foldproof
 study`, `foldproof verify`).
 """
@@ -13,26 +13,13 @@ import subprocess
 import sys
 import tomllib
 import unittest
-from importlib.machinery import SourceFileLoader
-from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
-from types import ModuleType
 
-ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "scripts"))
+
+from script_module import ROOT, script  # noqa: E402
 from edits import applied, changes_of  # noqa: E402
-from mutants import PROGRAM, TESTS, Unusable  # noqa: E402
-
-
-def script(name: str) -> ModuleType:
-    """A script of scripts/ as a module; they have no ending."""
-    spec = spec_from_loader(name, SourceFileLoader(name, str(ROOT / "scripts" / name)))
-    assert spec is not None and spec.loader is not None
-    module = module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
+from mutants import PROGRAM, TESTS  # noqa: E402
 
 FAULTS = script("faults")
 
@@ -79,11 +66,10 @@ class Names(unittest.TestCase):
                              (sound._replace(caught_by=(), caught_by_tests=()), "who catches it")):
             self.assertIn(words, FAULTS.wrong_row(wrong, room) or "")
         self.assertFalse(self.exists("bending.forces-sum-to-nothing"))
-        self.assertTrue(issubclass(Unusable, Exception))
 
     def test_claims_name_findings_that_exist(self) -> None:
         claims = self.listed["claims"]
-        self.assertEqual(len(claims), 56)
+        self.assertGreaterEqual(len(claims), 56)  # of the first paper
         for claim in claims:
             for finding in claim["findings"]:
                 self.assertTrue(self.exists(finding), f"claim {claim['id']}: there is no finding '{finding}'")
