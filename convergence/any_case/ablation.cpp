@@ -24,7 +24,7 @@ double depth_at(const Scene& scene, std::span<const Object> objects, const State
 RunObserved watched(const Case& shown, const LevelSetMakers& level_sets, int particles) {
   const Scene& scene = shown.scene;
   const Built built = build(scene, level_sets);
-  const std::span<const Object> objects = objects_of(built.system);
+  const std::span<const Object> objects = built.objects;
   RunObserved run;
   std::map<double, double> energy;
   CaseJudge judge(shown, objects, level_sets);

@@ -19,9 +19,9 @@ Scene scene_of(TriangleMesh mesh, double density) {
 
 namespace {
 
-ObjectCollision object_collision(const Scene& scene, const System& system, const LevelSetMakers& level_sets) {
+ObjectCollision object_collision(const Scene& scene, const System& system, std::vector<Object> objects) {
   ObjectCollision filter;
-  filter.objects = build_objects(scene, level_sets);
+  filter.objects = std::move(objects);
   filter.points = collision_points(scene.mesh, system.inverse_mass, scene.collision.points);
   filter.response = response_named(scene.collision.response);
   filter.forecast_time = scene.collision.forecast_time;
@@ -50,13 +50,8 @@ std::vector<Object> build_objects(const Scene& scene, const LevelSetMakers& leve
   return objects;
 }
 
-std::span<const Object> objects_of(const System& system) {
-  for (const Filter& filter : system.filters)
-    if (const auto* collision = std::get_if<ObjectCollision>(&filter)) return collision->objects;
-  return {};
-}
-
 Built build(const Scene& scene, const LevelSetMakers& level_sets) {
+  std::vector<Object> objects = build_objects(scene, level_sets);
   System system = make_system(lumped_masses(scene.mesh, scene.density));
   if (scene.gravity) system.forces.push_back(Gravity{*scene.gravity, system.mass});
   if (scene.stretch) system.forces.push_back(make_springs(scene.mesh, *scene.stretch));
@@ -64,10 +59,10 @@ Built build(const Scene& scene, const LevelSetMakers& level_sets) {
   if (!scene.sticky.empty()) system.forces.push_back(Sticking{scene.sticky});
   for (const PrescribedParticle& particle : scene.led) prescribe(system, particle);
   if (scene.strain_limits) system.filters.push_back(strain_limiter(scene, system.inverse_mass));
-  if (!scene.objects.empty()) system.filters.push_back(object_collision(scene, system, level_sets));
+  if (!scene.objects.empty()) system.filters.push_back(object_collision(scene, system, objects));
   if (scene.self_collision) system.filters.push_back(self_collision(scene, system));
   system.solver = scene.solver;
-  return {std::move(system), start_state(scene)};
+  return {std::move(system), start_state(scene), std::move(objects)};
 }
 
 System build_system(const Scene& scene) { return build(scene, computing_makers()).system; }

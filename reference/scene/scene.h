@@ -104,6 +104,7 @@ Scene read_scene_text(const std::string& text, const std::string& path,
 struct Built {
   System system;
   State start;
+  std::vector<Object> objects;  // with the fields of their bodies; whoever judges asks these, not the system's own
 };
 
 /// Builds what the scene names, and nothing else. level_sets: who makes those of its bodies. Throws
@@ -117,9 +118,6 @@ State start_state(const Scene& scene);
 
 /// The scene's objects, with the fields of their bodies.
 std::vector<Object> build_objects(const Scene& scene, const LevelSetMakers& level_sets);
-
-/// Those that a system was built with; they belong to it.
-std::span<const Object> objects_of(const System& system);
 
 /// What was built, a phrase for each part: "289 particles, 512 triangles", "gravity", "800 springs", ...
 std::vector<std::string> built_parts(const Scene& scene, const System& system);

@@ -72,7 +72,7 @@ Runner from_checkpoints(const BuiltCase& of, const CheckpointFolder& checkpoints
 /// Runs the case; `also` watches beside the judge.
 std::vector<Record> judged_run(const BuiltCase& of, const Runner& run, const Observer& also,
                                const Progress& progress, Outcome& outcome) {
-  CaseJudge judge(of.shown, objects_of(of.built.system), of.level_sets);
+  CaseJudge judge(of.shown, of.built.objects, of.level_sets);
   outcome = run({[&](const State& s) {
                    judge.enter(s);
                    if (also.frame) also.frame(s);
@@ -108,9 +108,8 @@ CaseRun recorded_run(const BuiltCase& of, const Runner& run, TrajectoryFile& tra
 
 TrajectoryFile trajectory_file(const BuiltCase& of, const std::string& folder, const Provenance& provenance) {
   const Scene& scene = of.shown.scene;
-  const System& system = of.built.system;
   const std::string path = (std::filesystem::path(folder) / (scene.name + ".h5")).string();
-  return TrajectoryFile(path, scene, system, objects_of(system), provenance);
+  return TrajectoryFile(path, scene, of.built.system, of.built.objects, provenance);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ Case trial(const std::string& more) {
 std::vector<Record> judged(const Case& shown) {
   const Scene& scene = shown.scene;
   const Built built = build(scene, computing_makers());
-  CaseJudge judge(shown, objects_of(built.system), computing_makers());
+  CaseJudge judge(shown, built.objects, computing_makers());
   const Outcome outcome =
       simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule,
                {[&](const State& s) { judge.enter(s); }, [&](const Diagnostics& row) { judge.enter(row); }});
@@ -107,7 +107,7 @@ TEST_CASE("a case's level sets are made when it is built, each of them once") {
                    }});
   for (int times = 0; times < 2; ++times) {
     const Built built = build(shown.scene, kept);
-    const std::span<const Object> objects = objects_of(built.system);
+    const std::span<const Object> objects = built.objects;
     REQUIRE(objects.size() == 5);
     CHECK(std::get<DeformingObject>(objects[3].body).body->between == BetweenFrames::carried);
     CHECK(std::get<DeformingObject>(objects[4].body).body->between == BetweenFrames::blended);
