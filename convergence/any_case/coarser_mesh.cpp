@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "reference/level_set/mesh_distance.h"
+#include "verification/evidence.h"
 
 namespace foldproof {
 

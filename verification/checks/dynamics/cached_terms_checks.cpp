@@ -7,6 +7,7 @@
 
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
+#include "reference/scene/scene.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
 #include "verification/processor_time.h"
 
