@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reference/scene/scene.h"
+#include "verification/subject.h"
 
 namespace foldproof {
 
