@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "reference/fast/set_bits.h"
 #include "reference/level_set/octree.h"
 
 namespace foldproof {
@@ -27,16 +28,9 @@ Vector3 node_position(const OctreeSettings& settings, const OctreePlace& place, 
 /// The place of child c.
 OctreePlace child_place(const OctreePlace& place, int c);
 
-/// How many bits are set in each byte. (Without the processor's own instruction std::popcount is a call.)
-inline constexpr std::array<unsigned char, 256> bits_set = [] {
-  std::array<unsigned char, 256> count{};
-  for (int byte = 1; byte < 256; ++byte) count[byte] = (unsigned char)(count[byte / 2] + byte % 2);
-  return count;
-}();
-
 /// The index of a branch's child c among all branches; c must be a branch.
 inline int inner_child(const OctreeBranch& branch, int c) {
-  return branch.children + bits_set[branch.inner & ((1u << c) - 1)];
+  return branch.children + set_bits[branch.inner & ((1u << c) - 1)];
 }
 
 /// The first corner of child c among the nodes of its branch; the others follow at `corner_steps`.
