@@ -86,14 +86,12 @@ Finding parity_shows_holes(const Subject&) {
       {"holes of six triangles that no ray shows, and the largest share of streaks that wins the vote", "1"}};
   measured.row("unseen", unseen);
   measured.row("share", outvoting.value());
-  Finding finding =
-      judged_worst(measured, 0.25,
-                   "every hole lies across at least one row of nodes, and streaks along two axes "
-                   "meet in few of their nodes only");
-  finding.note = "nodes in streaks, and denied signs, of the worst hole: " +
-                 std::to_string(int(signed_largest(streaks))) + ", " +
-                 std::to_string(int(signed_largest(denied)));
-  return finding;
+  return judged_worst(measured, 0.25,
+                      "every hole lies across at least one row of nodes, and streaks along two axes "
+                      "meet in few of their nodes only",
+                      "nodes in streaks, and denied signs, of the worst hole: " +
+                          std::to_string(int(signed_largest(streaks))) + ", " +
+                          std::to_string(int(signed_largest(denied))));
 }
 
 Vector3 about(Random& random, const Bounds& bounds) {

@@ -95,19 +95,19 @@ double deviation(const TurningPair& pair, const std::string& integrator, double 
 
 Finding rotation_finding(const Subject&, const std::string& integrator) {
   const TurningPair pair = turning_pair();
-  const std::vector<double> steps = {8e-3, 4e-3, 2e-3, 1e-3};
-  std::vector<double> deviations, orders = {NAN};
-  for (double h : steps) deviations.push_back(deviation(pair, integrator, h, 0, 6));
+  Table deviations{{"step", "s"}, {"deviation of the length", "1"}, {"observed order", "1"}};
   Worst worst;
-  for (size_t k = 1; k < steps.size(); ++k) {
-    orders.push_back(std::log2(deviations[k - 1] / deviations[k]));
-    worst.see(std::abs(orders.back() - 2));
+  double coarser = NAN;
+  for (const double h : {8e-3, 4e-3, 2e-3, 1e-3}) {
+    const double here = deviation(pair, integrator, h, 0, 6), order = std::log2(coarser / here);
+    if (deviations.rows() > 0) worst.see(std::abs(order - 2));
+    deviations.row(h, here, order);
+    coarser = here;
   }
-  return {
-      {worst.value(), 0.1, 0, "1",
-       "second order, two-sided; the next term is of fourth order, (omega h)^2 < 0.03 of the first"},
-      {{"step", "s", steps}, {"deviation of the length", "1", deviations}, {"observed order", "1", orders}},
-      "over six turns"};
+  return {{worst.value(), 0.1, 0, "1",
+           "second order, two-sided; the next term is of fourth order, (omega h)^2 < 0.03 of the first"},
+          deviations,
+          "over six turns"};
 }
 
 Finding no_drift_finding(const Subject&, const std::string& integrator) {

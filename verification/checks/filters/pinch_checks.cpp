@@ -62,11 +62,11 @@ Finding pinch_friction_finding(const Subject& subject) {
   }
   measured.row("two balls",
                stuck > 20 && slid > 20 ? worst.value() : std::numeric_limits<double>::quiet_NaN());
-  Finding finding = judged_worst(measured, 200,
-                                 "roundings of positions near 1 m over the step, magnified by at most "
-                                 "1/|N_a - N_b| where the normals of the two balls differ little");
-  finding.note = std::to_string(int(stuck)) + " particles stick, " + std::to_string(int(slid)) + " slide";
-  return finding;
+  return judged_worst(
+      measured, 200,
+      "roundings of positions near 1 m over the step, magnified by at most "
+      "1/|N_a - N_b| where the normals of the two balls differ little",
+      std::to_string(int(stuck)) + " particles stick, " + std::to_string(int(slid)) + " slide");
 }
 
 /// A floor and a wall that meet in a corner, particles near it outside both.

@@ -103,23 +103,21 @@ Finding acts_in_plane(const Subject& subject, const BendingAlternative& model) {
 /// The paper's element under the same measures, and the shortcut that spoils nothing.
 Finding paper_keeps_all(const Subject& subject) {
   Table measured = roundings_of("the forces, thinness");
-  std::vector<double> shortcuts;
+  measured.add({"in plane, normals alone taken as constant", "epsilon thinness"});
   for (const FoldedHinge& hinge : folded_hinges(subject)) {
     Worst worst;
     for (double defect : {hinge.of_the_paper.force, hinge.of_the_paper.torque, hinge.of_the_paper.in_plane})
       worst.see(defect / (epsilon * thinness(hinge.x)));
-    measured.row(hinge.name, worst.value());
-    shortcuts.push_back(defects_of(hinge.x, shortcut_gradient(hinge.x, EdgeLength::differentiated)).in_plane /
-                        (epsilon * thinness(hinge.x)));
+    const Mode shortcut = shortcut_gradient(hinge.x, EdgeLength::differentiated);
+    measured.row(hinge.name, worst.value(),
+                 defects_of(hinge.x, shortcut).in_plane / (epsilon * thinness(hinge.x)));
   }
-  Finding finding = judged_worst(measured, 32,
-                                 "sums of four forces and products with twelve numbers take fewer than 32 "
-                                 "roundings, magnified by thinness");
-  finding.evidence.add({"in plane, normals alone taken as constant", "epsilon thinness", shortcuts});
-  finding.note =
+  return judged_worst(
+      measured, "measured", 32,
+      "sums of four forces and products with twelve numbers take fewer than 32 roundings, magnified by "
+      "thinness",
       "With the normals' lengths alone taken as constant nothing is lost: in d(theta) = cos d(sin) - sin "
-      "d(cos) their changes cancel. It is the edge's length that must not be.";
-  return finding;
+      "d(cos) their changes cancel. It is the edge's length that must not be.");
 }
 
 }  // namespace

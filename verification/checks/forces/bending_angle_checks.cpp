@@ -100,12 +100,10 @@ Finding sine_rises(const Subject&) {
   measured.row("whole range left out", std::abs(sine_of(swept(3.14159)) - sine_of(swept(-3.14159)) - 2) < 1e-9
                                            ? 0
                                            : std::numeric_limits<double>::infinity());
-  Finding finding =
-      judged_worst(measured, 16, "two neighbouring values carry fewer than 16 roundings of 1 between them");
-  finding.note =
+  return judged_worst(
+      measured, 16, "two neighbouring values carry fewer than 16 roundings of 1 between them",
       "Measured is by how much, at worst, a value of sin(theta/2) lies below the one before it or rises by "
-      "more than half the step of theta, which is its steepest slope; exact values would give 0.";
-  return finding;
+      "more than half the step of theta, which is its steepest slope; exact values would give 0.");
 }
 
 Finding sharp_folds_stay_finite(const Subject& subject) {

@@ -82,7 +82,8 @@ double largest_eigenvalue(const Matrix12& J) {
 
 Finding nonlinear_damping_stays_symmetric(const Subject& subject) {
   Table measured = roundings_of("largest |F| over the differences' width, thinness");
-  std::vector<double> nonlinear, one_by_one;
+  measured.add({"cubic part over the linear one", "1"});
+  measured.add({"corner by corner", "1"});
   for (Specimen& hinge : hinges_of_all_angles()) {
     hinge.scene.bending = damped_bending_variants()[0];
     const Probe probe(subject, hinge.scene);
@@ -94,22 +95,17 @@ Finding nonlinear_damping_stays_symmetric(const Subject& subject) {
     Worst worst;
     worst.see(relative_asymmetry(together.matrix) * together.matrix.cwiseAbs().maxCoeff() / unit);
     worst.see(largest_eigenvalue(together.matrix) / (12 * unit));  // negative where there is nothing to see
-    measured.row(hinge.name, worst.value());
-    nonlinear.push_back(std::pow(gradient.dot(v) / rate_scale, 2));
-    one_by_one.push_back(
+    measured.row(
+        hinge.name, worst.value(), std::pow(gradient.dot(v) / rate_scale, 2),
         relative_asymmetry(jacobian_of(stiffened_one_by_one(probe, hinge.state, gradient), v).matrix));
   }
-  Finding finding = judged_worst(measured, 64,
-                                 "an entry is a difference of forces of about forty roundings each, "
-                                 "magnified by the triangles' thinness");
-  finding.evidence.add({"cubic part over the linear one", "1", nonlinear});
-  finding.evidence.add({"corner by corner", "1", one_by_one});
-  finding.note =
+  return judged_worst(
+      measured, "measured", 64,
+      "an entry is a difference of forces of about forty roundings each, magnified by the triangles' thinness",
       "The law is the subject's damping times 1 + (rate/" + std::to_string(int(rate_scale)) +
       " rad/s)^2, the rate by exact differentiation: symmetric only if the forces point along its gradient. "
       "Corner by corner: asymmetry over the largest entry when each corner is stiffened by its own share of "
-      "the rate. Positive eigenvalues, where there are any, count as asymmetry does.";
-  return finding;
+      "the rate. Positive eigenvalues, where there are any, count as asymmetry does.");
 }
 
 /// A flat sheet whose rest angles are those of pleats: unfolded, free, damped, without gravity.

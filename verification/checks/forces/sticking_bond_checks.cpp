@@ -73,11 +73,9 @@ Finding forms_finding(const Subject& subject) {
   measured.row("pairs of particle and triangle that should stick and do not, or the reverse", wrong);
   measured.row("place at formation, in 1000 epsilon of the extent", off.value() / 1000);
   measured.row("few particles with several triangles", several >= 8 ? 0 : NAN);
-  Finding finding = judged_worst(
-      measured, 0.9, "counts are exact; a foot's weights are magnified by the triangles' thinness");
-  finding.note =
-      fmt::format("{} bonds, {} particles of {} with several.", found.size(), several, scene.x.cols());
-  return finding;
+  return judged_worst(
+      measured, 0.9, "counts are exact; a foot's weights are magnified by the triangles' thinness",
+      fmt::format("{} bonds, {} particles of {} with several.", found.size(), several, scene.x.cols()));
 }
 
 Finding renewal_finding(const Subject& subject) {

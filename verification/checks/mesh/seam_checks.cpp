@@ -45,8 +45,7 @@ TriangleSoup random_soup(const std::vector<int>& becomes, PerParticle3 x, std::m
 Finding seams_finding(const Subject&) {
   std::mt19937 random(shifted(41));
   std::uniform_real_distribution<double> inside(-0.5, 0.5);
-  Worst wrong;
-  std::vector<double> distances, joined, misplaced;
+  Table wrong{{"distance", "m"}, {"joined vertices", "1"}, {"wrong corners", "1"}};
   for (const double distance : {0.013, 0.07, 0.19, 0.31}) {
     const Vector3 place = distance < 0.1 ? Vector3(0, 0, 0) : Vector3(-37.3, 11.9, 203.7);  // m
     PerParticle3 x(3, 173);
@@ -62,14 +61,11 @@ Finding seams_finding(const Subject&) {
         const int end = becomes[size_t(v)] < 0 ? v : becomes[size_t(v)];
         bad += sewn.rest.col(sewn.triangles[t][k]) == x.col(end) ? 0 : 1;
       }
-    wrong.see(bad);
-    distances.push_back(distance);
-    joined.push_back(double(173 - std::ranges::count(becomes, -1)));
-    misplaced.push_back(bad);
+    wrong.row(distance, 173 - std::ranges::count(becomes, -1), bad);
   }
-  return {{wrong.value(), 0, 0, "corners",
+  return {{wrong.worst("wrong corners"), 0, 0, "corners",
            "vertices are chosen, not computed: every corner must be the very one"},
-          {{"distance", "m", distances}, {"joined vertices", "1", joined}, {"wrong corners", "1", misplaced}},
+          wrong,
           ""};
 }
 
