@@ -108,7 +108,7 @@ Finding reversal_finding(const Subject& subject, const std::string& integrator) 
   return {{worst.value(), bound, 0, "epsilon of the extent",
            "16 roundings a step, 300 steps that add up like a random walk, each grown as much as a "
            "disturbance of the start grows at most (see the evidence)"},
-          {{"growth", "1", std::vector<double>{grown}}, {"way there", "m", std::vector<double>{way}}},
+          Table{{"growth", "1"}, {"way there", "m"}}.with_row(grown, way),
           smallest_defect(bound, "extent")};
 }
 

@@ -196,9 +196,10 @@ Finding operator_finding(const Subject& subject) {
            "an entry sums some twenty dampers of five roundings, half an epsilon each: 50; the smallest "
            "eigenvalue, 1 but for "
            "rounding, is found to about the square root of the matrix' size, 10, in epsilon of the largest"},
-          {{"asymmetry", "epsilon of the largest entry", std::vector<double>{asymmetry}},
-           {"smallest eigenvalue below 1", "epsilon of the largest", std::vector<double>{deficit}},
-           {"largest eigenvalue", "1", std::vector<double>{eigenvalues[n - 1]}}},
+          Table{{"asymmetry", "epsilon of the largest entry"},
+                {"smallest eigenvalue below 1", "epsilon of the largest"},
+                {"largest eigenvalue", "1"}}
+              .with_row(asymmetry, deficit, eigenvalues[n - 1]),
           "the operator is I - s M^{-1/2} D M^{-1/2}"};
 }
 
@@ -219,7 +220,7 @@ Finding rigid_finding(const Subject&) {
   worst.see(double((v.array() != before.array()).count()));
   return {{worst.value(), 0, 0, "iterations",
            "no damper resists a rigid motion: the explicit guess is the solution, and is not touched"},
-          {{"residual", "1", std::vector<double>{solve.residual}}},
+          Table{{"residual", "1"}}.with_row(solve.residual),
           ""};
 }
 

@@ -99,7 +99,7 @@ Finding units_finding(const Subject& subject, const std::string& integrator) {
            "disturbance of the start grows; solves end at 1e-14 of the velocity, 45 epsilon, and in C there "
            "are two a "
            "step: the growth, ten and more, covers them"},
-          {{"growth", "1", std::vector<double>{grown}}},
+          Table{{"growth", "1"}}.with_row(grown),
           smallest_defect(bound, "extent")};
 }
 
@@ -145,7 +145,7 @@ Finding frame_finding(const Subject& subject, const std::string& integrator) {
   return {{distance(moved, expected, size, steps * h), bound, 0, "epsilon of the extent",
            "12 steps of 64 roundings, each grown at most as a disturbance of the start grows; solves end at "
            "1e-14 of the velocity, 45 epsilon"},
-          {{"growth", "1", std::vector<double>{grown}}},
+          Table{{"growth", "1"}}.with_row(grown),
           smallest_defect(bound, "extent")};
 }
 
