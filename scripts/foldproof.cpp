@@ -39,7 +39,7 @@ the rest positions: rows of 12 numbers.)";
 
 constexpr const char* golden_help =
     R"(Prints a heading, then rows of numbers in 17 digits; vectors are three columns, NAME_x, NAME_y, NAME_z. With --json also what each column
-is, its unit, and the formula. All outputs were computed with 50 digits and rounded once. verification/README.md has examples in Python
+is, its unit, and the formula. All outputs were computed with 50 digits and rounded once. verification/GOLDEN.md has examples in Python
 and C++.)";
 
 constexpr const char* queries_help =
@@ -132,7 +132,7 @@ void add_selections(CLI::App& app, Options& options) {
 void add_runs(CLI::App& app, Options& options) {
   CLI::App* simulate =
       add_command(app, options, "simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf", simulate_case);
-  simulate->add_option("CASE", options.file, "Case file, see cases/README.md")->required();
+  simulate->add_option("CASE", options.file, "Case file, see cases/KEYS.md")->required();
   simulate->add_option("--set", options.overrides, "Override a key: table.key=value")
       ->allow_extra_args(false);
   simulate->add_flag(
