@@ -239,7 +239,7 @@ step = 0.001
     def test_claims_are_ruled_by_the_findings_that_a_run_has(self) -> None:
         out = str(self.path / "out")
         self.assertEqual(run("claims", "--out", out).returncode, 2)
-        done = run("check", "dynamics.solve-counts", "bending.mode-is-minus-gradient-of-theta", "--out", out)
+        done = run("check", "dynamics.solves-are-counted", "bending.mode-is-minus-gradient-of-theta", "--out", out)
         self.assertEqual(done.returncode, 0, done.stderr)
         shown = run("claims", "--out", out)
         self.assertEqual([line.split()[:2] for line in shown.stdout.splitlines()], [["T19", "confirmed"], ["B10", "refuted"]])
