@@ -100,13 +100,13 @@ class Program(Installed):
             self.assertEqual(file.attrs["case_folder"], str(self.here.prefix / "share/foldproof/cases"))
 
     def test_checks_know_their_claims_faults_and_cases(self) -> None:
-        done = self.here.run("check", "dynamics.solve-counts", "case.sharp_fold.folds-back-to", "--out", "checked")
+        done = self.here.run("check", "dynamics.solves-are-counted", "case.sharp_fold.folds-back-to", "--out", "checked")
         self.assertEqual(done.returncode, 0, done.stderr)
         done = self.here.run("claims", "T19", "--out", "checked")
         self.assertEqual(done.returncode, 0, done.stderr)
         with h5py.File(self.here.work / "checked/run.h5") as file:
             self.assertEqual((file.attrs["version"], file.attrs["subject_version"]), (VERSION, VERSION))
-            self.assertGreater(len(file["findings/dynamics.solve-counts"].attrs["faults"]), 0)
+            self.assertGreater(len(file["findings/dynamics.solves-are-counted"].attrs["faults"]), 0)
 
     def test_it_says_where_its_cases_are_and_what_it_misses(self) -> None:
         self.assertIn(f"cases ({self.here.prefix}/share/foldproof/cases/NAME.toml):", self.here.run("list").stdout)
