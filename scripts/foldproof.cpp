@@ -67,6 +67,9 @@ constexpr const char* project_help =
 inside, and where the spectrum of the depth along a section of the cloth is largest, before, after plain projection, and after the map. Points between two
 objects are left alone. Points end at most tau/10^6 farther out than the map says. Exit code 1: some points found no room between objects.)";
 
+constexpr const char* case_words =
+    "Case file (cases/KEYS.md), or a shipped case, as `foldproof list` names them";
+
 std::string typed(int argc, char** argv) {
   std::string command = program_command();
   for (int k = 1; k < argc; ++k) command += std::string(" ") + argv[k];
@@ -138,10 +141,7 @@ void add_selections(CLI::App& app, Options& options) {
 void add_runs(CLI::App& app, Options& options) {
   CLI::App* simulate =
       add_command(app, options, "simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf", simulate_case);
-  simulate
-      ->add_option("CASE", options.file,
-                   "Case file (cases/KEYS.md), or a shipped case, as `foldproof list` names them")
-      ->required();
+  simulate->add_option("CASE", options.file, case_words)->required();
   simulate->add_option("--set", options.overrides, "Override a key: table.key=value")
       ->allow_extra_args(false);
   CLI::Option* resume = simulate->add_flag(
@@ -299,7 +299,7 @@ void add_converge(CLI::App& app, Options& options) {
                   "How large is the error that a case owes to its step? Order, limit and error bar of its quantities",
                   converge);
   command->footer(converge_help);
-  command->add_option("CASE", options.file, "Case file")->required();
+  command->add_option("CASE", options.file, case_words)->required();
   command->add_option("--levels", options.levels, "Runs, each with half the steps of the one before")
       ->check(CLI::Range(3, 12))
       ->default_val(4);

@@ -190,6 +190,8 @@ step = 0.001
         self.write("any_mesh.toml", (ROOT / "cases/hinge.toml").read_text())
         for name in ("mine", "any_mesh", "any_mesh.toml"):
             self.assertIn("4 particles, 2 triangles", simulated(name).stderr)
+        done = run("converge", "hinge", "--until", "0.02", "--levels", "3", "--out", "out", folder=self.path)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
         for name in ("nowhere", "hard/../hinge", "needs", "/hinge"):
             done = simulated(name)
             self.assertEqual(done.returncode, 2)
