@@ -75,12 +75,12 @@ std::vector<std::string> names_of_case_findings() {
 }
 
 nlohmann::json told(const CaseRun& run, const Options& options) {
-  const Work& work = run.outcome.work;
+  const Work& work = run.result.work;
   nlohmann::json json = {{"case", run.record.name},
                          {"file", options.out + "/" + run.record.file},
                          {"stopped", run.record.stopped},
-                         {"steps", run.outcome.steps},
-                         {"time", run.outcome.last.time},
+                         {"steps", run.result.steps},
+                         {"time", run.result.last.time},
                          {"seconds", run.record.seconds},
                          {"cg_iterations", work.cg_iterations},
                          {"solves", work.solves},
@@ -173,14 +173,14 @@ int simulate_case(const Options& options) {
   const CaseRun run =
       run_case_with_checkpoints(of, options.out, options.resumes ? Start::last_checkpoint : Start::anew,
                                 provenance(options.command), [&](double part) { line.show(part); });
-  const Work& work = run.outcome.work;
+  const Work& work = run.result.work;
   RunRecord expected;
   expected.records = run.findings;
   if (options.json)
     fmt::print("{}\n", json_text(told(run, options)));
   else
     fmt::print("{}{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n",
-               listing(expected), options.out, run.record.file, run.outcome.last.time, run.outcome.steps,
+               listing(expected), options.out, run.record.file, run.result.last.time, run.result.steps,
                double(work.cg_iterations) / double(std::max(1L, work.solves)), run.record.seconds);
   if (work.unfinished_solves > 0)
     say(fmt::format("warning: {} of {} solves hit the cap on iterations", work.unfinished_solves,
