@@ -51,7 +51,7 @@ RunObserved watched(const Case& shown, const LevelSetMakers& level_sets, int par
   const std::vector<Record> records = judge.judged(result);
   for (size_t k = 0; k < records.size(); ++k) {
     run.asked.push_back(shown.expectations[k].key);
-    if (records[k].outcome != "holds") run.failed.push_back(shown.expectations[k].key);
+    if (records[k].outcome != Outcome::holds) run.failed.push_back(shown.expectations[k].key);
   }
   return run;
 }

@@ -48,7 +48,7 @@ std::vector<Record> CaseJudge::judged(const RunResult& result) const {
     record.claim = quantity.claim;
     record.source = case_.scene.title;
     record.finding = {verdict_of(quantity, expectation, seen), {}, note};
-    record.outcome = name_of(ruling(record.finding.verdict));
+    record.outcome = outcome_of(record.finding.verdict);
     records.push_back(std::move(record));
   }
   return records;

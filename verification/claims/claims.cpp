@@ -25,11 +25,11 @@ enum class Answer { held, failed, silent };
 /// A finding that failed without a number (it threw, or measured NaN) has measured nothing.
 Answer answer_of(const Record* record) {
   if (!record) return Answer::silent;
-  if (record->outcome == name_of(Ruling::holds)) return Answer::held;
+  if (record->outcome == Outcome::holds) return Answer::held;
   const Verdict& verdict = record->finding.verdict;
   const bool is_measured =
       std::isfinite(verdict.measured) && std::isfinite(verdict.bound) && std::isfinite(verdict.uncertainty);
-  return record->outcome == name_of(Ruling::fails) && is_measured ? Answer::failed : Answer::silent;
+  return record->outcome == Outcome::fails && is_measured ? Answer::failed : Answer::silent;
 }
 
 /// How many findings of one role gave one answer.
@@ -278,7 +278,7 @@ ClaimRecord ruled(const Claim& claim, const std::vector<Record>& records) {
   ClaimRecord result{claim, {}, ruling(claim.decided_by, records)};
   for (const Decider& decider : claim.decided_by) {
     const Record* record = record_named(decider.finding, records);
-    result.outcomes.push_back(record ? record->outcome : "missing");
+    result.outcomes.push_back(record ? std::string(outcome_text(*record)) : "missing");
   }
   try {
     result.claim.why = filled(claim.why, records);
@@ -290,10 +290,10 @@ ClaimRecord ruled(const Claim& claim, const std::vector<Record>& records) {
   return result;
 }
 
-std::string outcome_of(const ClaimRecord& record) {
-  if (record.ruling != record.claim.recorded) return std::string(name_of(Ruling::fails));
+Outcome outcome_of(const ClaimRecord& record) {
+  if (record.ruling != record.claim.recorded) return Outcome::fails;
   const bool is_open = record.ruling == Standing::undecided;
-  return std::string(name_of(is_open ? Ruling::inconclusive : Ruling::holds));
+  return is_open ? Outcome::inconclusive : Outcome::holds;
 }
 
 }  // namespace foldproof

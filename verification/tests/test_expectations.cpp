@@ -182,16 +182,16 @@ TEST_CASE("expect: creases are counted line by line, and lie half a wavelength a
 TEST_CASE("expect: a bound that is kept holds, one that is not fails, and a run that stops says nothing") {
   const std::string flat = "[expect.stays_flat]\nat_most = 0\nwhy = \"w\"\n";
   const std::string leaves = "[expect.leaves_its_plane]\nat_least = 1e-9\nwhy = \"w\"\n";
-  CHECK(judged(trial(flat))[0].outcome == "holds");
-  CHECK(judged(trial(leaves))[0].outcome == "fails");
+  CHECK(judged(trial(flat))[0].outcome == Outcome::holds);
+  CHECK(judged(trial(leaves))[0].outcome == Outcome::fails);
   const std::string thrown = "[start]\nvelocity = [0, 0, 0.5]\n";
-  CHECK(judged(trial(thrown + flat))[0].outcome == "fails");
+  CHECK(judged(trial(thrown + flat))[0].outcome == Outcome::fails);
   const Record reached = judged(trial(thrown + leaves))[0];
-  CHECK(reached.outcome == "holds");
+  CHECK(reached.outcome == Outcome::holds);
   CHECK(reached.finding.verdict.measured == Approx(1e-9 - 0.025));
   CHECK_THAT(reached.finding.note, Contains("reached 0.025 m"));
   const std::string capped = "max_steps = 1\nsafety = 0.01\n";
   const Record stopped = judged(trial(capped + flat))[0];
-  CHECK(stopped.outcome == "fails");
+  CHECK(stopped.outcome == Outcome::fails);
   CHECK_THAT(stopped.finding.note, Contains("cap"));
 }
