@@ -54,15 +54,15 @@ std::string_view name_of(Role role) {
   throw std::logic_error("name_of: a role without a name");
 }
 
-std::string_view name_of(Standing standing) {
-  switch (standing) {
-    case Standing::confirmed:
+std::string_view name_of(Ruling ruling) {
+  switch (ruling) {
+    case Ruling::confirmed:
       return "confirmed";
-    case Standing::conditional:
+    case Ruling::conditional:
       return "confirmed under a condition";
-    case Standing::refuted:
+    case Ruling::refuted:
       return "refuted";
-    case Standing::undecided:
+    case Ruling::undecided:
       return "undecided";
   }
   throw std::logic_error("name_of: a ruling without a name");
@@ -84,14 +84,14 @@ std::string_view name_of(Standing standing) {
 //
 // So a claim is refuted only by something found, never by something that is not found: a broken program can
 // lose a ruling, not make one.
-Standing ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records) {
+Ruling ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records) {
   const auto count = [&](Role role, Answer answer) { return count_of(deciders, records, role, answer); };
   for (const Role role : {Role::supports, Role::limits, Role::contradicts})
-    if (count(role, Answer::silent) > 0) return Standing::undecided;
-  if (count(Role::contradicts, Answer::held) > 0) return Standing::refuted;
-  if (count(Role::supports, Answer::failed) > 0) return Standing::undecided;
-  if (count(Role::supports, Answer::held) == 0) return Standing::undecided;
-  return count(Role::limits, Answer::held) > 0 ? Standing::conditional : Standing::confirmed;
+    if (count(role, Answer::silent) > 0) return Ruling::undecided;
+  if (count(Role::contradicts, Answer::held) > 0) return Ruling::refuted;
+  if (count(Role::supports, Answer::failed) > 0) return Ruling::undecided;
+  if (count(Role::supports, Answer::held) == 0) return Ruling::undecided;
+  return count(Role::limits, Answer::held) > 0 ? Ruling::conditional : Ruling::confirmed;
 }
 
 // ---- numbers in a claim's text
@@ -284,7 +284,7 @@ ClaimRecord ruled(const Claim& claim, const std::vector<Record>& records) {
     result.claim.why = filled(claim.why, records);
     result.claim.condition = filled(claim.condition, records);
   } catch (const std::runtime_error& error) {
-    if (result.ruling != Standing::undecided)
+    if (result.ruling != Ruling::undecided)
       throw std::runtime_error("claim " + claim.id + ": " + error.what());
   }
   return result;
@@ -292,7 +292,7 @@ ClaimRecord ruled(const Claim& claim, const std::vector<Record>& records) {
 
 Outcome outcome_of(const ClaimRecord& record) {
   if (record.ruling != record.claim.recorded) return Outcome::fails;
-  const bool is_open = record.ruling == Standing::undecided;
+  const bool is_open = record.ruling == Ruling::undecided;
   return is_open ? Outcome::inconclusive : Outcome::holds;
 }
 
