@@ -135,9 +135,12 @@ void add_runs(CLI::App& app, Options& options) {
   simulate->add_option("CASE", options.file, "Case file, see cases/README.md")->required();
   simulate->add_option("--set", options.overrides, "Override a key: table.key=value")
       ->allow_extra_args(false);
-  simulate->add_flag(
+  CLI::Option* resume = simulate->add_flag(
       "--resume", options.resumes,
       "Go on from the last checkpoint of a run that was interrupted; the results are the same to the bit");
+  simulate->add_flag("--restart", options.restarts,
+                     "Start over, and delete the checkpoints of a run that was interrupted")
+      ->excludes(resume);
   CLI::App* everything = add_command(app, options, "verify",
                                      "All checks, studies and cases, the claims, and the report", verify);
   everything->add_flag("--no-report", options.no_report, "Write the results only");
@@ -284,6 +287,7 @@ void add_readers(CLI::App& app, Options& options) {
 int run(int argc, char** argv) {
   Options options;
   options.command = typed(argc, argv);
+  options.words.assign(argv, argv + argc);
   CLI::App app(
       "Verification suite and reference implementation for cloth simulation, after Bridson, Marino, Fedkiw "
       "(2003).");
