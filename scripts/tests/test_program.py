@@ -255,7 +255,7 @@ step = 0.001
                 self.assertLess(abs(a - b), 1e-12 * size)
 
     def test_the_examples_of_golden_values_run_as_they_are_printed(self) -> None:
-        readme = (ROOT / "verification/README.md").read_text(encoding="utf-8")
+        readme = (ROOT / "verification/GOLDEN.md").read_text(encoding="utf-8")
         python = re.search(r"```python\n(import csv.*?)```", readme, re.S).group(1)
         ran = subprocess.run([sys.executable, "-c", python], cwd=ROOT, capture_output=True, text=True, check=True)
         self.assertLess(float(ran.stdout.split()[-1]), 1e-12)
