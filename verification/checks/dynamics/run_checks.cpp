@@ -15,7 +15,7 @@ namespace {
 struct Watched {
   std::vector<State> frames;
   std::vector<Diagnostics> rows;
-  Outcome outcome;
+  RunResult result;
 };
 
 Watched watched(const System& system, const std::string& integrator, const State& start,
@@ -23,7 +23,7 @@ Watched watched(const System& system, const std::string& integrator, const State
   Watched run;
   const Observer observer{[&](const State& s) { run.frames.push_back(s); },
                           [&](const Diagnostics& row) { run.rows.push_back(row); }};
-  run.outcome = simulate(system, integrator_named(integrator), start, schedule, observer);
+  run.result = simulate(system, integrator_named(integrator), start, schedule, observer);
   return run;
 }
 
@@ -32,7 +32,7 @@ Watched watched(const System& system, const std::string& integrator, const State
 /// the one asked for.
 double frame_error(const Watched& run, const Schedule& schedule, size_t frames) {
   Worst worst;
-  if (run.frames.size() != frames || run.outcome.stop) worst.see(NAN);
+  if (run.frames.size() != frames || run.result.stop) worst.see(NAN);
   const double start = run.frames.front().time, fixed = schedule.step.fixed;
   for (size_t k = 0; k < run.frames.size(); ++k) {
     const volatile double whole =
@@ -44,7 +44,7 @@ double frame_error(const Watched& run, const Schedule& schedule, size_t frames) 
   }
   for (const Diagnostics& row : run.rows)
     if (fixed > 0 && !(row.step <= fixed * (1 + 2e-9))) worst.see(NAN);
-  if (fixed == schedule.frame_interval && run.outcome.steps != long(frames) - 1) worst.see(NAN);
+  if (fixed == schedule.frame_interval && run.result.steps != long(frames) - 1) worst.see(NAN);
   return worst.value();
 }
 
@@ -100,9 +100,9 @@ Finding limits_finding(const Subject&) {
         s = integrator_named("C").step(system, {&s, 1}, h, work);
         s.time = run.rows[n].time;
       }
-      if (run.rows.size() <= least_steps || largest_difference(s.x, run.outcome.last.x) != 0) worst.see(NAN);
+      if (run.rows.size() <= least_steps || largest_difference(s.x, run.result.last.x) != 0) worst.see(NAN);
       used.row(speed, of_limit.value(), of_strain.value(),
-               run.outcome.stop ? run.outcome.stop->reason : "the end");
+               run.result.stop ? run.result.stop->reason : "the end");
       worst.see(of_limit.value());
       worst.see(of_strain.value());
     }
@@ -131,13 +131,13 @@ bool all_finite(const std::vector<State>& frames) {
 }
 
 void add_common(Table& statements, const Watched& run) {
-  statements.row("it stopped", run.outcome.stop.has_value());
-  if (!run.outcome.stop) return;
-  statements.row("the time is that of the last good state", run.outcome.stop->time == run.outcome.last.time);
+  statements.row("it stopped", run.result.stop.has_value());
+  if (!run.result.stop) return;
+  statements.row("the time is that of the last good state", run.result.stop->time == run.result.last.time);
   statements.row("the step is the one after the last good one",
-                 run.outcome.stop->step == run.outcome.steps + 1);
+                 run.result.stop->step == run.result.steps + 1);
   statements.row("all frames delivered are finite", all_finite(run.frames));
-  statements.row("the last good state is finite", all_finite({run.outcome.last}));
+  statements.row("the last good state is finite", all_finite({run.result.last}));
 }
 
 Finding divergence_finding(const Subject&) {
@@ -148,10 +148,10 @@ Finding divergence_finding(const Subject&) {
   const Watched run = watched(system, "C", start, {400 * h, 2 * h, {h, 0.5, 0.1}, 100000});
   Table statements = no_statements();
   add_common(statements, run);
-  if (run.outcome.stop) {
-    const Stop& stop = *run.outcome.stop;
+  if (run.result.stop) {
+    const Stop& stop = *run.result.stop;
     Work work;
-    const State& last = run.outcome.last;
+    const State& last = run.result.last;
     const State next = integrator_named("C").step(system, {&last, 1}, h, work);
     Eigen::Index farthest = 0;
     (next.x - last.x).colwise().norm().maxCoeff(&farthest);
@@ -164,7 +164,7 @@ Finding divergence_finding(const Subject&) {
     statements.row("within a frame no particle moves more than 20 sizes in its two steps",
                    leap.value() <= 20);
     statements.row("earlier frames were delivered",
-                   run.frames.size() >= 2 && long(run.frames.size()) == run.outcome.steps / 2 + 1);
+                   run.frames.size() >= 2 && long(run.frames.size()) == run.result.steps / 2 + 1);
   }
   return count_of_false(statements, "fixed steps of three times the elastic limit");
 }
@@ -182,10 +182,10 @@ Finding nan_finding(const Subject&) {
   const Watched run = watched(system, "C", start_state(scene), {0.1, 0.01, {0.0034, 0.5, 0.1}, 100000});
   Table statements = no_statements();
   add_common(statements, run);
-  if (run.outcome.stop) {
-    statements.row("the reason says NaN", run.outcome.stop->reason.find("NaN") != std::string::npos);
-    statements.row("the particle is 5", run.outcome.stop->particle == 5);
-    statements.row("the step is 7", run.outcome.stop->step == 7);
+  if (run.result.stop) {
+    statements.row("the reason says NaN", run.result.stop->reason.find("NaN") != std::string::npos);
+    statements.row("the particle is 5", run.result.stop->particle == 5);
+    statements.row("the step is 7", run.result.stop->step == 7);
     statements.row("three frames were delivered", run.frames.size() == 3);
   }
   return count_of_false(statements, "a force becomes NaN after 0.0221 s, in the seventh step");
@@ -203,14 +203,14 @@ Finding lost_triangle_finding(const Subject&) {
       watched(build_system(scene), "C", start_state(scene), {0.2, 0.01, {0.0025, 0.5, 0.1}, 100000});
   Table statements = no_statements();
   add_common(statements, run);
-  if (run.outcome.stop) {
-    const std::string& reason = run.outcome.stop->reason;
+  if (run.result.stop) {
+    const std::string& reason = run.result.stop->reason;
     statements.row("the reason says what was lost",
                    reason.find("triangle") != std::string::npos && reason.find("area") != std::string::npos);
     statements.row("the reason names the four particles",
                    reason.find("particles 0 1 2 3") != std::string::npos);
-    statements.row("a particle is named", run.outcome.stop->particle == 0);
-    statements.row("the step is 20", run.outcome.stop->step == 20);
+    statements.row("a particle is named", run.result.stop->particle == 0);
+    statements.row("the step is 20", run.result.stop->step == 20);
     statements.row("five frames were delivered", run.frames.size() == 5);
   }
   return count_of_false(statements,
@@ -223,10 +223,10 @@ Finding cap_finding(const Subject&) {
       watched(build_system(scene), "B", start_state(scene), {0.1, 0.01, {0.002, 0.5, 0.1}, 13});
   Table statements = no_statements();
   add_common(statements, run);
-  statements.row("13 steps were made", run.outcome.steps == 13);
-  if (run.outcome.stop) {
-    statements.row("the reason says cap", run.outcome.stop->reason.find("cap") != std::string::npos);
-    statements.row("no particle is blamed", run.outcome.stop->particle == -1);
+  statements.row("13 steps were made", run.result.steps == 13);
+  if (run.result.stop) {
+    statements.row("the reason says cap", run.result.stop->reason.find("cap") != std::string::npos);
+    statements.row("no particle is blamed", run.result.stop->particle == -1);
   }
   return count_of_false(statements, "a cap of 13 steps");
 }
@@ -238,10 +238,10 @@ Finding standstill_finding(const Subject&) {
   const Watched run = watched(build_system(scene), "B", start, {1.1, 0.01, {1e-17, 0.5, 0.1}, 20});
   Table statements = no_statements();
   add_common(statements, run);
-  statements.row("no step was made", run.outcome.steps == 0);
-  if (run.outcome.stop)
+  statements.row("no step was made", run.result.steps == 0);
+  if (run.result.stop)
     statements.row("the reason says too short",
-                   run.outcome.stop->reason.find("too short") != std::string::npos);
+                   run.result.stop->reason.find("too short") != std::string::npos);
   return count_of_false(statements,
                         "fixed steps of 1e-17 s from t = 1 s on, where doubles lie 2e-16 s apart");
 }
