@@ -9,6 +9,14 @@
 
 namespace foldproof {
 
+Table no_statements() { return {{"statement", "1"}, {"true", "1"}}; }
+
+double count_false(const Table& statements) {
+  double wrong = statements.rows() == 0 ? NAN : 0;
+  for (const double one : statements.numbers("true")) wrong += 1 - one;
+  return wrong;
+}
+
 namespace {
 
 /// A run with all that its observer saw.
@@ -114,14 +122,10 @@ Finding limits_finding(const Subject&) {
           "One in which a triangle loses its area, as may be at 25 m/s, is judged up to there."};
 }
 
-/// For statements about a stopped run, each true or false.
-Table no_statements() { return {{"statement", "1"}, {"true", "1"}}; }
-
-/// How many statements are false; NaN without any.
-Finding count_of_false(const Table& statements, const std::string& note) {
-  double wrong = statements.rows() == 0 ? NAN : 0;
-  for (const double one : statements.numbers("true")) wrong += 1 - one;
-  return {{wrong, 0, 0, "false statements", "a statement is true or false"}, statements, note};
+/// About a stopped run.
+Finding judged_statements(const Table& statements, const std::string& note) {
+  return {
+      {count_false(statements), 0, 0, "false statements", "a statement is true or false"}, statements, note};
 }
 
 bool all_finite(const std::vector<State>& frames) {
@@ -166,7 +170,7 @@ Finding divergence_finding(const Subject&) {
     statements.row("earlier frames were delivered",
                    run.frames.size() >= 2 && long(run.frames.size()) == run.result.steps / 2 + 1);
   }
-  return count_of_false(statements, "fixed steps of three times the elastic limit");
+  return judged_statements(statements, "fixed steps of three times the elastic limit");
 }
 
 Finding nan_finding(const Subject&) {
@@ -188,7 +192,7 @@ Finding nan_finding(const Subject&) {
     statements.row("the step is 7", run.result.stop->step == 7);
     statements.row("three frames were delivered", run.frames.size() == 3);
   }
-  return count_of_false(statements, "a force becomes NaN after 0.0221 s, in the seventh step");
+  return judged_statements(statements, "a force becomes NaN after 0.0221 s, in the seventh step");
 }
 
 Finding lost_triangle_finding(const Subject&) {
@@ -213,8 +217,8 @@ Finding lost_triangle_finding(const Subject&) {
     statements.row("the step is 20", run.result.stop->step == 20);
     statements.row("five frames were delivered", run.frames.size() == 5);
   }
-  return count_of_false(statements,
-                        "a vertex is led into the opposite edge, which it reaches at the end of step 20");
+  return judged_statements(statements,
+                           "a vertex is led into the opposite edge, which it reaches at the end of step 20");
 }
 
 Finding cap_finding(const Subject&) {
@@ -228,7 +232,7 @@ Finding cap_finding(const Subject&) {
     statements.row("the reason says cap", run.result.stop->reason.find("cap") != std::string::npos);
     statements.row("no particle is blamed", run.result.stop->particle == -1);
   }
-  return count_of_false(statements, "a cap of 13 steps");
+  return judged_statements(statements, "a cap of 13 steps");
 }
 
 Finding standstill_finding(const Subject&) {
@@ -242,8 +246,8 @@ Finding standstill_finding(const Subject&) {
   if (run.result.stop)
     statements.row("the reason says too short",
                    run.result.stop->reason.find("too short") != std::string::npos);
-  return count_of_false(statements,
-                        "fixed steps of 1e-17 s from t = 1 s on, where doubles lie 2e-16 s apart");
+  return judged_statements(statements,
+                           "fixed steps of 1e-17 s from t = 1 s on, where doubles lie 2e-16 s apart");
 }
 
 }  // namespace

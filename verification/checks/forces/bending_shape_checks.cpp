@@ -142,17 +142,14 @@ double left_after(const Subject& subject, const Scene& scene, const std::vector<
 
 Finding unfolded_pleats_return(const Subject& subject) {
   const Scene scene = unfolded_pleats(1);
-  std::vector<double> times = {0.1, 0.3, 1.0}, left, without;
-  for (double time : times) {
-    left.push_back(left_after(subject, scene, scene.rest_angles, time));
-    without.push_back(left_after(subject, unfolded_pleats(0), scene.rest_angles, time));
-  }
-  return {{left.back(), 0.01, 0, "1",
+  Table left{{"time", "s"}, {"left of the unfolding", "1"}, {"left with rest angles of zero", "1"}};
+  for (const double time : {0.1, 0.3, 1.0})
+    left.row(time, left_after(subject, scene, scene.rest_angles, time),
+             left_after(subject, unfolded_pleats(0), scene.rest_angles, time));
+  return {{left.numbers("left of the unfolding").back(), 0.01, 0, "1",
            "what is left decays exponentially and would vanish; a hundredth tells a shape that returns from "
            "one that stays (all is left) or goes elsewhere"},
-          {{"time", "s", times},
-           {"left of the unfolding", "1", left},
-           {"left with rest angles of zero", "1", without}},
+          left,
           "The sheet starts flat and free; its rest angles are those of pleats. Measured over all hinges, as "
           "the root of the sum of squares of theta - theta0, over that at the start."};
 }
