@@ -110,7 +110,7 @@ TEST_CASE("the worst row is judged in its column's unit, with the largest uncert
   CHECK(finding.evidence.numbers("error") == std::vector<double>{3, 5});
   CHECK(judged_worst(table, 20, "why").verdict.measured == 16);
   table.row("three", Estimate{1, not_a_number}, 32);
-  CHECK(ruling(judged_worst(table, "error", 6, "why").verdict) == Ruling::fails);
+  CHECK(outcome_of(judged_worst(table, "error", 6, "why").verdict) == Outcome::fails);
 }
 
 TEST_CASE("a check that throws fails and says why; one that is not offered is not applicable") {
