@@ -39,7 +39,7 @@ the rest positions: rows of 12 numbers.)";
 
 constexpr const char* golden_help =
     R"(Prints a heading, then rows of numbers in 17 digits; vectors are three columns, NAME_x, NAME_y, NAME_z. With --json also what each column
-is, its unit, and the formula. All outputs were computed with 50 digits and rounded once. verification/README.md has examples in Python
+is, its unit, and the formula. All outputs were computed with 50 digits and rounded once. verification/GOLDEN.md has examples in Python
 and C++.)";
 
 constexpr const char* queries_help =
@@ -132,12 +132,15 @@ void add_selections(CLI::App& app, Options& options) {
 void add_runs(CLI::App& app, Options& options) {
   CLI::App* simulate =
       add_command(app, options, "simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf", simulate_case);
-  simulate->add_option("CASE", options.file, "Case file, see cases/README.md")->required();
+  simulate->add_option("CASE", options.file, "Case file, see cases/KEYS.md")->required();
   simulate->add_option("--set", options.overrides, "Override a key: table.key=value")
       ->allow_extra_args(false);
-  simulate->add_flag(
+  CLI::Option* resume = simulate->add_flag(
       "--resume", options.resumes,
       "Go on from the last checkpoint of a run that was interrupted; the results are the same to the bit");
+  simulate->add_flag("--restart", options.restarts,
+                     "Start over, and delete the checkpoints of a run that was interrupted")
+      ->excludes(resume);
   CLI::App* everything = add_command(app, options, "verify",
                                      "All checks, studies and cases, the claims, and the report", verify);
   everything->add_flag("--no-report", options.no_report, "Write the results only");
@@ -284,6 +287,7 @@ void add_readers(CLI::App& app, Options& options) {
 int run(int argc, char** argv) {
   Options options;
   options.command = typed(argc, argv);
+  options.words.assign(argv, argv + argc);
   CLI::App app(
       "Verification suite and reference implementation for cloth simulation, after Bridson, Marino, Fedkiw "
       "(2003).");
