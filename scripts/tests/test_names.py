@@ -111,10 +111,10 @@ class Names(unittest.TestCase):
             self.assertTrue(self.exists(new) or new in faults, f"'{old}' is renamed to '{new}', which does not exist")
 
     def test_keys_of_case_files_are_renamed_to_keys_that_exist(self) -> None:
-        readme = (ROOT / "cases/README.md").read_text(encoding="utf-8")
+        page = (ROOT / "cases/KEYS.md").read_text(encoding="utf-8")
         for old, new in tomllib.loads((ROOT / "scripts/renames.toml").read_text(encoding="utf-8"))["keys"].items():
-            self.assertIn(f"`{new.rpartition('.')[2]}`", readme)
-            self.assertNotIn(f"`{old.rpartition('.')[2]}`", readme)
+            self.assertIn(f"`{new.rpartition('.')[2]}`", page)
+            self.assertNotIn(f"`{old.rpartition('.')[2]}`", page)
 
     def test_the_changelog_holds_every_rename(self) -> None:
         renames = tomllib.loads((ROOT / "scripts/renames.toml").read_text(encoding="utf-8"))
