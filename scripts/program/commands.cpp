@@ -102,7 +102,7 @@ std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance
 /// Writes verdicts of a run that has not ended, so that one which never does is not taken for the one before.
 void announce(const std::vector<Job>& jobs, RunRecord begun, const std::string& folder) {
   for (const Job& job : jobs)
-    begun.records.push_back(unfinished(job.name, "did not run", "the run has not come to its end"));
+    begun.records.push_back(unfinished(job.name, std::nullopt, "the run has not come to its end"));
   write_verdicts(folder, begun);
 }
 
