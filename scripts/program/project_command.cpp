@@ -15,7 +15,9 @@
 #include "reference/mesh/subdivision.h"
 #include "reference/post/fold_projection.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/input_files.h"
 #include "scripts/program/json_text.h"
+#include "scripts/program/out_folder.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
@@ -133,6 +135,7 @@ void compare_last_frame(const Source& source, Report& report) {
 Report project_all(const Source& source, const Options& options) {
   Report report;
   report.projection = projection_of(options, source);
+  check_band(report.projection.band);  // before a file is begun
   report.file = source.scene.name + ".h5";
   const System system = make_system(lumped_masses(source.scene.mesh, source.scene.density));
   TrajectoryFile file((std::filesystem::path(options.out) / report.file).string(), source.scene, system,
@@ -194,7 +197,8 @@ nlohmann::json told(const Report& report, const std::string& folder) {
 }  // namespace
 
 int project_run(const Options& options) {
-  make_folder(options.out);
+  require_input(options.file, stored_run);
+  const OutFolder folder(options.out);
   const Report report = project_all(source_of(options), options);
   if (options.json)
     fmt::print("{}\n", json_text(told(report, options.out)));
