@@ -7,9 +7,10 @@
 #include <memory>
 #include <new>
 
-#include "scripts/program/command_line.h"
+#include "scripts/program/command_line/command_line.h"
 #include "scripts/program/commands.h"
-#include "scripts/program/help_texts.h"
+#include "scripts/program/data_folder.h"
+#include "scripts/program/command_line/help_texts.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/oracles/golden.h"
@@ -18,10 +19,13 @@ namespace foldproof {
 namespace {
 
 std::string typed(int argc, char** argv) {
-  std::string command = "build/foldproof";
+  std::string command = program_command();
   for (int k = 1; k < argc; ++k) command += std::string(" ") + argv[k];
   return command;
 }
+
+constexpr const char* case_words =
+    "Case file, NAME.toml (cases/KEYS.md), or a shipped case, as `foldproof list` names them";
 
 /// A command as its help shows it: `what` it does in a line, and what stands below its options.
 struct CommandText {
@@ -131,7 +135,7 @@ void add_simulate(CLI::App& app, Options& options) {
   CLI::App* simulate = add_command(
       app, options, {"simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf", help::simulate},
       simulate_case);
-  add_input(simulate, "CASE", options.file, "A case file, NAME.toml; cases/README.md names its keys");
+  add_input(simulate, "CASE", options.file, case_words);
   add_overrides(simulate, options);
   CLI::Option* resume =
       add_switch(simulate, "--resume", options.resumes,
@@ -168,7 +172,7 @@ void add_ablate(CLI::App& app, Options& options) {
                                   "Which of its parts does a case need, and which does it lack? Adds to ablation.json",
                                   help::ablate},
                                  ::foldproof::ablate);
-  ablate->add_option("CASE", options.names, "Case files (default: all shipped cases of the tier)")
+  ablate->add_option("CASE", options.names, "Case files, or names of shipped cases (default: all of the tier)")
       ->check(some_text("a case file"));
   add_tier(ablate, options);
   add_overrides(ablate, options);
@@ -176,6 +180,32 @@ void add_ablate(CLI::App& app, Options& options) {
   add_cache(ablate, options);
   add_folder(ablate, options, "Folder for ablation.json")->capture_default_str();
   add_json(ablate, options);
+}
+
+void add_converge(CLI::App& app, Options& options) {
+  CLI::App* converge = add_command(
+      app, options,
+      {"converge", "How large is the error that a case owes to its step? Order, limit and error bar",
+       help::converge},
+      ::foldproof::converge);
+  add_input(converge, "CASE", options.file, case_words);
+  converge->add_option("--levels", options.levels, "Runs, 3 to 12, each with half the steps of the one before")
+      ->type_name("N")
+      ->check(whole_number(3, 12))
+      ->capture_default_str();
+  converge->add_option("--method", options.methods, "Integrator in place of the case's own")
+      ->type_name("METHOD")
+      ->check(some_text("an integrator"))
+      ->allow_extra_args(false);
+  converge->add_option("--until", options.until, "Ask only the beginning of the run, up to this time [s]")
+      ->type_name("TIME")
+      ->check(positive_number());
+  add_overrides(converge, options);
+  add_folder(converge, options, "Folder whose store/ keeps every run; a second call makes only what is missing")
+      ->capture_default_str();
+  add_cache(converge, options);
+  add_threads(converge, options);
+  add_json(converge, options);
 }
 
 CLI::Option* add_length(CLI::App* command, const std::string& name, double& value, const std::string& what) {
@@ -196,7 +226,7 @@ void add_project(CLI::App& app, Options& options) {
   add_length(project, "--eps", options.eps, "How far out the deepest points come to lie [m]")->capture_default_str();
   add_length(project, "--deepest", options.deepest,
              "Depths [m] beyond this are treated alike (default: the deepest in the run)");
-  project->add_option("--subdivide", options.levels, "Levels of subdivision before the projection, 0 to 8")
+  project->add_option("--subdivide", options.subdivisions, "Levels of subdivision before the projection, 0 to 8")
       ->type_name("N")
       ->check(whole_number(0, 8))
       ->capture_default_str();
@@ -347,6 +377,7 @@ int run(int argc, char** argv) {
   add_selections(app, options);
   add_readers(app, options);
   add_ablate(app, options);
+  add_converge(app, options);
   add_project(app, options);
   try {
     app.parse(argc, argv);

@@ -96,12 +96,13 @@ class Run {
   void start();
 
   /// Steps until the end, or until something goes wrong, and hands out every frame on the way.
-  Outcome finish();
+  RunResult finish();
 
  private:
   void step_to_frame(double target);
   void step_to(double target);
   void step(double target);
+  std::optional<double> prescribed_end(double target) const;
   void hand_out_row(const State& s, double h, double limit, const Work& work);
   void hand_out_checkpoint() const;
   double seconds() const;
@@ -154,7 +155,7 @@ void Run::start() {
   hand_out_checkpoint();
 }
 
-Outcome Run::finish() {
+RunResult Run::finish() {
   while (!stop_ && history_.now().time < schedule_.end) {
     const double next_frame = start_time_ + double(frame_ + 1) * schedule_.frame_interval;
     step_to_frame(std::min(schedule_.end, next_frame));
@@ -194,6 +195,14 @@ void Run::step_to(double target) {
   }
 }
 
+/// Where the schedule lets the next step end, at `target` at the latest [s]; none where it prescribes nothing.
+std::optional<double> Run::prescribed_end(double target) const {
+  const std::vector<double>& ends = schedule_.step.ends;
+  const auto next = std::ranges::upper_bound(ends, history_.now().time);
+  if (next == ends.end()) return {};
+  return std::min(*next, target);
+}
+
 /// One step towards the time `target`.
 void Run::step(double target) {
   const System& system = events_.system();
@@ -201,9 +210,11 @@ void Run::step(double target) {
   const long number = steps_ + 1;
   begin_step(system, now);
   const double left = target - now.time;
-  const bool asks_for_limit = observer_.step || !(schedule_.step.fixed > 0);
+  const std::optional<double> end = prescribed_end(target);
+  const bool asks_for_limit = observer_.step || !(end || schedule_.step.fixed > 0);
   const double limit = asks_for_limit ? elastic_limit(system, now) : 0;
-  const double h = even_step(left, step_allowed(system, integrator_, history_.past(), schedule_.step, limit));
+  const double h = end ? *end - now.time
+                       : even_step(left, step_allowed(system, integrator_, history_.past(), schedule_.step, limit));
   if (!(now.time + h > now.time)) {
     stop_ = Stop{"a step became too short to advance the time", now.time, number, -1};
     return;
@@ -212,6 +223,7 @@ void Run::step(double target) {
   work.bonds = long(now.bonds.size());
   State next = integrator_.step(system, history_.past(), h, work);
   if (h == left) next.time = target;  // no rounding between a frame's time and its state's
+  if (end) next.time = *end;
   stop_ = fault_in(now, next, size_, number);
   if (stop_) return;
   hand_out_row(next, h, limit, work);
@@ -279,8 +291,8 @@ double step_allowed(const System& system, const Integrator& integrator, std::spa
   return wanted;
 }
 
-Outcome simulate(const System& system, const Integrator& integrator, const State& start,
-                 const Schedule& schedule, const Observer& observer) {
+RunResult simulate(const System& system, const Integrator& integrator, const State& start,
+                   const Schedule& schedule, const Observer& observer) {
   check(schedule, start);
   Checkpoint at_start;
   at_start.past = {start};
@@ -291,8 +303,8 @@ Outcome simulate(const System& system, const Integrator& integrator, const State
   return run.finish();
 }
 
-Outcome resume(const System& system, const Integrator& integrator, const Checkpoint& from,
-               const Schedule& schedule, const Observer& observer) {
+RunResult resume(const System& system, const Integrator& integrator, const Checkpoint& from,
+                 const Schedule& schedule, const Observer& observer) {
   if (from.past.empty() || from.past.back().x.cols() != system.mass.size())
     throw InputError("a checkpoint without a state, or of another number of particles");
   check(schedule, from.past.back());

@@ -16,9 +16,9 @@
 #include "convergence/any_case/finer_scene.h"
 #include "reference/bodies/makers.h"
 #include "scripts/program/commands.h"
-#include "scripts/program/input_files.h"
+#include "scripts/program/command_line/input_files.h"
 #include "scripts/program/json_text.h"
-#include "scripts/program/out_folder.h"
+#include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
@@ -256,9 +256,8 @@ std::vector<Ablation> asked_of(const Options& options) {
   std::vector<std::string> files = options.names;
   if (files.empty())
     for (const std::string& name : built_in_cases(tier_of(options)))
-      files.push_back(project_folder() + "/cases/" + name + ".toml");
-  for (const std::string& file : files) require_input(file, case_file);
-  for (const std::string& file : files) all.push_back(planned(file, options, level_sets));
+      files.push_back(shipped_case_file(name));
+  for (const std::string& file : files) all.push_back(planned(case_file(file), options, level_sets));
   return all;
 }
 

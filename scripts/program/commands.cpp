@@ -11,12 +11,13 @@
 #include "reference/dynamics/integrator.h"
 #include "reference/bodies/makers.h"
 #include "scripts/program/bench.h"
-#include "scripts/program/input_files.h"
+#include "scripts/program/data_folder.h"
+#include "scripts/program/command_line/input_files.h"
 #include "verification/subjects/bending_rows.h"
 #include "verification/subjects/crossing_queries.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/ledger.h"
-#include "scripts/program/out_folder.h"
+#include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/report_commands.h"
@@ -33,9 +34,9 @@ namespace foldproof {
 
 namespace {
 
-std::vector<Claim> written_claims() { return read_claims(project_folder() + "/verification/claims"); }
+std::vector<Claim> written_claims() { return read_claims(data_folder() + "/verification/claims"); }
 
-std::string faults_folder() { return project_folder() + "/verification/faults"; }
+std::string faults_folder() { return data_folder() + "/verification/faults"; }
 
 RunRecord new_run(const Options& options) {
   RunRecord run;
@@ -102,7 +103,7 @@ std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance
 /// Writes verdicts of a run that has not ended, so that one which never does is not taken for the one before.
 void announce(const std::vector<Job>& jobs, RunRecord begun, const std::string& folder) {
   for (const Job& job : jobs)
-    begun.records.push_back(unfinished(job.name, "did not run", "the run has not come to its end"));
+    begun.records.push_back(unfinished(job.name, std::nullopt, "the run has not come to its end"));
   write_verdicts(folder, begun);
 }
 
@@ -115,6 +116,7 @@ int list(const Options& options) {
   for (const Study& study : all_studies())
     json["studies"].push_back({{"name", study.name}, {"claim", study.claim}, {"source", study.source}});
   json["cases"] = built_in_cases(Tier::full);
+  json["cases_folder"] = data_folder() + "/cases";
   json["long_cases"] = long_cases();
   json["integrators"] = nlohmann::json::array();
   for (const Integrator& i : integrators())
@@ -133,7 +135,7 @@ int list(const Options& options) {
     for (const auto& row : json[kind])
       fmt::print("  {:<58} {}\n", row["name"].get<std::string>(), row["claim"].get<std::string>());
   }
-  fmt::print("cases (cases/NAME.toml):\n");
+  fmt::print("cases ({}/cases/NAME.toml):\n", data_folder());
   for (const std::string& name : built_in_cases(Tier::full)) fmt::print("  {}\n", name);
   fmt::print("integrators:\n");
   for (const Integrator& i : integrators())
@@ -166,14 +168,14 @@ int run_studies(const Options& options) {
 }
 
 int evaluate_hinges(const Options& options) {
-  require_input(options.file, number_table);
-  if (!options.rest_file.empty()) require_input(options.rest_file, number_table);
+  require_input(options.file, table_kind);
+  if (!options.rest_file.empty()) require_input(options.rest_file, table_kind);
   evaluate_bending(options.file, options.rest_file);
   return all_hold;
 }
 
 int evaluate_queries(const Options& options) {
-  if (!std::filesystem::is_directory(options.file)) require_input(options.file, number_table);
+  if (!std::filesystem::is_directory(options.file)) require_input(options.file, table_kind);
   return evaluate_crossings(options.file, options.kind, options.keep) ? all_hold : some_fail;
 }
 

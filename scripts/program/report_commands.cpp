@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include "scripts/program/commands.h"
-#include "scripts/program/input_files.h"
-#include "scripts/program/out_folder.h"
+#include "scripts/program/data_folder.h"
+#include "scripts/program/command_line/input_files.h"
+#include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/progress.h"
-#include "scripts/program/provenance.h"
 
 namespace foldproof {
 
@@ -29,7 +29,7 @@ void add(std::vector<std::string>& arguments, const std::string& option, const s
 
 int run_report_script(const std::string& makes, const std::string& script,
                       const std::vector<std::string>& arguments) {
-  const std::string path = project_folder() + "/reports/" + script;
+  const std::string path = data_folder() + "/reports/" + script;
   std::vector<char*> words = {const_cast<char*>(python), const_cast<char*>(path.c_str())};
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
@@ -57,7 +57,7 @@ int make_report(const Options& options) {
 }
 
 int make_film(const Options& options) {
-  require_input(options.file, stored_run);
+  require_input(options.file, run_kind);
   std::vector<std::string> arguments = {options.file};
   add(arguments, "--out", options.out);
   add(arguments, "--field", options.field);
@@ -67,7 +67,7 @@ int make_film(const Options& options) {
 }
 
 int export_frames(const Options& options) {
-  require_input(options.file, stored_run);
+  require_input(options.file, run_kind);
   const OutFolder folder(options.out);
   return run_report_script("files", "export.py",
                            {options.file, "--format", options.kind, "--out", options.out});

@@ -178,6 +178,25 @@ step = 0.001
         self.assertEqual(done.returncode, 2)
         self.assertIn("none.obj", done.stderr)
 
+    def test_a_case_is_named_by_its_file_or_as_a_shipped_one(self) -> None:
+        def simulated(name: str) -> subprocess.CompletedProcess[str]:
+            return run("simulate", name, "--set", "time.end=0.02", "--out", "out", folder=self.path)
+
+        for name in ("hinge", "hinge.toml", "any_mesh", "hard/sharp_fold"):
+            done = simulated(name)
+            self.assertTrue((self.path / "out" / f"{Path(name).stem}.h5").is_file(), done.stderr)
+        (self.path / "mine").mkdir()  # a folder is no case
+        self.write("mine.toml", (ROOT / "cases/hinge.toml").read_text())
+        self.write("any_mesh.toml", (ROOT / "cases/hinge.toml").read_text())
+        for name in ("mine", "any_mesh", "any_mesh.toml"):
+            self.assertIn("4 particles, 2 triangles", simulated(name).stderr)
+        done = run("converge", "hinge", "--until", "0.02", "--levels", "3", "--out", "out", folder=self.path)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        for name in ("nowhere", "hard/../hinge", "needs", "/hinge"):
+            done = simulated(name)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"{name}: there is no such case file, and no shipped case of that name", done.stderr)
+
     def test_any_obj_mesh_runs(self) -> None:
         quad = "v 0 0 0\nv 1 0 0\nv 1 1 0.1\nv 0 1 0\nv 0 2 0.2\nv 1 2 0\nf 1 2 3 4\nf 4 3 6 5\n"
         done = self.simulate(str(ROOT / "cases/any_mesh.toml"), "--set", "cloth.mesh=" + self.write("quad.obj", quad),
@@ -255,7 +274,7 @@ step = 0.001
                 self.assertLess(abs(a - b), 1e-12 * size)
 
     def test_the_examples_of_golden_values_run_as_they_are_printed(self) -> None:
-        readme = (ROOT / "verification/README.md").read_text(encoding="utf-8")
+        readme = (ROOT / "verification/GOLDEN.md").read_text(encoding="utf-8")
         python = re.search(r"```python\n(import csv.*?)```", readme, re.S).group(1)
         ran = subprocess.run([sys.executable, "-c", python], cwd=ROOT, capture_output=True, text=True, check=True)
         self.assertLess(float(ran.stdout.split()[-1]), 1e-12)
@@ -329,6 +348,9 @@ step = 0.001
         self.assertNotIn("bending", completed("study", "bend"))
         self.assertEqual(completed("simulate", "--res"), ["--restart", "--resume"])
         self.assertEqual(completed("simulate", "cases/garm"), ["cases/garment.toml"])
+        self.assertEqual(completed("simulate", "garm"), ["garment"])
+        self.assertEqual(completed("ablate", "hard/tw"), ["hard/twist"])
+        self.assertEqual(completed("inspect", "cas"), ["cases/"])
         self.assertEqual(completed("golden", "fri"), ["friction"])
 
     def test_a_stored_run_becomes_files_pages_and_a_comparison(self) -> None:
@@ -364,7 +386,7 @@ step = 0.001
         return done.stderr
 
     def test_a_mistyped_word_is_named_with_what_may_be_meant(self) -> None:
-        sheet = f"did you mean {ROOT}/cases/hanging_sheet.toml?"
+        sheet = "and no shipped case of that name; did you mean hanging_sheet?"
         for typed, said in {
             "simualte cases/hinge.toml": "unknown command 'simualte'; did you mean simulate?",
             "frobnicate": "known: simulate, verify,",
@@ -377,11 +399,14 @@ step = 0.001
             "golden sprigns": "did you mean springs?",
             "simulate hangin_sheet": sheet,
             "ablate cases/hanging_shet.toml": sheet,
-            "simulate nowhere/at_all_like.toml": "there is no such file; check the path",
+            "converge hnige": "did you mean hinge?",
+            "simulate twist": "did you mean hard/twist?",
+            "simulate nowhere/at_all_like.toml": "list` shows the shipped ones",
+            "inspect nowhere/at_all_like.obj": "there is no such file; check the path",
         }.items():
             self.assertIn(said, self.refused(*typed.split()), typed)
-        done = run("simulate", "hangin_sheet", folder=ROOT)
-        self.assertIn("did you mean cases/hanging_sheet.toml?", done.stderr)
+        self.write("flag.csv", "1,2")
+        self.assertIn("did you mean flag.csv?", self.refused("evaluate", "bending", "flg.csv"))
 
     def test_wrong_input_is_refused_in_a_line_and_leaves_nothing(self) -> None:
         for name in ("empty.toml", "empty.obj", "empty.h5", "empty.csv"):
@@ -401,6 +426,9 @@ step = 0.001
             "simulate hinge.toml --out new/a/b --set bending.stiffness=x": "must be a finite number",
             "simulate hinge.toml --json=3": "--json takes no value",
             "simulate hinge.toml --cache": "--cache needs a value: --cache DIR",
+            "converge hinge --levels 2": "'2' is not a whole number from 3 to 12",
+            "converge hinge --until -1": "'-1' is not a number above 0",
+            "converge hinge --out notes.txt": "notes.txt: cannot make this folder",
             "check bending --seed x": "'x' is not a whole number from 0 to 1000000000",
             "check bending --tier fast": "'fast' is none of quick, full",
             "check bending --out notes.txt": "notes.txt: cannot make this folder",
@@ -428,7 +456,7 @@ step = 0.001
 
         commands = [[name] for name in commands_in(run("--help").stdout)]
         commands += [["evaluate", name] for name in commands_in(run("evaluate", "--help").stdout)]
-        self.assertEqual(len(commands), 18)
+        self.assertEqual(len(commands), 19)
         for command in commands:
             text = run(*command, "--help").stdout
             self.assertNotRegex(text, r"\b(TEXT|U?INT|FLOAT|REQUIRED)\b|\(\dx\)", command)

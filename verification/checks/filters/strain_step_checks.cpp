@@ -320,10 +320,10 @@ std::vector<Check> strain_step_checks() {
            {"strain.thread-count-does-not-matter",
             "Coloured sweeps give the same bits on any number of threads.", "our own", threads_finding},
            {"scene.strain-limits-are-read",
-            "Strain limits are read as they are written, and built before objects.", "cases/README.md",
+            "Strain limits are read as they are written, and built before objects.", "cases/KEYS.md",
             read_finding},
            {"scene.invalid-strain-limits-are-rejected",
-            "Strain limits that make no sense are refused, with the line.", "cases/README.md",
+            "Strain limits that make no sense are refused, with the line.", "cases/KEYS.md",
             refused_finding}})
     list.push_back(check);
   return list;

@@ -126,7 +126,7 @@ Finding panels_finding(const Subject&) {
 }  // namespace
 
 std::vector<Check> seam_checks() {
-  const std::string source = "cases/README.md";
+  const std::string source = "cases/KEYS.md";
   return {
       {"mesh.seams-join-nearby-vertices",
        "Vertices become the first that stays within the distance, and no other.", source, seams_finding},

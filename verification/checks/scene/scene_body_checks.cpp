@@ -263,7 +263,7 @@ Finding refusal_finding(const Subject&) {
 }  // namespace
 
 std::vector<Check> scene_body_checks() {
-  const char* const source = "cases/README.md";
+  const char* const source = "cases/KEYS.md";
   return {{"scene.octree-bodies-are-as-written",
            "The octree of a body has the cells and the tolerance that the case says, and keeps it.", source,
            octree_finding},

@@ -302,7 +302,7 @@ Finding self_collision_refused_finding(const Subject&) {
 }  // namespace
 
 std::vector<Check> scene_cloth_checks() {
-  const std::string source = "cases/README.md";
+  const std::string source = "cases/KEYS.md";
   return {
       {"scene.shapes-are-read",
        "Discs, cylinders, spheres, statues and hinges are made in the sizes written.", source,

@@ -157,7 +157,7 @@ Finding refusals_finding(const Subject&) {
 }  // namespace
 
 std::vector<Check> sticking_scene_checks() {
-  const std::string source = "cases/README.md";
+  const std::string source = "cases/KEYS.md";
   return {{"scene.sticky-regions-are-read",
            "The reference reads of [[sticky]] what lists, boxes and spheres name, and its values.", source,
            regions_finding},

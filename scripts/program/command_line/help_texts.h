@@ -6,7 +6,7 @@ namespace foldproof::help {
 constexpr const char* whole_program =
     R"(Examples:
   foldproof verify                                     the quick tier, and results/report.html
-  foldproof simulate cases/hanging_sheet.toml          one case, into results/
+  foldproof simulate hanging_sheet                     one case, into results/
   foldproof check bending                              all checks of bending
   foldproof list                                       names of checks, studies and cases
 `foldproof COMMAND --help` explains a command, with examples.
@@ -92,7 +92,7 @@ Exit codes:
 constexpr const char* golden =
     R"(Prints a heading, then rows of numbers in 17 digits; vectors are three columns, NAME_x, NAME_y,
 NAME_z. With --json also what each column is, its unit, and the formula. All outputs were computed
-with 50 digits and rounded once. verification/README.md has examples in Python and C++.
+with 50 digits and rounded once. verification/GOLDEN.md has examples in Python and C++.
 
 Examples:
   foldproof golden friction --count 100
@@ -146,8 +146,8 @@ constexpr const char* simulate =
 it; the same command without --resume or --restart then stops and deletes nothing.
 
 Examples:
-  foldproof simulate cases/hanging_sheet.toml --set bending.stiffness=1e-3 --out mine
-  foldproof simulate cases/any_mesh.toml --set cloth.mesh=cases/skirt.obj --out mine
+  foldproof simulate hanging_sheet --set bending.stiffness=1e-3 --out mine
+  foldproof simulate any_mesh --set cloth.mesh=cases/skirt.obj --out mine
 
 Exit codes:
   0    it came to its end, and what the case expects holds
@@ -184,13 +184,28 @@ of a case file may say why a part is there, or left out, all the same; name a co
 of a finer one that would take hours; and ask of the beginning of a long run only.
 
 Examples:
-  foldproof ablate cases/hinge.toml
-  foldproof ablate cases/grab.toml --set time.end=0.2 --out mine
+  foldproof ablate hinge
+  foldproof ablate grab --set time.end=0.2 --out mine
 
 Exit codes:
   0    every part is needed, none is missing
   1    a part (marked !) is not needed or missing, and the case does not say why, or says so
        needlessly; or the scene itself comes to no end, or fails what it expects
+  2    bad input, or a file that cannot be written)";
+
+constexpr const char* converge =
+    R"(Runs the case as it is, then with every step halved, and halved again. For each quantity: the order
+by which differences between levels fall, Richardson's limit, and the grid convergence index as
+error bar (safety 1.25 where the order has settled, else 3). Quantities are those of the case's
+[[quantity]] tables; without any: positions, energies, heights, and what its [expect] asks.
+
+Examples:
+  foldproof converge hinge --until 0.2
+  foldproof converge hanging_sheet --levels 3 --method BDF2 --out mine
+
+Exit codes:
+  0    the positions have an order, or an error bar all the same
+  1    the order of the positions is inconclusive
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* project =

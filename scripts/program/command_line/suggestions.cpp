@@ -1,4 +1,4 @@
-#include "scripts/program/suggestions.h"
+#include "scripts/program/command_line/suggestions.h"
 
 #include <fmt/format.h>
 

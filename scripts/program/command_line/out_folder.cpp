@@ -1,4 +1,4 @@
-#include "scripts/program/out_folder.h"
+#include "scripts/program/command_line/out_folder.h"
 
 #include <unistd.h>
 

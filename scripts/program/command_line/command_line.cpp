@@ -1,4 +1,4 @@
-#include "scripts/program/command_line.h"
+#include "scripts/program/command_line/command_line.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "scripts/program/options.h"
 #include "scripts/program/progress.h"
-#include "scripts/program/suggestions.h"
+#include "scripts/program/command_line/suggestions.h"
 
 namespace foldproof {
 
@@ -191,6 +191,13 @@ CLI::Validator finite_number() {
   return validator("a finite number, such as 0.01", [](const std::string& typed) {
     double value = 0;
     return CLI::detail::lexical_cast(typed, value) && std::isfinite(value);
+  });
+}
+
+CLI::Validator positive_number() {
+  return validator("a number above 0", [](const std::string& typed) {
+    double value = 0;
+    return CLI::detail::lexical_cast(typed, value) && value > 0 && std::isfinite(value);
   });
 }
 
