@@ -83,7 +83,7 @@ std::shared_ptr<const FieldRecipe> recipe_of(const KeyTable& keys, Recipe of) {
 MeshSequence read_frames(const KeyTable& keys, const CaseAround& around) {
   const std::string where = keys.where("frames");
   const std::string folder = path_of(keys, "frames", around.folder);
-  if (where != "--set") refuse_links_outside(folder, around.folder, where);
+  if (!is_override(where)) refuse_links_outside(folder, around.folder, where);
   MeshSequence animation;
   try {
     animation =
@@ -168,7 +168,7 @@ DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, cons
   enum class Field { octree };
   choice<Field>(keys, "field", {{"octree", Field::octree}});
   const auto between = choice<BetweenFrames>(
-      keys, "between", {{"carried", BetweenFrames::carried}, {"blended", BetweenFrames::blended}});
+      keys, "interpolation", {{"carried", BetweenFrames::carried}, {"blended", BetweenFrames::blended}});
   const bool is_read = keys.has("frames");
   if (is_read && keys.has("deform"))
     throw InputError(keys.where("deform") +
