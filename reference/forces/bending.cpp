@@ -10,8 +10,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 // Squared height over edge below which a triangle counts as degenerate: at 1e-10 of the edge rounding has
 // eaten the normal.
 constexpr double smallest_height_squared = 1e-20;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace foldproof {
@@ -53,7 +52,7 @@ Neighbours neighbours_of(const TriangleMesh& mesh) {
 
 /// Loop's weight of each of the n neighbours of an inner particle; 1/16 for n = 6.
 double share_of_neighbour(std::size_t n) {
-  const double slope = 3.0 / 8 + std::cos(2 * std::numbers::pi / double(n)) / 4;
+  const double slope = 3.0 / 8 + std::cos(2 * pi / double(n)) / 4;
   return (5.0 / 8 - slope * slope) / double(n);
 }
 
