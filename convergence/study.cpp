@@ -6,19 +6,19 @@ std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const 
                                                       const Progress& progress) {
   StudyRecord whole{study.name, study.claim, study.source, study.about, 0, {}, {}, {}};
   std::vector<Record> records;
-  const Record blank{study.name, "study", study.name, study.claim, study.source, {}, "", "", 0, {}};
+  const Record blank{study.name, "study", study.name, study.claim, study.source, {}, {}, "", 0, {}};
   StudyResult result;
   const Record run = judged(blank, [&] {
     result = study.run(subject, tier, progress);
     return Finding{};
   });
-  if (run.outcome != name_of(Ruling::holds)) return {{run}, whole};  // it threw, or was not offered
+  if (run.outcome != Outcome::holds) return {{run}, whole};  // it threw, or was not offered
 
   for (NamedFinding& named : result.findings) {
     Record record = blank;
     record.name = named.name;
     record.claim = named.claim;
-    record.outcome = name_of(ruling(named.finding.verdict));
+    record.outcome = outcome_of(named.finding.verdict);
     record.finding = std::move(named.finding);
     records.push_back(std::move(record));
   }

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <functional>
 #include <optional>
 
+#include "scripts/program/data_folder.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/cases/judge.h"
@@ -18,7 +20,7 @@ namespace foldproof {
 namespace {
 
 /// Makes a run happen before an observer.
-using Runner = std::function<Outcome(const Observer&)>;
+using Runner = std::function<RunResult(const Observer&)>;
 
 Runner from_the_start(const BuiltCase& of) {
   return [&of](const Observer& observer) {
@@ -70,22 +72,22 @@ Runner from_checkpoints(const BuiltCase& of, const CheckpointFolder& checkpoints
 
 /// Runs the case; `also` watches beside the judge.
 std::vector<Record> judged_run(const BuiltCase& of, const Runner& run, const Observer& also,
-                               const Progress& progress, Outcome& outcome) {
+                               const Progress& progress, RunResult& result) {
   CaseJudge judge(of.shown, of.built.objects, of.level_sets);
-  outcome = run({[&](const State& s) {
-                   judge.enter(s);
-                   if (also.frame) also.frame(s);
-                 },
-                 [&](const Diagnostics& row) {
-                   judge.enter(row);
-                   if (also.step) also.step(row);
-                   progress(row.time / of.shown.scene.schedule.end);
-                 },
-                 [&](const Checkpoint& now) {
-                   judge.enter(now);
-                   if (also.checkpoint) also.checkpoint(now);
-                 }});
-  return judge.judged(outcome);
+  result = run({[&](const State& s) {
+                  judge.enter(s);
+                  if (also.frame) also.frame(s);
+                },
+                [&](const Diagnostics& row) {
+                  judge.enter(row);
+                  if (also.step) also.step(row);
+                  progress(row.time / of.shown.scene.schedule.end);
+                },
+                [&](const Checkpoint& now) {
+                  judge.enter(now);
+                  if (also.checkpoint) also.checkpoint(now);
+                }});
+  return judge.judged(result);
 }
 
 CaseRun recorded_run(const BuiltCase& of, const Runner& run, TrajectoryFile& trajectory,
@@ -96,11 +98,11 @@ CaseRun recorded_run(const BuiltCase& of, const Runner& run, TrajectoryFile& tra
   done.findings = judged_run(of, run,
                              {[&](const State& s) { trajectory.add_frame(s); },
                               [&](const Diagnostics& row) { trajectory.add_diagnostics(row); }},
-                             progress, done.outcome);
+                             progress, done.result);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   done.record = {scene.name,  scene.name + ".h5",
                  scene.title, scene.about,
-                 seconds,     done.outcome.stop ? described(*done.outcome.stop) : ""};
+                 seconds,     done.result.stop ? described(*done.result.stop) : ""};
   trajectory.finish(done.record.stopped, done.record.seconds, done.findings);
   return done;
 }
@@ -143,8 +145,8 @@ CaseRun run_case_with_checkpoints(const BuiltCase& of, const std::string& folder
 }
 
 std::vector<Record> judge_case(const BuiltCase& of, const Progress& progress) {
-  Outcome outcome;
-  return judged_run(of, from_the_start(of), {}, progress, outcome);
+  RunResult result;
+  return judged_run(of, from_the_start(of), {}, progress, result);
 }
 
 std::vector<std::string> shown_cases(Tier tier) {
@@ -177,8 +179,20 @@ std::vector<std::string> built_in_cases(Tier tier) {
   return all;
 }
 
+std::string shipped_case_file(const std::string& name) { return data_folder() + "/cases/" + name + ".toml"; }
+
+std::string case_file(const std::string& typed) {
+  const std::string name = typed.ends_with(".toml") ? typed.substr(0, typed.size() - 5) : typed;
+  std::error_code unreadable;
+  for (const std::string& file : {typed, name + ".toml"})
+    if (std::filesystem::is_regular_file(file, unreadable)) return file;
+  if (std::ranges::count(built_in_cases(Tier::full), name)) return shipped_case_file(name);
+  throw InputError(typed + ": there is no such case file, and no shipped case of that name; `" +
+                   program_command() + " list` shows the shipped ones");
+}
+
 Case built_in_case(const std::string& name) {
-  return with_usual_expectations(read_case(project_folder() + "/cases/" + name + ".toml"));
+  return with_usual_expectations(read_case(shipped_case_file(name)));
 }
 
 LevelSetMakers makers_of(const std::string& cache) {

@@ -45,12 +45,12 @@ void say_how_to_resume(const Scene& scene, const Options& options) {
 }
 
 nlohmann::json told(const CaseRun& run, const Options& options) {
-  const Work& work = run.outcome.work;
+  const Work& work = run.result.work;
   nlohmann::json json = {{"case", run.record.name},
                          {"file", options.out + "/" + run.record.file},
                          {"stopped", run.record.stopped},
-                         {"steps", run.outcome.steps},
-                         {"time", run.outcome.last.time},
+                         {"steps", run.result.steps},
+                         {"time", run.result.last.time},
                          {"seconds", run.record.seconds},
                          {"cg_iterations", work.cg_iterations},
                          {"solves", work.solves},
@@ -58,20 +58,20 @@ nlohmann::json told(const CaseRun& run, const Options& options) {
                          {"unfinished_solves", work.unfinished_solves},
                          {"findings", nlohmann::json::array()}};
   for (const Record& record : run.findings)
-    json["findings"].push_back({{"name", record.name}, {"outcome", record.outcome}});
+    json["findings"].push_back({{"name", record.name}, {"outcome", outcome_text(record)}});
   return json;
 }
 
 /// Returns the exit code.
 int report(const CaseRun& run, const Options& options) {
-  const Work& work = run.outcome.work;
+  const Work& work = run.result.work;
   RunRecord expected;
   expected.records = run.findings;
   if (options.json)
     fmt::print("{}\n", json_text(told(run, options)));
   else
     fmt::print("{}{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n",
-               listing(expected), options.out, run.record.file, run.outcome.last.time, run.outcome.steps,
+               listing(expected), options.out, run.record.file, run.result.last.time, run.result.steps,
                double(work.cg_iterations) / double(std::max(1L, work.solves)), run.record.seconds);
   if (work.unfinished_solves > 0)
     say(fmt::format("warning: {} of {} solves hit the cap on iterations", work.unfinished_solves,
@@ -93,7 +93,7 @@ CaseRun run_of(const BuiltCase& of, const Options& options) {
 }  // namespace
 
 int simulate_case(const Options& options) {
-  Case shown = read_case(options.file, options.overrides);
+  Case shown = read_case(case_file(options.file), options.overrides);
   const bool may_delete = options.resumes || options.restarts;
   const std::optional<KeptRun> kept = checkpoint_folder(shown.scene, options.out).kept_run();
   if (kept && !may_delete) refuse_to_lose(*kept, shown.scene, options);

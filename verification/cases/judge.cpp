@@ -31,24 +31,24 @@ void CaseJudge::enter(const State& frame) {
       seen_[k].see(value_at(quantity, case_.scene, objects_, frame));
 }
 
-std::vector<Record> CaseJudge::judged(const Outcome& outcome) const {
+std::vector<Record> CaseJudge::judged(const RunResult& result) const {
   std::vector<Record> records;
-  const RunSeen run{case_.scene, book_, outcome, repetition_, objects_};
+  const RunSeen run{case_.scene, book_, result, repetition_, objects_};
   for (size_t k = 0; k < seen_.size(); ++k) {
     const Expectation& expectation = case_.expectations[k];
     const Quantity& quantity = *find_quantity(expectation.key);
     double seen = quantity.of_run ? quantity.of_run(run) : seen_[k].value();
     std::string note = note_of(quantity, expectation, seen);
-    if (outcome.stop) note = "the run stopped: " + described(*outcome.stop);
+    if (result.stop) note = "the run stopped: " + described(*result.stop);
     const bool is_end = expectation.key == "runs_to_its_end";
-    if (outcome.stop && !is_end) seen = std::numeric_limits<double>::quiet_NaN();
+    if (result.stop && !is_end) seen = std::numeric_limits<double>::quiet_NaN();
     Record record;
     record.name = finding_name(case_.scene, expectation);
     record.kind = "check";
     record.claim = quantity.claim;
     record.source = case_.scene.title;
     record.finding = {verdict_of(quantity, expectation, seen), {}, note};
-    record.outcome = name_of(ruling(record.finding.verdict));
+    record.outcome = outcome_of(record.finding.verdict);
     records.push_back(std::move(record));
   }
   return records;

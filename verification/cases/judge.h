@@ -26,7 +26,7 @@ class CaseJudge {
 
   /// One record for each expectation, named finding_name(...). Of a run that stopped, all but
   /// runs_to_its_end fail: nothing is known of what was to come.
-  std::vector<Record> judged(const Outcome& outcome) const;
+  std::vector<Record> judged(const RunResult& result) const;
 
  private:
   const Case& case_;
