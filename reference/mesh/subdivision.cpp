@@ -17,8 +17,8 @@ int across(const Triangle& triangle, const Edge& edge) {
   throw InputError("a triangle with two equal corners has none across an edge");
 }
 
-//       c          Loop: 3/8 of a and b, 1/8 of c and d; on the border, and for midpoints, half of a and b.
-//     /   \.
+//       c          Loop: 3/8 of a and b, 1/8 of c and d; on the border, and for midpoints, half of
+//     /   \.       a and b.
 //   a --+-- b
 //     \   /
 //       d

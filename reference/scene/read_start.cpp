@@ -10,8 +10,8 @@ namespace foldproof {
 
 namespace {
 
-//    ______ ______        A serpentine: straight runs, one above the other, joined by half circles whose diameter is
-//   (______                the gap between two runs. Lengths along it are kept.
+//    ______ ______        A serpentine: straight runs, one above the other, joined by half circles
+//   (______               whose diameter is the gap between two runs. Lengths along it are kept.
 //          ______)   ^ up
 //   start            |    -> along
 struct Serpentine {
