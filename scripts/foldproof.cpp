@@ -243,6 +243,9 @@ void add_readers(CLI::App& app, Options& options) {
   add_folder(claims, options, "Folder of the finished run");
   add_json(claims, options);
   add_pages(app, options);
+}
+
+void add_geometry_readers(CLI::App& app, Options& options) {
   CLI::App* mesh = add_command(
       app, options, "inspect",
       "What a mesh is good for as a body; exit code 1: it is no solid, or opinions differ", inspect);
@@ -258,6 +261,9 @@ void add_readers(CLI::App& app, Options& options) {
   crossings->add_option("FILE", options.names, "Stored runs (.h5), or meshes (.obj), each a frame")
       ->required();
   add_json(crossings, options);
+}
+
+void add_golden(CLI::App& app, Options& options) {
   CLI::App* golden =
       add_command(app, options, "golden",
                   "Inputs and outputs of a formula, right to the last digit, for unit tests of yours",
@@ -271,6 +277,9 @@ void add_readers(CLI::App& app, Options& options) {
   golden->add_option("--count", options.count, "Rows")->check(CLI::PositiveNumber)->capture_default_str();
   golden->add_option("--seed", options.seed, "The same rows for the same number")->capture_default_str();
   add_json(golden, options);
+}
+
+void add_evaluate(CLI::App& app, Options& options) {
   CLI::App* evaluate = app.add_subcommand("evaluate", "Evaluate a formula on your numbers");
   evaluate->require_subcommand(0, 1);
   CLI::App* bending =
@@ -327,6 +336,9 @@ int run(int argc, char** argv) {
     return fmt::format("foldproof {} ({}, {})", p.version, p.commit, p.tree);
   });
   add_readers(app, options);
+  add_geometry_readers(app, options);
+  add_golden(app, options);
+  add_evaluate(app, options);
   add_runs(app, options);
   add_ablate(app, options);
   add_converge(app, options);
