@@ -1,7 +1,7 @@
 """Where a text stands in a C++ file, however the two are laid out.
 
-White space does not count, nor do the marks at which a text or a comment goes on in the next line: where a literal
-is closed and opened again, and the // of a line that holds only a comment.
+White space does not count. Nor do the marks of a continuation: where a string literal ends and the
+next line begins another, and the // of a line that holds only a comment.
 """
 
 import functools
