@@ -16,7 +16,7 @@ class KeyTable;
 
 struct KeyValue {
   std::variant<bool, long, double, std::string, std::vector<KeyValue>, std::shared_ptr<KeyTable>> data;
-  std::string where;  // "file:line", or "--set"
+  std::string where;  // "file:line", or "--set KEY=VALUE"
 };
 
 /// One table of keys. Every reader throws InputError "file:line: ..." for a missing key, a wrong type or a

@@ -75,10 +75,12 @@ void refuse_outside(const std::string& file, const std::string& folder, const st
                    "' lies outside the case file's folder; put it there, or name it by --set");
 }
 
+bool is_override(const std::string& where) { return where.starts_with("--set "); }
+
 std::string path_of(const KeyTable& keys, const std::string& key, const std::string& folder) {
   const std::string where = keys.where(key);
   const std::filesystem::path named = keys.text(key);
-  if (where == "--set" || named.empty()) return named.string();
+  if (is_override(where) || named.empty()) return named.string();
   const std::string file = (folder / named).string();
   if (named.is_absolute() || std::ranges::find(named, "..") != named.end())
     throw InputError(where + ": '" + named.string() +
