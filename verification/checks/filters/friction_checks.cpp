@@ -74,7 +74,7 @@ Finding slope_finding(const Subject& subject, const std::string& integrator, con
       const double time = h * steps;
       const double acceleration = std::max(0.0, g * (std::sin(al) - mu * std::cos(al)));
       const double expected = acceleration * time * time / 2;
-      ways.row(mu, al * 180 / M_PI, slid.way, expected);
+      ways.row(mu, al * 180 / pi, slid.way, expected);
       worst.see(std::abs(slid.way - expected));
       worst.see(slid.off);
     }
