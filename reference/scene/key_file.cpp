@@ -366,6 +366,8 @@ void set_key(KeyTable& root, const std::string& assignment) {
                   : &table_below(*table, path[k], assignment);
     if (picks) ++k;
   }
+  const auto written = table->entries.find(path.back());
+  if (written != table->entries.end() && written->second.where != "--set") table->replaced.insert(*written);
   table->entries.insert_or_assign(path.back(), parsed_value(assignment.substr(equals + 1)));
 }
 

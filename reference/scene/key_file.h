@@ -57,6 +57,7 @@ class KeyTable {
   void refuse_unused() const;
 
   std::map<std::string, KeyValue> entries;
+  std::map<std::string, KeyValue> replaced;  // what the file says of keys that set_key replaced
 
  private:
   const KeyValue& required(const std::string& key) const;

@@ -199,6 +199,10 @@ int exit_code(const RunRecord& run) {
 std::string listing(const RunRecord& run) {
   std::string text;
   for (const Record& r : run.records) {
+    if (r.outcome == name_of(Ruling::not_applicable)) {
+      text += fmt::format("{:<14} {:<60} {}\n", r.outcome, r.name, r.finding.note);
+      continue;
+    }
     const Verdict& v = r.finding.verdict;
     text += fmt::format("{:<14} {:<60} {:>11.4g} {} {:<9.4g} {}\n", r.outcome, r.name, v.measured,
                         r.kind == "bench" ? "target" : "<=", v.bound, v.unit == "1" ? "" : v.unit);
