@@ -39,7 +39,7 @@ the rest positions: rows of 12 numbers.)";
 
 constexpr const char* golden_help =
     R"(Prints a heading, then rows of numbers in 17 digits; vectors are three columns, NAME_x, NAME_y, NAME_z. With --json also what each column
-is, its unit, and the formula. All outputs were computed with 50 digits and rounded once. verification/README.md has examples in Python
+is, its unit, and the formula. All outputs were computed with 50 digits and rounded once. verification/GOLDEN.md has examples in Python
 and C++.)";
 
 constexpr const char* queries_help =
@@ -55,6 +55,11 @@ fails or has no meaning, the cloth crosses itself, or lies deeper in an object b
 is there, or left out, all the same; name a coarser mesh instead of a finer one that would take hours; and ask of the beginning of a long run only. Exit code 1
 (and a mark !): a part is not needed, or one is missing, and the case does not say why; or it says so needlessly; or the scene itself comes to no end, or fails what
 it expects.)";
+
+constexpr const char* converge_help =
+    R"(Runs the case as it is, then with every step halved, and halved again. For each quantity: the order by which differences
+between levels fall, Richardson's limit, and the grid convergence index as error bar (safety 1.25 where the order has settled, else 3). Quantities are those of
+the case's [[quantity]] tables; without any: positions, energies, heights, and what its [expect] asks. Exit code 1: the order of the positions is inconclusive.)";
 
 constexpr const char* project_help =
     R"(Prints how many points were moved, and of the last frame how much of the wrinkles is left: the standard deviation of the depths of points that were
@@ -132,12 +137,15 @@ void add_selections(CLI::App& app, Options& options) {
 void add_runs(CLI::App& app, Options& options) {
   CLI::App* simulate =
       add_command(app, options, "simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf", simulate_case);
-  simulate->add_option("CASE", options.file, "Case file, see cases/README.md")->required();
+  simulate->add_option("CASE", options.file, "Case file, see cases/KEYS.md")->required();
   simulate->add_option("--set", options.overrides, "Override a key: table.key=value")
       ->allow_extra_args(false);
-  simulate->add_flag(
+  CLI::Option* resume = simulate->add_flag(
       "--resume", options.resumes,
       "Go on from the last checkpoint of a run that was interrupted; the results are the same to the bit");
+  simulate->add_flag("--restart", options.restarts,
+                     "Start over, and delete the checkpoints of a run that was interrupted")
+      ->excludes(resume);
   CLI::App* everything = add_command(app, options, "verify",
                                      "All checks, studies and cases, the claims, and the report", verify);
   everything->add_flag("--no-report", options.no_report, "Write the results only");
@@ -281,9 +289,30 @@ void add_readers(CLI::App& app, Options& options) {
       ->capture_default_str();
 }
 
+void add_converge(CLI::App& app, Options& options) {
+  CLI::App* command =
+      add_command(app, options, "converge",
+                  "How large is the error that a case owes to its step? Order, limit and error bar of its quantities",
+                  converge);
+  command->footer(converge_help);
+  command->add_option("CASE", options.file, "Case file")->required();
+  command->add_option("--levels", options.levels, "Runs, each with half the steps of the one before")
+      ->check(CLI::Range(3, 12))
+      ->default_val(4);
+  command->add_option("--method", options.methods, "Integrator in place of the case's own");
+  command->add_option("--until", options.until, "Ask only the beginning of the run, up to this time [s]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--set", options.overrides, "Override a key: table.key=value")->allow_extra_args(false);
+  add_folder(command, options, "Folder whose store/ keeps every run; a second call makes only what is missing");
+  add_cache(command, options);
+  command->add_option("--threads", options.running.threads, "Runs at a time (default: one a core)");
+  add_json(command, options);
+}
+
 int run(int argc, char** argv) {
   Options options;
   options.command = typed(argc, argv);
+  options.words.assign(argv, argv + argc);
   CLI::App app(
       "Verification suite and reference implementation for cloth simulation, after Bridson, Marino, Fedkiw "
       "(2003).");
@@ -296,6 +325,7 @@ int run(int argc, char** argv) {
   add_readers(app, options);
   add_runs(app, options);
   add_ablate(app, options);
+  add_converge(app, options);
   add_project(app, options);
   add_selections(app, options);
   try {

@@ -25,7 +25,7 @@ std::vector<Dipole> make_dipoles(const MeshDistance& mesh);
 
 /// The winding number from the tree: a node farther away than `far` times its radius counts as its dipole and
 /// quadrupole, a leaf nearer than that triangle by triangle (Barill et al. 2018). The error is below 0.5
-/// far^-2 on the statue, whole and with holes (check level-set.winding-tree-is-near); where many triangles
+/// far^-2 on the statue, whole and with holes (check level-set.winding-tree-error-is-bounded); where many triangles
 /// overlap it is more.
 double winding_number(const MeshDistance& mesh, const std::vector<Dipole>& dipoles, const Vector3& p,
                       double far);

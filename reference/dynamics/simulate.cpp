@@ -102,6 +102,7 @@ class Run {
   void step_to_frame(double target);
   void step_to(double target);
   void step(double target);
+  std::optional<double> prescribed_end(double target) const;
   void hand_out_row(const State& s, double h, double limit, const Work& work);
   void hand_out_checkpoint() const;
   double seconds() const;
@@ -194,6 +195,14 @@ void Run::step_to(double target) {
   }
 }
 
+/// Where the schedule lets the next step end, at `target` at the latest [s]; none where it prescribes nothing.
+std::optional<double> Run::prescribed_end(double target) const {
+  const std::vector<double>& ends = schedule_.step.ends;
+  const auto next = std::ranges::upper_bound(ends, history_.now().time);
+  if (next == ends.end()) return {};
+  return std::min(*next, target);
+}
+
 /// One step towards the time `target`.
 void Run::step(double target) {
   const System& system = events_.system();
@@ -201,9 +210,11 @@ void Run::step(double target) {
   const long number = steps_ + 1;
   begin_step(system, now);
   const double left = target - now.time;
-  const bool asks_for_limit = observer_.step || !(schedule_.step.fixed > 0);
+  const std::optional<double> end = prescribed_end(target);
+  const bool asks_for_limit = observer_.step || !(end || schedule_.step.fixed > 0);
   const double limit = asks_for_limit ? elastic_limit(system, now) : 0;
-  const double h = even_step(left, step_allowed(system, integrator_, history_.past(), schedule_.step, limit));
+  const double h = end ? *end - now.time
+                       : even_step(left, step_allowed(system, integrator_, history_.past(), schedule_.step, limit));
   if (!(now.time + h > now.time)) {
     stop_ = Stop{"a step became too short to advance the time", now.time, number, -1};
     return;
@@ -212,6 +223,7 @@ void Run::step(double target) {
   work.bonds = long(now.bonds.size());
   State next = integrator_.step(system, history_.past(), h, work);
   if (h == left) next.time = target;  // no rounding between a frame's time and its state's
+  if (end) next.time = *end;
   stop_ = fault_in(now, next, size_, number);
   if (stop_) return;
   hand_out_row(next, h, limit, work);

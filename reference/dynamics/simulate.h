@@ -21,6 +21,8 @@ struct StepRule {
             // damping limit 2/c too, c the bound on the largest damping rate [1]
   double strain_per_step =
       0.1;  // automatic: no edge's length changes by more than this fraction of its rest length [1]
+  std::vector<double> ends = {};  // where every step ends, ascending, frames and events among them [s];
+                                  // once they are used up, or without any, the rules above hold
 };
 
 struct Schedule {

@@ -202,6 +202,7 @@ Scene scene_alone(const CaseKeys& of, const SceneLimits& limits) {
   const KeyTable& keys = *of.keys;
   keys.leave("expect");    // what must hold of the run: whoever judges it reads that table
   keys.leave("ablation");  // why parts are there or left out: whoever toggles them reads that table
+  keys.leave("quantity");  // what is measured of the run: whoever measures reads those tables
   keys.refuse_unused();
   return scene;
 }

@@ -93,7 +93,7 @@ CaseKeys parse_case_text(const std::string& text, const std::string& path,
 
 /// The scene that the keys describe; no level set is computed. Throws InputError "file:line: ..." for
 /// anything that it does not understand, but leaves keys that it does not know to refuse_unused of the tree,
-/// after all of it was read. See cases/README.md for the keys.
+/// after all of it was read. See cases/KEYS.md for the keys.
 Scene scene_from(const CaseKeys& of, const SceneLimits& limits = {});
 
 /// The scene of a case file alone: its tables [expect] and [ablation] are left aside. Throws InputError as

@@ -1,4 +1,4 @@
-"""Reads what a run wrote (HDF5, layout in README.md) into plain dataclasses.
+"""Reads what a run wrote (HDF5, layout in verification/FORMAT.md) into plain dataclasses.
 
     run = load_run("results/run.h5")
     case = load_case("results/hanging_sheet.h5"); x = case.positions(-1)     # N x 3 [m]

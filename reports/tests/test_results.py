@@ -39,8 +39,8 @@ class ResultsInNumpy(unittest.TestCase):
         put_run(self.root / "results")
 
     def test_the_readme_says_what_happens(self) -> None:
-        text = (REPORTS / "README.md").read_text(encoding="utf-8")
-        example = doctest.DocTestParser().get_doctest(text, {}, "README.md", None, None)
+        text = (REPORTS / "DATA.md").read_text(encoding="utf-8")
+        example = doctest.DocTestParser().get_doctest(text, {}, "DATA.md", None, None)
         self.assertGreater(len(example.examples), 10)
         before, told = os.getcwd(), StringIO()
         os.chdir(self.root)
@@ -120,7 +120,7 @@ class VerdictsSchema(unittest.TestCase):
         self.assertEqual([error.message for error in self.validator.iter_errors(self.verdicts)], [])
 
     def test_the_example_of_the_readme_validates_and_tells(self) -> None:
-        blocks = re.findall(r"```python\n(.*?)```", (REPORTS / "README.md").read_text(encoding="utf-8"), re.S)
+        blocks = re.findall(r"```python\n(.*?)```", (REPORTS / "DATA.md").read_text(encoding="utf-8"), re.S)
         example = next(block for block in blocks if "jsonschema" in block)
         with tempfile.TemporaryDirectory() as folder:
             os.symlink(REPORTS, Path(folder) / "reports")

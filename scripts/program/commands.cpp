@@ -74,25 +74,6 @@ std::vector<std::string> names_of_case_findings() {
   return names;
 }
 
-nlohmann::json told(const CaseRun& run, const Options& options) {
-  const Work& work = run.outcome.work;
-  nlohmann::json json = {{"case", run.record.name},
-                         {"file", options.out + "/" + run.record.file},
-                         {"stopped", run.record.stopped},
-                         {"steps", run.outcome.steps},
-                         {"time", run.outcome.last.time},
-                         {"seconds", run.record.seconds},
-                         {"cg_iterations", work.cg_iterations},
-                         {"solves", work.solves},
-                         {"elastic_evaluations", work.elastic_evaluations},
-                         {"unfinished_solves", work.unfinished_solves},
-                         {"findings", nlohmann::json::array()}};
-  for (const Record& record : run.findings)
-    json["findings"].push_back(
-        {{"name", record.name}, {"outcome", record.outcome}, {"note", record.finding.note}});
-  return json;
-}
-
 /// Judges all shipped cases; those that are shown leave their files in the folder.
 std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance& provenance) {
   constexpr double length = 60;
@@ -163,31 +144,6 @@ int list(const Options& options) {
   for (const Integrator& i : integrators())
     fmt::print("  {}  {} ({}), order {}\n", i.name, i.title, i.source, i.order);
   return all_hold;
-}
-
-int simulate_case(const Options& options) {
-  make_folder(options.out);
-  const BuiltCase of = built_case(read_case(options.file, options.overrides), makers_of(options.cache));
-  const Scene& scene = of.shown.scene;
-  say(fmt::format("{}: {}", scene.name, fmt::join(built_parts(scene, of.built.system), "; ")));
-  ProgressLine line("simulate " + scene.name);
-  const CaseRun run =
-      run_case_with_checkpoints(of, options.out, options.resumes ? Start::last_checkpoint : Start::anew,
-                                provenance(options.command), [&](double part) { line.show(part); });
-  const Work& work = run.outcome.work;
-  RunRecord expected;
-  expected.records = run.findings;
-  if (options.json)
-    fmt::print("{}\n", json_text(told(run, options)));
-  else
-    fmt::print("{}{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n",
-               listing(expected), options.out, run.record.file, run.outcome.last.time, run.outcome.steps,
-               double(work.cg_iterations) / double(std::max(1L, work.solves)), run.record.seconds);
-  if (work.unfinished_solves > 0)
-    say(fmt::format("warning: {} of {} solves hit the cap on iterations", work.unfinished_solves,
-                    work.solves));
-  if (!run.record.stopped.empty()) say("stopped: " + run.record.stopped);
-  return run.record.stopped.empty() ? exit_code(expected) : 1;
 }
 
 int run_checks(const Options& options) {

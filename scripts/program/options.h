@@ -13,7 +13,8 @@ namespace foldproof {
 constexpr int all_hold = 0, some_fail = 1, bad_input = 2;  // exit codes
 
 struct Options {
-  std::string command;  // as typed
+  std::string command;             // as typed, for the record of a run
+  std::vector<std::string> words;  // as typed, the program's name first
   std::string out = "results", tier = "quick", file, rest_file;
   std::vector<std::string> names, overrides;
   std::string cache;               // folder that keeps level sets; none if empty
@@ -28,9 +29,11 @@ struct Options {
   unsigned seed_shift = 0;       // of check, study and verify (verification/seeds.h)
   Running running;               // of check, study and verify
   int cells = 64;                // of inspect: along the longest side
-  int levels = 0;                // of project: of subdivision
-  bool json = false, quick = false, no_report = false, no_bench = false, resumes = false, pdf = false,
-       papers = false;
+  int levels = 0;                // of project: of subdivision; of converge: runs
+  std::vector<std::string> methods;  // of converge: integrators
+  double until = 0;              // of converge: how much of the run is asked [s]; 0: all of it
+  bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,
+       restarts = false, pdf = false, papers = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code
 };
 

@@ -10,7 +10,6 @@
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/cases/judge.h"
-#include "verification/files/checkpoint_file.h"
 #include "verification/files/kept_level_sets_file.h"
 #include "verification/files/trajectory_file.h"
 
@@ -126,11 +125,17 @@ CaseRun run_case(const BuiltCase& of, const std::string& folder, const Provenanc
   return recorded_run(of, from_the_start(of), trajectory, progress);
 }
 
+std::string checkpoint_path(const Scene& scene, const std::string& folder) {
+  return (std::filesystem::path(folder) / (scene.name + ".checkpoints")).string();
+}
+
+CheckpointFolder checkpoint_folder(const Scene& scene, const std::string& folder) {
+  return {checkpoint_path(scene, folder), identity_of(scene, program_identity())};
+}
+
 CaseRun run_case_with_checkpoints(const BuiltCase& of, const std::string& folder, Start start,
                                   const Provenance& provenance, const Progress& progress) {
-  const Scene& scene = of.shown.scene;
-  const std::string kept = (std::filesystem::path(folder) / (scene.name + ".checkpoints")).string();
-  const CheckpointFolder checkpoints(kept, identity_of(scene, program_identity()));
+  const CheckpointFolder checkpoints = checkpoint_folder(of.shown.scene, folder);
   TrajectoryFile trajectory = trajectory_file(of, folder, provenance);
   CaseRun done = recorded_run(of, from_checkpoints(of, checkpoints, start), trajectory, progress);
   checkpoints.remove_from(0);

@@ -6,6 +6,7 @@
 #include "reference/bodies/makers.h"
 #include "reference/dynamics/simulate.h"
 #include "verification/cases/expectations.h"
+#include "verification/files/checkpoint_file.h"
 #include "verification/verdict.h"
 #include "verification/files/results_file.h"
 
@@ -30,6 +31,10 @@ BuiltCase built_case(Case shown, const LevelSetMakers& level_sets);
 /// Simulates the case and writes <folder>/<name>.h5 and .xdmf.
 CaseRun run_case(const BuiltCase& of, const std::string& folder, const Provenance& provenance,
                  const Progress& progress);
+
+/// The folder of a run's checkpoints: <folder>/<name>.checkpoints.
+std::string checkpoint_path(const Scene& scene, const std::string& folder);
+CheckpointFolder checkpoint_folder(const Scene& scene, const std::string& folder);
 
 /// How a run is kept from being lost.
 enum class Start {

@@ -146,7 +146,7 @@ class Kills(FileTest):
         case, out = self.stopped_short()
         before = {path.name: path.read_bytes() for path in (out / "led.checkpoints").glob("*.h5")}
         self.refused(run("simulate", case.file, "--set", "gravity.acceleration=[0,-9,0]", "--out", str(out), "--resume"),
-                     "another case text", "--resume")
+                     "another case text", "--restart")
         with h5py.File(out / "led.checkpoints/000000.h5") as file:
             self.assertIn("code ", file.attrs["program"])
         self.assertEqual(before, {path.name: path.read_bytes() for path in (out / "led.checkpoints").glob("*.h5")})
@@ -164,11 +164,12 @@ class Kills(FileTest):
         Path(mesh).write_text(TRIANGLES.replace("v 1 1 0", "v 1 1 0.01"))
         self.refused(self.simulate(case, "--resume"), "other meshes")
 
-    def test_without_resume_checkpoints_of_an_earlier_run_are_removed_and_other_files_stay(self) -> None:
+    def test_a_restart_removes_checkpoints_and_leaves_other_files(self) -> None:
         case, out = self.stopped_short()
         mine = out / "led.checkpoints/notes.txt"
         mine.write_text("mine")
-        self.assertEqual(run("simulate", case.file, "--out", str(out)).returncode, 0)
+        self.refused(run("simulate", case.file, "--out", str(out)), "led.checkpoints", "--resume", "--restart")
+        self.assertEqual(run("simulate", case.file, "--out", str(out), "--restart").returncode, 0)
         self.assertEqual([path.name for path in (out / "led.checkpoints").iterdir()], ["notes.txt"])
         self.assertEqual(content_of(out / "led.h5"), case.content)
 

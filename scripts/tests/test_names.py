@@ -101,6 +101,16 @@ class Names(unittest.TestCase):
                 name = part["name"].split("'")[0]
                 self.assertIn(f'"{name}', parts, row["case"])
 
+    def test_renames_lead_from_names_that_are_gone_to_names_that_exist(self) -> None:
+        renames = tomllib.loads((ROOT / "scripts/renames.toml").read_text(encoding="utf-8"))
+        changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+        current = {row["name"] for kind in ("checks", "studies") for row in self.listed[kind]} | set(self.listed["case_findings"])
+        self.assertGreater(len(renames["findings"]), 200)
+        for old, new in renames["findings"].items():
+            self.assertNotIn(old, current)
+            self.assertTrue(self.exists(new), f"'{old}' is renamed to '{new}', which does not exist")
+            self.assertIn(f"| `{old}` | `{new}` |\n", changelog)
+
 
 if __name__ == "__main__":
     unittest.main()

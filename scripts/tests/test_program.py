@@ -7,6 +7,7 @@ scripts/tests/test_program.py [--program FILE] [ProgramTest.test_...]      --pro
 import json
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -244,7 +245,7 @@ step = 0.001
     def test_claims_are_ruled_by_the_findings_that_a_run_has(self) -> None:
         out = str(self.path / "out")
         self.assertEqual(run("claims", "--out", out).returncode, 2)
-        done = run("check", "dynamics.solve-counts", "bending.mode-is-minus-gradient-of-theta", "--out", out)
+        done = run("check", "dynamics.solves-are-counted", "bending.mode-is-minus-gradient-of-theta", "--out", out)
         self.assertEqual(done.returncode, 0, done.stderr)
         shown = run("claims", "--out", out)
         self.assertEqual([line.split()[:2] for line in shown.stdout.splitlines()], [["T19", "confirmed"], ["B10", "refuted"]])
@@ -276,7 +277,7 @@ step = 0.001
                 self.assertLess(abs(a - b), 1e-12 * size)
 
     def test_the_examples_of_golden_values_run_as_they_are_printed(self) -> None:
-        readme = (ROOT / "verification/README.md").read_text(encoding="utf-8")
+        readme = (ROOT / "verification/GOLDEN.md").read_text(encoding="utf-8")
         python = re.search(r"```python\n(import csv.*?)```", readme, re.S).group(1)
         ran = subprocess.run([sys.executable, "-c", python], cwd=ROOT, capture_output=True, text=True, check=True)
         self.assertLess(float(ran.stdout.split()[-1]), 1e-12)
@@ -348,7 +349,7 @@ step = 0.001
         self.assertIn("time-order", completed("study", "time"))
         self.assertEqual(completed("check", "case.tw"), ["case.twist"])
         self.assertNotIn("bending", completed("study", "bend"))
-        self.assertEqual(completed("simulate", "--res"), ["--resume"])
+        self.assertEqual(completed("simulate", "--res"), ["--restart", "--resume"])
         self.assertEqual(completed("simulate", "cases/garm"), ["cases/garment.toml"])
         self.assertEqual(completed("golden", "fri"), ["friction"])
 
@@ -381,6 +382,46 @@ step = 0.001
             done = run(*typed)
             self.assertEqual(done.returncode, 2)
             self.assertIn(named, done.stderr)
+
+    def interrupted(self, how: int) -> subprocess.CompletedProcess[str]:
+        """A run of the hinge that the signal reaches after its second frame."""
+        out = self.path / "out"
+        command = [str(PROGRAM), "simulate", "cases/hinge.toml", "--set", "time.end=3", "--out", str(out)]
+        running = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while running.poll() is None and not (out / "hinge.checkpoints/000002.h5").exists():
+            time.sleep(0.001)
+        running.send_signal(how)
+        printed, said = running.communicate()
+        return subprocess.CompletedProcess(command[1:], running.returncode, printed, said)
+
+    def test_an_interrupted_run_says_how_to_resume_it(self) -> None:
+        for how in (signal.SIGINT, signal.SIGTERM):
+            done = self.interrupted(how)
+            self.assertEqual(done.returncode, -how, done.stderr)
+            self.assertRegex(done.stderr, r"interrupted at frame \d+, t = \S+ s of 3 s; resume with: .* --resume\n$")
+            command = done.stderr.splitlines()[-1].split("resume with: ")[1]
+            again = subprocess.run(command, shell=True, cwd=ROOT, capture_output=True, text=True, check=False)
+            self.assertEqual(again.returncode, 0, again.stderr)
+            self.assertIn("resumed from frame", again.stderr)
+            shutil.rmtree(self.path / "out")
+
+    def test_an_interrupted_run_is_deleted_only_on_request(self) -> None:
+        command = self.interrupted(signal.SIGKILL).args
+        kept = {path.name: path.read_bytes() for path in (self.path / "out/hinge.checkpoints").glob("*.h5")}
+        for more, mentions in (((), ("interrupted at frame", "--resume`")),
+                               (("--set", "time.end=2"), ("another case text", "another --out"))):
+            done = run(*command, *more, folder=ROOT)
+            self.assertEqual(done.returncode, 2)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            for part in (*mentions, "t = ", "--restart"):
+                self.assertIn(part, done.stderr)
+            for name, content in kept.items():
+                self.assertEqual((self.path / "out/hinge.checkpoints" / name).read_bytes(), content)
+        self.assertEqual(run(*command, "--resume", "--restart", folder=ROOT).returncode, 2)
+        done = run(*command, "--restart", folder=ROOT)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("resumed", done.stderr)
+        self.assertFalse((self.path / "out/hinge.checkpoints").exists())
 
     def test_a_run_that_is_killed_leaves_no_verdict(self) -> None:
         out = self.path / "out"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reference/scene/scene.h"
+#include "verification/cases/measurement.h"
 
 namespace foldproof {
 
@@ -31,9 +32,10 @@ struct Case {
   std::vector<Declared> declared = {};
   std::vector<std::string> coarser_mesh = {};  // of [ablation]: overrides "a.b=number" that make it coarser
   double ablated_until = 0;  // of [ablation]: how much of the run is asked [s]; 0: all of it
+  std::vector<Measurement> quantities = {};  // of [[quantity]]
 };
 
-/// Reads the case file's scene and its tables [expect] and [ablation], from one tree of keys. Throws
+/// Reads the case file's scene and its tables [expect], [ablation] and [[quantity]], from one tree of keys. Throws
 /// InputError "file:line: ..." for what read_scene refuses, an unknown quantity, one that makes no sense for
 /// the scene, and an entry without bound or reason.
 ///   overrides   "a.b=c", applied in order; expect.KEY.at_most=... is one, too. Where one puts another mesh or

@@ -168,16 +168,21 @@ CheckpointRecord record_of(const StoredCheckpoint& stored) {
   return record;
 }
 
-void refuse_other(const std::string& path, const RunIdentity& stored, const RunIdentity& mine) {
+/// What `stored` is of that `mine` is not; "" if they are the same.
+std::string difference(const RunIdentity& stored, const RunIdentity& mine) {
   std::string what;
   if (stored.case_text != mine.case_text) what = "another case text, or other overrides";
   if (stored.meshes != mine.meshes) what += std::string(what.empty() ? "" : "; ") + "other meshes";
   if (stored.program != mine.program)
     what += std::string(what.empty() ? "" : "; ") + "another program (" + stored.program + ", this is " +
             mine.program + ")";
-  if (!what.empty())
+  return what;
+}
+
+void refuse_other(const std::string& path, const RunIdentity& stored, const RunIdentity& mine) {
+  if (const std::string what = difference(stored, mine); !what.empty())
     throw InputError(path + ": this checkpoint is of " + what +
-                     ". Resume with what it was made with, or start anew without --resume");
+                     ". Resume with what it was made with, or start over with --restart, which deletes it");
 }
 
 /// The number in the name of a checkpoint; -1 for other files.
@@ -249,6 +254,20 @@ std::optional<Checkpoint> CheckpointFolder::replay(const std::function<void(cons
   }
   remove_from(frame);
   return last;
+}
+
+std::optional<KeptRun> CheckpointFolder::kept_run() const {
+  long frames = 0;
+  while (std::filesystem::exists(file(frames))) ++frames;
+  if (frames == 0) return std::nullopt;
+  for (long frame = frames - 1; frame >= 0; --frame) {
+    try {
+      const StoredCheckpoint stored = read_stored(file(frame));
+      return KeptRun{frame, record_of(stored).at.past.back().time, difference(stored.identity, identity_)};
+    } catch (const std::exception&) {  // damaged: the one before it counts
+    }
+  }
+  return KeptRun{};
 }
 
 void CheckpointFolder::remove_from(long first) const {

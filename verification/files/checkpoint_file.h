@@ -28,6 +28,13 @@ struct CheckpointRecord {
   std::vector<Diagnostics> rows;
 };
 
+/// How far the run had come whose checkpoints lie in a folder.
+struct KeptRun {
+  long frame = -1;      // of the last checkpoint that is whole; -1: none is
+  double time = 0;      // of that frame [s]
+  std::string differs;  // what it is of, where that is not what is asked for; "" if it can be resumed
+};
+
 /// Files 000000.h5, 000001.h5, ... in a folder of their own, each renamed when whole. Each holds only what
 /// has happened since the one before, so that a run writes as much as its frames are long; they are of use as
 /// far as none is missing.
@@ -45,6 +52,9 @@ class CheckpointFolder {
   /// program, saying which.
   std::optional<Checkpoint> replay(const std::function<void(const CheckpointRecord&)>& enter,
                                    const std::function<void(const std::string&)>& say) const;
+
+  /// The run that was interrupted here; none if there is no checkpoint.
+  std::optional<KeptRun> kept_run() const;
 
   /// Removes checkpoint `first` and all later ones, the latest first, then the folder if it is empty. Files
   /// of other names stay.

@@ -261,21 +261,21 @@ Finding pairs_are_complete(const Subject&) {
 }  // namespace
 
 std::vector<Check> closed_mesh_checks() {
-  return {{"level-set.bad-solids-are-refused",
+  return {{"level-set.invalid-solids-are-rejected",
            "Holes, flipped triangles, intersections and pieces inside out are refused by name and number.",
            "ours", bad_solids_are_refused},
-          {"level-set.holes-are-named", "The edge that a refusal names is one of the hole's.", "ours",
-           places_are_right},
-          {"level-set.solids-are-accepted",
+          {"level-set.reported-edges-belong-to-holes", "The edge that a refusal names is one of the hole's.",
+           "ours", places_are_right},
+          {"level-set.valid-solids-are-accepted",
            "Bodies, bodies beside others, and nested shells are accepted, thin rays and fins among them.",
            "ours", solids_are_accepted},
-          {"level-set.intersections-are-exact",
+          {"level-set.triangle-intersections-are-exact",
            "Whether two triangles meet is answered right, contact and common planes included.",
            "Shewchuk 1997", intersections_are_found},
-          {"level-set.neighbours-may-touch",
+          {"level-set.neighbouring-triangles-may-touch",
            "Triangles may meet in the edge or vertex that they share, and in nothing more.", "ours",
            neighbours_are_told_apart},
-          {"level-set.intersecting-pairs-are-complete", "The tree finds all intersecting pairs.", "ours",
+          {"level-set.all-intersecting-pairs-are-found", "The tree finds all intersecting pairs.", "ours",
            pairs_are_complete}};
 }
 

@@ -215,20 +215,21 @@ Finding body_sound_finding(const Subject&) {
 std::vector<Check> content_checks() {
   const std::string source = "good practice";
   return {
-      {"content.grid-origins-have-keys",
+      {"content.grid-recipe-keys-cover-every-number",
        "The key of what a grid is made of follows every kind of number in it, bit for bit.",
        "Fowler, Noll and Vo 1991", grid_origin_finding},
-      {"content.grids-have-keys", "The key of a grid follows its values and its lattice, bit for bit.",
-       "Fowler, Noll and Vo 1991", grid_content_finding},
-      {"content.unsound-grids-are-refused", "A grid that no build made is refused, with the reason.", source,
+      {"content.grid-keys-cover-every-value",
+       "The key of a grid follows its values and its lattice, bit for bit.", "Fowler, Noll and Vo 1991",
+       grid_content_finding},
+      {"content.invalid-grids-are-rejected", "A grid that no build made is refused, with the reason.", source,
        grid_sound_finding},
-      {"content.deforming-origins-have-keys",
+      {"content.deforming-recipe-keys-cover-every-number",
        "The key of what a deforming body is made of follows every kind of number in it, bit for bit.",
        "Fowler, Noll and Vo 1991", body_origin_finding},
-      {"content.deforming-bodies-have-keys",
+      {"content.deforming-body-keys-cover-every-value",
        "The key of a deforming body follows every kind of number in it, bit for bit.",
        "Fowler, Noll and Vo 1991", body_content_finding},
-      {"content.unsound-deforming-bodies-are-refused",
+      {"content.invalid-deforming-bodies-are-rejected",
        "A deforming body that no build made is refused, with the reason.", source, body_sound_finding},
   };
 }

@@ -96,10 +96,10 @@ Finding bodies_are_solid(const Subject&) {
 }  // namespace
 
 std::vector<Check> mesh_body_checks() {
-  return {{"level-set.case-refuses-bodies-that-do-not-close",
+  return {{"level-set.cases-reject-open-bodies",
            "A case whose body has holes or flipped triangles is refused with the line of the body's file.",
            "ours", open_bodies_are_refused},
-          {"level-set.case-bodies-are-solid",
+          {"level-set.bodies-from-obj-files-have-the-right-distance",
            "A body from an OBJ file, whole or repaired, has the distance of the ball that it was made of.",
            "ours", bodies_are_solid}};
 }

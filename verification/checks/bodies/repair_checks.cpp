@@ -221,24 +221,24 @@ Finding repair_mends(const Subject&) {
 
 std::vector<Check> repair_checks() {
   return {
-      {"level-set.ray-parity-agrees",
+      {"level-set.ray-parity-agrees-with-the-sign",
        "Rays along three axes find every node on the side of its sign, through edges "
        "and vertices too.",
        "ours", parity_agrees},
-      {"level-set.inspection-tells-what-a-mesh-is",
+      {"level-set.inspection-classifies-meshes",
        "A mesh that is inspected is said to be a solid if it is, and else why not; rays are a second "
        "opinion.",
        "ours", inspection_tells},
-      {"level-set.ray-parity-shows-holes",
+      {"level-set.ray-parity-reveals-holes",
        "Rays show where triangles are missing, and seldom win the vote there.", "ours", parity_shows_holes},
-      {"level-set.winding-number-is-whole",
+      {"level-set.winding-number-is-an-integer",
        "The winding number of a closed surface is 1 inside and 0 outside, nested shells counted.",
        "Jacobson et al. 2013", winding_is_whole},
-      {"level-set.winding-tree-is-near",
+      {"level-set.winding-tree-error-is-bounded",
        "Patches seen from afar change the winding number by half over far squared "
        "at most.",
        "Barill et al. 2018", tree_is_near},
-      {"level-set.repair-mends",
+      {"level-set.repair-restores-the-distance",
        "Repair by winding number gives the solid's distance in spite of holes, flipped "
        "triangles and overlaps.",
        "Jacobson et al. 2013", repair_mends}};

@@ -210,7 +210,7 @@ std::vector<Check> event_checks() {
        "A step of the reference ends where an object starts or stops, passes a keyframe or a frame of its "
        "animation.",
        ours, object_events_are_hit},
-      {"dynamics.led-particles-rest-outside-their-time",
+      {"dynamics.prescribed-particles-rest-outside-their-time-span",
        "A prescribed particle rests before its motion starts, follows its path from then on, and rests after "
        "it stops; a frame at the start has the later velocity.",
        ours, path_is_kept}};

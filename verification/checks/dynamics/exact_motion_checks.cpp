@@ -131,7 +131,7 @@ std::vector<Check> exact_motion_checks() {
                       free_fall_finding);
   add_for_each_scheme(
       list,
-      {"dynamics.steady-rotation",
+      {"dynamics.steady-rotation-keeps-lengths-to-second-order",
        "the length of a steadily turning stretched pair of the reference is kept to second order.",
        source,
        {}},

@@ -360,19 +360,19 @@ std::vector<Check> method_checks() {
        "Newton's method solves steps up to fifty times the elastic limit of damped and heavily damped "
        "crumpled sheets, and of a compressed undamped one: all but two of 36 at most.",
        "what BMF03 section 3 expects of a fully implicit method", large_steps_finding},
-      {"methods.newton-knows-cloth-at-rest",
+      {"methods.newton-accepts-cloth-at-rest",
        "A step of shapes at rest far from the origin is not called unfinished: no force is asked to vanish "
        "below what "
        "rounding makes of it.",
        "floating-point arithmetic", rest_is_found},
-      {"methods.newton-is-quick-on-damped-cloth",
+      {"methods.newton-converges-quickly-on-damped-cloth",
        "Newton's method takes at most ten iterations a step on heavily damped cloth that turns and crumples, "
        "at steps up to five times the elastic limit.",
        "what BMF03 section 3 expects of a fully implicit method", newton_is_quick},
-      {"forces.damping-rate-bound-is-a-bound",
+      {"forces.damping-rate-bound-holds",
        "The reference's bound on damping rates exceeds the largest rate of crumpled sheets.",
        "Gershgorin's theorem", damping_bound_is_a_bound},
-      {"dynamics.explicit-steps-respect-damping",
+      {"dynamics.explicit-steps-respect-the-damping-limit",
        "Automatic steps of explicit methods keep to the damping limit, those of the others to the elastic "
        "limit alone.",
        limits, explicit_steps_respect_damping},
@@ -381,10 +381,10 @@ std::vector<Check> method_checks() {
        growth_is_limited}};
   checks.insert(checks.end(), others.begin(), others.end());
   checks.push_back(
-      {"methods.newton-asks-no-more-than-it-needs",
+      {"methods.newton-computes-no-needless-derivative",
        "Where the elastic forces' derivative is definite, Newton's method asks for no second one.", "ours",
        newton_asks_finding});
-  checks.push_back({"methods.damping-rate-bound-is-reached",
+  checks.push_back({"methods.damping-rate-bound-is-exact-for-one-damper",
                     "The bound on the damping rate is that of a single damper.", limits,
                     damping_rate_is_reached});
   return checks;

@@ -172,18 +172,21 @@ Finding truncated_finding(const Subject&) {
 std::vector<Check> momentum_checks() {
   const std::string source = "BMF03 sections 3 and 4";
   std::vector<Check> list;
-  add_for_each_scheme(
-      list, {"dynamics.time-reverses", "an undamped sheet runs back the way that it came.", source, {}},
-      reversal_finding);
+  add_for_each_scheme(list,
+                      {"dynamics.undamped-motion-is-time-reversible",
+                       "an undamped sheet runs back the way that it came.",
+                       source,
+                       {}},
+                      reversal_finding);
   add_for_each_scheme(
       list,
-      {"dynamics.linear-momentum-is-kept",
+      {"dynamics.linear-momentum-is-conserved",
        "a free damped sheet keeps its linear momentum to rounding, however loosely it is solved.",
        source,
        {}},
       linear_finding);
   add_for_each_scheme(list,
-                      {"dynamics.angular-momentum-is-kept.undamped",
+                      {"dynamics.angular-momentum-is-conserved.undamped",
                        "a free undamped sheet keeps its angular momentum to rounding.",
                        source,
                        {}},
@@ -191,7 +194,7 @@ std::vector<Check> momentum_checks() {
   std::vector<Check> damped;
   add_for_each_scheme(
       damped,
-      {"dynamics.angular-momentum-is-kept.damped",
+      {"dynamics.angular-momentum-is-conserved.damped",
        "a free damped sheet keeps its angular momentum to rounding, however loosely it is solved.",
        source,
        {}},
@@ -200,7 +203,7 @@ std::vector<Check> momentum_checks() {
   std::erase_if(damped, [](const Check& check) { return check.name.ends_with(".C"); });
   list.insert(list.end(), damped.begin(), damped.end());
   list.push_back(
-      {"dynamics.truncated-solve-keeps-momentum",
+      {"dynamics.truncated-solve-conserves-momentum",
        "The reference's solve keeps linear and angular momentum to rounding however early it stops.",
        "BMF03 section 3", truncated_finding});
   return list;

@@ -193,14 +193,14 @@ std::vector<Check> oscillator_checks() {
   const auto add = [&](const char* name, const char* claim, const std::string& from, const auto& run) {
     add_for_each_scheme(list, {name, claim, from, {}}, run);
   };
-  add("dynamics.undamped-oscillator-is-verlet", "the reference's undamped oscillator is velocity Verlet's.",
-      source, verlet_finding);
+  add("dynamics.undamped-oscillator-matches-velocity-verlet",
+      "the reference's undamped oscillator is velocity Verlet's.", source, verlet_finding);
   add("dynamics.step-matrix-is-as-derived",
       "the reference's step on the damped oscillator is the derived matrix.", derived, matrix_finding);
   add("dynamics.stability-limit-is-as-derived",
       "the reference is stable on the damped oscillator up to the derived step and not beyond.", derived,
       stability_finding);
-  add("dynamics.pure-damping-displacement",
+  add("dynamics.pure-damping-displacement-is-as-derived",
       "the reference's way of a particle that is only damped is, over the exact one, 1 - (h c/2)^2 in A and "
       "1 in B and C.",
       derived, pure_damping_finding);

@@ -190,7 +190,7 @@ Finding same_bits_finding(const Subject&) {
 }  // namespace
 
 std::vector<Check> resume_checks() {
-  return {{"dynamics.resumes-to-the-same-bits",
+  return {{"dynamics.resumed-run-ends-with-the-same-bits",
            "A run of the reference that goes on from any of its checkpoints ends with the same bits.",
            "good practice", same_bits_finding}};
 }

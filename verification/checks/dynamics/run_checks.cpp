@@ -279,18 +279,18 @@ std::vector<Check> run_checks() {
        "Automatic steps of the reference keep the safety factor of the elastic limit and the strain allowed "
        "a step.",
        ours, limits_finding},
-      {"dynamics.divergence-stops-with-names",
+      {"dynamics.divergence-stops-the-run",
        "A diverging run of the reference stops and names time, step and particle.", stops,
        divergence_finding},
-      {"dynamics.nan-stops-with-names",
+      {"dynamics.nan-stops-the-run",
        "A run of the reference that meets NaN stops and names time, step and particle.", stops, nan_finding},
-      {"dynamics.lost-triangle-stops-with-names",
+      {"dynamics.degenerate-triangle-stops-the-run",
        "A run of the reference that loses a triangle stops and names its particles.", stops,
        lost_triangle_finding},
-      {"dynamics.steps-too-short-stop", "A run whose steps no longer advance the time stops and says so.",
-       stops, standstill_finding},
-      {"dynamics.step-cap-stops", "A run of the reference that reaches its cap on steps stops and says so.",
-       stops, cap_finding},
+      {"dynamics.too-short-steps-stop-the-run",
+       "A run whose steps no longer advance the time stops and says so.", stops, standstill_finding},
+      {"dynamics.step-cap-stops-the-run",
+       "A run of the reference that reaches its cap on steps stops and says so.", stops, cap_finding},
   };
 }
 

@@ -288,24 +288,24 @@ Finding large_finding(const Subject&) {
 std::vector<Check> solver_checks() {
   const std::string source = "BMF03 section 3";
   return {
-      {"solver.residual-promise-is-kept",
+      {"solver.residual-is-below-the-tolerance",
        "The true residual of the reference's solve is below the tolerance, on both scales.", source,
        promise_finding},
-      {"solver.returned-residual-is-true", "The residual that the reference's solve returns is the true one.",
+      {"solver.reported-residual-is-true", "The residual that the reference's solve returns is the true one.",
        source, returned_finding},
-      {"solver.iterate-is-the-dense-cholesky-solution",
+      {"solver.solution-matches-dense-cholesky",
        "The reference's solve finds the velocities that a dense Cholesky factorization finds, known "
        "velocities included.",
        source, cholesky_finding},
-      {"solver.iterations-are-the-number-of-distinct-eigenvalues",
+      {"solver.iterations-equal-the-number-of-distinct-eigenvalues",
        "The reference's solve takes as many iterations as the damping has distinct nonzero eigenvalues.",
        source, eigenvalue_finding},
-      {"solver.large-cloth-is-solved-too",
+      {"solver.large-cloth-is-solved",
        "Cloth of many particles, which the reference's solve takes block by block, is solved to the "
        "tolerance.",
        "algebra", large_finding},
-      {"solver.cap-is-reported", "A solve of the reference that does not finish says so and is counted.",
-       source, cap_finding},
+      {"solver.iteration-cap-is-reported",
+       "A solve of the reference that does not finish says so and is counted.", source, cap_finding},
       {"solver.operator-is-symmetric-positive-definite",
        "The operator of the implicit velocity is symmetric, and at least the identity in the mass-weighted "
        "norm.",

@@ -278,22 +278,22 @@ std::vector<Check> step_checks() {
       {"dynamics.C-continues-from-the-start-velocity",
        "The reference's end velocity in C continues from v_n, whatever a filter did.", source,
        [](const Subject&) { return continues_finding("C"); }},
-      {"dynamics.held-particles-stay", "Held particles do not move, whatever pulls at them.",
+      {"dynamics.held-particles-do-not-move", "Held particles do not move, whatever pulls at them.",
        "our reading of BMF03 section 3", held_finding},
-      {"dynamics.solve-counts", "A and B solve once a step, C twice.", source, counts_finding},
-      {"dynamics.position-terms-are-computed-once",
+      {"dynamics.solves-are-counted", "A and B solve once a step, C twice.", source, counts_finding},
+      {"dynamics.position-terms-are-computed-once-per-position",
        "Forces and the position-dependent terms of damping are evaluated twice a step, however many products "
        "a solve needs.",
        source, once_finding}};
   add_for_each_scheme(list,
-                      {"dynamics.filters-act-on-the-moving-velocity",
+                      {"dynamics.cloth-moves-with-the-filtered-velocity",
                        "the reference moves the cloth with exactly the velocity that the filters left, "
                        "and filters the end velocity where the paper does.",
                        source,
                        {}},
                       filter_finding);
   add_for_each_scheme(list,
-                      {"dynamics.led-particles-follow-their-path",
+                      {"dynamics.prescribed-particles-follow-their-path",
                        "led particles are on their path, with its velocity, after every step.",
                        "our reading of BMF03 section 3",
                        {}},

@@ -173,11 +173,11 @@ std::vector<Check> symmetry_checks() {
                        "dimensional analysis",
                        {}},
                       units_finding);
-  list.push_back({"dynamics.results-are-the-same-bits-twice",
+  list.push_back({"dynamics.runs-are-bitwise-reproducible",
                   "Two runs from the same start end with the same bits.", "reproducibility", twice_finding});
   add_for_each_scheme(
       list,
-      {"dynamics.translation-rotation-invariance",
+      {"dynamics.translation-rotation-invariance-holds",
        "a turned, shifted and uniformly moving start gives the turned, shifted and moved result.",
        "Galilean invariance",
        {}},

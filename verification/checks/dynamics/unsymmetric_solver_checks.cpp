@@ -164,10 +164,10 @@ Finding work_is_counted(const Subject&) {
 std::vector<Check> unsymmetric_solver_checks() {
   const std::string source = "van der Vorst 1992";
   return {
-      {"solver.unsymmetric-residual-promise-is-kept",
+      {"solver.unsymmetric-residual-is-below-the-tolerance",
        "The true residual of the reference's solve of an unsymmetric Newton step is below the tolerance.",
        source, promise_is_kept},
-      {"solver.unsymmetric-step-is-the-dense-solution",
+      {"solver.unsymmetric-step-matches-dense-solution",
        "The reference's solve of an unsymmetric Newton step finds what a dense factorization finds.", source,
        is_the_dense_solution},
       {"solver.newton-matrix-is-unsymmetric-on-damped-cloth",

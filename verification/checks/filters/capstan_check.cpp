@@ -91,7 +91,7 @@ Finding capstan_finding(const Subject& subject) {
 }  // namespace
 
 std::vector<Check> capstan_checks() {
-  return {{"contact.a-drum-holds-by-the-capstan-law",
+  return {{"contact.a-drum-obeys-the-capstan-equation",
            "A strip that slides round a drum is e^(mu turn) times tighter on the side it is drawn to.",
            "Euler and Eytelwein", capstan_finding}};
 }

@@ -149,10 +149,10 @@ std::vector<Check> crossing_checks() {
            "The distance of a vertex to a triangle, and of two edges, is the least of all points, degenerate "
            "or not.",
            source, distance_is_exact},
-          {"nearness.thin-ones-are-as-good",
+          {"nearness.distance-is-exact-for-thin-features",
            "So it is for triangles as thin, and edges as nearly parallel, as one likes.", source,
            thin_ones_are_as_good},
-          {"nearness.weights-lead-across",
+          {"nearness.weights-locate-the-nearest-points",
            "The weights are those of a point on each feature, and what is between these is the distance "
            "along the normal.",
            source, weights_lead_across}};

@@ -165,20 +165,20 @@ Finding turntable_finding(const Subject& subject, const std::string& integrator)
 std::vector<Check> friction_checks() {
   std::vector<Check> list;
   add_for_each_scheme(list,
-                      {"contact.a-slope-holds-or-lets-go",
+                      {"contact.a-block-on-a-slope-sticks-or-slides",
                        "a block on a slope stays to rounding if tan(al) <= mu, and else slides by "
                        "g (sin(al) - mu cos(al)) t^2/2.",
                        "mechanics",
                        {}},
                       resting_slope);
   add_for_each_scheme(list,
-                      {"contact.a-moving-slope-holds-or-lets-go",
+                      {"contact.a-block-on-a-moving-slope-sticks-or-slides",
                        "the same on a slope that moves at a constant velocity.",
                        "mechanics",
                        {}},
                       moving_slope);
   add_for_each_scheme(list,
-                      {"contact.a-belt-takes-along",
+                      {"contact.a-belt-carries-cloth-along",
                        "laid on a running belt, a block slides for U/(mu g) and is carried from then on.",
                        "mechanics",
                        {}},

@@ -174,9 +174,9 @@ Finding limit_finding(const Subject& subject) {
 
 std::vector<Check> object_checks() {
   return {
-      {"contact.object-velocity-is-its-motions", "An object's velocity is the derivative of its place.",
-       "kinematics", velocity_finding},
-      {"contact.keyframes-are-kept",
+      {"contact.object-velocity-is-the-derivative-of-its-position",
+       "An object's velocity is the derivative of its place.", "kinematics", velocity_finding},
+      {"contact.keyframes-are-followed",
        "A keyframed object is at its keyframes when it should be, half way it has turned by half, and "
        "outside it rests.",
        "kinematics", keyframe_finding},

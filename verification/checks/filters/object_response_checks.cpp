@@ -105,10 +105,10 @@ std::vector<Check> object_response_checks() {
        "the "
        "normal, with friction; others keep every bit.",
        source, projection_finding},
-      {"contact.projection-stops-what-touches",
+      {"contact.projection-removes-inward-velocity-at-contact",
        "With 'projection' the velocity that ends a step has no part into a surface that the point is on.",
        source, stopping_finding},
-      {"contact.push-out-leaves-in-one-step",
+      {"contact.push-out-expels-points-in-one-step",
        "With 'push_out' a point that is inside gets the velocity that takes it to the surface in one step.",
        source, push_out_finding},
       {"contact.push-out-does-not-look-ahead",

@@ -226,26 +226,26 @@ Finding untouched_within_limits_finding(const Subject& subject) {
 
 std::vector<Check> strain_limit_checks() {
   const std::string source = "BMF03 section 3, after Provot 1995";
-  std::vector<Check> list = {{"strain.one-spring-is-answered-exactly",
+  std::vector<Check> list = {{"strain.one-spring-is-corrected-exactly",
                               "A spring that would leave its limits is given the impulse along its current "
                               "direction that takes its predicted "
                               "length to the limit.",
                               source, one_spring_finding},
-                             {"strain.beyond-reach-is-made-as-short-as-can-be",
+                             {"strain.unreachable-limits-leave-the-shortest-spring",
                               "A spring that turns so fast that no impulse along it keeps its limit is given "
                               "that which leaves it shortest.",
                               source, beyond_reach_finding}};
   for (const NamedOrder& named : sweep_orders())
     list.push_back(
-        {"strain.predicted-lengths-keep-limits." + named.name,
+        {"strain.predicted-lengths-stay-within-limits." + named.name,
          "Velocities from sweeps in the order '" + named.name +
              "' predict lengths within the limits, to the tolerance, of cloth that is within them.",
          source, [order = named.order](const Subject& subject) { return limits_finding(subject, order); }});
   for (const Check& check : std::vector<Check>{
-           {"strain.momentum-is-kept",
+           {"strain.momentum-is-conserved",
             "One correction changes neither the linear nor the angular momentum of a free cloth.", source,
             momentum_finding},
-           {"strain.held-particles-are-left-alone",
+           {"strain.prescribed-particles-are-left-alone",
             "Velocities of particles with prescribed motion are left as they are, bit for bit.", source,
             held_finding},
            {"strain.springs-within-limits-are-left-alone",

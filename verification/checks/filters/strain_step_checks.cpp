@@ -298,32 +298,33 @@ Finding orders_finding(const Subject&) {
 std::vector<Check> strain_step_checks() {
   std::vector<Check> list;
   add_for_each_scheme(list,
-                      {"strain.steps-keep-limits",
+                      {"strain.steps-stay-within-limits",
                        "the positions that a step ends at keep the strain limits, to the tolerance.",
                        source,
                        {}},
                       steps_finding);
   for (const Check& check : std::vector<Check>{
-           {"strain.what-is-left-is-reported",
+           {"strain.remaining-violation-is-reported",
             "A step reports its sweeps, and the largest violation that they left.", source, report_finding},
-           {"strain.sweeps-never-lead-away",
+           {"strain.sweeps-never-add-kinetic-energy",
             "On a line, a sweep leads no farther from any velocity within the limits, so it never adds "
             "kinetic energy.",
             "Bregman 1967", nearer_finding},
-           {"strain.sweeps-take-springs-in-order",
+           {"strain.sweeps-visit-springs-in-order",
             "A sweep corrects one spring after the other in the list's order, every other sweep backwards if "
             "so asked, and "
             "coloured ones in the order of the colours.",
             source, orders_finding},
-           {"strain.colours-share-no-particle",
+           {"strain.springs-of-a-colour-share-no-particle",
             "No two springs of a colour share a particle, and none is lost.", "our own", colours_finding},
-           {"strain.threads-do-not-matter", "Coloured sweeps give the same bits on any number of threads.",
-            "our own", threads_finding},
+           {"strain.thread-count-does-not-matter",
+            "Coloured sweeps give the same bits on any number of threads.", "our own", threads_finding},
            {"scene.strain-limits-are-read",
-            "Strain limits are read as they are written, and built before objects.", "cases/README.md",
+            "Strain limits are read as they are written, and built before objects.", "cases/KEYS.md",
             read_finding},
-           {"scene.strain-limits-are-refused", "Strain limits that make no sense are refused, with the line.",
-            "cases/README.md", refused_finding}})
+           {"scene.invalid-strain-limits-are-rejected",
+            "Strain limits that make no sense are refused, with the line.", "cases/KEYS.md",
+            refused_finding}})
     list.push_back(check);
   return list;
 }

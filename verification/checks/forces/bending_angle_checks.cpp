@@ -232,15 +232,15 @@ std::vector<Check> bending_angle_checks() {
        "The reference's sin(theta/2) rises with theta from folded through flat to folded, nowhere faster "
        "than theta/2.",
        section, sine_rises},
-      {"bending.sharp-folds-stay-finite",
+      {"bending.force-stays-finite-in-sharp-folds",
        "Folded up to 179.9999 degrees, and to exactly pi, the elastic force stays within ke c (1 + "
        "sin(theta0/2)) |u|.",
        section, sharp_folds_stay_finite},
-      {"bending.rest-angles-at-rest-give-no-force",
+      {"bending.rest-shape-feels-no-force",
        "A statue, a sphere, a cylinder and pleats feel no bending force in the shape that their rest angles "
        "were taken from.",
        section, rest_angles_give_no_force},
-      {"bending.lost-triangles-are-reported",
+      {"bending.degenerate-triangles-are-reported",
        "A triangle without area is reported with its particles; no NaN leaves the bending forces.",
        "a rule of this suite: nothing fails in silence", lost_triangles_are_reported}};
 }

@@ -152,7 +152,7 @@ std::vector<Check> bending_checks() {
        "The torques of the elastic bending forces on crumpled sheets and single hinges sum to zero, with "
        "either weighting.",
        "BMF03 section 4", torques_sum_to_zero},
-      {"bending.other-laws-keep-momentum",
+      {"bending.other-laws-conserve-momentum",
        "Forces and torques still sum to zero when another function of the angle takes the sine's place.",
        "BMF03 section 4: other magnitudes must multiply all four forces alike", other_laws_keep_momentum},
       {"bending.force-is-as-defined",

@@ -190,7 +190,7 @@ std::vector<Check> bending_damping_checks() {
       {"bending.damping-is-negative-semidefinite",
        "The matrix of the bending damping has no positive eigenvalue.", "BMF03 sections 3 and 4",
        damping_is_negative},
-      {"bending.damping-forces-keep-momentum", "The bending damping's forces and torques sum to zero.",
+      {"bending.damping-forces-conserve-momentum", "The bending damping's forces and torques sum to zero.",
        section, keeps_momentum}};
 }
 

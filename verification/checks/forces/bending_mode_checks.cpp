@@ -172,7 +172,7 @@ std::vector<Check> bending_mode_checks() {
            "The reference's bending mode u is orthogonal to translations, rotations, in-plane motions and "
            "the edge's stretch.",
            "BMF03 section 4", mode_is_orthogonal},
-          {"bending.mode-is-the-only-one",
+          {"bending.mode-is-unique",
            "Nothing but the reference's u is orthogonal to the eleven other modes: their null space is the "
            "line along u.",
            "BMF03 section 4", mode_is_the_only_one},

@@ -169,7 +169,7 @@ std::vector<Check> bending_shape_checks() {
            "A damping that grows with the cube of the angle's rate, alike for all four forces, has a "
            "symmetric Jacobian without a positive eigenvalue.",
            "BMF03 section 4", nonlinear_damping_stays_symmetric},
-          {"bending.unfolded-pleats-return",
+          {"bending.flattened-pleats-fold-back",
            "A sheet with the rest angles of pleats, held flat and let go, folds back into them.",
            "BMF03 section 4", unfolded_pleats_return}};
 }

@@ -189,22 +189,22 @@ std::vector<Check> differential_checks() {
   const std::string what = "calculus; the methods BMF03 section 3 compares its schemes with need it";
   const std::string projection = "Teran et al. 2005, section 6; Higham 1988";
   return {
-      {"elastic-differential.hinge-is-second-derivative",
+      {"elastic-differential.hinge-matches-exact-derivative",
        "The reference's hinge stiffness is the derivative of its force: 50 digits, autodiff, every angle.",
        what, hinge_is_second_derivative},
-      {"elastic-differential.matches-force-differences",
+      {"elastic-differential.whole-matches-force-differences",
        "The reference's elastic derivative is that of the subject's forces, for springs, both bending laws, "
        "and their sum.",
        what, matches_differences},
       {"elastic-differential.is-symmetric", "The reference's elastic derivative is symmetric.", what,
        is_symmetric},
-      {"elastic-differential.hinge-projection-is-nearest",
+      {"elastic-differential.hinge-projection-is-nearest-semidefinite",
        "A hinge's semidefinite stiffness is the negative semidefinite matrix nearest to the exact one.",
        projection, projection_is_nearest},
-      {"elastic-differential.spring-projection-is-nearest",
+      {"elastic-differential.spring-projection-is-nearest-semidefinite",
        "A spring's semidefinite stiffness is the negative semidefinite matrix nearest to the exact one.",
        projection, spring_projection_is_nearest},
-      {"elastic-differential.semidefinite-only-resists",
+      {"elastic-differential.semidefinite-form-resists-every-displacement",
        "With semidefinite elements no displacement of a crumpled sheet is pushed further.", projection,
        semidefinite_only_resists},
   };

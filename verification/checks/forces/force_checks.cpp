@@ -266,12 +266,12 @@ std::vector<Check> force_checks() {
       {"gravity.force-is-weight",
        "Gravity pulls on each particle with its share of the triangles' mass times g.", "Newton",
        gravity_is_weight},
-      {"gravity.energy-is-potential", "The energy of gravity is -sum m_i g.x_i.", "Newton", gravity_energy},
-      {"forces.frequency-bound-is-a-bound",
+      {"gravity.energy-is-as-defined", "The energy of gravity is -sum m_i g.x_i.", "Newton", gravity_energy},
+      {"forces.frequency-bound-holds",
        "The reference's bound on the elastic frequency exceeds the largest frequency of crumpled sheets and "
        "sharp folds.",
        "Gershgorin's theorem; the automatic step rests on it", bound_is_a_bound},
-      {"bending.unknown-laws-are-refused",
+      {"bending.unknown-laws-are-rejected",
        "A bending law that the reference does not know is refused by name.",
        "a rule of this suite: bad input is refused in words", unknown_laws_are_refused},
       {"forces.row-bounds-cover-every-row",
@@ -279,13 +279,13 @@ std::vector<Check> force_checks() {
        "exceeded by "
        "any row, however far a hinge is from its rest angle.",
        "Gershgorin's theorem; the automatic step rests on it", rows_are_covered},
-      {"forces.row-bounds-follow-their-particles",
+      {"forces.row-bounds-swap-with-the-sides-of-a-hinge",
        "A hinge seen from its other side, the numbers of its particles exchanged in pairs, has the same "
        "bounds, "
        "exchanged.",
        "the angle about an edge does not depend on which way one looks along it",
        rows_follow_their_particles},
-      {"forces.row-bounds-are-reached-at-rest",
+      {"forces.row-bounds-are-tight-at-rest",
        "At a hinge's rest angle the bound on each particle's row is the row's own sum.",
        "calculus: there the matrix is -ke c u u^T / 2", rows_are_reached}};
 }

@@ -197,22 +197,22 @@ Finding flag_is_right(const Subject&) {
 std::vector<Check> force_differential_checks() {
   const std::string what = "calculus; the methods BMF03 section 3 compares its schemes with need it";
   return {
-      {"force-differential.hinge-is-derivative",
+      {"force-differential.hinge-matches-exact-derivative",
        "How the reference's elastic and damping forces of a hinge change with the positions at given "
        "velocities is their derivative: 50 digits, autodiff, every angle, both factors, both weightings.",
        what, hinge_is_derivative},
-      {"force-differential.spring-is-derivative",
+      {"force-differential.spring-matches-exact-derivative",
        "How the reference's elastic and damping forces of a spring change with the positions at given "
        "velocities is their derivative: 50 digits, autodiff.",
        what, spring_is_derivative},
-      {"force-differential.springs-answer-for-themselves",
+      {"force-differential.several-springs-add-up",
        "Damping and derivative of several springs, some of them without damping, are the sums of each one's.",
        what, springs_answer_for_themselves},
-      {"force-differential.is-called-symmetric-where-it-is",
+      {"force-differential.symmetry-is-reported-correctly",
        "The derivative is called symmetric where its matrix is: without damping and current weights, and not "
        "with.",
        what, flag_is_right},
-      {"force-differential.matches-force-differences",
+      {"force-differential.whole-matches-force-differences",
        "The reference's derivative of all forces at given velocities is that of the subject's forces, on "
        "sheets of damped springs and hinges.",
        what, matches_differences}};

@@ -305,27 +305,27 @@ Finding sides_finding(const Subject&) {
 
 std::vector<Check> sticking_bond_checks() {
   const std::string source = "BMF03 section 6";
-  return {{"sticking.forms-with-every-triangle-near",
+  return {{"sticking.bonds-form-with-every-near-triangle",
            "A particle comes to stick, where it is, to every triangle of a patch within `near` that it is no "
            "corner of.",
            source, forms_finding},
-          {"sticking.forms-on-every-side",
+          {"sticking.bonds-form-on-every-side",
            "Particles stick to a surface that moves by itself within `near` of it on each of six sides, and "
            "not beyond.",
            source, sides_finding},
-          {"sticking.renewing-twice-changes-nothing",
+          {"sticking.renewing-bonds-twice-changes-nothing",
            "Bonds that were renewed stay as they are when renewed again.", "our reading of BMF03 section 6",
            renewal_finding},
-          {"sticking.breaks-and-forms-again",
+          {"sticking.bonds-break-and-form-again",
            "Bonds form and break as a palm comes and goes, many times, exactly when their distances say so.",
            source, again_finding},
-          {"sticking.regions-vary-in-time",
+          {"sticking.patches-follow-their-schedule",
            "A patch is sticky from one time until another and lets go smoothly before that.", source,
            timed_finding},
-          {"sticking.steps-end-at-its-times",
+          {"sticking.steps-end-at-the-times-of-patches",
            "The reference's steps end where a patch begins to be sticky, to let go, and to be no longer.",
            "our reading of BMF03 section 6", events_finding},
-          {"sticking.memory-is-in-the-state",
+          {"sticking.bonds-are-part-of-the-state",
            "For every method: a run that is continued from its states ends with the same bits, and not "
            "without their "
            "memory.",

@@ -212,7 +212,7 @@ Finding nothing_sticks_finding(const Subject& subject) {
 
 std::vector<Check> sticking_motion_checks() {
   const std::string source = "BMF03 section 6";
-  return {{"sticking.follows-rigid-motion",
+  return {{"sticking.particles-follow-rigid-motion",
            "Particles stuck to a surface that turns, swings and drifts keep their place in it, but for a lag "
            "of no "
            "more than m a/k.",
@@ -220,15 +220,15 @@ std::vector<Check> sticking_motion_checks() {
           {"sticking.lag-is-as-derived",
            "Under a constant pull a stuck particle hangs where k(d) d is the pull: m a/k for soft pulls.",
            "our reading of BMF03 section 6", lag_finding},
-          {"sticking.follows-a-deforming-surface",
+          {"sticking.particles-follow-a-deforming-surface",
            "Particles stuck to a triangle that deforms keep their weights and height in it.", source,
            deforming_finding},
-          {"sticking.forecasts-free-the-step-of-C",
+          {"sticking.forecasts-allow-longer-steps-in-C",
            "The automatic step of the reference: in scheme C what sticks allows twice its forecast time, in "
            "A and B no "
            "more than its frequency.",
            "our reading of BMF03 section 6", forecast_step_finding},
-          {"sticking.costs-nothing-where-nothing-sticks",
+          {"sticking.unused-patches-cost-nothing",
            "Patches that nothing sticks to change no bit of any method's steps, nor what its solves cost.",
            "our reading of BMF03 section 6", nothing_sticks_finding}};
 }

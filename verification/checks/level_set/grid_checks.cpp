@@ -153,14 +153,14 @@ Finding band_is_exact(const Subject&) {
 }  // namespace
 
 std::vector<Check> grid_checks() {
-  return {{"level-set.cell-is-trilinear",
+  return {{"level-set.cells-interpolate-trilinearly",
            "Between nodes the grid's value and its gradient are those of the trilinear "
            "interpolant.",
            "BMF03 section 5.1", cell_is_trilinear},
           {"level-set.nodal-gradient-is-exact-for-quadratics",
            "The blend of the nodes' differences has the direction of a quadratic's gradient, to rounding.",
            "ours", nodal_gradient_is_exact},
-          {"level-set.beyond-the-grid-is-the-distance",
+          {"level-set.distance-continues-beyond-the-grid",
            "Outside of its lattice a grid answers with the distance, without a jump at the border.", "ours",
            beyond_is_distance},
           {"level-set.band-is-exact",

@@ -224,16 +224,16 @@ std::vector<Check> marching_checks() {
        "Fast marching of both orders gives the distance to a plane, to "
        "rounding.",
        "Sethian 1999", planes_are_exact},
-      {"level-set.marching-solves-its-equation",
+      {"level-set.marching-solves-the-eikonal-equation",
        "After first-order marching the upwind differences of every node give |grad phi| = 1, to rounding.",
        "BMF03 section 5.1", equation_is_solved},
-      {"level-set.marching-keeps-sides",
+      {"level-set.marching-preserves-signs",
        "Marching leaves its seeds alone and puts every node on its right side.", "BMF03 section 5.1",
        sides_are_kept},
-      {"level-set.crossings-name-the-plane",
+      {"level-set.seeds-from-crossings-recover-the-plane",
        "Seeds from sides lie at the distance of the plane through the crossings along the axes.", "ours",
        crossings_are_exact},
-      {"level-set.misuse-of-marching-is-refused",
+      {"level-set.misuse-of-marching-is-rejected",
        "No seeds, seeds that let inside meet outside, and too coarse a lattice are refused.", "ours",
        misuse_is_refused}};
 }

@@ -152,12 +152,12 @@ std::vector<Check> mesh_distance_checks() {
       {"level-set.mesh-distance-is-exact",
        "The distance to a mesh is that of brute force in extended precision, to rounding.",
        "BMF03 section 5.1", distance_is_exact},
-      {"level-set.mesh-sign-is-right",
+      {"level-set.mesh-sign-is-correct",
        "The sign of the distance is right at a million points about thin rays, a fin and nested shells.",
        "Baerentzen and Aanaes 2005", sign_is_right},
       {"level-set.mesh-normal-leads-to-the-surface", "N is a unit vector, and p - phi N lies on the mesh.",
        "BMF03 section 5.1", normal_leads_to_the_surface},
-      {"level-set.bounded-search-finds-the-same",
+      {"level-set.bounded-search-finds-the-same-feature",
        "A search with a bound finds the nearest feature if it is nearer than that, else none.", "ours",
        bound_is_kept}};
 }

@@ -246,23 +246,23 @@ double largest_jump(const Octree& tree, int count, int deepest) {
 
 std::vector<Check> octree_checks() {
   const char* const source = "BMF03 section 5.1";
-  return {{"octree.is-continuous", "The octree's phi jumps nowhere, where cells of two sizes meet either.",
-           source, jumps_nowhere},
-          {"octree.misses-by-its-tolerance",
+  return {{"octree.phi-is-continuous",
+           "The octree's phi jumps nowhere, where cells of two sizes meet either.", source, jumps_nowhere},
+          {"octree.error-is-bounded-by-the-tolerance",
            "In the band the octree's phi misses the distance by twice the tolerance at most.", source,
            misses_by_its_tolerance},
-          {"octree.neighbours-differ-by-one-level", "Leaves that touch differ by one level at most.", source,
-           neighbours_differ_by_one_level},
+          {"octree.neighbours-differ-by-at-most-one-level", "Leaves that touch differ by one level at most.",
+           source, neighbours_differ_by_one_level},
           {"octree.normals-are-first-order",
            "Next to the surface the octree's N errs by half a cell's diagonal at most.", source,
            normals_are_those_of_the_cells},
-          {"octree.goes-on-beyond-the-cube",
+          {"octree.phi-continues-beyond-the-cube",
            "Beyond its cube the octree's phi is continuous and no less than the distance.", source,
            goes_on_beyond_the_cube},
-          {"octree.rides-with-its-body",
+          {"octree.tree-moves-with-its-body",
            "The octree of a rigid body, built once, answers for it wherever it is and however it is turned.",
            source, rides_with_its_body},
-          {"octree.bad-settings-are-refused", "Settings that make no tree are refused with the reason.",
+          {"octree.invalid-settings-are-rejected", "Settings that make no tree are refused with the reason.",
            source, refuses_bad_settings}};
 }
 

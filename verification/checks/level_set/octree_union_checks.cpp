@@ -161,7 +161,7 @@ std::vector<Check> octree_union_checks() {
            "Nodes of a union hold the least of the parts' distances, which part it is and whether two hold "
            "the node.",
            source, nodes_know_their_part},
-          {"octree.union-misses-by-its-tolerance",
+          {"octree.union-error-is-bounded-by-the-tolerance",
            "A union's phi misses by twice the tolerance at most, at its creases too.", source,
            union_misses_by_its_tolerance},
           {"octree.union-flags-pinched-points",

@@ -220,27 +220,27 @@ Finding hinge_folds_by_its_angle(const Subject&) {
 
 std::vector<Check> mesh_checks() {
   const char* const source = "plane geometry and topology";
-  return {
-      {"mesh.euler-characteristic", "The reference's meshes have the Euler characteristic of their surfaces.",
-       source, euler_characteristic_is_known},
-      {"mesh.hinges-are-oriented-as-drawn",
-       "Every hinge of the reference's meshes is (x1, x3, x4) and (x2, x4, x3).", "BMF03 figure 1",
-       hinges_are_oriented},
-      {"mesh.every-inner-edge-is-one-hinge",
-       "The reference finds each edge once, and one hinge for each inner edge.", source,
-       every_inner_edge_is_one_hinge},
-      {"mesh.areas-and-masses-sum",
-       "The reference's areas, masses and edge areas sum to those of the surface.", source,
-       areas_and_masses_sum},
-      {"mesh.obj-round-trip-is-exact",
-       "A mesh that the reference writes and reads back is the same, bit for bit.", "the OBJ format",
-       obj_round_trip_is_exact},
-      {"mesh.pleats-are-isometric",
-       "The reference's pleats keep every length and fold by the angle asked for.", source,
-       pleats_are_isometric},
-      {"mesh.hinge-folds-by-its-angle",
-       "The reference's hinge is folded by the angle asked for, sign included.", "BMF03 section 4",
-       hinge_folds_by_its_angle}};
+  return {{"mesh.euler-characteristic-is-correct",
+           "The reference's meshes have the Euler characteristic of their surfaces.", source,
+           euler_characteristic_is_known},
+          {"mesh.hinges-are-oriented-as-drawn",
+           "Every hinge of the reference's meshes is (x1, x3, x4) and (x2, x4, x3).", "BMF03 figure 1",
+           hinges_are_oriented},
+          {"mesh.every-interior-edge-has-one-hinge",
+           "The reference finds each edge once, and one hinge for each inner edge.", source,
+           every_inner_edge_is_one_hinge},
+          {"mesh.areas-and-masses-add-up",
+           "The reference's areas, masses and edge areas sum to those of the surface.", source,
+           areas_and_masses_sum},
+          {"mesh.obj-round-trip-is-exact",
+           "A mesh that the reference writes and reads back is the same, bit for bit.", "the OBJ format",
+           obj_round_trip_is_exact},
+          {"mesh.pleats-are-isometric",
+           "The reference's pleats keep every length and fold by the angle asked for.", source,
+           pleats_are_isometric},
+          {"mesh.hinge-folds-by-the-given-angle",
+           "The reference's hinge is folded by the angle asked for, sign included.", "BMF03 section 4",
+           hinge_folds_by_its_angle}};
 }
 
 }  // namespace foldproof

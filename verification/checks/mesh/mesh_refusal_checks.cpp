@@ -147,7 +147,7 @@ Finding small_and_large_meshes_are_accepted(const Subject&) {
 }  // namespace
 
 std::vector<Check> mesh_refusal_checks() {
-  return {{"mesh.bad-meshes-are-refused",
+  return {{"mesh.invalid-meshes-are-rejected",
            "The reference refuses what is no oriented manifold, and every malformed OBJ file, naming the "
            "place and the reason.",
            "a rule of this suite: nothing fails in silence", bad_meshes_are_refused},

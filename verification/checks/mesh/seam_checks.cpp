@@ -126,9 +126,9 @@ Finding panels_finding(const Subject&) {
 }  // namespace
 
 std::vector<Check> seam_checks() {
-  const std::string source = "cases/README.md";
+  const std::string source = "cases/KEYS.md";
   return {
-      {"mesh.seams-join-what-is-near",
+      {"mesh.seams-join-nearby-vertices",
        "Vertices become the first that stays within the distance, and no other.", source, seams_finding},
       {"scene.panels-are-sewn", "Panels whose borders meet are one cloth, where a case says so.", source,
        panels_finding},

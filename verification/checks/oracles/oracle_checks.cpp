@@ -54,9 +54,9 @@ constexpr Comparison comparisons[] = {
      "The oracle's stability limits in closed form are where the step's lines get an eigenvalue -1, and what "
      "the eigenvalues of the stiffness say.",
      stable_steps_agree},
-    {"oracle.falls-agree", "The oracle's free fall in closed form is what GSL's Runge-Kutta methods find.",
-     falls_agree},
-    {"oracle.rotation-lengths-agree",
+    {"oracle.free-falls-agree",
+     "The oracle's free fall in closed form is what GSL's Runge-Kutta methods find.", falls_agree},
+    {"oracle.turning-pair-lengths-agree",
      "The oracle's length of a turning pair in closed form is where the spring's force is what the turn "
      "needs.",
      rotation_lengths_agree},
@@ -72,13 +72,13 @@ constexpr Comparison comparisons[] = {
      "The oracle's forecast with Coulomb friction is the impulse within the cone that leaves the least "
      "sliding speed.",
      forecasts_agree},
-    {"oracle.limited-springs-agree",
+    {"oracle.strain-limiting-impulses-agree",
      "The oracle's strain-limiting impulse by Pythagoras is the root of the length that it leaves.",
      limited_springs_agree},
     {"oracle.heavy-cantilevers-agree",
      "The oracle's heavy cantilever by GSL from its tip is that by power series from its clamp.",
      heavy_cantilevers_agree},
-    {"oracle.loaded-tips-agree",
+    {"oracle.loaded-strips-agree",
      "The oracle's loaded strip by elliptic integrals is that by GSL's shooting and that by power series.",
      loaded_tips_agree},
     {"oracle.rigidities-agree",
@@ -103,7 +103,7 @@ constexpr Comparison comparisons[] = {
     {"oracle.crossings-agree",
      "The oracle's crossings by a sweep are those of all pairs, which are those that no direction parts.",
      crossings_agree},
-    {"oracle.sides-agree",
+    {"oracle.inside-tests-agree",
      "The oracle's inside of a surface by segments is the inside of its prism by turns, at points on the "
      "surface too.",
      sides_agree},

@@ -164,19 +164,19 @@ Finding senseless_bands_are_refused(const Subject&) {
 
 std::vector<Check> depth_map_checks() {
   const std::string source = "BMF03 section 5.3";
-  return {
-      {"projection.map-is-as-defined", "The power law and the blend are those that their conditions define.",
-       source, is_as_defined},
-      {"projection.map-runs-from-eps-to-tau",
-       "Every map is eps from the deepest penetration down and phi from tau up.", source, ends_are_right},
-      {"projection.map-joins-smoothly", "The power law and the blend have slope 1 at tau.", source,
-       meets_the_identity_smoothly},
-      {"projection.map-keeps-order", "No map turns the order of two depths round.", source, order_is_kept},
-      {"projection.blend-compresses-boundedly",
-       "The blend presses no depths together by more than (tau + t^ - w/2)/(tau - eps - w/2).", source,
-       compression_is_bounded},
-      {"projection.senseless-bands-are-refused", "A band that no map can have is refused.", source,
-       senseless_bands_are_refused}};
+  return {{"projection.map-is-as-defined",
+           "The power law and the blend are those that their conditions define.", source, is_as_defined},
+          {"projection.map-runs-from-eps-to-tau",
+           "Every map is eps from the deepest penetration down and phi from tau up.", source, ends_are_right},
+          {"projection.map-joins-smoothly", "The power law and the blend have slope 1 at tau.", source,
+           meets_the_identity_smoothly},
+          {"projection.map-preserves-order", "No map turns the order of two depths round.", source,
+           order_is_kept},
+          {"projection.blend-compression-is-bounded",
+           "The blend presses no depths together by more than (tau + t^ - w/2)/(tau - eps - w/2).", source,
+           compression_is_bounded},
+          {"projection.impossible-bands-are-rejected", "A band that no map can have is refused.", source,
+           senseless_bands_are_refused}};
 }
 
 }  // namespace foldproof

@@ -212,20 +212,21 @@ Finding loop_is_affine(const Subject&) {
 
 std::vector<Check> projection_cloth_checks() {
   const std::string source = "BMF03 section 5.3";
-  return {{"projection.pinched-points-would-tear",
-           "Cloth pinched between two balls would be torn apart if its points were projected, and is not "
-           "when they are left alone.",
-           source, pinched_points_would_tear},
-          {"projection.serves-the-subdivided-cloth",
-           "Cloth subdivided first and projected then has no triangle inside.", source,
-           serves_the_subdivided_cloth},
-          {"projection.subdividing-afterwards-spoils-it",
-           "Cloth projected first and subdivided then, by Loop's rule, has triangles inside.", source,
-           subdividing_afterwards_spoils_it},
-          {"subdivision.midpoints-keep-the-surface", "Subdivision at midpoints keeps points and area.",
-           "geometry", midpoints_keep_the_surface},
-          {"subdivision.loop-is-affine", "Loop's subdivision commutes with affine maps and has his weights.",
-           "Loop (1987)", loop_is_affine}};
+  return {
+      {"projection.projecting-pinched-points-would-tear-the-cloth",
+       "Cloth pinched between two balls would be torn apart if its points were projected, and is not "
+       "when they are left alone.",
+       source, pinched_points_would_tear},
+      {"projection.subdividing-first-leaves-no-triangle-inside",
+       "Cloth subdivided first and projected then has no triangle inside.", source,
+       serves_the_subdivided_cloth},
+      {"projection.subdividing-afterwards-leaves-triangles-inside",
+       "Cloth projected first and subdivided then, by Loop's rule, has triangles inside.", source,
+       subdividing_afterwards_spoils_it},
+      {"subdivision.midpoint-subdivision-preserves-the-surface",
+       "Subdivision at midpoints keeps points and area.", "geometry", midpoints_keep_the_surface},
+      {"subdivision.loop-subdivision-is-affine-invariant",
+       "Loop's subdivision commutes with affine maps and has his weights.", "Loop (1987)", loop_is_affine}};
 }
 
 }  // namespace foldproof

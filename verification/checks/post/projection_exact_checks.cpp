@@ -130,7 +130,7 @@ std::vector<Check> projection_exact_checks() {
   return {{"projection.no-triangle-is-left-inside",
            "With an eps that suits its edges, no triangle of the projected cloth meets the body.", source,
            no_triangle_is_left_inside},
-          {"projection.no-eps-leaves-triangles-inside",
+          {"projection.zero-eps-leaves-triangles-inside",
            "With eps = 0 triangles of the projected cloth still cut into convex bodies.", source,
            no_eps_is_too_little}};
 }

@@ -119,12 +119,12 @@ Finding overrides_finding(const Subject&) {
 std::vector<Check> scene_meaning_checks() {
   const std::string source = "good practice";
   return {
-      {"scene.absent-parts-build-nothing", "What a case of the reference does not name is not built.", source,
+      {"scene.absent-parts-are-not-built", "What a case of the reference does not name is not built.", source,
        absent_finding},
       {"scene.numbers-are-as-written", "A scene of the reference holds the numbers that its case file says.",
        source, numbers_finding},
-      {"scene.overrides-act", "Overrides act on a case of the reference as if they stood in its file.",
-       source, overrides_finding},
+      {"scene.overrides-take-effect",
+       "Overrides act on a case of the reference as if they stood in its file.", source, overrides_finding},
   };
 }
 

@@ -302,7 +302,7 @@ Finding self_collision_refused_finding(const Subject&) {
 }  // namespace
 
 std::vector<Check> scene_cloth_checks() {
-  const std::string source = "cases/README.md";
+  const std::string source = "cases/KEYS.md";
   return {
       {"scene.shapes-are-read",
        "Discs, cylinders, spheres, statues and hinges are made in the sizes written.", source,
@@ -311,18 +311,19 @@ std::vector<Check> scene_cloth_checks() {
        source, patterns_finding},
       {"scene.copies-and-pleats-are-read",
        "Copies are turned and moved on one from the other, and pleats are folded.", source, copies_finding},
-      {"scene.cloth-is-refused", "Shapes, patterns and copies that make no sense are refused, with the line.",
-       source, shapes_refused_finding},
+      {"scene.invalid-cloth-is-rejected",
+       "Shapes, patterns and copies that make no sense are refused, with the line.", source,
+       shapes_refused_finding},
       {"scene.folded-start-is-read",
        "Cloth that starts folded lies in a serpentine whose lengths are the cloth's own.", source,
        folded_finding},
-      {"scene.folded-start-is-refused",
+      {"scene.invalid-folded-start-is-rejected",
        "Folds that the cloth is too short for, or that have no direction, are refused.", source,
        folded_refused_finding},
       {"scene.self-collision-is-read",
        "What a case says of cloth meeting itself is read as written, and built.", source,
        self_collision_finding},
-      {"scene.self-collision-is-refused",
+      {"scene.invalid-self-collision-is-rejected",
        "Self-collision with a thickness that the mesh cannot resolve, or of cloth that starts crossed, is "
        "refused.",
        source, self_collision_refused_finding},

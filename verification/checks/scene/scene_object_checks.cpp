@@ -146,14 +146,14 @@ Finding refusal_finding(const Subject&) {
 
 std::vector<Check> scene_object_checks() {
   return {{"scene.objects-are-as-written",
-           "Objects have the place, motion, friction and response that the case says.", "cases/README.md",
+           "Objects have the place, motion, friction and response that the case says.", "cases/KEYS.md",
            meaning_finding},
-          {"scene.object-surfaces-are-those-of-the-solids",
-           "The surface that is drawn of an object is that of its solid, facing outwards.", "cases/README.md",
+          {"scene.drawn-surfaces-match-their-solids",
+           "The surface that is drawn of an object is that of its solid, facing outwards.", "cases/KEYS.md",
            surface_finding},
-          {"scene.wrong-objects-are-refused",
+          {"scene.invalid-objects-are-rejected",
            "What a case must not say of objects is refused with file, line and what is known.",
-           "cases/README.md", refusal_finding}};
+           "cases/KEYS.md", refusal_finding}};
 }
 
 }  // namespace foldproof

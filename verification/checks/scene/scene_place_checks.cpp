@@ -148,14 +148,14 @@ Finding rest_angle_finding(const Subject&) {
 std::vector<Check> scene_place_checks() {
   const std::string source = "good practice";
   return {
-      {"scene.hold-is-as-written",
+      {"scene.held-particles-are-as-written",
        "The reference holds and leads the particles that a case names, as it says.", source, hold_finding},
-      {"scene.start-is-as-written",
+      {"scene.start-state-is-as-written",
        "The reference starts with the stretch, spin, velocity and noise that a case says.", source,
        start_finding},
       {"scene.cloth-is-placed-as-written", "The reference scales, turns and moves the cloth as a case says.",
        source, placed_finding},
-      {"scene.rest-angle-sources",
+      {"scene.rest-angles-come-from-the-named-source",
        "Rest angles of the reference come from a number, from flatness or from the rest shape, as a case "
        "says.",
        source, rest_angle_finding},

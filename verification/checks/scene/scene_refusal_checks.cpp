@@ -186,15 +186,15 @@ Finding values_finding(const Subject&) {
 std::vector<Check> scene_refusal_checks() {
   const std::string source = "good practice";
   return {
-      {"scene.unknown-keys-are-refused",
+      {"scene.unknown-keys-are-rejected",
        "A case of the reference with a key that no one asks for is refused, with file, line and the keys "
        "known there.",
        source, unknown_finding},
-      {"scene.wrong-types-are-refused",
+      {"scene.wrong-types-are-rejected",
        "A case of the reference with a value of the wrong type is refused, with file, line and the type "
        "wanted.",
        source, types_finding},
-      {"scene.bad-values-are-refused",
+      {"scene.out-of-range-values-are-rejected",
        "A case of the reference with a value out of its range is refused, with file, line and what is known.",
        source, values_finding},
   };

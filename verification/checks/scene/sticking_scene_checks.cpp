@@ -157,17 +157,17 @@ Finding refusals_finding(const Subject&) {
 }  // namespace
 
 std::vector<Check> sticking_scene_checks() {
-  const std::string source = "cases/README.md";
+  const std::string source = "cases/KEYS.md";
   return {{"scene.sticky-regions-are-read",
            "The reference reads of [[sticky]] what lists, boxes and spheres name, and its values.", source,
            regions_finding},
-          {"scene.sticky-surfaces-are-carried",
+          {"scene.objects-carry-sticky-surfaces",
            "The reference lets an object carry the sticky triangles that its region names.", source,
            carried_finding},
-          {"scene.groups-of-obj-files",
+          {"scene.obj-groups-are-kept",
            "The reference keeps the groups and objects of an OBJ file, and regions name them.", source,
            groups_finding},
-          {"scene.wrong-sticky-tables-are-refused",
+          {"scene.invalid-sticky-tables-are-rejected",
            "The reference refuses wrong tables [[sticky]] with file, line and what is known.", source,
            refusals_finding}};
 }

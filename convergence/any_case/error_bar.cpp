@@ -1,0 +1,100 @@
+#include "convergence/any_case/error_bar.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/types.h"
+#include "verification/evidence.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double safety_in_range = 1.25, safety_outside = 3;
+
+std::vector<double> neighbouring_differences(const std::vector<double>& values) {
+  std::vector<double> differences;
+  for (size_t k = 0; k + 1 < values.size(); ++k) differences.push_back(values[k + 1] - values[k]);
+  return differences;
+}
+
+/// log(a/b) / log ratio, or NaN where a and b differ in sign or are not above the floor.
+double pair_order(double a, double b, const Ladder& ladder) {
+  if (!(a * b > 0) || !(std::abs(a) > ladder.floor) || !(std::abs(b) > ladder.floor)) return nan;
+  return std::log(a / b) / std::log(ladder.ratio);
+}
+
+void require_valid(const Ladder& ladder, const std::vector<double>& differences) {
+  if (differences.size() < 2) throw InputError("an error bar needs three levels of refinement or more");
+  if (!ladder.values.empty() && ladder.values.size() != differences.size() + 1)
+    throw InputError("an error bar needs one difference less than values");
+  if (!(ladder.ratio > 1)) throw InputError("an error bar needs a ratio of refinement > 1");
+  if (!(ladder.formal_order > 0)) throw InputError("an error bar needs a formal order > 0");
+}
+
+/// Why the last differences have no order, in words; "" if they have one.
+std::string why_no_order(const std::vector<double>& d, const std::vector<double>& orders, double floor) {
+  const double last = d.back(), before = d[d.size() - 2];
+  if (!std::isfinite(last) || !std::isfinite(before)) return "a level came to no end";
+  if (!(std::abs(last) > floor) || !(std::abs(before) > floor))
+    return "differences between levels have sunk to rounding or the solver's tolerance";
+  if (last * before < 0) return "differences between levels change sign";
+  if (!(orders.back() > 0)) return "differences between levels grow";
+  if (!(orders.back() >= least_order)) return "differences between levels hardly fall";
+  return "";
+}
+
+/// Why an order that is there is not yet that of small steps; "" if it is.
+std::string why_not_asymptotic(const std::vector<double>& orders, double formal) {
+  const double last = orders.back();
+  if (orders.size() == 1) {
+    if (std::abs(last - formal) <= same_order) return "";
+    return "three levels give one order, and it is not the method's own";
+  }
+  if (std::abs(last - orders[orders.size() - 2]) <= same_order) return "";
+  return "the order still changes from level to level";
+}
+
+double grid_convergence_index(double difference, double ratio, double order, double safety) {
+  return safety * std::abs(difference) / (std::pow(ratio, order) - 1);
+}
+
+}  // namespace
+
+std::string_view name_of(Reading reading) {
+  switch (reading) {
+    case Reading::asymptotic:
+      return "asymptotic";
+    case Reading::not_asymptotic:
+      return "not asymptotic";
+    case Reading::inconclusive:
+      break;
+  }
+  return "inconclusive";
+}
+
+ErrorBar error_bar(const Ladder& ladder) {
+  const std::vector<double> d =
+      ladder.differences.empty() ? neighbouring_differences(ladder.values) : ladder.differences;
+  require_valid(ladder, d);
+  ErrorBar bar;
+  for (size_t k = 0; k + 1 < d.size(); ++k) bar.orders.push_back(pair_order(d[k], d[k + 1], ladder));
+  const double largest = std::max(std::abs(d.back()), std::abs(d[d.size() - 2]));
+  bar.because = why_no_order(d, bar.orders, ladder.floor);
+  if (!bar.because.empty()) {
+    bar.half_width = std::max(safety_outside * largest, ladder.floor);
+    if (std::isnan(d.back()) || std::isnan(d[d.size() - 2])) bar.half_width = nan;
+    return bar;
+  }
+  bar.because = why_not_asymptotic(bar.orders, ladder.formal_order);
+  bar.reading = bar.because.empty() ? Reading::asymptotic : Reading::not_asymptotic;
+  bar.order = bar.orders.back();
+  bar.safety = bar.because.empty() ? safety_in_range : safety_outside;
+  const double order = std::min(bar.order, ladder.formal_order);
+  bar.half_width =
+      std::max(grid_convergence_index(d.back(), ladder.ratio, order, bar.safety), ladder.floor);
+  if (!ladder.values.empty()) bar.limit = ladder.values.back() + d.back() / (std::pow(ladder.ratio, order) - 1);
+  return bar;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,113 @@
+// foldproof simulate: runs a case, and loses nothing of it when it is interrupted.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "scripts/program/commands.h"
+#include "scripts/program/interruption.h"
+#include "scripts/program/json_text.h"
+#include "scripts/program/progress.h"
+#include "scripts/program/provenance.h"
+#include "scripts/program/run_all.h"
+#include "scripts/program/run_case.h"
+#include "scripts/program/typed_command.h"
+
+namespace foldproof {
+
+namespace {
+
+std::string reached_text(const KeptRun& kept) {
+  return fmt::format("frame {}, t = {:.6g} s", kept.frame, kept.time);
+}
+
+/// An interrupted run may be hours of work: only --restart deletes it.
+void refuse_to_lose(const KeptRun& kept, const Scene& scene, const Options& options) {
+  const std::string folder = checkpoint_path(scene, options.out);
+  const char* const over = "start over with --restart, which deletes it";
+  if (kept.frame < 0)
+    throw InputError(fmt::format("{}: holds an interrupted run that cannot be read; {}", folder, over));
+  if (!kept.differs.empty())
+    throw InputError(fmt::format("{}: holds an interrupted run ({}) of {}; choose another --out, or {}",
+                                 folder, reached_text(kept), kept.differs, over));
+  throw InputError(fmt::format("{}: holds this run, interrupted at {} of {:.6g} s; resume it with `{}`, or {}",
+                               folder, reached_text(kept), scene.schedule.end,
+                               with_option(options.words, "--resume"), over));
+}
+
+void say_how_to_resume(const Scene& scene, const Options& options) {
+  const std::optional<KeptRun> kept = checkpoint_folder(scene, options.out).kept_run();
+  if (!kept || kept->frame < 0)
+    say("interrupted before the first frame: there is nothing to resume");
+  else
+    say(fmt::format("interrupted at {} of {:.6g} s; resume with: {}", reached_text(*kept),
+                    scene.schedule.end, with_option(options.words, "--resume")));
+}
+
+nlohmann::json told(const CaseRun& run, const Options& options) {
+  const Work& work = run.outcome.work;
+  nlohmann::json json = {{"case", run.record.name},
+                         {"file", options.out + "/" + run.record.file},
+                         {"stopped", run.record.stopped},
+                         {"steps", run.outcome.steps},
+                         {"time", run.outcome.last.time},
+                         {"seconds", run.record.seconds},
+                         {"cg_iterations", work.cg_iterations},
+                         {"solves", work.solves},
+                         {"elastic_evaluations", work.elastic_evaluations},
+                         {"unfinished_solves", work.unfinished_solves},
+                         {"findings", nlohmann::json::array()}};
+  for (const Record& record : run.findings)
+    json["findings"].push_back(
+        {{"name", record.name}, {"outcome", record.outcome}, {"note", record.finding.note}});
+  return json;
+}
+
+/// Returns the exit code.
+int report(const CaseRun& run, const Options& options) {
+  const Work& work = run.outcome.work;
+  RunRecord expected;
+  expected.records = run.findings;
+  if (options.json)
+    fmt::print("{}\n", json_text(told(run, options)));
+  else
+    fmt::print("{}{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n",
+               listing(expected), options.out, run.record.file, run.outcome.last.time, run.outcome.steps,
+               double(work.cg_iterations) / double(std::max(1L, work.solves)), run.record.seconds);
+  if (work.unfinished_solves > 0)
+    say(fmt::format("warning: {} of {} solves hit the cap on iterations", work.unfinished_solves,
+                    work.solves));
+  if (!run.record.stopped.empty()) say("stopped: " + run.record.stopped);
+  return run.record.stopped.empty() ? exit_code(expected) : some_fail;
+}
+
+CaseRun run_of(const BuiltCase& of, const Options& options) {
+  const InterruptionWatch watch;
+  ProgressLine line("simulate " + of.shown.scene.name);
+  return run_case_with_checkpoints(of, options.out, options.resumes ? Start::last_checkpoint : Start::anew,
+                                   provenance(options.command), [&](double part) {
+                                     line.show(part);
+                                     watch.check();
+                                   });
+}
+
+}  // namespace
+
+int simulate_case(const Options& options) {
+  Case shown = read_case(options.file, options.overrides);
+  const bool may_delete = options.resumes || options.restarts;
+  const std::optional<KeptRun> kept = checkpoint_folder(shown.scene, options.out).kept_run();
+  if (kept && !may_delete) refuse_to_lose(*kept, shown.scene, options);
+  make_folder(options.out);
+  const BuiltCase of = built_case(std::move(shown), makers_of(options.cache));
+  const Scene& scene = of.shown.scene;
+  say(fmt::format("{}: {}", scene.name, fmt::join(built_parts(scene, of.built.system), "; ")));
+  try {
+    return report(run_of(of, options), options);
+  } catch (const Interrupted& interrupted) {
+    say_how_to_resume(scene, options);
+    end_by(interrupted);
+  }
+}
+
+}  // namespace foldproof

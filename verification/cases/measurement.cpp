@@ -1,0 +1,305 @@
+#include "verification/cases/measurement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reference/forces/bending.h"
+#include "reference/scene/key_values.h"
+#include "reference/scene/read_region.h"
+#include "verification/cases/repetition.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double in_degrees = 180 / std::numbers::pi;  // a radian
+
+/// Against gravity; +y without it.
+Vector3 up(const Scene& scene) {
+  if (!scene.gravity || !(scene.gravity->norm() > 0)) return Vector3::UnitY();
+  return -scene.gravity->normalized();
+}
+
+std::vector<double> heights(const FrameSeen& frame, const std::vector<int>& of) {
+  std::vector<double> all;
+  for (const int i : of) all.push_back(up(frame.scene).dot(frame.state.x.col(i)));
+  return all;
+}
+
+/// Weighted with the particles' masses, so that it means the same on a finer mesh.
+Vector3 mean_position(const FrameSeen& frame, const std::vector<int>& of) {
+  Vector3 sum = Vector3::Zero();
+  double mass = 0;
+  for (const int i : of) {
+    sum += frame.system.mass[i] * frame.state.x.col(i);
+    mass += frame.system.mass[i];
+  }
+  return sum / mass;
+}
+
+double mean_height(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+  return up(frame.scene).dot(mean_position(frame, of));
+}
+
+double lowest(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+  return std::ranges::min(heights(frame, of));
+}
+
+double highest(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+  return std::ranges::max(heights(frame, of));
+}
+
+double position_along(const FrameSeen& frame, const Measurement& m, const std::vector<int>& of) {
+  const Vector3 along = m.along.norm() > 0 ? Vector3(m.along.normalized()) : up(frame.scene);
+  return along.dot(mean_position(frame, of));
+}
+
+double distance(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+  return (frame.state.x.col(of[1]) - frame.state.x.col(of[0])).norm();
+}
+
+/// At the second of three particles.
+double angle(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+  const Vector3 a = frame.state.x.col(of[0]) - frame.state.x.col(of[1]);
+  const Vector3 b = frame.state.x.col(of[2]) - frame.state.x.col(of[1]);
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * in_degrees;
+}
+
+/// Of a surface bent along lines, curvature k across them: the angles of its hinges times their lengths sum up to k
+/// times its area, and |H| = k/2.
+double mean_curvature(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+  const PerParticle3& x = frame.state.x;
+  const TriangleMesh& mesh = frame.scene.mesh;
+  const std::vector<double> angles = hinge_angles(mesh, x);
+  double turned = 0, area = 0;  // m, m^2
+  for (size_t h = 0; h < angles.size(); ++h) {
+    const Hinge& hinge = mesh.hinges[h];
+    turned += std::abs(angles[h]) * (x.col(hinge.particles[3]) - x.col(hinge.particles[2])).norm();
+  }
+  for (const Triangle& t : mesh.triangles)
+    area += 0.5 * Vector3(x.col(t[1]) - x.col(t[0])).cross(Vector3(x.col(t[2]) - x.col(t[0]))).norm();
+  return turned / (2 * area);
+}
+
+double fastest(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+  Worst worst;
+  for (const int i : of) worst.see(frame.state.v.col(i).norm());
+  return worst.value();
+}
+
+/// Root mean square of how far the particles are from where they started, by mass.
+double displacement(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+  double squares = 0, mass = 0;
+  for (const int i : of) {
+    squares += frame.system.mass[i] * (frame.state.x.col(i) - frame.scene.x.col(i)).squaredNorm();
+    mass += frame.system.mass[i];
+  }
+  return std::sqrt(squares / mass);
+}
+
+double kinetic(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+  return energies(frame.system, frame.state).kinetic;
+}
+
+double elastic(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+  const Energies e = energies(frame.system, frame.state);
+  return e.stretch + e.bending;
+}
+
+double gravitational(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+  return energies(frame.system, frame.state).gravity;
+}
+
+double total_energy(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+  return energies(frame.system, frame.state).total();
+}
+
+double momentum(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+  return linear_momentum(frame.system, frame.state).norm();
+}
+
+double spin(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+  return angular_momentum(frame.system, frame.state).norm();
+}
+
+double contact_points(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+  return double(frame.contacts);
+}
+
+double depth(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+  return frame.objects.empty()
+             ? 0
+             : value_at(*find_quantity("stays_outside"), frame.scene, frame.objects, frame.state);
+}
+
+const Measurable* find_measurable(std::string_view what) {
+  for (const Measurable& row : measurable())
+    if (what == row.what) return &row;
+  return nullptr;
+}
+
+std::string known_measurements() {
+  std::string known;
+  for (const Measurable& row : measurable()) known += (known.empty() ? "" : ", ") + std::string(row.what);
+  return known + ", and the keys of [expect]";
+}
+
+ParticleRegion read_region(const KeyTable& keys, const Scene& scene) {
+  if (keys.is_text("of")) {
+    if (keys.text("of") != "all")
+      throw InputError(keys.where("of") +
+                       ": 'of' must be \"all\", { particles = [...] } or { box = [[x, y, z], [x, y, z]] }");
+    return {};
+  }
+  const auto of = keys.table("of");
+  if (!of) return {};
+  ParticleRegion region;
+  if (of->has("box")) {
+    in_box(*of, scene.x);  // refuses what is no box
+    region.box = {of->vectors("box")[0], of->vectors("box")[1]};
+  } else {
+    region.particles = numbered(*of, "particles", scene.x.cols());
+  }
+  if (particles_in(region, scene).empty())
+    throw InputError(keys.where("of") + ": 'of' names no particle of the cloth's start");
+  return region;
+}
+
+void read_instant(const KeyTable& keys, const Scene& scene, Measurement& m) {
+  if (!keys.has("when")) return;
+  if (!keys.is_text("when")) {
+    m.when = Instant::at_time;
+    m.time = keys.number("when");
+    if (!(m.time >= 0 && m.time <= scene.schedule.end))
+      throw InputError(keys.where("when") + ": 'when' is a time outside the run [s]");
+    return;
+  }
+  m.when = choice<Instant>(
+      keys, "when", {{"end", Instant::end}, {"maximum", Instant::maximum}, {"minimum", Instant::minimum}});
+}
+
+}  // namespace
+
+std::vector<int> particles_in(const ParticleRegion& region, const Scene& scene) {
+  if (!region.particles.empty()) return region.particles;
+  std::vector<int> all;
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    const auto x = scene.x.col(i).array();
+    if (!region.box || ((x >= region.box->first.array()).all() && (x <= region.box->second.array()).all()))
+      all.push_back(int(i));
+  }
+  return all;
+}
+
+const std::vector<Measurable>& measurable() {
+  static const std::vector<Measurable> table = {
+      {"height", "m", "mean height of the particles, by mass, against gravity", 0, mean_height},
+      {"lowest", "m", "height of the lowest particle", 0, lowest},
+      {"highest", "m", "height of the highest particle", 0, highest},
+      {"position", "m", "mean position along a direction, by mass", 0, position_along},
+      {"displacement", "m", "root mean square distance from the start, by mass", 0, displacement},
+      {"distance", "m", "between two particles", 2, distance},
+      {"angle", "degrees", "at the second of three particles", 3, angle},
+      {"mean_curvature", "1/m", "mean of |H| over the cloth", 0, mean_curvature},
+      {"speed", "m/s", "of the fastest particle", 0, fastest},
+      {"kinetic_energy", "J", "of the cloth", 0, kinetic},
+      {"elastic_energy", "J", "of stretching and bending", 0, elastic},
+      {"gravitational_energy", "J", "of the cloth", 0, gravitational},
+      {"energy", "J", "kinetic, elastic and gravitational", 0, total_energy},
+      {"momentum", "kg m/s", "size of the linear momentum", 0, momentum},
+      {"angular_momentum", "kg m^2/s", "size, about the origin", 0, spin},
+      {"contact_points", "1", "points that objects corrected in the step before", 0, contact_points},
+      {"depth", "m", "of the deepest free particle inside an object", 0, depth},
+  };
+  return table;
+}
+
+std::string unit_of(const Measurement& m) {
+  if (const Measurable* row = find_measurable(m.what)) return row->unit;
+  const Quantity* quantity = find_quantity(m.what);
+  return quantity ? quantity->unit : "1";
+}
+
+Measurement read_measurement(const KeyTable& keys, const Scene& scene) {
+  Measurement m{keys.text_or("name", ""), keys.text("what")};
+  if (m.name.empty()) m.name = m.what;
+  m.of = read_region(keys, scene);
+  read_instant(keys, scene, m);
+  if (const Measurable* row = find_measurable(m.what)) {
+    if (row->particles > 0 && int(m.of.particles.size()) != row->particles)
+      throw InputError(keys.where("what") + fmt::format(": '{}' needs of = {{ particles = [...] }} with {} numbers",
+                                                        m.what, row->particles));
+    if (m.what == "position") m.along = keys.vector_or("along", Vector3::Zero());
+    return m;
+  }
+  const Quantity* quantity = find_quantity(m.what);
+  if (!quantity)
+    throw InputError(keys.where("what") + ": unknown quantity '" + m.what + "'; known: " + known_measurements());
+  const std::string refusal = quantity->refusal ? quantity->refusal(scene) : "";
+  if (!refusal.empty()) throw InputError(keys.where("what") + ": '" + m.what + "' makes no sense here: " + refusal);
+  return m;
+}
+
+std::vector<Measurement> usual_measurements(const Scene& scene, const std::vector<std::string>& expected) {
+  std::vector<Measurement> usual;
+  for (const char* what : {"kinetic_energy", "elastic_energy"}) usual.push_back({what, what});
+  if (scene.gravity)
+    for (const char* what : {"height", "lowest"}) usual.push_back({what, what});
+  for (const std::string& key : expected)
+    if (key != "runs_to_its_end" && key != "repeats_itself" && key != "takes_steps" && key != "solves_finish")
+      usual.push_back({key, key});
+  return usual;
+}
+
+Measurer::Measurer(const Scene& scene, const Built& built, const std::vector<Measurement>& measurements)
+    : scene_(scene), built_(built), measurements_(measurements), values_(measurements.size(), nan) {
+  for (const Measurement& m : measurements) particles_.push_back(particles_in(m.of, scene));
+}
+
+void Measurer::record(const Diagnostics& row) {
+  book_.enter(row, scene_.schedule.end);
+  contacts_ = row.work.object_contacts;
+}
+
+double Measurer::at_frame(size_t k, const State& frame) const {
+  const Measurement& m = measurements_[k];
+  if (const Measurable* row = find_measurable(m.what))
+    return row->at({scene_, built_.system, built_.objects, frame, contacts_}, m, particles_[k]);
+  const Quantity& quantity = *find_quantity(m.what);
+  return quantity.of_run ? nan : value_at(quantity, scene_, built_.objects, frame);
+}
+
+void Measurer::record(const State& frame) {
+  const bool is_first = frame.time == 0;
+  const double close = 1e-9 * scene_.schedule.frame_interval;
+  for (size_t k = 0; k < measurements_.size(); ++k) {
+    const Measurement& m = measurements_[k];
+    const bool is_expected = !find_measurable(m.what);  // its largest over the frames, as [expect] takes it
+    if (m.when == Instant::at_time && std::abs(frame.time - m.time) > scene_.schedule.frame_interval / 2) continue;
+    if (m.when == Instant::end && !is_expected && std::abs(frame.time - scene_.schedule.end) > close) continue;
+    const double value = at_frame(k, frame);
+    const double before = values_[k];
+    if (is_first || m.when == Instant::at_time || (m.when == Instant::end && !is_expected))
+      values_[k] = value;
+    else if (m.when == Instant::minimum)
+      values_[k] = std::isnan(value) ? value : std::min(before, value);
+    else
+      values_[k] = std::isnan(value) ? value : std::max(before, value);
+  }
+}
+
+std::vector<double> Measurer::values(const Outcome& outcome) const {
+  std::vector<double> all = values_;
+  const Repetition never_asked(scene_, computing_makers());
+  for (size_t k = 0; k < measurements_.size(); ++k) {
+    const Quantity* quantity = find_measurable(measurements_[k].what) ? nullptr : find_quantity(measurements_[k].what);
+    if (quantity && quantity->of_run)
+      all[k] = quantity->of_run({scene_, book_, outcome, never_asked, built_.objects});
+  }
+  return all;
+}
+
+}  // namespace foldproof

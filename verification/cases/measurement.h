@@ -1,0 +1,91 @@
+// Numbers that a user wants of a run: [[quantity]] of a case file, each a value with a unit.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reference/dynamics/simulate.h"
+#include "reference/scene/scene.h"
+#include "verification/cases/quantities.h"
+
+namespace foldproof {
+
+/// Particles of a cloth, as the case names them; a finer mesh of the same cloth has more of them in a box.
+struct ParticleRegion {
+  std::vector<int> particles;                     // by number
+  std::optional<std::pair<Vector3, Vector3>> box;  // lowest and highest corner, of the start [m]
+  // neither: all
+};
+
+/// The particles of the region, ascending in a box, else as listed.
+std::vector<int> particles_in(const ParticleRegion& region, const Scene& scene);
+
+enum class Instant { end, maximum, minimum, at_time };
+
+/// One [[quantity]]: `name`, `what` it is, `of` which particles, and `when`.
+struct Measurement {
+  std::string name;
+  std::string what;  // a row of measurable(), or a key of quantities()
+  ParticleRegion of = {};
+  Instant when = Instant::end;
+  double time = 0;                  // of at_time: that of the nearest frame counts [s]
+  Vector3 along = Vector3::Zero();  // of what = "position": a direction; zero: up
+};
+
+/// Every run as a measurement sees it at one frame.
+struct FrameSeen {
+  const Scene& scene;
+  const System& system;
+  std::span<const Object> objects;
+  const State& state;
+  long contacts;  // points whose motion objects corrected in the step that ended here
+};
+
+/// A row of the table of what can be measured at a frame.
+struct Measurable {
+  const char *what, *unit, *meaning;
+  int particles;  // how many it needs by number; 0: any region
+  double (*at)(const FrameSeen& frame, const Measurement& m, const std::vector<int>& of);
+};
+
+const std::vector<Measurable>& measurable();
+
+/// The unit of a measurement, of measurable() or of quantities().
+std::string unit_of(const Measurement& m);
+
+/// One entry of [[quantity]]. Throws InputError "file:line: ..." for an unknown `what` or `when`, a region
+/// without particles, and a quantity that makes no sense for the scene.
+Measurement read_measurement(const KeyTable& keys, const Scene& scene);
+
+/// What is measured of a case that names nothing itself: energies at the end, heights at the end (where there is gravity),
+/// and the quantities of its expectations.
+std::vector<Measurement> usual_measurements(const Scene& scene, const std::vector<std::string>& expected);
+
+/// Takes measurements while a run goes on: give it every row and every frame, then ask.
+class Measurer {
+ public:
+  /// All must outlive it.
+  Measurer(const Scene& scene, const Built& built, const std::vector<Measurement>& measurements);
+
+  void record(const Diagnostics& row);
+  void record(const State& frame);
+
+  /// One value a measurement; NaN where the run stopped before its instant.
+  std::vector<double> values(const Outcome& outcome) const;
+
+ private:
+  double at_frame(size_t k, const State& frame) const;
+
+  const Scene& scene_;
+  const Built& built_;
+  const std::vector<Measurement>& measurements_;
+  std::vector<std::vector<int>> particles_;  // of each measurement
+  RunBook book_;
+  long contacts_ = 0;
+  std::vector<double> values_;  // of those that belong to frames
+};
+
+}  // namespace foldproof
