@@ -12,13 +12,13 @@ std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const 
     result = study.run(subject, tier, progress);
     return Finding{};
   });
-  if (run.outcome != name_of(Ruling::holds)) return {{run}, whole};  // it threw, or was not offered
+  if (run.outcome != Outcome::holds) return {{run}, whole};  // it threw, or was not offered
 
   for (NamedFinding& named : result.findings) {
     Record record = blank;
     record.name = named.name;
     record.claim = named.claim;
-    record.outcome = name_of(ruling(named.finding.verdict));
+    record.outcome = outcome_of(named.finding.verdict);
     record.finding = std::move(named.finding);
     records.push_back(std::move(record));
   }

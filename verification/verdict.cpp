@@ -24,40 +24,40 @@ Finding broken(const std::string& what) {
 
 }  // namespace
 
-std::string_view name_of(Ruling ruling) {
-  switch (ruling) {
-    case Ruling::holds:
+std::string_view name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::holds:
       return "holds";
-    case Ruling::fails:
+    case Outcome::fails:
       return "fails";
-    case Ruling::inconclusive:
+    case Outcome::inconclusive:
       return "inconclusive";
-    case Ruling::not_applicable:
+    case Outcome::not_applicable:
       return "not applicable";
   }
   return "fails";
 }
 
-Ruling ruling(const Verdict& verdict) {
+Outcome outcome_of(const Verdict& verdict) {
   if (std::isnan(verdict.measured) || !(verdict.uncertainty >= 0) || !std::isfinite(verdict.bound))
-    return Ruling::fails;
-  if (verdict.measured + verdict.uncertainty <= verdict.bound) return Ruling::holds;
-  if (verdict.measured - verdict.uncertainty > verdict.bound) return Ruling::fails;
-  return Ruling::inconclusive;
+    return Outcome::fails;
+  if (verdict.measured + verdict.uncertainty <= verdict.bound) return Outcome::holds;
+  if (verdict.measured - verdict.uncertainty > verdict.bound) return Outcome::fails;
+  return Outcome::inconclusive;
 }
 
 Record judged(Record record, const std::function<Finding()>& act) {
   const Clock clock;
   try {
     record.finding = act();
-    record.outcome = name_of(ruling(record.finding.verdict));
+    record.outcome = outcome_of(record.finding.verdict);
   } catch (const NotOffered& missing) {
     record.finding = broken("");
     record.finding.note = "the subject does not offer " + missing.operation;
-    record.outcome = name_of(Ruling::not_applicable);
+    record.outcome = Outcome::not_applicable;
   } catch (const std::exception& error) {
     record.finding = broken(error.what());
-    record.outcome = name_of(Ruling::fails);
+    record.outcome = Outcome::fails;
   }
   record.seconds = clock.seconds();
   return record;

@@ -14,9 +14,9 @@ namespace foldproof {
 
 struct Subject;
 
-enum class Ruling { holds, fails, inconclusive, not_applicable };
+enum class Outcome { holds, fails, inconclusive, not_applicable };
 
-std::string_view name_of(Ruling ruling);  // "holds", "fails", "inconclusive", "not applicable"
+std::string_view name_of(Outcome outcome);  // "holds", "fails", "inconclusive", "not applicable"
 
 /// A measured number against its bound. Every statement is put so that smaller is better.
 struct Verdict {
@@ -27,7 +27,7 @@ struct Verdict {
 
 /// holds iff measured + uncertainty <= bound, fails iff measured - uncertainty > bound, else inconclusive. Fails,
 /// too, if one of them is NaN, the bound infinite or the uncertainty negative.
-Ruling ruling(const Verdict& verdict);
+Outcome outcome_of(const Verdict& verdict);
 
 struct Finding {
   Verdict verdict;

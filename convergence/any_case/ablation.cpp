@@ -40,19 +40,19 @@ RunObserved watched(const Case& shown, const LevelSetMakers& level_sets, int par
                             judge.enter(row);
                             energy[row.time] = row.energy.total();
                           }};
-  const Outcome outcome =
+  const RunResult result =
       simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule, observer);
   for (const double t : run.times) run.energy.push_back(energy.contains(t) ? energy.at(t) : nan);
   run.deepest = deepest.value();
   run.crossings = crossings.value();
-  run.steps = outcome.steps;
-  run.work = outcome.work;
-  if (outcome.stop) run.stopped = described(*outcome.stop);
-  const std::vector<Record> records = judge.judged(outcome);
+  run.steps = result.steps;
+  run.work = result.work;
+  if (result.stop) run.stopped = described(*result.stop);
+  const std::vector<Record> records = judge.judged(result);
   for (size_t k = 0; k < records.size(); ++k) {
     if (!shown.expectations[k].not_asked.empty()) continue;
     run.asked.push_back(shown.expectations[k].key);
-    if (records[k].outcome != "holds") run.failed.push_back(shown.expectations[k].key);
+    if (records[k].outcome != Outcome::holds) run.failed.push_back(shown.expectations[k].key);
   }
   return run;
 }

@@ -27,11 +27,11 @@ LevelRun watched_level(const Level& level, const LevelSetMakers& level_sets) {
                             measurer.record(row);
                             if (row.step > 0) run.step_ends.push_back(row.time);
                           }};
-  const Outcome outcome =
+  const RunResult outcome =
       simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule, observer);
-  run.values = measurer.values(outcome);
-  run.work = operator_applications(outcome.work);
-  if (outcome.stop) run.stopped = described(*outcome.stop);
+  run.values = measurer.values(result);
+  run.work = operator_applications(result.work);
+  if (result.stop) run.stopped = described(*result.stop);
   return run;
 }
 

@@ -80,10 +80,10 @@ Folded folded(const Hinges& hinges, bool is_limited) {
   const Scene scene = scene_of_strip(
       {length, columns, 5, {5, 0.002, 1}, hinges.stiffness, 0.005, nearer, duration, 1e-6, is_limited});
   Folded result{hinges.name, is_limited};
-  const Outcome outcome =
+  const RunResult run =
       simulate(build_system(scene), integrator_named("C"), start_state(scene), scene.schedule, {});
-  if (outcome.stop) return result;
-  const PerParticle3& x = outcome.last.x;
+  if (run.stop) return result;
+  const PerParticle3& x = run.last.x;
   const double at_rest = triangle_areas(scene.mesh.triangles, scene.mesh.rest).sum();
   const PerParticle z = x.row(2).transpose();
   constexpr int samples = 80;
@@ -91,9 +91,9 @@ Folded folded(const Hinges& hinges, bool is_limited) {
   result.height = z.maxCoeff() - z.minCoeff();
   result.wavelength =
       dominant_wavelength(along(section_of(scene.mesh, 1), z, samples), length / (samples - 1));
-  result.steps = double(outcome.steps);
-  result.sweeps = double(outcome.work.strain_sweeps) / result.steps;
-  result.left = outcome.work.strain_left;
+  result.steps = double(run.steps);
+  result.sweeps = double(run.work.strain_sweeps) / result.steps;
+  result.left = run.work.strain_left;
   return result;
 }
 
@@ -132,9 +132,9 @@ Wrinkled wrinkled(double wavelength) {
       scene_of_strip({bed_length, 24, 3, {1, 0.001, 1}, ke, 0.002, 0.05 * bed_length, 0.4, 1e-5, true});
   System system = build_system(scene);
   system.forces.push_back(elastic_bed(result.bed, scene.density, system.mass));
-  const Outcome outcome = simulate(system, integrator_named("C"), start_state(scene), scene.schedule, {});
-  if (outcome.stop) return result;
-  const PerParticle z = outcome.last.x.row(2).transpose();
+  const RunResult run = simulate(system, integrator_named("C"), start_state(scene), scene.schedule, {});
+  if (run.stop) return result;
+  const PerParticle z = run.last.x.row(2).transpose();
   constexpr int samples = 120;
   result.height = z.maxCoeff() - z.minCoeff();
   result.wavelength =

@@ -25,10 +25,10 @@ Scene falling_ribbon(double safety) {
 
 /// The time at which the run loses a triangle [s]; NaN if it does not, or stops for another reason.
 double collapse_time(const Scene& scene) {
-  const Outcome outcome =
+  const RunResult result =
       simulate(build_system(scene), integrator_named("C"), start_state(scene), scene.schedule, {});
-  const bool is_lost = outcome.stop && outcome.stop->reason.find("lost its area") != std::string::npos;
-  return is_lost ? outcome.stop->time : std::numeric_limits<double>::quiet_NaN();
+  const bool is_lost = result.stop && result.stop->reason.find("lost its area") != std::string::npos;
+  return is_lost ? result.stop->time : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace

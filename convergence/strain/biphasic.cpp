@@ -92,12 +92,12 @@ Pulled pulled(const Springs& springs) {
     result.extensions.push_back((ends / count - s.x(0, scene.led.front().particle)) / length - 1);
   };
   const auto start = std::chrono::steady_clock::now();
-  const Outcome outcome =
+  const RunResult run =
       simulate(system, integrator_named(scene.integrator), start_state(scene), scene.schedule, {frame, {}});
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  result.steps = double(outcome.steps);
-  result.sweeps = double(outcome.work.strain_sweeps) / result.steps;
-  if (outcome.stop) result.extensions.assign(result.extensions.size(), nan);
+  result.steps = double(run.steps);
+  result.sweeps = double(run.work.strain_sweeps) / result.steps;
+  if (run.stop) result.extensions.assign(result.extensions.size(), nan);
   return result;
 }
 

@@ -28,13 +28,13 @@ const std::vector<Decider> all_roles = {{"support", Role::supports},
                                         {"limit", Role::limits},
                                         {"contra", Role::contradicts}};
 
-Standing with(const std::string& support, const std::string& another, const std::string& limit,
-              const std::string& contra) {
+Ruling with(const std::string& support, const std::string& another, const std::string& limit,
+            const std::string& contra) {
   return ruling(all_roles, {finding("support", support), finding("another", another), finding("limit", limit),
                             finding("contra", contra)});
 }
 
-Claim small_claim(Standing recorded, const std::string& why) {
+Claim small_claim(Ruling recorded, const std::string& why) {
   return {"BMF03", "X1", "3", "A sentence.", {{"support", Role::supports}}, recorded, "", why};
 }
 
@@ -58,50 +58,50 @@ bool is_known(const std::string& name) {
 }  // namespace
 
 TEST_CASE("a claim is confirmed when all that it needs holds and nothing limits or contradicts it") {
-  CHECK(with("holds", "holds", "fails", "fails") == Standing::confirmed);
+  CHECK(with("holds", "holds", "fails", "fails") == Ruling::confirmed);
 }
 
 TEST_CASE("a limit that holds makes a confirmed claim conditional") {
-  CHECK(with("holds", "holds", "holds", "fails") == Standing::conditional);
+  CHECK(with("holds", "holds", "holds", "fails") == Ruling::conditional);
 }
 
 TEST_CASE("a contradiction that holds refutes, whatever else holds or fails") {
   for (const char* support : {"holds", "fails"})
     for (const char* limit : {"holds", "fails"})
-      CHECK(with(support, "holds", limit, "holds") == Standing::refuted);
+      CHECK(with(support, "holds", limit, "holds") == Ruling::refuted);
 }
 
 TEST_CASE("one failed support of several leaves a claim undecided, neither confirmed nor refuted") {
   for (const char* limit : {"holds", "fails"}) {
-    CHECK(with("fails", "holds", limit, "fails") == Standing::undecided);
-    CHECK(with("holds", "fails", limit, "fails") == Standing::undecided);
+    CHECK(with("fails", "holds", limit, "fails") == Ruling::undecided);
+    CHECK(with("holds", "fails", limit, "fails") == Ruling::undecided);
   }
 }
 
 TEST_CASE("a finding that says nothing, in any role, leaves a claim undecided") {
   for (const char* silent : {"inconclusive", "not applicable", "measured", ""}) {
-    CHECK(with(silent, "holds", "holds", "fails") == Standing::undecided);
-    CHECK(with("holds", "holds", silent, "fails") == Standing::undecided);
-    CHECK(with("holds", "holds", "holds", silent) == Standing::undecided);
-    CHECK(with(silent, "holds", "holds", "holds") == Standing::undecided);
+    CHECK(with(silent, "holds", "holds", "fails") == Ruling::undecided);
+    CHECK(with("holds", "holds", silent, "fails") == Ruling::undecided);
+    CHECK(with("holds", "holds", "holds", silent) == Ruling::undecided);
+    CHECK(with(silent, "holds", "holds", "holds") == Ruling::undecided);
   }
   CHECK(ruling(all_roles, {finding("support", "holds"), finding("another", "holds"),
-                           finding("limit", "fails")}) == Standing::undecided);
+                           finding("limit", "fails")}) == Ruling::undecided);
 }
 
 TEST_CASE(
     "a finding that failed without a number has said nothing: it cannot clear a claim of a contradiction") {
   const std::vector<Decider> deciders = {{"support", Role::supports}, {"contra", Role::contradicts}};
   CHECK(ruling(deciders, {finding("support", "holds"), finding("contra", "fails", not_a_number)}) ==
-        Standing::undecided);
-  CHECK(ruling(deciders, {finding("support", "holds"), finding("contra", "fails")}) == Standing::confirmed);
+        Ruling::undecided);
+  CHECK(ruling(deciders, {finding("support", "holds"), finding("contra", "fails")}) == Ruling::confirmed);
 }
 
 TEST_CASE("without support nothing is confirmed") {
-  CHECK(ruling({}, {}) == Standing::undecided);
-  CHECK(ruling({{"limit", Role::limits}}, {finding("limit", "holds")}) == Standing::undecided);
-  CHECK(ruling({{"contra", Role::contradicts}}, {finding("contra", "fails")}) == Standing::undecided);
-  CHECK(ruling({{"contra", Role::contradicts}}, {finding("contra", "holds")}) == Standing::refuted);
+  CHECK(ruling({}, {}) == Ruling::undecided);
+  CHECK(ruling({{"limit", Role::limits}}, {finding("limit", "holds")}) == Ruling::undecided);
+  CHECK(ruling({{"contra", Role::contradicts}}, {finding("contra", "fails")}) == Ruling::undecided);
+  CHECK(ruling({{"contra", Role::contradicts}}, {finding("contra", "holds")}) == Ruling::refuted);
 }
 
 TEST_CASE("numbers in a text come from the findings, with unit, three digits and the row asked for") {
@@ -142,19 +142,19 @@ TEST_CASE(
 
 TEST_CASE("a ruled claim has its numbers; one that asks for a number that is not there is refused by name") {
   const std::vector<Record> records = {finding("support", "holds")};
-  CHECK(ruled(small_claim(Standing::confirmed, "It is {support}."), records).claim.why == "It is 0.25 kg.");
-  CHECK_THROWS_WITH(ruled(small_claim(Standing::confirmed, "It is {other}."), records),
+  CHECK(ruled(small_claim(Ruling::confirmed, "It is {support}."), records).claim.why == "It is 0.25 kg.");
+  CHECK_THROWS_WITH(ruled(small_claim(Ruling::confirmed, "It is {other}."), records),
                     Catch::Contains("claim X1"));
 }
 
 TEST_CASE("a ruling other than the recorded one fails; an open question stays open") {
   const std::vector<Record> holds = {finding("support", "holds")}, fails = {finding("support", "fails")};
-  CHECK(outcome_of(ruled(small_claim(Standing::confirmed, ""), holds)) == "holds");
-  CHECK(outcome_of(ruled(small_claim(Standing::confirmed, ""), fails)) == "fails");
-  CHECK(outcome_of(ruled(small_claim(Standing::confirmed, ""), {})) == "fails");
-  CHECK(outcome_of(ruled(small_claim(Standing::refuted, ""), holds)) == "fails");
-  CHECK(outcome_of(ruled(small_claim(Standing::undecided, ""), holds)) == "fails");
-  CHECK(outcome_of(ruled(small_claim(Standing::undecided, ""), {})) == "inconclusive");
+  CHECK(outcome_of(ruled(small_claim(Ruling::confirmed, ""), holds)) == "holds");
+  CHECK(outcome_of(ruled(small_claim(Ruling::confirmed, ""), fails)) == "fails");
+  CHECK(outcome_of(ruled(small_claim(Ruling::confirmed, ""), {})) == "fails");
+  CHECK(outcome_of(ruled(small_claim(Ruling::refuted, ""), holds)) == "fails");
+  CHECK(outcome_of(ruled(small_claim(Ruling::undecided, ""), holds)) == "fails");
+  CHECK(outcome_of(ruled(small_claim(Ruling::undecided, ""), {})) == "inconclusive");
 }
 
 TEST_CASE("the ledger has every claim of sections 3, 4 and 6 once, and claims of section 5 in their order") {
@@ -178,7 +178,7 @@ TEST_CASE("every decided claim names only findings that there are") {
   for (const Claim& claim : written_claims()) {
     INFO("claim " << claim.id);
     CHECK(claim.statement.ends_with("."));
-    if (claim.recorded == Standing::undecided) continue;
+    if (claim.recorded == Ruling::undecided) continue;
     for (const std::string& name : findings_named_in(claim)) {
       INFO(name);
       CHECK(is_known(name));

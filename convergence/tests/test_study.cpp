@@ -14,7 +14,7 @@ TEST_CASE("a study that throws fails under its own name") {
   const auto [records, whole] = run_study(study, reference_subject(), Tier::quick, [](double) {});
   REQUIRE(records.size() == 1);
   CHECK(records[0].name == "sums");
-  CHECK(records[0].outcome == "fails");
+  CHECK(records[0].outcome == Outcome::fails);
 }
 
 TEST_CASE("each finding of a study is judged by its own verdict") {
@@ -27,8 +27,8 @@ TEST_CASE("each finding of a study is judged by its own verdict") {
       }};
   const auto [records, whole] = run_study(study, reference_subject(), Tier::quick, [](double) {});
   REQUIRE(records.size() == 4);
-  CHECK(records[0].outcome == "holds");
-  CHECK(records[1].outcome == "fails");
-  CHECK(records[2].outcome == "inconclusive");
-  CHECK(records[3].outcome == "fails");
+  CHECK(records[0].outcome == Outcome::holds);
+  CHECK(records[1].outcome == Outcome::fails);
+  CHECK(records[2].outcome == Outcome::inconclusive);
+  CHECK(records[3].outcome == Outcome::fails);
 }

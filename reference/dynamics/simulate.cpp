@@ -96,7 +96,7 @@ class Run {
   void start();
 
   /// Steps until the end, or until something goes wrong, and hands out every frame on the way.
-  Outcome finish();
+  RunResult finish();
 
  private:
   void step_to_frame(double target);
@@ -155,7 +155,7 @@ void Run::start() {
   hand_out_checkpoint();
 }
 
-Outcome Run::finish() {
+RunResult Run::finish() {
   while (!stop_ && history_.now().time < schedule_.end) {
     const double next_frame = start_time_ + double(frame_ + 1) * schedule_.frame_interval;
     step_to_frame(std::min(schedule_.end, next_frame));
@@ -291,7 +291,7 @@ double step_allowed(const System& system, const Integrator& integrator, std::spa
   return wanted;
 }
 
-Outcome simulate(const System& system, const Integrator& integrator, const State& start,
+RunResult simulate(const System& system, const Integrator& integrator, const State& start,
                  const Schedule& schedule, const Observer& observer) {
   check(schedule, start);
   Checkpoint at_start;
@@ -303,7 +303,7 @@ Outcome simulate(const System& system, const Integrator& integrator, const State
   return run.finish();
 }
 
-Outcome resume(const System& system, const Integrator& integrator, const Checkpoint& from,
+RunResult resume(const System& system, const Integrator& integrator, const Checkpoint& from,
                const Schedule& schedule, const Observer& observer) {
   if (from.past.empty() || from.past.back().x.cols() != system.mass.size())
     throw InputError("a checkpoint without a state, or of another number of particles");

@@ -64,7 +64,7 @@ struct Stop {
   int particle;  // the worst particle, -1 if none is to blame
 };
 
-struct Outcome {
+struct RunResult {
   State last;  // the last good state
   long steps = 0;
   Work work;
@@ -93,15 +93,15 @@ struct Observer {
 };
 
 /// Throws InputError for a schedule that cannot be kept (end < start, interval <= 0, safety <= 0, ...).
-Outcome simulate(const System& system, const Integrator& integrator, const State& start,
-                 const Schedule& schedule, const Observer& observer);
+RunResult simulate(const System& system, const Integrator& integrator, const State& start,
+                   const Schedule& schedule, const Observer& observer);
 
 /// Goes on from a checkpoint of a run of the same system, integrator and schedule that was watched by as many
 /// functions. Frames, diagnostics but for clock time, later checkpoints and the outcome are those of the
 /// uninterrupted run, to the bit; what was handed out up to the checkpoint is not handed out again. Throws
 /// InputError for one without a state, or of other particles.
-Outcome resume(const System& system, const Integrator& integrator, const Checkpoint& from,
-               const Schedule& schedule, const Observer& observer);
+RunResult resume(const System& system, const Integrator& integrator, const Checkpoint& from,
+                 const Schedule& schedule, const Observer& observer);
 
 /// The longest step [s] that the rule allows after these states. No step exceeds the one before by more than
 /// the integrator's largest_growth.

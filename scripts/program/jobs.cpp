@@ -18,7 +18,7 @@ namespace foldproof {
 namespace {
 
 void say_unless_it_holds(const Record& record) {
-  if (record.outcome == "holds") return;
+  if (record.outcome == Outcome::holds) return;
   const Verdict& v = record.finding.verdict;
   say(fmt::format("  {}: {} (measured {:.4g}, bound {:.4g} {}) {}", record.outcome, record.name, v.measured,
                   v.bound, v.unit, record.finding.note));

@@ -43,7 +43,7 @@ void rule_covered_claims(const std::vector<Claim>& claims, RunRecord& run) {
 void refuse_claims_of_lost_findings(const std::vector<Claim>& claims, const RunRecord& run) {
   for (const Claim& claim : claims)
     for (const std::string& finding : findings_named_in(claim))
-      if (claim.recorded != Standing::undecided && is_made_by_a_study(finding, run) && !is_in(finding, run))
+      if (claim.recorded != Ruling::undecided && is_made_by_a_study(finding, run) && !is_in(finding, run))
         throw InputError(
             fmt::format("claim {} names the finding '{}', which its study does not make", claim.id, finding));
 }

@@ -165,16 +165,16 @@ void run_selection(const Selection& selection, const Subject& subject, Tier tier
            how, run);
   for (const std::string& name : selection.findings)
     if (std::none_of(run.records.begin(), run.records.end(),
-                     [&](const Record& r) { return chooses(name, r.name) || r.outcome == "fails"; }))
+                     [&](const Record& r) { return chooses(name, r.name) || r.outcome == Outcome::fails; }))
       throw InputError("no study or case has a finding '" + name + "'");
 }
 
 std::string summary(const RunRecord& run) {
-  const auto count = [&](const char* outcome) {
+  const auto count = [&](Outcome outcome) {
     return std::count_if(run.records.begin(), run.records.end(),
                          [&](const Record& r) { return r.outcome == outcome; });
   };
-  const auto claims = [&](const char* outcome) {
+  const auto claims = [&](Outcome outcome) {
     return std::count_if(run.claims.begin(), run.claims.end(),
                          [&](const ClaimRecord& c) { return outcome_of(c) == outcome; });
   };
@@ -187,9 +187,11 @@ std::string summary(const RunRecord& run) {
 }
 
 int exit_code(const RunRecord& run) {
-  const auto is_bad = [](const Record& r) { return r.outcome == "fails" || r.outcome == "inconclusive"; };
+  const auto is_bad = [](const Record& r) {
+    return r.outcome == Outcome::fails || r.outcome == Outcome::inconclusive;
+  };
   const auto is_wrong = [&](const ClaimRecord& c) {
-    return outcome_of(c) == "fails" || (outcome_of(c) == "inconclusive" && run.tier == "full");
+    return outcome_of(c) == Outcome::fails || (outcome_of(c) == Outcome::inconclusive && run.tier == "full");
   };
   const bool passes = std::none_of(run.records.begin(), run.records.end(), is_bad) &&
                       std::none_of(run.claims.begin(), run.claims.end(), is_wrong);
@@ -199,14 +201,14 @@ int exit_code(const RunRecord& run) {
 std::string listing(const RunRecord& run) {
   std::string text;
   for (const Record& r : run.records) {
-    if (r.outcome == name_of(Ruling::not_applicable)) {
+    if (r.outcome == Outcome::not_applicable) {
       text += fmt::format("{:<14} {:<60} {}\n", r.outcome, r.name, r.finding.note);
       continue;
     }
     const Verdict& v = r.finding.verdict;
     text += fmt::format("{:<14} {:<60} {:>11.4g} {} {:<9.4g} {}\n", r.outcome, r.name, v.measured,
                         r.kind == "bench" ? "target" : "<=", v.bound, v.unit == "1" ? "" : v.unit);
-    if (r.outcome == "fails")
+    if (r.outcome == Outcome::fails)
       text += fmt::format("{:<14} {}\n{:<14} The bound: {}\n", "", r.claim, "", v.why_bound);
   }
   return text;

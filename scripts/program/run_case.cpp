@@ -18,7 +18,7 @@ namespace foldproof {
 namespace {
 
 /// Makes a run happen before an observer.
-using Runner = std::function<Outcome(const Observer&)>;
+using Runner = std::function<RunResult(const Observer&)>;
 
 Runner from_the_start(const BuiltCase& of) {
   return [&of](const Observer& observer) {
@@ -70,22 +70,22 @@ Runner from_checkpoints(const BuiltCase& of, const CheckpointFolder& checkpoints
 
 /// Runs the case; `also` watches beside the judge.
 std::vector<Record> judged_run(const BuiltCase& of, const Runner& run, const Observer& also,
-                               const Progress& progress, Outcome& outcome) {
+                               const Progress& progress, RunResult& result) {
   CaseJudge judge(of.shown, of.built.objects, of.level_sets);
-  outcome = run({[&](const State& s) {
-                   judge.enter(s);
-                   if (also.frame) also.frame(s);
-                 },
-                 [&](const Diagnostics& row) {
-                   judge.enter(row);
-                   if (also.step) also.step(row);
-                   progress(row.time / of.shown.scene.schedule.end);
-                 },
-                 [&](const Checkpoint& now) {
-                   judge.enter(now);
-                   if (also.checkpoint) also.checkpoint(now);
-                 }});
-  return judge.judged(outcome);
+  result = run({[&](const State& s) {
+                  judge.enter(s);
+                  if (also.frame) also.frame(s);
+                },
+                [&](const Diagnostics& row) {
+                  judge.enter(row);
+                  if (also.step) also.step(row);
+                  progress(row.time / of.shown.scene.schedule.end);
+                },
+                [&](const Checkpoint& now) {
+                  judge.enter(now);
+                  if (also.checkpoint) also.checkpoint(now);
+                }});
+  return judge.judged(result);
 }
 
 CaseRun recorded_run(const BuiltCase& of, const Runner& run, TrajectoryFile& trajectory,
@@ -96,11 +96,11 @@ CaseRun recorded_run(const BuiltCase& of, const Runner& run, TrajectoryFile& tra
   done.findings = judged_run(of, run,
                              {[&](const State& s) { trajectory.add_frame(s); },
                               [&](const Diagnostics& row) { trajectory.add_diagnostics(row); }},
-                             progress, done.outcome);
+                             progress, done.result);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   done.record = {scene.name,  scene.name + ".h5",
                  scene.title, scene.about,
-                 seconds,     done.outcome.stop ? described(*done.outcome.stop) : ""};
+                 seconds,     done.result.stop ? described(*done.result.stop) : ""};
   trajectory.finish(done.record.stopped, done.record.seconds, done.findings);
   return done;
 }
@@ -143,8 +143,8 @@ CaseRun run_case_with_checkpoints(const BuiltCase& of, const std::string& folder
 }
 
 std::vector<Record> judge_case(const BuiltCase& of, const Progress& progress) {
-  Outcome outcome;
-  return judged_run(of, from_the_start(of), {}, progress, outcome);
+  RunResult result;
+  return judged_run(of, from_the_start(of), {}, progress, result);
 }
 
 std::vector<std::string> shown_cases(Tier tier) {

@@ -15,7 +15,7 @@ namespace foldproof {
 struct CaseRun {
   CaseRecord record;
   std::vector<Record> findings;  // what was expected of it, judged
-  Outcome outcome;
+  RunResult result;
 };
 
 /// A case and what is built of it, once: it is described, judged and run by this.

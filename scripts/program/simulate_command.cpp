@@ -45,12 +45,12 @@ void say_how_to_resume(const Scene& scene, const Options& options) {
 }
 
 nlohmann::json told(const CaseRun& run, const Options& options) {
-  const Work& work = run.outcome.work;
+  const Work& work = run.result.work;
   nlohmann::json json = {{"case", run.record.name},
                          {"file", options.out + "/" + run.record.file},
                          {"stopped", run.record.stopped},
-                         {"steps", run.outcome.steps},
-                         {"time", run.outcome.last.time},
+                         {"steps", run.result.steps},
+                         {"time", run.result.last.time},
                          {"seconds", run.record.seconds},
                          {"cg_iterations", work.cg_iterations},
                          {"solves", work.solves},
@@ -59,20 +59,20 @@ nlohmann::json told(const CaseRun& run, const Options& options) {
                          {"findings", nlohmann::json::array()}};
   for (const Record& record : run.findings)
     json["findings"].push_back(
-        {{"name", record.name}, {"outcome", record.outcome}, {"note", record.finding.note}});
+        {{"name", record.name}, {"outcome", outcome_text(record)}, {"note", record.finding.note}});
   return json;
 }
 
 /// Returns the exit code.
 int report(const CaseRun& run, const Options& options) {
-  const Work& work = run.outcome.work;
+  const Work& work = run.result.work;
   RunRecord expected;
   expected.records = run.findings;
   if (options.json)
     fmt::print("{}\n", json_text(told(run, options)));
   else
     fmt::print("{}{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n",
-               listing(expected), options.out, run.record.file, run.outcome.last.time, run.outcome.steps,
+               listing(expected), options.out, run.record.file, run.result.last.time, run.result.steps,
                double(work.cg_iterations) / double(std::max(1L, work.solves)), run.record.seconds);
   if (work.unfinished_solves > 0)
     say(fmt::format("warning: {} of {} solves hit the cap on iterations", work.unfinished_solves,

@@ -38,18 +38,18 @@ Finding CaseJudge::finding_of(size_t k, const RunSeen& run) const {
   const Quantity& quantity = *find_quantity(expectation.key);
   if (!expectation.not_asked.empty())
     return {verdict_of(quantity, expectation, nan), {}, expectation.not_asked};
-  const Outcome& outcome = run.outcome;
+  const RunResult& result = run.result;
   double seen = quantity.of_run ? quantity.of_run(run) : seen_[k].value();
   std::string note = note_of(quantity, expectation, seen);
-  if (outcome.stop) note = "the run stopped: " + described(*outcome.stop);
+  if (result.stop) note = "the run stopped: " + described(*result.stop);
   const bool is_end = expectation.key == "runs_to_its_end";
-  if (outcome.stop && !is_end) seen = std::numeric_limits<double>::quiet_NaN();
+  if (result.stop && !is_end) seen = std::numeric_limits<double>::quiet_NaN();
   return {verdict_of(quantity, expectation, seen), {}, note};
 }
 
-std::vector<Record> CaseJudge::judged(const Outcome& outcome) const {
+std::vector<Record> CaseJudge::judged(const RunResult& result) const {
   std::vector<Record> records;
-  const RunSeen run{case_.scene, book_, outcome, repetition_, objects_};
+  const RunSeen run{case_.scene, book_, result, repetition_, objects_};
   for (size_t k = 0; k < seen_.size(); ++k) {
     const Expectation& expectation = case_.expectations[k];
     Record record;
@@ -59,7 +59,7 @@ std::vector<Record> CaseJudge::judged(const Outcome& outcome) const {
     record.source = case_.scene.title;
     record.finding = finding_of(k, run);
     record.outcome =
-        name_of(expectation.not_asked.empty() ? ruling(record.finding.verdict) : Ruling::not_applicable);
+        name_of(expectation.not_asked.empty() ? outcome_of(record.finding.verdict) : Outcome::not_applicable);
     records.push_back(std::move(record));
   }
   return records;

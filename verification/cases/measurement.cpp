@@ -291,13 +291,13 @@ void Measurer::record(const State& frame) {
   }
 }
 
-std::vector<double> Measurer::values(const Outcome& outcome) const {
+std::vector<double> Measurer::values(const RunResult& result) const {
   std::vector<double> all = values_;
   const Repetition never_asked(scene_, computing_makers());
   for (size_t k = 0; k < measurements_.size(); ++k) {
     const Quantity* quantity = find_measurable(measurements_[k].what) ? nullptr : find_quantity(measurements_[k].what);
     if (quantity && quantity->of_run)
-      all[k] = quantity->of_run({scene_, book_, outcome, never_asked, built_.objects});
+      all[k] = quantity->of_run({scene_, book_, result, never_asked, built_.objects});
   }
   return all;
 }

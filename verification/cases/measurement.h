@@ -74,7 +74,7 @@ class Measurer {
   void record(const State& frame);
 
   /// One value a measurement; NaN where the run stopped before its instant.
-  std::vector<double> values(const Outcome& outcome) const;
+  std::vector<double> values(const RunResult& result) const;
 
  private:
   double at_frame(size_t k, const State& frame) const;

@@ -15,7 +15,7 @@ constexpr double degrees_per_radian = 180 / 3.14159265358979323846;
 
 // ---- of the whole run
 
-double stops(const RunSeen& run) { return run.outcome.stop ? 1 : 0; }
+double stops(const RunSeen& run) { return run.result.stop ? 1 : 0; }
 
 double energy_unaccounted(const RunSeen& run) { return run.book.balance.value() / run.book.exchanged; }
 
@@ -34,17 +34,17 @@ double linear_change(const RunSeen& run) { return run.book.linear.value() / mome
 /// An upper bound on sum m |x| |v| while the cloth is no farther from the origin than at its start or end.
 double angular_change(const RunSeen& run) {
   const double reach = std::sqrt(std::max(run.scene.x.colwise().squaredNorm().maxCoeff(),
-                                          run.outcome.last.x.colwise().squaredNorm().maxCoeff()));  // m
+                                          run.result.last.x.colwise().squaredNorm().maxCoeff()));  // m
   return run.book.angular.value() / (reach * momentum_scale(run));
 }
 
-double steps(const RunSeen& run) { return double(run.outcome.steps); }
+double steps(const RunSeen& run) { return double(run.result.steps); }
 
 double contacts(const RunSeen& run) { return double(run.book.contacts); }
 
 double kinetic_at_end(const RunSeen& run) { return run.book.last_kinetic / run.book.largest_kinetic; }
 
-double unfinished(const RunSeen& run) { return double(run.outcome.work.unfinished_solves); }
+double unfinished(const RunSeen& run) { return double(run.result.work.unfinished_solves); }
 
 // ---- of one frame
 
@@ -103,7 +103,7 @@ double penetration(const Scene& scene, std::span<const Object> objects, const St
   return worst.value();
 }
 
-double depth_at_end(const RunSeen& run) { return penetration(run.scene, run.objects, run.outcome.last); }
+double depth_at_end(const RunSeen& run) { return penetration(run.scene, run.objects, run.result.last); }
 
 /// How far a pinched particle is from the surface where its two objects are equally deep, at most.
 double off_centre(const Scene&, std::span<const Object> objects, const State& s) {

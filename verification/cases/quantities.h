@@ -35,7 +35,7 @@ struct RunBook {
 struct RunSeen {
   const Scene& scene;
   const RunBook& book;
-  const Outcome& outcome;
+  const RunResult& result;
   const Repetition& repetition;
   std::span<const Object> objects = {};
 };

@@ -15,12 +15,12 @@ double height_of(const Scene& scene, const PerParticle3& x) {
 }
 
 double height_left(const RunSeen& run) {
-  return height_of(run.scene, run.outcome.last.x) / height_of(run.scene, run.scene.x);
+  return height_of(run.scene, run.result.last.x) / height_of(run.scene, run.scene.x);
 }
 
 /// Root of the mean square over hinges [degrees].
 double mean_turn(const RunSeen& run) {
-  const std::vector<double> angles = hinge_angles(run.scene.mesh, run.outcome.last.x);
+  const std::vector<double> angles = hinge_angles(run.scene.mesh, run.result.last.x);
   double sum = 0;
   for (size_t h = 0; h < angles.size(); ++h) {
     const double turn = std::remainder(angles[h] - run.scene.rest_angles[h], 2 * M_PI);

@@ -13,7 +13,7 @@ double stuck_particles(const Scene& scene, const State& s) {
   return double(Sticking{scene.sticky}.targets_at(s).size());
 }
 
-double stuck_at_end(const RunSeen& run) { return stuck_particles(run.scene, run.outcome.last); }
+double stuck_at_end(const RunSeen& run) { return stuck_particles(run.scene, run.result.last); }
 
 /// The largest distance of a stuck particle from its target.
 double slack(const Scene& scene, const State& s) {

@@ -61,7 +61,7 @@ Creases creases_of(const Scene& scene, const PerParticle3& x, int side) {
 }
 
 double creases_at_end(const RunSeen& run) {
-  const PerParticle3& x = run.outcome.last.x;
+  const PerParticle3& x = run.result.last.x;
   if (!x.allFinite()) return std::numeric_limits<double>::quiet_NaN();
   return creases_of(run.scene, x, 1).count + creases_of(run.scene, x, -1).count;
 }
@@ -69,8 +69,8 @@ double creases_at_end(const RunSeen& run) {
 /// Twice the mean straight distance, in the rest shape, from a hinge in a crease to the nearest hinge in a crease to
 /// the other side [m]; NaN if there are none to one of them.
 double wavelength_at_end(const RunSeen& run) {
-  const Creases ridges = creases_of(run.scene, run.outcome.last.x, 1),
-                valleys = creases_of(run.scene, run.outcome.last.x, -1);
+  const Creases ridges = creases_of(run.scene, run.result.last.x, 1),
+                valleys = creases_of(run.scene, run.result.last.x, -1);
   if (ridges.count == 0 || valleys.count == 0) return std::numeric_limits<double>::quiet_NaN();
   double sum = 0;
   const auto add_ways = [&](const std::vector<Vector3>& from, const std::vector<Vector3>& to) {

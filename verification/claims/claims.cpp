@@ -25,11 +25,11 @@ enum class Answer { held, failed, silent };
 /// A finding that failed without a number (it threw, or measured NaN) has measured nothing.
 Answer answer_of(const Record* record) {
   if (!record) return Answer::silent;
-  if (record->outcome == name_of(Ruling::holds)) return Answer::held;
+  if (record->outcome == Outcome::holds) return Answer::held;
   const Verdict& verdict = record->finding.verdict;
   const bool is_measured =
       std::isfinite(verdict.measured) && std::isfinite(verdict.bound) && std::isfinite(verdict.uncertainty);
-  return record->outcome == name_of(Ruling::fails) && is_measured ? Answer::failed : Answer::silent;
+  return record->outcome == Outcome::fails && is_measured ? Answer::failed : Answer::silent;
 }
 
 /// How many findings of one role gave one answer.
@@ -54,15 +54,15 @@ std::string_view name_of(Role role) {
   throw std::logic_error("name_of: a role without a name");
 }
 
-std::string_view name_of(Standing standing) {
-  switch (standing) {
-    case Standing::confirmed:
+std::string_view name_of(Ruling ruling) {
+  switch (ruling) {
+    case Ruling::confirmed:
       return "confirmed";
-    case Standing::conditional:
+    case Ruling::conditional:
       return "confirmed under a condition";
-    case Standing::refuted:
+    case Ruling::refuted:
       return "refuted";
-    case Standing::undecided:
+    case Ruling::undecided:
       return "undecided";
   }
   throw std::logic_error("name_of: a ruling without a name");
@@ -84,14 +84,14 @@ std::string_view name_of(Standing standing) {
 //
 // So a claim is refuted only by something found, never by something that is not found: a broken program can
 // lose a ruling, not make one.
-Standing ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records) {
+Ruling ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records) {
   const auto count = [&](Role role, Answer answer) { return count_of(deciders, records, role, answer); };
   for (const Role role : {Role::supports, Role::limits, Role::contradicts})
-    if (count(role, Answer::silent) > 0) return Standing::undecided;
-  if (count(Role::contradicts, Answer::held) > 0) return Standing::refuted;
-  if (count(Role::supports, Answer::failed) > 0) return Standing::undecided;
-  if (count(Role::supports, Answer::held) == 0) return Standing::undecided;
-  return count(Role::limits, Answer::held) > 0 ? Standing::conditional : Standing::confirmed;
+    if (count(role, Answer::silent) > 0) return Ruling::undecided;
+  if (count(Role::contradicts, Answer::held) > 0) return Ruling::refuted;
+  if (count(Role::supports, Answer::failed) > 0) return Ruling::undecided;
+  if (count(Role::supports, Answer::held) == 0) return Ruling::undecided;
+  return count(Role::limits, Answer::held) > 0 ? Ruling::conditional : Ruling::confirmed;
 }
 
 // ---- numbers in a claim's text
@@ -284,16 +284,16 @@ ClaimRecord ruled(const Claim& claim, const std::vector<Record>& records) {
     result.claim.why = filled(claim.why, records);
     result.claim.condition = filled(claim.condition, records);
   } catch (const std::runtime_error& error) {
-    if (result.ruling != Standing::undecided)
+    if (result.ruling != Ruling::undecided)
       throw std::runtime_error("claim " + claim.id + ": " + error.what());
   }
   return result;
 }
 
 std::string outcome_of(const ClaimRecord& record) {
-  if (record.ruling != record.claim.recorded) return std::string(name_of(Ruling::fails));
-  const bool is_open = record.ruling == Standing::undecided;
-  return std::string(name_of(is_open ? Ruling::inconclusive : Ruling::holds));
+  if (record.ruling != record.claim.recorded) return std::string(name_of(Outcome::fails));
+  const bool is_open = record.ruling == Ruling::undecided;
+  return std::string(name_of(is_open ? Outcome::inconclusive : Outcome::holds));
 }
 
 }  // namespace foldproof

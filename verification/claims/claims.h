@@ -16,11 +16,11 @@ enum class Role {
   contradicts  // it refutes the sentence, as the paper has it
 };
 
-enum class Standing { confirmed, conditional, refuted, undecided };
+enum class Ruling { confirmed, conditional, refuted, undecided };
 
 std::string_view name_of(Role role);  // "supports", "limits", "contradicts"
 std::string_view name_of(
-    Standing standing);  // "confirmed", "confirmed under a condition", "refuted", "undecided"
+    Ruling ruling);  // "confirmed", "confirmed under a condition", "refuted", "undecided"
 
 /// A finding's name and what it says about the claim.
 struct Decider {
@@ -34,7 +34,7 @@ struct Claim {
   std::string id, section;  // section: where the paper says it
   std::string statement;
   std::vector<Decider> decided_by;
-  Standing recorded;      // what the authors of this suite found; a run that finds otherwise fails
+  Ruling recorded;        // what the authors of this suite found; a run that finds otherwise fails
   std::string condition;  // in words, if recorded as conditional; else empty
   std::string why;        // a paragraph with placeholders for its numbers, see filled()
 };
@@ -43,11 +43,11 @@ struct Claim {
 struct ClaimRecord {
   Claim claim;                        // with the placeholders of condition and why filled
   std::vector<std::string> outcomes;  // of the deciders, in their order; "missing" if the run has none
-  Standing ruling;
+  Ruling ruling;
 };
 
 /// The ruling that these findings give; the table stands above its definition.
-Standing ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records);
+Ruling ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records);
 
 /// The text with each placeholder replaced by a number of the run: three digits, a power of ten where the
 /// first is beyond the third place or the sixth, and its unit:

@@ -74,9 +74,9 @@ std::vector<Decider> deciders_of(const KeyTable& row) {
 }
 
 /// Empty for a claim that is not recorded as conditional.
-std::string condition_of(const KeyTable& row, Standing recorded) {
-  const std::string conditional(name_of(Standing::conditional));
-  if (recorded == Standing::conditional) {
+std::string condition_of(const KeyTable& row, Ruling recorded) {
+  const std::string conditional(name_of(Ruling::conditional));
+  if (recorded == Ruling::conditional) {
     if (!row.has("condition"))
       throw InputError(row.where("recorded") + ": '" + conditional + "' needs the key 'condition'");
     return text_with_numbers(row, "condition");
@@ -88,15 +88,15 @@ std::string condition_of(const KeyTable& row, Standing recorded) {
 }
 
 Claim claim_of(const KeyTable& row, const std::string& paper) {
-  Claim claim{paper,
-              id_of(row),
-              written_text(row, "section"),
-              written_text(row, "statement"),
-              deciders_of(row),
-              word_of(row, "recorded",
-                      {Standing::confirmed, Standing::conditional, Standing::refuted, Standing::undecided}),
-              "",
-              text_with_numbers(row, "why")};
+  Claim claim{
+      paper,
+      id_of(row),
+      written_text(row, "section"),
+      written_text(row, "statement"),
+      deciders_of(row),
+      word_of(row, "recorded", {Ruling::confirmed, Ruling::conditional, Ruling::refuted, Ruling::undecided}),
+      "",
+      text_with_numbers(row, "why")};
   claim.condition = condition_of(row, claim.recorded);
   return claim;
 }

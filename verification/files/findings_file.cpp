@@ -19,7 +19,7 @@ void write_record(const Hdf5& parent, const Record& record, int order) {
   here.attribute("uncertainty", verdict.uncertainty);
   here.attribute("unit", verdict.unit);
   here.attribute("why_bound", verdict.why_bound);
-  here.attribute("outcome", record.outcome);
+  here.attribute("outcome", std::string(outcome_text(record)));
   here.attribute("note", record.finding.note);
   here.attribute("seconds", record.seconds);
   here.attribute("faults", record.faults);

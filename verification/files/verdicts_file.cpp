@@ -27,7 +27,7 @@ nlohmann::json as_json(const Record& record) {
           {"bound", number(verdict.bound)},
           {"unit", verdict.unit},
           {"why_bound", verdict.why_bound},
-          {"outcome", record.outcome},
+          {"outcome", outcome_text(record)},
           {"note", record.finding.note},
           {"seconds", record.seconds},
           {"faults", record.faults}};
@@ -61,10 +61,10 @@ std::string junit_case(const Record& record) {
   const std::string message =
       xml_text(fmt::format("measured {:.6g}, uncertainty {:.3g}, bound {:.6g} [{}]. {} {}", v.measured,
                            v.uncertainty, v.bound, v.unit, record.claim, record.finding.note));
-  if (record.outcome == "holds" || record.outcome == "measured") return text + "/>\n";
-  const char* kind = record.outcome == "not applicable" ? "skipped"
-                     : record.outcome == "did not run"  ? "error"
-                                                        : "failure";
+  if (record.outcome == Outcome::holds || record.outcome == "measured") return text + "/>\n";
+  const char* kind = record.outcome == Outcome::not_applicable ? "skipped"
+                     : record.outcome == "did not run"         ? "error"
+                                                               : "failure";
   return text +
          fmt::format(">\n    <{0} message=\"{1}: {2}\"/>\n  </testcase>\n", kind, record.outcome, message);
 }
@@ -73,9 +73,9 @@ std::string junit_case(const ClaimRecord& record) {
   const std::string outcome = outcome_of(record);
   const std::string text =
       fmt::format("  <testcase classname=\"claim\" name=\"{}\" time=\"0\"", record.claim.id);
-  if (outcome == name_of(Ruling::holds)) return text + "/>\n";
+  if (outcome == Outcome::holds) return text + "/>\n";
   return text + fmt::format(">\n    <{} message=\"ruling: {}; recorded: {}. {}\"/>\n  </testcase>\n",
-                            outcome == name_of(Ruling::fails) ? "failure" : "skipped", name_of(record.ruling),
+                            outcome == Outcome::fails ? "failure" : "skipped", name_of(record.ruling),
                             name_of(record.claim.recorded), xml_text(record.claim.statement));
 }
 
@@ -83,14 +83,14 @@ std::string junit_xml(const RunRecord& run) {
   size_t failures = 0, errors = 0, skipped = 0;
   std::string cases;
   for (const Record& record : run.records) {
-    failures += record.outcome == "fails" || record.outcome == "inconclusive";
+    failures += record.outcome == Outcome::fails || record.outcome == Outcome::inconclusive;
     errors += record.outcome == "did not run";
-    skipped += record.outcome == "not applicable";
+    skipped += record.outcome == Outcome::not_applicable;
     cases += junit_case(record);
   }
   for (const ClaimRecord& claim : run.claims) {
-    failures += outcome_of(claim) == name_of(Ruling::fails);
-    skipped += outcome_of(claim) == name_of(Ruling::inconclusive);
+    failures += outcome_of(claim) == Outcome::fails;
+    skipped += outcome_of(claim) == Outcome::inconclusive;
     cases += junit_case(claim);
   }
   return fmt::format(

@@ -39,10 +39,10 @@ std::vector<Record> judged(const Case& shown) {
   const Scene& scene = shown.scene;
   const Built built = build(scene, computing_makers());
   CaseJudge judge(shown, built.objects, computing_makers());
-  const Outcome outcome =
+  const RunResult result =
       simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule,
                {[&](const State& s) { judge.enter(s); }, [&](const Diagnostics& row) { judge.enter(row); }});
-  return judge.judged(outcome);
+  return judge.judged(result);
 }
 
 /// A square of so many triangles a side, in the folder.
@@ -163,14 +163,14 @@ TEST_CASE("expect: what crosses is counted, and a case that keeps cloth from its
 
 TEST_CASE("expect: what is left of a height and of angles is that of the end, over that of the start") {
   const Case shown = trial("[bending]\nstiffness = 1\n");
-  Outcome outcome;
-  outcome.last = start_state(shown.scene);
+  RunResult result;
+  result.last = start_state(shown.scene);
   const RunBook book;
   const Repetition repetition(shown.scene, computing_makers());
-  const RunSeen run{shown.scene, book, outcome, repetition};
+  const RunSeen run{shown.scene, book, result, repetition};
   CHECK(find_quantity("keeps_its_height")->of_run(run) == 1);
   CHECK(find_quantity("crumples_by")->of_run(run) == 0);
-  PerParticle3& x = outcome.last.x;
+  PerParticle3& x = result.last.x;
   x.row(1) *= 0.25;
   CHECK(find_quantity("collapses_to")->of_run(run) == Approx(0.25));
   x = shown.scene.x;
@@ -189,15 +189,15 @@ TEST_CASE("expect: creases are counted line by line, and lie half a wavelength a
   Scene& scene = shown.scene;
   scene.mesh = make_sheet({.width = 0.24, .height = 0.05, .columns = 24, .rows = 5});
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
-  Outcome outcome;
-  outcome.last = State{0, scene.mesh.rest, PerParticle3::Zero(3, scene.mesh.particles())};
+  RunResult result;
+  result.last = State{0, scene.mesh.rest, PerParticle3::Zero(3, scene.mesh.particles())};
   const RunBook book;
   const Repetition repetition(scene, computing_makers());
-  const RunSeen run{scene, book, outcome, repetition};
+  const RunSeen run{scene, book, result, repetition};
   const Quantity &creases = *find_quantity("creases"), &wavelength = *find_quantity("wrinkle_wavelength");
   CHECK(creases.of_run(run) == 0);
   CHECK(std::isnan(wavelength.of_run(run)));
-  PerParticle3& x = outcome.last.x;
+  PerParticle3& x = result.last.x;
   for (Eigen::Index i = 0; i < x.cols(); ++i) {  // a zigzag, folded by 2 atan(0.3) = 33 degrees every 4 cm
     const double along = std::abs(std::remainder(scene.mesh.rest(0, i), 0.08));
     x(2, i) = 0.3 * along;
@@ -211,17 +211,17 @@ TEST_CASE("expect: creases are counted line by line, and lie half a wavelength a
 TEST_CASE("expect: a bound that is kept holds, one that is not fails, and a run that stops says nothing") {
   const std::string flat = "[expect.stays_flat]\nat_most = 0\nwhy = \"w\"\n";
   const std::string leaves = "[expect.leaves_its_plane]\nat_least = 1e-9\nwhy = \"w\"\n";
-  CHECK(judged(trial(flat))[0].outcome == "holds");
-  CHECK(judged(trial(leaves))[0].outcome == "fails");
+  CHECK(judged(trial(flat))[0].outcome == Outcome::holds);
+  CHECK(judged(trial(leaves))[0].outcome == Outcome::fails);
   const std::string thrown = "[start]\nvelocity = [0, 0, 0.5]\n";
-  CHECK(judged(trial(thrown + flat))[0].outcome == "fails");
+  CHECK(judged(trial(thrown + flat))[0].outcome == Outcome::fails);
   const Record reached = judged(trial(thrown + leaves))[0];
-  CHECK(reached.outcome == "holds");
+  CHECK(reached.outcome == Outcome::holds);
   CHECK(reached.finding.verdict.measured == Approx(1e-9 - 0.025));
   CHECK_THAT(reached.finding.note, Contains("reached 0.025 m"));
   const std::string capped = "max_steps = 1\nsafety = 0.01\n";
   const Record stopped = judged(trial(capped + flat))[0];
-  CHECK(stopped.outcome == "fails");
+  CHECK(stopped.outcome == Outcome::fails);
   CHECK_THAT(stopped.finding.note, Contains("cap"));
 }
 
@@ -233,15 +233,15 @@ TEST_CASE("expect: bounds of a shape are not asked where an override puts anothe
   CHECK(not_asked(changed) == std::vector<std::string>{"stays_flat" + reason, "takes_steps" + reason});
   const std::vector<Record> records = judged(changed);
   REQUIRE(records.size() == 3);
-  CHECK(records[0].outcome == "holds");
+  CHECK(records[0].outcome == Outcome::holds);
   for (const size_t k : {1, 2}) {
-    CHECK(records[k].outcome == "not applicable");
+    CHECK(records[k].outcome == Outcome::not_applicable);
     CHECK(": " + records[k].finding.note == reason);
     CHECK(std::isnan(records[k].finding.verdict.measured));
   }
   const std::vector<Record> as_written = judged(read_case(path));
-  CHECK(as_written[1].outcome == "holds");
-  CHECK(as_written[2].outcome == "fails");
+  CHECK(as_written[1].outcome == Outcome::holds);
+  CHECK(as_written[2].outcome == Outcome::fails);
 }
 
 TEST_CASE("expect: numbers that an override sets, and bounds that it states, are asked all the same") {
@@ -270,7 +270,7 @@ TEST_CASE(
   write_obj(folder.file("ball.obj"), upright.rest, upright.triangles);
   const Case ball = read_case(path, {"cloth.mesh=" + folder.file("ball.obj")});
   CHECK(not_asked(ball).size() == 2);
-  CHECK(judged(ball)[1].outcome == "not applicable");
+  CHECK(judged(ball)[1].outcome == Outcome::not_applicable);
   CHECK_THROWS_WITH(read_case(path, {"cloth.mesh=" + folder.file("ball.obj"), "expect.stays_flat.at_most=1"}),
                     Contains("plane of constant z"));
 }

@@ -71,7 +71,7 @@ TEST_CASE("a claim is read with its paper, its joined lines and its deciders in 
   CHECK(only.decided_by[0].role == Role::supports);
   CHECK(only.decided_by[1].finding == "sums.overflow");
   CHECK(only.decided_by[1].role == Role::limits);
-  CHECK(only.recorded == Standing::conditional);
+  CHECK(only.recorded == Ruling::conditional);
   CHECK(only.condition == "below {sums.overflow|bound}");
   CHECK(only.why == "They add up to {sums.add-up}.");
 }
@@ -80,9 +80,9 @@ TEST_CASE("every role and every ruling is read by its name") {
   const std::string contradicted = with(claim, "\"limits\"", "\"contradicts\"");
   CHECK(read(paper + contradicted)[0].decided_by[1].role == Role::contradicts);
   const std::string plain = with(claim, "condition = \"below {sums.overflow|bound}\"\n", "");
-  for (const Standing standing : {Standing::confirmed, Standing::refuted, Standing::undecided}) {
-    const std::string name(name_of(standing));
-    CHECK(read(paper + with(plain, "confirmed under a condition", name))[0].recorded == standing);
+  for (const Ruling ruling : {Ruling::confirmed, Ruling::refuted, Ruling::undecided}) {
+    const std::string name(name_of(ruling));
+    CHECK(read(paper + with(plain, "confirmed under a condition", name))[0].recorded == ruling);
   }
 }
 

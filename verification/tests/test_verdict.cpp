@@ -25,19 +25,19 @@ Check check_that(std::function<Finding(const Subject&)> run) {
 }  // namespace
 
 TEST_CASE("a verdict holds, fails, or cannot be decided") {
-  CHECK(ruling({1.0, 2.0, 0.5, "1", ""}) == Ruling::holds);
-  CHECK(ruling({1.5, 2.0, 0.5, "1", ""}) == Ruling::holds);
-  CHECK(ruling({1.75, 2.0, 0.5, "1", ""}) == Ruling::inconclusive);
-  CHECK(ruling({2.25, 2.0, 0.5, "1", ""}) == Ruling::inconclusive);
-  CHECK(ruling({2.75, 2.0, 0.5, "1", ""}) == Ruling::fails);
+  CHECK(outcome_of({1.0, 2.0, 0.5, "1", ""}) == Outcome::holds);
+  CHECK(outcome_of({1.5, 2.0, 0.5, "1", ""}) == Outcome::holds);
+  CHECK(outcome_of({1.75, 2.0, 0.5, "1", ""}) == Outcome::inconclusive);
+  CHECK(outcome_of({2.25, 2.0, 0.5, "1", ""}) == Outcome::inconclusive);
+  CHECK(outcome_of({2.75, 2.0, 0.5, "1", ""}) == Outcome::fails);
 }
 
 TEST_CASE("NaN never holds, wherever it stands") {
-  CHECK(ruling({not_a_number, 2.0, 0.0, "1", ""}) == Ruling::fails);
-  CHECK(ruling({1.0, not_a_number, 0.0, "1", ""}) == Ruling::fails);
-  CHECK(ruling({1.0, 2.0, not_a_number, "1", ""}) == Ruling::fails);
-  CHECK(ruling({1.0, std::numeric_limits<double>::infinity(), 0.0, "1", ""}) == Ruling::fails);
-  CHECK(ruling({3.0, 2.0, -2.0, "1", ""}) == Ruling::fails);
+  CHECK(outcome_of({not_a_number, 2.0, 0.0, "1", ""}) == Outcome::fails);
+  CHECK(outcome_of({1.0, not_a_number, 0.0, "1", ""}) == Outcome::fails);
+  CHECK(outcome_of({1.0, 2.0, not_a_number, "1", ""}) == Outcome::fails);
+  CHECK(outcome_of({1.0, std::numeric_limits<double>::infinity(), 0.0, "1", ""}) == Outcome::fails);
+  CHECK(outcome_of({3.0, 2.0, -2.0, "1", ""}) == Outcome::fails);
 }
 
 TEST_CASE("Worst keeps a NaN whatever comes after it") {
@@ -53,11 +53,11 @@ TEST_CASE("a check that throws fails and says why; one that is not offered is no
   const Subject subject = reference_subject();
   const Record broken = run_check(
       check_that([](const Subject&) -> Finding { throw std::runtime_error("out of cloth"); }), subject);
-  CHECK(broken.outcome == "fails");
+  CHECK(broken.outcome == Outcome::fails);
   CHECK(broken.finding.note.find("out of cloth") != std::string::npos);
   const Record absent =
       run_check(check_that([](const Subject&) -> Finding { throw NotOffered{"step"}; }), subject);
-  CHECK(absent.outcome == "not applicable");
+  CHECK(absent.outcome == Outcome::not_applicable);
 }
 
 TEST_CASE("an operation that a subject lacks is reported by name") {

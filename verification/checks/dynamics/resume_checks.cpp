@@ -21,7 +21,7 @@ struct Followed {
   std::vector<Diagnostics> rows;
   std::vector<Checkpoint> checkpoints;
   std::vector<std::size_t> rows_at;  // of each checkpoint: rows that came before it
-  Outcome outcome;
+  RunResult result;
 };
 
 Observer follower(Followed& run) {
@@ -54,12 +54,12 @@ void add(const Work& w, Numbers& all) {
   for_each_number_of_work(w, [&](auto number) { all.push_back(double(number)); });
 }
 
-void add(const Outcome& outcome, Numbers& all) {
-  add(outcome.last, all);
-  add(outcome.work, all);
-  all.push_back(double(outcome.steps));
-  if (outcome.stop)
-    all.insert(all.end(), {outcome.stop->time, double(outcome.stop->step), double(outcome.stop->particle)});
+void add(const RunResult& result, Numbers& all) {
+  add(result.last, all);
+  add(result.work, all);
+  all.push_back(double(result.steps));
+  if (result.stop)
+    all.insert(all.end(), {result.stop->time, double(result.stop->step), double(result.stop->particle)});
 }
 
 /// All of a checkpoint but clock time.
@@ -77,7 +77,7 @@ Numbers numbers_after(const Followed& run, std::size_t frames, std::size_t rows,
   for (std::size_t k = frames; k < run.frames.size(); ++k) add(run.frames[k], all);
   for (std::size_t k = rows; k < run.rows.size(); ++k) add(run.rows[k], all);
   for (std::size_t k = checkpoints; k < run.checkpoints.size(); ++k) add(run.checkpoints[k], all);
-  add(run.outcome, all);
+  add(run.result, all);
   return all;
 }
 
@@ -100,14 +100,14 @@ struct Interrupted {
 double differences(const Interrupted& of) {
   const Integrator& integrator = integrator_named(of.integrator);
   Followed whole;
-  whole.outcome =
+  whole.result =
       simulate(build_system(of.scene), integrator, start_state(of.scene), of.scene.schedule, follower(whole));
   if (whole.checkpoints.size() < 5 || whole.checkpoints.size() != whole.frames.size()) return NAN;
-  if (whole.outcome.stop.has_value() != of.stops) return NAN;
+  if (whole.result.stop.has_value() != of.stops) return NAN;
   Worst worst;
   for (std::size_t k = 0; k < whole.checkpoints.size(); ++k) {
     Followed rest;
-    rest.outcome =
+    rest.result =
         resume(build_system(of.scene), integrator, whole.checkpoints[k], of.scene.schedule, follower(rest));
     worst.see(
         bits_that_differ(numbers_after(whole, k + 1, whole.rows_at[k], k + 1), numbers_after(rest, 0, 0, 0)));

@@ -15,7 +15,7 @@ namespace {
 struct Watched {
   std::vector<State> frames;
   std::vector<Diagnostics> rows;
-  Outcome outcome;
+  RunResult result;
 };
 
 Watched watched(const System& system, const std::string& integrator, const State& start,
@@ -23,7 +23,7 @@ Watched watched(const System& system, const std::string& integrator, const State
   Watched run;
   const Observer observer{[&](const State& s) { run.frames.push_back(s); },
                           [&](const Diagnostics& row) { run.rows.push_back(row); }};
-  run.outcome = simulate(system, integrator_named(integrator), start, schedule, observer);
+  run.result = simulate(system, integrator_named(integrator), start, schedule, observer);
   return run;
 }
 
@@ -32,7 +32,7 @@ Watched watched(const System& system, const std::string& integrator, const State
 /// the one asked for.
 double frame_error(const Watched& run, const Schedule& schedule, size_t frames) {
   Worst worst;
-  if (run.frames.size() != frames || run.outcome.stop) worst.see(NAN);
+  if (run.frames.size() != frames || run.result.stop) worst.see(NAN);
   const double start = run.frames.front().time, fixed = schedule.step.fixed;
   for (size_t k = 0; k < run.frames.size(); ++k) {
     const volatile double whole =
@@ -44,7 +44,7 @@ double frame_error(const Watched& run, const Schedule& schedule, size_t frames) 
   }
   for (const Diagnostics& row : run.rows)
     if (fixed > 0 && !(row.step <= fixed * (1 + 2e-9))) worst.see(NAN);
-  if (fixed == schedule.frame_interval && run.outcome.steps != long(frames) - 1) worst.see(NAN);
+  if (fixed == schedule.frame_interval && run.result.steps != long(frames) - 1) worst.see(NAN);
   return worst.value();
 }
 
@@ -109,8 +109,8 @@ Finding limits_finding(const Subject&) {
         s = integrator_named("C").step(system, {&s, 1}, h, work);
         s.time = run.rows[n].time;
       }
-      if (run.rows.size() <= least_steps || largest_difference(s.x, run.outcome.last.x) != 0) worst.see(NAN);
-      ends.push_back(run.outcome.stop ? run.outcome.stop->reason : "the end");
+      if (run.rows.size() <= least_steps || largest_difference(s.x, run.result.last.x) != 0) worst.see(NAN);
+      ends.push_back(run.result.stop ? run.result.stop->reason : "the end");
       speeds.push_back(speed);
       used_limit.push_back(of_limit.value());
       used_strain.push_back(of_strain.value());
@@ -154,13 +154,13 @@ bool all_finite(const std::vector<State>& frames) {
 }
 
 void add_common(Statements& statements, const Watched& run) {
-  statements.add("it stopped", run.outcome.stop.has_value());
-  if (!run.outcome.stop) return;
-  statements.add("the time is that of the last good state", run.outcome.stop->time == run.outcome.last.time);
+  statements.add("it stopped", run.result.stop.has_value());
+  if (!run.result.stop) return;
+  statements.add("the time is that of the last good state", run.result.stop->time == run.result.last.time);
   statements.add("the step is the one after the last good one",
-                 run.outcome.stop->step == run.outcome.steps + 1);
+                 run.result.stop->step == run.result.steps + 1);
   statements.add("all frames delivered are finite", all_finite(run.frames));
-  statements.add("the last good state is finite", all_finite({run.outcome.last}));
+  statements.add("the last good state is finite", all_finite({run.result.last}));
 }
 
 Finding divergence_finding(const Subject&) {
@@ -171,10 +171,10 @@ Finding divergence_finding(const Subject&) {
   const Watched run = watched(system, "C", start, {400 * h, 2 * h, {h, 0.5, 0.1}, 100000});
   Statements statements;
   add_common(statements, run);
-  if (run.outcome.stop) {
-    const Stop& stop = *run.outcome.stop;
+  if (run.result.stop) {
+    const Stop& stop = *run.result.stop;
     Work work;
-    const State& last = run.outcome.last;
+    const State& last = run.result.last;
     const State next = integrator_named("C").step(system, {&last, 1}, h, work);
     Eigen::Index farthest = 0;
     (next.x - last.x).colwise().norm().maxCoeff(&farthest);
@@ -187,7 +187,7 @@ Finding divergence_finding(const Subject&) {
     statements.add("within a frame no particle moves more than 20 sizes in its two steps",
                    leap.value() <= 20);
     statements.add("earlier frames were delivered",
-                   run.frames.size() >= 2 && long(run.frames.size()) == run.outcome.steps / 2 + 1);
+                   run.frames.size() >= 2 && long(run.frames.size()) == run.result.steps / 2 + 1);
   }
   return statements.finding("fixed steps of three times the elastic limit");
 }
@@ -205,10 +205,10 @@ Finding nan_finding(const Subject&) {
   const Watched run = watched(system, "C", start_state(scene), {0.1, 0.01, {0.0034, 0.5, 0.1}, 100000});
   Statements statements;
   add_common(statements, run);
-  if (run.outcome.stop) {
-    statements.add("the reason says NaN", run.outcome.stop->reason.find("NaN") != std::string::npos);
-    statements.add("the particle is 5", run.outcome.stop->particle == 5);
-    statements.add("the step is 7", run.outcome.stop->step == 7);
+  if (run.result.stop) {
+    statements.add("the reason says NaN", run.result.stop->reason.find("NaN") != std::string::npos);
+    statements.add("the particle is 5", run.result.stop->particle == 5);
+    statements.add("the step is 7", run.result.stop->step == 7);
     statements.add("three frames were delivered", run.frames.size() == 3);
   }
   return statements.finding("a force becomes NaN after 0.0221 s, in the seventh step");
@@ -226,14 +226,14 @@ Finding lost_triangle_finding(const Subject&) {
       watched(build_system(scene), "C", start_state(scene), {0.2, 0.01, {0.0025, 0.5, 0.1}, 100000});
   Statements statements;
   add_common(statements, run);
-  if (run.outcome.stop) {
-    const std::string& reason = run.outcome.stop->reason;
+  if (run.result.stop) {
+    const std::string& reason = run.result.stop->reason;
     statements.add("the reason says what was lost",
                    reason.find("triangle") != std::string::npos && reason.find("area") != std::string::npos);
     statements.add("the reason names the four particles",
                    reason.find("particles 0 1 2 3") != std::string::npos);
-    statements.add("a particle is named", run.outcome.stop->particle == 0);
-    statements.add("the step is 20", run.outcome.stop->step == 20);
+    statements.add("a particle is named", run.result.stop->particle == 0);
+    statements.add("the step is 20", run.result.stop->step == 20);
     statements.add("five frames were delivered", run.frames.size() == 5);
   }
   return statements.finding("a vertex is led into the opposite edge, which it reaches at the end of step 20");
@@ -245,10 +245,10 @@ Finding cap_finding(const Subject&) {
       watched(build_system(scene), "B", start_state(scene), {0.1, 0.01, {0.002, 0.5, 0.1}, 13});
   Statements statements;
   add_common(statements, run);
-  statements.add("13 steps were made", run.outcome.steps == 13);
-  if (run.outcome.stop) {
-    statements.add("the reason says cap", run.outcome.stop->reason.find("cap") != std::string::npos);
-    statements.add("no particle is blamed", run.outcome.stop->particle == -1);
+  statements.add("13 steps were made", run.result.steps == 13);
+  if (run.result.stop) {
+    statements.add("the reason says cap", run.result.stop->reason.find("cap") != std::string::npos);
+    statements.add("no particle is blamed", run.result.stop->particle == -1);
   }
   return statements.finding("a cap of 13 steps");
 }
@@ -260,10 +260,10 @@ Finding standstill_finding(const Subject&) {
   const Watched run = watched(build_system(scene), "B", start, {1.1, 0.01, {1e-17, 0.5, 0.1}, 20});
   Statements statements;
   add_common(statements, run);
-  statements.add("no step was made", run.outcome.steps == 0);
-  if (run.outcome.stop)
+  statements.add("no step was made", run.result.steps == 0);
+  if (run.result.stop)
     statements.add("the reason says too short",
-                   run.outcome.stop->reason.find("too short") != std::string::npos);
+                   run.result.stop->reason.find("too short") != std::string::npos);
   return statements.finding("fixed steps of 1e-17 s from t = 1 s on, where doubles lie 2e-16 s apart");
 }
 
