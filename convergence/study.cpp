@@ -6,7 +6,7 @@ std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const 
                                                       const Progress& progress) {
   StudyRecord whole{study.name, study.claim, study.source, study.about, 0, {}, {}, {}};
   std::vector<Record> records;
-  const Record blank{study.name, "study", study.name, study.claim, study.source, {}, "", "", 0, {}};
+  const Record blank{study.name, "study", study.name, study.claim, study.source, {}, {}, "", 0, {}};
   StudyResult result;
   const Record run = judged(blank, [&] {
     result = study.run(subject, tier, progress);

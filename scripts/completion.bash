@@ -1,4 +1,4 @@
-# Completion of `foldproof` for bash:  source scripts/completion.bash
+# Completion of `foldproof` for bash:  source scripts/completion.bash   (an installed one is found by bash itself)
 # Commands and options are what `foldproof COMMAND --help` shows, names what `foldproof list` shows; case files end in
 # .toml, meshes in .obj, runs in .h5, tables in .csv.
 
@@ -14,14 +14,15 @@ _foldproof_names() {
     /^  / && wanted { print $1; if (split($1, part, ".") > 1) print part[1] }' | sort -u
 }
 
-# The findings of the cases that `list` shows: case.twist for hard/twist.
-_foldproof_cases() {
-  "$1" list | awk '/^[a-z]/ { wanted = $1 == "cases" } /^  / && wanted { sub(".*/", "", $1); print "case." $1 }'
-}
+# The shipped cases, as `list` shows them.
+_foldproof_cases() { "$1" list | awk '/^[a-z]/ { wanted = $1 == "cases" } /^  / && wanted { print $1 }'; }
+
+# Their findings: case.twist for hard/twist.
+_foldproof_case_findings() { _foldproof_cases "$1" | sed 's|.*/||; s|^|case.|'; }
 
 _foldproof_kind() {
   case $1 in
-    simulate | ablate) echo toml ;;
+    simulate | ablate | converge) echo toml ;;
     inspect) echo obj ;;
     project | film | export) echo h5 ;;
     crossings) echo 'h5|obj' ;;
@@ -36,18 +37,22 @@ _foldproof() {
   elif [[ $now == -* ]]; then
     words=$(_foldproof_options "$program" "$command")
   elif [[ $command == check ]]; then
-    words="$(_foldproof_names "$program" ' checks: studies: ') case $(_foldproof_cases "$program")"
+    words="$(_foldproof_names "$program" ' checks: studies: ') case $(_foldproof_case_findings "$program")"
   elif [[ $command == study ]]; then
     words=$(_foldproof_names "$program" ' studies: ')
   elif [[ $command == golden ]]; then
     words='bending springs integrator forecast friction projection sticking'
   elif [[ $command == evaluate && $COMP_CWORD == 2 ]]; then
     words='bending crossings'
+  else
+    kind=$(_foldproof_kind "$command")
+    [[ $kind == toml ]] && words=$(_foldproof_cases "$program")
   fi
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "$now")
-  kind=$(_foldproof_kind "$command")
-  if [[ -n $kind && $now != -* && -z $words ]]; then
-    mapfile -t COMPREPLY < <(shopt -s extglob && compgen -f -X "!*.@($kind)" -- "$now" && compgen -d -S / -- "$now")
+  if [[ -n $kind ]]; then
+    mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(shopt -s extglob
+      compgen -f -X "!*.@($kind)" -- "$now"
+      compgen -d -S / -- "$now")
   elif [[ $command == report && $now != -* ]]; then
     mapfile -t COMPREPLY < <(compgen -d -S / -- "$now")
   fi

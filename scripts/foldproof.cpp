@@ -7,6 +7,7 @@
 #include <new>
 
 #include "scripts/program/commands.h"
+#include "scripts/program/data_folder.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/oracles/golden.h"
@@ -16,13 +17,13 @@ namespace {
 
 constexpr const char* examples = R"(Examples:
   foldproof verify                                    everything of the quick tier, and the report results/report.html
-  foldproof simulate cases/hanging_sheet.toml --set bending.stiffness=1e-3 --out results
-  foldproof simulate cases/any_mesh.toml --set cloth.mesh=body.obj
+  foldproof simulate hanging_sheet --set bending.stiffness=1e-3 --out results
+  foldproof simulate any_mesh --set cloth.mesh=body.obj
   foldproof inspect body.obj                          is it closed, oriented, without intersections?
-  foldproof simulate cases/drape_statue.toml --set object.mesh=body.obj --cache cache
+  foldproof simulate drape_statue --set object.mesh=body.obj --cache cache
   foldproof crossings results/fast.h5                 does the cloth pass through itself? Of OBJ files, too
   foldproof project results/half_inside.h5 --map blend --tau 0.01
-  foldproof ablate cases/grab.toml                    which of its parts does this scene need?
+  foldproof ablate grab                               which of its parts does this scene need?
   foldproof check bending                             all checks of bending
   foldproof check bending.forces-sum-to-zero --json   one of them, for another program
   foldproof study time-order.hinge                    one study
@@ -66,8 +67,11 @@ constexpr const char* project_help =
 inside, and where the spectrum of the depth along a section of the cloth is largest, before, after plain projection, and after the map. Points between two
 objects are left alone. Points end at most tau/10^6 farther out than the map says. Exit code 1: some points found no room between objects.)";
 
+constexpr const char* case_words =
+    "Case file (cases/KEYS.md), or a shipped case, as `foldproof list` names them";
+
 std::string typed(int argc, char** argv) {
-  std::string command = "build/foldproof";
+  std::string command = program_command();
   for (int k = 1; k < argc; ++k) command += std::string(" ") + argv[k];
   return command;
 }
@@ -137,7 +141,7 @@ void add_selections(CLI::App& app, Options& options) {
 void add_runs(CLI::App& app, Options& options) {
   CLI::App* simulate =
       add_command(app, options, "simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf", simulate_case);
-  simulate->add_option("CASE", options.file, "Case file, see cases/KEYS.md")->required();
+  simulate->add_option("CASE", options.file, case_words)->required();
   simulate->add_option("--set", options.overrides, "Override a key: table.key=value")
       ->allow_extra_args(false);
   CLI::Option* resume = simulate->add_flag(
@@ -169,7 +173,7 @@ void add_ablate(CLI::App& app, Options& options) {
                   "each cost? Writes ablation.json, where what this program found of other cases stays",
                   ::foldproof::ablate);
   ablate->footer(ablate_help);
-  ablate->add_option("CASE", options.names, "Case files (default: all shipped cases of the tier)");
+  ablate->add_option("CASE", options.names, "Case files, or names of shipped cases (default: all of the tier)");
   add_tier(ablate, options);
   ablate->add_option("--set", options.overrides, "Override a key: table.key=value")->allow_extra_args(false);
   ablate->add_option("--threads", options.running.threads, "Runs at a time (default: one a core)");
@@ -295,7 +299,7 @@ void add_converge(CLI::App& app, Options& options) {
                   "How large is the error that a case owes to its step? Order, limit and error bar of its quantities",
                   converge);
   command->footer(converge_help);
-  command->add_option("CASE", options.file, "Case file")->required();
+  command->add_option("CASE", options.file, case_words)->required();
   command->add_option("--levels", options.levels, "Runs, each with half the steps of the one before")
       ->check(CLI::Range(3, 12))
       ->default_val(4);

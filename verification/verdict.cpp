@@ -64,7 +64,7 @@ Record judged(Record record, const std::function<Finding()>& act) {
 }
 
 Record run_check(const Check& check, const Subject& subject) {
-  Record record{check.name, "check", "", check.claim, check.source, {}, "", "", 0, {}};
+  Record record{check.name, "check", "", check.claim, check.source, {}, {}, "", 0, {}};
   return judged(std::move(record), [&] { return check.run(subject); });
 }
 

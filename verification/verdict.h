@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,11 +59,17 @@ struct Record {
   std::string name, kind, study;  // kind "check", "study" or "bench"; study: the name of the study, or ""
   std::string claim, source;
   Finding finding;
-  std::string outcome;  // name_of(ruling), or "measured" for a bench
-  std::string better;   // bench only: "higher" or "lower"
+  std::optional<Outcome> outcome;  // none for a bench, and before the run
+  std::string better;              // bench only: "higher" or "lower"
   double seconds = 0;
   std::vector<std::string> faults;  // seeded faults that it catches
 };
+
+/// Does it lack the outcome that all but a bench must have?
+bool did_not_run(const Record& record);
+
+/// The outcome as files and listings spell it: name_of it, else "measured" (a bench) or "did not run".
+std::string_view outcome_text(const Record& record);
 
 struct StudyRecord {
   std::string name, claim, source, about;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
+#include <optional>
 #include <regex>
 #include <set>
 
@@ -13,9 +14,10 @@ using namespace foldproof;
 
 namespace {
 
+constexpr Outcome holds = Outcome::holds, fails = Outcome::fails;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-Record finding(const std::string& name, const std::string& outcome, double measured = 0.25) {
+Record finding(const std::string& name, std::optional<Outcome> outcome, double measured = 0.25) {
   Record record;
   record.name = name;
   record.outcome = outcome;
@@ -105,7 +107,7 @@ TEST_CASE("without support nothing is confirmed") {
 }
 
 TEST_CASE("numbers in a text come from the findings, with unit, three digits and the row asked for") {
-  Record record = finding("mass", "holds", 0.123456);
+  Record record = finding("mass", holds, 0.123456);
   record.finding.evidence = {{"case", "", std::vector<std::string>{"heavy", "light"}},
                              {"|m|/2", "g", std::vector<double>{7, 3}},
                              {"share", "1", std::vector<double>{0.5, not_a_number}}};
@@ -125,9 +127,9 @@ TEST_CASE(
     "a number may stand without its unit, and for the largest of several; powers of ten are written as "
     "such") {
   const std::vector<Record> records = {
-      finding("small", "holds", 5.9217e-5), finding("large", "holds", 1.9949e7),
-      finding("plain", "holds", 123456),    finding("unknown", "fails", not_a_number),
-      finding("none", "holds", 0),          finding("below", "holds", -0.00123456)};
+      finding("small", holds, 5.9217e-5), finding("large", holds, 1.9949e7),
+      finding("plain", holds, 123456),    finding("unknown", fails, not_a_number),
+      finding("none", holds, 0),          finding("below", holds, -0.00123456)};
   CHECK(filled("{small}, {large}, {plain}, {none}", records) == "5.92×10⁻⁵ kg, 1.99×10⁷ kg, 123000 kg, 0 kg");
   CHECK(filled("{bare: small} and {bare: below}", records) == "5.92×10⁻⁵ and -0.00123");
   CHECK(filled("{largest of: small, plain, none}", records) == "123000 kg");

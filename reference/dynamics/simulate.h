@@ -97,7 +97,7 @@ RunResult simulate(const System& system, const Integrator& integrator, const Sta
                    const Schedule& schedule, const Observer& observer);
 
 /// Goes on from a checkpoint of a run of the same system, integrator and schedule that was watched by as many
-/// functions. Frames, diagnostics but for clock time, later checkpoints and the outcome are those of the
+/// functions. Frames, diagnostics but for clock time, later checkpoints and the result are those of the
 /// uninterrupted run, to the bit; what was handed out up to the checkpoint is not handed out again. Throws
 /// InputError for one without a state, or of other particles.
 RunResult resume(const System& system, const Integrator& integrator, const Checkpoint& from,

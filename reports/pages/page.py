@@ -116,9 +116,17 @@ def render(page: Page) -> str:
         known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
         by_file=faults_by_file, fault_outcomes=fault_outcomes, kill_tables=kill_tables(page.faults),
         known_findings={finding.name for finding in page.all_findings()}, commands=commands_of(page),
+        program=program_of(page),
         of_case={finding.name: case for case in page.case_findings + page.hard_findings
                  for finding in case.findings}.get)
     return environment.get_template("page.html.j2").render(page=page, said=page.provenance)
+
+
+def program_of(page: Page) -> str:
+    """What to type for the program: what an installed one made is repeated by it."""
+    made_by = [page.provenance, *(view.case.about_run for view in page.cases if view.case)]
+    typed = {str(about.get("command", "")).split(" ")[0] for about in made_by} - {""}
+    return "foldproof" if typed == {"foldproof"} else "build/foldproof"
 
 
 def commands_of(page: Page) -> dict[str, str]:

@@ -254,8 +254,8 @@ std::vector<Ablation> asked_of(const Options& options) {
   std::vector<std::string> files = options.names;
   if (files.empty())
     for (const std::string& name : built_in_cases(tier_of(options)))
-      files.push_back(project_folder() + "/cases/" + name + ".toml");
-  for (const std::string& file : files) all.push_back(planned(file, options, level_sets));
+      files.push_back(shipped_case_file(name));
+  for (const std::string& file : files) all.push_back(planned(case_file(file), options, level_sets));
   return all;
 }
 

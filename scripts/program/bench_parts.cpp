@@ -41,7 +41,7 @@ void forget_peak() {
 Record rate(const std::string& name, const std::string& claim, double measured, const Target& target) {
   const Verdict verdict{measured, target.value, 0, target.unit, target.why};
   return {"bench." + name, "bench",       "", claim, "", {verdict, {}, "one thread, least of repeats"},
-          "measured",      target.better, 0,  {}};
+          std::nullopt,    target.better, 0,  {}};
 }
 
 }  // namespace foldproof

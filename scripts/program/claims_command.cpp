@@ -8,6 +8,7 @@
 #include "reference/mesh/text_file.h"
 #include "reference/types.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/data_folder.h"
 #include "scripts/program/json_text.h"
 
 namespace foldproof {
@@ -22,18 +23,20 @@ std::string text_of(const json& row, const char* key) { return row.value(key, st
 json findings_of(const std::string& folder) {
   const std::string path = folder + "/verdicts.json";
   if (!std::filesystem::exists(path))
-    throw InputError(path + ": there is no finished run; make one with `build/foldproof verify --out " +
-                     folder + "`, or name its folder with --out");
+    throw InputError(path + ": there is no finished run; make one with `" + program_command() +
+                     " verify --out " + folder + "`, or name its folder with --out");
   const json whole =
       json::parse(read_text_file(path, {table_text_limits.bytes, table_text_limits.bytes}), nullptr, false);
   if (!whole.is_object() || !whole.contains("findings"))
-    throw InputError(path + ": not the verdicts of a run; make them anew with `build/foldproof verify`");
+    throw InputError(path + ": not the verdicts of a run; make them anew with `" +
+                     program_command() + " verify`");
   const json& findings = whole["findings"];
   const bool are_rows =
       findings.is_array() && std::ranges::all_of(findings, [](const json& row) { return row.is_object(); });
   if (!are_rows)
     throw InputError(path +
-                     ": its findings are no list of findings; make them anew with `build/foldproof verify`");
+                     ": its findings are no list of findings; make them anew with `" + program_command() +
+                     " verify`");
   return findings;
 }
 
@@ -43,7 +46,8 @@ json claims_in(const json& findings, const std::string& folder) {
     if (text_of(row, "kind") == "claim") claims.push_back(row);
   if (claims.empty())
     throw InputError(folder +
-                     "/verdicts.json: this run decided no claim; `build/foldproof verify` decides all");
+                     "/verdicts.json: this run decided no claim; `" + program_command() +
+                     " verify` decides all");
   return claims;
 }
 

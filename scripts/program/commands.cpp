@@ -11,6 +11,7 @@
 #include "reference/dynamics/integrator.h"
 #include "reference/bodies/makers.h"
 #include "scripts/program/bench.h"
+#include "scripts/program/data_folder.h"
 #include "verification/subjects/bending_rows.h"
 #include "verification/subjects/crossing_queries.h"
 #include "scripts/program/json_text.h"
@@ -31,9 +32,9 @@ namespace foldproof {
 
 namespace {
 
-std::vector<Claim> written_claims() { return read_claims(project_folder() + "/verification/claims"); }
+std::vector<Claim> written_claims() { return read_claims(data_folder() + "/verification/claims"); }
 
-std::string faults_folder() { return project_folder() + "/verification/faults"; }
+std::string faults_folder() { return data_folder() + "/verification/faults"; }
 
 RunRecord new_run(const Options& options) {
   RunRecord run;
@@ -101,7 +102,7 @@ std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance
 /// Writes verdicts of a run that has not ended, so that one which never does is not taken for the one before.
 void announce(const std::vector<Job>& jobs, RunRecord begun, const std::string& folder) {
   for (const Job& job : jobs)
-    begun.records.push_back(unfinished(job.name, "did not run", "the run has not come to its end"));
+    begun.records.push_back(unfinished(job.name, std::nullopt, "the run has not come to its end"));
   write_verdicts(folder, begun);
 }
 
@@ -120,6 +121,7 @@ int list(const Options& options) {
   for (const Study& study : all_studies())
     json["studies"].push_back({{"name", study.name}, {"claim", study.claim}, {"source", study.source}});
   json["cases"] = built_in_cases(Tier::full);
+  json["cases_folder"] = data_folder() + "/cases";
   json["long_cases"] = long_cases();
   json["integrators"] = nlohmann::json::array();
   for (const Integrator& i : integrators())
@@ -138,7 +140,7 @@ int list(const Options& options) {
     for (const auto& row : json[kind])
       fmt::print("  {:<58} {}\n", row["name"].get<std::string>(), row["claim"].get<std::string>());
   }
-  fmt::print("cases (cases/NAME.toml):\n");
+  fmt::print("cases ({}/cases/NAME.toml):\n", data_folder());
   for (const std::string& name : built_in_cases(Tier::full)) fmt::print("  {}\n", name);
   fmt::print("integrators:\n");
   for (const Integrator& i : integrators())

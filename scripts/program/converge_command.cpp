@@ -90,7 +90,7 @@ json to_json(const LadderAnswer& answer) {
 
 int converge(const Options& options) {
   const LevelSetMakers level_sets = remembering(makers_of(options.cache));
-  LadderPlan plan{read_case(options.file, options.overrides), options.levels, {}};
+  LadderPlan plan{read_case(case_file(options.file), options.overrides), options.levels, {}};
   if (!options.methods.empty()) plan.shown.scene.integrator = options.methods.front();
   if (options.until > 0) plan.shown.scene.schedule.end = std::min(options.until, plan.shown.scene.schedule.end);
   plan.measurements = measurements_of(plan.shown);

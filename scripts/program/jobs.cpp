@@ -20,8 +20,8 @@ namespace {
 void say_unless_it_holds(const Record& record) {
   if (record.outcome == Outcome::holds) return;
   const Verdict& v = record.finding.verdict;
-  say(fmt::format("  {}: {} (measured {:.4g}, bound {:.4g} {}) {}", record.outcome, record.name, v.measured,
-                  v.bound, v.unit, record.finding.note));
+  say(fmt::format("  {}: {} (measured {:.4g}, bound {:.4g} {}) {}", outcome_text(record), record.name,
+                  v.measured, v.bound, v.unit, record.finding.note));
 }
 
 template <class T>
@@ -59,7 +59,7 @@ class Queue {
       } catch (const std::exception& error) {
         parts_[i] = {};
         parts_[i].records = {
-            unfinished(jobs_[i].name, "fails", std::string("stopped by an error: ") + error.what())};
+            unfinished(jobs_[i].name, Outcome::fails, std::string("stopped by an error: ") + error.what())};
       }
       show(i, 1);
       const std::lock_guard held(mutex_);
@@ -102,7 +102,7 @@ class Queue {
 
 }  // namespace
 
-Record unfinished(const std::string& name, const std::string& outcome, const std::string& note) {
+Record unfinished(const std::string& name, std::optional<Outcome> outcome, const std::string& note) {
   Record record;
   record.name = name;
   record.kind = "check";

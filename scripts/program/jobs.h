@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct Job {
 };
 
 /// A record of this name that says nothing but that it did not run, or why it stopped.
-Record unfinished(const std::string& name, const std::string& outcome, const std::string& note);
+Record unfinished(const std::string& name, std::optional<Outcome> outcome, const std::string& note);
 
 /// In which way jobs are run. No number that a job measures depends on it, seconds excepted.
 struct Running {

@@ -53,6 +53,6 @@ std::string program_identity() {
   return std::string(FOLDPROOF_VERSION) + ", commit " + FOLDPROOF_COMMIT + ", code " + key.text();
 }
 
-std::string project_folder() { return FOLDPROOF_FOLDER; }
+std::string source_folder() { return FOLDPROOF_FOLDER; }
 
 }  // namespace foldproof

@@ -12,7 +12,7 @@ Provenance provenance(const std::string& command);
 /// The program as far as its bits depend on it: version, commit, and a key of the code that runs.
 std::string program_identity();
 
-/// The folder with cases, reports and the list of faults.
-std::string project_folder();
+/// The source tree that the program was built from; it may be gone.
+std::string source_folder();
 
 }  // namespace foldproof

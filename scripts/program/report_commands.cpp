@@ -4,8 +4,8 @@
 #include <unistd.h>
 
 #include "scripts/program/commands.h"
+#include "scripts/program/data_folder.h"
 #include "scripts/program/progress.h"
-#include "scripts/program/provenance.h"
 
 namespace foldproof {
 
@@ -23,7 +23,7 @@ void add(std::vector<std::string>& arguments, const std::string& option, const s
 
 int run_report_script(const std::string& makes, const std::string& script,
                       const std::vector<std::string>& arguments) {
-  const std::string path = project_folder() + "/reports/" + script;
+  const std::string path = data_folder() + "/reports/" + script;
   std::vector<char*> words = {const_cast<char*>("python3"), const_cast<char*>(path.c_str())};
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);

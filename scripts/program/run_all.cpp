@@ -179,11 +179,12 @@ std::string summary(const RunRecord& run) {
                          [&](const ClaimRecord& c) { return outcome_of(c) == outcome; });
   };
   const std::string findings =
-      fmt::format("{} hold, {} fail, {} inconclusive, {} not applicable", count("holds"), count("fails"),
-                  count("inconclusive"), count("not applicable"));
+      fmt::format("{} hold, {} fail, {} inconclusive, {} not applicable", count(Outcome::holds),
+                  count(Outcome::fails), count(Outcome::inconclusive), count(Outcome::not_applicable));
   if (run.claims.empty()) return findings;
-  return findings + fmt::format("; {} claims ruled as recorded, {} otherwise, {} undecided", claims("holds"),
-                                claims("fails"), claims("inconclusive"));
+  return findings + fmt::format("; {} claims ruled as recorded, {} otherwise, {} undecided",
+                                claims(Outcome::holds), claims(Outcome::fails),
+                                claims(Outcome::inconclusive));
 }
 
 int exit_code(const RunRecord& run) {
@@ -206,7 +207,7 @@ std::string listing(const RunRecord& run) {
       continue;
     }
     const Verdict& v = r.finding.verdict;
-    text += fmt::format("{:<14} {:<60} {:>11.4g} {} {:<9.4g} {}\n", r.outcome, r.name, v.measured,
+    text += fmt::format("{:<14} {:<60} {:>11.4g} {} {:<9.4g} {}\n", outcome_text(r), r.name, v.measured,
                         r.kind == "bench" ? "target" : "<=", v.bound, v.unit == "1" ? "" : v.unit);
     if (r.outcome == Outcome::fails)
       text += fmt::format("{:<14} {}\n{:<14} The bound: {}\n", "", r.claim, "", v.why_bound);

@@ -94,7 +94,7 @@ CaseRun run_of(const BuiltCase& of, const Options& options) {
 }  // namespace
 
 int simulate_case(const Options& options) {
-  Case shown = read_case(options.file, options.overrides);
+  Case shown = read_case(case_file(options.file), options.overrides);
   const bool may_delete = options.resumes || options.restarts;
   const std::optional<KeptRun> kept = checkpoint_folder(shown.scene, options.out).kept_run();
   if (kept && !may_delete) refuse_to_lose(*kept, shown.scene, options);

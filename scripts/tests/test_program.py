@@ -180,6 +180,25 @@ step = 0.001
         self.assertEqual(done.returncode, 2)
         self.assertIn("none.obj", done.stderr)
 
+    def test_a_case_is_named_by_its_file_or_as_a_shipped_one(self) -> None:
+        def simulated(name: str) -> subprocess.CompletedProcess[str]:
+            return run("simulate", name, "--set", "time.end=0.02", "--out", "out", folder=self.path)
+
+        for name in ("hinge", "hinge.toml", "any_mesh", "hard/sharp_fold"):
+            done = simulated(name)
+            self.assertTrue((self.path / "out" / f"{Path(name).stem}.h5").is_file(), done.stderr)
+        (self.path / "mine").mkdir()  # a folder is no case
+        self.write("mine.toml", (ROOT / "cases/hinge.toml").read_text())
+        self.write("any_mesh.toml", (ROOT / "cases/hinge.toml").read_text())
+        for name in ("mine", "any_mesh", "any_mesh.toml"):
+            self.assertIn("4 particles, 2 triangles", simulated(name).stderr)
+        done = run("converge", "hinge", "--until", "0.02", "--levels", "3", "--out", "out", folder=self.path)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        for name in ("nowhere", "hard/../hinge", "needs", "/hinge"):
+            done = simulated(name)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"{name}: there is no such case file, and no shipped case of that name", done.stderr)
+
     def test_any_obj_mesh_runs(self) -> None:
         quad = "v 0 0 0\nv 1 0 0\nv 1 1 0.1\nv 0 1 0\nv 0 2 0.2\nv 1 2 0\nf 1 2 3 4\nf 4 3 6 5\n"
         done = self.simulate(str(ROOT / "cases/any_mesh.toml"), "--set", "cloth.mesh=" + self.write("quad.obj", quad),
@@ -351,6 +370,9 @@ step = 0.001
         self.assertNotIn("bending", completed("study", "bend"))
         self.assertEqual(completed("simulate", "--res"), ["--restart", "--resume"])
         self.assertEqual(completed("simulate", "cases/garm"), ["cases/garment.toml"])
+        self.assertEqual(completed("simulate", "garm"), ["garment"])
+        self.assertEqual(completed("ablate", "hard/tw"), ["hard/twist"])
+        self.assertEqual(completed("inspect", "cas"), ["cases/"])
         self.assertEqual(completed("golden", "fri"), ["friction"])
 
     def test_a_stored_run_becomes_files_pages_and_a_comparison(self) -> None:

@@ -278,7 +278,7 @@ ClaimRecord ruled(const Claim& claim, const std::vector<Record>& records) {
   ClaimRecord result{claim, {}, ruling(claim.decided_by, records)};
   for (const Decider& decider : claim.decided_by) {
     const Record* record = record_named(decider.finding, records);
-    result.outcomes.push_back(record ? record->outcome : "missing");
+    result.outcomes.push_back(record ? std::string(outcome_text(*record)) : "missing");
   }
   try {
     result.claim.why = filled(claim.why, records);

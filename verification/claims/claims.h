@@ -74,7 +74,7 @@ bool is_covered(const Claim& claim, const std::vector<Record>& records);
 /// Throws std::runtime_error naming the claim for a placeholder that cannot be filled otherwise.
 ClaimRecord ruled(const Claim& claim, const std::vector<Record>& records);
 
-/// "holds" if the ruling is the recorded one, "fails" if not; "inconclusive" if both are undecided.
-std::string outcome_of(const ClaimRecord& record);
+/// holds if the ruling is the recorded one, fails if not; inconclusive if both are undecided.
+Outcome outcome_of(const ClaimRecord& record);
 
 }  // namespace foldproof

@@ -48,7 +48,7 @@ nlohmann::json as_json(const ClaimRecord& record) {
           {"statement", claim.statement},
           {"ruling", name_of(record.ruling)},
           {"recorded", name_of(claim.recorded)},
-          {"outcome", outcome_of(record)},
+          {"outcome", name_of(outcome_of(record))},
           {"condition", claim.condition},
           {"why", claim.why},
           {"decided_by", deciders}};
@@ -70,7 +70,7 @@ std::string junit_case(const Record& record) {
 }
 
 std::string junit_case(const ClaimRecord& record) {
-  const std::string outcome = outcome_of(record);
+  const Outcome outcome = outcome_of(record);
   const std::string text =
       fmt::format("  <testcase classname=\"claim\" name=\"{}\" time=\"0\"", record.claim.id);
   if (outcome == Outcome::holds) return text + "/>\n";

@@ -42,7 +42,7 @@ bool sticks(const System& system) {
 Subject reference_subject() {
   Subject subject;
   subject.name = "foldproof reference";
-  subject.version = "0.1.0";
+  subject.version = "0.2.0";
   subject.prepare = [](const Scene& scene) { return std::make_unique<PreparedReference>(scene); };
   subject.elastic_forces = [](Prepared& prepared, const State& s) {
     Work uncounted;

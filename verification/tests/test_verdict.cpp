@@ -70,7 +70,7 @@ TEST_CASE("verdicts as JSON: NaN becomes null, names stay") {
   RunRecord run;
   Record record;
   record.name = "odd \"name\" <b>";
-  record.outcome = "fails";
+  record.outcome = Outcome::fails;
   record.finding.verdict.measured = not_a_number;
   run.records.push_back(record);
   const std::string json = verdicts_json(run);
@@ -80,17 +80,19 @@ TEST_CASE("verdicts as JSON: NaN becomes null, names stay") {
 
 TEST_CASE("verdicts as JSON and XML: each outcome stands as it is, and none but what holds passes") {
   RunRecord run;
-  for (const char* outcome : {"holds", "fails", "inconclusive", "not applicable"}) {
+  for (const Outcome outcome :
+       {Outcome::holds, Outcome::fails, Outcome::inconclusive, Outcome::not_applicable}) {
     Record record;
-    record.name = std::string("that it ") + outcome;
+    record.name = "that it " + std::string(name_of(outcome));
     record.outcome = outcome;
     record.finding.note = "1 < 2 & 3";
     run.records.push_back(record);
   }
   const std::string json = verdicts_json(run);
   for (const Record& record : run.records) {
-    INFO(record.outcome);
-    CHECK(json.find("\"outcome\": \"" + record.outcome + "\"") != std::string::npos);
+    const std::string text(outcome_text(record));
+    INFO(text);
+    CHECK(json.find("\"outcome\": \"" + text + "\"") != std::string::npos);
   }
   const ScratchFolder folder;
   write_verdicts(folder.file("."), run);
