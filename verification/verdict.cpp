@@ -46,6 +46,13 @@ Outcome outcome_of(const Verdict& verdict) {
   return Outcome::inconclusive;
 }
 
+bool did_not_run(const Record& record) { return !record.outcome && record.kind != "bench"; }
+
+std::string_view outcome_text(const Record& record) {
+  if (record.outcome) return name_of(*record.outcome);
+  return did_not_run(record) ? "did not run" : "measured";
+}
+
 Record judged(Record record, const std::function<Finding()>& act) {
   const Clock clock;
   try {

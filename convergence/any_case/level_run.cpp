@@ -27,7 +27,7 @@ LevelRun watched_level(const Level& level, const LevelSetMakers& level_sets) {
                             measurer.record(row);
                             if (row.step > 0) run.step_ends.push_back(row.time);
                           }};
-  const RunResult outcome =
+  const RunResult result =
       simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule, observer);
   run.values = measurer.values(result);
   run.work = operator_applications(result.work);

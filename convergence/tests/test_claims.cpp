@@ -30,8 +30,8 @@ const std::vector<Decider> all_roles = {{"support", Role::supports},
                                         {"limit", Role::limits},
                                         {"contra", Role::contradicts}};
 
-Ruling with(const std::string& support, const std::string& another, const std::string& limit,
-            const std::string& contra) {
+Ruling with(std::optional<Outcome> support, std::optional<Outcome> another, std::optional<Outcome> limit,
+            std::optional<Outcome> contra) {
   return ruling(all_roles, {finding("support", support), finding("another", another), finding("limit", limit),
                             finding("contra", contra)});
 }
@@ -60,50 +60,51 @@ bool is_known(const std::string& name) {
 }  // namespace
 
 TEST_CASE("a claim is confirmed when all that it needs holds and nothing limits or contradicts it") {
-  CHECK(with("holds", "holds", "fails", "fails") == Ruling::confirmed);
+  CHECK(with(holds, holds, fails, fails) == Ruling::confirmed);
 }
 
 TEST_CASE("a limit that holds makes a confirmed claim conditional") {
-  CHECK(with("holds", "holds", "holds", "fails") == Ruling::conditional);
+  CHECK(with(holds, holds, holds, fails) == Ruling::conditional);
 }
 
 TEST_CASE("a contradiction that holds refutes, whatever else holds or fails") {
-  for (const char* support : {"holds", "fails"})
-    for (const char* limit : {"holds", "fails"})
-      CHECK(with(support, "holds", limit, "holds") == Ruling::refuted);
+  for (const Outcome support : {holds, fails})
+    for (const Outcome limit : {holds, fails}) CHECK(with(support, holds, limit, holds) == Ruling::refuted);
 }
 
 TEST_CASE("one failed support of several leaves a claim undecided, neither confirmed nor refuted") {
-  for (const char* limit : {"holds", "fails"}) {
-    CHECK(with("fails", "holds", limit, "fails") == Ruling::undecided);
-    CHECK(with("holds", "fails", limit, "fails") == Ruling::undecided);
+  for (const Outcome limit : {holds, fails}) {
+    CHECK(with(fails, holds, limit, fails) == Ruling::undecided);
+    CHECK(with(holds, fails, limit, fails) == Ruling::undecided);
   }
 }
 
 TEST_CASE("a finding that says nothing, in any role, leaves a claim undecided") {
-  for (const char* silent : {"inconclusive", "not applicable", "measured", ""}) {
-    CHECK(with(silent, "holds", "holds", "fails") == Ruling::undecided);
-    CHECK(with("holds", "holds", silent, "fails") == Ruling::undecided);
-    CHECK(with("holds", "holds", "holds", silent) == Ruling::undecided);
-    CHECK(with(silent, "holds", "holds", "holds") == Ruling::undecided);
+  for (const std::optional<Outcome> silent :
+       {std::optional(Outcome::inconclusive), std::optional(Outcome::not_applicable),
+        std::optional<Outcome>()}) {
+    CHECK(with(silent, holds, holds, fails) == Ruling::undecided);
+    CHECK(with(holds, holds, silent, fails) == Ruling::undecided);
+    CHECK(with(holds, holds, holds, silent) == Ruling::undecided);
+    CHECK(with(silent, holds, holds, holds) == Ruling::undecided);
   }
-  CHECK(ruling(all_roles, {finding("support", "holds"), finding("another", "holds"),
-                           finding("limit", "fails")}) == Ruling::undecided);
+  CHECK(ruling(all_roles, {finding("support", holds), finding("another", holds), finding("limit", fails)}) ==
+        Ruling::undecided);
 }
 
 TEST_CASE(
     "a finding that failed without a number has said nothing: it cannot clear a claim of a contradiction") {
   const std::vector<Decider> deciders = {{"support", Role::supports}, {"contra", Role::contradicts}};
-  CHECK(ruling(deciders, {finding("support", "holds"), finding("contra", "fails", not_a_number)}) ==
+  CHECK(ruling(deciders, {finding("support", holds), finding("contra", fails, not_a_number)}) ==
         Ruling::undecided);
-  CHECK(ruling(deciders, {finding("support", "holds"), finding("contra", "fails")}) == Ruling::confirmed);
+  CHECK(ruling(deciders, {finding("support", holds), finding("contra", fails)}) == Ruling::confirmed);
 }
 
 TEST_CASE("without support nothing is confirmed") {
   CHECK(ruling({}, {}) == Ruling::undecided);
-  CHECK(ruling({{"limit", Role::limits}}, {finding("limit", "holds")}) == Ruling::undecided);
-  CHECK(ruling({{"contra", Role::contradicts}}, {finding("contra", "fails")}) == Ruling::undecided);
-  CHECK(ruling({{"contra", Role::contradicts}}, {finding("contra", "holds")}) == Ruling::refuted);
+  CHECK(ruling({{"limit", Role::limits}}, {finding("limit", holds)}) == Ruling::undecided);
+  CHECK(ruling({{"contra", Role::contradicts}}, {finding("contra", fails)}) == Ruling::undecided);
+  CHECK(ruling({{"contra", Role::contradicts}}, {finding("contra", holds)}) == Ruling::refuted);
 }
 
 TEST_CASE("numbers in a text come from the findings, with unit, three digits and the row asked for") {
@@ -143,20 +144,20 @@ TEST_CASE(
 }
 
 TEST_CASE("a ruled claim has its numbers; one that asks for a number that is not there is refused by name") {
-  const std::vector<Record> records = {finding("support", "holds")};
+  const std::vector<Record> records = {finding("support", holds)};
   CHECK(ruled(small_claim(Ruling::confirmed, "It is {support}."), records).claim.why == "It is 0.25 kg.");
   CHECK_THROWS_WITH(ruled(small_claim(Ruling::confirmed, "It is {other}."), records),
                     Catch::Contains("claim X1"));
 }
 
 TEST_CASE("a ruling other than the recorded one fails; an open question stays open") {
-  const std::vector<Record> holds = {finding("support", "holds")}, fails = {finding("support", "fails")};
-  CHECK(outcome_of(ruled(small_claim(Ruling::confirmed, ""), holds)) == "holds");
-  CHECK(outcome_of(ruled(small_claim(Ruling::confirmed, ""), fails)) == "fails");
-  CHECK(outcome_of(ruled(small_claim(Ruling::confirmed, ""), {})) == "fails");
-  CHECK(outcome_of(ruled(small_claim(Ruling::refuted, ""), holds)) == "fails");
-  CHECK(outcome_of(ruled(small_claim(Ruling::undecided, ""), holds)) == "fails");
-  CHECK(outcome_of(ruled(small_claim(Ruling::undecided, ""), {})) == "inconclusive");
+  const std::vector<Record> held = {finding("support", holds)}, failed = {finding("support", fails)};
+  CHECK(outcome_of(ruled(small_claim(Ruling::confirmed, ""), held)) == holds);
+  CHECK(outcome_of(ruled(small_claim(Ruling::confirmed, ""), failed)) == fails);
+  CHECK(outcome_of(ruled(small_claim(Ruling::confirmed, ""), {})) == fails);
+  CHECK(outcome_of(ruled(small_claim(Ruling::refuted, ""), held)) == fails);
+  CHECK(outcome_of(ruled(small_claim(Ruling::undecided, ""), held)) == fails);
+  CHECK(outcome_of(ruled(small_claim(Ruling::undecided, ""), {})) == Outcome::inconclusive);
 }
 
 TEST_CASE("the ledger has every claim of sections 3, 4 and 6 once, and claims of section 5 in their order") {

@@ -292,7 +292,7 @@ double step_allowed(const System& system, const Integrator& integrator, std::spa
 }
 
 RunResult simulate(const System& system, const Integrator& integrator, const State& start,
-                 const Schedule& schedule, const Observer& observer) {
+                   const Schedule& schedule, const Observer& observer) {
   check(schedule, start);
   Checkpoint at_start;
   at_start.past = {start};
@@ -304,7 +304,7 @@ RunResult simulate(const System& system, const Integrator& integrator, const Sta
 }
 
 RunResult resume(const System& system, const Integrator& integrator, const Checkpoint& from,
-               const Schedule& schedule, const Observer& observer) {
+                 const Schedule& schedule, const Observer& observer) {
   if (from.past.empty() || from.past.back().x.cols() != system.mass.size())
     throw InputError("a checkpoint without a state, or of another number of particles");
   check(schedule, from.past.back());

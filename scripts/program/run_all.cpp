@@ -203,7 +203,7 @@ std::string listing(const RunRecord& run) {
   std::string text;
   for (const Record& r : run.records) {
     if (r.outcome == Outcome::not_applicable) {
-      text += fmt::format("{:<14} {:<60} {}\n", r.outcome, r.name, r.finding.note);
+      text += fmt::format("{:<14} {:<60} {}\n", outcome_text(r), r.name, r.finding.note);
       continue;
     }
     const Verdict& v = r.finding.verdict;

@@ -59,7 +59,7 @@ std::vector<Record> CaseJudge::judged(const RunResult& result) const {
     record.source = case_.scene.title;
     record.finding = finding_of(k, run);
     record.outcome =
-        name_of(expectation.not_asked.empty() ? outcome_of(record.finding.verdict) : Outcome::not_applicable);
+        expectation.not_asked.empty() ? outcome_of(record.finding.verdict) : Outcome::not_applicable;
     records.push_back(std::move(record));
   }
   return records;

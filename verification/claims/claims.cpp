@@ -290,10 +290,10 @@ ClaimRecord ruled(const Claim& claim, const std::vector<Record>& records) {
   return result;
 }
 
-std::string outcome_of(const ClaimRecord& record) {
-  if (record.ruling != record.claim.recorded) return std::string(name_of(Outcome::fails));
+Outcome outcome_of(const ClaimRecord& record) {
+  if (record.ruling != record.claim.recorded) return Outcome::fails;
   const bool is_open = record.ruling == Ruling::undecided;
-  return std::string(name_of(is_open ? Outcome::inconclusive : Outcome::holds));
+  return is_open ? Outcome::inconclusive : Outcome::holds;
 }
 
 }  // namespace foldproof

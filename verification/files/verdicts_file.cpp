@@ -61,12 +61,12 @@ std::string junit_case(const Record& record) {
   const std::string message =
       xml_text(fmt::format("measured {:.6g}, uncertainty {:.3g}, bound {:.6g} [{}]. {} {}", v.measured,
                            v.uncertainty, v.bound, v.unit, record.claim, record.finding.note));
-  if (record.outcome == Outcome::holds || record.outcome == "measured") return text + "/>\n";
+  if (record.outcome == Outcome::holds || (!record.outcome && !did_not_run(record))) return text + "/>\n";
   const char* kind = record.outcome == Outcome::not_applicable ? "skipped"
-                     : record.outcome == "did not run"         ? "error"
+                     : did_not_run(record)                     ? "error"
                                                                : "failure";
-  return text +
-         fmt::format(">\n    <{0} message=\"{1}: {2}\"/>\n  </testcase>\n", kind, record.outcome, message);
+  return text + fmt::format(">\n    <{0} message=\"{1}: {2}\"/>\n  </testcase>\n", kind, outcome_text(record),
+                            message);
 }
 
 std::string junit_case(const ClaimRecord& record) {
@@ -84,7 +84,7 @@ std::string junit_xml(const RunRecord& run) {
   std::string cases;
   for (const Record& record : run.records) {
     failures += record.outcome == Outcome::fails || record.outcome == Outcome::inconclusive;
-    errors += record.outcome == "did not run";
+    errors += did_not_run(record);
     skipped += record.outcome == Outcome::not_applicable;
     cases += junit_case(record);
   }
