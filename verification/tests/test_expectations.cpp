@@ -264,7 +264,7 @@ TEST_CASE(
   REQUIRE(not_asked(read_case(path, box)).size() == 2);
   CHECK_THAT(not_asked(read_case(path, box))[0], Contains("written for the file's 'object'"));
   const std::vector<std::string> statue = {"object.shape=statue", "object.height=0.1",
-                                           "object.subdivisions=2"};
+                                           "object.subdivisions=3"};
   CHECK_THROWS_WITH(read_case(path, statue), Contains("unknown key 'radius'"));
   const TriangleMesh upright = make_icosphere(0.1, 1);  // starts in no plane
   write_obj(folder.file("ball.obj"), upright.rest, upright.triangles);
