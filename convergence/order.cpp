@@ -42,6 +42,21 @@ std::vector<double> pair_orders(const Convergence& convergence) {
   return orders;
 }
 
+Convergence convergence_of(const Table& refined, std::string_view errors) {
+  return {refined.numbers(refined.columns().front().name), refined.numbers(errors), 0};
+}
+
+std::vector<double> row_orders(const Convergence& convergence) {
+  std::vector<double> orders = pair_orders(convergence);
+  orders.insert(orders.begin(), nan);
+  return orders;
+}
+
+Curve curve_of(const std::string& label, const Convergence& convergence) {
+  const double floor = convergence.floor == 0 ? nan : convergence.floor;
+  return {label, convergence.steps, convergence.errors, floor, pair_orders(convergence)};
+}
+
 double fitted_order(const Convergence& convergence) {
   require_valid(convergence);
   const auto& [steps, errors, floor] = convergence;

@@ -2,8 +2,12 @@
 // nothing.
 #pragma once
 
+#include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
+#include "verification/figures.h"
 #include "verification/oracles/estimate.h"
 
 namespace foldproof {
@@ -17,10 +21,33 @@ struct Convergence {
   double floor = 0;  // how far each error may be off, its reference being so [unit of the errors]
 };
 
+/// A refinement study in one call: runs each level, coarse to fine, and gives the table of what was measured.
+/// columns: names and units, no rows; run(level) gives a level's row as a std::tuple or std::array, its step
+/// first.
+///
+///   const Table measured = refine({{"width of a cell", "m"}, {"error", "1"}}, doubled(6, 96), [&](int cells) {
+///     return std::tuple{width / cells, error_with(cells)};
+///   });
+template <class Level, class Run>
+Table refine(Table columns, const std::vector<Level>& levels, const Run& run) {
+  for (const Level& level : levels)
+    std::apply([&](const auto&... cells) { columns.row(cells...); }, run(level));
+  return columns;
+}
+
+/// A column of a refinement's table as errors over its first column, the steps; without a floor.
+Convergence convergence_of(const Table& refined, std::string_view errors);
+
 /// log(e_i/e_{i+1}) / log(h_i/h_{i+1}) of each neighbouring pair, n - 1 values; NaN where an error is not
 /// > 0. Throws InputError unless there are as many errors as steps, two at least, and the steps fall and
 /// are > 0.
 std::vector<double> pair_orders(const Convergence& convergence);
+
+/// The same, one a row: the order of the pair that ends there; NaN in the first row.
+std::vector<double> row_orders(const Convergence& convergence);
+
+/// Errors over steps, with the orders of their pairs; without a floor if that is 0.
+Curve curve_of(const std::string& label, const Convergence& convergence);
 
 /// The slope of log error over log step by least squares over all points; NaN where an error is zero or NaN.
 double fitted_order(const Convergence& convergence);

@@ -20,4 +20,11 @@ inline std::vector<double> evenly(double low, double high, int count) {
   return values;
 }
 
+/// coarsest, twice that, and so on, up to finest; 0 < coarsest.
+inline std::vector<int> doubled(int coarsest, int finest) {
+  std::vector<int> values;
+  for (int value = coarsest; value <= finest; value *= 2) values.push_back(value);
+  return values;
+}
+
 }  // namespace foldproof

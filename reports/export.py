@@ -17,6 +17,9 @@ from xml.sax.saxutils import escape, quoteattr
 
 sys.dont_write_bytecode = True
 
+from data.command_line import OneLineParser, require_modules  # noqa: E402
+
+require_modules("export", "numpy", "h5py")
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
@@ -37,7 +40,7 @@ class Body:
 
 def main() -> int:
     """Returns 0 when all is written, 2 when it cannot be."""
-    parser = argparse.ArgumentParser(description="Write a simulation for other programs.")
+    parser = OneLineParser(description="Write a simulation for other programs.")
     parser.add_argument("case", metavar="CASE.h5", type=Path, help="the file of a simulation")
     parser.add_argument("--format", choices=WRITERS, required=True)
     parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the files; made if it is not there")

@@ -9,7 +9,6 @@ A picture holds the simulation's time, how fast it is shown, a scale bar, and th
 from __future__ import annotations
 
 import argparse
-import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -17,6 +16,9 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 
+from data.command_line import OneLineParser, require_modules, require_program  # noqa: E402
+
+require_modules("make_film", "numpy", "h5py", "matplotlib", "PIL")
 import numpy as np  # noqa: E402
 from PIL import Image, ImageDraw, ImageFont  # noqa: E402
 
@@ -50,9 +52,8 @@ class Film:
 def main() -> int:
     """Returns 0 when the films are written, 2 when they cannot be."""
     said = arguments()
+    require_program("make_film", "ffmpeg")
     try:
-        if shutil.which("ffmpeg") is None:
-            raise FilmError("ffmpeg is not there; on Debian it comes with the package ffmpeg")
         outs = [said.out] if said.out else [said.run.with_suffix(".mp4"), said.run.with_suffix(".gif")]
         film = film_of(load_case(said.run), said)
         for out in outs:
@@ -73,7 +74,7 @@ class FilmError(Exception):
 
 def arguments() -> argparse.Namespace:
     """The command line."""
-    parser = argparse.ArgumentParser(description="Make films of one simulation, MP4 and GIF.")
+    parser = OneLineParser(description="Make films of one simulation, MP4 and GIF.")
     parser.add_argument("run", metavar="RUN.h5", type=Path, help="the file of a simulation")
     parser.add_argument("--out", metavar="FILE", type=Path, help="FILE.mp4 or FILE.gif (default: both, beside RUN.h5)")
     parser.add_argument("--field", choices=FIELDS, help="colour the cloth by a field (default: by its two sides)")
@@ -81,16 +82,20 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--fps", metavar="N", type=int, default=30, choices=range(1, 121), help="pictures a second (default: 30)")
     said = parser.parse_args()
     if said.out and said.out.suffix not in (".mp4", ".gif"):
-        parser.error(f"--out {said.out}: a film ends in .mp4 or .gif")
+        parser.error(f"--out {said.out}: the name of a film ends in .mp4 or .gif")
+    if said.out and not said.out.parent.is_dir():
+        parser.error(f"--out {said.out}: there is no folder {said.out.parent}; make it first")
     return said
 
 
 def size_of(text: str) -> tuple[int, int]:
     """Pixels of "1280x720"; H.264 wants even numbers."""
-    width, height = (int(part) for part in text.lower().split("x"))
-    if not (64 <= width <= 4096 and 64 <= height <= 4096) or width % 2 or height % 2:
-        raise ValueError(text)
-    return width, height
+    sides = text.lower().split("x")
+    if len(sides) == 2 and all(side.isascii() and side.isdigit() for side in sides):
+        width, height = (int(side) for side in sides)
+        if 64 <= width <= 4096 and 64 <= height <= 4096 and width % 2 == 0 and height % 2 == 0:
+            return width, height
+    raise argparse.ArgumentTypeError(f"'{text}' is not WIDTHxHEIGHT, even numbers from 64 to 4096")
 
 
 def film_of(case: Case, said: argparse.Namespace) -> Film:

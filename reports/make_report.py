@@ -22,10 +22,13 @@ from typing import Any
 
 sys.dont_write_bytecode = True
 
+from data.command_line import OneLineParser, require_modules, require_program  # noqa: E402
+
+require_modules("make_report", "numpy", "h5py", "matplotlib", "jinja2")
 from data.results import Case, CaseEntry, Run, Study, case_entry_of_file, load_case, load_run  # noqa: E402
 from data.unreadable import Unreadable, told  # noqa: E402
 from data.whole_file import write_whole  # noqa: E402
-from pages.chromium import NoBrowser, find_browser  # noqa: E402
+from pages.chromium import PACKAGE, NoBrowser  # noqa: E402
 from pages.compare import compare, read_side  # noqa: E402
 from pages.hard_cases import findings_by_case  # noqa: E402
 from pages.kill_matrix import load_mutation  # noqa: E402
@@ -52,9 +55,9 @@ Job = tuple[Callable[..., Any], tuple[Any, ...]]
 def main() -> int:
     """Returns 0 when the page is written, 2 when there is nothing to report on, or no browser to print with."""
     said = arguments()
+    if said.pdf:
+        require_program("make_report", PACKAGE)
     try:
-        if said.pdf:
-            find_browser()
         if said.other:
             out = compare_runs(said.dir, said.other, said.out)
         else:
@@ -71,7 +74,7 @@ def main() -> int:
 
 def arguments() -> argparse.Namespace:
     """What was typed."""
-    parser = argparse.ArgumentParser(description="Write the report of a run as one self-contained HTML page; of two "
+    parser = OneLineParser(description="Write the report of a run as one self-contained HTML page; of two "
                                      "runs, what differs.")
     parser.add_argument("dir", metavar="DIR", type=Path, help="folder with run.h5, bench.h5 or case files")
     parser.add_argument("other", metavar="OTHER", type=Path, nargs="?",

@@ -3,8 +3,8 @@
 # .toml, meshes in .obj, runs in .h5, tables in .csv.
 
 # The words of a help text that can be typed: commands, or options.
-_foldproof_commands() { "$1" --help | sed -n '/^Subcommands:/,/^$/ s/^  \([a-z]\+\) .*/\1/p'; }
-_foldproof_options() { "$@" --help 2>/dev/null | grep -o -- '--[a-z][a-z-]*' | sort -u; }
+_foldproof_commands() { "$1" --help | sed -n '/^Commands:/,/^$/ s/^  \([a-z]\+\) .*/\1/p'; }
+_foldproof_options() { "$@" --help 2>/dev/null | sed -n 's/^  \(-., \)\?\(--[a-z-]*\).*/\2/p' | sort -u; }
 
 # What `list` shows under these headings, and the groups before the dots.
 _foldproof_names() {

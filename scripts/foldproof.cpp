@@ -4,10 +4,13 @@
 
 #include <csignal>
 #include <cstdio>
+#include <memory>
 #include <new>
 
+#include "scripts/program/command_line/command_line.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/data_folder.h"
+#include "scripts/program/command_line/help_texts.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/oracles/golden.h"
@@ -15,111 +18,100 @@
 namespace foldproof {
 namespace {
 
-constexpr const char* examples = R"(Examples:
-  foldproof verify                                    everything of the quick tier, and the report results/report.html
-  foldproof simulate hanging_sheet --set bending.stiffness=1e-3 --out results
-  foldproof simulate any_mesh --set cloth.mesh=body.obj
-  foldproof inspect body.obj                          is it closed, oriented, without intersections?
-  foldproof simulate drape_statue --set object.mesh=body.obj --cache cache
-  foldproof crossings results/fast.h5                 does the cloth pass through itself? Of OBJ files, too
-  foldproof project results/half_inside.h5 --map blend --tau 0.01
-  foldproof ablate grab                               which of its parts does this scene need?
-  foldproof check bending                             all checks of bending
-  foldproof check bending.forces-sum-to-zero --json   one of them, for another program
-  foldproof study time-order.hinge                    one study
-  foldproof claims                                    the paper's claims and their rulings in the last run
-  foldproof claims B10                                one of them: why, and the findings that decide it
-  foldproof evaluate bending hinges.csv               forces of your hinges, in 17 digits
-Exit code: 0 all hold, 1 something fails, 2 bad input.)";
-
-constexpr const char* evaluate_help =
-    R"(Prints the bending forces of single hinges, to compare another code with. Each row of FILE has 27 comma-separated numbers:
-  x1 x2 x3 x4 (12 position components [m]), v1 v2 v3 v4 (12 velocity components [m/s]), ke [J], kd [N s], theta0 [rad].
-Output: 12 elastic and 12 damping force components [N] in 17 digits. The weight |E|^2/(|N1|+|N2|) is taken at the current positions, or, with --rest, at
-the rest positions: rows of 12 numbers.)";
-
-constexpr const char* golden_help =
-    R"(Prints a heading, then rows of numbers in 17 digits; vectors are three columns, NAME_x, NAME_y, NAME_z. With --json also what each column
-is, its unit, and the formula. All outputs were computed with 50 digits and rounded once. verification/GOLDEN.md has examples in Python
-and C++.)";
-
-constexpr const char* queries_help =
-    R"(A row of FILE is a point: numerator and denominator of x, y and z, and 1 if the query meets, else 0, all whole numbers. Eight rows are a query: four
-points at the start of a motion in straight lines, the same four at its end. vertex-face: the vertex, then the triangle's corners. edge-edge: the ends of the
-first edge, then of the second. Exit code 1: the reference misses a meeting, or the exact judge does not agree with the file.)";
-
-constexpr const char* ablate_help =
-    R"(Runs the case as it is, with half the step, and with triangles of half the size: by how much that moves its particles is its own error. Then once
-without each part that it names, and once with each that it does not name and that needs no numbers from its author: self-collision, strain limits, points between
-particles. A part is needed, or missing, if without it particles move by more than the scene's own error, the run comes to no end, an expectation of the case
-fails or has no meaning, the cloth crosses itself, or lies deeper in an object by more than that error. The table [ablation] of a case file may say why a part
-is there, or left out, all the same; name a coarser mesh instead of a finer one that would take hours; and ask of the beginning of a long run only. Exit code 1
-(and a mark !): a part is not needed, or one is missing, and the case does not say why; or it says so needlessly; or the scene itself comes to no end, or fails what
-it expects.)";
-
-constexpr const char* converge_help =
-    R"(Runs the case as it is, then with every step halved, and halved again. For each quantity: the order by which differences
-between levels fall, Richardson's limit, and the grid convergence index as error bar (safety 1.25 where the order has settled, else 3). Quantities are those of
-the case's [[quantity]] tables; without any: positions, energies, heights, and what its [expect] asks. Exit code 1: the order of the positions is inconclusive.)";
-
-constexpr const char* project_help =
-    R"(Prints how many points were moved, and of the last frame how much of the wrinkles is left: the standard deviation of the depths of points that were
-inside, and where the spectrum of the depth along a section of the cloth is largest, before, after plain projection, and after the map. Points between two
-objects are left alone. Points end at most tau/10^6 farther out than the map says. Exit code 1: some points found no room between objects.)";
-
-constexpr const char* case_words =
-    "Case file (cases/KEYS.md), or a shipped case, as `foldproof list` names them";
-
 std::string typed(int argc, char** argv) {
   std::string command = program_command();
   for (int k = 1; k < argc; ++k) command += std::string(" ") + argv[k];
   return command;
 }
 
+constexpr const char* case_words =
+    "Case file, NAME.toml (cases/KEYS.md), or a shipped case, as `foldproof list` names them";
+
+/// A command as its help shows it: `what` it does in a line, and what stands below its options.
+struct CommandText {
+  const char* name;
+  const char* what;
+  const char* below;
+};
+
 /// A command that runs `run` when it was typed.
-CLI::App* add_command(CLI::App& app, Options& options, const std::string& name, const std::string& what,
-                      int (*run)(const Options&)) {
-  CLI::App* command = app.add_subcommand(name, what);
+CLI::App* add_command(CLI::App& app, Options& options, const CommandText& text, int (*run)(const Options&)) {
+  CLI::App* command = app.add_subcommand(text.name, text.what);
+  command->footer(text.below);
+  command->group("Commands");
   command->callback([&options, run] { options.run = run; });
   return command;
 }
 
 void add_json(CLI::App* command, Options& options) {
-  command->add_flag("--json", options.json, "Print JSON on standard output");
+  command->add_flag("--json", options.json, "Print JSON on standard output")->disable_flag_override();
+}
+
+CLI::Option* add_switch(CLI::App* command, const std::string& name, bool& value, const std::string& what) {
+  return command->add_flag(name, value, what)->disable_flag_override();
+}
+
+/// Input files that a command needs.
+template <class Files>
+CLI::Option* add_input(CLI::App* command, const std::string& name, Files& files, const std::string& what) {
+  return command->add_option(name, files, what)->check(some_text("a file or folder"))->required();
+}
+
+CLI::Option* add_folder(CLI::App* command, Options& options, const std::string& what) {
+  return command->add_option("--out", options.out, what)->type_name("DIR")->check(some_text("a folder"));
 }
 
 void add_tier(CLI::App* command, Options& options) {
-  command->add_option("--tier", options.tier, "quick or full")
-      ->check(CLI::IsMember({"quick", "full"}))
+  command->add_option("--tier", options.tier, "quick (minutes) or full (hours)")
+      ->type_name("TIER")
+      ->check(one_of({"quick", "full"}))
       ->capture_default_str();
 }
 
-void add_folder(CLI::App* command, Options& options, const std::string& what) {
-  command->add_option("--out", options.out, what)->capture_default_str();
+void add_overrides(CLI::App* command, Options& options) {
+  command
+      ->add_option("--set", options.overrides,
+                   "Override a key of the case file, such as time.end=2; may be given again")
+      ->type_name("TABLE.KEY=VALUE")
+      ->check(some_text("table.key=value"))
+      ->allow_extra_args(false);
 }
 
 /// Level sets are kept only where a folder is named: a run leaves nothing behind that it was not asked for.
 void add_cache(CLI::App* command, Options& options) {
-  command->add_option(
-      "--cache", options.cache,
-      "Folder that keeps the level sets of meshes for later runs; the results are the same to the bit");
+  command
+      ->add_option(
+          "--cache", options.cache,
+          "Keep the level sets of meshes in this folder for later runs; the results are the same to the bit")
+      ->type_name("DIR")
+      ->check(some_text("a folder"));
+}
+
+void add_threads(CLI::App* command, Options& options) {
+  command->add_option("--threads", options.running.threads, "Jobs at a time (default: one a core)")
+      ->type_name("N")
+      ->check(whole_number(1, 1024));
 }
 
 /// How checks, studies and cases are run, and on which samples.
 void add_running(CLI::App* command, Options& options) {
   command
       ->add_option("--seed", options.seed_shift,
-                   "Shifts the seeds of all random samples: 0 for those that the project is judged by")
-      ->check(CLI::Range(0, 1'000'000'000))
+                   "Shifts the seeds of all random samples, 0 to 1000000000; the project is judged by 0")
+      ->type_name("N")
+      ->check(whole_number(0, 1'000'000'000))
       ->capture_default_str();
-  command->add_option("--threads", options.running.threads, "Jobs at a time (default: one a core)");
-  command->add_option("--order", options.running.order,
-                      "Shuffles the jobs, each number in another way (default: the longest first)");
+  add_threads(command, options);
+  command
+      ->add_option("--order", options.running.order,
+                   "Shuffle the jobs, each number in another way (default: the longest first)")
+      ->type_name("N")
+      ->check(whole_number(0, 1'000'000'000));
 }
 
 /// --out that has no value where it was not typed.
 void add_out_if_typed(CLI::App* command, Options& options, const std::string& what) {
-  command->add_option("--out", options.out, what);
+  add_folder(command, options, what);
   command->parse_complete_callback([&options, command] {
     if (command->count("--out") == 0) options.out = "";
   });
@@ -128,8 +120,9 @@ void add_out_if_typed(CLI::App* command, Options& options, const std::string& wh
 /// check and study: they write files only if a folder is named.
 void add_selections(CLI::App& app, Options& options) {
   for (CLI::App* command :
-       {add_command(app, options, "check", "Run checks (all, or those named)", run_checks),
-        add_command(app, options, "study", "Run studies (all, or those named)", run_studies)}) {
+       {add_command(app, options, {"check", "Run checks (all, or those named)", help::check}, run_checks),
+        add_command(app, options, {"study", "Run studies (all, or those named)", help::study},
+                    run_studies)}) {
     command->add_option("NAME", options.names, "Names or groups, as `foldproof list` shows them");
     add_out_if_typed(command, options, "Also write run.h5, verdicts.json and junit.xml into this folder");
     add_running(command, options);
@@ -138,179 +131,232 @@ void add_selections(CLI::App& app, Options& options) {
   }
 }
 
-void add_runs(CLI::App& app, Options& options) {
-  CLI::App* simulate =
-      add_command(app, options, "simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf", simulate_case);
-  simulate->add_option("CASE", options.file, case_words)->required();
-  simulate->add_option("--set", options.overrides, "Override a key: table.key=value")
-      ->allow_extra_args(false);
-  CLI::Option* resume = simulate->add_flag(
-      "--resume", options.resumes,
-      "Go on from the last checkpoint of a run that was interrupted; the results are the same to the bit");
-  simulate->add_flag("--restart", options.restarts,
-                     "Start over, and delete the checkpoints of a run that was interrupted")
+void add_simulate(CLI::App& app, Options& options) {
+  CLI::App* simulate = add_command(
+      app, options, {"simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf", help::simulate},
+      simulate_case);
+  add_input(simulate, "CASE", options.file, case_words);
+  add_overrides(simulate, options);
+  CLI::Option* resume =
+      add_switch(simulate, "--resume", options.resumes,
+                 "Go on from the last checkpoint of an interrupted run; the results are the same to the bit");
+  add_switch(simulate, "--restart", options.restarts, "Start over; deletes checkpoints of an interrupted run")
       ->excludes(resume);
-  CLI::App* everything = add_command(app, options, "verify",
-                                     "All checks, studies and cases, the claims, and the report", verify);
-  everything->add_flag("--no-report", options.no_report, "Write the results only");
-  everything->add_flag("--no-bench", options.no_bench, "Measure no speeds");
+  add_cache(simulate, options);
+  add_folder(simulate, options, "Folder for results")->capture_default_str();
+  add_json(simulate, options);
+}
+
+void add_runs(CLI::App& app, Options& options) {
+  add_simulate(app, options);
+  CLI::App* everything = add_command(
+      app, options, {"verify", "Run all checks, studies and cases; rule the claims, write the report", help::verify},
+      verify);
+  add_switch(everything, "--no-report", options.no_report, "Write the results only");
+  add_switch(everything, "--no-bench", options.no_bench, "Measure no speeds");
   add_running(everything, options);
   add_tier(everything, options);
-  CLI::App* speed =
-      add_command(app, options, "bench", "Measure speed and memory; writes bench.h5", run_bench);
-  speed->add_flag("--quick", options.quick, "Up to 100k particles instead of a million");
-  for (CLI::App* command : {simulate, everything}) add_cache(command, options);
-  for (CLI::App* command : {simulate, everything, speed}) {
-    add_folder(command, options, "Folder for results");
+  CLI::App* speed = add_command(app, options,
+                                {"bench", "Measure speed and memory; writes bench.h5", help::bench}, run_bench);
+  add_switch(speed, "--quick", options.quick, "Up to 100k particles instead of a million");
+  add_cache(everything, options);
+  for (CLI::App* command : {everything, speed}) {
+    add_folder(command, options, "Folder for results")->capture_default_str();
     add_json(command, options);
   }
 }
 
 void add_ablate(CLI::App& app, Options& options) {
-  CLI::App* ablate =
-      add_command(app, options, "ablate",
-                  "Which of its parts does a case need, which does it lack, and what does "
-                  "each cost? Writes ablation.json, where what this program found of other cases stays",
-                  ::foldproof::ablate);
-  ablate->footer(ablate_help);
-  ablate->add_option("CASE", options.names, "Case files, or names of shipped cases (default: all of the tier)");
+  CLI::App* ablate = add_command(app, options,
+                                 {"ablate",
+                                  "Which of its parts does a case need, and which does it lack? Adds to ablation.json",
+                                  help::ablate},
+                                 ::foldproof::ablate);
+  ablate->add_option("CASE", options.names, "Case files, or names of shipped cases (default: all of the tier)")
+      ->check(some_text("a case file"));
   add_tier(ablate, options);
-  ablate->add_option("--set", options.overrides, "Override a key: table.key=value")->allow_extra_args(false);
-  ablate->add_option("--threads", options.running.threads, "Runs at a time (default: one a core)");
+  add_overrides(ablate, options);
+  add_threads(ablate, options);
   add_cache(ablate, options);
-  add_folder(ablate, options, "Folder for ablation.json");
+  add_folder(ablate, options, "Folder for ablation.json")->capture_default_str();
   add_json(ablate, options);
+}
+
+void add_converge(CLI::App& app, Options& options) {
+  CLI::App* converge = add_command(
+      app, options,
+      {"converge", "How large is the error that a case owes to its step? Order, limit and error bar",
+       help::converge},
+      ::foldproof::converge);
+  add_input(converge, "CASE", options.file, case_words);
+  converge->add_option("--levels", options.levels, "Runs, 3 to 12, each with half the steps of the one before")
+      ->type_name("N")
+      ->check(whole_number(3, 12))
+      ->capture_default_str();
+  converge->add_option("--method", options.methods, "Integrator in place of the case's own")
+      ->type_name("METHOD")
+      ->check(some_text("an integrator"))
+      ->allow_extra_args(false);
+  converge->add_option("--until", options.until, "Ask only the beginning of the run, up to this time [s]")
+      ->type_name("TIME")
+      ->check(positive_number());
+  add_overrides(converge, options);
+  add_folder(converge, options, "Folder whose store/ keeps every run; a second call makes only what is missing")
+      ->capture_default_str();
+  add_cache(converge, options);
+  add_threads(converge, options);
+  add_json(converge, options);
+}
+
+CLI::Option* add_length(CLI::App* command, const std::string& name, double& value, const std::string& what) {
+  return command->add_option(name, value, what)->type_name("LENGTH")->check(finite_number());
 }
 
 void add_project(CLI::App& app, Options& options) {
   CLI::App* project = add_command(
-      app, options, "project", "Bring the cloth of a stored run out of its objects; writes NAME_projected.h5",
+      app, options,
+      {"project", "Bring the cloth of a stored run out of its objects; writes NAME_projected.h5", help::project},
       project_run);
-  project->footer(project_help);
-  project->add_option("RUN.h5", options.file, "What `foldproof simulate` wrote")->required();
+  add_input(project, "RUN.h5", options.file, "What `foldproof simulate` wrote");
   project->add_option("--map", options.map, "Map of depth: plain, power or blend")
-      ->check(CLI::IsMember({"plain", "power", "blend"}))
+      ->type_name("MAP")
+      ->check(one_of({"plain", "power", "blend"}))
       ->required();
-  project->add_option("--tau", options.reach, "Points up to so far outside are moved [m]")->required();
-  project->add_option("--eps", options.eps, "How far out the deepest points come to lie [m]")
-      ->capture_default_str();
-  project->add_option(
-      "--deepest", options.deepest,
-      "Deepest penetration that is told from deeper ones [m] (default: the deepest in the run)");
-  project->add_option("--subdivide", options.levels, "Levels of subdivision before the projection, 0 to 8")
+  add_length(project, "--tau", options.reach, "Points up to so far outside are moved [m]")->required();
+  add_length(project, "--eps", options.eps, "How far out the deepest points come to lie [m]")->capture_default_str();
+  add_length(project, "--deepest", options.deepest,
+             "Depths [m] beyond this are treated alike (default: the deepest in the run)");
+  project->add_option("--subdivide", options.subdivisions, "Levels of subdivision before the projection, 0 to 8")
+      ->type_name("N")
+      ->check(whole_number(0, 8))
       ->capture_default_str();
   project->add_option("--rule", options.rule, "Rule of subdivision: loop or midpoint")
-      ->check(CLI::IsMember({"loop", "midpoint"}))
+      ->type_name("RULE")
+      ->check(one_of({"loop", "midpoint"}))
       ->capture_default_str();
   add_cache(project, options);
-  add_folder(project, options, "Folder for the projected run");
+  add_folder(project, options, "Folder for the projected run")->capture_default_str();
   add_json(project, options);
+}
+
+void add_film(CLI::App& app, Options& options) {
+  CLI::App* film = add_command(
+      app, options, {"film", "Make a film of a stored run (MP4 and GIF, by ffmpeg)", help::film}, make_film);
+  add_input(film, "RUN.h5", options.file, "What `foldproof simulate` wrote");
+  film->add_option("--field", options.field,
+                   "Colour the cloth by strain [1], angle [rad], phi [m] or speed [m/s] (default: by its sides)")
+      ->type_name("FIELD")
+      ->check(one_of({"strain", "angle", "phi", "speed"}));
+  film->add_option("--size", options.size, "Width and height in pixels (default: 1280x720)")
+      ->type_name("WxH")
+      ->check(some_text("a size, such as 1280x720"));
+  film->add_option("--fps", options.fps, "Pictures a second, 1 to 120 (default: 30)")
+      ->type_name("N")
+      ->check(whole_number(1, 120));
+  add_out_if_typed(film, options, "FILE.mp4 or FILE.gif (default: both, beside RUN.h5)");
+  film->get_option("--out")->type_name("FILE");
 }
 
 /// What reports/ makes of stored results.
 void add_pages(CLI::App& app, Options& options) {
-  CLI::App* report =
-      add_command(app, options, "report",
-                  "Make DIR/report.html from stored results; of two folders, say what differs", make_report);
-  report->add_option("DIR", options.names, "Folder with run.h5 or case files; two of them are compared")
-      ->required()
+  CLI::App* report = add_command(
+      app, options,
+      {"report", "Make DIR/report.html from stored results; of two folders, say what differs", help::report},
+      make_report);
+  add_input(report, "DIR", options.names, "Folder with run.h5 or case files; two of them are compared")
       ->expected(1, 2);
-  report->add_flag("--pdf", options.pdf, "Also DIR/report.pdf, printed by Chromium");
-  report->add_flag("--papers", options.papers,
-                   "Figures and pictures also as PDF and PNG files, in DIR/figures");
-  CLI::App* film =
-      add_command(app, options, "film", "Make a film of a stored run (MP4 and GIF, by ffmpeg)", make_film);
-  film->add_option("RUN.h5", options.file, "What `foldproof simulate` wrote")->required();
-  film->add_option("--field", options.field, "Colour the cloth by strain, angle, phi or speed");
-  film->add_option("--size", options.size, "Pixels, such as 1280x720");
-  film->add_option("--fps", options.fps, "Pictures a second");
-  add_out_if_typed(film, options, "FILE.mp4 or FILE.gif (default: both, beside RUN.h5)");
+  add_switch(report, "--pdf", options.pdf, "Also DIR/report.pdf, printed by chromium");
+  add_switch(report, "--papers", options.papers,
+             "Figures and pictures also as PDF and PNG files, in DIR/figures");
+  add_film(app, options);
   CLI::App* files = add_command(
-      app, options, "export", "Write the frames of a stored run as files for other programs", export_frames);
-  files->add_option("RUN.h5", options.file, "What `foldproof simulate` wrote")->required();
+      app, options,
+      {"export", "Write the frames of a stored run as files for other programs", help::export_frames},
+      export_frames);
+  add_input(files, "RUN.h5", options.file, "What `foldproof simulate` wrote");
   files->add_option("--format", options.kind, "obj, ply or xdmf")
-      ->check(CLI::IsMember({"obj", "ply", "xdmf"}))
+      ->type_name("FORMAT")
+      ->check(one_of({"obj", "ply", "xdmf"}))
       ->required();
-  files->add_option("--out", options.out, "Folder for the files")->required();
+  add_folder(files, options, "Folder for the files")->required();
+}
+
+void add_golden(CLI::App& app, Options& options) {
+  CLI::App* golden = add_command(app, options,
+                                 {"golden",
+                                  "Print inputs and outputs of a formula, right to the last digit, for unit tests "
+                                  "of yours",
+                                  help::golden},
+                                 print_golden_values);
+  golden
+      ->add_option("TABLE", options.file,
+                   "bending, springs, integrator, forecast, friction, projection or sticking")
+      ->required()
+      ->check(one_of(golden_names()));
+  golden->add_option("--count", options.count, "Rows")
+      ->type_name("N")
+      ->check(whole_number(1, 1'000'000'000))
+      ->capture_default_str();
+  golden->add_option("--seed", options.seed, "The same rows for the same number")
+      ->type_name("N")
+      ->check(whole_number(0, 4'294'967'295))
+      ->capture_default_str();
+  add_json(golden, options);
+}
+
+void add_evaluate(CLI::App& app, Options& options) {
+  CLI::App* evaluate = app.add_subcommand("evaluate", "Evaluate a formula on your numbers");
+  evaluate->group("Commands");
+  evaluate->require_subcommand(0, 1);
+  evaluate->footer(help::evaluate);
+  CLI::App* bending = add_command(
+      *evaluate, options, {"bending", "Forces of single hinges from a CSV file", help::evaluate_bending},
+      evaluate_hinges);
+  add_input(bending, "FILE", options.file, "CSV, 27 columns");
+  bending->add_option("--rest", options.rest_file, "CSV, 12 columns: rest positions [m], for rest weighting")
+      ->type_name("FILE")
+      ->check(some_text("a file"));
+  CLI::App* queries = add_command(
+      *evaluate, options,
+      {"crossings", "Moving features that meet, or not: the reference and the exact judge against a file's word",
+       help::evaluate_crossings},
+      evaluate_queries);
+  add_input(queries, "FILE,--ccd-data", options.file,
+            "CSV, 7 columns, 8 rows a query, or a folder of such files")
+      ->type_name("FILE");
+  queries->add_option("--kind", options.kind, "vertex-face or edge-edge (default: as the path says)")
+      ->type_name("KIND")
+      ->check(one_of({"vertex-face", "edge-edge"}));
+  add_length(queries, "--keep", options.keep, "Distance that the reference is to keep [m]")->capture_default_str();
 }
 
 void add_readers(CLI::App& app, Options& options) {
-  add_json(add_command(app, options, "list", "What there is: checks, studies, cases, integrators", list),
+  add_json(add_command(app, options,
+                       {"list", "Show what there is: checks, studies, cases, integrators", help::list}, list),
            options);
-  CLI::App* claims =
-      add_command(app, options, "claims", "What a finished run says of the paper's claims", show_claims);
+  CLI::App* claims = add_command(
+      app, options, {"claims", "Show what a finished run says of the papers' claims", help::claims}, show_claims);
   claims->add_option("ID", options.names, "One claim, such as T17: why, and the findings that decide it");
-  add_folder(claims, options, "Folder of the finished run");
+  add_folder(claims, options, "Folder of the finished run")->capture_default_str();
   add_json(claims, options);
   add_pages(app, options);
-  CLI::App* mesh = add_command(
-      app, options, "inspect",
-      "What a mesh is good for as a body; exit code 1: it is no solid, or opinions differ", inspect);
-  mesh->add_option("MESH.obj", options.file, "An OBJ file")->required();
-  mesh->add_option("--cells", options.cells, "Of the grid that is looked at, along the longest side")
-      ->check(CLI::Range(4, 1000))
+  CLI::App* mesh =
+      add_command(app, options, {"inspect", "Is a mesh good for a body?", help::inspect}, inspect);
+  add_input(mesh, "MESH.obj", options.file, "An OBJ file");
+  mesh->add_option("--cells", options.cells, "Cells of the grid that is looked at, along the longest side")
+      ->type_name("N")
+      ->check(whole_number(4, 1000))
       ->capture_default_str();
   add_json(mesh, options);
-  CLI::App* crossings = add_command(app, options, "crossings",
-                                    "Edges and triangles of a cloth that meet, decided exactly, in every "
-                                    "frame; exit code 1: there are some",
-                                    show_crossings);
-  crossings->add_option("FILE", options.names, "Stored runs (.h5), or meshes (.obj), each a frame")
-      ->required();
+  CLI::App* crossings = add_command(
+      app, options,
+      {"crossings", "Find edges and triangles of a cloth that cross in any frame, decided exactly",
+       help::crossings},
+      show_crossings);
+  add_input(crossings, "FILE", options.names, "Stored runs (.h5), or meshes (.obj), each a frame");
   add_json(crossings, options);
-  CLI::App* golden =
-      add_command(app, options, "golden",
-                  "Inputs and outputs of a formula, right to the last digit, for unit tests of yours",
-                  print_golden_values);
-  golden->footer(golden_help);
-  golden
-      ->add_option("TABLE", options.file,
-                   "bending, springs, integrator, forecast, friction, projection, sticking")
-      ->required()
-      ->check(CLI::IsMember(golden_names()));
-  golden->add_option("--count", options.count, "Rows")->check(CLI::PositiveNumber)->capture_default_str();
-  golden->add_option("--seed", options.seed, "The same rows for the same number")->capture_default_str();
-  add_json(golden, options);
-  CLI::App* evaluate = app.add_subcommand("evaluate", "Evaluate a formula on your numbers");
-  evaluate->require_subcommand(0, 1);
-  CLI::App* bending =
-      add_command(*evaluate, options, "bending", "Forces of single hinges from a CSV file", evaluate_hinges);
-  bending->footer(evaluate_help);
-  bending->add_option("FILE", options.file, "CSV, 27 columns")->required();
-  bending->add_option("--rest", options.rest_file, "CSV, 12 columns: rest positions, for rest weighting");
-  CLI::App* queries = add_command(
-      *evaluate, options, "crossings",
-      "Moving features that meet, or not: the reference and the exact judge against a file's word",
-      evaluate_queries);
-  queries->footer(queries_help);
-  queries
-      ->add_option("FILE,--ccd-data", options.file,
-                   "CSV, 7 columns, 8 rows a query, or a folder of such files")
-      ->required();
-  queries->add_option("--kind", options.kind, "vertex-face or edge-edge; without it the path says which")
-      ->check(CLI::IsMember({"vertex-face", "edge-edge"}));
-  queries->add_option("--keep", options.keep, "What the reference is to keep apart [m]")
-      ->capture_default_str();
-}
-
-void add_converge(CLI::App& app, Options& options) {
-  CLI::App* command =
-      add_command(app, options, "converge",
-                  "How large is the error that a case owes to its step? Order, limit and error bar of its quantities",
-                  converge);
-  command->footer(converge_help);
-  command->add_option("CASE", options.file, case_words)->required();
-  command->add_option("--levels", options.levels, "Runs, each with half the steps of the one before")
-      ->check(CLI::Range(3, 12))
-      ->default_val(4);
-  command->add_option("--method", options.methods, "Integrator in place of the case's own");
-  command->add_option("--until", options.until, "Ask only the beginning of the run, up to this time [s]")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--set", options.overrides, "Override a key: table.key=value")->allow_extra_args(false);
-  add_folder(command, options, "Folder whose store/ keeps every run; a second call makes only what is missing");
-  add_cache(command, options);
-  command->add_option("--threads", options.running.threads, "Runs at a time (default: one a core)");
-  add_json(command, options);
+  add_golden(app, options);
+  add_evaluate(app, options);
 }
 
 int run(int argc, char** argv) {
@@ -320,24 +366,25 @@ int run(int argc, char** argv) {
   CLI::App app(
       "Verification suite and reference implementation for cloth simulation, after Bridson, Marino, Fedkiw "
       "(2003).");
-  app.footer(examples);
+  app.footer(help::whole_program);
+  app.formatter(std::make_shared<PlainHelp>());
   app.require_subcommand(0, 1);  // a word that is none is named, rather than said to be missing
   app.set_version_flag("--version", [] {
     const Provenance p = provenance("");
     return fmt::format("foldproof {} ({}, {})", p.version, p.commit, p.tree);
   });
-  add_readers(app, options);
   add_runs(app, options);
+  add_selections(app, options);
+  add_readers(app, options);
   add_ablate(app, options);
   add_converge(app, options);
   add_project(app, options);
-  add_selections(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? all_hold : bad_input;
+    return end_parse(app, error);
   }
-  if (!options.run) return app.exit(CLI::RequiredError("A subcommand")), bad_input;
+  if (!options.run) return refuse_missing_command(app);
   return options.run(options);
 }
 

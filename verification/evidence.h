@@ -1,8 +1,12 @@
-// Numbers behind a verdict: columns with units, tables of them, and maxima that keep NaN.
+// Numbers behind a verdict: tables of named columns with units, and maxima that keep NaN.
 #pragma once
 
+#include <concepts>
+#include <cstddef>
+#include <initializer_list>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -14,16 +18,85 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// The unit that roundings are counted in.
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// One column of evidence; the columns of a finding have the same length.
+/// One column of a table; the columns of a table have the same length.
 struct Column {
   std::string name, unit;
-  std::variant<std::vector<double>, std::vector<std::string>> values;
+  std::variant<std::vector<double>, std::vector<std::string>> values = {};
+  double uncertainty = 0;  // the largest of its numbers, in `unit`; NaN if any is
 };
 
-struct Table {
-  std::string name, title;
-  std::vector<Column> columns;
+/// A number and how far it may be off, as oracles::Estimate.
+template <class Number>
+concept Estimated = requires(const Number& number) {
+  { number.value } -> std::convertible_to<double>;
+  { number.uncertainty } -> std::convertible_to<double>;
 };
+
+/// One entry of a row: a text, or a number with its uncertainty.
+struct Cell {
+  template <class Number>
+  requires std::integral<Number> || std::floating_point<Number> Cell(Number number) : value(double(number)) {}
+  template <Estimated Number>
+  Cell(const Number& number) : value(double(number.value)), uncertainty(double(number.uncertainty)) {}
+  template <class Text>
+  requires std::convertible_to<Text, std::string_view> Cell(const Text& text)
+      : value(std::string(std::string_view(text))) {}
+
+  std::variant<double, std::string> value;
+  double uncertainty = 0;
+};
+
+/// Rows of numbers and texts: the evidence of a finding, or a table of a study.
+///
+///   Table table{{"step", "s"}, {"error", "m"}};
+///   for (const double h : steps) table.row(h, error_of(h));
+///   return judged_worst(table, 1e-12, "five roundings a step");
+///
+/// The first row decides which columns hold texts. What does not fit, in number or type, and a column that
+/// is not there throw std::logic_error with the names of the table and its columns.
+class Table {
+ public:
+  std::string name, title;  // of a study's table; evidence needs none
+
+  Table() = default;
+  Table(std::initializer_list<Column> columns) : Table(std::vector<Column>(columns)) {}
+  Table(std::vector<Column> columns);
+  Table(std::string name, std::string title, Table rows);
+
+  /// Adds a row: one number, text or Estimate for each column, in their order.
+  template <class... Cells>
+  void row(const Cells&... cells) {
+    append({Cell(cells)...});
+  }
+
+  /// Adds a column, as long as those that are there.
+  void add(Column column);
+
+  const std::vector<Column>& columns() const { return columns_; }
+  size_t rows() const;
+
+  const Column& column(std::string_view name) const;
+  const std::vector<double>& numbers(std::string_view column) const;
+  std::vector<std::string> texts(std::string_view column) const;
+
+  /// The largest number of a column, or 0 if all are below it; NaN if any is, or if there is none.
+  double worst(std::string_view column) const;
+
+  /// The first row with that number, or the first NaN; the table must have rows, one not below 0.
+  size_t worst_row(std::string_view column) const;
+
+ private:
+  void append(std::initializer_list<Cell> cells);
+  [[noreturn]] void refuse(const std::string& why) const;
+
+  std::vector<Column> columns_;
+};
+
+/// For numbers measured case by case in multiples of epsilon times a scale: columns "case" and "measured".
+Table roundings_of(const std::string& scale);
+
+/// The largest value with its sign; NaN if any is, or if there is none.
+double signed_largest(const std::vector<double>& values);
 
 /// A maximum that keeps NaN: once a NaN was seen, it stays.
 class Worst {

@@ -23,7 +23,15 @@ struct Curve {
   std::vector<double> pair_orders;  // observed order of each neighbouring pair; empty if orders make no sense
   double slope = nan;               // expected of this curve in log-log, NaN: none
   std::vector<Mark> marks = {};     // one a point; empty: all measured
+
+  void point(double at, double value) {
+    x.push_back(at);
+    y.push_back(value);
+  }
 };
+
+/// Two columns of a table as a curve, without a floor.
+Curve curve_of(const std::string& label, const Table& table, std::string_view x, std::string_view y);
 
 enum class Scale { linear, log };
 

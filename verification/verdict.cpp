@@ -53,6 +53,18 @@ std::string_view outcome_text(const Record& record) {
   return did_not_run(record) ? "did not run" : "measured";
 }
 
+Finding judged_worst(Table evidence, std::string_view column, double bound, std::string why_bound,
+                     std::string note) {
+  const Column& judged = evidence.column(column);
+  const Verdict verdict{evidence.worst(column), bound, judged.uncertainty, judged.unit, std::move(why_bound)};
+  return {verdict, std::move(evidence), std::move(note)};
+}
+
+Finding judged_worst(Table evidence, double bound, std::string why_bound, std::string note) {
+  const std::string last = evidence.columns().back().name;
+  return judged_worst(std::move(evidence), last, bound, std::move(why_bound), std::move(note));
+}
+
 Record judged(Record record, const std::function<Finding()>& act) {
   const Clock clock;
   try {

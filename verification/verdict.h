@@ -32,9 +32,17 @@ Outcome outcome_of(const Verdict& verdict);
 
 struct Finding {
   Verdict verdict;
-  std::vector<Column> evidence;
+  Table evidence;
   std::string note;  // what a reader has to know beside the numbers; may be empty
 };
+
+/// Judges the worst number of a column (Table::worst), with the largest uncertainty of the column, against a
+/// bound in the column's unit.
+Finding judged_worst(Table evidence, std::string_view column, double bound, std::string why_bound,
+                     std::string note = "");
+
+/// The same of the table's last column.
+Finding judged_worst(Table evidence, double bound, std::string why_bound, std::string note = "");
 
 /// A property that the subject must have. `run` may throw NotOffered.
 struct Check {

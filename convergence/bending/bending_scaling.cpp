@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convergence/order.h"
+#include "convergence/ranges.h"
 #include "convergence/bending/studies.h"
 #include "reference/mesh/shapes.h"
 #include "verification/subject.h"
@@ -52,19 +53,22 @@ double dissipation(const Subject& subject, int cells, DampingFactor factor) {
   return -force.cwiseProduct(s.v).sum() / (width * width * rate * rate);
 }
 
-NamedFinding finding_of(const Factor& factor, const Convergence& measured) {
-  const Estimate deviation = order_deviation(measured, factor.expected, 1);
-  std::vector<double> orders = pair_orders(measured);
-  orders.insert(orders.begin(), nan);
+/// The dissipation of ever finer sheets.
+Table refined(const Subject& subject, const Factor& factor, int finest) {
+  return refine({{"width of a cell", "m"}, {"dissipation per area and squared rate", "N m s"}},
+                doubled(6, finest), [&](int cells) {
+                  return std::tuple{width / cells, dissipation(subject, cells, factor.factor)};
+                });
+}
+
+NamedFinding finding_of(const Factor& factor, Table measured, const Convergence& errors) {
+  const Estimate deviation = order_deviation(errors, factor.expected, 1);
+  measured.add({"order of the pair", "1", row_orders(errors)});
   const Verdict verdict{deviation.value, 0.05, 0, "1",
                         "the border has no hinges, which takes a share of about one cell in the sheet's "
                         "width: at the finest meshes that "
                         "share, and with it the order's error, is below a twentieth"};
-  Finding finding{verdict,
-                  {{"width of a cell", "m", measured.steps},
-                   {"dissipation per area and squared rate", "N m s", measured.errors},
-                   {"order of the pair", "1", orders}},
-                  "measured is |order - expected| of the last pair"};
+  Finding finding{verdict, std::move(measured), "measured is |order - expected| of the last pair"};
   const std::string claim = factor.expected == 1
                                 ? "With the factor |E| as printed, the dissipation at a given rate of "
                                   "curvature falls in proportion to the cells' width."
@@ -85,15 +89,11 @@ StudyResult run_bending_scaling(const Subject& subject, Tier tier, const Progres
                 {}};
   double done = 0;
   for (const Factor& factor : factors()) {
-    Convergence measured;
-    for (int cells = 6; cells <= finest; cells *= 2) {
-      measured.steps.push_back(width / cells);
-      measured.errors.push_back(dissipation(subject, cells, factor.factor));
-    }
+    const Table measured = refined(subject, factor, finest);
+    const Convergence errors = convergence_of(measured, "dissipation per area and squared rate");
     progress(++done / double(factors().size()));
-    result.findings.push_back(finding_of(factor, measured));
-    figure.curves.push_back(
-        {"factor " + factor.words, measured.steps, measured.errors, nan, pair_orders(measured)});
+    result.findings.push_back(finding_of(factor, measured, errors));
+    figure.curves.push_back(curve_of("factor " + factor.words, errors));
   }
   result.figures.push_back(std::move(figure));
   return result;

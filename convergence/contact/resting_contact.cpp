@@ -93,23 +93,17 @@ StudyResult run_resting_contact(const Subject& subject, Tier, const Progress& pr
                 nan,
                 "Root mean square over the particles.",
                 {}};
-  Table table{"responses", "Cloth on a ball, by response", {}};
-  std::vector<std::string> names;
-  std::vector<double> jitter, speed, depth;
+  Table table{
+      "responses",
+      "Cloth on a ball, by response",
+      {{"response", ""}, {"shaking at rest", "m/s^2"}, {"speed at rest", "m/s"}, {"largest depth", "m"}}};
   for (const char* response : {"forecast", "projection", "push_out"}) {
     rests.push_back(rest_of(subject, response));
     const Rest& rest = rests.back();
     figure.curves.push_back({response, rest.times, rest.speeds, nan, {}});
-    names.push_back(response);
-    jitter.push_back(rest.jitter);
-    speed.push_back(rest.speed);
-    depth.push_back(rest.depth);
+    table.row(response, rest.jitter, rest.speed, rest.depth);
     progress(double(rests.size()) / 3);
   }
-  table.columns = {{"response", "", names},
-                   {"shaking at rest", "m/s^2", jitter},
-                   {"speed at rest", "m/s", speed},
-                   {"largest depth", "m", depth}};
   result.findings = {quieter(rests[0], rests[2]), alike(rests[0], rests[1])};
   result.figures.push_back(std::move(figure));
   result.tables.push_back(std::move(table));

@@ -23,14 +23,10 @@ Convergence against_h(const std::vector<Errors>& levels, double Errors::*error) 
   return convergence;
 }
 
-Curve curve_of(const std::string& label, const Convergence& convergence) {
-  return {label, convergence.steps, convergence.errors, nan, pair_orders(convergence)};
-}
-
-std::vector<Column> columns_of(const Convergence& convergence, const std::string& unit) {
-  std::vector<double> orders = pair_orders(convergence);
-  orders.insert(orders.begin(), nan);
-  return {{"h", "m", convergence.steps}, {"error", unit, convergence.errors}, {"order", "1", orders}};
+Table columns_of(const Convergence& convergence, const std::string& unit) {
+  return {{"h", "m", convergence.steps},
+          {"error", unit, convergence.errors},
+          {"order", "1", row_orders(convergence)}};
 }
 
 /// An order that is expected, and why.

@@ -134,7 +134,7 @@ NamedFinding an_order_of_magnitude(const StepCounts& counts) {
   return {"stability-sheet.a-tenth.order-of-magnitude",
           "At a width of a tenth a fully explicit method needs at least ten times the steps of a mixed one.",
           {{10 / factor, 1, 0, "1", "the paper's example: 10 steps against 100"},
-           table_of(counts).columns,
+           table_of(counts),
            "measured is ten over the factor between classical Runge-Kutta, which steps furthest, and A"}};
 }
 

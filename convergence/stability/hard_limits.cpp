@@ -171,21 +171,14 @@ NamedFinding damped_finding(const std::vector<Damped>& limits, const std::vector
 // ---- the study
 
 Table table_of(const std::vector<HardSheet>& sheets, const std::vector<SheetLimits>& limits) {
-  std::vector<std::string> words;
-  std::vector<double> exact, bound;
-  for (size_t i = 0; i < sheets.size(); ++i) {
-    words.push_back(sheets[i].words);
-    exact.push_back(limits[i].exact);
-    bound.push_back(limits[i].bound);
-  }
   Table table{"largest-steps",
               "Largest stable steps of hard, undamped sheets",
-              {{"sheet", "1", words}, {"2/omega", "s", exact}, {"elastic limit over 2/omega", "1", bound}}};
+              {{"sheet", "1"}, {"2/omega", "s"}, {"elastic limit over 2/omega", "1"}}};
+  for (size_t i = 0; i < sheets.size(); ++i) table.row(sheets[i].words, limits[i].exact, limits[i].bound);
   for (size_t k = 0; k < paper_schemes().size(); ++k) {
     std::vector<double> ratios;
     for (const SheetLimits& one : limits) ratios.push_back(one.schemes[k]);
-    table.columns.push_back(
-        {"scheme " + std::string(paper_schemes()[k].name) + " over 2/omega", "1", std::move(ratios)});
+    table.add({"scheme " + std::string(paper_schemes()[k].name) + " over 2/omega", "1", std::move(ratios)});
   }
   return table;
 }

@@ -6,7 +6,7 @@
 #include "convergence/strain/studies.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/specimens/measured.h"
+#include "verification/evidence.h"
 
 namespace foldproof {
 
@@ -157,14 +157,14 @@ NamedFinding phases_finding(const Pulled& run) {
 }
 
 NamedFinding one_phase_finding(const std::vector<Pulled>& runs) {
-  Measured measured("|slope late over early - 1|", "1");
+  Table measured{{"case", ""}, {"|slope late over early - 1|", "1"}};
   for (const Pulled& run : runs)
-    if (!run.springs.is_limited) measured.see(run.springs.name, std::abs(late_over_early(run) - 1));
+    if (!run.springs.is_limited) measured.row(run.springs.name, std::abs(late_over_early(run) - 1));
   return {
       "biphasic.springs-alone-have-one-phase",
       "Without limits a strip gives way to the last as it did at first, weak or stiff springs.",
-      measured.judged(
-          0.25,
+      judged_worst(
+          measured, 0.25,
           "springs are linear, the load's way into the strip is not quite slow: far from the twelfth of a "
           "strip with limits")};
 }

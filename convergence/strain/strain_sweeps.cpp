@@ -193,9 +193,9 @@ Table table_of(const std::vector<Row>& rows) {
       all.energy_left.push_back(row.energy_left[k]);
       all.asymmetry.push_back(row.asymmetry[k]);
     }
-  Table table{"orders", "Sweeps until no violation exceeds a thousandth", evidence_of(all)};
-  table.columns.insert(table.columns.begin(), {"order", "", orders});
-  return table;
+  std::vector<Column> columns = evidence_of(all);
+  columns.insert(columns.begin(), {"order", "", orders});
+  return {"orders", "Sweeps until no violation exceeds a thousandth", columns};
 }
 
 /// Springs that are beyond their limits at the start are brought back in one step, whatever that takes.

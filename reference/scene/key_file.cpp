@@ -308,24 +308,24 @@ std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string&
 
 namespace {
 
-KeyValue parsed_value(const std::string& text) {
-  if (unbearable(text)) return {text, "--set"};
+KeyValue parsed_value(const std::string& text, const std::string& where) {
+  if (unbearable(text)) return {text, where};
   try {
-    const std::string file = "--set";
-    return converted(*parsed("value = " + text, file).get("value"), Place{"value", file});
+    return converted(*parsed("value = " + text, where).get("value"), Place{"value", where});
   } catch (const toml::parse_error&) {
-    return {text, "--set"};
+    return {text, where};
   }
 }
 
 KeyTable& table_below(KeyTable& table, const std::string& step, const std::string& assignment) {
+  const std::string where = "--set " + assignment;
   auto [entry, is_new] =
-      table.entries.try_emplace(step, KeyValue{std::make_shared<KeyTable>(step, "--set"), "--set"});
+      table.entries.try_emplace(step, KeyValue{std::make_shared<KeyTable>(step, where), where});
   KeyValue* value = &entry->second;
   if (auto* list = std::get_if<std::vector<KeyValue>>(&value->data); list && list->size() == 1)
     value = &list->front();  // the only entry of a list needs no number
   auto* below = std::get_if<std::shared_ptr<KeyTable>>(&value->data);
-  if (!below) throw InputError("--set " + assignment + ": '" + step + "' is not a table");
+  if (!below) throw InputError(where + ": '" + step + "' is not a table");
   return **below;
 }
 
@@ -348,6 +348,8 @@ bool is_number(const std::string& text) {
 
 }  // namespace
 
+bool is_override(const std::string& where) { return where.starts_with("--set "); }
+
 void set_key(KeyTable& root, const std::string& assignment) {
   const size_t equals = assignment.find('=');
   std::vector<std::string> path;
@@ -367,8 +369,9 @@ void set_key(KeyTable& root, const std::string& assignment) {
     if (picks) ++k;
   }
   const auto written = table->entries.find(path.back());
-  if (written != table->entries.end() && written->second.where != "--set") table->replaced.insert(*written);
-  table->entries.insert_or_assign(path.back(), parsed_value(assignment.substr(equals + 1)));
+  if (written != table->entries.end() && !is_override(written->second.where))
+    table->replaced.insert(*written);
+  table->entries.insert_or_assign(path.back(), parsed_value(assignment.substr(equals + 1), "--set " + assignment));
 }
 
 std::string read_text(const std::string& path) {

@@ -16,7 +16,7 @@ class KeyTable;
 
 struct KeyValue {
   std::variant<bool, long, double, std::string, std::vector<KeyValue>, std::shared_ptr<KeyTable>> data;
-  std::string where;  // "file:line", or "--set"
+  std::string where;  // "file:line", or "--set KEY=VALUE"
 };
 
 /// One table of keys. Every reader throws InputError "file:line: ..." for a missing key, a wrong type or a
@@ -71,6 +71,9 @@ class KeyTable {
 /// tables and lists in more than 32 others, and, outside of quotes and comments, for a line with more than
 /// 200 dots, and for a character outside ASCII.
 std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file);
+
+/// Whether a value's place is an override on the command line, not a line of a file.
+bool is_override(const std::string& where);
 
 /// Overrides "a.b.c=value" (value as in TOML; what does not parse as such is taken for a string; a number in
 /// the path picks an entry of a list, and the only entry needs none). Missing tables are made. Throws

@@ -78,7 +78,7 @@ void refuse_outside(const std::string& file, const std::string& folder, const st
 std::string path_of(const KeyTable& keys, const std::string& key, const std::string& folder) {
   const std::string where = keys.where(key);
   const std::filesystem::path named = keys.text(key);
-  if (where == "--set" || named.empty()) return named.string();
+  if (is_override(where) || named.empty()) return named.string();
   const std::string file = (folder / named).string();
   if (named.is_absolute() || std::ranges::find(named, "..") != named.end())
     throw InputError(where + ": '" + named.string() +

@@ -83,7 +83,7 @@ std::shared_ptr<const FieldRecipe> recipe_of(const KeyTable& keys, Recipe of) {
 MeshSequence read_frames(const KeyTable& keys, const CaseAround& around) {
   const std::string where = keys.where("frames");
   const std::string folder = path_of(keys, "frames", around.folder);
-  if (where != "--set") refuse_links_outside(folder, around.folder, where);
+  if (!is_override(where)) refuse_links_outside(folder, around.folder, where);
   MeshSequence animation;
   try {
     animation =

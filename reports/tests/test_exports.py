@@ -31,7 +31,20 @@ class Films(WithCase):
     def test_without_ffmpeg_one_line_says_so(self) -> None:
         run = self.film(path=str(self.root))
         self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1), run.stderr)
-        self.assertIn("package ffmpeg", run.stderr)
+        self.assertIn("apt install ffmpeg", run.stderr)
+
+    def test_packages_that_are_missing_are_named_in_one_line(self) -> None:
+        for script in ("make_film.py", "make_report.py", "export.py"):
+            run = subprocess.run([sys.executable, "-S", str(REPORTS / script)], text=True, check=False, capture_output=True)
+            self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1), run.stderr)
+            self.assertIn("apt install python3-numpy python3-h5py", run.stderr)
+
+    def test_what_is_typed_wrong_is_refused_in_one_line(self) -> None:
+        for options, said in ((("--size", "axb"), "WIDTHxHEIGHT"), (("--fps", "0"), "--fps"),
+                              (("--out", "film.avi"), "ends in .mp4"), (("--out", "nowhere/film.mp4"), "no folder nowhere")):
+            run = self.film(*options)
+            self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1), run.stderr)
+            self.assertIn(said, run.stderr)
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg: the package ffmpeg has it")
     def test_films_have_the_size_the_length_and_the_format_that_were_asked_for(self) -> None:

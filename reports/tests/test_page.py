@@ -282,5 +282,5 @@ class OnPaper(unittest.TestCase):
             done = self.printed(Path(folder), PATH=folder)
             self.assertEqual(done.returncode, 2)
             self.assertEqual(len(done.stderr.splitlines()), 1)
-            self.assertIn("package chromium", done.stderr)
+            self.assertIn("apt install chromium", done.stderr)
             self.assertFalse((Path(folder) / "report.html").exists())

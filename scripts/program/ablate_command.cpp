@@ -16,7 +16,9 @@
 #include "convergence/any_case/finer_scene.h"
 #include "reference/bodies/makers.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/command_line/input_files.h"
 #include "scripts/program/json_text.h"
+#include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
@@ -261,7 +263,6 @@ std::vector<Ablation> asked_of(const Options& options) {
 
 /// Writes what is found so far: a run of hours that is cut off leaves the cases that it was through with.
 void write(const std::vector<Ablation>& all, const Options& options) {
-  if (options.out.empty()) return;
   const std::string path = options.out + "/ablation.json";
   write_text(path, json_text(with_others_of(path, told(all, options))) + "\n");
 }
@@ -270,10 +271,8 @@ void write(const std::vector<Ablation>& all, const Options& options) {
 
 int ablate(const Options& options) {
   std::vector<Ablation> all = asked_of(options);
-  if (!options.out.empty()) {
-    make_folder(options.out);
-    refuse_unless_replaceable(options.out + "/ablation.json");
-  }
+  const OutFolder folder(options.out);
+  refuse_unless_replaceable(options.out + "/ablation.json");
   std::mutex one_at_a_time;
   const AfterRun after = [&](Ablation& one) {
     const std::lock_guard lock(one_at_a_time);

@@ -12,10 +12,12 @@
 #include "reference/bodies/makers.h"
 #include "scripts/program/bench.h"
 #include "scripts/program/data_folder.h"
+#include "scripts/program/command_line/input_files.h"
 #include "verification/subjects/bending_rows.h"
 #include "verification/subjects/crossing_queries.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/ledger.h"
+#include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/report_commands.h"
@@ -54,7 +56,6 @@ int conclude(RunRecord& run, const Options& options, const std::string& file) {
   run.faults = read_faults(faults_folder());
   name_faults(run.faults, run.records);
   if (!file.empty()) {
-    make_folder(options.out);
     write_run(options.out + "/" + file, run);
     write_verdicts(options.out, run);
   }
@@ -108,12 +109,6 @@ void announce(const std::vector<Job>& jobs, RunRecord begun, const std::string& 
 
 }  // namespace
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(folder + ": cannot make this folder: " + error.message());
-}
-
 int list(const Options& options) {
   nlohmann::json json = {{"checks", nlohmann::json::array()}, {"studies", nlohmann::json::array()}};
   for (const Check& check : all_checks())
@@ -149,6 +144,7 @@ int list(const Options& options) {
 }
 
 int run_checks(const Options& options) {
+  const OutFolder folder(options.out);
   const std::vector<Claim> claims = written_claims();
   RunRecord run = new_run(options);
   const Tier tier = tier_of(options);
@@ -158,6 +154,7 @@ int run_checks(const Options& options) {
 }
 
 int run_studies(const Options& options) {
+  const OutFolder folder(options.out);
   const std::vector<Claim> claims = written_claims();
   RunRecord run = new_run(options);
   const Tier tier = tier_of(options);
@@ -171,21 +168,22 @@ int run_studies(const Options& options) {
 }
 
 int evaluate_hinges(const Options& options) {
+  require_input(options.file, table_kind);
+  if (!options.rest_file.empty()) require_input(options.rest_file, table_kind);
   evaluate_bending(options.file, options.rest_file);
   return all_hold;
 }
 
 int evaluate_queries(const Options& options) {
+  if (!std::filesystem::is_directory(options.file)) require_input(options.file, table_kind);
   return evaluate_crossings(options.file, options.kind, options.keep) ? all_hold : some_fail;
 }
 
 int run_bench(const Options& options) {
+  const OutFolder folder(options.out);
   RunRecord run = bench(options.quick ? 110'000 : 1'100'000);
   run.provenance = provenance(options.command);
-  if (!options.out.empty()) {
-    make_folder(options.out);
-    write_run(options.out + "/bench.h5", run);
-  }
+  write_run(options.out + "/bench.h5", run);
   if (options.json)
     fmt::print("{}", verdicts_json(run));
   else
@@ -195,7 +193,7 @@ int run_bench(const Options& options) {
 
 int verify(const Options& options) {
   const std::vector<Claim> claims = written_claims();
-  make_folder(options.out);
+  const OutFolder folder(options.out);
   RunRecord run = new_run(options);
   const auto start = std::chrono::steady_clock::now();
   const Subject subject = reference_subject();

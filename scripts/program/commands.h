@@ -24,7 +24,4 @@ int show_crossings(const Options& options);  // crossings_command.cpp
 int evaluate_queries(const Options& options);
 int show_claims(const Options& options);  // claims_command.cpp
 
-/// Makes the folder if it is not there; throws InputError saying why that cannot be.
-void make_folder(const std::string& folder);
-
 }  // namespace foldproof

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "convergence/any_case/converge.h"
+#include "scripts/program/command_line/input_files.h"
+#include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/progress.h"
@@ -95,6 +97,7 @@ int converge(const Options& options) {
   if (options.until > 0) plan.shown.scene.schedule.end = std::min(options.until, plan.shown.scene.schedule.end);
   plan.measurements = measurements_of(plan.shown);
   build(plan.shown.scene, level_sets);  // refuses now what cannot be built
+  const OutFolder folder(options.out);
   ResultStore store(options.out + "/store");
   const LadderAnswer answer = time_answer(plan, ladder_runs(plan, level_sets, store, options.running));
   if (options.json)

@@ -5,6 +5,7 @@
 
 #include "reference/mesh/obj.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/command_line/input_files.h"
 #include "scripts/program/json_text.h"
 #include "verification/oracles/exact_crossings.h"
 #include "verification/files/stored_run_file.h"
@@ -28,6 +29,7 @@ FrameJudged judged(const std::string& file, std::size_t frame, double time, cons
 }
 
 void judge_file(const std::string& file, std::vector<FrameJudged>& all) {
+  require_input(file, file.ends_with(".obj") ? mesh_kind : run_kind);
   if (file.ends_with(".obj")) {
     const TriangleSoup mesh = read_obj_soup(file);
     all.push_back(judged(file, 0, 0, mesh.rest, mesh.triangles));

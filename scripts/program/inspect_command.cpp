@@ -6,6 +6,7 @@
 #include "reference/bodies/mesh_inspection.h"
 #include "reference/mesh/obj.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/command_line/input_files.h"
 #include "scripts/program/json_text.h"
 
 namespace foldproof {
@@ -52,6 +53,7 @@ nlohmann::json told(const std::string& file, const MeshInspection& found) {
 }  // namespace
 
 int inspect(const Options& options) {
+  require_input(options.file, mesh_kind);
   const MeshInspection found = inspect_mesh(read_obj_soup(options.file), options.cells);
   if (options.json)
     fmt::print("{}\n", json_text(told(options.file, found)));

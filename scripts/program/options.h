@@ -29,7 +29,8 @@ struct Options {
   unsigned seed_shift = 0;       // of check, study and verify (verification/seeds.h)
   Running running;               // of check, study and verify
   int cells = 64;                // of inspect: along the longest side
-  int levels = 0;                // of project: of subdivision; of converge: runs
+  int subdivisions = 0;          // of project
+  int levels = 4;                // of converge: runs
   std::vector<std::string> methods;  // of converge: integrators
   double until = 0;              // of converge: how much of the run is asked [s]; 0: all of it
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,

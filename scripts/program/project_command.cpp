@@ -15,7 +15,9 @@
 #include "reference/mesh/subdivision.h"
 #include "reference/post/fold_projection.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/command_line/input_files.h"
 #include "scripts/program/json_text.h"
+#include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
@@ -48,7 +50,7 @@ Source source_of(const Options& options) {
   if (scene.objects.empty()) throw InputError(options.file + ": its case names no object to project out of");
   source.objects = build_objects(scene, makers_of(options.cache));
   const SubdivisionRule rule = options.rule == "loop" ? SubdivisionRule::loop : SubdivisionRule::midpoint;
-  source.finer = subdivision(scene.mesh, rule, options.levels);
+  source.finer = subdivision(scene.mesh, rule, options.subdivisions);
   source.scene = scene;
   source.scene.mesh = make_triangle_mesh(source.finer.of(scene.mesh.rest), source.finer.triangles);
   source.scene.name += "_projected";
@@ -133,6 +135,7 @@ void compare_last_frame(const Source& source, Report& report) {
 Report project_all(const Source& source, const Options& options) {
   Report report;
   report.projection = projection_of(options, source);
+  check_band(report.projection.band);  // before a file is begun
   report.file = source.scene.name + ".h5";
   const System system = make_system(lumped_masses(source.scene.mesh, source.scene.density));
   TrajectoryFile file((std::filesystem::path(options.out) / report.file).string(), source.scene, system,
@@ -194,7 +197,8 @@ nlohmann::json told(const Report& report, const std::string& folder) {
 }  // namespace
 
 int project_run(const Options& options) {
-  make_folder(options.out);
+  require_input(options.file, run_kind);
+  const OutFolder folder(options.out);
   const Report report = project_all(source_of(options), options);
   if (options.json)
     fmt::print("{}\n", json_text(told(report, options.out)));

@@ -5,6 +5,8 @@
 
 #include "scripts/program/commands.h"
 #include "scripts/program/data_folder.h"
+#include "scripts/program/command_line/input_files.h"
+#include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/progress.h"
 
 namespace foldproof {
@@ -12,6 +14,10 @@ namespace foldproof {
 namespace {
 
 constexpr int not_started = 127;  // as a shell says it
+
+/// Debian's. It is called by its full path: from a bare name it would look for its packages beside the first python3
+/// on the PATH.
+constexpr const char* python = "/usr/bin/python3";
 
 void add(std::vector<std::string>& arguments, const std::string& option, const std::string& value) {
   if (value.empty()) return;
@@ -24,12 +30,12 @@ void add(std::vector<std::string>& arguments, const std::string& option, const s
 int run_report_script(const std::string& makes, const std::string& script,
                       const std::vector<std::string>& arguments) {
   const std::string path = data_folder() + "/reports/" + script;
-  std::vector<char*> words = {const_cast<char*>("python3"), const_cast<char*>(path.c_str())};
+  std::vector<char*> words = {const_cast<char*>(python), const_cast<char*>(path.c_str())};
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
   const pid_t child = fork();
   if (child == 0) {
-    execv("/usr/bin/python3", words.data());
+    execv(python, words.data());
     _exit(not_started);
   }
   int status = 0;
@@ -37,8 +43,9 @@ int run_report_script(const std::string& makes, const std::string& script,
   if (has_ended && WEXITSTATUS(status) == all_hold) return all_hold;
   if (has_ended && WEXITSTATUS(status) == bad_input) return bad_input;  // it said why
   say("the " + makes + " could not be made: " +
-      (has_ended && WEXITSTATUS(status) == not_started ? "/usr/bin/python3 cannot be started"
-                                                       : path + " did not come to its end"));
+      (has_ended && WEXITSTATUS(status) == not_started
+           ? std::string(python) + " is missing; install the Debian package python3"
+           : path + " did not come to its end"));
   return bad_input;
 }
 
@@ -50,6 +57,7 @@ int make_report(const Options& options) {
 }
 
 int make_film(const Options& options) {
+  require_input(options.file, run_kind);
   std::vector<std::string> arguments = {options.file};
   add(arguments, "--out", options.out);
   add(arguments, "--field", options.field);
@@ -59,6 +67,8 @@ int make_film(const Options& options) {
 }
 
 int export_frames(const Options& options) {
+  require_input(options.file, run_kind);
+  const OutFolder folder(options.out);
   return run_report_script("files", "export.py",
                            {options.file, "--format", options.kind, "--out", options.out});
 }

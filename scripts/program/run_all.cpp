@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numeric>
-#include <set>
 
 #include "convergence/studies.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/run_case.h"
+#include "scripts/program/command_line/suggestions.h"
 #include "verification/checks.h"
 
 namespace foldproof {
@@ -29,37 +28,17 @@ bool is_named(const std::vector<std::string>& kinds, const char* kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-/// Letters to add, leave out or change to make b of a (Levenshtein 1966).
-size_t edits_between(const std::string& a, const std::string& b) {
-  std::vector<size_t> edits(b.size() + 1);  // from the first letters of a to the first k of b
-  std::iota(edits.begin(), edits.end(), 0);
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t corner = edits[0]++;
-    for (size_t k = 0; k < b.size(); ++k) {
-      const size_t changed = corner + (a[i] != b[k]);
-      corner = edits[k + 1];
-      edits[k + 1] = std::min({changed, corner + 1, edits[k] + 1});
-    }
-  }
-  return edits.back();
-}
-
 [[noreturn]] void refuse(const std::string& name, const std::vector<Check>& checks,
                          const std::vector<Study>& studies) {
-  std::set<std::string> known;
-  const auto add = [&](const std::string& full) { known.insert({full, full.substr(0, full.find('.'))}); };
+  std::vector<std::string> known;
+  const auto add = [&](const std::string& full) {
+    known.insert(known.end(), {full, full.substr(0, full.find('.'))});
+  };
   for (const Check& check : checks) add(check.name);
   for (const Study& study : studies) add(study.name);
   for (const std::string& file : built_in_cases(Tier::full)) add(group_of_case(file));
-  std::vector<std::string> near(known.begin(), known.end());
-  std::ranges::stable_sort(near, {}, [&](const std::string& one) {
-    const std::string rest = one.substr(one.find('.') + 1);  // or all of it
-    return std::min(edits_between(name, one), edits_between(name, rest));
-  });
-  near.resize(std::min<size_t>(near.size(), 3));
-  throw InputError(
-      fmt::format("there is no check, study or case '{}'; near it: {}. `foldproof list` shows all", name,
-                  fmt::join(near, ", ")));
+  throw InputError(fmt::format("there is no check, study or case '{}' (`foldproof list` shows all){}", name,
+                               did_you_mean(nearest_names(name, known))));
 }
 
 bool add_named(const std::string& name, const std::vector<Check>& checks, const std::vector<Study>& studies,
@@ -166,7 +145,8 @@ void run_selection(const Selection& selection, const Subject& subject, Tier tier
   for (const std::string& name : selection.findings)
     if (std::none_of(run.records.begin(), run.records.end(),
                      [&](const Record& r) { return chooses(name, r.name) || r.outcome == Outcome::fails; }))
-      throw InputError("no study or case has a finding '" + name + "'");
+      throw InputError(fmt::format("there is no finding '{}'; `foldproof check {}` shows those there are", name,
+                                   name.substr(0, name.rfind('.'))));
 }
 
 std::string summary(const RunRecord& run) {

@@ -181,16 +181,6 @@ std::vector<std::string> built_in_cases(Tier tier) {
 
 std::string shipped_case_file(const std::string& name) { return data_folder() + "/cases/" + name + ".toml"; }
 
-std::string case_file(const std::string& typed) {
-  const std::string name = typed.ends_with(".toml") ? typed.substr(0, typed.size() - 5) : typed;
-  std::error_code unreadable;
-  for (const std::string& file : {typed, name + ".toml"})
-    if (std::filesystem::is_regular_file(file, unreadable)) return file;
-  if (std::ranges::count(built_in_cases(Tier::full), name)) return shipped_case_file(name);
-  throw InputError(typed + ": there is no such case file, and no shipped case of that name; `" +
-                   program_command() + " list` shows the shipped ones");
-}
-
 Case built_in_case(const std::string& name) {
   return with_usual_expectations(read_case(shipped_case_file(name)));
 }

@@ -62,10 +62,6 @@ std::vector<std::string> built_in_cases(Tier tier);
 /// The file of a shipped case, whose name the lists above have.
 std::string shipped_case_file(const std::string& name);
 
-/// The file of the case that was typed, with or without .toml: a file of that name, looked for from the
-/// current folder, or else the shipped case of that name. Throws InputError if there is neither.
-std::string case_file(const std::string& typed);
-
 /// Reads cases/<name>.toml of the project, and adds what is expected of every shipped case.
 Case built_in_case(const std::string& name);
 

@@ -5,13 +5,15 @@
 #include <nlohmann/json.hpp>
 
 #include "scripts/program/commands.h"
+#include "scripts/program/command_line/input_files.h"
 #include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
+#include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_all.h"
 #include "scripts/program/run_case.h"
-#include "scripts/program/typed_command.h"
+#include "scripts/program/command_line/typed_command.h"
 
 namespace foldproof {
 
@@ -98,7 +100,7 @@ int simulate_case(const Options& options) {
   const bool may_delete = options.resumes || options.restarts;
   const std::optional<KeptRun> kept = checkpoint_folder(shown.scene, options.out).kept_run();
   if (kept && !may_delete) refuse_to_lose(*kept, shown.scene, options);
-  make_folder(options.out);
+  const OutFolder folder(options.out);
   const BuiltCase of = built_case(std::move(shown), makers_of(options.cache));
   const Scene& scene = of.shown.scene;
   say(fmt::format("{}: {}", scene.name, fmt::join(built_parts(scene, of.built.system), "; ")));

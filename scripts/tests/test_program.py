@@ -397,13 +397,101 @@ step = 0.001
         self.assertEqual(done.returncode, 2)
         self.assertIn("bending.forces-sum-to-zero", done.stderr)
         for typed, meant in (("bendnig", "bending"), ("case.twsit", "case.twist"), ("robes", "case.robe"), ("monotonicty", "monotonicity")):
-            self.assertIn(f"near it: {meant},", run("check", typed).stderr)
+            self.assertRegex(run("check", typed).stderr, rf"did you mean {re.escape(meant)}[?, ]")
 
-    def test_a_word_that_is_no_command_is_named(self) -> None:
-        for typed, named in ((("simulte",), "simulte"), (("evaluate", "bendig"), "bendig"), ((), "subcommand is required"), (("evaluate",), "subcommand is required")):
-            done = run(*typed)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn(named, done.stderr)
+    def refused(self, *arguments: str) -> str:
+        """The one line on standard error of a command that is refused and leaves nothing behind."""
+        before = sorted(self.path.rglob("*"))
+        done = run(*arguments, folder=self.path)
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), (arguments, done))
+        self.assertEqual(sorted(self.path.rglob("*")), before, arguments)
+        return done.stderr
+
+    def test_a_mistyped_word_is_named_with_what_may_be_meant(self) -> None:
+        sheet = "and no shipped case of that name; did you mean hanging_sheet?"
+        for typed, said in {
+            "simualte cases/hinge.toml": "unknown command 'simualte'; did you mean simulate?",
+            "frobnicate": "known: simulate, verify,",
+            "evaluate bendig": "did you mean bending?",
+            "evaluate": "a command is missing, one of bending, crossings",
+            "": "a command is missing, one of simulate,",
+            "simulate hinge.toml --resum": "unknown option '--resum'; did you mean --resume?",
+            "export run.h5 --fromat obj --out f": "did you mean --format?",
+            "list checks now": "unexpected word 'checks'; usage: foldproof list",
+            "golden sprigns": "did you mean springs?",
+            "simulate hangin_sheet": sheet,
+            "ablate cases/hanging_shet.toml": sheet,
+            "converge hnige": "did you mean hinge?",
+            "simulate twist": "did you mean hard/twist?",
+            "simulate nowhere/at_all_like.toml": "list` shows the shipped ones",
+            "inspect nowhere/at_all_like.obj": "there is no such file; check the path",
+        }.items():
+            self.assertIn(said, self.refused(*typed.split()), typed)
+        self.write("flag.csv", "1,2")
+        self.assertIn("did you mean flag.csv?", self.refused("evaluate", "bending", "flg.csv"))
+
+    def test_wrong_input_is_refused_in_a_line_and_leaves_nothing(self) -> None:
+        for name in ("empty.toml", "empty.obj", "empty.h5", "empty.csv"):
+            self.write(name, "")
+        self.write("notes.txt", "hello")
+        self.write("hinge.toml", (ROOT / "cases/hinge.toml").read_text())
+        for typed, said in {
+            "simulate": "CASE is missing; usage: foldproof simulate CASE",
+            "simulate empty.toml": "empty.toml: is empty; give a case file",
+            "simulate empty.h5": "is a stored run by its name; give a case file",
+            "simulate .": "is a folder; give a case file",
+            "simulate hinge.toml --set": "--set needs a value: --set TABLE.KEY=VALUE",
+            "simulate hinge.toml --set time.end=abc": "--set time.end=abc: 'end' in [time] must be a finite number",
+            "simulate hinge.toml --set time.edn=1": "known here: end,",
+            "simulate hinge.toml --out --json": "--out: a value is missing",
+            "simulate hinge.toml --out notes.txt": "notes.txt: cannot make this folder: Not a directory",
+            "simulate hinge.toml --out new/a/b --set bending.stiffness=x": "must be a finite number",
+            "simulate hinge.toml --json=3": "--json takes no value",
+            "simulate hinge.toml --cache": "--cache needs a value: --cache DIR",
+            "converge hinge --levels 2": "'2' is not a whole number from 3 to 12",
+            "converge hinge --until -1": "'-1' is not a number above 0",
+            "converge hinge --out notes.txt": "notes.txt: cannot make this folder",
+            "check bending --seed x": "'x' is not a whole number from 0 to 1000000000",
+            "check bending --tier fast": "'fast' is none of quick, full",
+            "check bending --out notes.txt": "notes.txt: cannot make this folder",
+            "bench --out notes.txt": "notes.txt: cannot make this folder",
+            "report": "DIR is missing; usage: foldproof report DIR [DIR]",
+            "film empty.h5": "is empty; give a stored run",
+            "film notes.txt --size axb": "'axb' is not WIDTHxHEIGHT",
+            "film notes.txt --fps many": "'many' is not a whole number from 1 to 120",
+            "export notes.txt --format obj --out new": "notes.txt",
+            "export notes.txt --format --out new": "--format: a value is missing; give one of obj, ply, xdmf",
+            "inspect empty.obj": "is empty; give a mesh",
+            "inspect empty.obj --cells 1": "'1' is not a whole number from 4 to 1000",
+            "crossings empty.obj empty.h5": "is empty",
+            "golden springs --count 1.5": "'1.5' is not a whole number",
+            "evaluate bending empty.csv": "is empty; give a table of numbers",
+            "evaluate crossings empty.csv --keep x": "'x' is not a finite number",
+            "project empty.h5 --map blend": "--tau is missing; usage: foldproof project RUN.h5 --map MAP --tau LENGTH",
+            "project empty.h5 --map blend --tau nan": "'nan' is not a finite number",
+        }.items():
+            self.assertIn(said, self.refused(*typed.split()), typed)
+
+    def test_a_command_shows_its_own_help(self) -> None:
+        def commands_in(text: str) -> list[str]:
+            return re.findall(r"^  ([a-z]+) ", text.partition("\nCommands:\n")[2].partition("\n\n")[0], re.M)
+
+        commands = [[name] for name in commands_in(run("--help").stdout)]
+        commands += [["evaluate", name] for name in commands_in(run("evaluate", "--help").stdout)]
+        self.assertEqual(len(commands), 19)
+        for command in commands:
+            text = run(*command, "--help").stdout
+            self.assertNotRegex(text, r"\b(TEXT|U?INT|FLOAT|REQUIRED)\b|\(\dx\)", command)
+            self.assertLessEqual(max(map(len, text.splitlines())), 100, command)
+            self.assertIn("\nExit codes:\n  0 ", text)
+            examples = re.findall(r"^  foldproof (.*)", text.partition("\nExamples:\n")[2], re.M)
+            self.assertIn(len(examples), (1, 2), command)
+            for words in (example.split("   ")[0].split() for example in examples):
+                self.assertEqual(words[:len(command)], command)
+                for word in words:
+                    self.assertTrue(not word.startswith("cases/") or (ROOT / word).is_file(), word)
+                    self.assertTrue(not word.startswith("--") or f"{word} " in text, word)
+        self.assertEqual(run("check", "--seed", "x", "--help").returncode, 0)
 
     def interrupted(self, how: int) -> subprocess.CompletedProcess[str]:
         """A run of the hinge that the signal reaches after its second frame."""

@@ -25,7 +25,7 @@ Expectation read_entry(const KeyTable& expect, const std::string& key, const Sce
   if (!quantity) refuse_unknown(where, key);
   const auto entry = expect.table(key);
   const char* bound = quantity->sense == Sense::at_most ? "at_most" : "at_least";
-  const bool is_for_this_run = quantity->scope == Scope::any_cloth || entry->where(bound) == "--set";
+  const bool is_for_this_run = quantity->scope == Scope::any_cloth || is_override(entry->where(bound));
   const std::string not_asked = is_for_this_run ? "" : replaced;
   const std::string refusal = quantity->refusal && not_asked.empty() ? quantity->refusal(scene) : "";
   if (!refusal.empty()) throw InputError(where + ": '" + key + "' cannot be expected: " + refusal);

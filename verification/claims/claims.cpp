@@ -209,7 +209,7 @@ Quantity quantity_at(const Placeholder& wanted, const Place& place, const std::v
   const Verdict& verdict = record->finding.verdict;
   if (place.column.empty()) return {verdict.measured, verdict.unit};
   if (place.row.empty() && place.column == "bound") return {verdict.bound, verdict.unit};
-  const std::vector<Column>& columns = record->finding.evidence;
+  const std::vector<Column>& columns = record->finding.evidence.columns();
   for (const Column& column : columns) {
     const auto* values = std::get_if<std::vector<double>>(&column.values);
     if (values && column.name == place.column)

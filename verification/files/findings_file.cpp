@@ -24,7 +24,8 @@ void write_record(const Hdf5& parent, const Record& record, int order) {
   here.attribute("seconds", record.seconds);
   here.attribute("faults", record.faults);
   if (!record.better.empty()) here.attribute("better", record.better);
-  if (!record.finding.evidence.empty()) write_columns(here.group("evidence"), record.finding.evidence);
+  const std::vector<Column>& evidence = record.finding.evidence.columns();
+  if (!evidence.empty()) write_columns(here.group("evidence"), evidence);
 }
 
 }  // namespace

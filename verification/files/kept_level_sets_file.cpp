@@ -74,7 +74,9 @@ auto kept(const std::string& path, const std::function<void(const std::string&)>
 }  // namespace
 
 LevelSetMakers caching_makers(const std::string& folder, std::function<void(const std::string&)> say) {
-  std::filesystem::create_directories(folder);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(folder + ": cannot make this folder for level sets: " + error.message() + "; choose another --cache");
   const auto file = [folder](const std::string& key) {
     return (std::filesystem::path(folder) / (key + ".h5")).string();
   };

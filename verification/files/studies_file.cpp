@@ -88,7 +88,7 @@ void write_table(const Hdf5& parent, const Table& table, int order) {
   const Hdf5 here = parent.group(table.name);
   here.attribute("order", order);
   here.attribute("title", table.title);
-  write_columns(here, table.columns);
+  write_columns(here, table.columns());
 }
 
 void write_study(const Hdf5& parent, const StudyRecord& study, int order) {

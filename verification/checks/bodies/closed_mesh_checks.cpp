@@ -11,7 +11,7 @@
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/bodies/body_checks.h"
-#include "verification/specimens/measured.h"
+#include "verification/evidence.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/refusal.h"
 #include "verification/specimens/scratch_folder.h"
@@ -78,23 +78,24 @@ std::vector<BadSolid> bad_solids() {
 Finding bad_solids_are_refused(const Subject&) {
   const ScratchFolder folder;
   const std::string path = folder.file("bad.obj");
-  Measured measured("file or words missing from the refusal", "1");
+  Table measured{{"case", ""}, {"file or words missing from the refusal", "1"}};
   std::vector<std::string> messages;
   for (const BadSolid& bad : bad_solids()) {
     write_obj(path, bad.soup.rest, bad.soup.triangles);
     const std::string message = refusal([&] { make_closed_mesh(read_obj_soup(path)); });
     int missing = message.starts_with(path + ":") ? 0 : 1;
     for (const std::string& part : bad.parts) missing += message.find(part) == std::string::npos;
-    measured.see(bad.name, missing);
+    measured.row(bad.name, missing);
     messages.push_back(message.substr(std::min(message.size(), path.size() - std::string("bad.obj").size())));
   }
-  Finding finding = measured.judged(0, "each refusal must name the file, what is wrong, and how much of it");
-  finding.evidence.push_back({"message", "", messages});
+  Finding finding =
+      judged_worst(measured, 0, "each refusal must name the file, what is wrong, and how much of it");
+  finding.evidence.add({"message", "", messages});
   return finding;
 }
 
 Finding places_are_right(const Subject&) {
-  Measured measured("places that are not named as they are", "1");
+  Table measured{{"case", ""}, {"places that are not named as they are", "1"}};
   const TriangleSoup whole = ball(0.7);
   int wrong = 0;
   for (int t = 3; t < 320; t += 37) {
@@ -109,12 +110,12 @@ Finding places_are_right(const Subject&) {
     }
     if (!named) ++wrong;
   }
-  measured.see("hole: an edge of the triangle that is missing", wrong);
-  return measured.judged(0, "the edge named must be one of the hole's");
+  measured.row("hole: an edge of the triangle that is missing", wrong);
+  return judged_worst(measured, 0, "the edge named must be one of the hole's");
 }
 
 Finding solids_are_accepted(const Subject&) {
-  Measured measured("refused", "1");
+  Table measured{{"case", ""}, {"refused", "1"}};
   std::vector<std::pair<std::string, TriangleSoup>> good{
       {"ball", ball(0.7)},
       {"statue", soup_of(small_statue())},
@@ -123,8 +124,8 @@ Finding solids_are_accepted(const Subject&) {
        joined(joined(ball(0.7), turned_round(ball(0.5)), {0.02, 0.01, 0}), ball(0.3), {0.05, -0.02, 0.01})}};
   for (const UglySolid& solid : ugly_solids()) good.emplace_back(solid.name, solid.soup);
   for (const auto& [name, soup] : good)
-    measured.see(name, refusal([&soup = soup] { make_closed_mesh(soup); }).empty() ? 0 : 1);
-  return measured.judged(0, "each of them parts inside from outside");
+    measured.row(name, refusal([&soup = soup] { make_closed_mesh(soup); }).empty() ? 0 : 1);
+  return judged_worst(measured, 0, "each of them parts inside from outside");
 }
 
 // ---- pairs of triangles whose answer is known by how they were made, in whole numbers
@@ -200,7 +201,7 @@ bool has_area(const Vector3& a, const Vector3& b, const Vector3& c) {
 }
 
 Finding intersections_are_found(const Subject&) {
-  Measured measured("wrong answers", "1");
+  Table measured{{"case", ""}, {"wrong answers", "1"}};
   for (const Family& family : families()) {
     Random random(97);
     int wrong = 0;
@@ -213,9 +214,10 @@ Finding intersections_are_found(const Subject&) {
       if (intersect(rest, {0, 1, 2}, {3, 4, 5}) != family.meets) ++wrong;
       if (intersect(rest, {5, 3, 4}, {2, 0, 1}) != family.meets) ++wrong;
     }
-    measured.see(family.name, wrong);
+    measured.row(family.name, wrong);
   }
-  return measured.judged(0, "coordinates are whole numbers over 1024, and signs of determinants are exact");
+  return judged_worst(measured, 0,
+                      "coordinates are whole numbers over 1024, and signs of determinants are exact");
 }
 
 /// Triangles that share an edge or a vertex.
@@ -234,15 +236,15 @@ Finding neighbours_are_told_apart(const Subject&) {
        true},  // 3 is in the plane, but 0-3 runs over the base
       {"vertex shared, through the other", {0, 5, 6}, true},
       {"vertex shared, away from the other", {1, 5, 3}, false}};
-  Measured measured("wrong answers", "1");
+  Table measured{{"case", ""}, {"wrong answers", "1"}};
   for (const auto& [name, triangle, meets] : cases)
-    measured.see(name, (intersect(x, base, triangle) != meets) + (intersect(x, triangle, base) != meets));
-  return measured.judged(0, "what they share by number does not count, anything more does");
+    measured.row(name, (intersect(x, base, triangle) != meets) + (intersect(x, triangle, base) != meets));
+  return judged_worst(measured, 0, "what they share by number does not count, anything more does");
 }
 
 /// The tree must find the pairs that a look at all of them finds.
 Finding pairs_are_complete(const Subject&) {
-  Measured measured("pairs missing or superfluous", "1");
+  Table measured{{"case", ""}, {"pairs missing or superfluous", "1"}};
   for (const double shift : {0.4, 1.1}) {
     const TriangleSoup both = joined(ball(0.7), ball(0.7), {shift, 0.31, 0.22});
     std::vector<std::pair<int, int>> all;
@@ -253,9 +255,9 @@ Finding pairs_are_complete(const Subject&) {
     std::vector<std::pair<int, int>> differing;
     std::set_symmetric_difference(all.begin(), all.end(), found.begin(), found.end(),
                                   std::back_inserter(differing));
-    measured.see(std::to_string(all.size()) + " pairs", double(differing.size()) + (all.empty() ? 1 : 0));
+    measured.row(std::to_string(all.size()) + " pairs", double(differing.size()) + (all.empty() ? 1 : 0));
   }
-  return measured.judged(0, "boxes that do not meet hold no triangles that do");
+  return judged_worst(measured, 0, "boxes that do not meet hold no triangles that do");
 }
 
 }  // namespace

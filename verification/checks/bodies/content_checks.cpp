@@ -8,7 +8,7 @@
 #include "reference/bodies/grid_content.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/bodies/body_checks.h"
-#include "verification/specimens/measured.h"
+#include "verification/evidence.h"
 #include "verification/specimens/refusal.h"
 #include "verification/specimens/ugly_solids.h"
 
@@ -28,29 +28,29 @@ struct Change {
 template <class T>
 Finding keys_kept(const T& original, const std::vector<Change<T>>& changes,
                   const std::function<std::string(const T&)>& key) {
-  Measured measured("keys that do not follow", "1");
+  Table measured{{"case", ""}, {"keys that do not follow", "1"}};
   T copy = original;
-  measured.see("nothing changed", key(copy) == key(original) && key(original).size() == 16 ? 0 : 1);
+  measured.row("nothing changed", key(copy) == key(original) && key(original).size() == 16 ? 0 : 1);
   for (const Change<T>& change : changes) {
     T changed = original;
     change.act(changed);
-    measured.see(change.what, key(changed) != key(original) ? 0 : 1);
+    measured.row(change.what, key(changed) != key(original) ? 0 : 1);
   }
-  return measured.judged(0, "a key is made of every bit that counts");
+  return judged_worst(measured, 0, "a key is made of every bit that counts");
 }
 
 template <class T>
 Finding refusals_of(const T& sound, const std::vector<Change<T>>& breaks) {
-  Measured measured("accepted, or refused without the word", "1");
-  measured.see("sound content is accepted", refusal([&] { require_sound(sound); }).empty() ? 0 : 1);
+  Table measured{{"case", ""}, {"accepted, or refused without the word", "1"}};
+  measured.row("sound content is accepted", refusal([&] { require_sound(sound); }).empty() ? 0 : 1);
   for (const Change<T>& breaking : breaks) {
     T broken = sound;
     breaking.act(broken);
     const std::string reason = breaking.what.substr(breaking.what.find(": ") + 2);
-    measured.see(breaking.what,
+    measured.row(breaking.what,
                  refusal([&] { require_sound(broken); }).find(reason) != std::string::npos ? 0 : 1);
   }
-  return measured.judged(0, "content that no build made is refused before anything asks it");
+  return judged_worst(measured, 0, "content that no build made is refused before anything asks it");
 }
 
 double next_after(double value) { return std::nextafter(value, INFINITY); }

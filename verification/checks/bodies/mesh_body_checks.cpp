@@ -7,7 +7,7 @@
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/bodies/body_checks.h"
-#include "verification/specimens/measured.h"
+#include "verification/evidence.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/refusal.h"
 #include "verification/specimens/scratch_folder.h"
@@ -48,13 +48,13 @@ std::string written(const ScratchFolder& folder, int missing, int flipped) {
 
 Finding open_bodies_are_refused(const Subject&) {
   const ScratchFolder folder;
-  Measured measured("file, reason or remedy missing from the refusal", "1");
+  Table measured{{"case", ""}, {"file, reason or remedy missing from the refusal", "1"}};
   const auto see = [&](const std::string& name, const std::string& file, const std::string& keys,
                        const std::vector<std::string>& parts) {
     const std::string message = refusal([&] { read_case_beside(file, keys); });
     int missing = 0;
     for (const std::string& part : parts) missing += message.find(part) == std::string::npos;
-    measured.see(name, missing);
+    measured.row(name, missing);
   };
   see("hole", written(folder, 1, 0), "", {"ball.obj:", "a hole", "repair"});
   see("hole, exact distance", written(folder, 1, 0), "field = \"exact\"", {"ball.obj:", "a hole"});
@@ -62,7 +62,7 @@ Finding open_bodies_are_refused(const Subject&) {
   see("exact distance and repair", written(folder, 1, 0), "field = \"exact\"\nrepair = \"winding\"",
       {"repair", "grid"});
   see("an unknown repair", written(folder, 1, 0), "repair = \"glue\"", {"glue", "winding"});
-  return measured.judged(0, "each refusal must name the file or the key, and the reason");
+  return judged_worst(measured, 0, "each refusal must name the file or the key, and the reason");
 }
 
 /// Largest error of phi over points at distances 0.5 to 1.2 from the ball's centre, half of them below or
@@ -82,13 +82,13 @@ double error_of(const Scene& scene, double cell) {
 Finding bodies_are_solid(const Subject&) {
   const ScratchFolder folder;
   constexpr double cell = 2 * radius / 32;
-  Measured measured("largest error of phi", "cells");
-  measured.see("whole, grid", error_of(read_case_beside(written(folder, 0, 0), "cells = 32"), cell));
-  measured.see("whole, exact", error_of(read_case_beside(written(folder, 0, 0), "field = \"exact\""), cell));
-  measured.see("four triangles missing, seven flipped",
+  Table measured{{"case", ""}, {"largest error of phi", "cells"}};
+  measured.row("whole, grid", error_of(read_case_beside(written(folder, 0, 0), "cells = 32"), cell));
+  measured.row("whole, exact", error_of(read_case_beside(written(folder, 0, 0), "field = \"exact\""), cell));
+  measured.row("four triangles missing, seven flipped",
                error_of(read_case_beside(written(folder, 4, 7), "cells = 32\nrepair = \"winding\""), cell));
-  return measured.judged(
-      1,
+  return judged_worst(
+      measured, 1,
       "faces lie up to 0.15 cells within the ball; a hole of four triangles is three cells wide, "
       "and a membrane over it flatter than the ball by half a cell");
 }

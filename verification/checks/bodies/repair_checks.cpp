@@ -10,7 +10,6 @@
 #include "reference/mesh/shapes.h"
 #include "verification/checks/bodies/body_checks.h"
 #include "verification/evidence.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/ugly_solids.h"
@@ -28,7 +27,7 @@ std::shared_ptr<const Grid> grid_of(const TriangleSoup& soup) {
 }
 
 Finding parity_agrees(const Subject&) {
-  Measured measured("nodes that are counted otherwise", "1");
+  Table measured{{"case", ""}, {"nodes that are counted otherwise", "1"}};
   std::vector<std::pair<std::string, TriangleSoup>> soups{{"statue", statue()}};
   const TriangleMesh sphere = make_icosphere(1, 3);  // rays of the lattice run through its vertices
   soups.push_back({"sphere on the lattice", {sphere.rest, sphere.triangles, {}}});
@@ -37,10 +36,10 @@ Finding parity_agrees(const Subject&) {
     const auto grid = grid_of(soup);
     const Disagreement found = disagreement(*grid, ray_parity(soup.rest, soup.triangles, grid->lattice),
                                             1e-9 * grid->lattice.spacing);
-    measured.see(name, double(found.with_sign.size() + found.among_rays.size()));
+    measured.row(name, double(found.with_sign.size() + found.among_rays.size()));
   }
-  return measured.judged(0,
-                         "on closed surfaces all three rays and the pseudonormal answer the same question");
+  return judged_worst(measured, 0,
+                      "on closed surfaces all three rays and the pseudonormal answer the same question");
 }
 
 /// What is said of meshes whose defects are known.
@@ -55,15 +54,15 @@ Finding inspection_tells(const Subject&) {
   const auto lacks = [](const std::string& text, const char* part) {
     return text.find(part) == std::string::npos;
   };
-  Measured measured("what is said wrongly", "1");
-  measured.see("a ball is a solid", !a.refusal.empty() || a.pieces != 1 || a.triangles != 1280);
-  measured.see("its volume, over 1 percent", std::abs(a.volume / (4 * EIGEN_PI / 3 * 0.343) - 1) > 0.01);
-  measured.see("no opinion differs", double(a.against_sign + a.among_rays));
-  measured.see("a hole", lacks(b.refusal, "a hole") || !b.no_repair.empty());
-  measured.see("rays differ behind it", b.among_rays > b.against_sign ? 0 : 1);
-  measured.see("a flipped triangle", lacks(c.refusal, "opposite orientation"));
-  measured.see("a triangle alone has no inside", lacks(d.no_repair, "no inside") || d.nodes != 0);
-  return measured.judged(0, "each defect must be told, and none made up");
+  Table measured{{"case", ""}, {"what is said wrongly", "1"}};
+  measured.row("a ball is a solid", !a.refusal.empty() || a.pieces != 1 || a.triangles != 1280);
+  measured.row("its volume, over 1 percent", std::abs(a.volume / (4 * EIGEN_PI / 3 * 0.343) - 1) > 0.01);
+  measured.row("no opinion differs", double(a.against_sign + a.among_rays));
+  measured.row("a hole", lacks(b.refusal, "a hole") || !b.no_repair.empty());
+  measured.row("rays differ behind it", b.among_rays > b.against_sign ? 0 : 1);
+  measured.row("a flipped triangle", lacks(c.refusal, "opposite orientation"));
+  measured.row("a triangle alone has no inside", lacks(d.no_repair, "no inside") || d.nodes != 0);
+  return judged_worst(measured, 0, "each defect must be told, and none made up");
 }
 
 Finding parity_shows_holes(const Subject&) {
@@ -82,14 +81,15 @@ Finding parity_shows_holes(const Subject&) {
     if (found.among_rays.empty()) ++unseen;
     outvoting.see(denied.back() / std::max(streaks.back(), 1.0));
   }
-  Measured measured(
-      "holes of six triangles that no ray shows, and the largest share of streaks that wins the vote", "1");
-  measured.see("unseen", unseen);
-  measured.see("share", outvoting.value());
+  Table measured{
+      {"case", ""},
+      {"holes of six triangles that no ray shows, and the largest share of streaks that wins the vote", "1"}};
+  measured.row("unseen", unseen);
+  measured.row("share", outvoting.value());
   Finding finding =
-      measured.judged(0.25,
-                      "every hole lies across at least one row of nodes, and streaks along two axes "
-                      "meet in few of their nodes only");
+      judged_worst(measured, 0.25,
+                   "every hole lies across at least one row of nodes, and streaks along two axes "
+                   "meet in few of their nodes only");
   finding.note = "nodes in streaks, and denied signs, of the worst hole: " +
                  std::to_string(int(signed_largest(streaks))) + ", " +
                  std::to_string(int(signed_largest(denied)));
@@ -103,7 +103,7 @@ Vector3 about(Random& random, const Bounds& bounds) {
 }
 
 Finding winding_is_whole(const Subject&) {
-  Measured measured("deviation from 1 inside and 0 outside", "1");
+  Table measured{{"case", ""}, {"deviation from 1 inside and 0 outside", "1"}};
   for (const UglySolid& solid : ugly_solids()) {
     Random random(101);
     Worst worst;
@@ -114,19 +114,18 @@ Finding winding_is_whole(const Subject&) {
       if (inside == 0) continue;
       worst.see(std::abs(winding_number(solid.soup.rest, solid.soup.triangles, p) - (inside > 0 ? 1 : 0)));
     }
-    measured.see(solid.name, worst.value());
+    measured.row(solid.name, worst.value());
   }
-  return measured.judged(
-      1e-8,
-      "solid angles add up to full turns; seen from close to a face's plane, one of them has "
-      "lost its digits to cancellation, epsilon times the squared ratio of sizes");
+  return judged_worst(measured, 1e-8,
+                      "solid angles add up to full turns; seen from close to a face's plane, one of them has "
+                      "lost its digits to cancellation, epsilon times the squared ratio of sizes");
 }
 
 Finding tree_is_near(const Subject&) {
   const TriangleMesh& mesh = small_statue();
   const MeshDistance distance = make_mesh_distance(mesh.rest, mesh.triangles);
   const std::vector<Dipole> dipoles = make_dipoles(distance);
-  Measured measured("deviation from the sum over all triangles, times far squared", "1");
+  Table measured{{"case", ""}, {"deviation from the sum over all triangles, times far squared", "1"}};
   std::vector<Triangle> part(mesh.triangles.begin(), mesh.triangles.end() - 200);
   const MeshDistance open = make_mesh_distance(mesh.rest, part);
   const std::vector<Dipole> open_dipoles = make_dipoles(open);
@@ -139,10 +138,10 @@ Finding tree_is_near(const Subject&) {
           std::abs(winding_number(distance, dipoles, p, far) - winding_number(mesh.rest, mesh.triangles, p)));
       worst.see(std::abs(winding_number(open, open_dipoles, p, far) - winding_number(mesh.rest, part, p)));
     }
-    measured.see("far = " + std::to_string(far), far * far * worst.value());
+    measured.row("far = " + std::to_string(far), far * far * worst.value());
   }
-  return measured.judged(
-      0.5,
+  return judged_worst(
+      measured, 0.5,
       "what is left out of a patch is its second moment, at most the square of radius over "
       "distance of its own angle; the angles of all patches seen, sizes added, are about half "
       "of the full turn that cancels");
@@ -198,20 +197,21 @@ Finding repair_mends(const Subject&) {
   for (int t = 1200; t > 0; t -= 97)
     open.triangles.erase(open.triangles.begin() + t, open.triangles.begin() + t + 2);
   for (int t = 5; t < 1280; t += 7) std::swap(flipped.triangles[t][0], flipped.triangles[t][1]);
-  Measured measured(
-      "twice the nodes on the wrong side more than a cell from the surface, and mean error in tenths of a "
-      "cell",
-      "1");
+  Table measured{
+      {"case", ""},
+      {"twice the nodes on the wrong side more than a cell from the surface, and mean error in tenths of a "
+       "cell",
+       "1"}};
   const auto see = [&](const std::string& name, const Mended& mended) {
-    measured.see(name + ", wrong sides", 2 * mended.wrong_sides);
-    measured.see(name + ", mean error", 10 * mended.mean_error);
+    measured.row(name + ", wrong sides", 2 * mended.wrong_sides);
+    measured.row(name + ", mean error", 10 * mended.mean_error);
   };
   see("nothing to mend", compared(*truth, *make_repaired_grid(whole, method)));
   see("thirteen holes of two triangles", compared(*truth, *make_repaired_grid(open, method)));
   see("a seventh of the triangles flipped", compared(*truth, *make_repaired_grid(flipped, method)));
   see("two balls that overlap", against_union(*make_repaired_grid(overlapping_balls(), method)));
-  return measured.judged(
-      1,
+  return judged_worst(
+      measured, 1,
       "a start from sides alone would leave the surface off by 0.13 cells in the mean; exact "
       "distances where a triangle parts the sides must do better, though marching begins in first "
       "order from a single layer of nodes");

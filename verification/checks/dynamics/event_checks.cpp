@@ -7,7 +7,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
 #include "verification/oracles/exact_solutions.h"
-#include "verification/specimens/measured.h"
+#include "verification/evidence.h"
 
 namespace foldproof {
 
@@ -80,13 +80,13 @@ double error_at(const System& system, const Integrator& integrator, double h) {
 
 Finding order_holds(const Subject&) {
   const System system = led_spring();
-  Measured measured("|observed order - order of the table|", "1");
+  Table measured{{"case", ""}, {"|observed order - order of the table|", "1"}};
   for (const Integrator& integrator : integrators()) {
     const double coarse = error_at(system, integrator, 0.0041), fine = error_at(system, integrator, 0.00205);
-    measured.see(std::string(integrator.name), std::abs(std::log2(coarse / fine) - integrator.order));
+    measured.row(std::string(integrator.name), std::abs(std::log2(coarse / fine) - integrator.order));
   }
-  return measured.judged(
-      0.2,
+  return judged_worst(
+      measured, 0.2,
       "a step across an event would err by the first or second power of the step, so that an order of two "
       "or more would be off by 1 at least; at fiftieths of the decay the next term leaves a tenth");
 }
@@ -107,16 +107,16 @@ Visited visited(const System& system, const std::string& integrator, const Sched
 
 Finding events_are_hit(const Subject&) {
   const System system = led_spring();
-  Measured measured("distance of an event from the nearest end of a step", "s");
+  Table measured{{"case", ""}, {"distance of an event from the nearest end of a step", "s"}};
   for (const Integrator& integrator : integrators()) {
     const Visited run = visited(system, std::string(integrator.name), {end, 0.1, {0.013, 0.5, 0.1}, 100000});
     for (const double event : {from, until}) {
       double nearest = INFINITY;
       for (const double time : run.times) nearest = std::min(nearest, std::abs(time - event));
-      measured.see(std::string(integrator.name) + ", at " + std::to_string(event) + " s", nearest);
+      measured.row(std::string(integrator.name) + ", at " + std::to_string(event) + " s", nearest);
     }
   }
-  return measured.judged(0, "the state that ends at an event has its time to the bit");
+  return judged_worst(measured, 0, "the state that ends at an event has its time to the bit");
 }
 
 /// A ball, a led cube of keyframes and a ball that deforms, far from the spring, and the times at which they
@@ -152,16 +152,16 @@ Finding object_events_are_hit(const Subject&) {
   const Movers objects = movers();
   System system = led_spring();
   system.filters.push_back(objects.collision);
-  Measured measured("distance of an event from the nearest end of a step", "s");
+  Table measured{{"case", ""}, {"distance of an event from the nearest end of a step", "s"}};
   for (const char* integrator : {"A", "C", "BDF2", "RK4"}) {
     const Visited run = visited(system, integrator, {end, 0.1, {0.013, 0.5, 0.1}, 100000});
     for (const double event : objects.times) {
       double nearest = INFINITY;
       for (const double time : run.times) nearest = std::min(nearest, std::abs(time - event));
-      measured.see(std::string(integrator) + ", at " + std::to_string(event) + " s", nearest);
+      measured.row(std::string(integrator) + ", at " + std::to_string(event) + " s", nearest);
     }
   }
-  return measured.judged(0, "the state that ends at an event has its time to the bit");
+  return judged_worst(measured, 0, "the state that ends at an event has its time to the bit");
 }
 
 /// A motion that drifts and swings, between two times of which one is a frame's, but for a rounding.
@@ -172,7 +172,7 @@ Finding path_is_kept(const Subject&) {
   motion.frequency = 1.9;
   motion.phase = 0.6;
   motion.from = 0.1 + 0.1 + 0.1;  // one rounding above 0.3
-  Measured measured("distance from the path, or of velocities, over the swing", "1");
+  Table measured{{"case", ""}, {"distance from the path, or of velocities, over the swing", "1"}};
   for (const Integrator& integrator : integrators()) {
     const Visited run = visited(system, std::string(integrator.name), {end, 0.1, {0.013, 0.5, 0.1}, 100000});
     Worst x, v;
@@ -187,13 +187,12 @@ Finding path_is_kept(const Subject&) {
       x.see((s.x.col(0) - place).norm());
       v.see((s.v.col(0) - (moves ? rate : Vector3::Zero())).norm() / (2 * EIGEN_PI * motion.frequency));
     }
-    measured.see(std::string(integrator.name) + ", positions", x.value() / motion.amplitude.norm());
-    measured.see(std::string(integrator.name) + ", velocities", v.value() / motion.amplitude.norm());
+    measured.row(std::string(integrator.name) + ", positions", x.value() / motion.amplitude.norm());
+    measured.row(std::string(integrator.name) + ", velocities", v.value() / motion.amplitude.norm());
   }
-  return measured.judged(
-      1e-9,
-      "places are a frame's time apart from the formula's by up to 1e-12 s here, on which a "
-      "swing of 2 Hz moves by 1e-11 of itself, and the drift by 1e-11 too");
+  return judged_worst(measured, 1e-9,
+                      "places are a frame's time apart from the formula's by up to 1e-12 s here, on which a "
+                      "swing of 2 Hz moves by 1e-11 of itself, and the drift by 1e-11 too");
 }
 
 }  // namespace

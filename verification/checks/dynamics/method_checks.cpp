@@ -9,7 +9,6 @@
 #include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/specimens/differences.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
@@ -81,7 +80,7 @@ void lead(const System& system, State& s) {
 }
 
 Finding satisfies_its_equations(const Subject& subject, const std::string& method) {
-  Measured measured("residual over momentum and impulse", "1");
+  Table measured{{"case", ""}, {"residual over momentum and impulse", "1"}};
   for (Scene scene : {free_sheet(), led_sheet()}) {
     scene.solver.tolerance = tolerance;
     const System system = build_system(scene);
@@ -90,19 +89,19 @@ Finding satisfies_its_equations(const Subject& subject, const std::string& metho
       const Made made = made_by(stepper, h);
       Equation equation = equation_of(method, made);
       lead(system, equation.at);
-      measured.see((scene.led.empty() ? "free, h = " : "led, h = ") + std::to_string(h) + " s",
+      measured.row((scene.led.empty() ? "free, h = " : "led, h = ") + std::to_string(h) + " s",
                    residual_of(stepper, equation, system.mass, system.inverse_mass));
     }
   }
-  return measured.judged(
-      100 * tolerance,
+  return judged_worst(
+      measured, 100 * tolerance,
       "the solver's tolerance is 1e-11 of the momentum at its guess, which may be some ten times what "
       "the step changes, and masses that differ by as much weigh it otherwise here");
 }
 
 /// One step of the linearised method against a dense solve of its equation, with the subject's forces.
 Finding linearised_step(const Subject& subject) {
-  Measured measured("difference over the largest velocity", "1");
+  Table measured{{"case", ""}, {"difference over the largest velocity", "1"}};
   for (const double h : {0.0017, 0.019}) {
     Scene scene = free_sheet();
     scene.solver.tolerance = 1e-13;
@@ -125,11 +124,11 @@ Finding linearised_step(const Subject& subject) {
     const PerParticle3 momentum = now.v * system.mass.asDiagonal() + h * probe.elastic(now);
     const Eigen::VectorXd v = oracles::solved_symmetric(A, momentum.reshaped());
     const PerParticle3 next = stepper.step(now, h).v;
-    measured.see("h = " + std::to_string(h) + " s",
+    measured.row("h = " + std::to_string(h) + " s",
                  largest_difference(next, v.reshaped(3, next.cols())) / largest_speed(next));
   }
-  return measured.judged(
-      1e-10,
+  return judged_worst(
+      measured, 1e-10,
       "the solver's tolerance is 1e-13 of the momentum, times the matrix's condition, at most some 1e3");
 }
 
@@ -200,21 +199,22 @@ std::vector<Specimen> shapes_at_rest() {
 }
 
 Finding rest_is_found(const Subject& subject) {
-  Measured measured("solves that missed their tolerance", "1");
+  Table measured{{"case", ""}, {"solves that missed their tolerance", "1"}};
   for (const Specimen& shape : shapes_at_rest())
     for (const std::string method : {"backward-euler", "implicit-midpoint"}) {
       Stepper stepper(subject, shape.scene, method);
       const double limit = elastic_limit(build_system(shape.scene), shape.state);
       stepper.step(shape.state, 5 * limit);
-      measured.see(shape.name + ", " + method, double(stepper.work().unfinished_solves));
+      measured.row(shape.name + ", " + method, double(stepper.work().unfinished_solves));
     }
-  return measured.judged(
-      0, "what is at rest but for the rounding of its place needs no solve, nor can one improve it");
+  return judged_worst(
+      measured, 0,
+      "what is at rest but for the rounding of its place needs no solve, nor can one improve it");
 }
 
 /// Sheets that turn and crumple against damping a hundred times their usual.
 Finding newton_is_quick(const Subject& subject) {
-  Measured measured("Newton iterations of a step", "1");
+  Table measured{{"case", ""}, {"Newton iterations of a step", "1"}};
   for (Scene scene : {heavily_damped(free_sheet()), heavily_damped(led_sheet())}) {
     scene.solver.tolerance = 1e-9;
     for (const std::string method : {"backward-euler", "BDF2", "implicit-midpoint"}) {
@@ -224,14 +224,14 @@ Finding newton_is_quick(const Subject& subject) {
       for (const double over : {0.5, 2.0, 5.0}) {
         const long before = stepper.work().newton_iterations;
         stepper.step(start, over * limit);
-        measured.see((scene.led.empty() ? "free, " : "led, ") + method + ", " + std::to_string(over) +
+        measured.row((scene.led.empty() ? "free, " : "led, ") + method + ", " + std::to_string(over) +
                          " times the elastic limit",
                      double(stepper.work().newton_iterations - before));
       }
     }
   }
-  return measured.judged(
-      10,
+  return judged_worst(
+      measured, 10,
       "solved to a thousandth, an exact step leaves a thousandth near the solution: three iterations for "
       "nine "
       "digits, and we allow seven to come near; without the derivative of the damping each leaves a good "
@@ -251,34 +251,34 @@ double rate_over_bound(const Subject& subject, const Specimen& specimen) {
 }
 
 Finding damping_bound_is_a_bound(const Subject& subject) {
-  Measured measured("largest rate over the bound", "1");
+  Table measured{{"case", ""}, {"largest rate over the bound", "1"}};
   const StretchMaterial springs{1, 0.017, 1};
   const BendingMaterial hinges = damped_bending_variants().front();
   for (Specimen specimen : small_crumpled_sheets()) {
     const std::string name = specimen.name;
     specimen.scene.stretch = springs;
-    measured.see(name + ", springs", rate_over_bound(subject, specimen));
+    measured.row(name + ", springs", rate_over_bound(subject, specimen));
     specimen.scene.bending = hinges;
-    measured.see(name + ", both", rate_over_bound(subject, specimen));
+    measured.row(name + ", both", rate_over_bound(subject, specimen));
     specimen.scene.stretch.reset();
-    measured.see(name + ", hinges", rate_over_bound(subject, specimen));
+    measured.row(name + ", hinges", rate_over_bound(subject, specimen));
   }
-  return measured.judged(1, "an upper bound may not be exceeded");
+  return judged_worst(measured, 1, "an upper bound may not be exceeded");
 }
 
 /// Two equal masses joined by a damper: as fast as the bound says.
 Finding damping_rate_is_reached(const Subject&) {
-  Measured measured("bound over the rate of one damper, less 1", "1");
+  Table measured{{"case", ""}, {"bound over the rate of one damper, less 1", "1"}};
   for (const double mass : {0.3, 2.7}) {
     DampingOperator damper;
     const Vector3 along(0.4, -1.1, 0.7);  // sqrt(N s/m)
     damper.pairs.push_back({0, 1, along});
     const double rate = 2 * along.squaredNorm() / mass;  // of their relative velocity [1/s]
-    measured.see(fmt::format("{} kg", mass),
+    measured.row(fmt::format("{} kg", mass),
                  std::abs(damping_rate_bound(damper, PerParticle::Constant(2, 1 / mass)) / rate - 1));
   }
-  return measured.judged(8 * epsilon,
-                         "one pair leaves nothing to be bounded: the same number in a few roundings");
+  return judged_worst(measured, 8 * epsilon,
+                      "one pair leaves nothing to be bounded: the same number in a few roundings");
 }
 
 /// Automatic steps of a sheet whose damping, not its elasticity, limits explicit methods.
@@ -290,14 +290,14 @@ Finding explicit_steps_respect_damping(const Subject&) {
   Work uncounted;
   const double rate = damping_rate_bound(damping_at(system.forces, s, uncounted), system.inverse_mass);
   const StepRule rule{0, 0.7, 1e9};
-  Measured measured("step over 0.7 of the limit, less 1", "1");
+  Table measured{{"case", ""}, {"step over 0.7 of the limit, less 1", "1"}};
   for (const Integrator& integrator : integrators()) {
     const bool limited = integrator.family == Family::fully_explicit;
     const double elastic = elastic_limit(system, s), limit = limited ? std::min(2 / rate, elastic) : elastic;
     const double h = step_allowed(system, integrator, {&s, 1}, rule, elastic);
-    measured.see(std::string(integrator.name), std::abs(h / (rule.safety * limit) - 1));
+    measured.row(std::string(integrator.name), std::abs(h / (rule.safety * limit) - 1));
   }
-  return measured.judged(8 * epsilon, "the limit times the safety, in a few roundings");
+  return judged_worst(measured, 8 * epsilon, "the limit times the safety, in a few roundings");
 }
 
 /// After a step of a hundredth of what is allowed, the next one.
@@ -307,17 +307,18 @@ Finding growth_is_limited(const Subject&) {
   now.time = before.time + 1e-5;
   const StepRule rule{1e-3, 0.5, 0.1};
   const double zero_stable = 1 + std::sqrt(2.0);
-  Measured measured("growth over the largest allowed", "1");
+  Table measured{{"case", ""}, {"growth over the largest allowed", "1"}};
   for (const Integrator& integrator : integrators()) {
     const std::array<State, 2> past = {before, now};
     const double growth = step_allowed(system, integrator, past, rule, elastic_limit(system, now)) / 1e-5;
     const double allowed = integrator.name == "BDF2" ? zero_stable : 100;
-    measured.see(std::string(integrator.name), growth / allowed);
+    measured.row(std::string(integrator.name), growth / allowed);
     if (integrator.name != "BDF2")
-      measured.see(std::string(integrator.name) + " unhindered", allowed / growth);
+      measured.row(std::string(integrator.name) + " unhindered", allowed / growth);
   }
-  return measured.judged(
-      1 + 1e-9, "BDF2 is zero-stable for ratios below 1 + sqrt(2); one-step methods need no such limit");
+  return judged_worst(
+      measured, 1 + 1e-9,
+      "BDF2 is zero-stable for ratios below 1 + sqrt(2); one-step methods need no such limit");
 }
 
 /// Derivatives of the elastic forces that Newton's method asks for in an iteration, where they are definite:
@@ -325,19 +326,19 @@ Finding growth_is_limited(const Subject&) {
 Finding newton_asks_finding(const Subject&) {
   const System system = build_system(undamped_sheet());
   const State start = start_state(undamped_sheet());
-  Measured measured("derivatives an iteration, more than two", "1");
+  Table measured{{"case", ""}, {"derivatives an iteration, more than two", "1"}};
   for (const char* name : {"backward-euler", "implicit-midpoint"})
     for (const double share : {0.1, 0.3}) {
       Work work;
       integrator_named(name).step(system, {&start, 1}, share * elastic_limit(system, start), work);
-      measured.see(
+      measured.row(
           fmt::format("{}, {} of the elastic limit, {} iterations", name, share, work.newton_iterations),
           work.newton_iterations > 1
               ? double(work.stiffness_preparations) / double(work.newton_iterations) - 2
               : NAN);
     }
-  return measured.judged(
-      0, "the exact derivative, which proves symmetric, and that of conjugate gradients, once");
+  return judged_worst(measured, 0,
+                      "the exact derivative, which proves symmetric, and that of conjugate gradients, once");
 }
 
 }  // namespace

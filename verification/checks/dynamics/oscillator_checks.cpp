@@ -58,9 +58,7 @@ Eigen::Matrix2d stepped_matrix(const std::string& integrator, const Oscillator& 
 Finding verlet_finding(const Subject&, const std::string& integrator) {
   const std::vector<std::pair<Oscillator, double>> cases = {{{27.25, 0, 0.6875, -1.84375}, 0.140625},
                                                             {{11.375, 0, -0.40625, 0.78125}, 0.53125}};
-  Worst worst;
-  Column omega_h{"omega h", "1", std::vector<double>{}},
-      errors{"error over amplitude", "1", std::vector<double>{}};
+  Table errors{{"omega h", "1"}, {"error over amplitude", "1"}};
   for (const auto& [oscillator, h] : cases) {
     const System system = oscillator_system(oscillator);
     const double omega = std::sqrt(oscillator.stiffness), speed = omega * std::cos(std::asin(omega * h / 2));
@@ -74,15 +72,13 @@ Finding verlet_finding(const Subject&, const std::string& integrator) {
       here.see(std::abs(s.x(0, 0) - exact.x.value) / amplitude);
       here.see(std::abs(s.v(0, 0) - exact.v.value) / (amplitude * speed));
     }
-    worst.see(here.value());
-    std::get<0>(omega_h.values).push_back(omega * h);
-    std::get<0>(errors.values).push_back(here.value());
+    errors.row(omega * h, here.value());
   }
-  return {{worst.value(), 4e-14, 2 * epsilon, "1",
+  return {{errors.worst("error over amplitude"), 4e-14, 2 * epsilon, "1",
            "1,000 steps of five roundings that add up like a random walk: sqrt(5000)/2 = 35 epsilon of the "
            "amplitude, and up to five times that at the worst step near the stability limit. The constants "
            "have few bits, so that no rounding is the same in every step"},
-          {omega_h, errors},
+          errors,
           ""};
 }
 
@@ -99,9 +95,7 @@ Eigen::Matrix2d term_sizes(const std::string& integrator, const Oscillator& osci
 Finding matrix_finding(const Subject&, const std::string& integrator) {
   const Scheme scheme = scheme_named(integrator);
   Random random(12);
-  Worst worst;
-  Column as{"h c/2", "1", std::vector<double>{}}, bs{"h^2 k/2", "1", std::vector<double>{}};
-  Column errors{"error", "epsilon of the terms", std::vector<double>{}};
+  Table errors{{"h c/2", "1"}, {"h^2 k/2", "1"}, {"error", "epsilon of the terms"}};
   for (int n = 0; n < 300; ++n) {
     const double h = random.in_decades(1e-4, 0.7), a = random.in_decades(3e-3, 300),
                  b = random.in_decades(2e-3, 9);
@@ -111,15 +105,12 @@ Finding matrix_finding(const Subject&, const std::string& integrator) {
     const Eigen::Matrix2d sizes = term_sizes(integrator, oscillator, h);
     Worst here;
     for (int k = 0; k < 4; ++k) here.see(std::abs(error(k)) / (epsilon * sizes(k)));
-    worst.see(here.value());
-    std::get<0>(as.values).push_back(a);
-    std::get<0>(bs.values).push_back(b);
-    std::get<0>(errors.values).push_back(here.value());
+    errors.row(a, b, here.value());
   }
-  return {{worst.value(), 16, 0.5, "epsilon of the terms",
+  return {{errors.worst("error"), 16, 0.5, "epsilon of the terms",
            "about twenty roundings lie between the unit vector and an entry, half an epsilon each, and one "
            "correction of the solve"},
-          {as, bs, errors},
+          errors,
           ""};
 }
 
@@ -133,8 +124,7 @@ Finding stability_finding(const Subject&, const std::string& integrator) {
   const std::vector<double> over_limit = {0.03, 0.21, 0.57, 0.83, 0.97, 1 - 1e-6, 1 + 1e-6, 1.04, 1.37, 2.9};
   Random random(23);
   double misjudged = 0;
-  Column ratios{"damping ratio", "1", std::vector<double>{}},
-      wrong{"steps misjudged", "1", std::vector<double>{}};
+  Table wrong{{"damping ratio", "1"}, {"steps misjudged", "1"}};
   for (int n = 0; n < 60; ++n) {
     const double k = random.in_decades(0.3, 3000), ratio = n % 10 == 0 ? 0 : random.in_decades(0.003, 30);
     const Oscillator oscillator{k, 2 * ratio * std::sqrt(k), 0, 0};
@@ -146,21 +136,19 @@ Finding stability_finding(const Subject&, const std::string& integrator) {
       if (!right) ++here;
     }
     misjudged += here;
-    std::get<0>(ratios.values).push_back(ratio);
-    std::get<0>(wrong.values).push_back(here);
+    wrong.row(ratio, here);
   }
   return {{misjudged, 0, 0, "1",
            "a step is stable if the spectral radius is at most 1 + 1e-10: rounding moves it by 1e-13 at "
            "most, and a millionth beyond the limit it exceeds 1 by 1e-8 at least"},
-          {ratios, wrong},
+          wrong,
           ""};
 }
 
 Finding pure_damping_finding(const Subject&, const std::string& integrator) {
   const double c = 7.3, v0 = -0.83;
   Worst worst;
-  Column as{"h c/2", "1", std::vector<double>{}},
-      totals{"displacement over exact", "1", std::vector<double>{}};
+  Table totals{{"h c/2", "1"}, {"displacement over exact", "1"}};
   for (double a : {0.11, 0.37, 0.94, 2.7, 10.0, 23.0}) {
     const double h = 2 * a / c, expected = integrator == "A" ? 1 - a * a : 1;
     const System system = oscillator_system({0, c, 0, 0});
@@ -175,13 +163,12 @@ Finding pure_damping_finding(const Subject&, const std::string& integrator) {
     }
     const double total = s.x(0, 0) / (v0 / c), scale = path / std::abs(v0 / c) * (1 + a);
     worst.see(std::abs(total - expected) / (epsilon * steps * scale));
-    std::get<0>(as.values).push_back(a);
-    std::get<0>(totals.values).push_back(total);
+    totals.row(a, total);
   }
   return {{worst.value(), 4, 0, "epsilon of the path, a step",
            "each step rounds the position once and the velocity about six times; (1 + h c/2) is how much "
            "larger the terms are than the velocity that they leave"},
-          {as, totals},
+          totals,
           ""};
 }
 

@@ -7,7 +7,7 @@
 #include "reference/dynamics/simulate.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
 #include "verification/specimens/layered_cloth.h"
-#include "verification/specimens/measured.h"
+#include "verification/evidence.h"
 #include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/sticking_scenes.h"
 
@@ -178,11 +178,11 @@ std::vector<Interrupted> interrupted_runs() {
 }
 
 Finding same_bits_finding(const Subject&) {
-  Measured measured("numbers that differ", "1");
+  Table measured{{"case", ""}, {"numbers that differ", "1"}};
   for (const Interrupted& run : interrupted_runs())
-    measured.see(run.name + ", " + run.integrator, differences(run));
-  return measured.judged(
-      0,
+    measured.row(run.name + ", " + run.integrator, differences(run));
+  return judged_worst(
+      measured, 0,
       "a checkpoint holds all that a run remembers: frames, diagnostics, later checkpoints, work and stop "
       "are the same bits, whichever frame the run goes on from");
 }

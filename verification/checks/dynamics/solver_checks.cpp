@@ -4,7 +4,6 @@
 #include "verification/checks/dynamics/dynamics_checks.h"
 #include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/solver_problems.h"
@@ -19,20 +18,6 @@ const char* name_of_scale(ResidualScale scale) {
   return scale == ResidualScale::momentum ? "momentum" : "initial residual";
 }
 
-/// The columns that the checks of residuals share.
-struct ResidualTable {
-  std::vector<std::string> scale;
-  std::vector<double> step, tolerance, returned, recomputed;
-  std::vector<double>
-      size;  // |A| |w| of the solution, over the scale; A: the operator of mass-weighted velocities [1]
-
-  std::vector<Column> columns() const {
-    return {{"relative to", "1", scale},     {"half step", "s", step},
-            {"tolerance", "1", tolerance},   {"returned", "1", returned},
-            {"recomputed", "1", recomputed}, {"operator times solution", "of the scale", size}};
-  }
-};
-
 /// Of M^{-1/2} A M^{-1/2} [1].
 double largest_eigenvalue(const DenseProblem& dense) {
   const Eigen::VectorXd root = dense.mass.cwiseSqrt().cwiseInverse();
@@ -41,8 +26,11 @@ double largest_eigenvalue(const DenseProblem& dense) {
   return values.maxCoeff();
 }
 
-ResidualTable residual_table() {
-  ResidualTable table;
+/// Solves to many tolerances: the residual returned and recomputed, and |A| |w| of the solution, where A is
+/// the operator of mass-weighted velocities.
+Table residual_table() {
+  Table table{{"relative to", "1"}, {"half step", "s"},  {"tolerance", "1"},
+              {"returned", "1"},    {"recomputed", "1"}, {"operator times solution", "of the scale"}};
   for (const ResidualScale scale : {ResidualScale::momentum, ResidualScale::initial_residual})
     for (double s : {2.3e-4, 3.1e-3, 0.047}) {
       Problem problem = make_problem(led_sheet(), 91);
@@ -54,45 +42,45 @@ ResidualTable residual_table() {
         const Solve solve = solve_velocity(problem.damping, s, problem.system.mass,
                                            problem.system.inverse_mass, {tolerance, 1000, scale}, w, work);
         const Eigen::VectorXd r = dense.b - dense.A * Eigen::VectorXd(w.reshaped()(dense.free));
-        table.scale.push_back(name_of_scale(scale));
-        table.step.push_back(s);
-        table.tolerance.push_back(tolerance);
-        table.returned.push_back(solve.residual);
-        table.recomputed.push_back(weighted_norm(r, dense.mass) / scale_of(dense, scale));
         const Eigen::VectorXd momentum = dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)));
-        table.size.push_back(largest * weighted_norm(momentum, dense.mass) / scale_of(dense, scale));
+        const double size = scale_of(dense, scale);
+        table.row(name_of_scale(scale), s, tolerance, solve.residual, weighted_norm(r, dense.mass) / size,
+                  largest * weighted_norm(momentum, dense.mass) / size);
       }
     }
   return table;
 }
 
 Finding promise_finding(const Subject&) {
-  const ResidualTable table = residual_table();
+  const Table table = residual_table();
+  const std::vector<double>&tolerance = table.numbers("tolerance"), &recomputed = table.numbers("recomputed");
   Worst worst;
-  for (size_t k = 0; k < table.step.size(); ++k) worst.see(table.recomputed[k] / table.tolerance[k]);
+  for (size_t k = 0; k < table.rows(); ++k) worst.see(recomputed[k] / tolerance[k]);
   return {{worst.value(), 1.05, 0, "of the tolerance",
            "the tolerance, and what the iteration's residual and the true one drift apart: some hundred "
            "epsilon, a twentieth of the smallest tolerance, 1e-12"},
-          table.columns(),
+          table,
           "The residual b - (M - s D) w is recomputed with a dense D made of the modes of all dampers."};
 }
 
 Finding returned_finding(const Subject&) {
-  const ResidualTable table = residual_table();
+  const Table table = residual_table();
+  const std::vector<double>&returned = table.numbers("returned"), &recomputed = table.numbers("recomputed");
+  const std::vector<double>& size = table.numbers("operator times solution");
   Worst worst;
-  for (size_t k = 0; k < table.step.size(); ++k)
-    worst.see(std::abs(table.returned[k] - table.recomputed[k]) / (epsilon * table.size[k]));
+  for (size_t k = 0; k < table.rows(); ++k)
+    worst.see(std::abs(returned[k] - recomputed[k]) / (epsilon * size[k]));
   return {{worst.value(), 8, 0, "epsilon of the operator's norm times the solution's",
            "each iteration rounds r in proportion to the operator times the iterate (Greenbaum 1997), and "
            "the first "
            "few, whose corrections are the largest, decide"},
-          table.columns(),
+          table,
           ""};
 }
 
 Finding cholesky_finding(const Subject&) {
   Worst worst;
-  std::vector<double> steps, errors, tolerances;
+  Table errors{{"half step", "s"}, {"tolerance", "1"}, {"error over the velocity", "1"}};
   for (double s : {2.3e-4, 3.1e-3, 0.047})
     for (double tolerance : {1e-3, 1e-11}) {
       const Problem problem = make_problem(led_sheet(), 29);
@@ -104,10 +92,9 @@ Finding cholesky_finding(const Subject&) {
       const Eigen::VectorXd exact = oracles::solved_symmetric(dense.A, dense.b);
       const Eigen::VectorXd error =
           dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)) - exact);
-      steps.push_back(s);
-      tolerances.push_back(tolerance);
-      errors.push_back(weighted_norm(error, dense.mass) / scale_of(dense, ResidualScale::momentum));
-      worst.see(errors.back() / tolerance);
+      const double size = weighted_norm(error, dense.mass) / scale_of(dense, ResidualScale::momentum);
+      errors.row(s, tolerance, size);
+      worst.see(size / tolerance);
       for (const PrescribedParticle& p : problem.system.led)
         if (w.col(p.particle) != problem.guess.col(p.particle)) worst.see(INFINITY);
     }
@@ -115,7 +102,7 @@ Finding cholesky_finding(const Subject&) {
       {worst.value(), 1.05, 0, "of the tolerance",
        "in the mass-weighted norm the operator is at least the identity, so that the error is at most the "
        "residual; 5 % for rounding"},
-      {{"half step", "s", steps}, {"tolerance", "1", tolerances}, {"error over the velocity", "1", errors}},
+      errors,
       "Known velocities are moved to the right-hand side there, and must come back unchanged here."};
 }
 
@@ -142,18 +129,17 @@ Solve solve_with_rates(int k, unsigned seed) {
 
 Finding eigenvalue_finding(const Subject&) {
   Worst worst;
-  std::vector<double> distinct, iterations;
+  Table solves{{"distinct eigenvalues", "1"}, {"iterations", "1"}};
   for (int k = 1; k <= 7; ++k) {
     const Solve solve = solve_with_rates(k, 50 + unsigned(k));
-    distinct.push_back(k);
-    iterations.push_back(solve.iterations);
+    solves.row(k, solve.iterations);
     worst.see(std::abs(solve.iterations - k));
     if (!solve.converged) worst.see(1);
   }
   return {{worst.value(), 0, 0, "iterations",
            "conjugate gradients are exact after as many iterations as there are distinct eigenvalues in "
            "the residual; particles without damping are not in it"},
-          {{"distinct eigenvalues", "1", distinct}, {"iterations", "1", iterations}},
+          solves,
           ""};
 }
 
@@ -170,31 +156,20 @@ Finding cap_finding(const Subject&) {
   const Solve cap = solve({1e-13, 3, ResidualScale::momentum}, problem.guess, capped);
   const Solve whole = solve({1e-6, 500, ResidualScale::momentum}, problem.guess, finished);
   const Solve nan = solve({1e-6, 500, ResidualScale::momentum}, spoiled, broken);
-  const std::vector<std::string> statements = {"a capped solve is not converged",
-                                               "it took the cap's iterations",
-                                               "its residual is above the tolerance",
-                                               "it is counted as unfinished",
-                                               "its residual is recorded",
-                                               "a whole solve is converged",
-                                               "it is not counted as unfinished",
-                                               "NaN is not converged",
-                                               "NaN is counted as unfinished",
-                                               "NaN is recorded"};
-  const std::vector<double> holds = {double(!cap.converged),
-                                     double(cap.iterations == 3 && capped.cg_iterations == 3),
-                                     double(cap.residual > 1e-13),
-                                     double(capped.unfinished_solves == 1),
-                                     double(capped.worst_residual == cap.residual),
-                                     double(whole.converged && whole.residual <= 1e-6),
-                                     double(finished.unfinished_solves == 0 && finished.solves == 1),
-                                     double(!nan.converged),
-                                     double(broken.unfinished_solves == 1),
-                                     double(std::isnan(broken.worst_residual))};
+  Table holds{{"statement", "1"}, {"true", "1"}};
+  holds.row("a capped solve is not converged", !cap.converged);
+  holds.row("it took the cap's iterations", cap.iterations == 3 && capped.cg_iterations == 3);
+  holds.row("its residual is above the tolerance", cap.residual > 1e-13);
+  holds.row("it is counted as unfinished", capped.unfinished_solves == 1);
+  holds.row("its residual is recorded", capped.worst_residual == cap.residual);
+  holds.row("a whole solve is converged", whole.converged && whole.residual <= 1e-6);
+  holds.row("it is not counted as unfinished", finished.unfinished_solves == 0 && finished.solves == 1);
+  holds.row("NaN is not converged", !nan.converged);
+  holds.row("NaN is counted as unfinished", broken.unfinished_solves == 1);
+  holds.row("NaN is recorded", std::isnan(broken.worst_residual));
   double wrong = 0;
-  for (double one : holds) wrong += 1 - one;
-  return {{wrong, 0, 0, "false reports", "a report is true or false"},
-          {{"statement", "1", statements}, {"true", "1", holds}},
-          ""};
+  for (const double one : holds.numbers("true")) wrong += 1 - one;
+  return {{wrong, 0, 0, "false reports", "a report is true or false"}, holds, ""};
 }
 
 Finding operator_finding(const Subject& subject) {
@@ -262,7 +237,7 @@ double residual_left(const Problem& problem, double s, const PerParticle3& w) {
 
 Finding large_finding(const Subject&) {
   constexpr double tolerance = 1e-7;
-  Measured measured("residual left", "of the tolerance");
+  Table measured{{"case", ""}, {"residual left", "of the tolerance"}};
   for (const int cells :
        {20, 22, 31, 45}) {  // 441, 529, 1024 and 2116 particles: less than one block, more, two blocks, five
     Scene scene = scene_of(make_sheet({SheetPattern::one_diagonal, 0.7, 0.6, cells, cells}), 0.2);
@@ -275,12 +250,12 @@ Finding large_finding(const Subject&) {
     const SolverSettings settings{tolerance, 200, ResidualScale::momentum};
     const Solve solve = solve_velocity(problem.damping, 3.1e-3, problem.system.mass,
                                        problem.system.inverse_mass, settings, w, work);
-    measured.see(std::to_string(w.cols()) + " particles", residual_left(problem, 3.1e-3, w) / tolerance);
-    measured.see(std::to_string(w.cols()) + " particles, as returned",
+    measured.row(std::to_string(w.cols()) + " particles", residual_left(problem, 3.1e-3, w) / tolerance);
+    measured.row(std::to_string(w.cols()) + " particles, as returned",
                  solve.converged ? solve.residual / tolerance : nan);
   }
-  return measured.judged(1.05,
-                         "the tolerance, and what the iteration's residual and the true one drift apart");
+  return judged_worst(measured, 1.05,
+                      "the tolerance, and what the iteration's residual and the true one drift apart");
 }
 
 }  // namespace

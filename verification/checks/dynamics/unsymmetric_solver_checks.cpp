@@ -6,7 +6,6 @@
 #include "verification/checks/dynamics/dynamics_checks.h"
 #include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/random.h"
 
@@ -87,47 +86,48 @@ Eigen::VectorXd solved(const NewtonProblem& problem, double tolerance, Solve& so
 }
 
 Finding promise_is_kept(const Subject&) {
-  Measured measured("true residual over the tolerance", "1");
+  Table measured{{"case", ""}, {"true residual over the tolerance", "1"}};
   for (const auto& [name, problem] : newton_problems())
     for (const double tolerance : {1e-1, 1e-3, 1e-6, 1e-9}) {
       Solve solve{};
       const Eigen::VectorXd dw = solved(problem, tolerance, solve);
       const double residual = (problem.scaled_r - problem.A * dw).norm() / problem.scaled_r.norm();
-      measured.see(name + ", tolerance " + std::to_string(tolerance),
+      measured.row(name + ", tolerance " + std::to_string(tolerance),
                    solve.converged ? residual / tolerance : INFINITY);
     }
-  return measured.judged(
-      1.05,
+  return judged_worst(
+      measured, 1.05,
       "the tolerance, and what the iteration's residual and the true one drift apart: epsilon "
       "times the largest residual on the way, far below a twentieth of the smallest tolerance");
 }
 
 Finding is_the_dense_solution(const Subject&) {
-  Measured measured("error over what the tolerance allows", "1");
+  Table measured{{"case", ""}, {"error over what the tolerance allows", "1"}};
   for (const auto& [name, problem] : newton_problems()) {
     Solve solve{};
     const double tolerance = 1e-8;
     const Eigen::VectorXd error =
         solved(problem, tolerance, solve) - oracles::solved(problem.A, problem.scaled_r);
     const double least = oracles::singular_parts(problem.A).values.minCoeff();
-    measured.see(name, error.norm() * least / (tolerance * problem.scaled_r.norm()));
+    measured.row(name, error.norm() * least / (tolerance * problem.scaled_r.norm()));
   }
-  return measured.judged(
-      1.05, "an error is at most the residual over the matrix's least singular value; 5 % for rounding");
+  return judged_worst(
+      measured, 1.05,
+      "an error is at most the residual over the matrix's least singular value; 5 % for rounding");
 }
 
 Finding unsymmetry_is_there(const Subject&) {
-  Measured measured("a thousandth over the asymmetry", "1");
+  Table measured{{"case", ""}, {"a thousandth over the asymmetry", "1"}};
   const auto see = [&](const std::string& damped, const Scene& scene) {
     const Eigen::MatrixXd A = make_newton_problem(scene, 0.012, 53).A;
-    measured.see(damped, 1e-3 * A.cwiseAbs().maxCoeff() / (A - A.transpose()).cwiseAbs().maxCoeff());
+    measured.row(damped, 1e-3 * A.cwiseAbs().maxCoeff() / (A - A.transpose()).cwiseAbs().maxCoeff());
   };
   Scene springs = free_sheet(), hinges = free_sheet();
   hinges.stretch->damping = springs.bending->damping = 0;
   see("springs", springs);
   see("hinges", hinges);
-  return measured.judged(
-      1,
+  return judged_worst(
+      measured, 1,
       "the checks of the solver beside this one would show little on a matrix that is symmetric: the "
       "largest entry of A - A^T is more than a thousandth of that of A");
 }

@@ -2,7 +2,6 @@
 #include "verification/checks/filters/filter_checks.h"
 #include "verification/evidence.h"
 #include "verification/oracles/feature_distance.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/random.h"
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -69,7 +68,7 @@ Corners4 thin(Random& random, PairKind kind, double s) {
 }
 
 Finding distance_is_exact(const Subject&) {
-  Measured measured = roundings_of("max |x|");
+  Table measured = roundings_of("max |x|");
   for (const PairKind kind : kinds)
     for (const PointMaker& maker : makers()) {
       Random random(23);
@@ -82,17 +81,16 @@ Finding distance_is_exact(const Subject&) {
         worst.see(std::abs(nearness(kind, x).distance - truth.value) / scale);
         uncertainty.see(truth.uncertainty / scale);
       }
-      measured.see(name_of(kind) + ", " + maker.name, {worst.value(), uncertainty.value()});
+      measured.row(name_of(kind) + ", " + maker.name, oracles::Estimate{worst.value(), uncertainty.value()});
     }
-  return measured.judged(
-      16,
-      "each coordinate of what is between the nearest points is a sum of four products, and "
-      "errors of the weights move these points along their features, which changes their "
-      "distance in second order");
+  return judged_worst(measured, 16,
+                      "each coordinate of what is between the nearest points is a sum of four products, and "
+                      "errors of the weights move these points along their features, which changes their "
+                      "distance in second order");
 }
 
 Finding thin_ones_are_as_good(const Subject&) {
-  Measured measured("largest error over the extent", "1");
+  Table measured{{"case", ""}, {"largest error over the extent", "1"}};
   for (const PairKind kind : kinds)
     for (double s = 0.1; s > 1e-13; s /= 10) {
       Random random(29);
@@ -104,10 +102,11 @@ Finding thin_ones_are_as_good(const Subject&) {
         worst.see(std::abs(nearness(kind, x).distance - truth.value) / extent);
         uncertainty.see(truth.uncertainty / extent);
       }
-      measured.see(name_of(kind) + fmt::format(", sine {:.0e}", s), {worst.value(), uncertainty.value()});
+      measured.row(name_of(kind) + fmt::format(", sine {:.0e}", s),
+                   oracles::Estimate{worst.value(), uncertainty.value()});
     }
-  return measured.judged(
-      1e-9,
+  return judged_worst(
+      measured, 1e-9,
       "features thinner or more parallel than that are asked at their sides and ends only, which "
       "hides as much of their extent");
 }
@@ -123,7 +122,7 @@ double weight_error(PairKind kind, const Eigen::Vector4d& w) {
 }
 
 Finding weights_lead_across(const Subject&) {
-  Measured measured = roundings_of("1, and of max |x|");
+  Table measured = roundings_of("1, and of max |x|");
   for (const PairKind kind : kinds)
     for (const PointMaker& maker : makers()) {
       Random random(31);
@@ -136,9 +135,9 @@ Finding weights_lead_across(const Subject&) {
         worst.see((x * at.weights - at.distance * at.normal).norm() / (epsilon * scale));
         worst.see(std::abs(at.normal.norm() - (at.distance > 0 ? 1 : 0)) / epsilon);
       }
-      measured.see(name_of(kind) + ", " + maker.name, worst.value());
+      measured.row(name_of(kind) + ", " + maker.name, worst.value());
     }
-  return measured.judged(8, "sums of four products, a root and a division");
+  return judged_worst(measured, 8, "sums of four products, a root and a division");
 }
 
 }  // namespace

@@ -15,7 +15,6 @@
 #include "verification/oracles/exact_crossings.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/layered_cloth.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/stepper.h"
 
@@ -59,20 +58,20 @@ double meetings(const Scene& scene, const PerParticle3& v) {
 }
 
 Finding free_finding(const Subject& subject) {
-  Measured measured("pairs that meet on their way", "pairs");
+  Table measured{{"case", ""}, {"pairs that meet on their way", "pairs"}};
   for (const auto& [name, wanted] : fast_layers()) {
     const Scene scene = layered_scene(wanted);
     const double unanswered = meetings(scene, scene.v);
-    measured.see(name + " (" + std::to_string(int(unanswered)) + " without)",
+    measured.row(name + " (" + std::to_string(int(unanswered)) + " without)",
                  unanswered > 20 ? meetings(scene, kept_apart(subject, scene, {span, true})) : NAN);
   }
-  return measured.judged(0, "all pairs of features, neighbours aside, asked in exact arithmetic");
+  return judged_worst(measured, 0, "all pairs of features, neighbours aside, asked in exact arithmetic");
 }
 
 /// Of pairs farther apart than a tenth of the thickness at the start, the least distance at the end over
 /// that.
 Finding distance_finding(const Subject& subject) {
-  Measured measured("a tenth of the thickness over the least distance after the step", "1");
+  Table measured{{"case", ""}, {"a tenth of the thickness over the least distance after the step", "1"}};
   for (const auto& [name, wanted] : fast_layers()) {
     const Scene scene = layered_scene(wanted);
     const double kept = 0.1 * wanted.settings.thickness;
@@ -81,25 +80,25 @@ Finding distance_finding(const Subject& subject) {
     for (const FeaturePair& pair : all_pairs(scene.mesh))
       if (nearness(pair.kind, corners_of(pair, scene.x)).distance > kept)
         least = std::min(least, nearness(pair.kind, corners_of(pair, end)).distance);
-    measured.see(name, kept / least);
+    measured.row(name, kept / least);
   }
-  return measured.judged(
-      1,
+  return judged_worst(
+      measured, 1,
       "what starts farther apart than a tenth of the thickness stays so: that is the distance that "
       "the planes between two features keep");
 }
 
 Finding energy_finding(const Subject& subject) {
-  Measured measured("kinetic energy after over before", "1");
+  Table measured{{"case", ""}, {"kinetic energy after over before", "1"}};
   for (auto [name, wanted] : fast_layers()) {
     wanted.settings.stiffness = 0;
     const Scene scene = layered_scene(wanted);
     const PerParticle mass = lumped_masses(scene.mesh, scene.density);
-    measured.see(name,
+    measured.row(name,
                  kinetic_of(mass, kept_apart(subject, scene, {span, true})) / kinetic_of(mass, scene.v));
   }
-  return measured.judged(
-      1,
+  return judged_worst(
+      measured, 1,
       "without springs every answer takes away relative velocity and adds none: impulses stop, friction "
       "brakes, a zone's rigid motion is the least energy with its momentum");
 }
@@ -141,24 +140,25 @@ Zone zone_of(const PerParticle3& x, int led) {
 }
 
 Finding zone_momentum_finding(const Subject&) {
-  Measured measured = roundings_of("sum m |v|, times the zone's size for angular momentum");
+  Table measured = roundings_of("sum m |v|, times the zone's size for angular momentum");
   for (const auto& [name, x] : clouds()) {
     const Zone zone = zone_of(x, 0);
     const PerParticle3 change = zone.after - zone.v;
     const double scale = zone.v.colwise().norm().dot(zone.mass.transpose());
     const double size = (x.colwise() - Vector3(x.rowwise().mean())).colwise().norm().maxCoeff();
-    measured.see(name + ", linear", momentum_of(zone.mass, change).norm() / (epsilon * scale));
-    measured.see(name + ", angular", turn_of(zone.mass, x, change).norm() / (epsilon * scale * size));
+    measured.row(name + ", linear", momentum_of(zone.mass, change).norm() / (epsilon * scale));
+    measured.row(name + ", angular", turn_of(zone.mass, x, change).norm() / (epsilon * scale * size));
   }
-  return measured.judged(
-      256,
+  return judged_worst(
+      measured, 256,
       "normal equations of six unknowns solved by their eigenvectors: some tens of roundings, times "
       "the condition of the zone's inertia, below ten for these");
 }
 
 /// (x_i - x_j).(v_i - v_j) = 0: no distance changes; and what is led leads.
 Finding zone_rigid_finding(const Subject&) {
-  Measured measured("rate of distance, or difference from the velocity led, over the largest velocity", "1");
+  Table measured{{"case", ""},
+                 {"rate of distance, or difference from the velocity led, over the largest velocity", "1"}};
   for (const auto& [name, x] : clouds())
     for (const int led : {0, 1, 2}) {
       const Zone zone = zone_of(x, led);
@@ -172,15 +172,15 @@ Finding zone_rigid_finding(const Subject&) {
           worst.see(std::abs(apart.dot(rate)) / (apart.norm() * fastest));
         }
       }
-      measured.see(name + ", " + std::to_string(led) + " led", worst.value());
+      measured.row(name + ", " + std::to_string(led) + " led", worst.value());
     }
-  return measured.judged(
-      256 * epsilon,
+  return judged_worst(
+      measured, 256 * epsilon,
       "a rigid motion to some hundred roundings, of velocities led by a rigid motion themselves");
 }
 
 Finding forced_finding(const Subject& subject) {
-  Measured measured("forced crossings that were accepted", "runs");
+  Table measured{{"case", ""}, {"forced crossings that were accepted", "runs"}};
   Scene scene = layered_scene({2, 0.003, 0.0005, 0, {0.002, 0, 0, 8, true}, 14});
   for (int i = 0; i < 84; ++i) {
     Motion motion;
@@ -193,13 +193,14 @@ Finding forced_finding(const Subject& subject) {
   } catch (const DegenerateElement&) {
     accepted = 0;
   }
-  measured.see("two held sheets led through each other", accepted);
-  return measured.judged(
-      0, "no velocity can keep apart what is led through each other: the run has to stop and say so");
+  measured.row("two held sheets led through each other", accepted);
+  return judged_worst(
+      measured, 0,
+      "no velocity can keep apart what is led through each other: the run has to stop and say so");
 }
 
 Finding same_bits_finding(const Subject& subject) {
-  Measured measured("velocities that differ", "velocities");
+  Table measured{{"case", ""}, {"velocities that differ", "velocities"}};
   const Scene scene = layered_scene(fast_layers()[1].second);
   const PerParticle3 alone = kept_apart(subject, scene, {span, true});
   std::vector<PerParticle3> answers(3);
@@ -209,9 +210,9 @@ Finding same_bits_finding(const Subject& subject) {
   for (std::thread& thread : threads) thread.join();
   double differ = 0;
   for (const PerParticle3& answer : answers) differ += double((answer.array() != alone.array()).count());
-  measured.see("alone, and three at once", differ);
-  return measured.judged(0,
-                         "one order of pairs, fixed by the mesh and the boxes; no state but the arguments");
+  measured.row("alone, and three at once", differ);
+  return judged_worst(measured, 0,
+                      "one order of pairs, fixed by the mesh and the boxes; no state but the arguments");
 }
 
 /// Pairs that one list has and the other has not, or has elsewhere.
@@ -224,7 +225,7 @@ double differences(const std::vector<FeaturePair>& a, const std::vector<FeatureP
 
 /// Pairs cached with 3 mm to spare, after random motions within and beyond them; with some particles marked,
 /// too.
-void see_choices(Measured& measured) {
+void see_choices(Table& measured) {
   const double margin = 0.004, spare = 0.003;
   const Scene scene = layered_scene({4, 0.003, 0.001, 0, {0.004, 0, 0, 8, true}, 17});
   const ClothTree cloth = make_cloth_tree(scene.mesh);
@@ -240,9 +241,9 @@ void see_choices(Measured& measured) {
       const std::vector<FeaturePair> searched = near_pairs(cloth, x, end, margin, moved);
       const std::string name = fmt::format("moved by {} of half of what is to spare, {}", share,
                                            moved.empty() ? "all asked" : "some asked");
-      if (share > 1) measured.see(name, chosen ? NAN : 0);
+      if (share > 1) measured.row(name, chosen ? NAN : 0);
       if (share < 1)
-        measured.see(name, chosen && searched.size() > 50 ? differences(*chosen, searched) : NAN);
+        measured.row(name, chosen && searched.size() > 50 ? differences(*chosen, searched) : NAN);
     }
   }
 }
@@ -271,17 +272,17 @@ double numbers_that_the_cache_changes() {
 }
 
 Finding kept_pairs_finding(const Subject&) {
-  Measured measured("pairs or numbers that differ", "1");
+  Table measured{{"case", ""}, {"pairs or numbers that differ", "1"}};
   see_choices(measured);
-  measured.see("a run of 60 steps, and one that forgets", numbers_that_the_cache_changes());
-  return measured.judged(0,
-                         "the pairs that were kept are a list to choose from: what is chosen is what a "
-                         "search finds, in its order");
+  measured.row("a run of 60 steps, and one that forgets", numbers_that_the_cache_changes());
+  return judged_worst(measured, 0,
+                      "the pairs that were kept are a list to choose from: what is chosen is what a "
+                      "search finds, in its order");
 }
 
 /// Two sheets that cross, pushed apart step by step: how many crossings are left.
 Finding untangle_finding(const Subject& subject) {
-  Measured measured("crossings left over those at the start", "1");
+  Table measured{{"case", ""}, {"crossings left over those at the start", "1"}};
   Scene scene = layered_scene({2, 0.003, 0.0002, 0, {0.002, 5, 0, 8, true}, 15});
   for (Eigen::Index i = 42; i < 84; ++i)
     scene.x(2, i) -= 0.2 * std::max(0.0, scene.x(0, i) + scene.x(1, i) - 0.17);  // a corner is below
@@ -292,8 +293,9 @@ Finding untangle_finding(const Subject& subject) {
   const double start = count(scene.x);
   Stepper stepper(subject, scene, "C");
   const State end = stepper.run(stepper.start(), 0.001, 150);
-  measured.see(std::to_string(int(start)) + " at the start", start > 5 ? count(end.x) / start : NAN);
-  return measured.judged(0, "the line on which they cross cuts off a corner: it can shrink to nothing there");
+  measured.row(std::to_string(int(start)) + " at the start", start > 5 ? count(end.x) / start : NAN);
+  return judged_worst(measured, 0,
+                      "the line on which they cross cuts off a corner: it can shrink to nothing there");
 }
 
 }  // namespace

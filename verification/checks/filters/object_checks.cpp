@@ -7,7 +7,6 @@
 #include "verification/checks/filters/filter_checks.h"
 #include "verification/evidence.h"
 #include "verification/specimens/contact_scenes.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/stepper.h"
 
@@ -37,7 +36,7 @@ RigidMotion keyed() {
 
 /// The velocity of a body's point against the central difference of its places, each h away.
 Finding velocity_finding(const Subject&) {
-  Measured measured("difference over that of the places' derivative", "1");
+  Table measured{{"case", ""}, {"difference over that of the places' derivative", "1"}};
   const double small = 1e-4;
   Random random(3);
   for (const auto& [name, motion] :
@@ -52,17 +51,17 @@ Finding velocity_finding(const Subject&) {
           (placed(pose_at(motion, t + small), X) - placed(pose_at(motion, t - small), X)) / (2 * small);
       worst.see((velocity_at(motion, x, t) - difference).norm() / (1 + difference.norm()));
     }
-    measured.see(name, worst.value());
+    measured.row(name, worst.value());
   }
-  return measured.judged(
-      1e-6,
+  return judged_worst(
+      measured, 1e-6,
       "a central difference over 1e-4 s errs by omega^3 X (1e-4)^2/6, some 1e-7, and by rounding "
       "of some 1e-12");
 }
 
 /// On the keys themselves, and outside them at rest.
 Finding keyframe_finding(const Subject&) {
-  Measured measured = roundings_of("length");
+  Table measured = roundings_of("length");
   const RigidMotion motion = keyed();
   const std::vector<Keyframe>& keys = std::get<Keyframes>(motion).keys;
   const Vector3 X(0.3, -0.5, 0.7);
@@ -81,10 +80,10 @@ Finding keyframe_finding(const Subject&) {
     outside.see((placed(pose_at(motion, t), X) - placed(key.pose, X)).norm());
     outside.see(velocity_at(motion, X, t).norm());
   }
-  measured.see("at its keyframes", at_keys.value() / epsilon);
-  measured.see("half way between", between.value() / epsilon);
-  measured.see("before and after", outside.value() / epsilon);
-  return measured.judged(40, "a dozen products of unit quaternions and lengths below 1 m");
+  measured.row("at its keyframes", at_keys.value() / epsilon);
+  measured.row("half way between", between.value() / epsilon);
+  measured.row("before and after", outside.value() / epsilon);
+  return judged_worst(measured, 40, "a dozen products of unit quaternions and lengths below 1 m");
 }
 
 SceneObject with_motion(SceneObject part, const Vector3& velocity, const Vector3& turning) {
@@ -137,15 +136,15 @@ Finding convex_finding(const Subject& subject) {
   const SceneObject board = with_motion(object_at("board", thin, at_rest), drift, Vector3::Zero());
   const SceneObject second = with_motion(object_at("second board", thin, above), drift, Vector3::Zero());
   const SceneObject ball = with_motion(object_at("ball", Sphere{0.3}, at_rest), drift, Vector3::Zero());
-  Measured measured("depth", "m");
+  Table measured{{"case", ""}, {"depth", "m"}};
   for (const double way : {0.005, 0.05, 0.7}) {
     const std::string words = ", shots of " + std::to_string(way).substr(0, 5) + " m a step";
-    measured.see("ball" + words, deepest_shot(subject, {ball}, way));
-    measured.see("board 0.02 m thick" + words, deepest_shot(subject, {board}, way));
+    measured.row("ball" + words, deepest_shot(subject, {ball}, way));
+    measured.row("board 0.02 m thick" + words, deepest_shot(subject, {board}, way));
   }
-  measured.see("two boards, 0.01 m apart, shots of 0.7 m", deepest_shot(subject, {board, second}, 0.7));
-  return measured.judged(1e-12,
-                         "rounding of positions of up to a metre in a frame that moves, over 60 steps");
+  measured.row("two boards, 0.01 m apart, shots of 0.7 m", deepest_shot(subject, {board, second}, 0.7));
+  return judged_worst(measured, 1e-12,
+                      "rounding of positions of up to a metre in a frame that moves, over 60 steps");
 }
 
 /// A point outside must move by half the object's thickness in a step, seen from it, to pass where it is
@@ -154,14 +153,14 @@ Finding limit_finding(const Subject& subject) {
   const Vector3 drift(0.3, 0.2, -0.4), turning(2.1, -1.3, 0.8);
   const SceneObject ring = with_motion(object_at("ring", Torus{0.5, 0.1}, at_rest), drift, turning);
   const SceneObject board = with_motion(object_at("board", Box{{0.6, 0.5, 0.03}}, at_rest), drift, turning);
-  Measured measured("depth over half the thickness", "1");
+  Table measured{{"case", ""}, {"depth over half the thickness", "1"}};
   for (const double part : {0.3, 0.9}) {
     const std::string words = ", turning, at " + std::to_string(part).substr(0, 3) + " of the limit";
-    measured.see("ring" + words, deepest_shot(subject, {ring}, part * 0.1) / 0.1);
-    measured.see("board" + words, deepest_shot(subject, {board}, part * 0.03) / 0.03);
+    measured.row("ring" + words, deepest_shot(subject, {ring}, part * 0.1) / 0.1);
+    measured.row("board" + words, deepest_shot(subject, {board}, part * 0.03) / 0.03);
   }
-  Finding finding = measured.judged(
-      0.9,
+  Finding finding = judged_worst(
+      measured, 0.9,
       "a point that was outside has moved by 0.9 of half the thickness at most, and one that was inside is "
       "on "
       "its way out; at 1, where the object is deepest, it would be pushed out on the other side");

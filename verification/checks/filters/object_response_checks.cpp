@@ -8,7 +8,6 @@
 #include "verification/evidence.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/differences.h"
-#include "verification/specimens/measured.h"
 
 namespace foldproof {
 
@@ -29,7 +28,7 @@ double decided(double depth, double push) { return std::abs(depth) < 1e-12 ? NAN
 /// What a response makes of the particles of all contacts against what it should: `moves`: their
 /// velocity takes them through the step, or else it is the one that ends it.
 Finding response_finding(const Subject& subject, const std::string& response, bool moves, const Push& push) {
-  Measured measured = roundings_of("speed");
+  Table measured = roundings_of("speed");
   for (Contact contact : known_contacts()) {
     if (contact.tau != contact.span.step) continue;  // these responses do not look ahead
     contact.scene.collision.response = response;
@@ -49,13 +48,12 @@ Finding response_finding(const Subject& subject, const std::string& response, bo
       const double speed = v.norm() + at.velocity.norm() + 1 / contact.span.step;
       worst.see((after.col(i) - expected).norm() / (needed > 0 ? epsilon * speed : 1e-300));
     }
-    measured.see(contact.name + ", " + std::to_string(answers) + " answered",
+    measured.row(contact.name + ", " + std::to_string(answers) + " answered",
                  answers > 20 && untouched > 20 ? worst.value() : NAN);
   }
-  return measured.judged(
-      40,
-      "a few dozen roundings on the way through the object's frame and back, of lengths of a "
-      "metre over the step; a point that needs no answer keeps its velocity bit for bit");
+  return judged_worst(measured, 40,
+                      "a few dozen roundings on the way through the object's frame and back, of lengths of a "
+                      "metre over the step; a point that needs no answer keeps its velocity bit for bit");
 }
 
 Finding projection_finding(const Subject& subject) {

@@ -9,7 +9,6 @@
 #include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/specimens/contact_scenes.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 
@@ -25,7 +24,7 @@ double rate(const Known& a, const Known& b, const Vector3& v) {
 Finding equal_depth_finding(const Subject& subject) {
   const Pinch pinch = known_pinch();
   const PerParticle3 after = avoided(subject, pinch.scene, pinch.span, pinch.state);
-  Measured measured = roundings_of("depth and speed times step");
+  Table measured = roundings_of("depth and speed times step");
   Worst worst;
   for (Eigen::Index i = 0; i < after.cols(); ++i) {
     const Vector3 p = pinch.state.x.col(i);
@@ -35,15 +34,15 @@ Finding equal_depth_finding(const Subject& subject) {
     worst.see(std::abs(psi) /
               (epsilon * (1 + pinch.tau * Vector3(after.col(i)).norm()) / std::min(1.0, across)));
   }
-  measured.see("two balls, " + std::to_string(after.cols()) + " particles inside both", worst.value());
-  return measured.judged(40, "as many roundings as a forecast against one object takes, twice");
+  measured.row("two balls, " + std::to_string(after.cols()) + " particles inside both", worst.value());
+  return judged_worst(measured, 40, "as many roundings as a forecast against one object takes, twice");
 }
 
 /// The velocity along the surface between is shortened by at most the sum of both Coulomb limits, not turned.
 Finding pinch_friction_finding(const Subject& subject) {
   const Pinch pinch = known_pinch();
   const PerParticle3 after = avoided(subject, pinch.scene, pinch.span, pinch.state);
-  Measured measured = roundings_of("speed");
+  Table measured = roundings_of("speed");
   Worst worst;
   double stuck = 0, slid = 0;
   for (Eigen::Index i = 0; i < after.cols(); ++i) {
@@ -61,11 +60,11 @@ Finding pinch_friction_finding(const Subject& subject) {
     worst.see((still - wanted * sliding.normalized()).norm() /
               (epsilon * (1 / pinch.tau + v.norm() + mean.norm())));
   }
-  measured.see("two balls",
+  measured.row("two balls",
                stuck > 20 && slid > 20 ? worst.value() : std::numeric_limits<double>::quiet_NaN());
-  Finding finding = measured.judged(200,
-                                    "roundings of positions near 1 m over the step, magnified by at most "
-                                    "1/|N_a - N_b| where the normals of the two balls differ little");
+  Finding finding = judged_worst(measured, 200,
+                                 "roundings of positions near 1 m over the step, magnified by at most "
+                                 "1/|N_a - N_b| where the normals of the two balls differ little");
   finding.note = std::to_string(int(stuck)) + " particles stick, " + std::to_string(int(slid)) + " slide";
   return finding;
 }
@@ -120,7 +119,7 @@ Scene wedge(double degrees) {
 Finding closing_finding(const Subject& subject) {
   const double h = 0.01;
   Random random(37);
-  Measured measured = roundings_of("place and way");
+  Table measured = roundings_of("place and way");
   for (const double degrees : {95., 118., 122., 150.}) {
     const Scene scene = wedge(degrees);
     const double angle = degrees * std::numbers::pi / 180;
@@ -143,9 +142,9 @@ Finding closing_finding(const Subject& subject) {
       const double size = Vector3(state.x.col(i)).norm() + h * Vector3(state.v.col(i)).norm();
       worst.see(told_apart ? (held ? apart : nearest) / (epsilon * size) : nan);
     }
-    measured.see(std::to_string(int(degrees)) + " degrees", worst.value());
+    measured.row(std::to_string(int(degrees)) + " degrees", worst.value());
   }
-  return measured.judged(40, "as many roundings as a forecast against one object takes, twice");
+  return judged_worst(measured, 40, "as many roundings as a forecast against one object takes, twice");
 }
 
 /// Midpoints and centres get exactly the velocity of the response, by impulses that fall with the mass.
@@ -155,7 +154,7 @@ Finding shares_finding(const Subject&) {
   PerParticle inverse_mass = system.inverse_mass;
   Random random(5);
   for (Eigen::Index i = 0; i < inverse_mass.size(); ++i) inverse_mass[i] = i % 7 == 3 ? 0 : random.in(0.2, 3);
-  Measured measured = roundings_of("share");
+  Table measured = roundings_of("share");
   Worst mean, ratio, held;
   for (const CollisionPoint& point : collision_points(contact.scene.mesh, inverse_mass, PointKind::faces)) {
     double sum = 0;
@@ -167,10 +166,10 @@ Finding shares_finding(const Subject&) {
     }
     mean.see(std::abs(sum - 1) / epsilon);
   }
-  measured.see("the point takes the whole change", mean.value());
-  measured.see("shares are as the inverse masses", ratio.value());
-  measured.see("prescribed particles take none", held.value());
-  return measured.judged(40, "three divisions and sums of numbers near 1, shares up to 15 apart");
+  measured.row("the point takes the whole change", mean.value());
+  measured.row("shares are as the inverse masses", ratio.value());
+  measured.row("prescribed particles take none", held.value());
+  return judged_worst(measured, 40, "three divisions and sums of numbers near 1, shares up to 15 apart");
 }
 
 /// Triangles that lie across a ridge that none of their corners touches.
@@ -220,7 +219,7 @@ ComingDown coming_down() {
 }
 
 Finding change_finding(const Subject&) {
-  Measured measured = roundings_of("1 m/s");
+  Table measured = roundings_of("1 m/s");
   const ComingDown down = coming_down();
   const CollisionPoint& centre = down.filter.points[0];
   PerParticle3 v = down.state.v;
@@ -230,15 +229,15 @@ Finding change_finding(const Subject&) {
   const Vector3 of_centre = centre.mean(change);
   for (int k = 0; k < 3; ++k) {
     const Vector3 of_corner = change.col(centre.particles[size_t(k)]);
-    measured.see("corner " + std::to_string(k + 1),
+    measured.row("corner " + std::to_string(k + 1),
                  (of_corner - centre.shares[k] * of_centre).norm() / epsilon);
   }
-  measured.see("the ball is met", of_centre.norm() > 0.1 ? 0 : nan);
-  return measured.judged(32, "velocities of a few m/s, a mean of three and a product");
+  measured.row("the ball is met", of_centre.norm() > 0.1 ? 0 : nan);
+  return judged_worst(measured, 32, "velocities of a few m/s, a mean of three and a product");
 }
 
 Finding counts_finding(const Subject&) {
-  Measured measured("questions and contacts that are counted wrongly", "1");
+  Table measured{{"case", ""}, {"questions and contacts that are counted wrongly", "1"}};
   const ComingDown down = coming_down();
   const auto miscounted = [&](const Span& span, const PerParticle3& start, long contacts) {
     PerParticle3 v = start;
@@ -246,10 +245,10 @@ Finding counts_finding(const Subject&) {
     down.filter.correct(span, down.state, v, work);
     return std::abs(double(work.object_queries - 1)) + std::abs(double(work.object_contacts - contacts));
   };
-  measured.see("a move into the ball", miscounted({0, 0.01, 0.01}, down.state.v, 1));
-  measured.see("a velocity at the end of a step", miscounted({0.01, 0.01, 0.01}, down.state.v, 0));
-  measured.see("a move away", miscounted({0, 0.01, 0.01}, -down.state.v, 0));
-  return measured.judged(0, "one point, asked once; a contact is a move that was changed");
+  measured.row("a move into the ball", miscounted({0, 0.01, 0.01}, down.state.v, 1));
+  measured.row("a velocity at the end of a step", miscounted({0.01, 0.01, 0.01}, down.state.v, 0));
+  measured.row("a move away", miscounted({0, 0.01, 0.01}, -down.state.v, 0));
+  return judged_worst(measured, 0, "one point, asked once; a contact is a move that was changed");
 }
 
 }  // namespace

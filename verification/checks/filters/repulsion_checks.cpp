@@ -8,7 +8,6 @@
 #include "verification/checks/filters/filter_checks.h"
 #include "verification/evidence.h"
 #include "verification/specimens/layered_cloth.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/stepper.h"
 
 namespace foldproof {
@@ -56,7 +55,7 @@ Vector3 expected_change(const OverTriangle& wanted, const Scene& scene) {
 }
 
 Finding law_finding(const Subject& subject) {
-  Measured measured("difference of the change of relative velocity over its size", "1");
+  Table measured{{"case", ""}, {"difference of the change of relative velocity over its size", "1"}};
   for (const OverTriangle& wanted : {OverTriangle{0.0031, -0.4, 0.3, 0, 0},
                                      {0.0031, -0.4, 0.3, 0, 0.21},
                                      {0.0031, -0.4, 0.05, 0, 0.7},
@@ -74,11 +73,11 @@ Finding law_finding(const Subject& subject) {
     char name[90];
     std::snprintf(name, sizeof name, "%.4g m high, %.3g m/s, sliding %.3g m/s, k %.3g N/m, mu %.2g",
                   wanted.height, wanted.parting, wanted.sliding, wanted.stiffness, wanted.friction);
-    measured.see(name, (relative - expected_change(wanted, scene)).norm() / scale);
+    measured.row(name, (relative - expected_change(wanted, scene)).norm() / scale);
   }
-  return measured.judged(1e-12,
-                         "the same law from areas instead of normals: some tens of roundings, with heights a "
-                         "twentieth of the triangle's size");
+  return judged_worst(measured, 1e-12,
+                      "the same law from areas instead of normals: some tens of roundings, with heights a "
+                      "twentieth of the triangle's size");
 }
 
 struct MomentumCase {
@@ -112,37 +111,39 @@ constexpr const char* why_roundings =
     "takes part in some tens of them";
 
 Finding linear_finding(const Subject& subject) {
-  Measured measured = roundings_of("sum m |v|");
+  Table measured = roundings_of("sum m |v|");
   for (const MomentumCase& of : momentum_cases()) {
     const Scene scene = layered_scene(of.layered);
     const PerParticle mass = lumped_masses(scene.mesh, scene.density);
     const PerParticle3 after = kept_apart(subject, scene, {step, of.moves});
     const double changed = momentum_scale(mass, after - scene.v), size = momentum_scale(mass, scene.v);
-    measured.see(of.name,
+    measured.row(of.name,
                  changed > 0.01 * size ? momentum_of(mass, after - scene.v).norm() / (epsilon * size) : NAN);
   }
-  return measured.judged(64, why_roundings);
+  return judged_worst(measured, 64, why_roundings);
 }
 
 Finding angular_finding(const Subject& subject) {
-  Measured measured = roundings_of("sum m |v| times the cloth's size");
+  Table measured = roundings_of("sum m |v| times the cloth's size");
   for (const MomentumCase& of : momentum_cases()) {
     if (of.layered.settings.friction > 0) continue;
     const Scene scene = layered_scene(of.layered);
     const PerParticle mass = lumped_masses(scene.mesh, scene.density);
     const PerParticle3 after = kept_apart(subject, scene, {step, of.moves});
     const double size = momentum_scale(mass, scene.v) * 0.1;
-    measured.see(of.name, turn_of(mass, scene.x, after - scene.v).norm() / (epsilon * size));
+    measured.row(of.name, turn_of(mass, scene.x, after - scene.v).norm() / (epsilon * size));
   }
-  return measured.judged(
-      64 * 8, std::string(why_roundings) +
-                  "; the normal is the line between the points to an epsilon times the features' size "
-                  "over their distance, some eight here");
+  return judged_worst(
+      measured, 64 * 8,
+      std::string(why_roundings) +
+          "; the normal is the line between the points to an epsilon times the features' size "
+          "over their distance, some eight here");
 }
 
 /// Friction acts at two points a distance apart: it turns the cloth by that times the impulse, and no more.
 Finding friction_turn_finding(const Subject& subject) {
-  Measured measured("change of angular momentum over thickness times friction times normal impulses", "1");
+  Table measured{{"case", ""},
+                 {"change of angular momentum over thickness times friction times normal impulses", "1"}};
   for (const unsigned seed : {3u, 8u}) {
     Layered wanted{2, 0.003, 0.001, 0.3, {0.004, 0, 0.4, 8, true}, seed};
     const Scene rubbing = layered_scene(wanted);
@@ -151,40 +152,40 @@ Finding friction_turn_finding(const Subject& subject) {
     const Eigen::Index half = change.cols() / 2;
     // normal impulses: at least what the upper sheet's momentum across the layers changed by, per particle
     const double normal = (change.row(2).rightCols(half).cwiseAbs() * mass.tail(half))[0];
-    measured.see("seed " + std::to_string(seed),
+    measured.row("seed " + std::to_string(seed),
                  turn_of(mass, rubbing.x, change).norm() / (0.004 * 0.4 * normal));
   }
-  return measured.judged(
-      2,
+  return judged_worst(
+      measured, 2,
       "a pair's friction impulse is at most mu times its normal one and acts with an arm of at most "
       "the thickness; impulses up and down on one particle cancel in part, so that their sum may be "
       "up to twice what is left of it");
 }
 
 Finding untouched_finding(const Subject& subject) {
-  Measured measured("particles that were changed", "particles");
+  Table measured{{"case", ""}, {"particles that were changed", "particles"}};
   const auto changed = [](const PerParticle3& a, const PerParticle3& b) {
     return double((a.array() != b.array()).colwise().any().count());
   };
   Layered apart{3, 0.02, 0.001, 0.3, {0.004, 9, 0.3, 8, true}, 5};
   const Scene far = layered_scene(apart);
-  measured.see("layers too far apart", changed(kept_apart(subject, far, {step, true}), far.v));
+  measured.row("layers too far apart", changed(kept_apart(subject, far, {step, true}), far.v));
   Scene rising = layered_scene({3, 0.003, 0.0005, 0, {0.004, 0, 0.3, 8, true}, 5});
   for (Eigen::Index i = 0; i < rising.v.cols(); ++i) rising.v(2, i) = 0.4 * double(i / 42);
-  measured.see("layers that part", changed(kept_apart(subject, rising, {step, true}), rising.v));
+  measured.row("layers that part", changed(kept_apart(subject, rising, {step, true}), rising.v));
   Scene led = layered_scene({3, 0.003, 0.001, 2, {0.004, 9, 0.3, 8, true}, 6});
   Motion onward;
   onward.velocity = {0.3, -0.2, 0.1};
   for (int i = 42; i < 84; ++i) led.led.push_back({i, led.x.col(i), onward});
   const State s = start_state(led);
   const PerParticle3 after = kept_apart(subject, led, {step, true});
-  measured.see("particles that are led", changed(after.middleCols(42, 42), s.v.middleCols(42, 42)));
-  return measured.judged(0, "nothing is to be done about them: not a bit may change");
+  measured.row("particles that are led", changed(after.middleCols(42, 42), s.v.middleCols(42, 42)));
+  return judged_worst(measured, 0, "nothing is to be done about them: not a bit may change");
 }
 
 /// Every pair that comes nearer than the margin is among those found, once; found ones share no particle.
 Finding pairs_finding(const Subject&) {
-  Measured measured("pairs missed, found twice, or of neighbours", "pairs");
+  Table measured{{"case", ""}, {"pairs missed, found twice, or of neighbours", "pairs"}};
   const double margin = 0.004;
   for (const unsigned seed : {1u, 2u, 3u}) {
     const Scene scene = layered_scene({2, 0.003, 0.0014, 1.5, {0.004, 0, 0, 8, true}, seed});
@@ -219,10 +220,11 @@ Finding pairs_finding(const Subject&) {
       if (!is_found) ++wrong;
     }
     wrong += double(found.size() - seen);
-    measured.see("seed " + std::to_string(seed) + ", " + std::to_string(near) + " near",
+    measured.row("seed " + std::to_string(seed) + ", " + std::to_string(near) + " near",
                  near > 100 ? wrong : NAN);
   }
-  return measured.judged(0, "counted against all pairs of two sheets, looked at four times on their way");
+  return judged_worst(measured, 0,
+                      "counted against all pairs of two sheets, looked at four times on their way");
 }
 
 /// A stack of sheets on a slope. The lowest is larger, so that nothing hangs over its rim, and held;
@@ -246,26 +248,27 @@ std::vector<double> ways_on_slope(const Subject& subject, double friction, doubl
 }
 
 Finding slope_finding(const Subject& subject) {
-  Measured measured("way over that of Coulomb's law, less one; or over that without friction", "1");
+  Table measured{{"case", ""},
+                 {"way over that of Coulomb's law, less one; or over that without friction", "1"}};
   const double seconds = 0.1;
   for (const auto& [friction, degrees] : {std::pair{0.3, 20.0}, {0.5, 35.0}}) {
     const double angle = degrees * M_PI / 180;
     const double slides = 9.81 * (std::sin(angle) - friction * std::cos(angle)) * seconds * seconds / 2;
     const std::vector<double> ways = ways_on_slope(subject, friction, degrees);
     const double mean = std::accumulate(ways.begin(), ways.end(), 0.0) / double(ways.size());
-    measured.see("slides, mu " + std::to_string(friction).substr(0, 4) + ", mean",
+    measured.row("slides, mu " + std::to_string(friction).substr(0, 4) + ", mean",
                  std::abs(mean / slides - 1));
   }
   for (const auto& [friction, degrees] : {std::pair{0.4, 20.0}, {0.75, 35.0}}) {
     const double free = 9.81 * std::sin(degrees * M_PI / 180) * seconds * seconds / 2;
     const std::vector<double> ways = ways_on_slope(subject, friction, degrees);
     for (size_t k = 0; k < ways.size(); ++k)
-      measured.see("holds, mu " + std::to_string(friction).substr(0, 4) + ", sheet " + std::to_string(k + 1) +
+      measured.row("holds, mu " + std::to_string(friction).substr(0, 4) + ", sheet " + std::to_string(k + 1) +
                        " on the one below",
                    std::abs(ways[k] - (k > 0 ? ways[k - 1] : 0)) / free);
   }
-  return measured.judged(
-      0.1,
+  return judged_worst(
+      measured, 0.1,
       "Coulomb's law; a tenth for the bumps of a sheet that its pairs answer one after the other, each for "
       "the "
       "normal velocity that the others have left. Sliding sheets need all the friction that there is between "

@@ -7,7 +7,6 @@
 #include "verification/evidence.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/differences.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/random.h"
 
 namespace foldproof {
@@ -54,7 +53,7 @@ double velocity_scale(const Contact& contact, const Answer& a) { return a.speed 
 /// The worst of a quantity in roundings over all particles of all contacts that `wanted` picks.
 Finding worst_over(const Subject& subject, const std::function<bool(const Contact&, const Answer&)>& wanted,
                    const std::function<double(const Contact&, const Answer&)>& roundings) {
-  Measured measured = roundings_of("speed");
+  Table measured = roundings_of("speed");
   for (const Contact& contact : known_contacts()) {
     const PerParticle3 after = avoided(subject, contact.scene, contact.span, contact.state);
     Worst worst;
@@ -65,10 +64,10 @@ Finding worst_over(const Subject& subject, const std::function<bool(const Contac
       worst.see(roundings(contact, a));
       ++asked;
     }
-    measured.see(contact.name + ", " + std::to_string(asked) + " particles",
+    measured.row(contact.name + ", " + std::to_string(asked) + " particles",
                  asked > 20 ? worst.value() : std::numeric_limits<double>::quiet_NaN());
   }
-  return measured.judged(40, why_roundings);
+  return judged_worst(measured, 40, why_roundings);
 }
 
 bool is_treated(const Contact& contact, const Answer& a) { return a.forecast < -unsure(contact); }
@@ -133,7 +132,7 @@ Finding untouched_finding(const Subject& subject) {
 //    |  /         slides by w across N0, of which |w.N1| <= |w| sin(theta) is depth, and of a depth that it had
 //  --p-----w-->   1 - cos(theta) is left
 Finding turning_finding(const Subject& subject) {
-  Measured measured("deepest point after the step", "|w| sin(theta) + depth (1 - cos(theta))");
+  Table measured{{"case", ""}, {"deepest point after the step", "|w| sin(theta) + depth (1 - cos(theta))"}};
   for (const Contact& contact : known_contacts()) {
     const double h = contact.span.end - contact.span.start;
     if (!contact.name.starts_with("slope") || contact.tau != contact.span.step) continue;
@@ -148,14 +147,14 @@ Finding turning_finding(const Subject& subject) {
       const double depth = std::abs(a.known.phi) * (1 - a.known.normal.dot(then.normal));
       worst.see(-then.phi / (h * a.still_sliding.norm() * turned + depth + unsure(contact)));
     }
-    measured.see(contact.name, worst.value());
+    measured.row(contact.name, worst.value());
   }
-  return measured.judged(1, "geometry of a plane that turns, and roundings of lengths of a metre");
+  return judged_worst(measured, 1, "geometry of a plane that turns, and roundings of lengths of a metre");
 }
 
 Finding galilean_finding(const Subject& subject) {
   const Vector3 shared(5.3, -7.1, 3.7);
-  Measured measured = roundings_of("speed");
+  Table measured = roundings_of("speed");
   for (Contact contact : known_contacts()) {
     contact.span = {0, contact.span.step, contact.span.step};  // at the time 0 the frames coincide
     contact.state.time = 0;
@@ -166,10 +165,10 @@ Finding galilean_finding(const Subject& subject) {
     const PerParticle3 here = avoided(subject, contact.scene, contact.span, contact.state);
     PerParticle3 there = avoided(subject, seen.scene, seen.span, seen.state);
     there.colwise() -= shared;
-    measured.see(contact.name, largest_difference(here, there) /
+    measured.row(contact.name, largest_difference(here, there) /
                                    (epsilon * (1 / contact.span.step + shared.norm() + largest_speed(here))));
   }
-  return measured.judged(40, why_roundings);
+  return judged_worst(measured, 40, why_roundings);
 }
 
 /// A sheet of particles through the middle of a body, row by row, each moving at random.

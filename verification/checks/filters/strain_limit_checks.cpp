@@ -5,7 +5,6 @@
 #include "verification/evidence.h"
 #include "verification/oracles/limited_spring.h"
 #include "verification/specimens/differences.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/strain_scenes.h"
 #include <Eigen/Geometry>
@@ -86,7 +85,7 @@ struct DrawKind {
 };
 
 Finding compared(const Subject& subject, const std::vector<DrawKind>& kinds) {
-  Measured measured("error", "epsilon of |d|/h + |v|, times the answer's sensitivity");
+  Table measured{{"case", ""}, {"error", "epsilon of |d|/h + |v|, times the answer's sensitivity"}};
   for (const DrawKind& kind : kinds) {
     Random random(91);
     Worst worst;
@@ -95,12 +94,11 @@ Finding compared(const Subject& subject, const std::vector<DrawKind>& kinds) {
       const bool is_meant = spring.answer.is_violated && spring.answer.is_reachable == kind.is_reachable;
       worst.see(is_meant ? error_of(subject, spring) : NAN);
     }
-    measured.see(kind.name, worst.value());
+    measured.row(kind.name, worst.value());
   }
-  return measured.judged(
-      16,
-      "d, d + h dv and their products are rounded about eight times, the impulse and the two "
-      "velocities as often");
+  return judged_worst(measured, 16,
+                      "d, d + h dv and their products are rounded about eight times, the impulse and the two "
+                      "velocities as often");
 }
 
 Finding one_spring_finding(const Subject& subject) {
@@ -123,7 +121,7 @@ Finding beyond_reach_finding(const Subject& subject) {
 // ---- a cloth
 
 Finding limits_finding(const Subject& subject, SweepOrder order) {
-  Measured measured("violation left over the tolerance", "1");
+  Table measured{{"case", ""}, {"violation left over the tolerance", "1"}};
   std::vector<LimitedCloth> cloths = limited_cloths(order);
   for (size_t k = 0; k < cloths.size(); ++k) {
     LimitedCloth& cloth = cloths[k];
@@ -132,16 +130,16 @@ Finding limits_finding(const Subject& subject, SweepOrder order) {
     const double before = strain_violation(cloth.scene, cloth.state.x + cloth.step * cloth.state.v);
     const double after = strain_violation(cloth.scene, cloth.state.x + cloth.step * v);
     const double tolerance = cloth.scene.strain_limits->tolerance;
-    measured.see(cloth.name, before > 100 * tolerance ? after / tolerance : NAN);
+    measured.row(cloth.name, before > 100 * tolerance ? after / tolerance : NAN);
   }
-  return measured.judged(
-      1 + 1e-9,
+  return judged_worst(
+      measured, 1 + 1e-9,
       "sweeps end within the tolerance, since velocities within the limits exist: none at all; a "
       "billionth for the roundings of another sum. Motions that break no limit count as NaN");
 }
 
 Finding momentum_finding(const Subject& subject) {
-  Measured measured("momentum gained", "epsilon of sum m |v|, or of sum m |x| |v|");
+  Table measured{{"case", ""}, {"momentum gained", "epsilon of sum m |v|, or of sum m |x| |v|"}};
   for (const NamedOrder& named : sweep_orders())
     for (LimitedCloth& cloth : limited_cloths(named.order)) {
       cloth.scene.strain_limits->sweeps = 12;
@@ -158,11 +156,11 @@ Finding momentum_finding(const Subject& subject) {
         linear_size += size;
         angular_size += x.norm() * size;
       }
-      measured.see(named.name + ", " + cloth.name, linear.norm() / (epsilon * linear_size));
-      measured.see(named.name + ", " + cloth.name + ", angular", angular.norm() / (epsilon * angular_size));
+      measured.row(named.name + ", " + cloth.name, linear.norm() / (epsilon * linear_size));
+      measured.row(named.name + ", " + cloth.name + ", angular", angular.norm() / (epsilon * angular_size));
     }
-  return measured.judged(
-      8,
+  return judged_worst(
+      measured, 8,
       "in each of 12 sweeps some six impulses meet at a particle, each a rounding of its velocity, half an "
       "epsilon at most: 72 of them add up like a random walk to 4, and the impulses' own to as much");
 }
@@ -174,7 +172,7 @@ void make_last_fast(LimitedCloth& cloth) {
 }
 
 Finding held_finding(const Subject& subject) {
-  Measured measured("numbers that differ", "numbers");
+  Table measured{{"case", ""}, {"numbers that differ", "numbers"}};
   for (const NamedOrder& named : sweep_orders())
     for (LimitedCloth& cloth : limited_cloths(named.order)) {
       cloth.scene.strain_limits->sweeps = 30;  // two neighbours are held: what they break stays broken
@@ -184,9 +182,9 @@ Finding held_finding(const Subject& subject) {
       double differing = 0;
       for (const int i : {0, 3, 7, 8}) differing += numbers_that_differ(v.col(i), cloth.state.v.col(i));
       const bool is_tried = numbers_that_differ(v, cloth.state.v) > 0;
-      measured.see(named.name + ", " + cloth.name, is_tried ? differing : NAN);
+      measured.row(named.name + ", " + cloth.name, is_tried ? differing : NAN);
     }
-  return measured.judged(0, "a prescribed velocity is known");
+  return judged_worst(measured, 0, "a prescribed velocity is known");
 }
 
 /// Slows a motion down until no spring leaves its limits.
@@ -199,12 +197,12 @@ PerParticle3 gentle(const LimitedCloth& cloth) {
 /// Gentle velocities, but for the last particle's, which is fast: those that share no triangle with it are to
 /// be left.
 Finding untouched_within_limits_finding(const Subject& subject) {
-  Measured measured("numbers that differ", "numbers");
+  Table measured{{"case", ""}, {"numbers that differ", "numbers"}};
   for (const NamedOrder& named : sweep_orders())
     for (LimitedCloth& cloth : limited_cloths(named.order)) {
       const PerParticle3 slow = gentle(cloth);
       const std::string name = named.name + ", " + cloth.name;
-      measured.see(name, numbers_that_differ(strain_limited(subject, cloth, slow), slow));
+      measured.row(name, numbers_that_differ(strain_limited(subject, cloth, slow), slow));
       cloth.scene.strain_limits->sweeps = 1;
       PerParticle3 fast = slow;
       const Eigen::Index last = fast.cols() - 1;
@@ -212,12 +210,12 @@ Finding untouched_within_limits_finding(const Subject& subject) {
       fast.col(last) = cloth.state.v.col(last);
       const PerParticle3 v = strain_limited(subject, cloth, fast);
       const double after = strain_violation(cloth.scene, cloth.state.x + cloth.step * fast);
-      measured.see(name + ", one fast", after > 0 && numbers_that_differ(v.col(last), fast.col(last)) > 0
+      measured.row(name + ", one fast", after > 0 && numbers_that_differ(v.col(last), fast.col(last)) > 0
                                             ? numbers_that_differ(v.col(0), fast.col(0))
                                             : NAN);
     }
-  return measured.judged(
-      0,
+  return judged_worst(
+      measured, 0,
       "what no limit is broken by is not the filter's business; in one sweep a correction cannot get "
       "from the last particle of a sheet to the first, which lies at its other end");
 }

@@ -6,7 +6,6 @@
 #include "verification/checks/filters/filter_checks.h"
 #include "verification/evidence.h"
 #include "verification/specimens/differences.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/paper_schemes.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/stepper.h"
@@ -48,7 +47,7 @@ LimitedCloth falling(LimitedCloth cloth) {
 }
 
 Finding steps_finding(const Subject& subject, const std::string& integrator) {
-  Measured measured("largest violation in 12 steps over the tolerance", "1");
+  Table measured{{"case", ""}, {"largest violation in 12 steps over the tolerance", "1"}};
   int tried = 0;
   for (const LimitedCloth& cloth : limited_cloths(SweepOrder::gauss_seidel)) {
     const LimitedCloth falls = falling(cloth);
@@ -61,32 +60,32 @@ Finding steps_finding(const Subject& subject, const std::string& integrator) {
       if (!(violation <= worst)) worst = violation;
     }
     const double used = worst / falls.scene.strain_limits->tolerance;
-    measured.see(cloth.name, used);
+    measured.row(cloth.name, used);
     tried += used > -5;
   }
-  if (tried < 12) measured.see("few cloths come near their limits", NAN);
-  return measured.judged(
-      1 + 1e-9,
+  if (tried < 12) measured.row("few cloths come near their limits", NAN);
+  return judged_worst(
+      measured, 1 + 1e-9,
       "x moves with the velocity that was limited, and nothing else moves it; a billionth for "
       "the roundings of another sum. Of 16 cloths 12 at least must come within five tolerances of "
       "their limits, or it is NaN");
 }
 
 Finding report_finding(const Subject& subject) {
-  Measured measured("difference between what is reported and what is left", "epsilon");
+  Table measured{{"case", ""}, {"difference between what is reported and what is left", "epsilon"}};
   for (LimitedCloth& cloth : limited_cloths(SweepOrder::gauss_seidel)) {
     cloth.scene.strain_limits->sweeps = 2;
     Stepper stepper(subject, cloth.scene, "B");  // one correction a step
     const State s = stepper.step(stepper.start(), cloth.step);
     const double left = std::max(0.0, strain_violation(cloth.scene, s.x));
-    measured.see(cloth.name, std::abs(stepper.work().strain_left - left) / epsilon);
+    measured.row(cloth.name, std::abs(stepper.work().strain_left - left) / epsilon);
     const long sweeps =
         stepper.work().strain_sweeps;  // the second only where the first found something to correct
     const bool plausible = sweeps == 2 || (sweeps == 1 && left == 0);
-    measured.see(cloth.name + ", sweeps", plausible ? 0 : INFINITY);
+    measured.row(cloth.name + ", sweeps", plausible ? 0 : INFINITY);
   }
-  return measured.judged(
-      64,
+  return judged_worst(
+      measured, 64,
       "positions, up to ten times as far from the origin as a spring is long, are rounded, and their "
       "difference over the rest length; what counts as at the limit may be eight beyond it");
 }
@@ -141,7 +140,7 @@ double size_of(const PerParticle& mass, const PerParticle3& v) {
 }
 
 Finding nearer_finding(const Subject&) {
-  Measured measured("growth in a sweep", "epsilon of sqrt(sum m |v|^2)");
+  Table measured{{"case", ""}, {"growth in a sweep", "epsilon of sqrt(sum m |v|^2)"}};
   for (const NamedOrder& named : sweep_orders())
     for (unsigned seed : {3u, 19u, 57u, 58u}) {
       const bool bundle = seed == 58;
@@ -159,18 +158,18 @@ Finding nearer_finding(const Subject&) {
         energy = signed_largest({energy, change(PerParticle3::Zero(3, chain.v.cols()))});
       }
       const std::string name = named.name + (bundle ? ", bundle" : ", chain " + std::to_string(seed));
-      measured.see(name + ", distance", grown);
-      measured.see(name + ", energy", energy);
+      measured.row(name + ", distance", grown);
+      measured.row(name + ", energy", energy);
     }
-  return measured.judged(
-      16,
+  return judged_worst(
+      measured, 16,
       "on a line each impulse is the shortest way, in the norm weighted with masses, to velocities "
       "within one spring's limits; no velocity within all limits, rest among them, gets farther. "
       "Two roundings of each velocity at each of two springs, and those of the sums");
 }
 
 Finding colours_finding(const Subject&) {
-  Measured measured("springs of a colour that share a particle, and springs lost", "springs");
+  Table measured{{"case", ""}, {"springs of a colour that share a particle, and springs lost", "springs"}};
   for (const LimitedCloth& cloth : limited_cloths(SweepOrder::coloured)) {
     const System system = build_system(cloth.scene);
     const auto& limiter = std::get<StrainLimiter>(system.filters.front());
@@ -183,23 +182,23 @@ Finding colours_finding(const Subject&) {
       std::sort(ends.begin(), ends.end());
       wrong += double(ends.end() - std::unique(ends.begin(), ends.end()));
     }
-    measured.see(cloth.name + ", " + std::to_string(limiter.colours.size() - 1) + " colours", wrong);
+    measured.row(cloth.name + ", " + std::to_string(limiter.colours.size() - 1) + " colours", wrong);
   }
-  return measured.judged(0, "threads that share a colour would write to one particle");
+  return judged_worst(measured, 0, "threads that share a colour would write to one particle");
 }
 
 Finding threads_finding(const Subject& subject) {
-  Measured measured("numbers that differ from those of one thread", "numbers");
+  Table measured{{"case", ""}, {"numbers that differ from those of one thread", "numbers"}};
   for (LimitedCloth& cloth : limited_cloths(SweepOrder::coloured)) {
     cloth.scene.strain_limits->sweeps = 5;
     const PerParticle3 alone = strain_limited(subject, cloth, cloth.state.v);
     for (const int threads : {2, 5}) {
       cloth.scene.strain_limits->threads = threads;
-      measured.see(cloth.name + ", " + std::to_string(threads) + " threads",
+      measured.row(cloth.name + ", " + std::to_string(threads) + " threads",
                    numbers_that_differ(strain_limited(subject, cloth, cloth.state.v), alone));
     }
   }
-  return measured.judged(0, "no two springs of a colour share a particle");
+  return judged_worst(measured, 0, "no two springs of a colour share a particle");
 }
 
 // ---- case files
@@ -277,7 +276,7 @@ StrainLimiter limiter_of(const LimitedCloth& cloth, SweepOrder order, int sweeps
 }
 
 Finding orders_finding(const Subject&) {
-  Measured measured("numbers that differ from springs taken one by one", "1");
+  Table measured{{"case", ""}, {"numbers that differ from springs taken one by one", "1"}};
   for (const LimitedCloth& cloth : limited_cloths(SweepOrder::gauss_seidel)) {
     for (const SweepOrder order : {SweepOrder::gauss_seidel, SweepOrder::alternating, SweepOrder::coloured}) {
       StrainLimiter limiter = limiter_of(cloth, order, 2);
@@ -286,11 +285,11 @@ Finding orders_finding(const Subject&) {
       PerParticle3 expected = one_by_one(limiter, cloth, cloth.state.v);
       if (order == SweepOrder::alternating) std::ranges::reverse(limiter.springs);
       expected = one_by_one(limiter, cloth, expected);
-      measured.see(cloth.name + ", order " + std::to_string(int(order)), numbers_that_differ(v, expected));
+      measured.row(cloth.name + ", order " + std::to_string(int(order)), numbers_that_differ(v, expected));
     }
   }
-  return measured.judged(
-      0, "two sweeps are two times all springs, the second time backwards where sweeps alternate");
+  return judged_worst(
+      measured, 0, "two sweeps are two times all springs, the second time backwards where sweeps alternate");
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include "verification/evidence.h"
 #include "verification/specimens/balance.h"
 #include "verification/specimens/bending_alternatives.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
 
@@ -103,20 +102,20 @@ Finding acts_in_plane(const Subject& subject, const BendingAlternative& model) {
 
 /// The paper's element under the same measures, and the shortcut that spoils nothing.
 Finding paper_keeps_all(const Subject& subject) {
-  Measured measured = roundings_of("the forces, thinness");
+  Table measured = roundings_of("the forces, thinness");
   std::vector<double> shortcuts;
   for (const FoldedHinge& hinge : folded_hinges(subject)) {
     Worst worst;
     for (double defect : {hinge.of_the_paper.force, hinge.of_the_paper.torque, hinge.of_the_paper.in_plane})
       worst.see(defect / (epsilon * thinness(hinge.x)));
-    measured.see(hinge.name, worst.value());
+    measured.row(hinge.name, worst.value());
     shortcuts.push_back(defects_of(hinge.x, shortcut_gradient(hinge.x, EdgeLength::differentiated)).in_plane /
                         (epsilon * thinness(hinge.x)));
   }
-  Finding finding = measured.judged(32,
-                                    "sums of four forces and products with twelve numbers take fewer than 32 "
-                                    "roundings, magnified by thinness");
-  finding.evidence.push_back({"in plane, normals alone taken as constant", "epsilon thinness", shortcuts});
+  Finding finding = judged_worst(measured, 32,
+                                 "sums of four forces and products with twelve numbers take fewer than 32 "
+                                 "roundings, magnified by thinness");
+  finding.evidence.add({"in plane, normals alone taken as constant", "epsilon thinness", shortcuts});
   finding.note =
       "With the normals' lengths alone taken as constant nothing is lost: in d(theta) = cos d(sin) - sin "
       "d(cos) their changes cancel. It is the edge's length that must not be.";

@@ -8,7 +8,6 @@
 #include "reference/forces/degenerate.h"
 #include "verification/checks/forces/force_checks.h"
 #include "verification/evidence.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
@@ -34,7 +33,7 @@ Corners planar_hinge(double height2) {
 }
 
 Finding sine_is_accurate(const Subject&) {
-  Measured measured = roundings_of("thinness");
+  Table measured = roundings_of("thinness");
   Random random(421);
   for (const double small : {1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 0.3, 1.0, 1.5}) {
     for (const double angle : {small, -small, pi - small, small - pi}) {
@@ -45,28 +44,29 @@ Finding sine_is_accurate(const Subject&) {
         printed = oracles::sin_half_angle_50(x);
         error.see(std::abs(sine_of(x) - printed.value) / (epsilon * thinness(x)));
       }
-      measured.see(in_radians(angle), {error.value(), printed.uncertainty / epsilon});
+      measured.row(in_radians(angle), oracles::Estimate{error.value(), printed.uncertainty / epsilon});
     }
   }
   const double flat = sine_of(planar_hinge(-0.17));
-  measured.see("exactly flat (must be exactly zero)",
+  measured.row("exactly flat (must be exactly zero)",
                flat == 0 ? 0 : std::numeric_limits<double>::infinity());
-  return measured.judged(
-      16,
+  return judged_worst(
+      measured, 16,
       "the normals, their products and one root: fewer than 16 roundings of 1, magnified by the thinness");
 }
 
 Finding angle_is_accurate(const Subject&) {
-  Measured measured = roundings_of("pi thinness");
+  Table measured = roundings_of("pi thinness");
   for (const Specimen& hinge : hinges_of_all_angles()) {
     const Corners x = corners_of(hinge.scene.mesh.hinges[0], hinge.state.x);
     const oracles::Estimate theta = oracles::hinge_angle_50(x);
     const double unit = epsilon * pi * thinness(x);
-    measured.see(in_radians(theta.value), {std::abs(hinge_angle(x[0], x[1], x[2], x[3]) - theta.value) / unit,
-                                           theta.uncertainty / unit});
+    measured.row(in_radians(theta.value),
+                 oracles::Estimate{std::abs(hinge_angle(x[0], x[1], x[2], x[3]) - theta.value) / unit,
+                                   theta.uncertainty / unit});
   }
-  return measured.judged(
-      16, "sine and cosine of theta take fewer than 16 roundings of 1, magnified by the thinness");
+  return judged_worst(
+      measured, 16, "sine and cosine of theta take fewer than 16 roundings of 1, magnified by the thinness");
 }
 
 /// The hinge of a sweep: axis-aligned, so that the angle is the only thing that changes.
@@ -90,18 +90,18 @@ double worst_unevenness(double first, double last, int count) {
 }
 
 Finding sine_rises(const Subject&) {
-  Measured measured("largest fall, or rise faster than theta/2", "epsilon");
-  measured.see("-pi to pi, 20,001 steps", worst_unevenness(-3.14159, 3.14159, 20001));
-  measured.see("about -pi", worst_unevenness(-3.1415926535, -3.1415, 1009));
-  measured.see("about -pi/2", worst_unevenness(-pi / 2 - 1e-9, -pi / 2 + 1.3e-9, 997));
-  measured.see("about 0", worst_unevenness(-1.7e-9, 1.9e-9, 1009));
-  measured.see("about pi/2", worst_unevenness(pi / 2 - 1e-9, pi / 2 + 1.3e-9, 997));
-  measured.see("about pi", worst_unevenness(3.1415, 3.1415926535, 1013));
-  measured.see("whole range left out", std::abs(sine_of(swept(3.14159)) - sine_of(swept(-3.14159)) - 2) < 1e-9
+  Table measured{{"case", ""}, {"largest fall, or rise faster than theta/2", "epsilon"}};
+  measured.row("-pi to pi, 20,001 steps", worst_unevenness(-3.14159, 3.14159, 20001));
+  measured.row("about -pi", worst_unevenness(-3.1415926535, -3.1415, 1009));
+  measured.row("about -pi/2", worst_unevenness(-pi / 2 - 1e-9, -pi / 2 + 1.3e-9, 997));
+  measured.row("about 0", worst_unevenness(-1.7e-9, 1.9e-9, 1009));
+  measured.row("about pi/2", worst_unevenness(pi / 2 - 1e-9, pi / 2 + 1.3e-9, 997));
+  measured.row("about pi", worst_unevenness(3.1415, 3.1415926535, 1013));
+  measured.row("whole range left out", std::abs(sine_of(swept(3.14159)) - sine_of(swept(-3.14159)) - 2) < 1e-9
                                            ? 0
                                            : std::numeric_limits<double>::infinity());
   Finding finding =
-      measured.judged(16, "two neighbouring values carry fewer than 16 roundings of 1 between them");
+      judged_worst(measured, 16, "two neighbouring values carry fewer than 16 roundings of 1 between them");
   finding.note =
       "Measured is by how much, at worst, a value of sin(theta/2) lies below the one before it or rises by "
       "more than half the step of theta, which is its steepest slope; exact values would give 0.";
@@ -141,7 +141,7 @@ Finding sharp_folds_stay_finite(const Subject& subject) {
 }
 
 Finding rest_angles_give_no_force(const Subject& subject) {
-  Measured measured = roundings_of("ke c |u| thinness");
+  Table measured = roundings_of("ke c |u| thinness");
   for (Specimen& shape : curved_shapes()) {
     shape.scene.bending = bending_variants()[0];
     const PerParticle3 f = Probe(subject, shape.scene).elastic(shape.state);
@@ -154,11 +154,12 @@ Finding rest_angles_give_no_force(const Subject& subject) {
       for (int k = 0; k < 4; ++k) scale[hinge.particles[k]] += c * u[k] * thinness(x);
     }
     const PerParticle relative = f.colwise().norm().transpose().cwiseQuotient(scale);
-    measured.see(shape.name,
+    measured.row(shape.name,
                  relative.maxCoeff<Eigen::PropagateNaN>() / (epsilon * shape.scene.bending->stiffness));
   }
-  return measured.judged(
-      32, "sin(theta/2) by two routes, each good to fewer than 16 roundings of 1 times the thinness");
+  return judged_worst(
+      measured, 32,
+      "sin(theta/2) by two routes, each good to fewer than 16 roundings of 1 times the thinness");
 }
 
 /// Positions at which a triangle has no area.
@@ -201,7 +202,7 @@ bool is_reported(const Loss& loss, const Ask& ask) {
 }
 
 Finding lost_triangles_are_reported(const Subject& subject) {
-  Measured measured("questions answered without a report", "1");
+  Table measured{{"case", ""}, {"questions answered without a report", "1"}};
   Specimen sheet = crumpled_sheets()[4];
   sheet.scene.bending = damped_bending_variants()[1];
   const Probe probe(subject, sheet.scene);
@@ -210,10 +211,10 @@ Finding lost_triangles_are_reported(const Subject& subject) {
     const int silent = !is_reported(loss, [&] { probe.elastic(s); }) + !is_reported(loss, [&] {
       probe.damping(s, s.v);
     }) + !is_reported(loss, [&] { probe.energy(s); });
-    measured.see(loss.name, silent);
+    measured.row(loss.name, silent);
   }
-  return measured.judged(
-      0,
+  return judged_worst(
+      measured, 0,
       "forces, damping and energy each must throw DegenerateElement naming particles of the lost triangle");
 }
 

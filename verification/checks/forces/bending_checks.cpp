@@ -1,7 +1,6 @@
 #include "verification/checks/forces/force_checks.h"
 #include "verification/evidence.h"
 #include "verification/specimens/balance.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 #include <algorithm>
@@ -19,17 +18,17 @@ const char* const why_sums =
     "rounding each";
 
 /// A law of momentum on all crumpled sheets and some hinges, for the materials given.
-Measured over_specimens(const Subject& subject, const std::vector<BendingMaterial>& materials,
-                        const std::string& scale, Measurement measure) {
+Table over_specimens(const Subject& subject, const std::vector<BendingMaterial>& materials,
+                     const std::string& scale, Measurement measure) {
   std::vector<Specimen> specimens = crumpled_sheets();
   for (const double angle : {0.7, -2.4, 3.1})
     specimens.push_back(random_hinge(unsigned(60 + 10 * angle), angle));
-  Measured measured = roundings_of(scale);
+  Table measured = roundings_of(scale);
   for (Specimen& specimen : specimens) {
     for (const BendingMaterial& material : materials) {
       specimen.scene.bending = material;
       const PerParticle3 f = Probe(subject, specimen.scene).elastic(specimen.state);
-      measured.see(described(specimen, material), measure(specimen.state.x, f));
+      measured.row(described(specimen, material), measure(specimen.state.x, f));
     }
   }
   return measured;
@@ -44,11 +43,11 @@ std::vector<BendingMaterial> paper_variants() {
 }
 
 Finding forces_sum_to_zero(const Subject& subject) {
-  return over_specimens(subject, paper_variants(), "sum |F_i|", net_force_of).judged(32, why_sums);
+  return judged_worst(over_specimens(subject, paper_variants(), "sum |F_i|", net_force_of), 32, why_sums);
 }
 
 Finding torques_sum_to_zero(const Subject& subject) {
-  return over_specimens(subject, paper_variants(), "sum |x_i||F_i|", net_torque).judged(32, why_sums);
+  return judged_worst(over_specimens(subject, paper_variants(), "sum |x_i||F_i|", net_torque), 32, why_sums);
 }
 
 Finding other_laws_keep_momentum(const Subject& subject) {
@@ -59,19 +58,16 @@ Finding other_laws_keep_momentum(const Subject& subject) {
       if (law.name != "sine") variants.push_back(material);
     }
   }
-  Finding forces = over_specimens(subject, variants, "sum |F_i|", net_force_of).judged(32, why_sums);
-  const Finding torques =
-      over_specimens(subject, variants, "sum |x_i||F_i|", net_torque).judged(32, why_sums);
-  forces.evidence[1].name = "net force";
-  forces.evidence.push_back(torques.evidence[1]);
-  forces.evidence[2].name = "net torque";
+  const Table forces = over_specimens(subject, variants, "sum |F_i|", net_force_of);
+  const Table torques = over_specimens(subject, variants, "sum |x_i||F_i|", net_torque);
   Worst worst;
-  worst.see(forces.verdict.measured);
-  worst.see(torques.verdict.measured);
-  forces.verdict.measured = worst.value();
-  forces.verdict.unit = "epsilon of the sum of sizes";
-  forces.note = "the sum of sizes is sum |F_i| for the net force, sum |x_i||F_i| for the net torque";
-  return forces;
+  worst.see(forces.worst("measured"));
+  worst.see(torques.worst("measured"));
+  return {{worst.value(), 32, 0, "epsilon of the sum of sizes", why_sums},
+          {forces.column("case"),
+           {"net force", "epsilon sum |F_i|", forces.numbers("measured")},
+           {"net torque", "epsilon sum |x_i||F_i|", torques.numbers("measured")}},
+          "the sum of sizes is sum |F_i| for the net force, sum |x_i||F_i| for the net torque"};
 }
 
 /// What 50 digits say of the elastic forces of a whole specimen: the sum over its hinges, N each.
@@ -123,7 +119,7 @@ oracles::Estimate worst_difference(const PerParticle3& f, const Expected& expect
 Finding force_is_as_defined(const Subject& subject) {
   std::vector<Specimen> specimens = crumpled_sheets();
   for (Specimen& hinge : hinges_of_all_angles()) specimens.push_back(std::move(hinge));
-  Measured measured = roundings_of("ke c |u| thinness");
+  Table measured = roundings_of("ke c |u| thinness");
   for (size_t k = 0; k < specimens.size(); ++k) {
     Specimen& specimen = specimens[k];
     const bool is_sheet = specimen.scene.mesh.hinges.size() > 1;
@@ -132,12 +128,12 @@ Finding force_is_as_defined(const Subject& subject) {
         continue;  // sheets take them in turn
       specimen.scene.bending = material;
       const PerParticle3 f = Probe(subject, specimen.scene).elastic(specimen.state);
-      measured.see(described(specimen, material), worst_difference(f, expected_elastic(specimen)));
+      measured.row(described(specimen, material), worst_difference(f, expected_elastic(specimen)));
     }
   }
-  return measured.judged(64,
-                         "a hinge's force takes fewer than 64 roundings, and the normals magnify them by the "
-                         "triangles' thinness (longest side squared over twice the area)");
+  return judged_worst(measured, 64,
+                      "a hinge's force takes fewer than 64 roundings, and the normals magnify them by the "
+                      "triangles' thinness (longest side squared over twice the area)");
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include "verification/checks/forces/force_checks.h"
 #include "verification/evidence.h"
 #include "verification/specimens/balance.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 
@@ -55,7 +54,7 @@ PerParticle damping_scale(const Specimen& specimen, const PerParticle3& v) {
 }
 
 Finding damping_is_as_defined(const Subject& subject) {
-  Measured measured = roundings_of("kd s |u| sum |u_j||v_j| thinness");
+  Table measured = roundings_of("kd s |u| sum |u_j||v_j| thinness");
   for (const Damped& damped : with_damping(sheets_and_hinges())) {
     const Specimen& specimen = damped.specimen;
     const PerParticle3 f = Probe(subject, specimen.scene).damping(specimen.state, specimen.state.v);
@@ -71,11 +70,12 @@ Finding damping_is_as_defined(const Subject& subject) {
     }
     const PerParticle unit = epsilon * damping_scale(specimen, specimen.state.v);
     const PerParticle error = (f - expected).colwise().norm().transpose().cwiseQuotient(unit);
-    measured.see(damped.name,
-                 {error.maxCoeff<Eigen::PropagateNaN>(), uncertainty.cwiseQuotient(unit).maxCoeff()});
+    measured.row(damped.name,
+                 oracles::Estimate{error.maxCoeff<Eigen::PropagateNaN>(), uncertainty.cwiseQuotient(unit).maxCoeff()});
   }
-  return measured.judged(
-      64, "a hinge's damping force takes fewer than 64 roundings, magnified by the triangles' thinness");
+  return judged_worst(
+      measured, 64,
+      "a hinge's damping force takes fewer than 64 roundings, magnified by the triangles' thinness");
 }
 
 Finding damping_dissipates(const Subject& subject) {
@@ -96,15 +96,16 @@ double force_in_roundings(const Probe& probe, const Specimen& specimen, const Pe
 }
 
 Finding leaves_rigid_motion_alone(const Subject& subject) {
-  Measured measured = roundings_of("kd s |u| sum |u_j||v_j| thinness");
+  Table measured = roundings_of("kd s |u| sum |u_j||v_j| thinness");
   for (const Damped& damped : with_damping(sheets_and_hinges())) {
     const Specimen& specimen = damped.specimen;
     const PerParticle3& x = specimen.state.x;
     const PerParticle3 v = rigid_velocity(x, Vector3(0.4, -0.9, 0.3), Vector3(-3.1, 1.9, 4.7));
-    measured.see(damped.name, force_in_roundings(Probe(subject, specimen.scene), specimen, v));
+    measured.row(damped.name, force_in_roundings(Probe(subject, specimen.scene), specimen, v));
   }
-  return measured.judged(
-      32, "u.v of a rigid motion is a sum of fewer than 32 terms' roundings, magnified by the thinness");
+  return judged_worst(
+      measured, 32,
+      "u.v of a rigid motion is a sum of fewer than 32 terms' roundings, magnified by the thinness");
 }
 
 /// x1 and x2 moving in the planes of their triangles, the edge stretching at `rates` [1/s]: no angle changes.
@@ -121,7 +122,7 @@ PerParticle3 in_plane_velocity(const Corners& x, const std::array<double, 5>& ra
 Finding leaves_in_plane_motion_alone(const Subject& subject) {
   const std::array<const char*, 5> names = {"x1 away from x3", "x1 along the edge", "x2 away from x3",
                                             "x2 along the edge", "stretch of the edge"};
-  Measured measured = roundings_of("kd s |u| sum |u_j||v_j| thinness");
+  Table measured = roundings_of("kd s |u| sum |u_j||v_j| thinness");
   const std::vector<Damped> cases = with_damping(hinges_of_all_angles());
   for (size_t motion = 0; motion < names.size(); ++motion) {
     std::array<double, 5> rates{};
@@ -132,10 +133,11 @@ Finding leaves_in_plane_motion_alone(const Subject& subject) {
       const Corners x = corners_of(hinge.scene.mesh.hinges[0], hinge.state.x);
       worst.see(force_in_roundings(Probe(subject, hinge.scene), hinge, in_plane_velocity(x, rates)));
     }
-    measured.see(names[motion], worst.value());
+    measured.row(names[motion], worst.value());
   }
-  Finding finding = measured.judged(
-      32, "u.v of an in-plane motion is a sum of fewer than 32 terms' roundings, magnified by the thinness");
+  Finding finding = judged_worst(
+      measured, 32,
+      "u.v of an in-plane motion is a sum of fewer than 32 terms' roundings, magnified by the thinness");
   finding.note = "The six rigid motions, which complete the eleven, have a check of their own.";
   return finding;
 }
@@ -155,15 +157,15 @@ Finding damping_is_symmetric(const Subject& subject) { return asymmetry(subject,
 Finding damping_is_negative(const Subject& subject) { return largest_eigenvalue(subject, dense_cases()); }
 
 Finding keeps_momentum(const Subject& subject) {
-  Measured measured = roundings_of("of the sum of sizes");
+  Table measured = roundings_of("of the sum of sizes");
   for (const Damped& damped : with_damping(sheets_and_hinges())) {
     const Specimen& specimen = damped.specimen;
     const PerParticle3 f = Probe(subject, specimen.scene).damping(specimen.state, specimen.state.v);
-    measured.see(damped.name + ", force", net_force(f));
-    measured.see(damped.name + ", torque", net_torque(specimen.state.x, f));
+    measured.row(damped.name + ", force", net_force(f));
+    measured.row(damped.name + ", torque", net_torque(specimen.state.x, f));
   }
-  Finding finding = measured.judged(
-      32,
+  Finding finding = judged_worst(
+      measured, 32,
       "each hinge's forces cancel to a few roundings and about 20 hinge forces are added to a particle, a "
       "rounding each");
   finding.note = "the sum of sizes is sum |F_i| for the net force, sum |x_i||F_i| for the net torque";

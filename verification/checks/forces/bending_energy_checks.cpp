@@ -3,7 +3,6 @@
 #include "verification/checks/forces/force_checks.h"
 #include "verification/checks/forces/work.h"
 #include "verification/evidence.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 
@@ -27,17 +26,17 @@ double excursion(const Specimen& specimen) {
 }
 
 Finding force_is_minus_gradient(const Subject& subject) {
-  Measured measured = roundings_of("(integral |F||dx| + |E|)");
+  Table measured = roundings_of("(integral |F||dx| + |E|)");
   for (Specimen& specimen : specimens()) {
     for (const BendingMaterial& material : bending_variants()) {
       if (material.weighting != Weighting::rest) continue;
       specimen.scene.bending = material;
       const Path path = random_line(specimen.state.x, excursion(specimen), 77);
-      measured.see(described(specimen, material), energy_against_work(Probe(subject, specimen.scene), path));
+      measured.row(described(specimen, material), energy_against_work(Probe(subject, specimen.scene), path));
     }
   }
-  return measured.judged(
-      256,
+  return judged_worst(
+      measured, 256,
       "80 to 640 forces and two energies enter the balance, each good to a few roundings of its scale times "
       "the thinness of crumpled triangles, about 3; the quadrature's own error is the uncertainty");
 }
@@ -50,7 +49,7 @@ double potential_50(const oracles::HingeInput& input, std::string_view law, doub
 }
 
 Finding energy_is_as_defined(const Subject& subject) {
-  Measured measured = roundings_of("ke c (1 + potential) thinness");
+  Table measured = roundings_of("ke c (1 + potential) thinness");
   std::vector<Specimen> list = crumpled_sheets();
   for (Specimen& hinge : hinges_of_all_angles()) list.push_back(std::move(hinge));
   for (size_t k = 0; k < list.size(); ++k) {
@@ -70,11 +69,11 @@ Finding energy_is_as_defined(const Subject& subject) {
         scale += weight * (1 + potential) * (thinness(input.x) + thinness(input.rest));
       }
       const double error = std::abs(Probe(subject, specimen.scene).energy(specimen.state) - energy);
-      measured.see(described(specimen, material), error / (epsilon * scale));
+      measured.row(described(specimen, material), error / (epsilon * scale));
     }
   }
-  return measured.judged(
-      64,
+  return judged_worst(
+      measured, 64,
       "theta and c take about 16 roundings each, magnified by the thinness, and hinges are added one by one");
 }
 
@@ -98,28 +97,28 @@ std::vector<Loop> loops(const Subject& subject, Weighting weighting) {
 }
 
 Finding no_work_round_a_loop(const Subject& subject) {
-  Measured measured = roundings_of("integral |F||dx|");
+  Table measured = roundings_of("integral |F||dx|");
   for (const Loop& loop : loops(subject, Weighting::rest)) {
     const double unit = epsilon * loop.trip.scale;
-    measured.see(loop.name, {std::abs(loop.trip.work) / unit, loop.trip.uncertainty / unit});
+    measured.row(loop.name, oracles::Estimate{std::abs(loop.trip.work) / unit, loop.trip.uncertainty / unit});
   }
-  return measured.judged(
-      64,
+  return judged_worst(
+      measured, 64,
       "forces along the path are good to a few dozen roundings; the quadrature's error is the uncertainty");
 }
 
 Finding work_round_a_loop(const Subject& subject) {
-  Measured measured("uncertainty of the work over the work", "of the work");
+  Table measured{{"case", ""}, {"uncertainty of the work over the work", "of the work"}};
   std::vector<double> works;
   for (const Loop& loop : loops(subject, Weighting::current)) {
     const double rounding = 64 * epsilon * loop.trip.scale;
-    measured.see(loop.name, (loop.trip.uncertainty + rounding) / std::abs(loop.trip.work));
+    measured.row(loop.name, (loop.trip.uncertainty + rounding) / std::abs(loop.trip.work));
     works.push_back(loop.trip.work / loop.trip.scale);
   }
-  Finding finding = measured.judged(0.01,
-                                    "a work of 100 times its uncertainty is not zero; the uncertainty is the "
-                                    "quadrature's error and 64 roundings");
-  finding.evidence.push_back({"work over integral |F||dx|", "1", works});
+  Finding finding = judged_worst(measured, 0.01,
+                                 "a work of 100 times its uncertainty is not zero; the uncertainty is the "
+                                 "quadrature's error and 64 roundings");
+  finding.evidence.add({"work over integral |F||dx|", "1", works});
   finding.note =
       "The paper does not say where |E|^2/(|N1| + |N2|) is taken. Only at rest is the force the gradient of "
       "an energy.";

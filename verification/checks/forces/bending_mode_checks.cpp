@@ -3,7 +3,6 @@
 #include "verification/checks/forces/force_checks.h"
 #include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
@@ -69,16 +68,16 @@ Finding mode_is_orthogonal(const Subject&) {
       worst[m].see(std::abs(u.dot(eleven.modes.col(m))) / (epsilon * u.norm() * thinness(x)));
     }
   }
-  Measured measured = roundings_of("|u| thinness");
-  for (int m = 0; m < 11; ++m) measured.see(Eleven::names[m], worst[m].value());
-  return measured.judged(
-      32,
+  Table measured = roundings_of("|u| thinness");
+  for (int m = 0; m < 11; ++m) measured.row(Eleven::names[m], worst[m].value());
+  return judged_worst(
+      measured, 32,
       "u, a normalised motion and their scalar product take fewer than 32 roundings each of |u|, magnified "
       "by the triangles' thinness");
 }
 
 Finding mode_is_the_only_one(const Subject&) {
-  Measured measured = roundings_of("thinness over the eleventh singular value");
+  Table measured = roundings_of("thinness over the eleventh singular value");
   std::vector<double> gaps;
   for (const Corners& x : shapes()) {
     const oracles::SingularParts parts = oracles::singular_parts(eleven_modes(x).modes.transpose());
@@ -87,13 +86,13 @@ Finding mode_is_the_only_one(const Subject&) {
     const double sine = (u - u.dot(alone) * alone).norm();
     const bool several = !(smallest > 1e-4);  // the eleven would not be independent
     gaps.push_back(smallest);
-    measured.see("hinge " + std::to_string(gaps.size()),
+    measured.row("hinge " + std::to_string(gaps.size()),
                  several ? std::nan("") : sine * smallest / (epsilon * thinness(x)));
   }
-  Finding finding = measured.judged(64,
-                                    "the null vector of the eleven moves by their roundings, fewer than 64, "
-                                    "over their smallest singular value");
-  finding.evidence.push_back({"smallest over largest singular value", "1", gaps});
+  Finding finding = judged_worst(measured, 64,
+                                 "the null vector of the eleven moves by their roundings, fewer than 64, "
+                                 "over their smallest singular value");
+  finding.evidence.add({"smallest over largest singular value", "1", gaps});
   finding.note =
       "A smallest singular value of 1e-4 or less would mean that the eleven are not independent: it counts "
       "as NaN.";
@@ -101,7 +100,7 @@ Finding mode_is_the_only_one(const Subject&) {
 }
 
 Finding mode_is_minus_gradient(const Subject&) {
-  Measured measured = roundings_of("|u| thinness");
+  Table measured = roundings_of("|u| thinness");
   std::vector<double> by_differences, rates, products;
   Random random(907);
   for (const Corners& x : shapes()) {
@@ -109,19 +108,18 @@ Finding mode_is_minus_gradient(const Subject&) {
     const double unit = epsilon * u.norm() * thinness(x);
     const auto gradient = oracles::theta_gradient_autodiff(x);
     const auto differences = oracles::theta_gradient_differences(x);
-    measured.see("hinge " + std::to_string(rates.size() + 1),
-                 {(u + stacked(gradient.value)).norm() / unit, 4 * gradient.uncertainty / unit});
+    measured.row("hinge " + std::to_string(rates.size() + 1),
+                 oracles::Estimate{(u + stacked(gradient.value)).norm() / unit, 4 * gradient.uncertainty / unit});
     by_differences.push_back((u + stacked(differences.value)).norm() / unit);
     const PerParticle3 v = random.vectors(4, 0.8);
     rates.push_back(oracles::theta_rate_autodiff(x, {v.col(0), v.col(1), v.col(2), v.col(3)}).value);
     products.push_back(u.dot(v.reshaped()));
   }
   Finding finding =
-      measured.judged(32, "u takes fewer than 32 roundings, magnified by the triangles' thinness");
-  finding.evidence.push_back(
-      {"the same against 50-digit differences", "epsilon |u| thinness", by_differences});
-  finding.evidence.push_back({"d(theta)/dt of a random motion", "rad/s", rates});
-  finding.evidence.push_back({"u.v of the same motion", "rad/s", products});
+      judged_worst(measured, 32, "u takes fewer than 32 roundings, magnified by the triangles' thinness");
+  finding.evidence.add({"the same against 50-digit differences", "epsilon |u| thinness", by_differences});
+  finding.evidence.add({"d(theta)/dt of a random motion", "rad/s", rates});
+  finding.evidence.add({"u.v of the same motion", "rad/s", products});
   finding.note =
       "The printed line d(theta)/dt = u.v has the wrong sign: d(theta)/dt = -u.v, as the last two columns "
       "show. The printed forces are right.";
@@ -142,7 +140,7 @@ double height(const Corners& x, const Vector3& p) {
 }
 
 Finding weights_are_barycentric(const Subject& subject) {
-  Measured measured = roundings_of("|f| thinness");
+  Table measured = roundings_of("|f| thinness");
   std::vector<double> heights;
   for (Specimen& hinge : hinges_of_all_angles()) {
     hinge.scene.bending = bending_variants()[0];
@@ -156,12 +154,12 @@ Finding weights_are_barycentric(const Subject& subject) {
     worst.see((f.col(2) - f3).norm() / unit);
     worst.see((f.col(3) - f4).norm() / unit);
     worst.see(std::abs(moment1 - moment2) / (epsilon * thinness(x) * moment1));
-    measured.see(hinge.name, worst.value());
+    measured.row(hinge.name, worst.value());
     heights.push_back(height(x, x[0]) / height(x, x[1]));
   }
-  Finding finding = measured.judged(
-      32, "weights, heights and forces take fewer than 32 roundings, magnified by the thinness");
-  finding.evidence.push_back({"height of x1 over height of x2", "1", heights});
+  Finding finding = judged_worst(
+      measured, 32, "weights, heights and forces take fewer than 32 roundings, magnified by the thinness");
+  finding.evidence.add({"height of x1 over height of x2", "1", heights});
   return finding;
 }
 

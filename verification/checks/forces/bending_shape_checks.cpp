@@ -6,7 +6,6 @@
 #include "verification/checks/forces/force_checks.h"
 #include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/stepper.h"
@@ -82,7 +81,7 @@ double largest_eigenvalue(const Matrix12& J) {
 }
 
 Finding nonlinear_damping_stays_symmetric(const Subject& subject) {
-  Measured measured = roundings_of("largest |F| over the differences' width, thinness");
+  Table measured = roundings_of("largest |F| over the differences' width, thinness");
   std::vector<double> nonlinear, one_by_one;
   for (Specimen& hinge : hinges_of_all_angles()) {
     hinge.scene.bending = damped_bending_variants()[0];
@@ -95,16 +94,16 @@ Finding nonlinear_damping_stays_symmetric(const Subject& subject) {
     Worst worst;
     worst.see(relative_asymmetry(together.matrix) * together.matrix.cwiseAbs().maxCoeff() / unit);
     worst.see(largest_eigenvalue(together.matrix) / (12 * unit));  // negative where there is nothing to see
-    measured.see(hinge.name, worst.value());
+    measured.row(hinge.name, worst.value());
     nonlinear.push_back(std::pow(gradient.dot(v) / rate_scale, 2));
     one_by_one.push_back(
         relative_asymmetry(jacobian_of(stiffened_one_by_one(probe, hinge.state, gradient), v).matrix));
   }
-  Finding finding = measured.judged(64,
-                                    "an entry is a difference of forces of about forty roundings each, "
-                                    "magnified by the triangles' thinness");
-  finding.evidence.push_back({"cubic part over the linear one", "1", nonlinear});
-  finding.evidence.push_back({"corner by corner", "1", one_by_one});
+  Finding finding = judged_worst(measured, 64,
+                                 "an entry is a difference of forces of about forty roundings each, "
+                                 "magnified by the triangles' thinness");
+  finding.evidence.add({"cubic part over the linear one", "1", nonlinear});
+  finding.evidence.add({"corner by corner", "1", one_by_one});
   finding.note =
       "The law is the subject's damping times 1 + (rate/" + std::to_string(int(rate_scale)) +
       " rad/s)^2, the rate by exact differentiation: symmetric only if the forces point along its gradient. "

@@ -2,7 +2,6 @@
 
 #include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 
 namespace foldproof {
@@ -27,18 +26,18 @@ Finding dissipation(const std::vector<std::string>& names, const std::vector<Pow
 }
 
 Finding asymmetry(const Subject& subject, const std::vector<DampedScene>& cases) {
-  Measured measured = roundings_of("largest |D_ij|");
+  Table measured = roundings_of("largest |D_ij|");
   for (const DampedScene& damped : cases) {
     const Eigen::MatrixXd D = damping_matrix(Probe(subject, damped.scene), damped.state);
     const double largest = (D - D.transpose()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    measured.see(damped.name, largest / (epsilon * D.cwiseAbs().maxCoeff()));
+    measured.row(damped.name, largest / (epsilon * D.cwiseAbs().maxCoeff()));
   }
-  return measured.judged(
-      32, "an entry of D is a product of two rounded components and a sum over about ten elements");
+  return judged_worst(
+      measured, 32, "an entry of D is a product of two rounded components and a sum over about ten elements");
 }
 
 Finding largest_eigenvalue(const Subject& subject, const std::vector<DampedScene>& cases) {
-  Measured measured = roundings_of("3N times the largest |eigenvalue|");
+  Table measured = roundings_of("3N times the largest |eigenvalue|");
   std::vector<double> lowest, highest;
   for (const DampedScene& damped : cases) {
     const Eigen::MatrixXd D = damping_matrix(Probe(subject, damped.scene), damped.state);
@@ -47,12 +46,12 @@ Finding largest_eigenvalue(const Subject& subject, const std::vector<DampedScene
     lowest.push_back(values.minCoeff());
     highest.push_back(values.maxCoeff());
     const double size = values.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    measured.see(damped.name, highest.back() / (epsilon * double(D.rows()) * size));
+    measured.row(damped.name, highest.back() / (epsilon * double(D.rows()) * size));
   }
-  Finding finding = measured.judged(
-      4, "the eigenvalue solver's backward error is about epsilon 3N times the largest eigenvalue");
-  finding.evidence.push_back({"lowest eigenvalue", "N s/m", lowest});
-  finding.evidence.push_back({"highest eigenvalue", "N s/m", highest});
+  Finding finding = judged_worst(
+      measured, 4, "the eigenvalue solver's backward error is about epsilon 3N times the largest eigenvalue");
+  finding.evidence.add({"lowest eigenvalue", "N s/m", lowest});
+  finding.evidence.add({"highest eigenvalue", "N s/m", highest});
   return finding;
 }
 

@@ -2,7 +2,6 @@
 #include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/specimens/differences.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 #include <cmath>
@@ -45,17 +44,17 @@ BendingMaterial bending_by(std::string_view law, Weighting weighting) {
 }
 
 Finding hinge_is_second_derivative(const Subject&) {
-  Measured measured = roundings_of("the largest entry times the thinness squared");
+  Table measured = roundings_of("the largest entry times the thinness squared");
   for (Specimen hinge : hinges_of_all_angles()) {
     hinge.scene.bending = bending_by("sine", Weighting::rest);
     const oracles::MatrixEstimate exact = oracles::bending_elastic_derivative_autodiff(hinge_input(hinge, 0));
     const double scale = epsilon * largest_entry(exact.value) *
                          std::pow(thinness(corners_of(hinge.scene.mesh.hinges[0], hinge.state.x)), 2);
     const Matrix difference = stiffness_of(hinge, Definiteness::exact) - exact.value;
-    measured.see(hinge.name, {largest_entry(difference) / scale, exact.uncertainty / scale});
+    measured.row(hinge.name, oracles::Estimate{largest_entry(difference) / scale, exact.uncertainty / scale});
   }
-  return measured.judged(
-      16,
+  return judged_worst(
+      measured, 16,
       "an entry is a sum of four products of a dozen factors: 48 roundings of either sign add up to some 7, "
       "twice that "
       "is allowed; a normal's rounding is magnified by the triangle's thinness, its derivative's once more");
@@ -104,15 +103,16 @@ Differences differences_of(const Probe& probe, const State& s) {
 }
 
 Finding matches_differences(const Subject& subject) {
-  Measured measured("largest difference over the largest entry", "1");
+  Table measured{{"case", ""}, {"largest difference over the largest entry", "1"}};
   for (const Specimen& specimen : elastic_specimens()) {
     const Differences differences = differences_of(Probe(subject, specimen.scene), specimen.state);
     const double scale = largest_entry(differences.K);
     const Matrix difference = stiffness_of(specimen, Definiteness::exact) - differences.K;
-    measured.see(specimen.name, {largest_entry(difference) / scale, differences.uncertainty / scale});
+    measured.row(specimen.name,
+                 oracles::Estimate{largest_entry(difference) / scale, differences.uncertainty / scale});
   }
-  return measured.judged(
-      1e-9,
+  return judged_worst(
+      measured, 1e-9,
       "rounding of differences at steps of 1e-4 of the cloth is epsilon over the step, 2e-12, "
       "magnified some hundredfold by thin triangles; how far two extrapolations disagree is added; a missing "
       "or "
@@ -120,14 +120,14 @@ Finding matches_differences(const Subject& subject) {
 }
 
 Finding is_symmetric(const Subject&) {
-  Measured measured = roundings_of("the largest entry");
+  Table measured = roundings_of("the largest entry");
   for (const Specimen& specimen : elastic_specimens())
     for (const Definiteness definiteness : {Definiteness::exact, Definiteness::semidefinite}) {
       const Matrix K = stiffness_of(specimen, definiteness);
-      measured.see(specimen.name, largest_entry(K - K.transpose()) / (epsilon * largest_entry(K)));
+      measured.row(specimen.name, largest_entry(K - K.transpose()) / (epsilon * largest_entry(K)));
     }
-  return measured.judged(
-      256,
+  return judged_worst(
+      measured, 256,
       "a hinge's rows and columns are summed by different formulas, each of a dozen roundings "
       "magnified by crumpled triangles about ten times");
 }
@@ -144,14 +144,15 @@ double projection_error(const Matrix& A, const Matrix& P) {
 }
 
 Finding projection_is_nearest(const Subject&) {
-  Measured measured = roundings_of("the matrix");
+  Table measured = roundings_of("the matrix");
   for (Specimen hinge : hinges_of_all_angles()) {
     hinge = with(hinge, bending_by("sine", Weighting::rest), {});
     const Matrix exact = stiffness_of(hinge, Definiteness::exact);
-    measured.see(hinge.name, projection_error(exact, stiffness_of(hinge, Definiteness::semidefinite)));
+    measured.row(hinge.name, projection_error(exact, stiffness_of(hinge, Definiteness::semidefinite)));
   }
-  return measured.judged(
-      64, "the eigenvalue decomposition of a 12 x 12 matrix is good to a few dozen roundings of its norm");
+  return judged_worst(
+      measured, 64,
+      "the eigenvalue decomposition of a 12 x 12 matrix is good to a few dozen roundings of its norm");
 }
 
 /// Two particles and the one spring of their length, by the reference alone.
@@ -166,21 +167,21 @@ double spring_error(double stretch) {
 }
 
 Finding spring_projection_is_nearest(const Subject&) {
-  Measured measured = roundings_of("the matrix");
+  Table measured = roundings_of("the matrix");
   for (const double stretch : {0.43, 0.97, 1.02, 1.7})
-    measured.see("length over rest length " + std::to_string(stretch), spring_error(stretch));
-  return measured.judged(16, "a 3 x 3 matrix of a few products");
+    measured.row("length over rest length " + std::to_string(stretch), spring_error(stretch));
+  return judged_worst(measured, 16, "a 3 x 3 matrix of a few products");
 }
 
 Finding semidefinite_only_resists(const Subject&) {
-  Measured measured = roundings_of("the largest entry");
+  Table measured = roundings_of("the largest entry");
   for (const Specimen& specimen : elastic_specimens()) {
     const Matrix K = stiffness_of(specimen, Definiteness::semidefinite);
     const Eigen::VectorXd values = oracles::symmetric_eigenvalues(0.5 * (K + K.transpose()));
-    measured.see(specimen.name, values.maxCoeff() / (epsilon * largest_entry(K)));
+    measured.row(specimen.name, values.maxCoeff() / (epsilon * largest_entry(K)));
   }
-  return measured.judged(
-      256, "a sum of some hundred negative semidefinite blocks, each so to a few dozen roundings");
+  return judged_worst(measured, 256,
+                      "a sum of some hundred negative semidefinite blocks, each so to a few dozen roundings");
 }
 
 }  // namespace

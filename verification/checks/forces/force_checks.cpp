@@ -4,7 +4,6 @@
 #include "verification/checks/forces/derivatives.h"
 #include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/refusal.h"
@@ -38,28 +37,29 @@ std::vector<Specimen> heavy_sheets() {
 }
 
 Finding gravity_is_weight(const Subject& subject) {
-  Measured measured = roundings_of("m_i |g|");
+  Table measured = roundings_of("m_i |g|");
   for (const Specimen& sheet : heavy_sheets()) {
     const PerParticle masses = masses_by_heron(sheet.scene.mesh, sheet.scene.density);
     const PerParticle3 difference =
         Probe(subject, sheet.scene).elastic(sheet.state) - field * masses.transpose();
     const PerParticle relative =
         difference.colwise().norm().transpose().cwiseQuotient(epsilon * field.norm() * masses);
-    measured.see(sheet.name, relative.maxCoeff<Eigen::PropagateNaN>());
+    measured.row(sheet.name, relative.maxCoeff<Eigen::PropagateNaN>());
   }
-  return measured.judged(32, "about eight areas of a few roundings each are added to a mass");
+  return judged_worst(measured, 32, "about eight areas of a few roundings each are added to a mass");
 }
 
 Finding gravity_energy(const Subject& subject) {
-  Measured measured = roundings_of("sum m_i |g||x_i|");
+  Table measured = roundings_of("sum m_i |g||x_i|");
   for (const Specimen& sheet : heavy_sheets()) {
     const PerParticle masses = masses_by_heron(sheet.scene.mesh, sheet.scene.density);
     const double expected = -field.dot(sheet.state.x * masses);
     const double scale = field.norm() * sheet.state.x.colwise().norm().dot(masses);
     const double error = std::abs(Probe(subject, sheet.scene).energy(sheet.state) - expected);
-    measured.see(sheet.name, error / (epsilon * scale));
+    measured.row(sheet.name, error / (epsilon * scale));
   }
-  return measured.judged(64, "masses take about 16 roundings, and about 40 particles are added one by one");
+  return judged_worst(measured, 64,
+                      "masses take about 16 roundings, and about 40 particles are added one by one");
 }
 
 /// The stiffness matrix by central differences of the forces, scaled with the masses: M^-1/2 K M^-1/2
@@ -131,18 +131,18 @@ std::vector<Specimen> stiff_cases() {
 }
 
 Finding bound_is_a_bound(const Subject& subject) {
-  Measured measured("largest frequency over the bound", "1");
+  Table measured{{"case", ""}, {"largest frequency over the bound", "1"}};
   std::vector<double> frequencies;
   for (const Specimen& specimen : stiff_cases()) {
     const System system = build_system(specimen.scene);
     const double bound = frequency_bound(system.forces, specimen.state, system.inverse_mass);
     const oracles::Estimate largest =
         largest_frequency(Probe(subject, specimen.scene), specimen.state, system.mass);
-    measured.see(specimen.name, {largest.value / bound, largest.uncertainty / bound});
+    measured.row(specimen.name, oracles::Estimate{largest.value / bound, largest.uncertainty / bound});
     frequencies.push_back(largest.value);
   }
-  Finding finding = measured.judged(1, "an upper bound may not be exceeded");
-  finding.evidence.push_back({"largest frequency", "rad/s", frequencies});
+  Finding finding = judged_worst(measured, 1, "an upper bound may not be exceeded");
+  finding.evidence.add({"largest frequency", "rad/s", frequencies});
   return finding;
 }
 
@@ -189,20 +189,21 @@ PerParticle row_sums(const Specimen& specimen) {
 }
 
 Finding rows_are_covered(const Subject&) {
-  Measured measured("largest sum of a row over its bound", "1");
+  Table measured{{"case", ""}, {"largest sum of a row over its bound", "1"}};
   std::vector<Specimen> cases = stiff_cases();
   for (const Specimen& specimen : far_from_rest()) cases.push_back(specimen);
   for (Specimen& specimen : cases) {
     if (specimen.scene.bending) specimen.scene.bending->damping = 0;
     const PerParticle share = row_sums(specimen).cwiseQuotient(row_bounds(specimen));
-    measured.see(specimen.name, share.maxCoeff<Eigen::PropagateNaN>());
+    measured.row(specimen.name, share.maxCoeff<Eigen::PropagateNaN>());
   }
-  return measured.judged(1 + 1e-9, "an upper bound may not be exceeded, but for rounding in thin triangles");
+  return judged_worst(measured, 1 + 1e-9,
+                      "an upper bound may not be exceeded, but for rounding in thin triangles");
 }
 
 /// Hinges in their rest shape, where only the rank-one part is left: there the bound is the sum.
 Finding rows_are_reached(const Subject&) {
-  Measured measured("largest |sum of a row over its bound - 1|", "1");
+  Table measured{{"case", ""}, {"largest |sum of a row over its bound - 1|", "1"}};
   std::vector<Specimen> cases;
   unsigned seed = 370;
   for (const double angle : {0.3, -1.9, 2.6}) {
@@ -213,19 +214,18 @@ Finding rows_are_reached(const Subject&) {
   }
   for (const Specimen& specimen : cases) {
     const PerParticle share = row_sums(specimen).cwiseQuotient(row_bounds(specimen));
-    measured.see(specimen.name, (share.array() - 1).abs().maxCoeff<Eigen::PropagateNaN>());
+    measured.row(specimen.name, (share.array() - 1).abs().maxCoeff<Eigen::PropagateNaN>());
   }
-  return measured.judged(
-      1e-7,
-      "a rest angle is met to a rounding, which thin triangles magnify; a missing term or a "
-      "wrong factor is of order 1");
+  return judged_worst(measured, 1e-7,
+                      "a rest angle is met to a rounding, which thin triangles magnify; a missing term or a "
+                      "wrong factor is of order 1");
 }
 
 /// The same hinge seen from its other side: x1 and x2 in turn, and x3 and x4.
 Corners turned_round(const Corners& x) { return {x[1], x[0], x[3], x[2]}; }
 
 Finding rows_follow_their_particles(const Subject&) {
-  Measured measured("largest difference over a row's bound", "epsilon");
+  Table measured{{"case", ""}, {"largest difference over a row's bound", "epsilon"}};
   Random random(380);
   for (const double angle : {0.4, -1.6, 2.8}) {
     const Corners rest = random_corners(random, 0.5 * angle), x = random_corners(random, angle);
@@ -237,26 +237,26 @@ Finding rows_follow_their_particles(const Subject&) {
     const PerParticle one = bounds_of(rest, x), other = bounds_of(turned_round(rest), turned_round(x));
     for (int k = 0; k < 4; ++k) {
       const int same = std::array{1, 0, 3, 2}[size_t(k)];
-      measured.see("particle " + std::to_string(k + 1) + " at " + std::to_string(angle) + " rad",
+      measured.row("particle " + std::to_string(k + 1) + " at " + std::to_string(angle) + " rad",
                    std::abs(other[same] / one[k] - 1) / epsilon);
     }
   }
-  return measured.judged(3000,
-                         "a bound has some thirty roundings, which thin triangles magnify by their shape, "
-                         "sides of up to ten to one twice; terms of the wrong particle differ by the sides");
+  return judged_worst(measured, 3000,
+                      "a bound has some thirty roundings, which thin triangles magnify by their shape, "
+                      "sides of up to ten to one twice; terms of the wrong particle differ by the sides");
 }
 
 Finding unknown_laws_are_refused(const Subject&) {
-  Measured measured("names that are taken or refused wrongly", "1");
+  Table measured{{"case", ""}, {"names that are taken or refused wrongly", "1"}};
   for (const BendingLaw& law : bending_laws())
-    measured.see(std::string(law.name), bending_law(law.name).magnitude == law.magnitude ? 0 : 1);
+    measured.row(std::string(law.name), bending_law(law.name).magnitude == law.magnitude ? 0 : 1);
   for (const std::string name : {"square", "", "sin", "Sine"}) {
     const std::string said = refusal([&] { bending_law(name); });
     const bool is_told =
         said.find("'" + name + "'") != std::string::npos && said.ends_with("known: sine, cubic");
-    measured.see("'" + name + "'", is_told ? 0 : 1);
+    measured.row("'" + name + "'", is_told ? 0 : 1);
   }
-  return measured.judged(0, "a law is one of the list, or refused with its name and the list");
+  return judged_worst(measured, 0, "a law is one of the list, or refused with its name and the list");
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include "verification/evidence.h"
 #include "verification/oracles/force_derivatives.h"
 #include "verification/specimens/differences.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
@@ -77,7 +76,7 @@ std::vector<BendingMaterial> moving_materials() {
 }
 
 Finding hinge_is_derivative(const Subject&) {
-  Measured measured = roundings_of("the largest entry times the thinness squared");
+  Table measured = roundings_of("the largest entry times the thinness squared");
   for (const BendingMaterial& material : moving_materials())
     for (Specimen hinge : hinges_of_all_angles()) {
       hinge.scene.bending = material;
@@ -85,18 +84,18 @@ Finding hinge_is_derivative(const Subject&) {
       const double scale = epsilon * largest_entry(exact.value) *
                            std::pow(thinness(corners_of(hinge.scene.mesh.hinges[0], hinge.state.x)), 2);
       const Matrix difference = derivative_of(hinge) - exact.value;
-      measured.see(described(hinge, material),
-                   {largest_entry(difference) / scale, exact.uncertainty / scale});
+      measured.row(described(hinge, material),
+                   oracles::Estimate{largest_entry(difference) / scale, exact.uncertainty / scale});
     }
-  return measured.judged(
-      16,
+  return judged_worst(
+      measured, 16,
       "an entry is a sum of eight products of a dozen factors: a hundred roundings of either sign add up to "
       "some 10; a "
       "normal's rounding is magnified by the triangle's thinness, its derivative's once more");
 }
 
 Finding spring_is_derivative(const Subject&) {
-  Measured measured = roundings_of("the largest entry");
+  Table measured = roundings_of("the largest entry");
   Random random(67);
   for (const double stretch : {0.43, 0.97, 1.02, 1.7}) {
     // on the oracle's side Y A/L0^2 and kd A/L0^2
@@ -110,27 +109,27 @@ Finding spring_is_derivative(const Subject&) {
     const oracles::SpringMatrixEstimate exact = oracles::spring_force_derivative_autodiff(
         {{s.x.col(0), s.x.col(1)}, {s.v.col(0), s.v.col(1)}, {young, damping, area, rest}});
     const double scale = epsilon * largest_entry(exact.value);
-    measured.see(
-        "length over rest length " + std::to_string(stretch),
-        {largest_entry(matrix_of(differential, 2) - exact.value) / scale, exact.uncertainty / scale});
+    measured.row("length over rest length " + std::to_string(stretch),
+                 oracles::Estimate{largest_entry(matrix_of(differential, 2) - exact.value) / scale,
+                                   exact.uncertainty / scale});
   }
-  return measured.judged(32,
-                         "a 3 x 3 matrix of a dozen products; length less rest length loses a few roundings");
+  return judged_worst(measured, 32,
+                      "a 3 x 3 matrix of a dozen products; length less rest length loses a few roundings");
 }
 
 Finding matches_differences(const Subject& subject) {
-  Measured measured("largest difference over the largest entry", "1");
+  Table measured{{"case", ""}, {"largest difference over the largest entry", "1"}};
   for (Specimen sheet : small_crumpled_sheets())
     for (const BendingMaterial& material : moving_materials()) {
       sheet.scene.bending = material;
       sheet.scene.stretch = StretchMaterial{41, 0.31, 1.04};
       const Probe probe(subject, sheet.scene);
       const Matrix expected = differences_of_forces(probe, sheet.state, 1e-4 * extent(sheet.state.x));
-      measured.see(described(sheet, material),
+      measured.row(described(sheet, material),
                    largest_entry(derivative_of(sheet) - expected) / largest_entry(expected));
     }
-  return measured.judged(
-      1e-9,
+  return judged_worst(
+      measured, 1e-9,
       "rounding of differences at steps of 1e-4 of the cloth is epsilon over the step, 2e-12, "
       "magnified some hundredfold by thin triangles; a missing or wrong term is of order 1");
 }
@@ -149,7 +148,7 @@ Matrix damped_answers(const StretchSprings& springs, const State& s) {
 }
 
 Finding springs_answer_for_themselves(const Subject&) {
-  Measured measured = roundings_of("the largest entry");
+  Table measured = roundings_of("the largest entry");
   Random random(71);
   const StretchSprings all{{{0, 1, 0.31, 7.9, 0.59}, {1, 2, 0.23, 5.3, 0}, {2, 3, 0.37, 3.1, 0.83}}};
   for (int k = 0; k < 4; ++k) {
@@ -157,10 +156,10 @@ Finding springs_answer_for_themselves(const Subject&) {
     s.v = random.vectors(4, 1.3);
     Matrix sum = Matrix::Zero(12, 13);
     for (const Spring& one : all.springs) sum += damped_answers({{one}}, s);
-    measured.see("three springs, place " + std::to_string(k + 1),
+    measured.row("three springs, place " + std::to_string(k + 1),
                  largest_entry(damped_answers(all, s) - sum) / (epsilon * largest_entry(sum)));
   }
-  return measured.judged(8, "the same terms, added in another order");
+  return judged_worst(measured, 8, "the same terms, added in another order");
 }
 
 struct Variant {
@@ -170,7 +169,8 @@ struct Variant {
 };
 
 Finding flag_is_right(const Subject&) {
-  Measured measured("derivatives that are called symmetric and are not, or are and are not called so", "1");
+  Table measured{{"case", ""},
+                 {"derivatives that are called symmetric and are not, or are and are not called so", "1"}};
   const BendingMaterial plain{0.0037, 0, Weighting::rest, DampingFactor::edge, "sine"};
   const std::vector<Variant> variants = {{"springs", StretchMaterial{41, 0, 1.04}, {}},
                                          {"damped springs", StretchMaterial{41, 0.31, 1.04}, {}},
@@ -187,9 +187,10 @@ Finding flag_is_right(const Subject&) {
       const System system = build_system(scene);
       Work uncounted;
       const bool is_called = force_differential_at(system.forces, sheet.state, uncounted).symmetric;
-      measured.see(sheet.name + ", " + variant.name, is_called == is_symmetric ? 0 : 1);
+      measured.row(sheet.name + ", " + variant.name, is_called == is_symmetric ? 0 : 1);
     }
-  return measured.judged(0, "which solver is taken hangs on it: conjugate gradients need a symmetric matrix");
+  return judged_worst(measured, 0,
+                      "which solver is taken hangs on it: conjugate gradients need a symmetric matrix");
 }
 
 }  // namespace

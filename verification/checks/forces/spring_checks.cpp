@@ -8,7 +8,6 @@
 #include "verification/evidence.h"
 #include "verification/oracles/definitions.h"
 #include "verification/specimens/balance.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 
@@ -32,17 +31,17 @@ const char* const why_sums =
     "in a particle";
 
 Finding forces_sum_to_zero(const Subject& subject) {
-  Measured measured = roundings_of("sum |F_i|");
+  Table measured = roundings_of("sum |F_i|");
   for (const Specimen& sheet : sprung_sheets())
-    measured.see(sheet.name, net_force(Probe(subject, sheet.scene).elastic(sheet.state)));
-  return measured.judged(16, why_sums);
+    measured.row(sheet.name, net_force(Probe(subject, sheet.scene).elastic(sheet.state)));
+  return judged_worst(measured, 16, why_sums);
 }
 
 Finding torques_sum_to_zero(const Subject& subject) {
-  Measured measured = roundings_of("sum |x_i||F_i|");
+  Table measured = roundings_of("sum |x_i||F_i|");
   for (const Specimen& sheet : sprung_sheets())
-    measured.see(sheet.name, net_torque(sheet.state.x, Probe(subject, sheet.scene).elastic(sheet.state)));
-  return measured.judged(16, why_sums);
+    measured.row(sheet.name, net_torque(sheet.state.x, Probe(subject, sheet.scene).elastic(sheet.state)));
+  return judged_worst(measured, 16, why_sums);
 }
 
 /// One edge of a sheet as the oracles see it.
@@ -93,38 +92,40 @@ oracles::Estimate difference_from(const Specimen& sheet, const PerParticle3& f, 
 }
 
 Finding force_is_as_defined(const Subject& subject) {
-  Measured measured = roundings_of("Y A_e/L0 (1 + |d|/L0)");
+  Table measured = roundings_of("Y A_e/L0 (1 + |d|/L0)");
   for (const Specimen& sheet : sprung_sheets()) {
     const PerParticle3 f = Probe(subject, sheet.scene).elastic(sheet.state);
-    measured.see(sheet.name, difference_from(sheet, f, oracles::spring_elastic_50, elastic_scale));
+    measured.row(sheet.name, difference_from(sheet, f, oracles::spring_elastic_50, elastic_scale));
   }
-  return measured.judged(32, "lengths, areas and the product that is the force take fewer than 32 roundings");
+  return judged_worst(measured, 32,
+                      "lengths, areas and the product that is the force take fewer than 32 roundings");
 }
 
 Finding damping_is_as_defined(const Subject& subject) {
-  Measured measured = roundings_of("kd_s A_e/L0^2 |v_b - v_a|");
+  Table measured = roundings_of("kd_s A_e/L0^2 |v_b - v_a|");
   for (const Specimen& sheet : sprung_sheets()) {
     const PerParticle3 f = Probe(subject, sheet.scene).damping(sheet.state, sheet.state.v);
-    measured.see(sheet.name, difference_from(sheet, f, oracles::spring_damping_50, damping_scale));
+    measured.row(sheet.name, difference_from(sheet, f, oracles::spring_damping_50, damping_scale));
   }
-  return measured.judged(32, "lengths, areas and the product that is the force take fewer than 32 roundings");
+  return judged_worst(measured, 32,
+                      "lengths, areas and the product that is the force take fewer than 32 roundings");
 }
 
 Finding force_is_minus_gradient(const Subject& subject) {
-  Measured measured = roundings_of("(integral |F||dx| + |E|)");
+  Table measured = roundings_of("(integral |F||dx| + |E|)");
   for (const Specimen& sheet : sprung_sheets()) {
     const double size = 0.05 * rest_lengths(sheet.scene.mesh).minCoeff();
-    measured.see(sheet.name,
+    measured.row(sheet.name,
                  energy_against_work(Probe(subject, sheet.scene), random_line(sheet.state.x, size, 61)));
   }
-  return measured.judged(
-      64,
+  return judged_worst(
+      measured, 64,
       "80 to 640 forces and two energies enter the balance, each good to a few roundings of its scale; the "
       "quadrature's own error is the uncertainty");
 }
 
 Finding energy_is_as_defined(const Subject& subject) {
-  Measured measured = roundings_of("Y A_e (1 + (|d|/L0)^2)");
+  Table measured = roundings_of("Y A_e (1 + (|d|/L0)^2)");
   for (const Specimen& sheet : sprung_sheets()) {
     double energy = 0, scale = 0;
     for (size_t e = 0; e < sheet.scene.mesh.edges.size(); ++e) {
@@ -133,29 +134,29 @@ Finding energy_is_as_defined(const Subject& subject) {
       scale += input.law.young * input.law.area *
                (1 + (input.x[1] - input.x[0]).squaredNorm() / std::pow(input.law.rest_length, 2));
     }
-    measured.see(sheet.name,
+    measured.row(sheet.name,
                  std::abs(Probe(subject, sheet.scene).energy(sheet.state) - energy) / (epsilon * scale));
   }
-  return measured.judged(32,
-                         "a spring's energy takes about ten roundings, and the springs are added one by one");
+  return judged_worst(measured, 32,
+                      "a spring's energy takes about ten roundings, and the springs are added one by one");
 }
 
 Finding rest_gives_no_force(const Subject& subject) {
-  Measured measured = roundings_of("sum Y A_e/L0");
+  Table measured = roundings_of("sum Y A_e/L0");
   for (Specimen& shape : curved_shapes()) {
     shape.scene.stretch = StretchMaterial{410.0, 0.37, 1};
     const PerParticle3 f = Probe(subject, shape.scene).elastic(shape.state);
     const double scale =
         410.0 * edge_areas(shape.scene.mesh).cwiseQuotient(rest_lengths(shape.scene.mesh)).maxCoeff();
-    measured.see(shape.name, f.colwise().norm().maxCoeff<Eigen::PropagateNaN>() / (epsilon * scale));
+    measured.row(shape.name, f.colwise().norm().maxCoeff<Eigen::PropagateNaN>() / (epsilon * scale));
   }
-  return measured.judged(
-      16, "two ways to a length differ by a few roundings; about eight springs meet in a particle");
+  return judged_worst(
+      measured, 16, "two ways to a length differ by a few roundings; about eight springs meet in a particle");
 }
 
 /// Y A_e/L0^2 is that of the rest shape, so a scale only moves the length at which a spring is at ease.
 Finding rest_length_scale_is_kept(const Subject& subject) {
-  Measured measured = roundings_of("of the size");
+  Table measured = roundings_of("of the size");
   Specimen sheet = crumpled_sheets()[4];
   for (const double scale : {0.83, 0.97, 1.0, 1.21}) {
     sheet.scene.stretch = StretchMaterial{530.0, 0.29, scale};
@@ -165,15 +166,15 @@ Finding rest_length_scale_is_kept(const Subject& subject) {
     const double energy = 0.5 * 530.0 * (1 - scale) * (1 - scale) * areas.sum();
     const double force_scale = 530.0 * areas.cwiseQuotient(rest_lengths(sheet.scene.mesh)).maxCoeff();
     const std::string name = "rest lengths times " + std::to_string(scale);
-    measured.see(name + ", force at ease",
+    measured.row(name + ", force at ease",
                  probe.elastic(still_at(at_ease)).colwise().norm().maxCoeff<Eigen::PropagateNaN>() /
                      (epsilon * force_scale));
-    measured.see(
+    measured.row(
         name + ", energy at the unscaled rest shape",
         std::abs(probe.energy(still_at(sheet.scene.mesh.rest)) - energy) / (epsilon * 530.0 * areas.sum()));
   }
-  Finding finding =
-      measured.judged(32, "two ways to a length differ by a few roundings; springs are added one by one");
+  Finding finding = judged_worst(
+      measured, 32, "two ways to a length differ by a few roundings; springs are added one by one");
   finding.note = "the size of a force is the largest Y A_e/L0, that of an energy sum Y A_e";
   return finding;
 }
@@ -189,7 +190,7 @@ Finding damping_dissipates(const Subject& subject) {
 }
 
 Finding damping_leaves_rigid_motion_alone(const Subject& subject) {
-  Measured measured = roundings_of("kd_s A_e/L0^2 (|v_a| + |v_b|), largest over the springs");
+  Table measured = roundings_of("kd_s A_e/L0^2 (|v_a| + |v_b|), largest over the springs");
   for (const Specimen& sheet : sprung_sheets()) {
     const PerParticle3 v = rigid_velocity(sheet.state.x, Vector3(-0.7, 0.2, 1.1), Vector3(2.3, -4.1, 1.3));
     const Eigen::VectorXd lengths = rest_lengths(sheet.scene.mesh);
@@ -197,10 +198,10 @@ Finding damping_leaves_rigid_motion_alone(const Subject& subject) {
                                edge_areas(sheet.scene.mesh).cwiseQuotient(lengths.cwiseAbs2()).maxCoeff();
     const double scale = coefficient * 2 * v.colwise().norm().maxCoeff();
     const PerParticle3 f = Probe(subject, sheet.scene).damping(sheet.state, v);
-    measured.see(sheet.name, f.colwise().norm().maxCoeff<Eigen::PropagateNaN>() / (epsilon * scale));
+    measured.row(sheet.name, f.colwise().norm().maxCoeff<Eigen::PropagateNaN>() / (epsilon * scale));
   }
-  return measured.judged(
-      16,
+  return judged_worst(
+      measured, 16,
       "d.(v_b - v_a) of a rigid motion cancels to a few roundings; about eight springs meet in a particle");
 }
 
@@ -212,8 +213,7 @@ Finding damping_is_symmetric_negative(const Subject& subject) {
   }
   const Finding symmetry = asymmetry(subject, cases);
   Finding finding = largest_eigenvalue(subject, cases);
-  finding.evidence.push_back(symmetry.evidence[1]);
-  finding.evidence.back().name = "asymmetry";
+  finding.evidence.add({"asymmetry", "epsilon largest |D_ij|", symmetry.evidence.numbers("measured")});
   Worst worst;
   worst.see(finding.verdict.measured);
   worst.see(symmetry.verdict.measured);

@@ -6,7 +6,6 @@
 
 #include "verification/evidence.h"
 #include "verification/oracles/exact_solutions.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 
@@ -76,7 +75,7 @@ Finding equilateral_moduli(const Subject& subject) {
   const Probe probe(subject, scene);
   const oracles::SheetModuli expected = oracles::equilateral_sheet_moduli(young);
 
-  Measured measured("worse relative error of the two", "1");
+  Table measured{{"case", ""}, {"worse relative error of the two", "1"}};
   std::vector<double> youngs, poissons;
   for (const double degrees : {0.0, 17.0, 30.0, 52.0, 90.0}) {
     const double direction = degrees * std::numbers::pi / 180;
@@ -91,15 +90,15 @@ Finding equilateral_moduli(const Subject& subject) {
     error.see(std::abs(youngs.back() / expected.young.value - 1));
     error.see(std::abs(poissons.back() / expected.poisson.value - 1));
     const double uncertainty = (along.uncertainty + across.uncertainty + both.uncertainty) * 4 / young;
-    measured.see(std::to_string(int(degrees)) + " degrees", {error.value(), uncertainty});
+    measured.row(std::to_string(int(degrees)) + " degrees", oracles::Estimate{error.value(), uncertainty});
   }
-  Finding finding = measured.judged(1e-8,
-                                    "strains of 1e-3 and 2e-3, extrapolated, leave errors of their fourth "
-                                    "power times about ten, 2e-10; rounding "
-                                    "leaves epsilon over the strain squared, as much; what the extrapolation "
-                                    "of three strains adds is ten times that");
-  finding.evidence.push_back({"Young's modulus", "N/m", youngs});
-  finding.evidence.push_back({"Poisson ratio", "1", poissons});
+  Finding finding = judged_worst(measured, 1e-8,
+                                 "strains of 1e-3 and 2e-3, extrapolated, leave errors of their fourth "
+                                 "power times about ten, 2e-10; rounding "
+                                 "leaves epsilon over the strain squared, as much; what the extrapolation "
+                                 "of three strains adds is ten times that");
+  finding.evidence.add({"Young's modulus", "N/m", youngs});
+  finding.evidence.add({"Poisson ratio", "1", poissons});
   return finding;
 }
 

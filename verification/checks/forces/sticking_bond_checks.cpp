@@ -12,7 +12,6 @@
 #include "verification/evidence.h"
 #include "verification/oracles/triangle_distance.h"
 #include "verification/specimens/differences.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
@@ -70,12 +69,12 @@ Finding forms_finding(const Subject& subject) {
     }
     several += count > 1;
   }
-  Measured measured("wrong pairs, and places in roundings over 1000", "1");
-  measured.see("pairs of particle and triangle that should stick and do not, or the reverse", wrong);
-  measured.see("place at formation, in 1000 epsilon of the extent", off.value() / 1000);
-  measured.see("few particles with several triangles", several >= 8 ? 0 : NAN);
-  Finding finding =
-      measured.judged(0.9, "counts are exact; a foot's weights are magnified by the triangles' thinness");
+  Table measured{{"case", ""}, {"wrong pairs, and places in roundings over 1000", "1"}};
+  measured.row("pairs of particle and triangle that should stick and do not, or the reverse", wrong);
+  measured.row("place at formation, in 1000 epsilon of the extent", off.value() / 1000);
+  measured.row("few particles with several triangles", several >= 8 ? 0 : NAN);
+  Finding finding = judged_worst(
+      measured, 0.9, "counts are exact; a foot's weights are magnified by the triangles' thinness");
   finding.note =
       fmt::format("{} bonds, {} particles of {} with several.", found.size(), several, scene.x.cols());
   return finding;
@@ -162,7 +161,7 @@ Scene timed_palm() {
 
 Finding timed_finding(const Subject& subject) {
   const Scene scene = timed_palm();
-  Measured measured("steps with wrong bonds, or error of the stiffness", "1");
+  Table measured{{"case", ""}, {"steps with wrong bonds, or error of the stiffness", "1"}};
   Stepper stepper(subject, scene, "C");
   State s = stepper.start();
   double wrong = 0;
@@ -171,7 +170,7 @@ Finding timed_finding(const Subject& subject) {
     s = stepper.step(s, 0.001);
     wrong += (s.bonds.size() > 0) != active;
   }
-  measured.see("bonds exactly from `from` until `until`", wrong);
+  measured.row("bonds exactly from `from` until `until`", wrong);
 
   const Probe probe(subject, scene);
   State held = start_state(scene);
@@ -185,13 +184,12 @@ Finding timed_finding(const Subject& subject) {
   const double full = pull(0.1).norm();
   for (const double part : {-0.2, 0.0, 0.3, 0.7, 1.0}) {
     const double share = part > 0 ? std::pow(1 - part * part, 2) : 1;
-    measured.see(fmt::format("force after {} of the release", part),
+    measured.row(fmt::format("force after {} of the release", part),
                  std::abs(pull(0.17 + 0.06 * part).norm() / full - share) / 1e-12);
   }
-  return measured.judged(
-      0.9,
-      "counts are exact; the force is that of k0 (1 - q^2)^2 to a thousand roundings, q the "
-      "part of `release` that is over");
+  return judged_worst(measured, 0.9,
+                      "counts are exact; the force is that of k0 (1 - q^2)^2 to a thousand roundings, q the "
+                      "part of `release` that is over");
 }
 
 Finding events_finding(const Subject&) {
@@ -239,7 +237,7 @@ Scene sheet_on_a_palm() {
 Finding memory_finding(const Subject& subject) {
   constexpr int half = 9;
   constexpr double h = 4e-4;
-  Measured measured("numbers that differ", "1");
+  Table measured{{"case", ""}, {"numbers that differ", "1"}};
   for (const Integrator& integrator : integrators()) {
     const std::string name(integrator.name);
     const auto continued = [&](std::vector<State> past) {
@@ -252,14 +250,14 @@ Finding memory_finding(const Subject& subject) {
     std::vector<State> past = {whole.start()};
     for (int n = 0; n < 2 * half; ++n) past = {past.back(), whole.step_after(past, h)};
     const State a = continued(cut).back(), b = past.back();
-    measured.see(name + ", cut in two", numbers_that_differ(a.x, b.x) + numbers_that_differ(a.v, b.v) +
+    measured.row(name + ", cut in two", numbers_that_differ(a.x, b.x) + numbers_that_differ(a.v, b.v) +
                                             double(a.bonds.size() != b.bonds.size()));
     std::vector<State> forgetful = cut;
     for (State& s : forgetful) s.bonds = {};
     const State c = continued(forgetful).back();
-    measured.see(name + ", forgetting makes a difference", numbers_that_differ(c.x, b.x) > 0 ? 0 : 1);
+    measured.row(name + ", forgetting makes a difference", numbers_that_differ(c.x, b.x) > 0 ? 0 : 1);
   }
-  return measured.judged(0, "a step is a function of its states: bonds are in them and nowhere else");
+  return judged_worst(measured, 0, "a step is a function of its states: bonds are in them and nowhere else");
 }
 
 /// A triangle that rests by itself, with particles about it, `distance` away on all six sides.
@@ -286,17 +284,17 @@ Surrounded surrounded(double near, double distance) {
 }
 
 Finding sides_finding(const Subject&) {
-  Measured measured("particles of six that stick wrongly", "1");
+  Table measured{{"case", ""}, {"particles of six that stick wrongly", "1"}};
   for (const double near : {0.051, 0.43})
     for (const double part : {0.4, 0.99, 1.01}) {
       Surrounded made = surrounded(near, part * near);
       Sticking{{made.patch}}.renew_bonds(made.state);
       const double expected = part < 1 ? 6 : 0;
-      measured.see(fmt::format("{} of near = {} m", part, near),
+      measured.row(fmt::format("{} of near = {} m", part, near),
                    std::abs(double(made.state.bonds.size()) - expected));
     }
-  return measured.judged(
-      0,
+  return judged_worst(
+      measured, 0,
       "a particle sticks just where its distance is at most `near`, on whatever side, however "
       "soon bonds break");
 }

@@ -14,7 +14,6 @@
 #include "verification/oracles/dense_algebra.h"
 #include "verification/specimens/balance.h"
 #include "verification/specimens/differences.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/sticking_scenes.h"
@@ -40,65 +39,67 @@ const std::string some_roundings =
     "triangles' thinness of up to 3";
 
 Finding force_finding(const Subject& subject) {
-  Measured measured = roundings_of("of k times the extent");
+  Table measured = roundings_of("of k times the extent");
   for (const StuckSpecimen& specimen : stuck_layers()) {
     const PerParticle3 force = Probe(subject, specimen.scene).elastic(specimen.state);
-    measured.see(specimen.name,
+    measured.row(specimen.name,
                  largest_difference(force, expected_elastic(specimen)) / force_rounding(specimen));
   }
-  return measured.judged(64, some_roundings);
+  return judged_worst(measured, 64, some_roundings);
 }
 
 Finding energy_finding(const Subject& subject) {
-  Measured measured = roundings_of("of k far times the extent, a particle");
+  Table measured = roundings_of("of k far times the extent, a particle");
   for (const StuckSpecimen& specimen : all_specimens()) {
     const double difference =
         Probe(subject, specimen.scene).energy(specimen.state) - expected_energy(specimen);
-    measured.see(specimen.name, std::abs(difference) / (force_rounding(specimen) * specimen.patch().far *
+    measured.row(specimen.name, std::abs(difference) / (force_rounding(specimen) * specimen.patch().far *
                                                         double(specimen.stuck.size())));
   }
-  return measured.judged(64, some_roundings);
+  return judged_worst(measured, 64, some_roundings);
 }
 
 Finding damping_finding(const Subject& subject) {
-  Measured measured = roundings_of("of the largest entry");
+  Table measured = roundings_of("of the largest entry");
   for (const StuckSpecimen& specimen : all_specimens()) {
     const Eigen::MatrixXd D = damping_matrix(Probe(subject, specimen.scene), specimen.state),
                           expected = expected_damping(specimen);
     const double scale = epsilon * specimen.patch().stiffness * specimen.patch().forecast_time /
                          specimen.patch().far * extent(specimen.state.x);
-    measured.see(specimen.name, (D - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / scale);
+    measured.row(specimen.name, (D - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / scale);
   }
-  Finding finding = measured.judged(64,
-                                    "k depends on the distance, good to a rounding of positions over far; "
-                                    "the matrix, G^T G, on frames as the "
-                                    "force does");
+  Finding finding = judged_worst(measured, 64,
+                                 "k depends on the distance, good to a rounding of positions over far; "
+                                 "the matrix, G^T G, on frames as the "
+                                 "force does");
   finding.note = "The matrix that is expected is -k tau_s G^T G: symmetric, and it can only resist.";
   return finding;
 }
 
 Finding resists_finding(const Subject& subject) {
-  Measured measured = roundings_of("of the largest eigenvalue");
+  Table measured = roundings_of("of the largest eigenvalue");
   for (const StuckSpecimen& specimen : all_specimens()) {
     const Eigen::MatrixXd D = damping_matrix(Probe(subject, specimen.scene), specimen.state);
     const Eigen::VectorXd values = oracles::symmetric_eigenvalues((D + D.transpose()) / 2);
     const double largest = values.cwiseAbs().maxCoeff();
-    measured.see(specimen.name + ", largest eigenvalue", values.maxCoeff() / (epsilon * largest));
-    measured.see(specimen.name + ", asymmetry",
+    measured.row(specimen.name + ", largest eigenvalue", values.maxCoeff() / (epsilon * largest));
+    measured.row(specimen.name + ", asymmetry",
                  (D - D.transpose()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / (epsilon * largest));
   }
-  return measured.judged(128, "a rounding of each of the 54 rows and columns that an eigenvalue sums over");
+  return judged_worst(measured, 128,
+                      "a rounding of each of the 54 rows and columns that an eigenvalue sums over");
 }
 
 Finding momentum_finding(const Subject& subject) {
-  Measured measured = roundings_of("of the sum of the forces");
+  Table measured = roundings_of("of the sum of the forces");
   for (const StuckSpecimen& specimen : stuck_layers()) {
     const Probe probe(subject, specimen.scene);
-    measured.see(specimen.name + ", elastic", net_force(probe.elastic(specimen.state)));
-    measured.see(specimen.name + ", damping", net_force(probe.damping(specimen.state, specimen.state.v)));
+    measured.row(specimen.name + ", elastic", net_force(probe.elastic(specimen.state)));
+    measured.row(specimen.name + ", damping", net_force(probe.damping(specimen.state, specimen.state.v)));
   }
-  return measured.judged(
-      32, "weights sum to 1 and slopes to 0 within a rounding each, and a dozen products are summed");
+  return judged_worst(
+      measured, 32,
+      "weights sum to 1 and slopes to 0 within a rounding each, and a dozen products are summed");
 }
 
 /// The sum of x_i x F_i about the origin.
@@ -125,7 +126,7 @@ Vector3 expected_torque(const StuckSpecimen& specimen) {
 }
 
 Finding torque_finding(const Subject& subject) {
-  Measured measured = roundings_of("of the sum of |x||F|");
+  Table measured = roundings_of("of the sum of |x||F|");
   std::vector<double> torques;
   for (const StuckSpecimen& specimen : stuck_layers()) {
     const Probe probe(subject, specimen.scene);
@@ -135,13 +136,13 @@ Finding torque_finding(const Subject& subject) {
     const auto size = [&](const PerParticle3& f) {
       return epsilon * x.colwise().norm().dot(f.colwise().norm());
     };
-    measured.see(specimen.name + ", elastic", torque_of(x, elastic).norm() / size(elastic));
-    measured.see(specimen.name + ", damping",
+    measured.row(specimen.name + ", elastic", torque_of(x, elastic).norm() / size(elastic));
+    measured.row(specimen.name + ", damping",
                  (torque_of(x, damping) - expected_torque(specimen)).norm() / size(damping));
     torques.push_back(expected_torque(specimen).norm() / (size(damping) / epsilon));
   }
-  Finding finding = measured.judged(
-      64,
+  Finding finding = judged_worst(
+      measured, 64,
       "the torque's sum is rounded as the forces are; the frames turn with the corners, so that nothing else "
       "is left");
   finding.note =
@@ -170,7 +171,7 @@ StuckSpecimen drawn_away(double d) {
 /// How far the force changes over `width` and how its slope does, over what a stiffness k0 and a curvature 8 k0/far
 /// allow: the largest |k0 (1 - r^2)(1 - 5 r^2)| and |k0/far (20 r^3 - 12 r)| for r in [0, 1].
 Finding fade_finding(const Subject& subject) {
-  Measured measured("change over what is allowed", "1");
+  Table measured{{"case", ""}, {"change over what is allowed", "1"}};
   const StuckSpecimen one = drawn_away(0);
   const Probe probe(subject, one.scene);
   const double far = one.patch().far, k = one.patch().stiffness;
@@ -183,14 +184,14 @@ Finding fade_finding(const Subject& subject) {
       first.see(std::abs(f1 - f0) / (k * step));
       second.see(std::abs(f2 - 2 * f1 + f0) / (8 * k / far * step * step));
     }
-    measured.see(fmt::format("force over {} of far", width), first.value());
-    measured.see(fmt::format("slope over {} of far", width), second.value());
+    measured.row(fmt::format("force over {} of far", width), first.value());
+    measured.row(fmt::format("slope over {} of far", width), second.value());
   }
-  measured.see("force half way over its largest share .286 k far",
+  measured.row("force half way over its largest share .286 k far",
                std::abs(force(far / std::sqrt(5.0)) / (k * far * 16 / 25 / std::sqrt(5.0)) - 1) / 1e-12);
-  return measured.judged(1 + 1e-6,
-                         "a force whose slope never jumps changes so little over so short a way; a jump of "
-                         "the force or of its slope grows without bound as the way shrinks");
+  return judged_worst(measured, 1 + 1e-6,
+                      "a force whose slope never jumps changes so little over so short a way; a jump of "
+                      "the force or of its slope grows without bound as the way shrinks");
 }
 
 Finding surface_finding(const Subject& subject) {
@@ -212,13 +213,13 @@ Finding surface_finding(const Subject& subject) {
     expected.col(i) += answer.stiffness * patch.forecast_time * (velocity - specimen.state.v.col(i));
   }
   const PerParticle3 force = probe.elastic(specimen.state) + probe.damping(specimen.state, specimen.state.v);
-  Measured measured = roundings_of("of k times the extent");
-  measured.see(specimen.name, largest_difference(force, expected) / force_rounding(specimen));
-  return measured.judged(64, some_roundings);
+  Table measured = roundings_of("of k times the extent");
+  measured.row(specimen.name, largest_difference(force, expected) / force_rounding(specimen));
+  return judged_worst(measured, 64, some_roundings);
 }
 
 Finding derivative_finding(const Subject& subject) {
-  Measured measured("largest difference over the largest entry", "1");
+  Table measured{{"case", ""}, {"largest difference over the largest entry", "1"}};
   for (StuckSpecimen specimen : all_specimens())
     for (const double tau : {0.019, 0.0}) {
       specimen.scene.sticky[0].forecast_time = tau;
@@ -227,16 +228,16 @@ Finding derivative_finding(const Subject& subject) {
           differences_of_forces(probe, specimen.state, 1e-4 * specimen.patch().far);
       const double size = expected.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
       const Eigen::MatrixXd difference = force_derivative(specimen.scene, specimen.state) - expected;
-      measured.see(fmt::format("{}, tau_s = {} s", specimen.name, tau),
+      measured.row(fmt::format("{}, tau_s = {} s", specimen.name, tau),
                    difference.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / size);
     }
-  return measured.judged(1e-6,
-                         "differences over 1e-4 of far, extrapolated: their error is of fourth order, 1e-8 "
-                         "here with roundings of 1e-12 over the step; a missing term is of order 1");
+  return judged_worst(measured, 1e-6,
+                      "differences over 1e-4 of far, extrapolated: their error is of fourth order, 1e-8 "
+                      "here with roundings of 1e-12 over the step; a missing term is of order 1");
 }
 
 Finding bound_finding(const Subject& subject) {
-  Measured measured("largest eigenvalue over its bound", "1");
+  Table measured{{"case", ""}, {"largest eigenvalue over its bound", "1"}};
   for (StuckSpecimen specimen : all_specimens()) {
     specimen.scene.sticky[0].forecast_time = 0.017;
     const Probe probe(subject, specimen.scene);
@@ -249,31 +250,31 @@ Finding bound_finding(const Subject& subject) {
     };
     Work uncounted;
     const DampingOperator damping = damping_at(system.forces, specimen.state, uncounted);
-    measured.see(specimen.name + ", damping", largest(damping_matrix(probe, specimen.state)) /
+    measured.row(specimen.name + ", damping", largest(damping_matrix(probe, specimen.state)) /
                                                   damping_rate_bound(damping, system.inverse_mass));
     specimen.scene.sticky[0].forecast_time = 0;
     const double omega = frequency_bound(system.forces, specimen.state, system.inverse_mass);
-    measured.see(specimen.name + ", stiffness",
+    measured.row(specimen.name + ", stiffness",
                  largest(force_derivative(specimen.scene, specimen.state)) / (omega * omega));
   }
-  return measured.judged(
-      1 + 1e-12,
-      "Gershgorin: no eigenvalue exceeds the largest row sum of the blocks' norms; where no "
-      "particle shares a bond it is that sum, to roundings");
+  return judged_worst(measured, 1 + 1e-12,
+                      "Gershgorin: no eigenvalue exceeds the largest row sum of the blocks' norms; where no "
+                      "particle shares a bond it is that sum, to roundings");
 }
 
 Finding beyond_reach_finding(const Subject& subject) {
-  Measured measured("largest force [N] or entry of its derivative [N/m]", "N or N/m");
+  Table measured{{"case", ""}, {"largest force [N] or entry of its derivative [N/m]", "N or N/m"}};
   for (StuckSpecimen specimen : stuck_layers()) {
     specimen.scene.sticky[0].forecast_time = 0;
     for (const std::vector<int>& bond : specimen.particles)
       specimen.state.x.col(bond[0]) += 2.3 * specimen.patch().far * Vector3(0.6, 0.48, 0.64);
     const PerParticle3 force = Probe(subject, specimen.scene).elastic(specimen.state);
-    measured.see(specimen.name + ", force", force.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
+    measured.row(specimen.name + ", force", force.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
     const Eigen::MatrixXd K = force_derivative(specimen.scene, specimen.state);
-    measured.see(specimen.name + ", derivative", K.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
+    measured.row(specimen.name + ", derivative", K.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   }
-  return measured.judged(0, "beyond the distance at which bonds break the spring is none, not a weak one");
+  return judged_worst(measured, 0,
+                      "beyond the distance at which bonds break the spring is none, not a weak one");
 }
 
 /// 0 if `act` throws DegenerateElement naming the particle, else 1.
@@ -287,15 +288,15 @@ int is_silent(int particle, const std::function<void()>& act) {
 }
 
 Finding lost_triangles_finding(const Subject& subject) {
-  Measured measured("questions answered without a report", "1");
+  Table measured{{"case", ""}, {"questions answered without a report", "1"}};
   for (StuckSpecimen specimen : stuck_layers()) {
     const Probe probe(subject, specimen.scene);
     const int particle = specimen.particles[0][0];
     PerParticle3& x =
         specimen.state.x;  // of the triangle that the first particle sticks to, two corners meet
     x.col(specimen.particles[0][3]) = x.col(specimen.particles[0][1]);
-    measured.see(specimen.name + ", forces", is_silent(particle, [&] { probe.elastic(specimen.state); }));
-    measured.see(specimen.name + ", energy", is_silent(particle, [&] { probe.energy(specimen.state); }));
+    measured.row(specimen.name + ", forces", is_silent(particle, [&] { probe.elastic(specimen.state); }));
+    measured.row(specimen.name + ", energy", is_silent(particle, [&] { probe.energy(specimen.state); }));
   }
   StickyPatch line;
   line.name = "line";
@@ -306,9 +307,10 @@ Finding lost_triangles_finding(const Subject& subject) {
   line.near = 0.05;
   line.far = 0.09;
   State s = still_at(PerParticle3{{0.2}, {0.01}, {0.02}});
-  measured.see("a bond about to form", is_silent(0, [&] { Sticking{{line}}.renew_bonds(s); }));
-  return measured.judged(
-      0, "forces, energy and new bonds must throw DegenerateElement naming the particle that sticks");
+  measured.row("a bond about to form", is_silent(0, [&] { Sticking{{line}}.renew_bonds(s); }));
+  return judged_worst(
+      measured, 0,
+      "forces, energy and new bonds must throw DegenerateElement naming the particle that sticks");
 }
 
 }  // namespace

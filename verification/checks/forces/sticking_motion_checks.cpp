@@ -8,7 +8,7 @@
 #include "reference/dynamics/simulate.h"
 #include "verification/checks/forces/force_checks.h"
 #include "verification/specimens/differences.h"
-#include "verification/specimens/measured.h"
+#include "verification/evidence.h"
 #include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/stepper.h"
 #include "verification/specimens/sticking_scenes.h"
@@ -66,7 +66,7 @@ Finding follows_finding(const Subject& subject) {
   const double soft = mass * a / patch.stiffness, q = h * patch.forecast_time * patch.stiffness / (2 * mass);
   const double late = soft * q * q / (1 + q);  // derived in convergence/sticking/sticking_lag.cpp
   const double part = (soft + late) / patch.far;
-  Measured measured("largest distance from its place over what was derived", "1");
+  Table measured{{"case", ""}, {"largest distance from its place over what was derived", "1"}};
   for (const Integrator& integrator : paper_schemes()) {
     Stepper stepper(subject, scene, std::string(integrator.name));
     State s = carried_start(scene, motion);
@@ -81,17 +81,17 @@ Finding follows_finding(const Subject& subject) {
         worst.see((s.x.col(i) - place).norm() / bound);
       }
     }
-    measured.see("scheme " + std::string(integrator.name), worst.value());
+    measured.row("scheme " + std::string(integrator.name), worst.value());
   }
-  return measured.judged(
-      1 / std::pow(1 - part * part, 2) * (1 + 0.01),
+  return judged_worst(
+      measured, 1 / std::pow(1 - part * part, 2) * (1 + 0.01),
       "overdamped (omega tau_s/2 = 6.5), a spring lags by no more than the largest m a/k, k less than k0 by "
       "(1 - (lag/far)^2)^2 at most; scheme C, which moves with the target's velocity of the step's start, by "
       "q^2/(1 + q) of that more, q = h tau_s k/(2 m); a hundredth for the schemes' second order");
 }
 
 Finding lag_finding(const Subject& subject) {
-  Measured measured("lag less what was derived, over it", "1");
+  Table measured{{"case", ""}, {"lag less what was derived, over it", "1"}};
   for (const double pull : {0.05, 0.15, 0.27}) {  // of k far: what m g is; at .286 it breaks
     Scene scene = over_the_palm(Motion{});
     const StickyPatch& patch = scene.sticky[0];
@@ -102,11 +102,11 @@ Finding lag_finding(const Subject& subject) {
     State s = stepper.start();
     s = stepper.run(s, 0.002, 1500);
     const double lag = (s.x - scene.x).colwise().norm().mean();
-    measured.see(fmt::format("{} k far", pull), std::abs(lag / (r * patch.far) - 1));
+    measured.row(fmt::format("{} k far", pull), std::abs(lag / (r * patch.far) - 1));
   }
-  return measured.judged(1e-9,
-                         "3 s are thirty times 2/(omega^2 tau_s) at least, until when it creeps at e^-t; the "
-                         "solve's tolerance is 1e-10");
+  return judged_worst(measured, 1e-9,
+                      "3 s are thirty times 2/(omega^2 tau_s) at least, until when it creeps at e^-t; the "
+                      "solve's tolerance is 1e-10");
 }
 
 /// A surface of one triangle that is bent by its animation: what is stuck to it stays at its place in it.
@@ -127,7 +127,7 @@ Finding deforming_finding(const Subject& subject) {
   patch.near = 0.05;
   Stepper stepper(subject, scene, "C");
   State s = stepper.step(stepper.start(), 0.001);
-  Measured measured("distance from its place in the triangle", "m");
+  Table measured{{"case", ""}, {"distance from its place in the triangle", "m"}};
   for (int n = 1; n < 1600; ++n) {
     s = stepper.step(s, 0.001);
     if (n % 200 != 199) continue;
@@ -139,11 +139,11 @@ Finding deforming_finding(const Subject& subject) {
       stuck.places = {bond.place};
       worst.see((oracles::sticking_answer(stuck).target - s.x.col(bond.particle)).norm());
     }
-    measured.see(fmt::format("{:.3f} s, {} bonds", s.time, s.bonds.size()),
+    measured.row(fmt::format("{:.3f} s, {} bonds", s.time, s.bonds.size()),
                  s.bonds.size() == 3 ? worst.value() : NAN);
   }
-  return measured.judged(
-      1e-4,
+  return judged_worst(
+      measured, 1e-4,
       "corners move at up to 0.2 m/s; at each frame's jump of it dv the overdamped spring lags by no more "
       "than "
       "dv/(omega^2 tau_s) = 7e-5 m and forgets it; the frame's own acceleration adds less than 1e-5 m: 8e-5 "
@@ -151,7 +151,7 @@ Finding deforming_finding(const Subject& subject) {
 }
 
 Finding forecast_step_finding(const Subject&) {
-  Measured measured("step over what was derived less 1", "1");
+  Table measured{{"case", ""}, {"step over what was derived less 1", "1"}};
   for (const double tau : {0.0, 0.0007, 0.03}) {
     Scene scene = over_the_palm(Motion{});
     scene.sticky[0].forecast_time = tau;
@@ -165,21 +165,21 @@ Finding forecast_step_finding(const Subject&) {
       return step_allowed(system, integrator_named(name), {&s, 1}, rule, elastic_limit(system, s));
     };
     for (const char* name : {"A", "B", "backward-euler"})
-      measured.see(fmt::format("{}, tau_s = {} s", name, tau), std::abs(step(name) * omega / (0.7 * 2) - 1));
+      measured.row(fmt::format("{}, tau_s = {} s", name, tau), std::abs(step(name) * omega / (0.7 * 2) - 1));
     const double derived = 0.7 * std::max(2 / omega, 2 * tau);
-    measured.see(fmt::format("C, tau_s = {} s", tau), std::abs(step("C") / derived - 1));
+    measured.row(fmt::format("C, tau_s = {} s", tau), std::abs(step("C") / derived - 1));
     if (tau > 0) {
       const double both = 0.7 * std::min(2 / omega, 2 / (omega * omega * tau));
-      measured.see(fmt::format("RK4, tau_s = {} s", tau), std::abs(step("RK4") / both - 1));
+      measured.row(fmt::format("RK4, tau_s = {} s", tau), std::abs(step("RK4") / both - 1));
     }
   }
-  return measured.judged(1e-6,
-                         "an even part of 10^9 s, a hundred million steps or more, is as long as allowed to "
-                         "eight digits; the bounds are exact for particles that share no spring");
+  return judged_worst(measured, 1e-6,
+                      "an even part of 10^9 s, a hundred million steps or more, is as long as allowed to "
+                      "eight digits; the bounds are exact for particles that share no spring");
 }
 
 Finding nothing_sticks_finding(const Subject& subject) {
-  Measured measured("numbers that differ, and counts", "1");
+  Table measured{{"case", ""}, {"numbers that differ, and counts", "1"}};
   for (const Integrator& integrator : integrators()) {
     const std::string name(integrator.name);
     Scene with = led_sheet();
@@ -199,13 +199,13 @@ Finding nothing_sticks_finding(const Subject& subject) {
     Stepper sticky(subject, with, name), plain(subject, led_sheet(), name);
     const State a = sticky.run(sticky.start(), 1.1e-3, 12), b = plain.run(plain.start(), 1.1e-3, 12);
     const Work &one = sticky.work(), &other = plain.work();
-    measured.see(name + ", bits", numbers_that_differ(a.x, b.x) + numbers_that_differ(a.v, b.v));
-    measured.see(name + ", iterations and products",
+    measured.row(name + ", bits", numbers_that_differ(a.x, b.x) + numbers_that_differ(a.v, b.v));
+    measured.row(name + ", iterations and products",
                  double(std::abs(one.cg_iterations - other.cg_iterations) +
                         std::abs(one.damping_products - other.damping_products) +
                         std::abs(one.newton_iterations - other.newton_iterations) + one.bonds));
   }
-  return measured.judged(0, "patches that hold nothing add nothing to any force or matrix");
+  return judged_worst(measured, 0, "patches that hold nothing add nothing to any force or matrix");
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include "verification/checks/level_set/level_set_checks.h"
 #include "verification/evidence.h"
 #include "verification/seeds.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/refusal.h"
 #include "verification/specimens/scratch_folder.h"
 #include <Eigen/Geometry>
@@ -63,16 +62,16 @@ double carried_miss(const MeshSequence& ball, const DeformingBody& body, double 
 }
 
 Finding carried_ball_keeps_its_shape(const Subject&) {
-  Measured measured("largest miss", "tolerances");
+  Table measured{{"case", ""}, {"largest miss", "tolerances"}};
   for (const double way : {0.07, 0.41}) {
     const MeshSequence ball = moving_ball(way, {0, 0.04});
     const DeformingBody body = make_deforming_body(ball, coarse_sampling(), BetweenFrames::carried);
     for (const double part : {0.25, 0.5, 0.9})
-      measured.see(std::to_string(way / (2 * radius)) + " diameters a frame, at " + std::to_string(part),
+      measured.row(std::to_string(way / (2 * radius)) + " diameters a frame, at " + std::to_string(part),
                    carried_miss(ball, body, part));
   }
-  return measured.judged(2,
-                         "a displacement that is the same everywhere adds nothing to what the octrees miss");
+  return judged_worst(measured, 2,
+                      "a displacement that is the same everywhere adds nothing to what the octrees miss");
 }
 
 /// The distance from the middle of the way at which the blended phi is zero, across the motion [m]; 0 if it
@@ -95,16 +94,16 @@ double blended_radius(double way) {
 ///            /  r |    \      the mean of both distances is sqrt(r^2 + d^2/4) - R
 ///          a ---- + ---- b
 Finding blended_ball_shrinks(const Subject&) {
-  Measured measured("miss of the radius", "tolerances");
+  Table measured{{"case", ""}, {"miss of the radius", "tolerances"}};
   for (const double way : {0.05, 0.11, 0.17, 0.29}) {
     const double derived = std::sqrt(std::max(0.0, radius * radius - way * way / 4));
     const double slope = derived / radius;  // of the blended phi there, along r
     const double miss = std::abs(blended_radius(way) - derived) * (slope > 0 ? slope : 1);
-    measured.see(std::to_string(way / (2 * radius)) + " diameters a frame", miss / tolerance);
+    measured.row(std::to_string(way / (2 * radius)) + " diameters a frame", miss / tolerance);
   }
-  return measured.judged(3,
-                         "the two octrees miss by two tolerances, the ball of 1280 triangles misses the "
-                         "sphere by less than another");
+  return judged_worst(measured, 3,
+                      "the two octrees miss by two tolerances, the ball of 1280 triangles misses the "
+                      "sphere by less than another");
 }
 
 /// A ball that turns about an axis off its centre: neighbouring points are displaced differently.
@@ -142,24 +141,23 @@ OctreeSettings free_sampling() {
 }
 
 Finding kept_nodes_err_as_bounded(const Subject&) {
-  Measured measured("largest error", "of what is allowed");
+  Table measured{{"case", ""}, {"largest error", "of what is allowed"}};
   for (const double way : {0.003, 0.02, 0.33}) {
     const MeshSequence ball = moving_ball(way, {0, 0.02, 0.04});
     const DeformingBody body = make_deforming_body(ball, free_sampling(), BetweenFrames::carried);
     for (std::size_t k = 0; k < body.frames.size(); ++k)
-      measured.see(std::to_string(way) + " m a frame, frame " + std::to_string(k),
+      measured.row(std::to_string(way) + " m a frame, frame " + std::to_string(k),
                    node_error(body.frames[k], make_mesh_distance(ball.positions[k], ball.triangles)));
   }
-  return measured.judged(
-      1,
-      "a value is kept only if nothing lies nearer by more than half of what a cell may miss "
-      "beyond the band, and the surface cannot have passed the node");
+  return judged_worst(measured, 1,
+                      "a value is kept only if nothing lies nearer by more than half of what a cell may miss "
+                      "beyond the band, and the surface cannot have passed the node");
 }
 
 Finding far_nodes_are_not_searched(const Subject&) {
   const MeshSequence ball = moving_ball(0.003, {0, 0.02, 0.04});
   const DeformingBody body = make_deforming_body(ball, free_sampling(), BetweenFrames::carried);
-  Measured measured("searched", "nodes that must be, and a tenth of the others");
+  Table measured{{"case", ""}, {"searched", "nodes that must be, and a tenth of the others"}};
   for (std::size_t k = 1; k < body.frames.size(); ++k) {
     const Octree& tree = body.frames[k].field;
     std::set<std::array<double, 3>> all, near;
@@ -171,16 +169,16 @@ Finding far_nodes_are_not_searched(const Subject&) {
         if (std::abs(tree.phi[b][std::size_t(n)]) <= tree.settings.band) near.insert({p.x(), p.y(), p.z()});
       }
     const double must = double(near.size()) / double(all.size());
-    measured.see("frame " + std::to_string(k),
+    measured.row("frame " + std::to_string(k),
                  double(body.frames[k].searches) / double(body.frames[k].nodes) / (must + 0.1 * (1 - must)));
   }
-  return measured.judged(1,
-                         "what is in the band must be searched; a tenth of the rest is left to nodes that "
-                         "the frame before did not have");
+  return judged_worst(measured, 1,
+                      "what is in the band must be searched; a tenth of the rest is left to nodes that "
+                      "the frame before did not have");
 }
 
 Finding velocity_is_that_of_the_surface(const Subject&) {
-  Measured measured("largest difference", "largest speed");
+  Table measured{{"case", ""}, {"largest difference", "largest speed"}};
   const MeshSequence ball = turning_ball(0.3, 3);
   const DeformingBody body = make_deforming_body(ball, coarse_sampling(), BetweenFrames::carried);
   const PerParticle3 u = (ball.positions[1] - ball.positions[0]) / 0.04;
@@ -194,17 +192,17 @@ Finding velocity_is_that_of_the_surface(const Subject&) {
       const Vector3 expected = (u.col(t[0]) + u.col(t[1]) + u.col(t[2])) / 3;
       worst.see((deforming_at(body, middle + height * normal, 0).velocity - expected).norm() / scale);
     }
-    measured.see(std::to_string(height) + " m along N", worst.value());
+    measured.row(std::to_string(height) + " m along N", worst.value());
   }
-  return measured.judged(
-      0.05,
+  return judged_worst(
+      measured, 0.05,
       "a cell whose phi misses by the tolerance is h wide, h^2 = 4 tolerance r, and there a direction, whose "
       "second derivatives are below 1.5/r^2, misses by 2.25 tolerance/r; twice that at hanging "
       "nodes; r = 0.1 m at the deepest points");
 }
 
 Finding points_ride_along(const Subject&) {
-  Measured measured("largest distance from the path", "epsilon of the cube's width");
+  Table measured{{"case", ""}, {"largest distance from the path", "epsilon of the cube's width"}};
   const MeshSequence ball = moving_ball(0.06, {0, 0.04, 0.07, 0.16});
   const DeformingObject object{
       std::make_shared<DeformingBody>(make_deforming_body(ball, coarse_sampling(), BetweenFrames::carried))};
@@ -213,15 +211,15 @@ Finding points_ride_along(const Subject&) {
       const auto clock = [](double t) { return std::clamp(t, 0.0, 0.16); };
       const Vector3 way = 0.06 * (clock(start + duration) - clock(start)) / 0.04 * shift().normalized();
       const Vector3 mean = object.at({0.03, 0.05, 0.02}, {start, start + duration, duration}).velocity;
-      measured.see("from " + std::to_string(start) + " s for " + std::to_string(duration) + " s",
+      measured.row("from " + std::to_string(start) + " s for " + std::to_string(duration) + " s",
                    (duration * mean - way).norm() / epsilon);
     }
-  return measured.judged(64,
-                         "up to four intervals, each with a division by its duration and the sum of the way");
+  return judged_worst(measured, 64,
+                      "up to four intervals, each with a division by its duration and the sum of the way");
 }
 
 Finding rests_outside_its_frames(const Subject&) {
-  Measured measured("differences", "1");
+  Table measured{{"case", ""}, {"differences", "1"}};
   const MeshSequence ball = moving_ball(0.06, {0, 0.04});
   for (const BetweenFrames between : {BetweenFrames::blended, BetweenFrames::carried}) {
     const DeformingBody body = make_deforming_body(ball, coarse_sampling(), between);
@@ -231,36 +229,36 @@ Finding rests_outside_its_frames(const Subject&) {
       wrong += before.phi != body.frames.front().field.at(p).phi || before.velocity.norm() != 0;
       wrong += after.phi != body.frames.back().field.at(p).phi || after.velocity.norm() != 0;
     }
-    measured.see(between == BetweenFrames::blended ? "blended" : "carried", wrong);
+    measured.row(between == BetweenFrames::blended ? "blended" : "carried", wrong);
   }
-  return measured.judged(0, "no arithmetic: the first frame's and the last one's own values");
+  return judged_worst(measured, 0, "no arithmetic: the first frame's and the last one's own values");
 }
 
 Finding sequences_are_read(const Subject&) {
-  Measured measured("differences, and refusals without their reason", "1");
+  Table measured{{"case", ""}, {"differences, and refusals without their reason", "1"}};
   const ScratchFolder folder;
   const MeshSequence ball = turning_ball(0.3, 1);
   const auto lacks = [](const std::string& message, const char* part) {
     return message.find(part) == std::string::npos;
   };
-  measured.see("no files",
+  measured.row("no files",
                lacks(refusal([&] { read_obj_sequence(folder.file("."), 0.04); }), "no folder with"));
   write_obj(folder.file("b0001.obj"), ball.positions[1], ball.triangles);
   write_obj(folder.file("b0000.obj"), ball.positions[0], ball.triangles);
   const MeshSequence read = read_obj_sequence(folder.file("."), 0.04);
-  measured.see("positions, bit for bit", !(read.positions == ball.positions && read.times == ball.times));
-  measured.see("no interval",
+  measured.row("positions, bit for bit", !(read.positions == ball.positions && read.times == ball.times));
+  measured.row("no interval",
                lacks(refusal([&] { read_obj_sequence(folder.file("."), 0); }), "must be positive"));
   const TriangleMesh other = make_icosphere(radius, 2);
   write_obj(folder.file("b0002.obj"), other.rest, other.triangles);
-  measured.see("other triangles",
+  measured.row("other triangles",
                lacks(refusal([&] { read_obj_sequence(folder.file("."), 0.04); }), "b0002.obj"));
   MeshSequence back = ball;
   back.times = {0.04, 0.04};
-  measured.see("times that do not rise",
+  measured.row("times that do not rise",
                lacks(refusal([&] { make_deforming_body(back, coarse_sampling(), BetweenFrames::carried); }),
                      "must rise"));
-  return measured.judged(0, "17 digits keep every bit; each refusal must name its reason");
+  return judged_worst(measured, 0, "17 digits keep every bit; each refusal must name its reason");
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include "reference/level_set/narrow_band.h"
 #include "verification/checks/level_set/level_set_checks.h"
 #include "verification/evidence.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/ugly_solids.h"
@@ -58,13 +57,13 @@ Finding cell_is_trilinear(const Subject&) {
     at.see(std::abs(grid.at(p).phi - exact) / epsilon);
     gradient.see((found.normal - truth.gradient(p - origin)).norm() / (epsilon / odd_lattice.spacing));
   }
-  Measured measured = roundings_of("(of values near 1, of their differences over h)");
-  measured.see("value in the cell", value.value());
-  measured.see("value of the blend", at.value());
-  measured.see("gradient of the cell", gradient.value());
-  return measured.judged(32,
-                         "eight products of three weights, each with a few roundings of values near 1; "
-                         "differences of such values are divided by h");
+  Table measured = roundings_of("(of values near 1, of their differences over h)");
+  measured.row("value in the cell", value.value());
+  measured.row("value of the blend", at.value());
+  measured.row("gradient of the cell", gradient.value());
+  return judged_worst(measured, 32,
+                      "eight products of three weights, each with a few roundings of values near 1; "
+                      "differences of such values are divided by h");
 }
 
 /// Differences over two cells are exact for quadratics, and so is their blend, which is linear.
@@ -83,10 +82,10 @@ Finding nodal_gradient_is_exact(const Subject&) {
     const Vector3 gradient = slope + curvature * (p - origin);
     direction.see((grid.at(p).normal - gradient.normalized()).norm() / (epsilon / odd_lattice.spacing));
   }
-  Measured measured = roundings_of("/h of values near 1");
-  measured.see("direction", direction.value());
-  return measured.judged(32,
-                         "differences of values near 1 are divided by 2 h, blended and made a unit vector");
+  Table measured = roundings_of("/h of values near 1");
+  measured.row("direction", direction.value());
+  return judged_worst(measured, 32,
+                      "differences of values near 1 are divided by 2 h, blended and made a unit vector");
 }
 
 /// Outside its lattice a sphere's grid must still answer with the distance: never less than that but for the
@@ -109,14 +108,14 @@ Finding beyond_is_distance(const Subject&) {
     const Vector3 out = edge + 1e-9 * (p - edge).normalized();
     jump.see(std::abs(grid.at(out).phi - grid.at((1 - 1e-9) * edge).phi) / (jumps * lattice.spacing));
   }
-  Measured measured("error over what is allowed", "1");
-  measured.see("phi below the distance", below.value());
-  measured.see("phi above the distance", above.value());
-  measured.see("direction", normal.value());
-  measured.see("jump at the border", jump.value());
-  measured.see("no number where there is no point", std::isnan(grid.at({0.1, NAN, 0.2}).phi) ? 0 : 2);
-  return measured.judged(
-      1,
+  Table measured{{"case", ""}, {"error over what is allowed", "1"}};
+  measured.row("phi below the distance", below.value());
+  measured.row("phi above the distance", above.value());
+  measured.row("direction", normal.value());
+  measured.row("jump at the border", jump.value());
+  measured.row("no number where there is no point", std::isnan(grid.at({0.1, NAN, 0.2}).phi) ? 0 : 2);
+  return judged_worst(
+      measured, 1,
       "below: h^2/(4 R) of trilinear values is a hundredth of a cell, one-sided differences add as "
       "much; above and direction: a round leaves 4/5 of the angle between the point found and "
       "the nearest, six rounds a quarter of at most half a radian, 0.13, and the distance errs "
@@ -125,7 +124,7 @@ Finding beyond_is_distance(const Subject&) {
 
 Finding band_is_exact(const Subject&) {
   constexpr double cells = 2.5;
-  Measured measured("nodes missing, superfluous or with another value", "1");
+  Table measured{{"case", ""}, {"nodes missing, superfluous or with another value", "1"}};
   std::vector<std::pair<std::string, MeshDistance>> meshes;
   meshes.emplace_back("statue", make_mesh_distance(small_statue().rest, small_statue().triangles));
   for (const UglySolid& solid : ugly_solids())
@@ -145,9 +144,10 @@ Finding band_is_exact(const Subject&) {
                              : !(std::abs(phi[i] - exact) <= 4 * epsilon * reach))
         ++wrong;
     }
-    measured.see(name, wrong);
+    measured.row(name, wrong);
   }
-  return measured.judged(0, "blocks and bounds leave out only what is farther away than the band is wide");
+  return judged_worst(measured, 0,
+                      "blocks and bounds leave out only what is farther away than the band is wide");
 }
 
 }  // namespace

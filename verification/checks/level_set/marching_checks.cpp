@@ -8,7 +8,6 @@
 #include "reference/level_set/fast_marching.h"
 #include "verification/checks/level_set/level_set_checks.h"
 #include "verification/evidence.h"
-#include "verification/specimens/measured.h"
 
 namespace foldproof {
 
@@ -54,7 +53,7 @@ Lattice about_unit_ball() {
 /// the border's nodes are seeds, so that none does.
 Finding planes_are_exact(const Subject&) {
   const Lattice& lattice = lattice_of_planes;
-  Measured measured = roundings_of("times the lattice's size");
+  Table measured = roundings_of("times the lattice's size");
   for (const MarchingOrder order : {MarchingOrder::first, MarchingOrder::second}) {
     for (const Vector3& normal : {oblique, Vector3(0, 1, 0)}) {
       const auto plane = [&](const Vector3& p) { return normal.dot(p) - 0.031; };
@@ -68,11 +67,11 @@ Finding planes_are_exact(const Subject&) {
       Worst worst;
       for (long i = 0; i < lattice.size(); ++i)
         worst.see(std::abs(grid.phi[i] - plane(lattice.position(lattice.node(i)))) / epsilon);
-      measured.see(name_of(order) + (normal.x() > 0 ? ", oblique" : ", along an axis"), worst.value());
+      measured.row(name_of(order) + (normal.x() > 0 ? ", oblique" : ", along an axis"), worst.value());
     }
   }
-  return measured.judged(
-      200,
+  return judged_worst(
+      measured, 200,
       "distances up to 0.9 are reached over at most thirty nodes, each with a square root whose "
       "few roundings add to those of the nodes before it");
 }
@@ -97,7 +96,7 @@ double torus_phi(const Vector3& p) { return Torus{0.61, 0.23}.at(p).phi; }
 
 Finding equation_is_solved(const Subject&) {
   const Lattice lattice = about_unit_ball();
-  Measured measured = roundings_of("phi/h");
+  Table measured = roundings_of("phi/h");
   for (const double radius : {0.71, 0.93}) {
     const auto sphere = [&](const Vector3& p) { return p.norm() - radius; };
     const Seeds seeds = band(lattice, sphere);
@@ -108,10 +107,10 @@ Finding equation_is_solved(const Subject&) {
     for (long i = 0; i < lattice.size(); ++i)
       if (!is_seed[i])
         worst.see(std::abs(residual(grid, i)) / (epsilon * (1 + std::abs(grid.phi[i])) / lattice.spacing));
-    measured.see("sphere of radius " + std::to_string(radius), worst.value());
+    measured.row("sphere of radius " + std::to_string(radius), worst.value());
   }
-  return measured.judged(
-      64,
+  return judged_worst(
+      measured, 64,
       "the root of a quadratic in T with a few roundings; differences of neighbouring distances "
       "are divided by h");
 }
@@ -139,7 +138,7 @@ int wrong_below_the_plane() {
 
 Finding sides_are_kept(const Subject&) {
   const Lattice lattice = about_unit_ball();
-  Measured measured("nodes of the wrong sign, not finite, or seeds with another value", "1");
+  Table measured{{"case", ""}, {"nodes of the wrong sign, not finite, or seeds with another value", "1"}};
   for (const MarchingOrder order : {MarchingOrder::first, MarchingOrder::second}) {
     for (const bool torus : {false, true}) {
       const auto phi = [&](const Vector3& p) { return torus ? torus_phi(p) : p.norm() - 0.77; };
@@ -152,11 +151,11 @@ Finding sides_are_kept(const Subject&) {
       }
       for (size_t k = 0; k < seeds.nodes.size(); ++k)
         if (grid.phi[seeds.nodes[k]] != seeds.phi[k]) ++wrong;
-      measured.see(name_of(order) + (torus ? ", torus" : ", sphere"), wrong);
+      measured.row(name_of(order) + (torus ? ", torus" : ", sphere"), wrong);
     }
   }
-  measured.see("plane through nodes that count as inside", wrong_below_the_plane());
-  return measured.judged(0, "sides spread from the seeds only, and seeds are never computed again");
+  measured.row("plane through nodes that count as inside", wrong_below_the_plane());
+  return judged_worst(measured, 0, "sides spread from the seeds only, and seeds are never computed again");
 }
 
 /// A plane's own values as sides: crossings along the axes name the plane, and the distance to it is exact.
@@ -181,20 +180,19 @@ Finding crossings_are_exact(const Subject&) {
     fine.see(std::abs(seeds.phi[k] - exact) / lattice.spacing);
     half.see(std::abs(std::abs(coarse.phi[k]) / lattice.spacing - 0.5 / std::sqrt(3.0)));
   }
-  Measured measured("error", "cells");
-  measured.see("plane from its own values", fine.value());
-  measured.see("plus and minus one: half a cell along each axis", half.value());
-  measured.see("no node was looked at", inner > 100 ? 0 : 1);
-  return measured.judged(
-      2e-4,
-      "values are kept as float, 6e-8 of 1.1, which near a crossing is divided by the cell's "
-      "share of phi, and again where crossings lie near the node");
+  Table measured{{"case", ""}, {"error", "cells"}};
+  measured.row("plane from its own values", fine.value());
+  measured.row("plus and minus one: half a cell along each axis", half.value());
+  measured.row("no node was looked at", inner > 100 ? 0 : 1);
+  return judged_worst(measured, 2e-4,
+                      "values are kept as float, 6e-8 of 1.1, which near a crossing is divided by the cell's "
+                      "share of phi, and again where crossings lie near the node");
 }
 
 /// How many of three misuses are not refused.
 Finding misuse_is_refused(const Subject&) {
   const Lattice lattice = about_unit_ball();
-  Measured measured("not refused", "1");
+  Table measured{{"case", ""}, {"not refused", "1"}};
   const auto refused = [](const std::function<void()>& act) {
     try {
       act();
@@ -203,17 +201,17 @@ Finding misuse_is_refused(const Subject&) {
     }
     return 1;
   };
-  measured.see("no seeds", refused([&] { march(lattice, {}, MarchingOrder::first); }));
-  measured.see("seeds that let inside meet outside", refused([&] {
+  measured.row("no seeds", refused([&] { march(lattice, {}, MarchingOrder::first); }));
+  measured.row("seeds that let inside meet outside", refused([&] {
                  const auto sphere = [](const Vector3& p) { return p.norm() - 0.77; };
                  const Seeds gappy = seeds_where(lattice, sphere, [&](const Node& node, double value) {
                    return std::abs(value) < 2.2 * lattice.spacing && (node[2] > 12 || node[1] > 12);
                  });
                  march(lattice, gappy, MarchingOrder::first);
                }));
-  measured.see("a lattice of three cells",
+  measured.row("a lattice of three cells",
                refused([&] { lattice_about(Bounds(Vector3::Constant(-1), Vector3::Constant(1)), 3, 2); }));
-  return measured.judged(0, "each would give a field that is no distance");
+  return judged_worst(measured, 0, "each would give a field that is no distance");
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include "verification/checks/level_set/level_set_checks.h"
 #include "verification/evidence.h"
 #include "verification/oracles/triangle_distance.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/ugly_solids.h"
@@ -57,7 +56,7 @@ double scale_of(const MeshDistance& mesh, const Vector3& p) {
 }
 
 Finding distance_is_exact(const Subject&) {
-  Measured measured = roundings_of("(|p| + |x|)");
+  Table measured = roundings_of("(|p| + |x|)");
   for (const NamedMesh& named : meshes()) {
     Random random(61);
     Worst worst, uncertainty;
@@ -67,16 +66,15 @@ Finding distance_is_exact(const Subject&) {
       worst.see(std::abs(std::abs(named.mesh.at(p).phi) - truth.value) / scale_of(named.mesh, p));
       uncertainty.see(truth.uncertainty / scale_of(named.mesh, p));
     }
-    measured.see(named.name, {worst.value(), uncertainty.value()});
+    measured.row(named.name, oracles::Estimate{worst.value(), uncertainty.value()});
   }
-  return measured.judged(
-      16,
-      "the foot is a corner and two products of a weight and an edge, each with a handful of "
-      "roundings of the coordinates; an error of the weights moves it along the surface");
+  return judged_worst(measured, 16,
+                      "the foot is a corner and two products of a weight and an edge, each with a handful of "
+                      "roundings of the coordinates; an error of the weights moves it along the surface");
 }
 
 Finding normal_leads_to_the_surface(const Subject&) {
-  Measured measured = roundings_of("(|p| + |x|)");
+  Table measured = roundings_of("(|p| + |x|)");
   for (const NamedMesh& named : meshes()) {
     Random random(67);
     Worst foot, length;
@@ -88,18 +86,18 @@ Finding normal_leads_to_the_surface(const Subject&) {
                scale_of(named.mesh, p));
       length.see(std::abs(distance.normal.norm() - 1) / epsilon);
     }
-    measured.see(named.name + ", foot", foot.value());
-    measured.see(named.name + ", length of N", length.value());
+    measured.row(named.name + ", foot", foot.value());
+    measured.row(named.name + ", length of N", length.value());
   }
-  return measured.judged(
-      16,
+  return judged_worst(
+      measured, 16,
       "N is the way to the nearest point over its length, so that the foot is that point but for "
       "as many roundings as the distance has");
 }
 
 Finding sign_is_right(const Subject&) {
   constexpr int points = 336000;  // on each of three meshes: a million in all
-  Measured measured("wrong signs", "1");
+  Table measured{{"case", ""}, {"wrong signs", "1"}};
   std::vector<double> decided;
   for (const UglySolid& solid : ugly_solids()) {
     const MeshDistance mesh = distance_of(solid.soup);
@@ -115,19 +113,19 @@ Finding sign_is_right(const Subject&) {
       const double phi = mesh.at(rounded).phi;
       if (!(inside > 0 ? phi < 0 : phi > 0)) ++wrong;
     }
-    measured.see(solid.name, double(wrong));
+    measured.row(solid.name, double(wrong));
     decided.push_back(double(counted));
   }
   Finding finding =
-      measured.judged(0,
-                      "the pseudonormal's sign is a theorem on closed surfaces, and no point is closer "
-                      "to them than rounding");
-  finding.evidence.push_back({"points off the surface", "1", decided});
+      judged_worst(measured, 0,
+                   "the pseudonormal's sign is a theorem on closed surfaces, and no point is closer "
+                   "to them than rounding");
+  finding.evidence.add({"points off the surface", "1", decided});
   return finding;
 }
 
 Finding bound_is_kept(const Subject&) {
-  Measured measured("answers that differ from those of a search without a bound", "1");
+  Table measured{{"case", ""}, {"answers that differ from those of a search without a bound", "1"}};
   for (const NamedMesh& named : meshes()) {
     Random random(73);
     int wrong = 0;
@@ -140,9 +138,9 @@ Finding bound_is_kept(const Subject&) {
                                                      4 * epsilon * distance;
       if (!agrees) ++wrong;
     }
-    measured.see(named.name, wrong);
+    measured.row(named.name, wrong);
   }
-  return measured.judged(0, "the bound only shortens the search; what it leaves out is no nearer");
+  return judged_worst(measured, 0, "the bound only shortens the search; what it leaves out is no nearer");
 }
 
 }  // namespace

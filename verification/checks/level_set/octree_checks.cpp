@@ -4,7 +4,6 @@
 #include "verification/checks/level_set/octree_samples.h"
 #include "verification/evidence.h"
 #include "verification/seeds.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/refusal.h"
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -41,21 +40,21 @@ std::vector<Body> smooth_bodies() {
 }
 
 Finding jumps_nowhere(const Subject&) {
-  Measured measured("largest jump", "epsilon of the cube's width");
+  Table measured{{"case", ""}, {"largest jump", "epsilon of the cube's width"}};
   std::vector<double> jumps;
   for (const Body& body : smooth_bodies())
     for (const int depth : {4, 7}) {
       const Octree tree = make_octree({body.distance}, sampling(depth, 3e-4, HangingNodes::constrained));
       const Octree loose = make_octree({body.distance}, sampling(depth, 3e-4, HangingNodes::free));
-      measured.see(body.name + ", depth " + std::to_string(depth), largest_jump(tree, 20000) / epsilon);
+      measured.row(body.name + ", depth " + std::to_string(depth), largest_jump(tree, 20000) / epsilon);
       jumps.push_back(largest_jump(loose, 20000));
     }
   Finding finding =
-      measured.judged(32,
-                      "each side adds the products of its eight corners with six roundings; a place rounded "
-                      "by epsilon/2 moves a "
-                      "trilinear value of slope 1 by as much, along three axes and on both sides");
-  finding.evidence.push_back({"with free nodes", "m", jumps});
+      judged_worst(measured, 32,
+                   "each side adds the products of its eight corners with six roundings; a place rounded "
+                   "by epsilon/2 moves a "
+                   "trilinear value of slope 1 by as much, along three axes and on both sides");
+  finding.evidence.add({"with free nodes", "m", jumps});
   return finding;
 }
 
@@ -71,13 +70,13 @@ double worst_miss(const Body& body, const OctreeSettings& settings) {
 }
 
 Finding misses_by_its_tolerance(const Subject&) {
-  Measured measured("largest miss", "tolerances");
+  Table measured{{"case", ""}, {"largest miss", "tolerances"}};
   for (const Body& body : smooth_bodies())
     for (const double tolerance : {1.1e-3, 2.3e-4})
-      measured.see(body.name + " to " + std::to_string(tolerance) + " m",
+      measured.row(body.name + " to " + std::to_string(tolerance) + " m",
                    worst_miss(body, sampling(9, tolerance, HangingNodes::constrained)));
-  return measured.judged(
-      2,
+  return judged_worst(
+      measured, 2,
       "a leaf misses by the tolerance where its own corners are exact, and by as much again where "
       "they are the interpolant of a coarse neighbour");
 }
@@ -95,20 +94,20 @@ int level_step(const Octree& tree, const Vector3& node) {
 }
 
 Finding neighbours_differ_by_one_level(const Subject&) {
-  Measured measured("levels between neighbours", "1");
+  Table measured{{"case", ""}, {"levels between neighbours", "1"}};
   for (const Body& body : smooth_bodies()) {
     const Octree tree = make_octree({body.distance}, sampling(7, 3e-4, HangingNodes::constrained));
     Worst worst;
     for (const OctreePlace& place : branch_places(tree))
       for (int n = 0; n < 27; ++n) worst.see(level_step(tree, node_position(tree.settings, place, n)));
-    measured.see(body.name, worst.value());
+    measured.row(body.name, worst.value());
   }
-  return measured.judged(1, "constraints reach one level only, across faces, edges and corners alike");
+  return judged_worst(measured, 1, "constraints reach one level only, across faces, edges and corners alike");
 }
 
 /// Angle between the tree's normals and the exact ones next to the surface, over the finest cell's angle h/R.
 Finding normals_are_those_of_the_cells(const Subject&) {
-  Measured measured("largest angle", "finest cells over the least radius");
+  Table measured{{"case", ""}, {"largest angle", "finest cells over the least radius"}};
   for (const int depth : {5, 6, 7}) {
     const double h = std::ldexp(1, -depth), radius = 0.11;
     OctreeSettings settings = sampling(depth, 1e-9, HangingNodes::constrained);
@@ -121,16 +120,16 @@ Finding normals_are_those_of_the_cells(const Subject&) {
       const Vector3 n = tree.at(p).normal;
       worst.see(std::atan2(n.cross(exact.normal).norm(), n.dot(exact.normal)) / (h / (radius - h)));
     }
-    measured.see("h = 1/" + std::to_string(1 << depth) + " m", worst.value());
+    measured.row("h = 1/" + std::to_string(1 << depth) + " m", worst.value());
   }
-  return measured.judged(
-      std::sqrt(3.0) / 2,
+  return judged_worst(
+      measured, std::sqrt(3.0) / 2,
       "the slope of a cell is exact at its centre, half a diagonal away at most, and a normal turns "
       "by the way over the radius of curvature");
 }
 
 Finding goes_on_beyond_the_cube(const Subject&) {
-  Measured measured("share of what is allowed", "1");
+  Table measured{{"case", ""}, {"share of what is allowed", "1"}};
   OctreeSettings settings = sampling(7, 5e-4, HangingNodes::constrained);
   settings.band = 1;  // the tolerance holds as far as the boundary
   for (const Body& body : smooth_bodies()) {
@@ -143,11 +142,11 @@ Finding goes_on_beyond_the_cube(const Subject&) {
       change.see(std::abs(phi - tree.at(q).phi) / (p - q).norm());
       below.see((body.distance(p).phi - phi) / (2 * settings.tolerance));
     }
-    measured.see(body.name + ", change over the way", change.value() * (1 - 16 * epsilon));
-    measured.see(body.name + ", below the distance over two tolerances", below.value());
+    measured.row(body.name + ", change over the way", change.value() * (1 - 16 * epsilon));
+    measured.row(body.name + ", below the distance over two tolerances", below.value());
   }
-  return measured.judged(
-      1,
+  return judged_worst(
+      measured, 1,
       "the distance to one point changes by the way at most, but for rounding; and it is no less "
       "than the distance to the surface, which that point misses as phi does");
 }
@@ -166,7 +165,7 @@ Finding rides_with_its_body(const Subject&) {
   const Keyframes motion =
       make_keyframes({{0, {}}, {0.7, {turned, {0.3, -0.2, 0.9}}}, {1.6, {turned * turned, {1.3, 0.4, 0.1}}}});
   const RigidObject object{solid, {turned.conjugate(), {0.05, 0.1, -0.2}}, motion};
-  Measured measured("largest miss", "tolerances");
+  Table measured{{"case", ""}, {"largest miss", "tolerances"}};
   const long before = asked;
   for (const double time : {0.0, 0.4, 1.1, 2.0}) {
     const Pose pose = after(pose_at(motion, time), object.place);
@@ -177,14 +176,14 @@ Finding rides_with_its_body(const Subject&) {
       const Vector3 x = pose.rotation * X + pose.translation;
       worst.see(std::abs(object.at(x, {time, time, 0}).phi - phi) / settings.tolerance);
     }
-    measured.see("at " + std::to_string(time) + " s", worst.value());
+    measured.row("at " + std::to_string(time) + " s", worst.value());
   }
-  measured.see("distances asked for after it was built", double(asked - before));
-  return measured.judged(2, "as at rest: a rigid motion changes no distance");
+  measured.row("distances asked for after it was built", double(asked - before));
+  return judged_worst(measured, 2, "as at rest: a rigid motion changes no distance");
 }
 
 Finding refuses_bad_settings(const Subject&) {
-  Measured measured("refusals without the reason", "1");
+  Table measured{{"case", ""}, {"refusals without the reason", "1"}};
   struct Bad {
     std::string name, keyword;
     std::function<void(OctreeSettings&)> spoil;
@@ -202,11 +201,11 @@ Finding refuses_bad_settings(const Subject&) {
     OctreeSettings settings = sampling(5, 1e-3, HangingNodes::constrained);
     bad.spoil(settings);
     const std::string message = refusal([&] { make_octree({ball}, settings); });
-    measured.see(bad.name, message.find(bad.keyword) == std::string::npos);
+    measured.row(bad.name, message.find(bad.keyword) == std::string::npos);
   }
   const std::string message = refusal([] { make_octree({}, sampling(5, 1e-3, HangingNodes::constrained)); });
-  measured.see("no body", message.find("bodies") == std::string::npos);
-  return measured.judged(0, "each refusal must name its reason");
+  measured.row("no body", message.find("bodies") == std::string::npos);
+  return judged_worst(measured, 0, "each refusal must name its reason");
 }
 
 }  // namespace

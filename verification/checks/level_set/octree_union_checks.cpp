@@ -7,7 +7,6 @@
 #include "verification/checks/level_set/octree_samples.h"
 #include "verification/evidence.h"
 #include "verification/seeds.h"
-#include "verification/specimens/measured.h"
 
 namespace foldproof {
 
@@ -65,12 +64,12 @@ Finding nodes_know_their_part(const Subject&) {
       pinched += exact.inside >= 2;
     }
   }
-  Measured measured("nodes that are wrong", "1");
-  measured.see("phi, bit for bit", wrong_value);
-  measured.see("nearest part", wrong_part);
-  measured.see("pinch flag", wrong_flag);
-  measured.see("fewer than 101 nodes are pinched", !(pinched > 100));
-  return measured.judged(0, "free nodes hold what the parts say: comparisons, no arithmetic");
+  Table measured{{"case", ""}, {"nodes that are wrong", "1"}};
+  measured.row("phi, bit for bit", wrong_value);
+  measured.row("nearest part", wrong_part);
+  measured.row("pinch flag", wrong_flag);
+  measured.row("fewer than 101 nodes are pinched", !(pinched > 100));
+  return judged_worst(measured, 0, "free nodes hold what the parts say: comparisons, no arithmetic");
 }
 
 std::vector<Vector3> points_near(const std::vector<DistanceFunction>& parts, double within) {
@@ -86,7 +85,7 @@ std::vector<Vector3> points_near(const std::vector<DistanceFunction>& parts, dou
 
 Finding union_misses_by_its_tolerance(const Subject&) {
   const std::vector<DistanceFunction> parts = parts_of_a_body();
-  Measured measured("largest miss", "tolerances");
+  Table measured{{"case", ""}, {"largest miss", "tolerances"}};
   for (const double tolerance : {2.1e-3, 7e-4}) {
     const Octree tree = make_octree(parts, union_sampling(tolerance));
     Worst nearest, second;
@@ -97,11 +96,12 @@ Finding union_misses_by_its_tolerance(const Subject&) {
       nearest.see(std::abs(at.first.phi - exact.first) / tolerance);
       if (exact.second < 0) second.see(std::abs(at.second.phi - exact.second) / tolerance);
     }
-    measured.see("nearest part, to " + std::to_string(tolerance) + " m", nearest.value());
-    measured.see("second part of pinched points, to " + std::to_string(tolerance) + " m", second.value());
+    measured.row("nearest part, to " + std::to_string(tolerance) + " m", nearest.value());
+    measured.row("second part of pinched points, to " + std::to_string(tolerance) + " m", second.value());
   }
-  return measured.judged(
-      2, "as for one body: the parts are sampled each by itself, so that their crease costs nothing");
+  return judged_worst(
+      measured, 2,
+      "as for one body: the parts are sampled each by itself, so that their crease costs nothing");
 }
 
 Finding pinch_is_flagged(const Subject&) {
@@ -119,11 +119,11 @@ Finding pinch_is_flagged(const Subject&) {
     if (exact.inside == 2 && exact.second - exact.first > 4 * tolerance)
       wrong_parts += at.first_part != exact.part || at.second_part != exact.second_part;
   }
-  Measured measured("points that are wrong", "1");
-  measured.see("inside of two or more", wrong_count);
-  measured.see("which two", wrong_parts);
-  measured.see("fewer than 100 pinched points", pinched < 100);
-  return measured.judged(0, "points nearer to a decision than two tolerances are left out");
+  Table measured{{"case", ""}, {"points that are wrong", "1"}};
+  measured.row("inside of two or more", wrong_count);
+  measured.row("which two", wrong_parts);
+  measured.row("fewer than 100 pinched points", pinched < 100);
+  return judged_worst(measured, 0, "points nearer to a decision than two tolerances are left out");
 }
 
 /// Small balls far from each other: in the wide cells between them one may be nearest where none of the nodes
@@ -140,17 +140,17 @@ std::vector<DistanceFunction> scattered_balls() {
 }
 
 Finding union_jumps_nowhere(const Subject&) {
-  Measured measured("largest jump", "epsilon of the cube's width");
+  Table measured{{"case", ""}, {"largest jump", "epsilon of the cube's width"}};
   for (const double tolerance : {2.1e-3, 7e-4})
-    measured.see("to " + std::to_string(tolerance) + " m",
+    measured.row("to " + std::to_string(tolerance) + " m",
                  largest_jump(make_octree(parts_of_a_body(), union_sampling(tolerance)), 20000) / epsilon);
   const OctreeSettings sparse{Vector3::Constant(-0.5),  1, 6, 2, 2.1e-3, 0.02, 0.3, 0,
                               HangingNodes::constrained};
-  measured.see("scattered balls, wide cells",
+  measured.row("scattered balls, wide cells",
                largest_jump(make_octree(scattered_balls(), sparse), 200000, 3) / epsilon);
-  return measured.judged(32,
-                         "as for one body; a part that one side leaves out is behind another at all nodes of "
-                         "their common face, and so all over it");
+  return judged_worst(measured, 32,
+                      "as for one body; a part that one side leaves out is behind another at all nodes of "
+                      "their common face, and so all over it");
 }
 
 }  // namespace

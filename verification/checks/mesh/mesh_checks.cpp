@@ -12,7 +12,6 @@
 #include "reference/mesh/shapes.h"
 #include "verification/evidence.h"
 #include "verification/seeds.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/specimens.h"
@@ -70,19 +69,19 @@ std::vector<Known> known_shapes() {
 }
 
 Finding euler_characteristic_is_known(const Subject&) {
-  Measured measured("difference from the surface's", "1");
+  Table measured{{"case", ""}, {"difference from the surface's", "1"}};
   for (const Known& shape : known_shapes()) {
     std::map<std::pair<int, int>, int> edges;
     for (const Triangle& t : shape.mesh.triangles) {
       for (int k = 0; k < 3; ++k) ++edges[std::minmax({t[k], t[(k + 1) % 3]})];
     }
     const int counted = shape.mesh.particles() - int(edges.size()) + int(shape.mesh.triangles.size());
-    measured.see(shape.name,
+    measured.row(shape.name,
                  std::abs(euler_characteristic(shape.mesh) - shape.euler) + std::abs(counted - shape.euler));
   }
-  return measured.judged(0,
-                         "whole numbers: 1 for a sheet or a disc, 0 for an open cylinder, 2 for a closed "
-                         "surface without handles");
+  return judged_worst(measured, 0,
+                      "whole numbers: 1 for a sheet or a disc, 0 for an open cylinder, 2 for a closed "
+                      "surface without handles");
 }
 
 /// True if the triangle is (a, b, c) or the same begun elsewhere.
@@ -91,7 +90,7 @@ bool runs(const Triangle& triangle, int a, int b, int c) {
 }
 
 Finding hinges_are_oriented(const Subject&) {
-  Measured measured("hinges otherwise", "1");
+  Table measured{{"case", ""}, {"hinges otherwise", "1"}};
   for (const Known& shape : known_shapes()) {
     int otherwise = 0;
     for (const Hinge& hinge : shape.mesh.hinges) {
@@ -104,14 +103,15 @@ Finding hinges_are_oriented(const Subject&) {
       }
       otherwise += !(first == 1 && second == 1 && std::min(x3, x4) == edge.a && std::max(x3, x4) == edge.b);
     }
-    measured.see(shape.name, otherwise);
+    measured.row(shape.name, otherwise);
   }
-  return measured.judged(
-      0, "every hinge must be (x1, x3, x4) and (x2, x4, x3) of its two triangles, as drawn in the paper");
+  return judged_worst(
+      measured, 0,
+      "every hinge must be (x1, x3, x4) and (x2, x4, x3) of its two triangles, as drawn in the paper");
 }
 
 Finding every_inner_edge_is_one_hinge(const Subject&) {
-  Measured measured("edges wrong", "1");
+  Table measured{{"case", ""}, {"edges wrong", "1"}};
   for (const Known& shape : known_shapes()) {
     std::map<std::pair<int, int>, int> triangles, hinges;
     for (const Triangle& t : shape.mesh.triangles) {
@@ -124,15 +124,15 @@ Finding every_inner_edge_is_one_hinge(const Subject&) {
       const int count = triangles[{edge.a, edge.b}], hinge_count = hinges[{edge.a, edge.b}];
       wrong += (count == 1) != (edge.triangles[1] < 0) || count > 2 || count < 1 || hinge_count != count - 1;
     }
-    measured.see(shape.name, wrong);
+    measured.row(shape.name, wrong);
   }
-  return measured.judged(0,
-                         "edges and hinges are counted: one edge for each pair of neighbours, one hinge for "
-                         "each edge of two triangles");
+  return judged_worst(measured, 0,
+                      "edges and hinges are counted: one edge for each pair of neighbours, one hinge for "
+                      "each edge of two triangles");
 }
 
 Finding areas_and_masses_sum(const Subject&) {
-  Measured measured = roundings_of("of the exact value");
+  Table measured = roundings_of("of the exact value");
   const double density = 0.37;
   for (const Known& shape : known_shapes()) {
     const double sum = triangle_areas(shape.mesh.triangles, shape.mesh.rest).sum();
@@ -142,10 +142,10 @@ Finding areas_and_masses_sum(const Subject&) {
     worst.see(std::abs(lumped_masses(shape.mesh, density).sum() - density * exact) /
               (epsilon * density * exact));
     worst.see(std::abs(edge_areas(shape.mesh).sum() - 3 * exact) / (epsilon * 3 * exact));
-    measured.see(shape.name, worst.value());
+    measured.row(shape.name, worst.value());
   }
   Finding finding =
-      measured.judged(64, "about ten roundings an area, with errors of either sign, added one by one");
+      judged_worst(measured, 64, "about ten roundings an area, with errors of either sign, added one by one");
   finding.note =
       "The exact value is the area, the mass, or three times the area for the edges' areas. Areas are those "
       "of plane geometry; for the round sphere and the statue the mesh's own area stands in, and only masses "
@@ -155,7 +155,7 @@ Finding areas_and_masses_sum(const Subject&) {
 
 Finding obj_round_trip_is_exact(const Subject&) {
   const ScratchFolder folder;
-  Measured measured("numbers that came back otherwise", "1");
+  Table measured{{"case", ""}, {"numbers that came back otherwise", "1"}};
   Random random(311);
   for (Known& shape : known_shapes()) {
     PerParticle3 x = shape.mesh.rest + random.vectors(shape.mesh.rest.cols(), 1e-3);
@@ -168,13 +168,13 @@ Finding obj_round_trip_is_exact(const Subject&) {
       otherwise +=
           std::bit_cast<uint64_t>(x.reshaped()[k]) != std::bit_cast<uint64_t>(back.rest.reshaped()[k]);
     }
-    measured.see(shape.name, otherwise);
+    measured.row(shape.name, otherwise);
   }
-  return measured.judged(0, "17 significant digits hold a double, so every bit must come back");
+  return judged_worst(measured, 0, "17 significant digits hold a double, so every bit must come back");
 }
 
 Finding pleats_are_isometric(const Subject&) {
-  Measured measured = roundings_of("of the size");
+  Table measured = roundings_of("of the size");
   for (const double angle : {0.7, -1.9, 2.9}) {
     for (const SheetPattern pattern : {SheetPattern::one_diagonal, SheetPattern::union_jack}) {
       Sheet sheet = sheet_of(pattern);
@@ -194,12 +194,12 @@ Finding pleats_are_isometric(const Subject&) {
       }
       fold.see(fold_lines == 2 * sheet.rows ? 0 : std::nan(""));
       const std::string name = (pattern == SheetPattern::union_jack ? "union_jack" : "one_diagonal");
-      measured.see(name + " by " + std::to_string(angle) + " rad, lengths", length.value());
-      measured.see(name + " by " + std::to_string(angle) + " rad, angles", fold.value());
+      measured.row(name + " by " + std::to_string(angle) + " rad, lengths", length.value());
+      measured.row(name + " by " + std::to_string(angle) + " rad, angles", fold.value());
     }
   }
-  Finding finding = measured.judged(
-      64,
+  Finding finding = judged_worst(
+      measured, 64,
       "a vertex is placed by adding up to nine columns; angles divide such errors by a cell, a ninth of the "
       "width");
   finding.note = "the size is the sheet's width for lengths, pi for angles";
@@ -207,13 +207,13 @@ Finding pleats_are_isometric(const Subject&) {
 }
 
 Finding hinge_folds_by_its_angle(const Subject&) {
-  Measured measured = roundings_of("pi");
+  Table measured = roundings_of("pi");
   for (const double angle : {-3.1, -1.7, -0.2, 0.0, 0.4, 1.5, 2.9}) {
     const TriangleMesh mesh = make_hinge(0.23, angle);
     const double found = hinge_angles(mesh, mesh.rest).at(0);
-    measured.see(std::to_string(angle) + " rad", std::abs(found - angle) / (epsilon * pi));
+    measured.row(std::to_string(angle) + " rad", std::abs(found - angle) / (epsilon * pi));
   }
-  return measured.judged(16, "sine and cosine, placed and taken back, carry a few roundings of 1");
+  return judged_worst(measured, 16, "sine and cosine, placed and taken back, carry a few roundings of 1");
 }
 
 }  // namespace

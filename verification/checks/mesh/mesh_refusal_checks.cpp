@@ -5,7 +5,7 @@
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/mesh/mesh_checks.h"
-#include "verification/specimens/measured.h"
+#include "verification/evidence.h"
 #include "verification/specimens/refusal.h"
 #include "verification/specimens/scratch_folder.h"
 
@@ -63,24 +63,20 @@ std::string without_folder(const std::string& message) {
   return slash == std::string::npos ? message : message.substr(slash + 1);
 }
 
-Finding bad_files_are_refused(const Subject&) {
+/// Adds a row for each bad file: what its refusal leaves out.
+void try_bad_files(Table& measured) {
   const ScratchFolder folder;
-  Measured measured("file, line or keyword not named", "1");
-  std::vector<std::string> messages;
+  const auto see = [&](const std::string& name, const std::string& path, std::vector<std::string> parts) {
+    const std::string message = refusal([&] { read_obj(path); });
+    measured.row("file with " + name, left_out(message, parts), without_folder(message));
+  };
   for (const BadFile& bad : bad_files()) {
     const std::string path = folder.file("bad.obj");
     std::ofstream(path, std::ios::binary) << bad.text;
-    const std::string message = refusal([&] { read_obj(path); });
-    measured.see(bad.name, left_out(message, {path + ":" + std::to_string(bad.line) + ":", bad.keyword}));
-    messages.push_back(without_folder(message));
+    see(bad.name, path, {path + ":" + std::to_string(bad.line) + ":", bad.keyword});
   }
   const std::string missing = folder.file("missing.obj");
-  const std::string message = refusal([&] { read_obj(missing); });
-  measured.see("a file that is not there", left_out(message, {missing, "cannot be opened"}));
-  messages.push_back(without_folder(message));
-  Finding finding = measured.judged(0, "each refusal must name the file, the line and the reason");
-  finding.evidence.push_back({"message", "", messages});
-  return finding;
+  see("a file that is not there", missing, {missing, "cannot be opened"});
 }
 
 /// A mesh made by code that no one should accept.
@@ -108,26 +104,20 @@ std::vector<BadMesh> bad_meshes() {
       {"opposite orientations", rest, {{0, 1, 2}, {0, 3, 2}}, {"triangle 1", "orientation"}}};
 }
 
-Finding bad_meshes_are_refused(const Subject& subject) {
-  Finding finding = bad_files_are_refused(subject);
-  Measured measured("file, line or keyword not named", "1");
-  const auto& names = std::get<std::vector<std::string>>(finding.evidence[0].values);
-  const auto& values = std::get<std::vector<double>>(finding.evidence[1].values);
-  std::vector<std::string> messages = std::get<std::vector<std::string>>(finding.evidence[2].values);
-  for (size_t k = 0; k < names.size(); ++k) measured.see("file with " + names[k], values[k]);
+Finding bad_meshes_are_refused(const Subject&) {
+  Table measured{{"case", ""}, {"file, line or keyword not named", "1"}, {"message", ""}};
+  try_bad_files(measured);
   for (const BadMesh& bad : bad_meshes()) {
     const std::string message = refusal([&] { make_triangle_mesh(bad.rest, bad.triangles); });
-    measured.see("mesh with " + bad.name, left_out(message, bad.parts));
-    messages.push_back(message);
+    measured.row("mesh with " + bad.name, left_out(message, bad.parts), message);
   }
-  finding = measured.judged(
-      0, "each refusal must name the place, file and line or triangle or vertex, and the reason");
-  finding.evidence.push_back({"message", "", messages});
-  return finding;
+  return judged_worst(
+      measured, "file, line or keyword not named", 0,
+      "each refusal must name the place, file and line or triangle or vertex, and the reason");
 }
 
 Finding small_and_large_meshes_are_accepted(const Subject&) {
-  Measured measured("meshes refused", "1");
+  Table measured{{"case", ""}, {"meshes refused", "1"}};
   Sheet sheet;
   sheet.pattern = SheetPattern::one_diagonal;
   sheet.width = 0.7;
@@ -139,9 +129,9 @@ Finding small_and_large_meshes_are_accepted(const Subject&) {
     const std::string message = refusal([&] { make_triangle_mesh(size * mesh.rest, mesh.triangles); });
     char name[32];
     std::snprintf(name, sizeof name, "size %g m", size);
-    measured.see(name, message.empty() ? 0 : 1);
+    measured.row(name, message.empty() ? 0 : 1);
   }
-  return measured.judged(0, "whether a triangle has an area does not depend on the unit of length");
+  return judged_worst(measured, 0, "whether a triangle has an area does not depend on the unit of length");
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include "verification/checks/post/projection_checks.h"
 #include "verification/evidence.h"
 #include "verification/oracles/depth_maps.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/random.h"
 
 namespace foldproof {
@@ -31,7 +30,7 @@ std::vector<DepthBand> bands() {
 std::vector<DepthMap> bent_maps() { return {depth_map_named("power"), depth_map_named("blend")}; }
 
 Finding is_as_defined(const Subject&) {
-  Measured measured = roundings_of("tau + t^");
+  Table measured = roundings_of("tau + t^");
   for (const DepthMap& map : bent_maps()) {
     Worst worst;
     for (const DepthBand& band : bands()) {
@@ -42,13 +41,13 @@ Finding is_as_defined(const Subject&) {
         worst.see(std::abs(map.at(band, phi) - exact) / (epsilon * (band.reach + band.deepest)));
       }
     }
-    measured.see(std::string(map.name), worst.value());
+    measured.row(std::string(map.name), worst.value());
   }
-  return measured.judged(16, roundings_reason);
+  return judged_worst(measured, 16, roundings_reason);
 }
 
 Finding ends_are_right(const Subject&) {
-  Measured measured = roundings_of("tau");
+  Table measured = roundings_of("tau");
   for (const DepthMap& map : depth_maps()) {
     Worst deepest, at_reach;
     for (const DepthBand& band : bands()) {
@@ -59,10 +58,10 @@ Finding ends_are_right(const Subject&) {
         at_reach.see(std::abs(map.at(band, phi) / phi - 1) * beyond / epsilon);
       }
     }
-    measured.see(std::string(map.name) + ", from -t^ down", deepest.value());
-    measured.see(std::string(map.name) + ", from tau up", at_reach.value());
+    measured.row(std::string(map.name) + ", from -t^ down", deepest.value());
+    measured.row(std::string(map.name) + ", from tau up", at_reach.value());
   }
-  return measured.judged(8, "phi + t^ at -t^ is off by a rounding of t^, at most 6 tau");
+  return judged_worst(measured, 8, "phi + t^ at -t^ is off by a rounding of t^, at most 6 tau");
 }
 
 /// A convex map misses the slope 1 over the last h by its second derivative, largest at tau, times h/2.
@@ -72,17 +71,17 @@ double bend_at_reach(const DepthMap& map, const DepthBand& band) {
 }
 
 Finding meets_the_identity_smoothly(const Subject&) {
-  Measured measured("|slope - 1| over what the second derivative allows", "1");
+  Table measured{{"case", ""}, {"|slope - 1| over what the second derivative allows", "1"}};
   for (const DepthMap& map : bent_maps()) {
     Worst worst;
     for (const DepthBand& band : bands()) {
       const double h = 1e-4 * band.reach, slope = (band.reach - map.at(band, band.reach - h)) / h;
       worst.see(std::abs(slope - 1) / (bend_at_reach(map, band) * h / 2));
     }
-    measured.see(std::string(map.name), worst.value());
+    measured.row(std::string(map.name), worst.value());
   }
-  return measured.judged(
-      1.001,
+  return judged_worst(
+      measured, 1.001,
       "Taylor's remainder over the last ten-thousandth of tau, and a rounding over that length, "
       "1e-12 of a slope of 1 against 1e-5");
 }
@@ -99,23 +98,23 @@ double disorder(const DepthMap& map, const DepthBand& band, bool has_to_rise) {
 }
 
 Finding order_is_kept(const Subject&) {
-  Measured measured("neighbours out of order", "1");
+  Table measured{{"case", ""}, {"neighbours out of order", "1"}};
   for (const DepthMap& map : depth_maps()) {
     double wrong = 0;
     for (const DepthBand& band : bands()) wrong += disorder(map, band, map.name == "blend");
-    measured.see(std::string(map.name), wrong);
+    measured.row(std::string(map.name), wrong);
   }
   Finding finding =
-      measured.judged(0,
-                      "f rises; of 500 steps over the band not one may fall, and for the blend none "
-                      "may stay");
+      judged_worst(measured, 0,
+                   "f rises; of 500 steps over the band not one may fall, and for the blend none "
+                   "may stay");
   finding.note =
       "The power law rises too, but its steps at the bottom can be smaller than a rounding of eps.";
   return finding;
 }
 
 Finding compression_is_bounded(const Subject&) {
-  Measured measured("compression over its bound", "1");
+  Table measured{{"case", ""}, {"compression over its bound", "1"}};
   std::vector<double> of_power;
   for (const DepthBand& band : bands()) {
     const double depths = band.reach + band.deepest, room = band.reach - band.nearest, w = room / 2;
@@ -130,13 +129,13 @@ Finding compression_is_bounded(const Subject&) {
       worst.see(compression("blend") / bound);
       power.see(compression("power"));
     }
-    measured.see(std::to_string(bound) + " is the bound", worst.value());
+    measured.row(std::to_string(bound) + " is the bound", worst.value());
     of_power.push_back(power.value());
   }
-  Finding finding = measured.judged(1 + 1e-12,
-                                    "by construction the slope is nowhere below m; 1e-12 for roundings of "
-                                    "differences a hundredth of the band apart");
-  finding.evidence.push_back({"compression by the power law", "1", of_power});
+  Finding finding = judged_worst(measured, 1 + 1e-12,
+                                 "by construction the slope is nowhere below m; 1e-12 for roundings of "
+                                 "differences a hundredth of the band apart");
+  finding.evidence.add({"compression by the power law", "1", of_power});
   return finding;
 }
 
@@ -145,7 +144,7 @@ Finding senseless_bands_are_refused(const Subject&) {
   const std::vector<DepthBand> senseless = {{-0.01, 0.2, 1}, {0.2, 0.2, 1},    {0.3, 0.2, 1},
                                             {0, 0.2, -1e-3}, {0, infinite, 1}, {0, 0.2, infinite},
                                             {NAN, 0.2, 1},   {0, NAN, 1},      {0, 0.2, NAN}};
-  Measured measured("accepted", "1");
+  Table measured{{"case", ""}, {"accepted", "1"}};
   for (const DepthBand& band : senseless) {
     const std::string name = "eps " + std::to_string(band.nearest) + ", tau " + std::to_string(band.reach) +
                              ", t^ " + std::to_string(band.deepest);
@@ -155,9 +154,9 @@ Finding senseless_bands_are_refused(const Subject&) {
     } catch (const InputError&) {
       accepted = 0;
     }
-    measured.see(name, accepted);
+    measured.row(name, accepted);
   }
-  return measured.judged(0, "0 <= eps < tau and t^ >= 0, all finite, or there is no such map");
+  return judged_worst(measured, 0, "0 <= eps < tau and t^ >= 0, all finite, or there is no such map");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "verification/specimens/differences.h"
-#include "verification/specimens/measured.h"
+#include "verification/evidence.h"
 #include "verification/specimens/projection_specimens.h"
 #include "verification/specimens/refusal.h"
 
@@ -32,7 +32,7 @@ std::vector<ProjectionCase> unpinched_cases() {
 }
 
 Finding lands_where_the_map_says(const Subject&) {
-  Measured measured("largest miss", "m");
+  Table measured{{"case", ""}, {"largest miss", "m"}};
   for (const ProjectionCase& specimen : unpinched_cases()) {
     for (const DepthMap& map : depth_maps()) {
       const FoldProjection projection = projection_by(std::string(map.name));
@@ -41,10 +41,10 @@ Finding lands_where_the_map_says(const Subject&) {
       Worst worst;
       for (Eigen::Index i = 0; i < before.size(); ++i)
         worst.see(std::abs(after[i] - map.at(projection.band, before[i])));
-      measured.see(with(specimen, map), worst.value());
+      measured.row(with(specimen, map), worst.value());
     }
   }
-  return measured.judged(twice, tolerance_reason);
+  return judged_worst(measured, twice, tolerance_reason);
 }
 
 /// How far outside [eps, tau] the points are that began short of tau [m].
@@ -56,30 +56,30 @@ double outside_band(const PerParticle& before, const PerParticle& after, const D
 }
 
 Finding ends_in_the_band(const Subject&) {
-  Measured measured("distance outside [eps, tau]", "m");
+  Table measured{{"case", ""}, {"distance outside [eps, tau]", "m"}};
   for (const ProjectionCase& specimen : unpinched_cases()) {
     for (const DepthMap& map : depth_maps()) {
       const FoldProjection projection = projection_by(std::string(map.name));
       const ProjectedCloth cloth = projected(specimen, projection);
-      measured.see(with(specimen, map), outside_band(distances(specimen, specimen.x),
+      measured.row(with(specimen, map), outside_band(distances(specimen, specimen.x),
                                                      distances(specimen, cloth.x), projection.band));
     }
   }
-  return measured.judged(twice, tolerance_reason);
+  return judged_worst(measured, twice, tolerance_reason);
 }
 
 Finding no_point_is_left_inside(const Subject&) {
-  Measured measured("points inside", "1");
+  Table measured{{"case", ""}, {"points inside", "1"}};
   for (const ProjectionCase& specimen : unpinched_cases()) {
     for (const DepthMap& map : depth_maps()) {
       FoldProjection projection = projection_by(std::string(map.name));
       projection.band.nearest = 0;
       const ProjectedCloth cloth = projected(specimen, projection);
-      measured.see(with(specimen, map), double((distances(specimen, cloth.x).array() < 0).count()));
+      measured.row(with(specimen, map), double((distances(specimen, cloth.x).array() < 0).count()));
     }
   }
-  return measured.judged(
-      0,
+  return judged_worst(
+      measured, 0,
       "with eps = 0 too: arrived points lie on the outer side of f, so that not even a rounding "
       "leaves one inside");
 }
@@ -92,12 +92,12 @@ Fate expected_fate(const DepthMap& map, const FoldProjection& projection, double
 }
 
 Finding senseless_ones_are_refused(const Subject&) {
-  Measured measured("projections that mean nothing and are not refused", "1");
+  Table measured{{"case", ""}, {"projections that mean nothing and are not refused", "1"}};
   const ProjectionCase specimen = two_balls();
   const auto see = [&](const std::string& name, const std::function<void(FoldProjection&)>& spoil) {
     FoldProjection projection = projection_by("plain");
     spoil(projection);
-    measured.see(name, refusal([&] { projected(specimen, projection); }).empty() ? 1 : 0);
+    measured.row(name, refusal([&] { projected(specimen, projection); }).empty() ? 1 : 0);
   };
   for (const double wrong : {0.0, -1e-9, double(NAN), double(INFINITY)})
     see("tolerance " + std::to_string(wrong), [&](FoldProjection& p) { p.tolerance = wrong; });
@@ -106,28 +106,29 @@ Finding senseless_ones_are_refused(const Subject&) {
   see("tau below eps", [](FoldProjection& p) { p.band.reach = 0.5 * p.band.nearest; });
   see("tau NaN", [](FoldProjection& p) { p.band.reach = NAN; });
   see("no such map", [](FoldProjection& p) { p.map = "flat"; });
-  return measured.judged(0, "a tolerance and a cap above 0, a band and a map are needed");
+  return judged_worst(measured, 0, "a tolerance and a cap above 0, a band and a map are needed");
 }
 
 Finding one_move_is_enough(const Subject&) {
-  Measured measured("points that do not arrive", "1");
+  Table measured{{"case", ""}, {"points that do not arrive", "1"}};
   const ProjectionCase specimen = two_balls();
   for (const DepthMap& map : depth_maps()) {
     FoldProjection projection = projection_by(std::string(map.name));
     projection.max_moves = 1;
     projection.tolerance = 1e-9;
     const ProjectedCloth cloth = projected(specimen, projection);
-    measured.see(with(specimen, map), cloth.count(Fate::unfinished));
-    measured.see(with(specimen, map) + ", questions",
+    measured.row(with(specimen, map), cloth.count(Fate::unfinished));
+    measured.row(with(specimen, map) + ", questions",
                  std::abs(double(cloth.object_queries - cloth.x.cols() - cloth.count(Fate::moved))));
   }
-  return measured.judged(0,
-                         "along the normal of an exact distance the first move arrives, and it is allowed");
+  return judged_worst(measured, 0,
+                      "along the normal of an exact distance the first move arrives, and it is allowed");
 }
 
 Finding fates_are_true(const Subject&) {
-  Measured measured("points with another fate than their distances say, or that are not moved to the end",
-                    "1");
+  Table measured{
+      {"case", ""},
+      {"points with another fate than their distances say, or that are not moved to the end", "1"}};
   for (const ProjectionCase& specimen : unpinched_cases()) {
     for (const DepthMap& map : depth_maps()) {
       const FoldProjection projection = projection_by(std::string(map.name));
@@ -135,11 +136,11 @@ Finding fates_are_true(const Subject&) {
       double wrong = cloth.count(Fate::unfinished);
       for (Eigen::Index i = 0; i < cloth.before.size(); ++i)
         wrong += cloth.fates[size_t(i)] != expected_fate(map, projection, cloth.before[i], cloth.after[i]);
-      measured.see(with(specimen, map), wrong);
+      measured.row(with(specimen, map), wrong);
     }
   }
-  return measured.judged(
-      0, "where there is room every point is moved to the end, and what is told of it is true");
+  return judged_worst(measured, 0,
+                      "where there is room every point is moved to the end, and what is told of it is true");
 }
 
 /// Pairs, neighbours in depth, that changed their order by more than the tolerance.
@@ -153,21 +154,21 @@ double disorder(const PerParticle& before, const PerParticle& after) {
 }
 
 Finding order_of_depths_is_kept(const Subject&) {
-  Measured measured("neighbours in depth out of order", "1");
+  Table measured{{"case", ""}, {"neighbours in depth out of order", "1"}};
   for (const ProjectionCase& specimen : unpinched_cases()) {
     for (const DepthMap& map : depth_maps()) {
       const ProjectedCloth cloth = projected(specimen, projection_by(std::string(map.name)));
-      measured.see(with(specimen, map),
+      measured.row(with(specimen, map),
                    disorder(distances(specimen, specimen.x), distances(specimen, cloth.x)));
     }
   }
-  return measured.judged(0,
-                         "the deeper of two points stays the deeper, or comes to lie as far out, within the "
-                         "tolerance of 1e-12 m");
+  return judged_worst(measured, 0,
+                      "the deeper of two points stays the deeper, or comes to lie as far out, within the "
+                      "tolerance of 1e-12 m");
 }
 
 Finding moves_along_the_normal(const Subject&) {
-  Measured measured("distance off the exact place", "m");
+  Table measured{{"case", ""}, {"distance off the exact place", "m"}};
   for (const ProjectionCase& specimen : solids_with_points()) {
     if (specimen.name != "sphere" && specimen.name != "half space") continue;
     const RigidObject& body = std::get<RigidObject>(specimen.objects[0].body);
@@ -181,13 +182,14 @@ Finding moves_along_the_normal(const Subject&) {
       const double move = depth_map_named("blend").at(projection_by("blend").band, phi) - phi;
       worst.see((q - p - move * (is_ball ? Vector3(p.normalized()) : Vector3(0, 0, 1))).norm());
     }
-    measured.see(specimen.name, worst.value());
+    measured.row(specimen.name, worst.value());
   }
-  return measured.judged(twice, "a point goes straight out by f - phi, nowhere else; " + tolerance_reason);
+  return judged_worst(measured, twice,
+                      "a point goes straight out by f - phi, nowhere else; " + tolerance_reason);
 }
 
 Finding far_points_are_untouched(const Subject&) {
-  Measured measured("numbers changed", "1");
+  Table measured{{"case", ""}, {"numbers changed", "1"}};
   for (const ProjectionCase& specimen : unpinched_cases()) {
     for (const DepthMap& map : depth_maps()) {
       const FoldProjection projection = projection_by(std::string(map.name));
@@ -199,14 +201,15 @@ Finding far_points_are_untouched(const Subject&) {
           changed += numbers_that_differ(cloth.x.col(i), specimen.x.col(i)) +
                      (cloth.fates[size_t(i)] != Fate::untouched);
       }
-      measured.see(with(specimen, map), changed);
+      measured.row(with(specimen, map), changed);
     }
   }
-  return measured.judged(0, "not a bit of a point from tau up may change, and it is reported as untouched");
+  return judged_worst(measured, 0,
+                      "not a bit of a point from tau up may change, and it is reported as untouched");
 }
 
 Finding pinched_points_are_left_alone(const Subject&) {
-  Measured measured("numbers changed", "1");
+  Table measured{{"case", ""}, {"numbers changed", "1"}};
   const ProjectionCase specimen = overlapping_balls();
   for (const DepthMap& map : depth_maps()) {
     const ProjectedCloth cloth = projected(specimen, projection_by(std::string(map.name)));
@@ -219,26 +222,28 @@ Finding pinched_points_are_left_alone(const Subject&) {
       changed += (cloth.fates[size_t(i)] == Fate::pinched) != is_pinched;
       if (is_pinched) changed += numbers_that_differ(cloth.x.col(i), specimen.x.col(i));
     }
-    measured.see(std::string(map.name) + ", " + std::to_string(pinched) + " pinched",
+    measured.row(std::string(map.name) + ", " + std::to_string(pinched) + " pinched",
                  pinched > 0 ? changed : NAN);
   }
-  return measured.judged(
-      0, "not a bit of a point inside both balls may change, and just those are reported as pinched");
+  return judged_worst(
+      measured, 0,
+      "not a bit of a point inside both balls may change, and just those are reported as pinched");
 }
 
 Finding plain_is_idempotent(const Subject&) {
-  Measured measured("numbers changed by the second projection", "1");
+  Table measured{{"case", ""}, {"numbers changed by the second projection", "1"}};
   for (ProjectionCase specimen : unpinched_cases()) {
     const FoldProjection projection = projection_by("plain");
     specimen.x = projected(specimen, projection).x;
     const ProjectedCloth again = projected(specimen, projection);
-    measured.see(specimen.name, numbers_that_differ(again.x, specimen.x));
+    measured.row(specimen.name, numbers_that_differ(again.x, specimen.x));
   }
-  return measured.judged(0, "what lies at eps or beyond is where plain projection wants it: not a bit moves");
+  return judged_worst(measured, 0,
+                      "what lies at eps or beyond is where plain projection wants it: not a bit moves");
 }
 
 Finding projecting_twice_compresses(const Subject&) {
-  Measured measured("room between -t^/2 and 0 after two projections, over that after one", "1");
+  Table measured{{"case", ""}, {"room between -t^/2 and 0 after two projections, over that after one", "1"}};
   ProjectionCase specimen = solids_with_points()[1];
   for (const char* map : {"power", "blend"}) {
     const FoldProjection projection = projection_by(map);
@@ -254,12 +259,11 @@ Finding projecting_twice_compresses(const Subject&) {
       const PerParticle phi = distances(line, line.x);
       here = phi[1] - phi[0];
     }
-    measured.see(map, room[1] / room[0]);
+    measured.row(map, room[1] / room[0]);
   }
-  return measured.judged(
-      0.95,
-      "f(phi) = phi at tau alone, so a second projection presses together what the first one "
-      "left: by a twentieth at least, or the map would hardly move anything");
+  return judged_worst(measured, 0.95,
+                      "f(phi) = phi at tau alone, so a second projection presses together what the first one "
+                      "left: by a twentieth at least, or the map would hardly move anything");
 }
 
 Finding gaps_without_room_are_reported(const Subject&) {

@@ -10,7 +10,6 @@
 #include "verification/oracles/exact_geometry.h"
 #include "verification/seeds.h"
 #include "verification/specimens/differences.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/projection_specimens.h"
 #include "verification/specimens/random.h"
 
@@ -53,7 +52,7 @@ ProjectionCase pinched_cloth(const TriangleMesh& mesh, double ripple) {
 
 Finding pinched_points_would_tear(const Subject&) {
   const TriangleMesh mesh = small_sheet(0.25, 20);
-  Measured measured("stretch when left alone over stretch when projected", "1");
+  Table measured{{"case", ""}, {"stretch when left alone over stretch when projected", "1"}};
   std::vector<double> alone, moved;
   for (const double ripple : {0.001, 0.004}) {
     for (const DepthMap& map : depth_maps()) {
@@ -62,16 +61,16 @@ Finding pinched_points_would_tear(const Subject&) {
       alone.push_back(largest_stretch(mesh, specimen.x, projected(specimen, projection).x));
       projection.pinched = PinchedPoints::projected;
       moved.push_back(largest_stretch(mesh, specimen.x, projected(specimen, projection).x));
-      measured.see(std::string(map.name) + ", ripple " + std::to_string(ripple) + " m",
+      measured.row(std::string(map.name) + ", ripple " + std::to_string(ripple) + " m",
                    alone.back() / moved.back());
     }
   }
-  Finding finding = measured.judged(
-      0.2,
+  Finding finding = judged_worst(
+      measured, 0.2,
       "neighbours on different sides of the middle leave by different balls, each a tenth of a metre away, "
       "where edges are an eightieth: a fifth leaves room for edges that a few particles' fate spares");
-  finding.evidence.push_back({"stretch when left alone", "1", alone});
-  finding.evidence.push_back({"stretch when projected", "1", moved});
+  finding.evidence.add({"stretch when left alone", "1", alone});
+  finding.evidence.add({"stretch when projected", "1", moved});
   return finding;
 }
 
@@ -118,7 +117,7 @@ std::size_t left_inside(const std::vector<Triangle>& triangles, const PerParticl
 Finding serves_the_subdivided_cloth(const Subject&) {
   const TriangleMesh mesh = small_sheet(0.4, 12);
   const PerParticle3 x = sunk(mesh);
-  Measured measured("triangles left inside", "1");
+  Table measured{{"case", ""}, {"triangles left inside", "1"}};
   std::vector<double> before, eps;
   for (const auto& [name, rule] :
        {std::pair{"midpoint", SubdivisionRule::midpoint}, {"loop", SubdivisionRule::loop}}) {
@@ -126,25 +125,25 @@ Finding serves_the_subdivided_cloth(const Subject&) {
       const Subdivision finer = subdivision(mesh, rule, levels);
       const PerParticle3 fine = finer.of(x);
       const BroughtOut out = out_of_the_ball(finer.triangles, fine);
-      measured.see(std::string(name) + ", " + std::to_string(levels) + " levels",
+      measured.row(std::string(name) + ", " + std::to_string(levels) + " levels",
                    double(left_inside(finer.triangles, out.x)));
       before.push_back(double(left_inside(finer.triangles, fine)));
       eps.push_back(out.eps);
     }
   }
   Finding finding =
-      measured.judged(0,
-                      "vertices at L^2/(6 R) or farther from a ball of radius R keep triangles with "
-                      "edges of L clear of it; decided in whole numbers");
-  finding.evidence.push_back({"triangles inside before", "1", before});
-  finding.evidence.push_back({"eps", "m", eps});
+      judged_worst(measured, 0,
+                   "vertices at L^2/(6 R) or farther from a ball of radius R keep triangles with "
+                   "edges of L clear of it; decided in whole numbers");
+  finding.evidence.add({"triangles inside before", "1", before});
+  finding.evidence.add({"eps", "m", eps});
   return finding;
 }
 
 Finding subdividing_afterwards_spoils_it(const Subject&) {
   const TriangleMesh mesh = small_sheet(0.4, 12);
   const PerParticle3 x = sunk(mesh);
-  Measured measured("cloths without a triangle inside", "1");
+  Table measured{{"case", ""}, {"cloths without a triangle inside", "1"}};
   std::vector<double> inside;
   for (const int levels : {1, 2, 3}) {
     const Subdivision finer = subdivision(mesh, SubdivisionRule::loop, levels);
@@ -153,20 +152,20 @@ Finding subdividing_afterwards_spoils_it(const Subject&) {
     projection.band = {eps, eps + 0.03, 0.05};
     const ProjectedCloth coarse = projected({"ball", {ball_at(Vector3::Zero())}, 0, x}, projection);
     inside.push_back(double(left_inside(finer.triangles, finer.of(coarse.x))));
-    measured.see(std::to_string(levels) + " levels after the projection", inside.back() == 0 ? 1 : 0);
+    measured.row(std::to_string(levels) + " levels after the projection", inside.back() == 0 ? 1 : 0);
   }
   Finding finding =
-      measured.judged(0,
-                      "the same eps, but the coarse cloth is projected: smoothing draws its points "
-                      "towards the ball, and new ones lie on edges that cut into it");
-  finding.evidence.push_back({"triangles left inside", "1", inside});
+      judged_worst(measured, 0,
+                   "the same eps, but the coarse cloth is projected: smoothing draws its points "
+                   "towards the ball, and new ones lie on edges that cut into it");
+  finding.evidence.add({"triangles left inside", "1", inside});
   return finding;
 }
 
 /// |x fine - x| at the old particles and on the line between the ends of each edge, over epsilon and the
 /// extent.
 Finding midpoints_keep_the_surface(const Subject&) {
-  Measured measured = roundings_of("extent");
+  Table measured = roundings_of("extent");
   for (const int levels : {1, 3}) {
     const TriangleMesh mesh = small_sheet(0.4, 7);
     const PerParticle3 x = sunk(mesh);
@@ -177,16 +176,15 @@ Finding midpoints_keep_the_surface(const Subject&) {
     const double area = triangle_areas(mesh.triangles, x).sum(),
                  same = triangle_areas(finer.triangles, fine).sum();
     worst.see(std::abs(same - area) / (epsilon * area * 4));
-    measured.see(std::to_string(levels) + " levels", worst.value());
+    measured.row(std::to_string(levels) + " levels", worst.value());
   }
-  return measured.judged(
-      16,
-      "halves of sums are rounded once a level; the area adds some thousands of terms whose "
-      "roundings mostly cancel");
+  return judged_worst(measured, 16,
+                      "halves of sums are rounded once a level; the area adds some thousands of terms whose "
+                      "roundings mostly cancel");
 }
 
 Finding loop_is_affine(const Subject&) {
-  Measured measured = roundings_of("extent");
+  Table measured = roundings_of("extent");
   const TriangleMesh mesh = make_icosphere(0.23, 1);
   Random random(83);
   Eigen::Matrix3d A = Eigen::Matrix3d::Identity() + random.vectors(3, 0.7);
@@ -194,16 +192,16 @@ Finding loop_is_affine(const Subject&) {
   const Subdivision finer = subdivision(mesh, SubdivisionRule::loop, 2);
   const PerParticle3 after = (A * finer.of(mesh.rest)).colwise() + b;
   const PerParticle3 before = finer.of((A * mesh.rest).colwise() + b);
-  measured.see("turned, sheared and moved", largest_difference(after, before) / (epsilon * extent(before)));
+  measured.row("turned, sheared and moved", largest_difference(after, before) / (epsilon * extent(before)));
   // Loop (1987): an inner point of degree 6 keeps 10/16; of degree 5, the icosahedron's corners, 1 - 5 *
   // .084093
   const Subdivision once = subdivision(mesh, SubdivisionRule::loop, 1);
   const double expected5 =
       1 - (5.0 / 8 - std::pow(3.0 / 8 + std::cos(2 * 3.14159265358979323846 / 5) / 4, 2));
-  measured.see("weight of a point of degree 5", std::abs(once.weights.coeff(0, 0) - expected5) / epsilon);
-  measured.see("weight of a point of degree 6", std::abs(once.weights.coeff(20, 20) - 10.0 / 16) / epsilon);
-  return measured.judged(
-      32,
+  measured.row("weight of a point of degree 5", std::abs(once.weights.coeff(0, 0) - expected5) / epsilon);
+  measured.row("weight of a point of degree 6", std::abs(once.weights.coeff(20, 20) - 10.0 / 16) / epsilon);
+  return judged_worst(
+      measured, 32,
       "weights of a row sum to 1, so that subdividing and moving commute to the roundings of some "
       "twenty terms");
 }

@@ -8,7 +8,7 @@
 #include "verification/checks/post/projection_checks.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/seeds.h"
-#include "verification/specimens/measured.h"
+#include "verification/evidence.h"
 #include "verification/specimens/projection_specimens.h"
 
 namespace foldproof {
@@ -86,14 +86,14 @@ PerParticle3 brought_out(const Target& target, const Sunk& sunk, const std::stri
 
 /// What is counted of each sheet, over targets, maps and depths.
 template <class Count>
-Measured over_sheets(bool has_room, const std::string& counted, const Count& count) {
-  Measured measured(counted, "1");
+Table over_sheets(bool has_room, const std::string& counted, const Count& count) {
+  Table measured{{"case", ""}, {counted, "1"}};
   unsigned seed = 61;
   for (const Target& target : targets()) {
     for (const DepthMap& map : depth_maps()) {
       const Sunk sunk = sunk_sheet(target.top - 0.05, ++seed);
       const PerParticle3 x = brought_out(target, sunk, std::string(map.name), has_room);
-      measured.see(target.name + ", " + std::string(map.name), count(target, sunk, x));
+      measured.row(target.name + ", " + std::string(map.name), count(target, sunk, x));
     }
   }
   return measured;
@@ -104,23 +104,20 @@ Finding no_triangle_is_left_inside(const Subject&) {
     const bool began_inside = target.inside(soup_of(sunk.mesh, sunk.x)) > 0;
     return began_inside ? double(target.inside(soup_of(sunk.mesh, x))) : NAN;
   };
-  Finding finding =
-      over_sheets(true, "triangles left inside", inside)
-          .judged(0,
-                  "vertices eps from a ball of radius R keep edges of length L clear of it from eps = "
-                  "L^2/(6 R) on; whatever the body, no point of a triangle is farther than L/sqrt(3) "
-                  "from all its corners, and phi falls by no more than the way");
-  finding.note =
-      "Whole-number arithmetic on the cloth's and the body's coordinates; no distance field is asked.";
-  return finding;
+  return judged_worst(
+      over_sheets(true, "triangles left inside", inside), 0,
+      "vertices eps from a ball of radius R keep edges of length L clear of it from eps = L^2/(6 R) on; "
+      "whatever the body, no point of a triangle is farther than L/sqrt(3) from all its corners, and phi "
+      "falls by no more than the way",
+      "Whole-number arithmetic on the cloth's and the body's coordinates; no distance field is asked.");
 }
 
 Finding no_eps_is_too_little(const Subject&) {
   const auto is_clear = [](const Target& target, const Sunk& sunk, const PerParticle3& x) {
     return target.inside(soup_of(sunk.mesh, x)) == 0 ? 1.0 : 0.0;
   };
-  return over_sheets(false, "sheets without a triangle inside", is_clear)
-      .judged(0, "with eps = 0 edges between points of a convex surface run below it");
+  return judged_worst(over_sheets(false, "sheets without a triangle inside", is_clear), 0,
+                      "with eps = 0 edges between points of a convex surface run below it");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "verification/checks/post/projection_checks.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/seeds.h"
-#include "verification/specimens/measured.h"
+#include "verification/evidence.h"
 #include "verification/specimens/projection_specimens.h"
 #include "verification/specimens/specimens.h"
 
@@ -73,24 +73,24 @@ double count_inside(const PerParticle3& x) {
 }
 
 Finding no_particle_is_left_inside(const Subject&) {
-  Measured measured("particles left inside", "1");
+  Table measured{{"case", ""}, {"particles left inside", "1"}};
   std::vector<double> before, without_room;
   for (const KnownStatue& statue : statues()) {
     const Worn worn = sheet_through(statue);
     for (const char* map : {"plain", "blend"}) {
       const ProjectedCloth cloth = out_of(worn, map, statue.margin);
-      measured.see(statue.name + ", " + map, count_inside(cloth.x));
+      measured.row(statue.name + ", " + map, count_inside(cloth.x));
       before.push_back(count_inside(worn.specimen.x));
       without_room.push_back(cloth.count(Fate::unfinished));
     }
   }
   Finding finding =
-      measured.judged(0,
-                      "decided in whole numbers against the mesh: eps is a nanometre over exact distances, "
-                      "and a cell of the grid, "
-                      "by which a trilinear value next to an edge of the body may be too large");
-  finding.evidence.push_back({"particles inside before", "1", before});
-  finding.evidence.push_back({"particles without room", "1", without_room});
+      judged_worst(measured, 0,
+                   "decided in whole numbers against the mesh: eps is a nanometre over exact distances, "
+                   "and a cell of the grid, "
+                   "by which a trilinear value next to an edge of the body may be too large");
+  finding.evidence.add({"particles inside before", "1", before});
+  finding.evidence.add({"particles without room", "1", without_room});
   return finding;
 }
 
@@ -101,7 +101,7 @@ double longest_edge(const TriangleMesh& mesh, const PerParticle3& x) {
 }
 
 Finding no_triangle_is_left_inside(const Subject&) {
-  Measured measured("triangles left inside", "1");
+  Table measured{{"case", ""}, {"triangles left inside", "1"}};
   std::vector<double> eps, without_room;
   const oracles::TriangleSoup surface = statue_surface();
   for (const KnownStatue& statue : statues()) {
@@ -114,17 +114,17 @@ Finding no_triangle_is_left_inside(const Subject&) {
       enough = 1.02 * needed;
       cloth = out_of(worn, "plain", enough);
     }
-    measured.see(statue.name,
+    measured.row(statue.name,
                  double(oracles::triangles_in_body({cloth.x, worn.mesh.triangles}, surface).size()));
     eps.push_back(enough);
     without_room.push_back(cloth.count(Fate::unfinished));
   }
   Finding finding =
-      measured.judged(0,
-                      "no point of a triangle is farther than L/sqrt(3) from all its corners, and phi "
-                      "falls by no more than the way");
-  finding.evidence.push_back({"eps", "m", eps});
-  finding.evidence.push_back({"particles without room", "1", without_room});
+      judged_worst(measured, 0,
+                   "no point of a triangle is farther than L/sqrt(3) from all its corners, and phi "
+                   "falls by no more than the way");
+  finding.evidence.add({"eps", "m", eps});
+  finding.evidence.add({"particles without room", "1", without_room});
   return finding;
 }
 

@@ -13,7 +13,6 @@
 #include "reference/mesh/shapes.h"
 #include "verification/checks/scene/scene_checks.h"
 #include "verification/evidence.h"
-#include "verification/specimens/measured.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/trial_cases.h"
@@ -67,15 +66,15 @@ Finding octree_finding(const Subject&) {
   };
   const PerParticle3 x = make_icosphere(radius, 3).rest;
   const double longest = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
-  Measured measured("miss in tolerances, or a hundred roundings off what was written", "1");
-  measured.see("finest cells", std::abs(cell(coarse) * 23 / longest - 1) / (100 * epsilon));
-  measured.see("finest cells, other number", std::abs(cell(given) * 41 / longest - 1) / (100 * epsilon));
-  measured.see("a tenth of a cell",
+  Table measured{{"case", ""}, {"miss in tolerances, or a hundred roundings off what was written", "1"}};
+  measured.row("finest cells", std::abs(cell(coarse) * 23 / longest - 1) / (100 * epsilon));
+  measured.row("finest cells, other number", std::abs(cell(given) * 41 / longest - 1) / (100 * epsilon));
+  measured.row("a tenth of a cell",
                std::abs(coarse.settings.tolerance / (0.1 * cell(coarse)) - 1) / (100 * epsilon));
-  measured.see("tolerance as written", given.settings.tolerance == 5e-4 ? 0 : INFINITY);
-  measured.see("distances", octree_miss(coarse));
-  measured.see("distances, tolerance as written", octree_miss(given));
-  return measured.judged(2, "an octree keeps its tolerance, to which hanging nodes add another");
+  measured.row("tolerance as written", given.settings.tolerance == 5e-4 ? 0 : INFINITY);
+  measured.row("distances", octree_miss(coarse));
+  measured.row("distances, tolerance as written", octree_miss(given));
+  return judged_worst(measured, 2, "an octree keeps its tolerance, to which hanging nodes add another");
 }
 
 /// Where the point X of the body goes, by another road than the reference takes: about the
@@ -196,7 +195,7 @@ Finding frames_finding(const Subject&) {
 /// The drawn surface lies on the level sets that the cloth meets, at frames and between.
 Finding surface_finding(const Subject&) {
   const ScratchFolder folder;
-  Measured measured("largest distance of the drawn surface from the level set", "tolerances");
+  Table measured{{"case", ""}, {"largest distance of the drawn surface from the level set", "tolerances"}};
   for (const std::string kind : {"bend", "twist", "breathe"}) {
     const Scene scene =
         read_case_in(folder, ball_body(folder, place + "cells = 16\ninterval = 0.02\n" +
@@ -209,13 +208,13 @@ Finding surface_finding(const Subject&) {
       for (Eigen::Index i = 0; i < x.cols(); ++i)
         worst.see(std::abs(body.at(x.col(i), {t, t, 0}).phi) / tolerance);
     }
-    measured.see(kind, worst.value());
+    measured.row(kind, worst.value());
   }
-  return measured.judged(2,
-                         "octrees miss by their tolerance, to which hanging nodes add another; carried "
-                         "along, phi between frames errs "
-                         "by the square of the turn in a frame, 0.02 rad, of a displacement of 5 mm: 1e-6 m, "
-                         "a thousandth of it");
+  return judged_worst(measured, 2,
+                      "octrees miss by their tolerance, to which hanging nodes add another; carried "
+                      "along, phi between frames errs "
+                      "by the square of the turn in a frame, 0.02 rad, of a displacement of 5 mm: 1e-6 m, "
+                      "a thousandth of it");
 }
 
 /// A folder of one file more than there may be frames, whose name is returned.

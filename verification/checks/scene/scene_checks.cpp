@@ -106,7 +106,7 @@ Finding overrides_finding(const Subject&) {
                                picked.led[1].particle == 5 && picked.led[2].particle == 7);
   is("it is written into the case's text",
      with({"stretch.stiffness=53.25"}).text.find("--set stretch.stiffness=53.25") != std::string::npos);
-  is("an unknown key is refused", refused("stretch.stifness=53", "--set: unknown key 'stifness'"));
+  is("an unknown key is refused", refused("stretch.stifness=53", "--set stretch.stifness=53: unknown key 'stifness'"));
   is("a wrong value is refused", refused("stretch.stiffness=-3", "--set"));
   is("a missing '=' is refused", refused("stretch.stiffness", "table.key=value"));
   is("a path through a value is refused", refused("stretch.stiffness.x=3", "'stiffness' is not a table"));

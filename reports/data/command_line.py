@@ -1,0 +1,38 @@
+"""What a script of this folder needs, and how it refuses what was typed: in one line, with exit code 2."""
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import shutil
+import sys
+from typing import NoReturn
+
+# Debian's package of each module that is imported, and of each program that is started.
+MODULES = {"h5py": "python3-h5py", "numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "jinja2": "python3-jinja2",
+           "PIL": "python3-pil"}
+
+
+class OneLineParser(argparse.ArgumentParser):
+    """A parser whose errors fit a line."""
+
+    def error(self, message: str) -> NoReturn:
+        refuse(self.prog.removesuffix(".py"), message.removeprefix("argument "))
+
+
+def refuse(script: str, why: str) -> NoReturn:
+    """Ends the program."""
+    print(f"{script}: {why}", file=sys.stderr)
+    sys.exit(2)
+
+
+def require_modules(script: str, *modules: str) -> None:
+    """Ends the program if one of the modules is not installed, and names the packages."""
+    missing = [MODULES[module] for module in modules if importlib.util.find_spec(module) is None]
+    if missing:
+        refuse(script, f"Python packages are missing; install them with: apt install {' '.join(missing)}")
+
+
+def require_program(script: str, program: str) -> None:
+    """Ends the program if `program`, which a Debian package of the same name holds, is not installed."""
+    if shutil.which(program) is None:
+        refuse(script, f"{program} is missing; install it with: apt install {program}")

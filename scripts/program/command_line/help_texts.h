@@ -1,0 +1,245 @@
+// What `--help` shows below the options: notes, examples that can be typed as they stand, exit codes.
+#pragma once
+
+namespace foldproof::help {
+
+constexpr const char* whole_program =
+    R"(Examples:
+  foldproof verify                                     the quick tier, and results/report.html
+  foldproof simulate hanging_sheet                     one case, into results/
+  foldproof check bending                              all checks of bending
+  foldproof list                                       names of checks, studies and cases
+`foldproof COMMAND --help` explains a command, with examples.
+
+Exit codes:
+  0    everything holds
+  1    something fails
+  2    bad input, or a file that cannot be read or written
+  130  ended by Ctrl-C (143: by SIGTERM))";
+
+constexpr const char* list =
+    R"(Examples:
+  foldproof list
+  foldproof list --json                                with claims and findings of cases
+
+Exit codes:
+  0    shown
+  2    bad input)";
+
+constexpr const char* claims =
+    R"(Examples:
+  foldproof claims                                     all claims and their rulings
+  foldproof claims B10                                 one of them: why, and what decides it
+
+Exit codes:
+  0    shown, whatever the rulings
+  2    bad input; there is no finished run, or no such claim)";
+
+constexpr const char* report =
+    R"(Needs the Debian packages python3-h5py, python3-matplotlib and python3-jinja2; --pdf also chromium.
+
+Examples:
+  foldproof report results --papers
+  foldproof report results mine                        what differs: mine/compare.html
+
+Exit codes:
+  0    written; its path is printed
+  2    there is nothing to report on, it cannot be read, or a package is missing)";
+
+constexpr const char* film =
+    R"(Needs the Debian packages ffmpeg, python3-h5py, python3-matplotlib and python3-pil.
+
+Examples:
+  foldproof film results/grab.h5
+  foldproof film results/grab.h5 --field strain --size 640x360 --out strain.mp4
+
+Exit codes:
+  0    written; the paths are printed
+  2    bad input, or a package is missing)";
+
+constexpr const char* export_frames =
+    R"(Lengths are in metres, in world coordinates; each object has files of its own.
+Needs the Debian packages python3-h5py and python3-numpy.
+
+Examples:
+  foldproof export results/grab.h5 --format ply --out frames
+  foldproof export results/grab.h5 --format xdmf --out paraview
+
+Exit codes:
+  0    written
+  2    bad input, or a package is missing)";
+
+constexpr const char* inspect =
+    R"(Examples:
+  foldproof inspect cases/statue.obj
+  foldproof inspect cases/limb.obj --cells 100 --json
+
+Exit codes:
+  0    it is a solid, and rays agree on what is inside
+  1    it is no solid, or rays do not agree
+  2    bad input)";
+
+constexpr const char* crossings =
+    R"(Examples:
+  foldproof crossings results/fast.h5
+  foldproof crossings cases/skirt.obj cases/robe.obj
+
+Exit codes:
+  0    nothing crosses
+  1    in some frame an edge crosses a triangle
+  2    bad input)";
+
+constexpr const char* golden =
+    R"(Prints a heading, then rows of numbers in 17 digits; vectors are three columns, NAME_x, NAME_y,
+NAME_z. With --json also what each column is, its unit, and the formula. All outputs were computed
+with 50 digits and rounded once. verification/GOLDEN.md has examples in Python and C++.
+
+Examples:
+  foldproof golden friction --count 100
+  foldproof golden bending --count 5 --seed 3 --json
+
+Exit codes:
+  0    printed
+  2    bad input)";
+
+constexpr const char* evaluate =
+    R"(Examples:
+  foldproof evaluate bending cases/hinges.csv
+  foldproof evaluate crossings --help                  the format of a file of queries
+
+Exit codes:
+  0    evaluated, and nothing disagrees
+  1    crossings: something disagrees with the file
+  2    bad input)";
+
+constexpr const char* evaluate_bending =
+    R"(Prints the bending forces of single hinges, to compare another code with. Each row of FILE has 27
+comma-separated numbers: x1 x2 x3 x4 (12 position components [m]), v1 v2 v3 v4 (12 velocity
+components [m/s]), ke [J], kd [N s], theta0 [rad]. Output: 12 elastic and 12 damping force
+components [N] in 17 digits. The weight |E|^2/(|N1|+|N2|) is taken at the current positions, or,
+with --rest, at the rest positions: rows of 12 numbers.
+
+Examples:
+  foldproof evaluate bending cases/hinges.csv
+
+Exit codes:
+  0    printed
+  2    bad input; the line is named)";
+
+constexpr const char* evaluate_crossings =
+    R"(A row of FILE is a point: numerator and denominator of x, y and z, and 1 if the query meets, else 0,
+all whole numbers. Eight rows are a query: four points at the start of a motion in straight lines,
+the same four at its end. vertex-face: the vertex, then the triangle's corners. edge-edge: the ends
+of the first edge, then of the second.
+
+Examples:
+  foldproof evaluate crossings queries.csv --kind vertex-face
+  foldproof evaluate crossings queries/edge-edge --keep 1e-5
+
+Exit codes:
+  0    the reference misses no meeting, and the exact judge agrees with the file
+  1    it misses one, or the exact judge does not agree
+  2    bad input; the line is named)";
+
+constexpr const char* simulate =
+    R"(A checkpoint is written at every frame and removed at the end. An interrupted run says how to resume
+it; the same command without --resume or --restart then stops and deletes nothing.
+
+Examples:
+  foldproof simulate hanging_sheet --set bending.stiffness=1e-3 --out mine
+  foldproof simulate any_mesh --set cloth.mesh=cases/skirt.obj --out mine
+
+Exit codes:
+  0    it came to its end, and what the case expects holds
+  1    an expectation does not hold, or it stopped early and says why
+  2    bad input, checkpoints of an interrupted run, or a file that cannot be written
+  130  interrupted by Ctrl-C (143: by SIGTERM))";
+
+constexpr const char* verify =
+    R"(Examples:
+  foldproof verify
+  foldproof verify --tier full --out full              hours
+
+Exit codes:
+  0    everything holds, and every claim is ruled as recorded
+  1    something fails or is inconclusive
+  2    bad input, or a file that cannot be written)";
+
+constexpr const char* bench =
+    R"(Examples:
+  foldproof bench --quick
+
+Exit codes:
+  0    measured, whatever the numbers
+  2    bad input, or a file that cannot be written)";
+
+constexpr const char* ablate =
+    R"(Runs the case as it is, with half the step, and with triangles of half the size: by how much that
+moves its particles is its own error. Then once without each part that it names, and once with each
+that it does not name and that needs no numbers from its author: self-collision, strain limits,
+points between particles. A part is needed, or missing, if without it particles move by more than
+the scene's own error, the run comes to no end, an expectation of the case fails or has no meaning,
+the cloth crosses itself, or lies deeper in an object by more than that error. The table [ablation]
+of a case file may say why a part is there, or left out, all the same; name a coarser mesh instead
+of a finer one that would take hours; and ask of the beginning of a long run only.
+
+Examples:
+  foldproof ablate hinge
+  foldproof ablate grab --set time.end=0.2 --out mine
+
+Exit codes:
+  0    every part is needed, none is missing
+  1    a part (marked !) is not needed or missing, and the case does not say why, or says so
+       needlessly; or the scene itself comes to no end, or fails what it expects
+  2    bad input, or a file that cannot be written)";
+
+constexpr const char* converge =
+    R"(Runs the case as it is, then with every step halved, and halved again. For each quantity: the order
+by which differences between levels fall, Richardson's limit, and the grid convergence index as
+error bar (safety 1.25 where the order has settled, else 3). Quantities are those of the case's
+[[quantity]] tables; without any: positions, energies, heights, and what its [expect] asks.
+
+Examples:
+  foldproof converge hinge --until 0.2
+  foldproof converge hanging_sheet --levels 3 --method BDF2 --out mine
+
+Exit codes:
+  0    the positions have an order, or an error bar all the same
+  1    the order of the positions is inconclusive
+  2    bad input, or a file that cannot be written)";
+
+constexpr const char* project =
+    R"(Prints how many points were moved, and of the last frame how much of the wrinkles is left: the
+standard deviation of the depths of points that were inside, and where the spectrum of the depth
+along a section of the cloth is largest, before, after plain projection, and after the map. Points
+between two objects are left alone. Points end at most tau/10^6 farther out than the map says.
+
+Examples:
+  foldproof project results/half_inside.h5 --map blend --tau 0.01
+
+Exit codes:
+  0    all points are out
+  1    some points found no room between objects
+  2    bad input, or a file that cannot be written)";
+
+constexpr const char* check =
+    R"(Examples:
+  foldproof check bending                              all checks of bending
+  foldproof check case.hinge --json                    what is expected of a shipped case
+
+Exit codes:
+  0    everything holds
+  1    something fails or is inconclusive
+  2    bad input; a name that chooses nothing)";
+
+constexpr const char* study =
+    R"(Examples:
+  foldproof study time-order.hinge
+  foldproof study work-precision --tier full --out mine
+
+Exit codes:
+  0    everything holds
+  1    something fails or is inconclusive
+  2    bad input; a name that chooses nothing)";
+
+}  // namespace foldproof::help
