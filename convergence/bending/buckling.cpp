@@ -142,7 +142,7 @@ NamedFinding load_finding(const Rigidities& found) {
   outside.see(over);
   outside.see(under);
   return {
-      "buckling.load-is-eulers",
+      "buckling.load-matches-euler",
       "A strip of equilateral triangles between clamps buckles at Euler's load 4 pi^2 D/L^2, its rigidity D "
       "between 2/9 ke (free edges) and 1/4 ke (bent to a cylinder).",
       {{outside.value(), discrete, 0, "ke",
@@ -185,7 +185,7 @@ Growth growth_beyond(const Subject& subject, const Strip& strip) {
 
 NamedFinding growth_finding(const Growth& growth) {
   return {
-      "buckling.grows-at-its-rate",
+      "buckling.grows-at-the-linearised-rate",
       "Beyond the critical load a disturbance grows as exp(sigma t), -sigma^2 the negative eigenvalue of the "
       "linearised forces.",
       {{std::abs(growth.measured / growth.expected - 1), 0.01, 0, "1",

@@ -112,7 +112,7 @@ NamedFinding as_the_oracle(const std::vector<Row>& rows) {
   }
   const Verdict verdict{worst.value(), gentle_bound, 0, "1",
                         "the surfaces' slopes change angles by their square, relatively"};
-  return {"bending-rigidity.irregular.is-the-homogenised",
+  return {"bending-rigidity.irregular.matches-homogenisation",
           "On jittered and random meshes too, the energy is what the hinges' definition gives, with all "
           "vertices on the surface and with those inside settled.",
           {verdict,
@@ -137,7 +137,7 @@ NamedFinding excess_stays(const Row& row) {
       excess > 0 ? change / excess : nan, 0.5, uncertainty / excess, "1",
       "an excess that vanished in proportion to the width would change by its own size when "
       "the cells are halved; half of that tells the two apart"};
-  return {"bending-rigidity.irregular.keeps-its-excess." + row.disorder.name,
+  return {"bending-rigidity.irregular.excess-persists-under-refinement." + row.disorder.name,
           "The excess of D over that of equilateral triangles stays when the cells are halved: " +
               row.disorder.words + ".",
           {verdict,

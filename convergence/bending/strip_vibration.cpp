@@ -99,7 +99,7 @@ NamedFinding is_the_beam(const Eigen::Vector2d& finest) {
                         "a rigidity off by a fiftieth would show; the least difference between meshes of the "
                         "table of rigidities is larger"};
   return {
-      "strip-vibration.is-the-beam",
+      "strip-vibration.matches-the-beam",
       "At the finest mesh the first two frequencies of a clamped strip are the beam's within one percent.",
       {verdict, {{"omega", "rad/s", measured}, {"clamped-free beam", "rad/s", exact}}, ""}};
 }
@@ -193,7 +193,7 @@ NamedFinding steps_keep_the_frequency(const Subject& subject) {
                         "the strip's slopes are about 1e-4 of 1 and turn what is linear to their square; "
                         "forces by differences are good to 1e-6"};
   return {
-      "strip-vibration.steps-keep-the-frequency",
+      "strip-vibration.schemes-preserve-the-frequency",
       "A free, undamped strip released in its first or second mode of the linear stiffness oscillates "
       "with that mode's frequency, lowered or raised only as the scheme's exact solution says.",
       {verdict,

@@ -60,7 +60,7 @@ NamedFinding as_derived(const VibratingSheet& sheet, const Response& response) {
       see(sheet.modes[i], {}, response.steps[s], response.free[s][i]);
     see(sheet.modes[i], response.relaxation, response.steps[1], response.damped[i]);
   }
-  return {"artificial-damping.modes." + name,
+  return {"artificial-damping.mode-factors-are-as-derived." + name,
           "A step of " + name +
               " multiplies each vibration of a sheet, damped or not, by the factors derived from the method.",
           {{worst.value(), factor_noise, 0, "1", why_factor_noise}, {omega_h, ratios, measured, errors}, ""}};
@@ -95,7 +95,7 @@ NamedFinding order_of_loss(const VibratingSheet& sheet, const Response& response
   const Estimate deviation = order_deviation(losses, law.order, 1);
   std::vector<double> orders = pair_orders(losses);
   orders.insert(orders.begin(), nan);
-  return {"artificial-damping.order." + law.name,
+  return {"artificial-damping.change-per-period-is-as-derived." + law.name,
           "Under " + law.name + " undamped vibrations " + law.words + ".",
           {{deviation.value, 0.25, deviation.uncertainty, "1",
             "a loss of another power of the step is off by 2 (by 1 at least); at omega h = 1/8 the next term "

@@ -128,7 +128,7 @@ NamedFinding reach_finding(const Sampling& sampling) {
 NamedFinding angle_finding(const Sampling& sampling) {
   const double first = sampling.errors.front().worst_angle, last = sampling.errors.back().worst_angle;
   return {
-      "sharp-edges.largest-angle-stays." + sampling.name,
+      "sharp-edges.normal-error-persists-under-refinement." + sampling.name,
       "On " + sampling.words + " refinement narrows the strip of blended normals, but not their error.",
       {{std::abs(last / first - 1), 0.2, 0, "1",
         "next to an edge the samples of every spacing are alike but for where the edge lies among them, of "
@@ -140,7 +140,7 @@ NamedFinding angle_finding(const Sampling& sampling) {
 NamedFinding phi_finding(const Sampling& sampling) {
   const Estimate deviation =
       order_deviation({column(sampling, &EdgeErrors::h), column(sampling, &EdgeErrors::worst_phi), 0}, 1, 2);
-  return {"sharp-edges.phi-is-of-first-order." + sampling.name,
+  return {"sharp-edges.phi-is-first-order." + sampling.name,
           "On " + sampling.words + " the surface misses an edge by a part of a cell.",
           {{deviation.value, 0.2, deviation.uncertainty, "1",
             "a kink of phi is cut off over a cell: order 1; the largest of 6000 random places is known to a "

@@ -69,7 +69,7 @@ NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& s
     worst.see(range.over_least.value() * room);
   }
   return {
-      "hard-limits.step-jump." + scheme,
+      "hard-limits.energy-is-bounded-across-a-step-jump." + scheme,
       "When the step jumps by 1 : 100 to s (2/omega), s = 0.9, the energy of scheme " + scheme +
           " stays within [1 - s^2, 1/(1 - s^2)] of what it was.",
       {{worst.value(), 1.01, 0, "1",

@@ -132,7 +132,7 @@ NamedFinding bar_finding(const Pulled& run) {
   const double wave = length / std::sqrt(weak / density);       // s
   const double growth = most * locking * 2 * M_PI * frequency;  // of the load, at most [N/m/s]
   const double lag = (wave + damping_time) * growth / (2 * weak) / limit;
-  return {"biphasic.extension-is-the-bars",
+  return {"biphasic.extension-matches-a-biphasic-bar",
           "A strip of weak springs with a limit of +10 % is extended by its load as a bar whose strain grows "
           "with the load to "
           "10 % and no further.",
@@ -161,7 +161,7 @@ NamedFinding one_phase_finding(const std::vector<Pulled>& runs) {
   for (const Pulled& run : runs)
     if (!run.springs.is_limited) measured.row(run.springs.name, std::abs(late_over_early(run) - 1));
   return {
-      "biphasic.springs-alone-have-one-phase",
+      "biphasic.springs-without-limits-have-one-phase",
       "Without limits a strip gives way to the last as it did at first, weak or stiff springs.",
       judged_worst(
           measured, 0.25,
@@ -171,7 +171,7 @@ NamedFinding one_phase_finding(const std::vector<Pulled>& runs) {
 
 NamedFinding steps_finding(const Pulled& limited, const Pulled& stiff) {
   const double ratio = stiff.steps / limited.steps;
-  return {"biphasic.steps-are-larger",
+  return {"biphasic.limits-allow-larger-steps",
           "Springs that need no limit to stay within 10 % under the largest load are four times as stiff, "
           "and take twice as many "
           "steps.",

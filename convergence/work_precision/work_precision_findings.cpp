@@ -13,7 +13,7 @@ NamedFinding reference_is_known(const PrecisionScene& scene) {
   const Verdict verdict{scene.truth.uncertainty, wanted_errors.back() / 10, 0, "1",
                         "a tenth of the smallest error that a price is read off at, so that it shifts no "
                         "price by more than a tenth of a run's error"};
-  return {"work-precision.reference-is-known." + scene.problem.name,
+  return {"work-precision.reference-is-accurate." + scene.problem.name,
           "Two opinions on where " + scene.problem.thing + " ends agree to a ten-thousandth of its motion.",
           {verdict,
            {{"largest motion", "m", std::vector<double>{scene.truth.motion}},
@@ -63,7 +63,7 @@ NamedFinding errors_fall(const PrecisionScene& scene) {
       "an error of first order is halved with the step, one that does not fall stays 1; the "
       "bound is half an order, midway between the two in the logarithm"};
   return {
-      "work-precision.errors-fall." + scene.problem.name,
+      "work-precision.errors-decrease." + scene.problem.name,
       "On " + scene.problem.thing + ", errors fall with the step at the end of every method's range.",
       {verdict,
        {{"method", "1", methods},
@@ -145,7 +145,7 @@ NamedFinding within_the_limit(const PrecisionScene& scene) {
     worst.see(steps.back() / scene.truth.elastic_2_over);
   }
   return {
-      "work-precision.steps-within-the-limit." + scene.problem.name,
+      "work-precision.steps-stay-within-the-limit." + scene.problem.name,
       "On " + scene.problem.thing +
           ", the largest step with which B reaches a wanted error is at most 2/omega, as nearly as a step is "
           "known.",

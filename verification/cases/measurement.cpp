@@ -249,7 +249,7 @@ std::vector<Measurement> usual_measurements(const Scene& scene, const std::vecto
   if (scene.gravity)
     for (const char* what : {"height", "lowest"}) usual.push_back({what, what});
   for (const std::string& key : expected)
-    if (key != "runs_to_its_end" && key != "repeats_itself" && key != "takes_steps" && key != "solves_finish")
+    if (key != "runs_to_its_end" && key != "is_reproducible" && key != "takes_steps" && key != "solves_converge")
       usual.push_back({key, key});
   return usual;
 }

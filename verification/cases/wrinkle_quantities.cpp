@@ -89,11 +89,11 @@ double wavelength_at_end(const RunSeen& run) {
 
 std::vector<Quantity> wrinkle_quantities() {
   return {
-      {"creases", "1",
+      {"forms_creases", "1",
        "At the end there are so many creases: lines of three hinges or more, each turned by over 20 degrees "
        "to the same side.",
        Sense::at_least, nullptr, creases_at_end, without_bending},
-      {"wrinkle_wavelength", "m",
+      {"wrinkles_stay_short", "m",
        "At the end wrinkles are at most this long: twice the mean straight distance, in the rest shape, from "
        "a "
        "hinge in a crease to the nearest in one of the other side.",

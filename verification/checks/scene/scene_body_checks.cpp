@@ -173,7 +173,7 @@ Finding frames_finding(const Subject&) {
   const std::string body = "[[object]]\nframes = \"" + written_frames(folder) +
                            "\"\ninterval = 0.07\nfit = 0.5\ncells = 12\nmove = [0.2, -0.1, 0.3]\n";
   const Scene carried = read_case_in(folder, body),
-              blended = read_case_in(folder, body + "between = \"blended\"\n");
+              blended = read_case_in(folder, body + "interpolation = \"blended\"\n");
   const PerParticle3 x = make_icosphere(radius, 2).rest;
   const double scale = 0.5 / (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
   const PerParticle3 first = (scale * x).colwise() + Vector3(0.2, -0.1, 0.3),
@@ -238,7 +238,7 @@ std::vector<Refused> refusals(const ScratchFolder& folder) {
       {sphere + twist, {"needs a mesh", "statue"}},
       {body("interval = 0.2\nvelocity = [0, 0, 1]\n" + twist), {"unknown key 'velocity'"}},
       {body("field = \"grid\"\n" + twist), {"unknown field 'grid'", "octree"}},
-      {body("between = \"morphed\"\n" + twist), {"unknown between 'morphed'", "carried"}},
+      {body("interpolation = \"morphed\"\n" + twist), {"unknown interpolation 'morphed'", "carried"}},
       {body("interval = 1e-5\n" + twist), {"more than 1000 level sets", "interval"}},
       {body("interval = 0\n" + twist), {"'interval' must be > 0"}},
       {body("[[object.deform]]\nkind = \"melt\"\n"), {"unknown kind 'melt'", "breathe"}},
