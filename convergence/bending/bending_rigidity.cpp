@@ -2,7 +2,6 @@
 // size.
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "convergence/bending/bending_rigidity.h"
 #include "convergence/order.h"
@@ -19,7 +18,7 @@ constexpr double gentle = 1e-3;  // curvature times the width of a cell, where i
 constexpr int cells = 4;         // of the smaller sheets, each way; whole periods of every pattern
 constexpr int degrees_apart = 5;  // directions of the curvature
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+double radians(double degrees) { return degrees * pi / 180; }
 
 Wrap gentle_wrap(double degrees) { return {radians(degrees), gentle / width, 0.1 * gentle * width}; }
 

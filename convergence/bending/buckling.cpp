@@ -112,7 +112,7 @@ Compressed compressed(const Subject& subject, const Strip& strip) {
 /// The strain at which the stiffness against the slowest mode vanishes, by the secant rule: it is nearly
 /// linear in the strain.
 Strip critical_strip(const Subject& subject, int rows) {
-  const double euler = M_PI * M_PI * bending / (std::pow(Strip{rows, 0}.length(), 2) * young);
+  const double euler = pi * pi * bending / (std::pow(Strip{rows, 0}.length(), 2) * young);
   Strip before{rows, 0.6 * euler}, strip{rows, 0.9 * euler};
   double stiffness_before = compressed(subject, before).stiffness;
   for (int i = 0; i < 4; ++i) {
@@ -136,7 +136,7 @@ NamedFinding load_finding(const Rigidities& found) {
   constexpr double narrow = 2.0 / 9,
                    cylinder = 1.0 / 4;  // D/ke of equilateral triangles: free edges, cylinder
   const double finest_rows = found.rows.back();
-  const double discrete = cylinder * std::pow(2 * M_PI / (finest_rows - 1), 2) / 12;
+  const double discrete = cylinder * std::pow(2 * pi / (finest_rows - 1), 2) / 12;
   const double over = found.over_ke.back() - cylinder, under = narrow - found.over_ke.back();
   Worst outside;
   outside.see(over);
@@ -207,7 +207,7 @@ StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& prog
     found.rows.push_back(rows);
     found.strains.push_back(critical.strain);
     found.loads.push_back(at.load);
-    found.over_ke.push_back(at.load * std::pow(critical.length(), 2) / (4 * M_PI * M_PI * bending));
+    found.over_ke.push_back(at.load * std::pow(critical.length(), 2) / (4 * pi * pi * bending));
     progress(double(found.rows.size()) / double(meshes.size() + 1));
   }
   result.findings.push_back(load_finding(found));

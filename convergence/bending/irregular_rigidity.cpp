@@ -74,7 +74,7 @@ Sample sample_of(const Subject& subject, const Disorder& disorder, int cells, co
     const GentleSheet sheet(subject, mesh_of(disorder, cells, unsigned(seed)), gentle_side / cells);
     double forced = 0, relaxed = 0;
     for (const double degrees : directions) {
-      const double angle = degrees * std::numbers::pi / 180, own = sheet.forced(angle);
+      const double angle = degrees * pi / 180, own = sheet.forced(angle);
       forced += own / directions.size();
       sample.forced_error.see(std::abs(own / oracles::forced_cylinder_rigidity(sheet.flat(), angle) - 1));
       if (seed > effort.settled) continue;

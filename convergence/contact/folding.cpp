@@ -127,7 +127,7 @@ Wrinkled wrinkled(double wavelength) {
   constexpr double ke = 1e-4, rigidity = 2. / 9 * ke;  // of a narrow strip of equilateral triangles [J]
   Wrinkled result;
   result.expected = wavelength;
-  result.bed = rigidity * std::pow(2 * M_PI / wavelength, 4);
+  result.bed = rigidity * std::pow(2 * pi / wavelength, 4);
   const Scene scene =
       scene_of_strip({bed_length, 24, 3, {1, 0.001, 1}, ke, 0.002, 0.05 * bed_length, 0.4, 1e-5, true});
   System system = build_system(scene);
@@ -225,7 +225,7 @@ double cosine_height(double arc, double shortening) {
     double sum = 0;
     constexpr int parts = 2000;
     for (int k = 0; k < parts; ++k)
-      sum += std::hypot(1, M_PI * height / span * std::sin(2 * M_PI * (k + 0.5) / parts)) * span / parts;
+      sum += std::hypot(1, pi * height / span * std::sin(2 * pi * (k + 0.5) / parts)) * span / parts;
     (sum < arc ? low : high) = height;
   }
   return (low + high) / 2;

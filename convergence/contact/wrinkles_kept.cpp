@@ -1,7 +1,6 @@
 // wrinkle-preservation: how much of the wrinkles inside an object survives the projection?
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "convergence/contact/studies.h"
@@ -12,8 +11,6 @@
 namespace foldproof {
 
 namespace {
-
-using std::numbers::pi;
 
 constexpr double width = 0.4, height = 0.06;            // of the sheet [m]
 constexpr int columns = 240, rows = 6;                  // of its cells

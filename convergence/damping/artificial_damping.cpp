@@ -2,7 +2,6 @@
 // over a hundred periods.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "convergence/damping/artificial_damping.h"
 #include "convergence/order.h"
@@ -114,7 +113,7 @@ Curve loss_curve(const VibratingSheet& sheet, const Response& response) {
   Worst grows;
   for (size_t i = 0; i < sheet.modes.size(); ++i) {
     const double loss = loss_per_period(sheet.modes[i], response.free.front()[i], h);
-    const double least = 2 * std::numbers::pi / (sheet.modes[i].frequency * h) * 1e-9;
+    const double least = 2 * pi / (sheet.modes[i].frequency * h) * 1e-9;
     points.emplace_back(sheet.modes[i].frequency * h, std::abs(loss) > least ? std::abs(loss) : nan);
     if (std::abs(loss) > least) grows.see(-loss);
   }

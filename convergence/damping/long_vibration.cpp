@@ -5,7 +5,6 @@
 #include "verification/specimens/stepper.h"
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace foldproof {
 
@@ -30,12 +29,12 @@ Vibration make_vibration(int cells) {
   Vibration vibration{sheet_at_rest(cells, {}), 0, 0};
   Scene& scene = vibration.scene;
   const std::vector<SheetMode> modes = modes_of(scene);
-  vibration.period = 2 * std::numbers::pi / lowest_frequency(modes);
+  vibration.period = 2 * pi / lowest_frequency(modes);
   vibration.limit = 2 / highest_frequency(modes);
   PerParticle3 x = PerParticle3::Zero(3, scene.x.cols()), v = x;
   Random random(61);
   for (const SheetMode& mode : modes) {
-    const double phase = random.in(0, 2 * std::numbers::pi);
+    const double phase = random.in(0, 2 * pi);
     x += std::cos(phase) / mode.frequency * mode.shape;
     v += std::sin(phase) * mode.shape;
   }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <random>
 
 #include "convergence/order.h"
@@ -71,7 +70,7 @@ EdgeErrors edge_errors(const Askew& body, const Solid& solid, double h) {
   EdgeErrors errors{h, 0, 0, 0};
   for (const EdgePoint& point : edge_points(body, h)) {
     const Distance at = solid.at(point.p);
-    const double angle = 180 / std::numbers::pi *
+    const double angle = 180 / pi *
                          std::atan2(at.normal.cross(point.normal).norm(), at.normal.dot(point.normal));
     if (!(angle <= told_apart)) errors.reach = std::max(errors.reach, point.from_edge / h);
     keep_worst(errors.worst_angle, angle);

@@ -61,7 +61,7 @@ NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& s
   Worst worst;
   std::vector<double> phases, least, most;
   for (int k = 0; k < 8; ++k) {
-    phases.push_back(2 * M_PI * k / 8);
+    phases.push_back(2 * pi * k / 8);
     const EnergyRange range = after_jump({subject, scene, mode, *prepared}, phases.back());
     least.push_back(1 / range.over_least.value());
     most.push_back(range.largest.value());

@@ -48,7 +48,7 @@ Lag measured_lag(const Subject& subject, const std::string& method, double k, do
   Scene scene = particle_on_palm({arm, 0, 0}, motion, k, tau);
   scene.integrator = method;
   const double omega = std::sqrt(k / particle_mass);
-  const double settled = 12 * std::max(tau, 2 / omega), watched = 3 * 2 * M_PI / omega;
+  const double settled = 12 * std::max(tau, 2 / omega), watched = 3 * 2 * pi / omega;
   const auto prepared = offered(subject.prepare, "prepare")(scene);
   State s = start_state(scene);
   s.v.col(0) = Vector3(0, turning * arm, 0);

@@ -129,7 +129,8 @@ NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
 }
 
 /// By what the fastest mode grows in a whole run of B with a step h >= 2/omega [1]: z = -1 - g solves
-///   (1 + a) z^2 + (h^2 omega^2 - 2) z + 1 - a = 0,   g = (h^2 omega^2/2 - 2)/a to first order, a = h c/2.
+///   (1 + a) z^2 + (h^2 omega^2 - 2) z + 1 - a = 0,   a = h c/2,
+///   g = (h^2 omega^2/2 - 2)/a to first order.
 double growth_beyond(const PrecisionScene& scene, double h) {
   const double beyond = std::pow(h / scene.truth.elastic_2_over, 2), a = h / scene.truth.damping_2_over;
   return std::pow(1 + std::max(0., 2 * beyond - 2) / a, scene.problem.end / h);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "reference/forces/bending.h"
 #include "reference/scene/key_values.h"
@@ -15,7 +14,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr double in_degrees = 180 / std::numbers::pi;  // a radian
+constexpr double in_degrees = 180 / pi;  // a radian
 
 /// Against gravity; +y without it.
 Vector3 up(const Scene& scene) {

@@ -11,7 +11,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr double degrees_per_radian = 180 / 3.14159265358979323846;
+constexpr double degrees_per_radian = 180 / pi;
 
 // ---- of the whole run
 
@@ -58,7 +58,7 @@ double angle_change(const Scene& scene, const State& s) {
   const std::vector<double> angles = hinge_angles(scene.mesh, s.x);
   Worst worst;
   for (size_t h = 0; h < angles.size(); ++h)
-    worst.see(std::abs(std::remainder(angles[h] - scene.rest_angles[h], 2 * M_PI)) * degrees_per_radian);
+    worst.see(std::abs(std::remainder(angles[h] - scene.rest_angles[h], 2 * pi)) * degrees_per_radian);
   return worst.value();
 }
 

@@ -11,7 +11,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr double least_turn = 20 * M_PI / 180;  // away from the rest angle, of a hinge in a crease
+constexpr double least_turn = 20 * pi / 180;  // away from the rest angle, of a hinge in a crease
 constexpr int least_hinges = 3;                 // in a crease
 
 /// Sets of particles that edges join.
@@ -44,7 +44,7 @@ Creases creases_of(const Scene& scene, const PerParticle3& x, int side) {
   Joined joined(scene.mesh.particles());
   std::vector<size_t> turned;
   for (size_t h = 0; h < hinges.size(); ++h) {
-    if (!(side * std::remainder(angles[h] - scene.rest_angles[h], 2 * M_PI) > least_turn)) continue;
+    if (!(side * std::remainder(angles[h] - scene.rest_angles[h], 2 * pi) > least_turn)) continue;
     turned.push_back(h);
     joined.join(hinges[h].particles[2], hinges[h].particles[3]);
   }

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <numbers>
 
 #include "reference/bodies/makers.h"
 #include "reference/level_set/mesh_distance.h"
@@ -22,7 +21,7 @@ namespace foldproof {
 namespace {
 
 constexpr double radius = 0.13;                          // m
-constexpr double degree = 3.14159265358979323846 / 180;  // rad
+constexpr double degree = pi / 180;  // rad
 
 /// A ball as an OBJ file, and [[object]] of it with these keys.
 std::string ball_body(const ScratchFolder& folder, const std::string& keys) {
@@ -106,7 +105,7 @@ double surface_miss(const Scene& scene, const Shaping& shaping, double period, d
     x.col(i) = Eigen::AngleAxisd(30 * degree, Vector3(1, 2, 2) / 3) * ball.rest.col(i) + move;
   const Vector3 low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff(), middle = (low + high) / 2;
   const Vector3 base(middle.x(), low.y(), middle.z());
-  const double share = std::pow(std::sin(std::numbers::pi * t / period), 2);
+  const double share = std::pow(std::sin(pi * t / period), 2);
   const PerParticle3 seen = surface_at(scene.objects.at(0), t);
   Worst worst;
   for (int i = 0; i < ball.particles(); ++i)
