@@ -7,11 +7,14 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace foldproof {
+
+using std::numbers::pi;
 
 using Vector3 = Eigen::Vector3d;
 using PerParticle = Eigen::VectorXd;    // N

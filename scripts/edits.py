@@ -10,11 +10,7 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-
-class Token(NamedTuple):
-    kind: str  # word, number, sign
-    text: str
-    at: int  # where it begins in the file
+from cpp_pieces import Piece, pieces_of
 
 
 class Change(NamedTuple):
@@ -24,37 +20,13 @@ class Change(NamedTuple):
     kind: str  # operator, sign, number, name, bound or removal
 
 
-SKIPPED = re.compile(r"""
-    //(?:[^\n\\]|\\.)*                                  # a comment
-  | /\*.*?\*/
-  | ^[ \t]*\#(?:[^\n\\]|\\.|\\\n)*                      # a line of the preprocessor
-  | R"(?P<mark>[^()\s\\]*)\(.*?\)(?P=mark)"             # texts
-  | "(?:[^"\\\n]|\\.)*"
-  | '(?:[^'\\\n]|\\.)+'
-  | \s+
-""", re.X | re.S | re.M)
-TOKEN = re.compile(r"""
-    (?P<word>[A-Za-z_]\w*)
-  | (?P<number>(?:0x[\da-fA-F.]+(?:p[+-]?\d+)?|\d[\d']*\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)[uUlLfF]*)
-  | (?P<sign><=>|<<=|>>=|->\*|\.\.\.|::|->|\+\+|--|<<|>>|<=|>=|==|!=|&&|\|\||[-+*/%&|^]=|[^\s\w])
-""", re.X)
-
-
-def tokens_of(text: str) -> list[Token]:
+def tokens_of(text: str) -> list[Piece]:
     """The code's tokens, but those in template argument lists."""
-    tokens, at = [], 0
-    while at < len(text):
-        skipped = SKIPPED.match(text, at)
-        if skipped:
-            at = skipped.end()
-            continue
-        found = TOKEN.match(text, at)
-        tokens.append(Token(found.lastgroup, found.group(), at))
-        at = found.end()
+    tokens = [piece for piece in pieces_of(text) if piece.kind in ("word", "number", "sign")]
     return list(outside_templates(text, tokens))
 
 
-def outside_templates(text: str, tokens: list[Token]) -> Iterator[Token]:
+def outside_templates(text: str, tokens: list[Piece]) -> Iterator[Piece]:
     """Leaves out `<...>` where no space stands before the `<`, or the word template does."""
     depth = 0
     for before, token in zip([None, *tokens], tokens):
@@ -102,19 +74,19 @@ def asks_for_memory(text: str, change: Change) -> bool:
     return ".reserve(" in line
 
 
-def is_spaced(text: str, token: Token) -> bool:
+def is_spaced(text: str, token: Piece) -> bool:
     end = token.at + len(token.text)
     return text[token.at - 1].isspace() and text[end].isspace()
 
 
-def of_operator(text: str, tokens: list[Token], k: int) -> Iterator[Change]:
+def of_operator(text: str, tokens: list[Piece], k: int) -> Iterator[Change]:
     token = tokens[k]
     if token.kind == "sign" and k > 0 and tokens[k - 1].text != "operator" and is_spaced(text, token):
         for after in OPERATORS.get(token.text, []):
             yield Change(token.at, token.text, after, "operator")
 
 
-def of_unary(text: str, tokens: list[Token], k: int) -> Iterator[Change]:
+def of_unary(text: str, tokens: list[Piece], k: int) -> Iterator[Change]:
     """A minus or a `not` that is left out, a step the other way."""
     token, before = tokens[k], tokens[k - 1].text if k > 0 else ""
     if token.text in ("++", "--"):
@@ -123,7 +95,7 @@ def of_unary(text: str, tokens: list[Token], k: int) -> Iterator[Change]:
         yield Change(token.at, token.text, "", "sign")
 
 
-def of_number(tokens: list[Token], k: int) -> Iterator[Change]:
+def of_number(tokens: list[Piece], k: int) -> Iterator[Change]:
     token = tokens[k]
     if token.kind != "number":
         return
@@ -142,7 +114,7 @@ def other_number(text: str) -> str:
     return f"{(1000 if 0 < value < 1e-5 else 1.2) * value:.15g}"
 
 
-def of_name(text: str, tokens: list[Token], k: int) -> Iterator[Change]:
+def of_name(text: str, tokens: list[Piece], k: int) -> Iterator[Change]:
     """A name taken for its neighbour: min for max, x1 for x2 where there is an x2. Not where it is declared."""
     token = tokens[k]
     before = tokens[k - 1] if k > 0 else token
@@ -160,7 +132,7 @@ def of_name(text: str, tokens: list[Token], k: int) -> Iterator[Change]:
             yield Change(token.at, token.text, after, "name")
 
 
-def is_bound(tokens: list[Token], k: int) -> bool:
+def is_bound(tokens: list[Piece], k: int) -> bool:
     """Is tokens[k] one of the names of `auto [a, b]`?"""
     for i in range(k - 1, 0, -1):
         if tokens[i].text == "[":
@@ -170,7 +142,7 @@ def is_bound(tokens: list[Token], k: int) -> bool:
     return False
 
 
-def of_bounds(tokens: list[Token]) -> Iterator[Change]:
+def of_bounds(tokens: list[Piece]) -> Iterator[Change]:
     """`for (...; i < n; ...)`: one turn less."""
     for k, token in enumerate(tokens):
         if token.text != "for":
@@ -186,7 +158,7 @@ KEPT = {"return", "using", "for", "while", "do", "else", "case", "default", "tem
         "const", "constexpr", "static", "auto", "switch", "try", "catch", "public", "private", "enum"}
 
 
-def removals(text: str, tokens: list[Token]) -> Iterator[Change]:
+def removals(text: str, tokens: list[Piece]) -> Iterator[Change]:
     """Statements that can be left out: calls, assignments, and an `if` with what hangs on it, on one statement."""
     inside = inner_brackets(tokens)
     for k in range(1, len(tokens)):
@@ -199,7 +171,7 @@ def removals(text: str, tokens: list[Token]) -> Iterator[Change]:
             yield Change(at, text[at:stop + 1], ";", "removal")
 
 
-def inner_brackets(tokens: list[Token]) -> list[str]:
+def inner_brackets(tokens: list[Piece]) -> list[str]:
     """For each token the innermost bracket that is open before it; "" if there is none."""
     stack, inner = [""], []
     for token in tokens:
@@ -212,7 +184,7 @@ def inner_brackets(tokens: list[Token]) -> list[str]:
     return inner
 
 
-def closes_condition(tokens: list[Token], k: int) -> bool:
+def closes_condition(tokens: list[Piece], k: int) -> bool:
     """Is tokens[k] the `)` of an if or a for?"""
     if tokens[k].text != ")":
         return False
@@ -224,7 +196,7 @@ def closes_condition(tokens: list[Token], k: int) -> bool:
     return False
 
 
-def statement_end(tokens: list[Token], k: int) -> int | None:
+def statement_end(tokens: list[Piece], k: int) -> int | None:
     """Where its `;` stands; None where a block or another function comes first."""
     depth = 0
     for i in range(k, len(tokens)):
@@ -239,7 +211,7 @@ def statement_end(tokens: list[Token], k: int) -> int | None:
     return None
 
 
-def is_action(statement: list[Token]) -> bool:
+def is_action(statement: list[Piece]) -> bool:
     """Does it do something, rather than declare? A declaration begins with two words, or with a word and & or *."""
     if statement[0].text in ("++", "--"):
         return True

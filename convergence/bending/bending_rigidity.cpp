@@ -2,7 +2,6 @@
 // size.
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "convergence/bending/bending_rigidity.h"
 #include "convergence/order.h"
@@ -19,7 +18,7 @@ constexpr double gentle = 1e-3;  // curvature times the width of a cell, where i
 constexpr int cells = 4;         // of the smaller sheets, each way; whole periods of every pattern
 constexpr int degrees_apart = 5;  // directions of the curvature
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+double radians(double degrees) { return degrees * pi / 180; }
 
 Wrap gentle_wrap(double degrees) { return {radians(degrees), gentle / width, 0.1 * gentle * width}; }
 
@@ -56,7 +55,7 @@ NamedFinding as_homogenised(const RegularPattern& pattern, const Rigidity& rigid
   const Verdict verdict{worst.value(), std::pow(gentle * pattern.longest_edge, 2), 0, "1",
                         "angles on a cylinder differ from those of small curvature by the square of longest "
                         "edge times curvature, relatively, with factors below 1"};
-  return {"bending-rigidity.is-the-homogenised." + pattern.name,
+  return {"bending-rigidity.matches-homogenisation." + pattern.name,
           "On a gentle cylinder, the energy per area of " + pattern.words +
               " is that of the homogenised cell, in every direction.",
           {verdict,
@@ -108,7 +107,7 @@ NamedFinding size_does_not_matter(const std::vector<Refinement>& refinements) {
                         "errors are a series in the square of curvature times width; at the last pairs the "
                         "second term is below a hundredth of the first"};
   return {
-      "bending-rigidity.does-not-depend-on-size",
+      "bending-rigidity.does-not-depend-on-cell-size",
       "The same pattern with smaller cells tends to its homogenised rigidity with second order: ke says "
       "the same at every size.",
       {verdict,
@@ -161,7 +160,7 @@ NamedFinding border_is_first_order(const Subject& subject, int levels, Figure& f
   const Verdict verdict{deviation.value, 0.02, 0, "1",
                         "n rows of cells have n - 1 lines of hinges: the missing share is 1/n exactly, and "
                         "the curvature adds about 1e-5 of that"};
-  return {"bending-rigidity.border-is-first-order",
+  return {"bending-rigidity.border-effect-is-first-order",
           "A whole sheet lacks the hinges of its border: its energy tends to the rigidity with first order.",
           {verdict,
            {{"width of a cell", "m", whole.steps}, {"1 - D/(ke/4)", "1", whole.errors}},
@@ -177,7 +176,7 @@ NamedFinding free_strip(const Subject& subject, const RegularPattern& pattern) {
                         "1",
                         "the surfaces' slopes, at most 3 times curvature times the sheets' side, change "
                         "angles by their square"};
-  return {"bending-rigidity.free-strip." + pattern.name,
+  return {"bending-rigidity.free-strip-is-softer." + pattern.name,
           "A narrow strip of " + pattern.words +
               " with free edges yields more than a forced cylinder: it curves across and twists.",
           {verdict,

@@ -19,14 +19,15 @@ constexpr double damping = 0.0019;  // kd [N s] or [J s]
 
 /// One factor of the damping force.
 struct Factor {
-  std::string name, words;
+  std::string finding, words;
   DampingFactor factor;
   double expected;  // order of the dissipation in the width of a cell
 };
 
 std::vector<Factor> factors() {
-  return {{"edge", "|E|", DampingFactor::edge, 1},
-          {"edge-squared-over-area", "|E|^2/(|N1| + |N2|)", DampingFactor::edge_squared_over_area, 0}};
+  return {{"edge-factor-vanishes-with-cell-width", "|E|", DampingFactor::edge, 1},
+          {"edge-squared-over-area-factor-tends-to-a-constant", "|E|^2/(|N1| + |N2|)",
+           DampingFactor::edge_squared_over_area, 0}};
 }
 
 /// A square sheet rolled on a cylinder whose curvature k grows: x = (sin(k s)/k, y, (1 - cos(k s))/k) with s
@@ -74,7 +75,7 @@ NamedFinding finding_of(const Factor& factor, Table measured, const Convergence&
                                   "curvature falls in proportion to the cells' width."
                                 : "With the factor |E|^2/(|N1| + |N2|), the dissipation at a given rate of "
                                   "curvature tends to a constant.";
-  return {"bending-scaling." + factor.name, claim, std::move(finding)};
+  return {"bending-scaling." + factor.finding, claim, std::move(finding)};
 }
 
 StudyResult run_bending_scaling(const Subject& subject, Tier tier, const Progress& progress) {

@@ -112,7 +112,7 @@ Compressed compressed(const Subject& subject, const Strip& strip) {
 /// The strain at which the stiffness against the slowest mode vanishes, by the secant rule: it is nearly
 /// linear in the strain.
 Strip critical_strip(const Subject& subject, int rows) {
-  const double euler = M_PI * M_PI * bending / (std::pow(Strip{rows, 0}.length(), 2) * young);
+  const double euler = pi * pi * bending / (std::pow(Strip{rows, 0}.length(), 2) * young);
   Strip before{rows, 0.6 * euler}, strip{rows, 0.9 * euler};
   double stiffness_before = compressed(subject, before).stiffness;
   for (int i = 0; i < 4; ++i) {
@@ -136,13 +136,13 @@ NamedFinding load_finding(const Rigidities& found) {
   constexpr double narrow = 2.0 / 9,
                    cylinder = 1.0 / 4;  // D/ke of equilateral triangles: free edges, cylinder
   const double finest_rows = found.rows.back();
-  const double discrete = cylinder * std::pow(2 * M_PI / (finest_rows - 1), 2) / 12;
+  const double discrete = cylinder * std::pow(2 * pi / (finest_rows - 1), 2) / 12;
   const double over = found.over_ke.back() - cylinder, under = narrow - found.over_ke.back();
   Worst outside;
   outside.see(over);
   outside.see(under);
   return {
-      "buckling.load-is-eulers",
+      "buckling.load-matches-euler",
       "A strip of equilateral triangles between clamps buckles at Euler's load 4 pi^2 D/L^2, its rigidity D "
       "between 2/9 ke (free edges) and 1/4 ke (bent to a cylinder).",
       {{outside.value(), discrete, 0, "ke",
@@ -185,7 +185,7 @@ Growth growth_beyond(const Subject& subject, const Strip& strip) {
 
 NamedFinding growth_finding(const Growth& growth) {
   return {
-      "buckling.grows-at-its-rate",
+      "buckling.grows-at-the-linearised-rate",
       "Beyond the critical load a disturbance grows as exp(sigma t), -sigma^2 the negative eigenvalue of the "
       "linearised forces.",
       {{std::abs(growth.measured / growth.expected - 1), 0.01, 0, "1",
@@ -207,7 +207,7 @@ StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& prog
     found.rows.push_back(rows);
     found.strains.push_back(critical.strain);
     found.loads.push_back(at.load);
-    found.over_ke.push_back(at.load * std::pow(critical.length(), 2) / (4 * M_PI * M_PI * bending));
+    found.over_ke.push_back(at.load * std::pow(critical.length(), 2) / (4 * pi * pi * bending));
     progress(double(found.rows.size()) / double(meshes.size() + 1));
   }
   result.findings.push_back(load_finding(found));

@@ -135,7 +135,7 @@ NamedFinding within_one_percent(const std::vector<Refined>& all) {
   }
   const Verdict verdict{worst.value(), 0.01, uncertainty.value(), "1",
                         "what a fabric laboratory's bending test resolves: a hundredth of the length"};
-  return {"cantilever.is-the-elastica",
+  return {"cantilever.matches-the-elastica",
           "At the finest mesh, drop and reach of every clamped strip are the elastica's within one percent, "
           "with the rigidity that the homogenised mesh has.",
           {verdict,

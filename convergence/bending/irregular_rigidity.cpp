@@ -74,7 +74,7 @@ Sample sample_of(const Subject& subject, const Disorder& disorder, int cells, co
     const GentleSheet sheet(subject, mesh_of(disorder, cells, unsigned(seed)), gentle_side / cells);
     double forced = 0, relaxed = 0;
     for (const double degrees : directions) {
-      const double angle = degrees * std::numbers::pi / 180, own = sheet.forced(angle);
+      const double angle = degrees * pi / 180, own = sheet.forced(angle);
       forced += own / directions.size();
       sample.forced_error.see(std::abs(own / oracles::forced_cylinder_rigidity(sheet.flat(), angle) - 1));
       if (seed > effort.settled) continue;
@@ -112,7 +112,7 @@ NamedFinding as_the_oracle(const std::vector<Row>& rows) {
   }
   const Verdict verdict{worst.value(), gentle_bound, 0, "1",
                         "the surfaces' slopes change angles by their square, relatively"};
-  return {"bending-rigidity.irregular.is-the-homogenised",
+  return {"bending-rigidity.irregular.matches-homogenisation",
           "On jittered and random meshes too, the energy is what the hinges' definition gives, with all "
           "vertices on the surface and with those inside settled.",
           {verdict,
@@ -137,7 +137,7 @@ NamedFinding excess_stays(const Row& row) {
       excess > 0 ? change / excess : nan, 0.5, uncertainty / excess, "1",
       "an excess that vanished in proportion to the width would change by its own size when "
       "the cells are halved; half of that tells the two apart"};
-  return {"bending-rigidity.irregular.keeps-its-excess." + row.disorder.name,
+  return {"bending-rigidity.irregular.excess-persists-under-refinement." + row.disorder.name,
           "The excess of D over that of equilateral triangles stays when the cells are halved: " +
               row.disorder.words + ".",
           {verdict,

@@ -1,4 +1,4 @@
-// shape-return: a sculpted shell is pulled out of shape, let go, and damped until it rests.
+// shape-recovery: a sculpted shell is pulled out of shape, let go, and damped until it rests.
 #include <cmath>
 #include <numbers>
 
@@ -120,7 +120,7 @@ NamedFinding comes_back(const std::vector<Shell>& shells, const std::vector<Retu
       worst.value(), 1e-3, 0, "of the start",
       "another place of rest, a dent or a wrong angle, is a tenth of the disturbance away or "
       "more; motion that has not died yet would show in the last tenth of the time"};
-  return {"shape-return.comes-back",
+  return {"shape-recovery.shell-returns-to-its-shape",
           "With its own angles as rest angles, a shell pulled out of shape by about a tenth of its size "
           "returns to it, on coarse and fine meshes.",
           {verdict,
@@ -134,7 +134,7 @@ NamedFinding angles_matter(const Shell& shell, const Return& own, const Return& 
   const Verdict verdict{own.left / flat.left, 0.01, 0, "1",
                         "a shell that springs alone brought back would return as well with flat rest angles, "
                         "and the ratio would be 1"};
-  return {"shape-return.needs-its-rest-angles",
+  return {"shape-recovery.flat-rest-angles-do-not-restore-it",
           "The same shell with flat rest angles does not return: its rest angles keep the shape, not its "
           "springs alone.",
           {verdict,
@@ -173,7 +173,7 @@ StudyResult run_shape_return(const Subject& subject, Tier tier, const Progress& 
 
 Study shape_return_study() {
   return {
-      "shape-return", "Rest angles of its own keep and restore a sculpted shape.",
+      "shape-recovery", "Rest angles of its own keep and restore a sculpted shape.",
       "BMF03 section 4: non-zero rest angles",
       "A closed shell with bumps is squeezed, sheared and dented by about a tenth of its size, let go and "
       "damped. Its distance from the rest shape falls until nothing is left to see, on coarse and fine "

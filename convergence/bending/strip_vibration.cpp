@@ -1,7 +1,6 @@
 // strip-vibration: the lowest frequencies of a clamped strip, from its stiffness and from its steps.
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "convergence/bending/row_strip.h"
 #include "convergence/bending/studies.h"
@@ -22,7 +21,7 @@ constexpr double disturbance = 1e-6;  // of the flat strip [m]: linear, and larg
 /// beta L of the n-th mode of a clamped-free beam (n = 1, 2): cos(beta L) cosh(beta L) = -1.
 double clamped_free_root(int n) {
   const auto characteristic = [](double b) { return std::cos(b) + 1 / std::cosh(b); };
-  return oracles::bracketed_root(characteristic, (n - 1) * std::numbers::pi + 0.5, n * std::numbers::pi, 0)
+  return oracles::bracketed_root(characteristic, (n - 1) * pi + 0.5, n * pi, 0)
       .value;
 }
 
@@ -99,7 +98,7 @@ NamedFinding is_the_beam(const Eigen::Vector2d& finest) {
                         "a rigidity off by a fiftieth would show; the least difference between meshes of the "
                         "table of rigidities is larger"};
   return {
-      "strip-vibration.is-the-beam",
+      "strip-vibration.matches-the-beam",
       "At the finest mesh the first two frequencies of a clamped strip are the beam's within one percent.",
       {verdict, {{"omega", "rad/s", measured}, {"clamped-free beam", "rad/s", exact}}, ""}};
 }
@@ -164,7 +163,7 @@ double worst_difference(const Subject& subject, const Scene& scene, const std::s
   Stepper stepper(subject, scene, scheme);
   State s = stepper.start();
   for (size_t k = 0; k < free.size(); ++k) s.x(2, free[k]) += scale * shape[Eigen::Index(k)];
-  const int steps = int(3 * std::numbers::pi / (omega * h));
+  const int steps = int(3 * pi / (omega * h));
   Worst worst;
   for (int n = 1; n <= steps; ++n) {
     s = stepper.step(s, h);
@@ -193,7 +192,7 @@ NamedFinding steps_keep_the_frequency(const Subject& subject) {
                         "the strip's slopes are about 1e-4 of 1 and turn what is linear to their square; "
                         "forces by differences are good to 1e-6"};
   return {
-      "strip-vibration.steps-keep-the-frequency",
+      "strip-vibration.schemes-preserve-the-frequency",
       "A free, undamped strip released in its first or second mode of the linear stiffness oscillates "
       "with that mode's frequency, lowered or raised only as the scheme's exact solution says.",
       {verdict,

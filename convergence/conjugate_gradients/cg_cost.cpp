@@ -53,8 +53,8 @@ double weight_over_edge(const TriangleMesh& mesh) {
 }
 
 /// The sheet with the damping that has the ratio, and its elastic limit [s].
-///   zeta = (damping/stiffness) omega/2, which is kd_s/Y for springs and kd |E|/(ke c/2) for hinges; omega
-///   is the bound on the fastest mode, 2 over the elastic limit
+///   zeta = (damping/stiffness) omega/2, which is kd_s/Y for springs and kd |E|/(ke c/2) for
+///   hinges; omega is the bound on the fastest mode, 2 over the elastic limit
 std::pair<Scene, double> damped_sheet(const Setting& setting) {
   Scene scene = elastic_sheet(setting.cells);
   const double limit = elastic_limit(build_system(scene), start_state(scene));

@@ -130,7 +130,7 @@ NamedFinding within_chebyshev(const std::vector<Sweep>& measured) {
         worst.see(sweep.costs[i].largest / iterations_allowed(sweep.settings[i]));
   const Verdict verdict{worst.value(), 1, 0, "1",
                         "conjugate gradients cannot do worse than Chebyshev's polynomials"};
-  return {"cg-iterations.within-the-bound-of-theory",
+  return {"cg-iterations.stay-within-the-theoretical-bound",
           "No solve needs more iterations than the condition 1 + 2 zeta h/h_limit of its matrix allows, over "
           "all settings.",
           {verdict, columns_of(measured),

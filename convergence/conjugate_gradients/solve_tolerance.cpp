@@ -106,7 +106,7 @@ NamedFinding order_is_kept(const std::vector<SchemeRuns>& schemes, double tolera
                         "a tenth of what the order studies allow an order to be off, so that they judge the "
                         "scheme and not its solves"};
   return {
-      "solve-tolerance." + whose + "-leaves-the-order",
+      "solve-tolerance." + whose + "-tolerance-preserves-the-order",
       "With the " + whose + " tolerance of the solves, the orders of A, B and C are those of exact solves.",
       {verdict,
        {{"scheme", "1", names},

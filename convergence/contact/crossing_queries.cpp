@@ -118,7 +118,7 @@ double misses(const std::vector<Tally>& tallies) {
 }
 
 NamedFinding misses_none(const std::string& of, const std::string& words, const std::vector<Tally>& tallies) {
-  return {"crossing-queries.misses-none." + of,
+  return {"crossing-queries.no-meeting-is-missed." + of,
           "No meeting of moving features is missed: " + words + ".",
           {{misses(tallies), 0, 0, "queries",
             "a plane that parts them until the end is a proof that they do not meet"},
@@ -127,7 +127,7 @@ NamedFinding misses_none(const std::string& of, const std::string& words, const 
 }
 
 NamedFinding tells_in_time(const std::vector<Tally>& all) {
-  return {"crossing-queries.tells-before-they-meet",
+  return {"crossing-queries.reported-time-is-never-late",
           "The time that is told is not after the first meeting.",
           {{total(all, &Tally::late), 0, 0, "queries",
             "time advances only as far as a plane keeps the features apart; decided without rounding"},
@@ -189,7 +189,7 @@ NamedFinding tells_near_ones_only(const std::vector<Alarms>& all) {
   // only the 50 digits of the distance tell 1 from the roundings of the moved coordinates
   constexpr double roundings = 1e-10;
   return {
-      "crossing-queries.tells-near-ones-only",
+      "crossing-queries.false-alarms-are-near-misses",
       "Features that are reported although they never meet are, at the time told, as near as was promised.",
       {{worst.value(), 1 + roundings, 0, "1",
         "distance over half as much again as what is to be kept, or three quarters of the start's distance; "

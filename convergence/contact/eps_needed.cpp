@@ -1,4 +1,4 @@
-// eps-needed: how far out must the deepest points go, for no triangle between them to cut into the object?
+// required-eps: how far out must the deepest points go, for no triangle between them to cut into the object?
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -132,7 +132,7 @@ NamedFinding order_finding(const Body& body, const Range& range) {
   const Estimate deviation = order_deviation(range.measured, body.order, 2);
   const std::string power = body.order == 2 ? "the square of the edge" : "the edge";
   return {
-      "eps-needed." + body.name + "-order",
+      "required-eps.order-is-as-derived." + body.name,
       "On the " + body.words + " the eps that is needed grows as " + power + ".",
       {{deviation.value, 0.01, 0, "1",
         "eps is sought to 5e-4 of itself, which is 0.0015 of an order; the next term of sqrt(R^2 + L^2/3) - "
@@ -146,7 +146,7 @@ NamedFinding bound_finding(const Body& body, const Range& range) {
   Worst worst;
   for (double ratio : range.over_bound) worst.see(ratio);
   const std::string bound = body.order == 2 ? "L^2/(6 R)" : "L/sqrt(3)";
-  return {"eps-needed." + body.name + "-bound",
+  return {"required-eps.derived-eps-suffices." + body.name,
           "On the " + body.words + " an eps of " + bound + " suffices, L the longest edge.",
           {{worst.value(), 1.001, 0, "1",
             "the farthest point of a triangle from its corners is L/sqrt(3) from them at most; on a ball its "
@@ -182,7 +182,7 @@ StudyResult run_eps_needed(const Subject&, Tier tier, const Progress& progress) 
 }  // namespace
 
 Study eps_needed() {
-  return {"eps-needed",
+  return {"required-eps",
           "The eps that keeps triangles out of an object grows as the square of their edges over its radius, "
           "and as their edges along its own edges.",
           "BMF03 section 5.3",

@@ -127,7 +127,7 @@ Wrinkled wrinkled(double wavelength) {
   constexpr double ke = 1e-4, rigidity = 2. / 9 * ke;  // of a narrow strip of equilateral triangles [J]
   Wrinkled result;
   result.expected = wavelength;
-  result.bed = rigidity * std::pow(2 * M_PI / wavelength, 4);
+  result.bed = rigidity * std::pow(2 * pi / wavelength, 4);
   const Scene scene =
       scene_of_strip({bed_length, 24, 3, {1, 0.001, 1}, ke, 0.002, 0.05 * bed_length, 0.4, 1e-5, true});
   System system = build_system(scene);
@@ -161,7 +161,7 @@ NamedFinding wavelength_finding(const std::vector<Wrinkled>& runs) {
   for (const Wrinkled& run : runs)
     worst.see(run.height > 1e-3 ? std::abs(run.wavelength / run.expected - 1) : nan);
   return {
-      "folding.wrinkles-are-as-long-as-rigidity-and-bed-say",
+      "folding.wrinkle-length-matches-theory",
       "With 0 % compression, a strip on an elastic bed folds into waves of length 2 pi (D/K)^(1/4), those of "
       "the least energy.",
       {{worst.value(), 1. / 6, 0, "1",
@@ -192,7 +192,7 @@ NamedFinding area_finding(const std::vector<Folded>& runs) {
   Worst worst;
   for (const Folded& run : runs)
     if (run.is_limited) worst.see(run.area_lost);
-  return {"folding.area-is-kept",
+  return {"folding.limit-preserves-area",
           "With 0 % compression, a strip between ends that are led together loses none of its area.",
           {{worst.value(), 2 * tolerance, 0, "of the area",
             "an acute triangle whose edges are no shorter than at rest, and no longer by more than a tenth, "
@@ -204,7 +204,7 @@ NamedFinding area_finding(const std::vector<Folded>& runs) {
 NamedFinding lost_finding(const std::vector<Folded>& runs) {
   const Folded& run = runs[1];  // stiff hinges, no limit
   const double least = 0.5 * nearer / length;
-  return {"folding.area-is-lost-without",
+  return {"folding.area-is-lost-without-the-limit",
           "Without the limit, a strip whose hinges are stiff beside its springs stays in its plane and is "
           "compressed.",
           {{least / run.area_lost, 1, 0, "1",
@@ -225,7 +225,7 @@ double cosine_height(double arc, double shortening) {
     double sum = 0;
     constexpr int parts = 2000;
     for (int k = 0; k < parts; ++k)
-      sum += std::hypot(1, M_PI * height / span * std::sin(2 * M_PI * (k + 0.5) / parts)) * span / parts;
+      sum += std::hypot(1, pi * height / span * std::sin(2 * pi * (k + 0.5) / parts)) * span / parts;
     (sum < arc ? low : high) = height;
   }
   return (low + high) / 2;
@@ -234,7 +234,7 @@ double cosine_height(double arc, double shortening) {
 NamedFinding height_finding(const std::vector<Folded>& runs) {
   const Folded& run = runs[0];  // stiff hinges, 0 %
   const double expected = cosine_height(clear, nearer);
-  return {"folding.one-arc-is-as-high-as-its-length-says",
+  return {"folding.arc-height-matches-its-length",
           "With 0 % compression, a strip of stiff hinges rises in one arc, as high as one that is as long as "
           "the strip at rest.",
           {{std::abs(run.height / expected - 1), edge / (2 * clear), 0, "1",

@@ -1,4 +1,4 @@
-// folds-inside: are there more folds where points may stay inside of an object?
+// folding-inside-objects: are there more folds where points may stay inside of an object?
 #include <algorithm>
 #include <cmath>
 
@@ -124,7 +124,7 @@ Folds folds_of(const Subject& subject, Scene scene, double end, const std::vecto
 }
 
 NamedFinding tube_finding(const Folds& folds) {
-  return {"folds-inside.more-where-both-sides-are-free",
+  return {"folding-inside-objects.more-folds-when-allowed-inside",
           "Cloth that starts partly inside of a drum and is pushed together has fewer folds if it is brought "
           "to the "
           "surface at once than if it may stay inside.",
@@ -141,7 +141,7 @@ NamedFinding tube_finding(const Folds& folds) {
 
 NamedFinding ball_finding(const Folds& folds) {
   return {
-      "folds-inside.no-more-over-a-ball",
+      "folding-inside-objects.same-folds-over-a-ball",
       "Cloth that falls on a ball from outside folds as much whatever the forecast time.",
       {{std::abs(folds.angles.back() / folds.angles.front() - 1), 0.1, 0, "1",
         "which folds it finds is chance; the mean of some four hundred hinges that fold by as much as they "
@@ -175,7 +175,8 @@ StudyResult run_folds_inside(const Subject& subject, Tier tier, const Progress& 
 }  // namespace
 
 Study folds_inside() {
-  return {"folds-inside", "Cloth that may stay inside of an object folds more.", "BMF03 section 5.3",
+  return {"folding-inside-objects", "Cloth that may stay inside of an object folds more.",
+          "BMF03 section 5.3",
           "A tube that starts inside of a drum is pushed together, and a sheet falls on a ball: how many "
           "folds have "
           "they with forecast times from a step to far longer than the run?",

@@ -75,7 +75,7 @@ std::vector<Setting> curved_settings() {
 NamedFinding flat_finding(const Subject& subject) {
   const double h = 0.004;
   const double off = missed(subject, swarm(floor_object(), {1.1, -1.7, 0.4}), h);
-  return {"forecast-time.lands-on-a-plane",
+  return {"forecast-time.exact-on-a-plane",
           "On a plane, a point that is forecast to lie on the surface lies on it after the step.",
           {{off / (epsilon * (0.4 + 2 * h)), 20, 0, "epsilon of the extent",
             "one multiplication and one addition after the correction, which itself takes a dozen roundings"},
@@ -92,7 +92,7 @@ Convergence misses(const Subject& subject, const Setting& setting, const std::ve
 
 NamedFinding order_finding(const Setting& setting, const Convergence& misses) {
   const Estimate deviation = order_deviation(misses, 2, 2);
-  return {"forecast-time.order-on-a-" + setting.name,
+  return {"forecast-time.second-order-on-a-" + setting.name,
           "On " + setting.words + ", it misses the surface by the square of the step.",
           {{deviation.value, 0.1, deviation.uncertainty, "1",
             "a first-order miss would be off by one: the forecast has then the wrong direction or velocity; "
@@ -140,7 +140,7 @@ NamedFinding next_step_finding(const Subject& subject) {
     scene.collision.forecast_time = 5 * h;
     heights.push_back(run_to_end(subject, scene, h, h, [](const State&) {}).x(1, 0));
   }
-  return {"forecast-time.is-not-the-next-step",
+  return {"forecast-time.long-forecast-is-no-step-prediction",
           "With a forecast time of five steps a point is still above a floor that it would have passed at "
           "the next step.",
           {{std::abs(heights[1]) / heights[0], 1e-6, 0, "1",

@@ -41,7 +41,7 @@ Cut cuts(const Subject& subject, const std::vector<int>& meshes, PointKind point
 
 NamedFinding order_finding(const Cut& cut) {
   const Estimate deviation = order_deviation({cut.lengths, cut.edges, 0}, 2, 2);
-  return {"pointwise-contact.edges-cut-in-by-the-square",
+  return {"pointwise-contact.edge-penetration-is-second-order",
           "Edges whose ends lie on a ball cut into it by the square of their length.",
           {{deviation.value, 0.3, 0, "1",
             "a chord of length L is L^2/(8R) deep; how far the longest edges have come to lie along the ball "
@@ -57,7 +57,7 @@ NamedFinding bound_finding(const Cut& cut) {
   Worst worst;
   for (size_t k = 0; k < cut.lengths.size(); ++k)
     worst.see(cut.edges[k] / (cut.lengths[k] * cut.lengths[k] / (8 * radius)));
-  return {"pointwise-contact.edges-stay-within-the-chord",
+  return {"pointwise-contact.edge-penetration-is-within-the-chord",
           "No edge is deeper than a chord of its length.",
           {{worst.value(), 1.1, 0, "1",
             "L^2/(8R) of the longest edge, which the weight of the sheet stretches by a few percent"},
@@ -86,7 +86,7 @@ NamedFinding spike_finding(const Subject& subject) {
   body.place = {oracles::turn_between(Vector3::UnitZ(), Vector3::UnitY()), {0, -0.6, 0}};
   const State end = run_to_end(subject, scene, usual_step(scene), 0.25, [](const State&) {});
   const double height = end.x.row(1).mean();
-  return {"pointwise-contact.a-pin-comes-through",
+  return {"pointwise-contact.a-thin-pin-passes-through",
           "A pin thinner than an edge passes between the particles of a falling sheet.",
           {{height, -0.2, 0, "m",
             "in a quarter of a second it falls by 0.3 m, from 0.03 m above the pin's tip: had the pin held "

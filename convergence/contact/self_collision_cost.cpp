@@ -67,7 +67,7 @@ void add_searches(Tier tier, StudyResult& result) {
   if (tier == Tier::full) by_size.push_back(searched(224, 2));
   for (const int layers : {1, 2, 4, 8}) by_layers.push_back(searched(45, layers));
   result.findings.push_back(
-      {"self-collision-cost.search-grows-little",
+      {"self-collision-cost.search-time-is-nearly-linear",
        "The search for close pairs takes time in proportion to the particles, but for little.",
        {{growth(by_size), 1.2, 0, "1",
          "each particle has the same number of neighbours, and a tree is as deep as the logarithm of their "
@@ -110,7 +110,7 @@ void add_zones(const Subject& subject, StudyResult& result) {
     crossings.push_back(double(work.crossings));
   }
   result.findings.push_back(
-      {"self-collision-cost.rounds-spare-zones",
+      {"self-collision-cost.impulse-rounds-reduce-rigid-zones",
        "Rounds of impulses leave less to rigid zones.",
        {{particles[3] / particles[0], 0.5, 0, "1",
          "each round answers pairs that would else be joined to zones: eight leave less than half of what "
@@ -158,7 +158,7 @@ void add_rest(const Subject& subject, StudyResult& result) {
   const std::vector<Column> evidence = {
       {"thickness", "m", thicknesses}, {"step", "s", steps}, {"gap at rest", "m", gaps}};
   result.findings.push_back(
-      {"self-collision-cost.a-sheet-rests-at-the-thickness",
+      {"self-collision-cost.sheet-rests-within-the-thickness",
        "A sheet comes to rest on another at half of the thickness or more, and at no more than it.",
        {{outside.value(), 1, 0, "1",
          "above the thickness nothing carries it; the springs of repulsion carry its weight at a small "
@@ -166,7 +166,7 @@ void add_rest(const Subject& subject, StudyResult& result) {
         evidence,
         ""}});
   result.findings.push_back(
-      {"self-collision-cost.the-gap-does-not-depend-on-the-step",
+      {"self-collision-cost.gap-does-not-depend-on-the-step",
        "The gap at which a sheet rests on another does not depend on the step.",
        {{spread.value(), 0.05, 0, "1",
          "what one step's fall adds is g h^2, .02 of the least thickness for the longest step; with that and "

@@ -5,9 +5,9 @@
 
 namespace foldproof {
 
-Study wrinkles_kept();        // wrinkles-kept: what each map of depth leaves of wrinkles inside an object
-Study eps_needed();           // eps-needed: how far out the deepest points must go
-Study folds_inside();         // folds-inside: folds of cloth that may stay inside of an object
+Study wrinkles_kept();  // wrinkle-preservation: what each map of depth leaves of wrinkles inside an object
+Study eps_needed();     // required-eps: how far out the deepest points must go
+Study folds_inside();   // folding-inside-objects: folds of cloth that may stay inside of an object
 Study forecast_time_study();  // forecast-time: where a point is after its forecast, and what tau does
 Study resting_contact();      // resting-contact: what keeps moving under each response
 Study self_collision_cost();  // self-collision-cost: search, zones, gaps at rest

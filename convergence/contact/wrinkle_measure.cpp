@@ -3,7 +3,6 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numbers>
 
 namespace foldproof {
 
@@ -24,7 +23,7 @@ void flatten(std::vector<double>& samples) {
 /// |sum_n s_n exp(-2 pi i k n/N)|
 double coefficient(const std::vector<double>& samples, size_t k) {
   std::complex<double> sum = 0;
-  const double turn = -2 * std::numbers::pi * double(k) / double(samples.size());
+  const double turn = -2 * pi * double(k) / double(samples.size());
   for (size_t n = 0; n < samples.size(); ++n) sum += samples[n] * std::polar(1.0, turn * double(n));
   return std::abs(sum);
 }

@@ -1,7 +1,6 @@
-// wrinkles-kept: how much of the wrinkles inside an object survives the projection?
+// wrinkle-preservation: how much of the wrinkles inside an object survives the projection?
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "convergence/contact/studies.h"
@@ -12,8 +11,6 @@
 namespace foldproof {
 
 namespace {
-
-using std::numbers::pi;
 
 constexpr double width = 0.4, height = 0.06;            // of the sheet [m]
 constexpr int columns = 240, rows = 6;                  // of its cells
@@ -115,7 +112,7 @@ NamedFinding plain_flattens(const AllKept& plain) {
   for (const auto& [name, kept] : plain)
     for (double deviation : kept.deviation) worst.see(deviation);
   return {
-      "wrinkles-kept.plain-flattens",
+      "wrinkle-preservation.plain-flattens-wrinkles",
       "Plain projection leaves nothing of the depths that were inside: all lie on the surface.",
       {{worst.value(), 1e-12, 0, "m", "points arrive within 1e-12 m of the surface"}, evidence(plain), ""}};
 }
@@ -131,7 +128,7 @@ NamedFinding blend_keeps_its_share(const AllKept& blend) {
   for (const auto& [name, kept] : blend)
     for (size_t k = 0; k < kept.reach.size(); ++k) worst.see(least_slope(kept.reach[k]) / kept.share[k]);
   return {
-      "wrinkles-kept.blend-keeps-a-share",
+      "wrinkle-preservation.blend-keeps-a-share-of-depths",
       "The blend leaves at least (tau - w/2)/(tau + t^ - w/2) of the deviation of depths that were inside.",
       {{worst.value(), 1 + 1e-9, 0, "1",
         "its slope is nowhere less, so that no two depths come closer than by that factor; 1e-9 for the "
@@ -157,7 +154,7 @@ NamedFinding power_crushes_the_deep(const std::vector<Sunk>& sheets) {
     blend.push_back(share_of_the_deep(cloth, "blend", deepest / 5));
     worst.see(power.back() / blend.back());
   }
-  return {"wrinkles-kept.power-crushes-the-deep",
+  return {"wrinkle-preservation.power-crushes-deep-wrinkles",
           "With tau a fifth of the deepest penetration the power law leaves the deeper half of the wrinkles "
           "less than a tenth of what the blend leaves.",
           {{worst.value(), 0.1, 0, "1",
@@ -173,7 +170,7 @@ NamedFinding wavelength_stays(const std::string& map, const AllKept& kept) {
   Worst worst;
   for (const auto& [name, one] : kept)
     for (double length : one.wavelength) worst.see(std::abs(length - wavelength));
-  return {"wrinkles-kept.wavelength-" + map,
+  return {"wrinkle-preservation.wavelength-is-preserved." + map,
           "The dominant wavelength of the depths stays that of the wrinkles.",
           {{worst.value(), wavelength * wavelength / width, 0, "m",
             "wavelengths that the sheet's length can tell apart: lambda^2 over that length"},
@@ -302,7 +299,7 @@ StudyResult run_wrinkles_kept(const Subject&, Tier tier, const Progress& progres
 
 Study wrinkles_kept() {
   return {
-      "wrinkles-kept",
+      "wrinkle-preservation",
       "Maps of depth keep the wrinkles that plain projection flattens; how much of them depends on tau.",
       "BMF03 section 5.3, figure 2",
       "Wrinkled strips lie half inside a half space, a ball and a torus, and are projected by each map over "

@@ -2,7 +2,6 @@
 // over a hundred periods.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "convergence/damping/artificial_damping.h"
 #include "convergence/order.h"
@@ -60,7 +59,7 @@ NamedFinding as_derived(const VibratingSheet& sheet, const Response& response) {
       see(sheet.modes[i], {}, response.steps[s], response.free[s][i]);
     see(sheet.modes[i], response.relaxation, response.steps[1], response.damped[i]);
   }
-  return {"artificial-damping.modes." + name,
+  return {"artificial-damping.mode-factors-are-as-derived." + name,
           "A step of " + name +
               " multiplies each vibration of a sheet, damped or not, by the factors derived from the method.",
           {{worst.value(), factor_noise, 0, "1", why_factor_noise}, {omega_h, ratios, measured, errors}, ""}};
@@ -95,7 +94,7 @@ NamedFinding order_of_loss(const VibratingSheet& sheet, const Response& response
   const Estimate deviation = order_deviation(losses, law.order, 1);
   std::vector<double> orders = pair_orders(losses);
   orders.insert(orders.begin(), nan);
-  return {"artificial-damping.order." + law.name,
+  return {"artificial-damping.change-per-period-is-as-derived." + law.name,
           "Under " + law.name + " undamped vibrations " + law.words + ".",
           {{deviation.value, 0.25, deviation.uncertainty, "1",
             "a loss of another power of the step is off by 2 (by 1 at least); at omega h = 1/8 the next term "
@@ -114,7 +113,7 @@ Curve loss_curve(const VibratingSheet& sheet, const Response& response) {
   Worst grows;
   for (size_t i = 0; i < sheet.modes.size(); ++i) {
     const double loss = loss_per_period(sheet.modes[i], response.free.front()[i], h);
-    const double least = 2 * std::numbers::pi / (sheet.modes[i].frequency * h) * 1e-9;
+    const double least = 2 * pi / (sheet.modes[i].frequency * h) * 1e-9;
     points.emplace_back(sheet.modes[i].frequency * h, std::abs(loss) > least ? std::abs(loss) : nan);
     if (std::abs(loss) > least) grows.see(-loss);
   }

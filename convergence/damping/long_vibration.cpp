@@ -5,7 +5,6 @@
 #include "verification/specimens/stepper.h"
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace foldproof {
 
@@ -30,12 +29,12 @@ Vibration make_vibration(int cells) {
   Vibration vibration{sheet_at_rest(cells, {}), 0, 0};
   Scene& scene = vibration.scene;
   const std::vector<SheetMode> modes = modes_of(scene);
-  vibration.period = 2 * std::numbers::pi / lowest_frequency(modes);
+  vibration.period = 2 * pi / lowest_frequency(modes);
   vibration.limit = 2 / highest_frequency(modes);
   PerParticle3 x = PerParticle3::Zero(3, scene.x.cols()), v = x;
   Random random(61);
   for (const SheetMode& mode : modes) {
-    const double phase = random.in(0, 2 * std::numbers::pi);
+    const double phase = random.in(0, 2 * pi);
     x += std::cos(phase) / mode.frequency * mode.shape;
     v += std::sin(phase) * mode.shape;
   }
@@ -141,7 +140,7 @@ double step_of_equal_cost(const Subject& subject, const Vibration& vibration, co
 
 NamedFinding has_no_trend(const Run& run) {
   const Trend trend = run.whole ? trend_of(run.time, run.energy, blocks) : Trend{nan, nan, {}, {}};
-  return {"artificial-damping.no-trend." + run.method,
+  return {"artificial-damping.energy-has-no-trend." + run.method,
           "Over a hundred periods the energy of an undamped crumpling sheet has no trend under " +
               run.method + ": its slope is zero within three standard errors.",
           {{std::abs(trend.slope) / trend.error, 3, 0, "standard errors",
@@ -161,7 +160,7 @@ NamedFinding stays_bounded(const Run& run) {
   Worst worst;
   for (const double energy : run.energy) worst.see(std::abs(std::log(energy)));
   return {
-      "artificial-damping.bounded." + run.method,
+      "artificial-damping.energy-stays-bounded." + run.method,
       "Over a hundred periods the energy of an undamped crumpling sheet stays within what the fastest mode's "
       "swings allow under " +
           run.method + ".",
@@ -174,7 +173,7 @@ NamedFinding stays_bounded(const Run& run) {
 
 NamedFinding dies_out(const Run& run) {
   return {
-      "artificial-damping.dies-out.backward-euler",
+      "artificial-damping.energy-dies-out.backward-euler",
       "Backward Euler takes more than half the energy of an undamped sheet within a hundred periods at half "
       "the elastic limit.",
       {{run.energy.back(), 0.5, 0, "of the start's energy", "half of the energy is what we call significant"},

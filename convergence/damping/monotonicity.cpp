@@ -54,7 +54,7 @@ NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& m
     std::get<0>(totals.values).push_back(total);
   }
   return {
-      "monotonicity.way." + scheme,
+      "monotonicity.distance-is-as-derived." + scheme,
       "Under scheme " + scheme + " a motion that is only damped goes " + ways_in_words(scheme) +
           ", a = h c/2.",
       {{worst.value(), rounding, 0, "of (1 + a^2) times the way", why_rounding}, {as, firsts, totals}, ""}};
@@ -91,7 +91,7 @@ NamedFinding is_stable(const Subject& subject, const DampedMotions& motions) {
       worst.see(largest.value());
       rows.add(*motion, a, largest.value());
     }
-  return {"monotonicity.stable.A",
+  return {"monotonicity.stable-under-any-damping.A",
           "Scheme A is stable under damping however large: linear motions never have more kinetic energy "
           "than at the start.",
           {{worst.value(), 1, 0, "of the start's energy",
@@ -112,7 +112,7 @@ NamedFinding is_bounded(const Subject& subject, const DampedMotions& motions, co
       worst.see(far);
       rows.add(*motion, a, far);
     }
-  return {"monotonicity.bounded." + scheme,
+  return {"monotonicity.overshoot-is-bounded." + scheme,
           "Scheme " + scheme +
               " overshoots a linear motion by no more than the way itself, however large the damping.",
           {{worst.value(), 2, 0, "ways", "derived: the farthest is 2a/(1 + a) of the way, in the first step"},
@@ -131,7 +131,7 @@ NamedFinding alternates(const Subject& subject, const DampedMotions& motions, co
     kept += here;
     rows.add(motions.triangle, a, here);
   }
-  return {"monotonicity.alternates." + scheme,
+  return {"monotonicity.velocity-alternates." + scheme,
           "Scheme " + scheme +
               " is not monotone in the strict sense: for h c/2 > 1 the velocity changes its sign in "
               "every step.",
@@ -150,7 +150,7 @@ NamedFinding monotone_below_one(const Subject& subject, const DampedMotions& mot
       worst.see(wrong);
       rows.add(*motion, a, wrong);
     }
-  return {"monotonicity.below-one." + scheme,
+  return {"monotonicity.monotone-in-short-steps." + scheme,
           "Scheme " + scheme + " is monotone while h c/2 < 1.",
           {{worst.value(), turning, 0, "of the way", why_turning}, rows.columns(), ""}};
 }
@@ -200,7 +200,7 @@ std::vector<NamedFinding> bdf2_findings(const Subject& subject, const DampedMoti
            "BDF2, started exactly, is not monotone at large steps: it overshoots by more than a hundredth of "
            "the way.",
            {{least.value(), 1, 0, "1", "measured is a hundredth over the overshoot"}, rows.columns(), ""}},
-          {"monotonicity.way.BDF2",
+          {"monotonicity.distance-is-as-derived.BDF2",
            "BDF2, started exactly, overshoots as its recurrence says, by a tenth of the way at most.",
            {{error.value(), rounding, 0, "of the way", why_rounding}, rows.columns(), ""}}};
 }

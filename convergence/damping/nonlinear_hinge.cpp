@@ -15,7 +15,7 @@ NamedFinding passes_the_bound(const Subject& subject, const DampedMotion& hinge)
     rows.add(hinge, a, far);
   }
   return {
-      "monotonicity.beyond-the-bound.C",
+      "monotonicity.overshoot-exceeds-the-bound-on-a-hinge.C",
       "On a hinge whose damping falls as it unfolds, scheme C overshoots by more than the way itself.",
       {{worst.value(), 1, 0, "1",
         "measured is the bound of linear motions over the farthest. C's last velocity comes from the damping "
@@ -55,7 +55,7 @@ NamedFinding passes_its_place(const Subject& subject, const DampedMotion& hinge)
     rows.add(hinge, a, far);
   }
   return {
-      "monotonicity.passes-its-place.backward-euler",
+      "monotonicity.overshoots-on-a-hinge.backward-euler",
       "On a hinge without stiffness, whose damping changes as it folds, fully implicit backward Euler goes "
       "farther than the exact motion by more than a tenth of the way.",
       {{worst.value(), 1, 0, "1",

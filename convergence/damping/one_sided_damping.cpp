@@ -34,7 +34,7 @@ NamedFinding spares_the_undamped(const OneSided& springs, const OneSided& hinges
   Worst worst;
   worst.see(springs.worst);
   worst.see(hinges.worst);
-  return {"artificial-damping.only-where-damped." + springs.method,
+  return {"artificial-damping.undamped-parts-stay-undamped." + springs.method,
           "Scheme " + springs.method +
               " adds no damping to bending when springs alone are damped heavily, nor to stretch when hinges "
               "are.",
@@ -52,7 +52,7 @@ NamedFinding damps_everything(const OneSided& springs, const OneSided& hinges) {
   Worst worst;
   for (const OneSided& one : {springs, hinges}) worst.see(0.1 / one.worst);
   return {
-      "artificial-damping.everywhere.backward-euler",
+      "artificial-damping.damps-every-motion.backward-euler",
       "Backward Euler damps motions that nothing damps: at half the elastic limit the fastest of them loses "
       "more than a tenth of its amplitude in a period.",
       {{worst.value(), 1, 0, "1", "measured is a tenth over the loss; the derived loss is pi omega h"},

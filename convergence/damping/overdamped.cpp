@@ -87,7 +87,7 @@ NamedFinding sheet_is_bounded(const Subject& subject, const DampedMotion& sheet,
     worst.see(wrong.velocity);
     rows.add(a, wrong);
   }
-  return {"monotonicity.overdamped-sheet.bounded." + scheme,
+  return {"monotonicity.overdamped-sheet.overshoot-is-bounded." + scheme,
           "On an overdamped sheet with stiffness scheme " + scheme +
               " overshoots or turns back by less than the way itself, in positions, and less than twice the "
               "speed of the start, in velocities.",
@@ -107,7 +107,7 @@ NamedFinding sheet_swings(const Subject& subject, const DampedMotion& sheet, con
     worst.see(0.1 / wrong.velocity);
     rows.add(a, wrong);
   }
-  return {"monotonicity.overdamped-sheet.swings." + scheme,
+  return {"monotonicity.overdamped-sheet.velocity-changes-sign." + scheme,
           "On an overdamped sheet with stiffness velocities change sign under " + scheme +
               " at steps with h c/2 > 2, by more than a tenth of those at the start.",
           {{worst.value(), 1, 0, "1",
@@ -128,7 +128,7 @@ NamedFinding hinge_closes_monotonically(const Subject& subject, const DampedMoti
     rows.add(hinge, a, wrong);
   }
   return {
-      "monotonicity.closing-hinge." + method,
+      "monotonicity.closing-hinge-is-monotone." + method,
       "An overdamped hinge that closes by nearly two radians neither passes its rest angle nor turns back "
       "under " +
           method + ", at any step.",

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "convergence/integrators/oracle_problem.h"
 #include "reference/mesh/shapes.h"
@@ -207,7 +206,7 @@ std::vector<oracles::Factors> factors_of(const Subject& subject, const Vibrating
 }
 
 double loss_per_period(const SheetMode& mode, const oracles::Factors& factors, double h) {
-  return -2 * std::numbers::pi / (mode.frequency * h) * std::log(decay_of(factors));
+  return -2 * pi / (mode.frequency * h) * std::log(decay_of(factors));
 }
 
 }  // namespace foldproof

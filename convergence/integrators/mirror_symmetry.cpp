@@ -98,7 +98,7 @@ NamedFinding finding_of(const History& rounding, const History& seeded) {
     worst.see(roundings.back());
   }
   return {
-      "mirror-symmetry.is-lost-by-rounding-alone",
+      "mirror-symmetry.only-rounding-breaks-it",
       "A symmetric sheet stays symmetric but for rounding, which grows no faster than a disturbance put in "
       "by hand.",
       {{worst.value(), 16, 0, "epsilon * side * steps * growth",

@@ -116,7 +116,7 @@ NamedFinding kept(const Drift& drift, const std::string& material) {
        {"drift in roundings", "1", drift.roundings}},
       ""};
   return {
-      "momentum-drift." + material + "." + drift.scheme,
+      "momentum-drift." + material + "-angular-is-conserved." + drift.scheme,
       "Scheme " + drift.scheme + " keeps the angular momentum of a free, " + material + " sheet to rounding.",
       std::move(finding)};
 }
@@ -141,7 +141,7 @@ NamedFinding falls_with_the_order(const Drift& drift) {
                    {"drift in roundings", "1", drift.roundings}},
                   "measured is the largest |order - " + std::to_string(order) +
                       "| over the last pairs, three if there are so many"};
-  return {"momentum-drift.damped." + drift.scheme + ".order",
+  return {"momentum-drift.damped-drift-order." + drift.scheme,
           "The angular momentum of a free, damped sheet drifts under " + drift.scheme + ", by order " +
               std::to_string(order) + " in the step.",
           std::move(finding)};
@@ -155,8 +155,8 @@ NamedFinding drift_is_real(const Drift& drift) {
       {worst.value(), 0.01, 0, "of the drift", "a hundred times what counts as kept cannot be rounding"},
       {{"step", "s", drift.steps}, {"drift in roundings", "1", drift.roundings}},
       "measured is the bound of a kept momentum over the drift"};
-  return {"momentum-drift.damped.C.is-no-rounding", "The drift of scheme C on a damped sheet is no rounding.",
-          std::move(finding)};
+  return {"momentum-drift.damped-drift-exceeds-rounding.C",
+          "The drift of scheme C on a damped sheet is no rounding.", std::move(finding)};
 }
 
 // ---- all methods
@@ -176,7 +176,7 @@ NamedFinding linear_is_kept(const Drifts& drifts) {
       std::get<0>(steps.values).push_back(drift->steps[k]);
       std::get<0>(roundings.values).push_back(drift->linear[k]);
     }
-  return {"momentum-drift.linear." + drifts.damped.scheme,
+  return {"momentum-drift.linear-is-conserved." + drifts.damped.scheme,
           "The linear momentum of a free sheet is kept to rounding under " + drifts.damped.scheme +
               ", damped or not, however early a solve stops.",
           {{worst.value(), 1, 0, "epsilon, a step, of sum m|v|",
@@ -191,7 +191,7 @@ NamedFinding kept_to_tolerance(const Drift& drift, const std::string& material) 
   Worst worst;
   for (const double part : drift.of_tolerance) worst.see(part);
   return {
-      "momentum-drift." + material + "." + drift.scheme,
+      "momentum-drift." + material + "-angular-is-conserved." + drift.scheme,
       "The implicit midpoint rule keeps the angular momentum of a free, " + material +
           " sheet to the tolerance of its solves.",
       {{worst.value(), 4, 0, "tolerances, a step, of |x||v|",

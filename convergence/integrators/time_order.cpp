@@ -155,7 +155,7 @@ NamedFinding newmark_with_variable_steps(const OrderProblem& problem, const std:
       {orders.empty() ? nan : deviation.value(), bound, uncertainty.value(), "1", why_bound},
       {{"steps", "1", patterns}, {"error in", "1", names}, {"order of the last pair", "1", orders}},
       "B is a one-step map with a local error of third order, so its order does not need a constant step"};
-  return {problem.study + ".observed-in-B-with-variable-steps",
+  return {problem.study + ".B-is-second-order-with-variable-steps",
           "Scheme B is second order in x and v with alternating and with random steps, too.",
           std::move(finding)};
 }

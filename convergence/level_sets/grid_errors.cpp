@@ -3,7 +3,6 @@
 #include "verification/verdict.h"
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace foldproof {
 
@@ -135,7 +134,7 @@ ContourErrors contour_errors(const KnownBody& body, const Grid& grid) {
           lattice.position(node) + here / (here - there) * lattice.spacing * Vector3::Unit(axis);
       const Distance exact = body.at(p);
       const double degrees =
-          std::acos(std::clamp(grid.at(p).normal.dot(exact.normal), -1.0, 1.0)) * 180 / std::numbers::pi;
+          std::acos(std::clamp(grid.at(p).normal.dot(exact.normal), -1.0, 1.0)) * 180 / pi;
       offset.see(std::abs(exact.phi) / lattice.spacing);
       worst_offset.see(std::abs(exact.phi) / lattice.spacing);
       angle.see(degrees);

@@ -85,7 +85,7 @@ NamedFinding runs_with_kept_level_sets_are_the_same() {
   const int early = loaded;
   const State second = end_of_run(text, path, caching_makers(folder.file("kept"), listen));
   const auto differs = [&](const State& s) { return s.x == without.x && s.v == without.v ? 0.0 : 1.0; };
-  return {"level-set-cache.runs-are-the-same",
+  return {"level-set-cache.runs-are-bitwise-equal",
           "A run whose bodies come from kept level sets ends as one that computes them, bit for bit.",
           {{differs(first) + differs(second) + std::abs(early) + std::abs(loaded - early - 3), 0, 0, "1",
             "values are stored in full: no bit may differ, and the second run loads all three bodies"},
@@ -127,7 +127,7 @@ NamedFinding unfit_grids_are_refused() {
     wrong.push_back((is_rebuilt ? 0 : 1) + (is_refused ? 0 : 1) + (is_good_again ? 0 : 1));
     worst.see(wrong.back());
   }
-  return {"level-set-cache.unfit-grids-are-refused",
+  return {"level-set-cache.invalid-grids-are-rejected",
           "A kept grid that is cut, damaged, foreign or of another mesh is refused with the reason, and "
           "replaced.",
           {{worst.value(), 0, 0, "1", "each must be refused and said so, and the new file be good"},

@@ -85,7 +85,7 @@ NamedFinding loaded_is_the_same(Costs& costs) {
   const double wrong =
       (built.was_loaded ? 1 : 0) + (loaded.was_loaded ? 0 : 1) + different_answers(*built.body, *loaded.body);
   return {
-      "level-set-cache.loaded-is-the-same",
+      "level-set-cache.loaded-fields-are-bitwise-equal",
       "Level sets that were computed before are loaded, and answer bit for bit as those that were computed.",
       {{wrong, 0, 0, "1", "values are stored in full"}, {}, "measured is the number of answers that differ"}};
 }
@@ -187,7 +187,7 @@ NamedFinding unfit_files_are_refused() {
     wrong.push_back((is_refused ? 0 : 1) + (again.was_loaded ? 0 : 1));
     worst.see(wrong.back());
   }
-  return {"level-set-cache.unfit-files-are-refused",
+  return {"level-set-cache.invalid-files-are-rejected",
           "A file that is cut, damaged, foreign or computed from something else is refused with the reason, "
           "and replaced.",
           {{worst.value(), 0, 0, "1", "each must be refused, and the new file be good"},

@@ -60,7 +60,7 @@ Figure empty_figure(const std::string& name, const std::string& title, const Axi
 NamedFinding unit_gradient(const KnownBody& body, const std::vector<NodeErrors>& levels) {
   const Convergence steep = against_h(levels, &NodeErrors::steepness);
   return {
-      "level-set-resolution.unit-gradient." + body.name,
+      "level-set-resolution.gradient-has-unit-length." + body.name,
       "After second-order marching |grad phi| is 1 about a " + body.name + ", to O(h) or better.",
       {{1 - pair_orders(steep).back(), 0, 0, "1",
         "errors of O(h^2) that vary from node to node, their differences taken over 2 h"},
@@ -70,7 +70,7 @@ NamedFinding unit_gradient(const KnownBody& body, const std::vector<NodeErrors>&
 }
 
 NamedFinding first_order(const KnownBody& body, const std::vector<NodeErrors>& levels) {
-  return order_finding({"first-order." + body.name,
+  return order_finding({"first-order-marching-converges." + body.name,
                         "First-order marching errs by O(h) about a " + body.name + ", in the mean.", "m", 1,
                         "one-cell upwind differences; log h enters where characteristics spread"},
                        against_h(levels, &NodeErrors::mean));
@@ -81,7 +81,7 @@ void add_marching(const KnownBody& body, const std::vector<int>& cells, StudyRes
   const auto second = march_all(body, cells, Start::layer, MarchingOrder::second);
   const auto banded = march_all(body, cells, Start::band, MarchingOrder::second);
   result.findings.push_back(order_finding(
-      {"second-order." + body.name,
+      {"second-order-marching-converges." + body.name,
        "Second-order marching errs by O(h^2) about a " + body.name + ", in the mean away from its kinks.",
        "m", 2,
        "two-cell upwind differences; only next to kinks, and where a difference changes sign, is one cell "
@@ -122,20 +122,21 @@ void add_interpolation(const std::vector<int>& cells, StudyResult& result) {
   Worst share;
   for (const PointErrors& level : levels) share.see(level.value / trilinear_bound(level.h));
   result.findings.push_back(
-      {"level-set-resolution.trilinear-value",
+      {"level-set-resolution.trilinear-error-is-bounded-by-curvature",
        "Between exact nodes the trilinear value misses a ball's distance by no more than its curvature "
        "explains.",
        {{share.value(), 1, 0, "1",
          "along each axis h^2/8 times the second derivative; the three add up to 2/|p|"},
         columns_of(value, "m"),
         "measured is the largest error over h^2/(4 |p|) of the innermost cells touched"}});
-  result.findings.push_back(order_finding({"cell-gradient", "The gradient of the cell errs by O(h).", "1", 1,
-                                           "it is right in the cell's middle and constant along each axis"},
-                                          cell));
   result.findings.push_back(
-      order_finding({"nodal-gradient", "The blend of the nodes' central differences errs by O(h^2).", "1", 2,
-                     "central differences and their blend are both exact for quadratics"},
-                    nodal));
+      order_finding({"cell-gradient-is-first-order", "The gradient of the cell errs by O(h).", "1", 1,
+                     "it is right in the cell's middle and constant along each axis"},
+                    cell));
+  result.findings.push_back(order_finding(
+      {"nodal-gradient-is-second-order", "The blend of the nodes' central differences errs by O(h^2).", "1",
+       2, "central differences and their blend are both exact for quadratics"},
+      nodal));
   Figure figure =
       empty_figure("interpolation", "Error between exact nodes, within a tenth of a metre of a ball",
                    {"largest error", "m, or 1 for directions", Scale::log}, "Random points.");
@@ -170,7 +171,7 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
     exact.push_back(contour_errors(body, marched(body, n, Start::band, MarchingOrder::second)));
   }
   result.findings.push_back(
-      order_finding({"crude-start.distance",
+      order_finding({"crude-start.distance-is-first-order",
                      "From small positive and small negative values marching gives the distance, to O(h).",
                      "m", 1, "the surface is known to a part of a cell, which marching carries everywhere"},
                     against_h(nodes, &NodeErrors::mean)));
@@ -178,7 +179,7 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
   Worst farthest;
   for (const double cells_off : offset.errors) farthest.see(cells_off);
   result.findings.push_back(
-      {"level-set-resolution.crude-start.contour",
+      {"level-set-resolution.crude-start.contour-is-within-half-a-cell",
        "The crude start leaves the surface off by half a cell at most.",
        {{farthest.value(), 0.5, 0, "cells",
          "sides alone put the crossing in the middle of an edge, at most half a cell from where it is"},
@@ -195,7 +196,7 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
         columns_of(angle, "degrees"),
         "measured is |log2| of the mean angle on the finest grid over that on the coarsest"}});
   const Convergence cured = against_h(exact, &ContourErrors::worst_angle);
-  result.findings.push_back({"level-set-resolution.exact-start.normals",
+  result.findings.push_back({"level-set-resolution.exact-start.normals-are-second-order",
                              "With exact values next to the surface normals there err by O(h^2) at worst.",
                              {{2 - pair_orders(cured).back(), 0.2, 0, "1", "as between exact nodes"},
                               columns_of(cured, "degrees"),

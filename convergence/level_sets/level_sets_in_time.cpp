@@ -111,7 +111,7 @@ NamedFinding carried_errs_less(const std::vector<Pair>& pairs) {
   Worst worst;
   for (std::size_t i = 0; i < 2; ++i) worst.see(pairs[i].carried / pairs[i].blended);
   return {
-      "level-sets-in-time.carried-errs-less",
+      "level-sets-in-time.carried-error-is-smaller",
       "Carried along with the body, phi errs by less than a half of what it errs if blended at the point.",
       {{worst.value(), 0.5, 0, "1",
         "a half: then it saves more than a quarter of the frames, 1 - 1/sqrt(2), both errors falling with "
@@ -127,7 +127,7 @@ NamedFinding frame_is_cheap(const std::vector<Pair>& pairs, int depth) {
   Worst worst;
   for (const Pair& pair : pairs) worst.see(pair.evaluations / nodes);
   return {
-      "level-sets-in-time.frame-asks-for-few-distances",
+      "level-sets-in-time.frames-compute-few-distances",
       "A frame of a deforming body asks for a tenth of the distances that a whole grid as fine would need.",
       {{worst.value(), 0.1, 0, "1",
         "a tenth: what lies beyond the band is sampled only as finely as it must be"},
@@ -139,7 +139,7 @@ NamedFinding frame_is_cheap(const std::vector<Pair>& pairs, int depth) {
 
 NamedFinding fast_bodies_keep_little(const std::vector<Pair>& pairs) {
   return {
-      "level-sets-in-time.fast-bodies-keep-little",
+      "level-sets-in-time.fast-bodies-reuse-little",
       "A body that moves by more than its radius between two frames leaves few nodes of the first as they "
       "were: nearly all are looked for anew.",
       {{pairs.front().kept, 0.1, 0, "1",

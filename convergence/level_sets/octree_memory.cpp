@@ -146,7 +146,7 @@ NamedFinding takes_a_tenth(const std::vector<Balance>& all) {
 }
 
 NamedFinding even_curve_takes_more(const std::vector<Balance>& all) {
-  return {"octree-memory.even-curve-takes-more",
+  return {"octree-memory.sphere-takes-more-than-a-tenth",
           "On a sphere, which is curved alike everywhere, the octree takes more than a tenth of the grid's "
           "memory.",
           {{0.1 / share_of_grid(finest(all, "sphere")), 1, 0, "1",

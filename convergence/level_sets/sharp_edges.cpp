@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <random>
 
 #include "convergence/order.h"
@@ -71,7 +70,7 @@ EdgeErrors edge_errors(const Askew& body, const Solid& solid, double h) {
   EdgeErrors errors{h, 0, 0, 0};
   for (const EdgePoint& point : edge_points(body, h)) {
     const Distance at = solid.at(point.p);
-    const double angle = 180 / std::numbers::pi *
+    const double angle = 180 / pi *
                          std::atan2(at.normal.cross(point.normal).norm(), at.normal.dot(point.normal));
     if (!(angle <= told_apart)) errors.reach = std::max(errors.reach, point.from_edge / h);
     keep_worst(errors.worst_angle, angle);
@@ -128,7 +127,7 @@ NamedFinding reach_finding(const Sampling& sampling) {
 NamedFinding angle_finding(const Sampling& sampling) {
   const double first = sampling.errors.front().worst_angle, last = sampling.errors.back().worst_angle;
   return {
-      "sharp-edges.largest-angle-stays." + sampling.name,
+      "sharp-edges.normal-error-persists-under-refinement." + sampling.name,
       "On " + sampling.words + " refinement narrows the strip of blended normals, but not their error.",
       {{std::abs(last / first - 1), 0.2, 0, "1",
         "next to an edge the samples of every spacing are alike but for where the edge lies among them, of "
@@ -140,7 +139,7 @@ NamedFinding angle_finding(const Sampling& sampling) {
 NamedFinding phi_finding(const Sampling& sampling) {
   const Estimate deviation =
       order_deviation({column(sampling, &EdgeErrors::h), column(sampling, &EdgeErrors::worst_phi), 0}, 1, 2);
-  return {"sharp-edges.phi-is-of-first-order." + sampling.name,
+  return {"sharp-edges.phi-is-first-order." + sampling.name,
           "On " + sampling.words + " the surface misses an edge by a part of a cell.",
           {{deviation.value, 0.2, deviation.uncertainty, "1",
             "a kink of phi is cut off over a cell: order 1; the largest of 6000 random places is known to a "

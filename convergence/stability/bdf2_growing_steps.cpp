@@ -33,7 +33,7 @@ NamedFinding zero_stability(const Subject& subject) {
   }
   const oracles::Estimate exact = oracles::bdf2_largest_ratio();
   return {
-      "variable-step-stability.BDF2.largest-ratio",
+      "variable-step-stability.BDF2.largest-step-ratio-is-as-derived",
       "BDF2 with steps of a constant ratio amplifies differences of x'' = 0 from the ratio 1 + sqrt(2) on.",
       {{std::abs((below + above) / 2 - exact.value), 1e-9, exact.uncertainty, "1",
         "the factor r^2/(1 + 2 r) is found to roundings, and its slope there is 0.35"},
@@ -66,14 +66,14 @@ std::vector<NamedFinding> growing_steps(const std::string& where, const SteppedM
   const auto factor = [](double r) { return r * r / (1 + 2 * r); };
   const double kept = amplification(of, below), grown = amplification(of, above);
   const double bound = 1 / (1 - factor(below));  // 1 + p + p^2 + ...
-  return {{"variable-step-stability.BDF2.below." + where,
+  return {{"variable-step-stability.BDF2.bounded-below-that-ratio." + where,
            "Steps that grow by 2.40 leave BDF2 bounded on " + where + ".",
            {{kept / bound, 1, 0, "1",
              "differences fall by p = r^2/(1 + 2 r) each step, so they add up to less than 1/(1 - p)"},
             {{"amplification after 600 steps", "1", std::vector<double>{kept}},
              {"1/(1 - p)", "1", std::vector<double>{bound}}},
             ""}},
-          {"variable-step-stability.BDF2.above." + where,
+          {"variable-step-stability.BDF2.grows-above-that-ratio." + where,
            "Steps that grow by 2.43 make BDF2 grow without bound on " + where + ", though implicit.",
            {{1000 / grown, 1, 0, "1",
              "p = 1.0077 to the power 600 is 98, summed up more than ten thousand; a thousand tells it from "

@@ -98,7 +98,7 @@ NamedFinding smaller_of_both(const std::vector<Limits>& alone, const Limits& bot
   const Verdict verdict{worst.value(), 0.01, 0, "1",
                         "power iteration has found the frequencies to better than a hundredth"};
   return {
-      "elastic-limit.both.is-the-smaller",
+      "elastic-limit.both.is-the-smaller-of-the-two",
       "With springs and bending, the largest stable step is the smaller of the two: springs' on wide cells, "
       "bending's on narrow ones.",
       {verdict,

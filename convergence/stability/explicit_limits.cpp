@@ -31,7 +31,7 @@ NamedFinding damping_exponent(const Damping& damping, const Convergence& limits,
   std::vector<double> orders = pair_orders(limits);
   orders.insert(orders.begin(), nan);
   return {
-      "stability-sheet.damping-exponent." + damping.name,
+      "stability-sheet.damping-limit-exponent." + damping.name,
       "With " + damping.words +
           " the largest stable step of a fully explicit method is proportional to the cells' width to the "
           "power " +
@@ -131,7 +131,7 @@ constexpr size_t tenth = 1;
 
 NamedFinding an_order_of_magnitude(const StepCounts& counts) {
   const double factor = counts.classical[tenth] / counts.mixed[tenth];
-  return {"stability-sheet.a-tenth.order-of-magnitude",
+  return {"stability-sheet.tenth-width.explicit-needs-ten-times-the-steps",
           "At a width of a tenth a fully explicit method needs at least ten times the steps of a mixed one.",
           {{10 / factor, 1, 0, "1", "the paper's example: 10 steps against 100"},
            table_of(counts),
@@ -143,7 +143,7 @@ NamedFinding factor_exponent(const StepCounts& counts) {
   for (size_t i = 0; i < counts.widths.size(); ++i)
     factors.errors.push_back(counts.classical[i] / counts.mixed[i]);
   const Estimate deviation = order_deviation(factors, -1, 1);
-  return {"stability-sheet.a-tenth.factor-exponent",
+  return {"stability-sheet.tenth-width.step-ratio-exponent",
           "The factor between the steps of explicit and mixed methods grows as one over the width of a cell.",
           {{deviation.value, 0.1, 0, "1", "a factor that stayed, or grew with the square, is off by 1"},
            {{"width of a cell", "1", factors.steps}, {"steps of RK4 over those of A", "1", factors.errors}},
@@ -168,7 +168,7 @@ NamedFinding by_trying(const Subject& subject, const Integrator& integrator, dou
             largest_stable_step(subject, scene, mode.omega, {0.9 * fraction, 1.1 * fraction, 7, 2400});
   }
   return {
-      "stability-sheet.a-tenth.by-trying." + std::string(integrator.name),
+      "stability-sheet.tenth-width.stepping-confirms." + std::string(integrator.name),
       "Stepping confirms the steps that " + std::string(integrator.title) + " needs at a width of a tenth.",
       {{std::abs(steps / expected - 1), 0.01, 0, "1",
         "a disturbance grows a thousandfold in 2400 steps from a third of a percent beyond the limit on; the "

@@ -153,7 +153,7 @@ NamedFinding damped_finding(const std::vector<Damped>& limits, const std::vector
     worst.see(std::abs(measured[i] / expected.back() - 1));
   }
   return {
-      "hard-limits.damped-is-as-derived",
+      "hard-limits.damped-limit-is-as-derived",
       "Damped in proportion to stiffness, schemes A and B are stable up to 2/omega, C up to (2/omega) (zeta "
       "+ sqrt(1 + zeta^2)), for damping ratios zeta up to 100.",
       {{worst.value(), 0.01, 0, "1",

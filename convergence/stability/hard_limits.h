@@ -10,13 +10,14 @@ namespace foldproof {
 
 // What a jump of the step does to the energy of a vibration.
 
-/// The finding hard-limits.step-jump.<scheme>: an undamped sheet vibrates in its fastest mode in steps of
+/// The finding hard-limits.energy-is-bounded-across-a-step-jump.<scheme>: an undamped sheet vibrates in its
+/// fastest mode in steps of
 /// 0.009 (2/omega), which jump to 0.9 (2/omega) at one of eight phases of the period.
 NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& scheme);
 
 // When a ribbon of slivers loses a triangle, and that the step does not decide it.
 
-/// The finding hard-limits.slivers-collapse-whatever-the-step. It runs the reference.
+/// The finding hard-limits.slivers-collapse-at-any-step. It runs the reference.
 NamedFinding sliver_collapse();
 
 }  // namespace foldproof

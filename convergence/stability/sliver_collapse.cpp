@@ -40,7 +40,7 @@ NamedFinding sliver_collapse() {
     times.push_back(collapse_time(falling_ribbon(safety)));
     apart.see(std::abs(times.back() / times.front() - 1));
   }
-  return {"hard-limits.slivers-collapse-whatever-the-step",
+  return {"hard-limits.slivers-collapse-at-any-step",
           "A falling ribbon of triangles 1200 times as long as high shears until one has lost its area, at "
           "the same time whatever the step: a limit of the model, not of the integration.",
           {{apart.value(), 1e-3, 0, "1",

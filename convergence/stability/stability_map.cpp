@@ -169,7 +169,7 @@ NamedFinding as_derived(const Integrator& method, const Springs& springs, const 
   Worst worst;
   for (size_t i = 0; i < points.tried.size(); ++i) worst.see(std::abs(points.tried[i] / points.known[i] - 1));
   if (points.tried.empty()) worst.see(nan);
-  return {"stability-sheet.map." + springs.name + "." + std::string(method.name),
+  return {"stability-sheet.map-follows-the-fastest-mode." + springs.name + "." + std::string(method.name),
           "Over damping and resolution, with " + springs.words + ", the largest stable step of " +
               std::string(method.title) + " is that of the oscillator that the fastest mode is.",
           {{worst.value(), 0.01, 0, "1",

@@ -65,7 +65,7 @@ NamedFinding limit_finding(const Integrator& integrator, const LimitRow& row) {
   const std::string what = !mixed ? "where its stability polynomial leaves 1, so that damping narrows it"
                            : name == "C" ? "2 (zeta + sqrt(1 + zeta^2)) over omega, so that damping widens it"
                                          : "2/omega whatever the damping";
-  return {"stability-oscillator.limit." + name,
+  return {"stability-oscillator.limit-is-as-derived." + name,
           "The largest stable step of " + title + " on the damped oscillator is " + what + ".",
           {{worst.value(), 1e-3, 0, "1",
             "a tenth of a percent tells any two of these formulas apart; a spectral radius of 1 + 1e-8 "
@@ -88,7 +88,7 @@ NamedFinding undamped_growth(const Subject& subject, const Integrator& integrato
     worst.see(std::abs(excess.back() / (std::pow(y, power) / (power == 2 ? 1 : 4)) - 1));
   }
   const std::string name(integrator.name);
-  return {"stability-oscillator.undamped-grows." + name,
+  return {"stability-oscillator.undamped-motion-grows." + name,
           "Without damping " + std::string(integrator.title) + " grows at every step: |R(iy)|^2 = 1 + y^" +
               (power == 2 ? "2." : "4/4."),
           {{worst.value(), 1e-3, 0, "1",
@@ -108,7 +108,7 @@ NamedFinding unlimited(const Subject& subject, const Integrator& integrator) {
     largest.push_back(here.value());
     worst.see(here.value() - 1);
   }
-  return {"stability-oscillator.unlimited." + std::string(integrator.name),
+  return {"stability-oscillator.has-no-limit." + std::string(integrator.name),
           std::string(integrator.title) + " is stable on the damped oscillator at every step.",
           {{worst.value(), threshold, 0, "1", "what counts as growth everywhere in this study"},
            {{"damping ratio", "1", ratios}, {"largest spectral radius, omega h .01 to 1000", "1", largest}},

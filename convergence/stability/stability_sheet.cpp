@@ -79,7 +79,7 @@ const char* const why_percent =
 
 NamedFinding independence(const Integrator& integrator, const Damping& damping, const DampedLimits& limits) {
   const std::string name(integrator.name);
-  return {"stability-sheet.independent-of-damping." + damping.name + "." + name,
+  return {"stability-sheet.limit-does-not-depend-on-damping." + damping.name + "." + name,
           "On a sheet with " + damping.words + " scheme " + name +
               " is stable up to 2/omega, the limit without damping, however large the damping.",
           {{worst_deviation(limits.measured, limits.elastic), 0.01, 0, "1", why_percent},
@@ -91,7 +91,7 @@ NamedFinding never_narrower(const Damping& damping, const DampedLimits& limits) 
   Worst worst;
   for (size_t i = 0; i < limits.measured.size(); ++i) worst.see(limits.elastic[i] / limits.measured[i]);
   return {
-      "stability-sheet.damping-never-narrows." + damping.name + ".C",
+      "stability-sheet.damping-never-lowers-the-limit." + damping.name + ".C",
       "On a sheet with " + damping.words + " scheme C is stable up to 2/omega at least.",
       {{worst.value(), 1.001, 0, "1", "the bisection and the linearised forces leave less than a thousandth"},
        columns_of(limits),
@@ -101,7 +101,7 @@ NamedFinding never_narrower(const Damping& damping, const DampedLimits& limits) 
 NamedFinding as_known(const Integrator& integrator, const Damping& damping, const DampedLimits& limits) {
   const std::string name(integrator.name);
   const bool mixed = integrator.family == Family::mixed;
-  return {"stability-sheet.limit." + damping.name + "." + name,
+  return {"stability-sheet.limit-is-as-derived." + damping.name + "." + name,
           "On a sheet with " + damping.words + " the largest stable step of " +
               std::string(integrator.title) +
               (mixed ? " is where 4 + 2 h C - h^2 K becomes singular."

@@ -61,7 +61,7 @@ NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& s
   Worst worst;
   std::vector<double> phases, least, most;
   for (int k = 0; k < 8; ++k) {
-    phases.push_back(2 * M_PI * k / 8);
+    phases.push_back(2 * pi * k / 8);
     const EnergyRange range = after_jump({subject, scene, mode, *prepared}, phases.back());
     least.push_back(1 / range.over_least.value());
     most.push_back(range.largest.value());
@@ -69,7 +69,7 @@ NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& s
     worst.see(range.over_least.value() * room);
   }
   return {
-      "hard-limits.step-jump." + scheme,
+      "hard-limits.energy-is-bounded-across-a-step-jump." + scheme,
       "When the step jumps by 1 : 100 to s (2/omega), s = 0.9, the energy of scheme " + scheme +
           " stays within [1 - s^2, 1/(1 - s^2)] of what it was.",
       {{worst.value(), 1.01, 0, "1",

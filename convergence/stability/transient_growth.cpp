@@ -57,7 +57,7 @@ NamedFinding derived_finding(const std::string& scheme, const GrowthTable& table
   Worst worst;
   for (size_t i = 0; i < table.a.size(); ++i)
     worst.see(std::abs(table.growth[i] / derived_growth(scheme, table.omega_h[i], table.a[i]) - 1));
-  return {"transient-growth.as-derived." + scheme,
+  return {"transient-growth.growth-is-as-derived." + scheme,
           "The growth of a disturbance of the damped oscillator under scheme " + scheme +
               " is that of the derived matrix.",
           {{worst.value(), 1e-6, 0, "1",
@@ -93,7 +93,7 @@ NamedFinding exponent_in_damping(const Subject& subject) {
     convergence.errors.push_back(oscillator_growth(subject, "A", 1, a));
   }
   const Estimate deviation = order_deviation(convergence, 1, 2);
-  return {"transient-growth.A.exponent",
+  return {"transient-growth.A.growth-is-proportional-to-damping",
           "The growth under scheme A is proportional to the damping where that is high.",
           {{deviation.value, 0.05, 0, "1", "h c/2 - 1 over h c/2 differs by a thirtieth at the lowest"},
            {{"h c/2", "1", convergence.steps}, {"growth", "1", convergence.errors}},
@@ -109,7 +109,7 @@ NamedFinding bounded_finding(const std::string& scheme, const GrowthTable& table
   }
   std::vector<Column> columns = columns_of(table);
   columns.push_back({"undamped growth", "1", bounds});
-  return {"transient-growth.bounded." + scheme,
+  return {"transient-growth.growth-is-bounded." + scheme,
           "Scheme " + scheme +
               " never carries a disturbance of the oscillator further than it does without damping, "
               "1/sqrt(1 - (omega h/2)^2) of its size.",
@@ -180,7 +180,7 @@ void add_sheet(const Subject& subject, int points, StudyResult& result) {
     Worst worst;
     for (const double growth : found.growth[i]) worst.see(growth / bound);
     result.findings.push_back(
-        {"transient-growth.sheet-bounded." + schemes()[i],
+        {"transient-growth.sheet-growth-is-bounded." + schemes()[i],
          "On a sheet whose stiffness and damping do not commute, scheme " + schemes()[i] +
              " carries no disturbance further than the undamped sheet's fastest mode would be.",
          {{worst.value(), 1, 1e-6, "1", "1/sqrt(1 - (omega h/2)^2) of the fastest mode, without damping"},
@@ -189,7 +189,7 @@ void add_sheet(const Subject& subject, int points, StudyResult& result) {
   }
   const double first = found.growth[0].front(), last = found.growth[0].back();
   result.findings.push_back(
-      {"transient-growth.sheet-A-grows",
+      {"transient-growth.A.sheet-growth-exceeds-tenfold",
        "On the sheet scheme A carries heavily damped disturbances to more than ten times what it does "
        "lightly damped ones, and ever further.",
        {{10 * first / last, 1, 0, "1", "an order of magnitude; the damping rises by four"},

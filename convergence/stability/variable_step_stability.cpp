@@ -39,7 +39,7 @@ NamedFinding resonance_finding(const Subject& subject, const std::string& scheme
   for (const double radius : alone) either.see(radius);
   const Verdict verdict{either.value() / pair, 0.5, 0, "1",
                         "growth by more than two in each pair of steps is no rounding, and no slow drift"};
-  return {"variable-step-stability.resonance." + scheme,
+  return {"variable-step-stability.alternating-steps-resonate." + scheme,
           "Undamped, steps of .69/omega and 1.99/omega in turn make scheme " + scheme +
               " grow, though each alone is stable: a step below the limit does not suffice if steps vary.",
           {verdict,
@@ -58,7 +58,7 @@ NamedFinding damped_finding(const Subject& subject, const std::string& scheme) {
     worst.see(radii.back());
   }
   return {
-      "variable-step-stability.damping-cures." + scheme,
+      "variable-step-stability.damping-removes-resonance." + scheme,
       "A damping ratio of a half or more makes steps of .69/omega and 1.99/omega in turn stable in scheme " +
           scheme + ".",
       {{worst.value(), 1, 0, "1", "a spectral radius above 1 grows"},
@@ -117,7 +117,7 @@ NamedFinding map_finding(const std::string& scheme, const Map& map) {
       worst.see(std::abs(map.values[i++] / exact - 1));
     }
   return {
-      "variable-step-stability.as-derived." + scheme,
+      "variable-step-stability.growth-is-as-derived." + scheme,
       "The spectral radius of two steps in turn of scheme " + scheme +
           " is that of the derived matrices, over step ratios and damping ratios.",
       {{worst.value(), 1e-6, 0, "1",
@@ -178,14 +178,14 @@ void add_sheet_findings(const Subject& subject, const std::string& scheme, Study
   const double undamped = sheet_growth(subject, scene, scheme, 0);
   const double damped = sheet_growth(subject, scene, scheme, 0.5);
   result.findings.push_back(
-      {"variable-step-stability.sheet-grows." + scheme,
+      {"variable-step-stability.undamped-sheet-grows." + scheme,
        "An undamped sheet grows under scheme " + scheme +
            " with steps of .69 and 1.99 over its highest frequency in turn.",
        {{1e3 / undamped, 1, 0, "1", "a thousand times its size is beyond what bounded modes can add up to"},
         {{"largest size over the start's", "1", std::vector<double>{undamped}}},
         "measured is a thousand over the growth"}});
   result.findings.push_back(
-      {"variable-step-stability.sheet-cured." + scheme,
+      {"variable-step-stability.damped-sheet-does-not-grow." + scheme,
        "A sheet whose highest mode has a damping ratio of a half does not grow under the same steps of "
        "scheme " +
            scheme + ".",

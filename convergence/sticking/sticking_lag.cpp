@@ -48,7 +48,7 @@ Lag measured_lag(const Subject& subject, const std::string& method, double k, do
   Scene scene = particle_on_palm({arm, 0, 0}, motion, k, tau);
   scene.integrator = method;
   const double omega = std::sqrt(k / particle_mass);
-  const double settled = 12 * std::max(tau, 2 / omega), watched = 3 * 2 * M_PI / omega;
+  const double settled = 12 * std::max(tau, 2 / omega), watched = 3 * 2 * pi / omega;
   const auto prepared = offered(subject.prepare, "prepare")(scene);
   State s = start_state(scene);
   s.v.col(0) = Vector3(0, turning * arm, 0);
@@ -138,13 +138,13 @@ void add_lags(const Subject& subject, Tier tier, StudyResult& result) {
                               evidence,
                               ""}});
   result.findings.push_back(
-      {"sticking-lag.forecasts-end-the-swing",
+      {"sticking-lag.forecasts-damp-the-swing",
        "Stuck with critical forecasts, tau_s = 2/omega, it comes to rest against its place.",
        {{swings.value(), 1e-3, 0, "1", "twelve times 2/omega leave (1 + 12) e^-12 = 8e-5 of m a/k"},
         evidence,
         ""}});
   result.findings.push_back(
-      {"sticking-lag.a-plain-spring-swings-for-ever",
+      {"sticking-lag.plain-spring-swings-forever",
        "A plain spring swings about its lag for ever, by as much again: it never holds a place.",
        {{1.9 - least_swing, 0, 0, "1",
          "the swing is from nothing to twice m a/k; a tenth for where the steps fall and what k fades"},
@@ -192,7 +192,7 @@ void add_limits(const Subject& subject, Tier tier, StudyResult& result) {
       off.see(std::abs(curve.y.back() / known.y.back() - 1));
     }
     result.findings.push_back(
-        {"sticking-lag.limit." + name,
+        {"sticking-lag.limit-is-as-derived." + name,
          "Scheme " + name + ": what sticks is stable in steps up to " +
              (name == "C" ? "tau_s + sqrt(tau_s^2 + 4/omega^2)." : "2/omega, whatever its forecast time."),
          {{off.value(), 1e-3, 0, "1",
@@ -266,7 +266,7 @@ void add_cost(const Subject& subject, Tier tier, StudyResult& result) {
                    {"to cloth", numbers, on_cloth, nan, {}}};
   result.figures.push_back(figure);
   result.findings.push_back(
-      {"sticking-lag.iterations-on-a-surface",
+      {"sticking-lag.surface-bonds-add-few-iterations",
        "Bonds to a surface cost a solve no more than the digits by which its first guess is worse.",
        {{surface.value(), 1.4, 0, "1",
          "what they add is k tau_s on the diagonal, which does not spread the spectrum; but the guess, the "

@@ -26,7 +26,7 @@ constexpr double fastest = most * locking / (density * length);
 constexpr double frequency = 1 / (4 * duration);  // Hz
 
 /// Load at the clamp that pulls the strip's mass along [N/m].
-double load_at(double t) { return density * length * fastest * std::sin(2 * M_PI * frequency * t); }
+double load_at(double t) { return density * length * fastest * std::sin(2 * pi * frequency * t); }
 
 /// Mean extension of a bar with strain load s/(length Y), s from its free end, until that is the limit.
 double bar_extension(double load, double young, double limit_of_strain) {
@@ -54,7 +54,7 @@ Scene strip(const Springs& springs) {
     scene.strain_limits = limits;
   }
   Motion pull;
-  const double turn = 2 * M_PI * frequency;  // 1/s
+  const double turn = 2 * pi * frequency;  // 1/s
   pull.velocity = Vector3(-fastest / turn, 0, 0);
   pull.amplitude = Vector3(fastest / (turn * turn), 0, 0);
   pull.frequency = frequency;
@@ -130,9 +130,9 @@ NamedFinding bar_finding(const Pulled& run) {
   const auto& bar = std::get<0>(evidence[2].values);
   for (size_t k = 0; k < bar.size(); ++k) worst.see(std::abs(run.extensions[k] - bar[k]) / limit);
   const double wave = length / std::sqrt(weak / density);       // s
-  const double growth = most * locking * 2 * M_PI * frequency;  // of the load, at most [N/m/s]
+  const double growth = most * locking * 2 * pi * frequency;  // of the load, at most [N/m/s]
   const double lag = (wave + damping_time) * growth / (2 * weak) / limit;
-  return {"biphasic.extension-is-the-bars",
+  return {"biphasic.extension-matches-a-biphasic-bar",
           "A strip of weak springs with a limit of +10 % is extended by its load as a bar whose strain grows "
           "with the load to "
           "10 % and no further.",
@@ -161,7 +161,7 @@ NamedFinding one_phase_finding(const std::vector<Pulled>& runs) {
   for (const Pulled& run : runs)
     if (!run.springs.is_limited) measured.row(run.springs.name, std::abs(late_over_early(run) - 1));
   return {
-      "biphasic.springs-alone-have-one-phase",
+      "biphasic.springs-without-limits-have-one-phase",
       "Without limits a strip gives way to the last as it did at first, weak or stiff springs.",
       judged_worst(
           measured, 0.25,
@@ -171,7 +171,7 @@ NamedFinding one_phase_finding(const std::vector<Pulled>& runs) {
 
 NamedFinding steps_finding(const Pulled& limited, const Pulled& stiff) {
   const double ratio = stiff.steps / limited.steps;
-  return {"biphasic.steps-are-larger",
+  return {"biphasic.limits-allow-larger-steps",
           "Springs that need no limit to stay within 10 % under the largest load are four times as stiff, "
           "and take twice as many "
           "steps.",

@@ -75,7 +75,7 @@ std::vector<Column> evidence_of(const Drift& drift) {
 NamedFinding kept(const Drift& drift) {
   Worst worst;
   for (const double roundings : drift.roundings) worst.see(roundings);
-  return {"strain-momentum." + drift.scheme,
+  return {"strain-momentum.is-conserved." + drift.scheme,
           "Scheme " + drift.scheme +
               " keeps the angular momentum of a free sheet at its strain limits to rounding.",
           {{worst.value(), 16 + 12 * drift.sweeps, 0, "epsilon, a step, of sum m|x||v|",
@@ -88,7 +88,7 @@ NamedFinding kept(const Drift& drift) {
 
 NamedFinding drifts(const Drift& drift) {
   const double fitted = fitted_order({drift.steps, drift.relative, 0});
-  return {"strain-momentum." + drift.scheme + ".order",
+  return {"strain-momentum.drift-is-first-order." + drift.scheme,
           "The angular momentum of a free sheet at its strain limits drifts under " + drift.scheme +
               ", by first order in the step.",
           {{std::abs(fitted - 1), 0.1, 0, "1",

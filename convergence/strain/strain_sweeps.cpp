@@ -109,7 +109,7 @@ NamedFinding growth(const Row& row) {
   std::vector<double> widths;
   for (const double cells : row.cells) widths.push_back(1 / cells);
   const double exponent = -fitted_order({widths, row.sweeps, 0});
-  return {"strain-sweeps.grow-as-the-square." + row.order,
+  return {"strain-sweeps.grow-quadratically." + row.order,
           "Sweeps in the order '" + row.order +
               "' that find velocities within the limits grow as the square of the cells "
               "along a side.",
@@ -147,7 +147,7 @@ NamedFinding biased(const std::vector<Row>& rows) {
     worst.see(0.01 / row.asymmetry.front());
   }
   return {
-      "strain-sweeps.springs-in-turn-break-the-mirror",
+      "strain-sweeps.sequential-sweeps-break-mirror-symmetry",
       "Sweeps that correct springs in turn answer a mirror-symmetric motion unsymmetrically, alternating "
       "ones too.",
       {{worst.value(), 1, 0, "1",
@@ -162,7 +162,7 @@ NamedFinding energy(const std::vector<Row>& rows) {
   for (const Row& row : rows)
     for (const double left : row.energy_left) worst.see(left);
   return {
-      "strain-sweeps.energy-is-taken",
+      "strain-sweeps.kinetic-energy-decreases",
       "Limiting the strain of a sheet that moves away from its place takes kinetic energy, in whatever "
       "order.",
       {{worst.value(), 1, 0, "of what there was",

@@ -1,7 +1,6 @@
 // What is measured of wrinkles, on shapes whose answers are known; and a simulation read back from its file.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "convergence/contact/section_profile.h"
 #include "convergence/contact/wrinkle_measure.h"
@@ -13,7 +12,6 @@
 #include "verification/files/trajectory_file.h"
 
 using namespace foldproof;
-using std::numbers::pi;
 
 TEST_CASE("the dominant wavelength is that of the largest wave, whatever line lies under it") {
   std::vector<double> samples;

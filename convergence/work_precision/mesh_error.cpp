@@ -103,7 +103,7 @@ NamedFinding second_order(const Convergence& errors) {
       deviation.value, 0.5, deviation.uncertainty, "1",
       "first order would be off by 1; half of that is left to the border, whose springs and "
       "hinges lack a neighbour, on meshes this coarse"};
-  return {"mesh-error.second-order-in-the-cells",
+  return {"mesh-error.is-second-order-in-cell-width",
           "Positions of a smooth motion converge with second order in the cells' width.",
           {verdict,
            {{"width of a cell", "m", errors.steps},
@@ -125,7 +125,7 @@ NamedFinding step_errs_less(const std::vector<MeshRun>& meshes, const std::vecto
   const Verdict verdict{worst.value(), 0.1, uncertainty.value(), "1",
                         "a tenth: then a shorter step would lessen the whole error by no more than that"};
   return {
-      "mesh-error.the-usual-step-errs-a-tenth-of-the-mesh",
+      "mesh-error.usual-step-error-is-below-a-tenth-of-it",
       "At the share of the elastic limit that automatic steps take, the step's error is less than a tenth "
       "of the mesh's.",
       {verdict,

@@ -66,7 +66,7 @@ NamedFinding as_derived(const Convergence& errors, const Creeping& motion) {
     worst.see(std::abs(errors.errors[i] / derived.back() - 1));
   }
   return {
-      "work-precision.slow-motion.C",
+      "work-precision.slow-motion-is-first-order.C",
       "Under heavy damping C's error on the slow motion is that of a method of first order, unless the step "
       "resolves the damping.",
       {{worst.value(), 0.05, 0, "1",
@@ -85,7 +85,7 @@ NamedFinding keeps_its_order(const Convergence& errors, const Creeping& motion) 
   std::vector<double> orders = pair_orders(errors);
   for (const double order : orders) worst.see(std::abs(order - 2));
   orders.insert(orders.begin(), nan);
-  return {"work-precision.slow-motion.A",
+  return {"work-precision.slow-motion-is-second-order.A",
           "However large the damping, A's error on the slow motion is of second order in the step.",
           {{worst.value(), 0.1, 0, "1", "a method of first order is off by 1"},
            {{"h c/2", "1", dampings_of(errors, motion)},

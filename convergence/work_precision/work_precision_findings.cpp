@@ -13,7 +13,7 @@ NamedFinding reference_is_known(const PrecisionScene& scene) {
   const Verdict verdict{scene.truth.uncertainty, wanted_errors.back() / 10, 0, "1",
                         "a tenth of the smallest error that a price is read off at, so that it shifts no "
                         "price by more than a tenth of a run's error"};
-  return {"work-precision.reference-is-known." + scene.problem.name,
+  return {"work-precision.reference-is-accurate." + scene.problem.name,
           "Two opinions on where " + scene.problem.thing + " ends agree to a ten-thousandth of its motion.",
           {verdict,
            {{"largest motion", "m", std::vector<double>{scene.truth.motion}},
@@ -63,7 +63,7 @@ NamedFinding errors_fall(const PrecisionScene& scene) {
       "an error of first order is halved with the step, one that does not fall stays 1; the "
       "bound is half an order, midway between the two in the logarithm"};
   return {
-      "work-precision.errors-fall." + scene.problem.name,
+      "work-precision.errors-decrease." + scene.problem.name,
       "On " + scene.problem.thing + ", errors fall with the step at the end of every method's range.",
       {verdict,
        {{"method", "1", methods},
@@ -129,7 +129,8 @@ NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
 }
 
 /// By what the fastest mode grows in a whole run of B with a step h >= 2/omega [1]: z = -1 - g solves
-///   (1 + a) z^2 + (h^2 omega^2 - 2) z + 1 - a = 0,   g = (h^2 omega^2/2 - 2)/a to first order, a = h c/2.
+///   (1 + a) z^2 + (h^2 omega^2 - 2) z + 1 - a = 0,   a = h c/2,
+///   g = (h^2 omega^2/2 - 2)/a to first order.
 double growth_beyond(const PrecisionScene& scene, double h) {
   const double beyond = std::pow(h / scene.truth.elastic_2_over, 2), a = h / scene.truth.damping_2_over;
   return std::pow(1 + std::max(0., 2 * beyond - 2) / a, scene.problem.end / h);
@@ -145,7 +146,7 @@ NamedFinding within_the_limit(const PrecisionScene& scene) {
     worst.see(steps.back() / scene.truth.elastic_2_over);
   }
   return {
-      "work-precision.steps-within-the-limit." + scene.problem.name,
+      "work-precision.steps-stay-within-the-limit." + scene.problem.name,
       "On " + scene.problem.thing +
           ", the largest step with which B reaches a wanted error is at most 2/omega, as nearly as a step is "
           "known.",

@@ -7,8 +7,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 /// An arc of the length s H that turns by phi has the chord s H sin(phi/2)/(phi/2), inclined by phi/2.
 Vector3 bent(const Vector3& X, double angle, double height) {
   const double phi = angle * X.y() / height, half = phi / 2;

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace foldproof {
 
 namespace {
 
-constexpr double full_angle = 4 * std::numbers::pi;
+constexpr double full_angle = 4 * pi;
 
 /// The solid angle of a triangle seen from the origin [rad], positive when its back is seen: twice the arc
 /// tangent of a b c over |a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b| (van Oosterom and Strackee 1983).

@@ -29,8 +29,8 @@ struct Solve {
 
 /// Solves (M - s D) w = M w0 for the velocity w of the free particles; prescribed ones (inverse mass 0) keep
 /// theirs.
-///   v      on entry w0 = v + s M^{-1} F with the known velocities written in; on exit w. 3 x N [m/s]
-///   s      half the step [s]
+///   v   on entry w0 = v + s M^{-1} F with the known velocities written in; on exit w. 3 x N [m/s]
+///   s   half the step [s]
 /// In the variable M^{1/2} w the operator I - s M^{-1/2} D M^{-1/2} is symmetric positive definite; the
 /// iteration below is that one, written with masses. It starts from the explicit guess w0, so that every
 /// iterate differs from it by internal forces only, and keeps linear and angular momentum to rounding however

@@ -118,7 +118,8 @@ Trial improved(const System& system, const Stage& stage, const Trial& from, Work
 }
 
 /// The stage equation with the forces linearised about the state `now`, the elastic derivative semidefinite:
-///   (M - s D - s^2 K) dw = s (F + D w + K (X + s w - x)) - M (w - V),   less what prescribed particles ask for
+///   (M - s D - s^2 K) dw = s (F + D w + K (X + s w - x)) - M (w - V),
+/// less what prescribed particles ask for.
 /// w: on entry the velocity to start from with the known velocities written in, on exit w + dw.
 Solve solve_linearised(const System& system, const State& now, const Stage& stage,
                        const SolverSettings& settings, PerParticle3& w, Work& work) {

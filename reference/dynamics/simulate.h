@@ -105,7 +105,8 @@ RunResult resume(const System& system, const Integrator& integrator, const Check
 
 /// The longest step [s] that the rule allows after these states. No step exceeds the one before by more than
 /// the integrator's largest_growth.
-///   limit   the elastic limit at the latest of them [s]; a rule with a fixed step does not ask for it
+///   limit   the elastic limit at the latest of them [s]; a rule with a fixed step does not ask
+///           for it
 double step_allowed(const System& system, const Integrator& integrator, std::span<const State> past,
                     const StepRule& rule, double limit);
 

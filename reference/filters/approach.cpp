@@ -10,11 +10,13 @@ namespace {
 // Planes tried before a motion is taken for a meeting.
 constexpr int most_planes = 1000;
 
-//      first feature           At time t the features are nearest across the vector N. A plane with that normal
-//     ------o------            parts them as long as every point of the first is beyond every point of the second:
-//           | N                (x_i - x_j).N + tau (w_i - w_j).N > 0  for all i of the first, j of the second,
-//     ------o------            each linear in tau, the time from t on. Whatever N is, this is a proof; the nearest
-//      second feature          points only make it last long.
+//    first feature
+//   ------o------      At time t the features are nearest across the vector N. A plane with that
+//         | N          normal parts them as long as every point of the first is beyond every point
+//   ------o------      of the second:
+//    second feature      (x_i - x_j).N + tau (w_i - w_j).N > 0  for all i of the first, j of the
+//                      second, each linear in tau, the time from t on. Whatever N is, this is a
+//                      proof; the nearest points only make it last long.
 //
 /// How long a plane with the normal N keeps the features at least `gap` [m] apart, from positions x on, at
 /// the rates `way`: infinite if they do not close, negative if it does not part them now.

@@ -12,7 +12,8 @@ namespace foldproof {
 
 /// A point that is the mean of one, two or three particles, and by how much each of them answers when the
 /// point's velocity is to change: by the least impulses that do it,
-///   share_i = m_i^{-1} / sum_j weight_j m_j^{-1}    (equal weights), so that sum_i weight_i share_i = 1.
+///   share_i = m_i^{-1} / sum_j weight_j m_j^{-1}    (equal weights),
+/// so that sum_i weight_i share_i = 1.
 struct CollisionPoint {
   std::array<int, 3> particles{-1, -1, -1};  // -1: none
   int count = 0;

@@ -34,9 +34,10 @@ void keep_nearer(Nearness& nearest, const Corners4& x, const Eigen::Vector4d& we
 
 Nearness no_nearness() { return {std::numeric_limits<double>::quiet_NaN(), Vector3(), Eigen::Vector4d()}; }
 
-//        x3           The vertex x0 over the triangle. The foot of its perpendicular has the weights w2, w3 (and
-//       /  \          w1 = 1 - w2 - w3); a negative weight says that it lies beyond the side across from that corner,
-//     x1 -- x2        and then the nearest point is on a side for which that is so.
+//      x3         The vertex x0 over the triangle. The foot of its perpendicular has the weights
+//     /  \        w2, w3 (and w1 = 1 - w2 - w3); a negative weight says that it lies beyond the
+//   x1 -- x2      side across from that corner, and then the nearest point is on a side for which
+//                 that is so.
 Nearness vertex_triangle(const Corners4& x) {
   const Vector3 e2 = x.col(2) - x.col(1), e3 = x.col(3) - x.col(1), r = x.col(0) - x.col(1);
   const Vector3 N = e2.cross(e3);  // twice the area [m^2]

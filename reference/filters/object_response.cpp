@@ -100,10 +100,10 @@ Vector3 forecast_velocity(const ObjectPoint& at, const Vector3& v_p, double tau)
   return at.velocity - at.phi / tau * at.normal + kept * sliding;
 }
 
-//        a          N_a, N_b point out of a and b; between the two surfaces the point is inside both
-//   ----------      psi = phi_a - phi_b grows towards b; it is zero where both are equally deep
+//        a        N_a, N_b point out of a and b; between the two surfaces the point is inside both
+//   ----------    psi = phi_a - phi_b grows towards b; it is zero where both are equally deep
 //    N_a | psi=0
-//   ----------      d(psi)/dt = (v_p - v_a).N_a - (v_p - v_b).N_b
+//   ----------    d(psi)/dt = (v_p - v_a).N_a - (v_p - v_b).N_b
 //        b
 Vector3 velocity_between(const ObjectPoint& a, const ObjectPoint& b, const MovingPoint& point) {
   const Vector3 across = a.normal - b.normal;

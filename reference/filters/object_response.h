@@ -20,9 +20,9 @@ struct MovingPoint {
 };
 
 /// Interface forecasting against one object:
-///   phi_new = phi + tau (v_p - v).N                     the signed distance forecast at the time tau ahead
-///   v_pN'   = v_pN - phi_new/tau  if phi_new < 0        so that the point is forecast to lie on the surface
-///   v_T'    = max(0, 1 - mu (v_pN' - v_pN)/|v_T|) v_T   Coulomb friction of the tangential relative velocity
+///   phi_new = phi + tau (v_p - v).N                     the signed distance forecast, tau ahead
+///   v_pN'   = v_pN - phi_new/tau  if phi_new < 0        the point is forecast on the surface
+///   v_T'    = max(0, 1 - mu (v_pN' - v_pN)/|v_T|) v_T   Coulomb friction against the relative v_T
 /// Untouched, bit for bit, if phi_new >= 0. v_p [m/s], tau [s] > 0, mu is that of `at`.
 Vector3 forecast_velocity(const ObjectPoint& at, const Vector3& v_p, double tau);
 

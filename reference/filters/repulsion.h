@@ -29,7 +29,8 @@ Vector3 rubbed(const Vector3& relative, const Vector3& N, double push, double fr
 
 /// Pairs nearer than the thickness s at x, those of them that carry (repulsion.cpp), one after the other as v
 /// then is: with d = s - distance and v_N the rate at which they part,
-///   v_N' = max(0, v_N),   and then, if v_N' < 0.1 d/h,   v_N' += min(h k d sum(w_i^2/m_i), 0.1 d/h - v_N')
+///   v_N' = max(0, v_N),   and then, if v_N' < 0.1 d/h,
+///   v_N' += min(h k d sum(w_i^2/m_i), 0.1 d/h - v_N')
 /// so that at most a tenth of the overlap goes in a step of h, and friction against v_N' - v_N. Impulses
 /// along the line between the nearest points keep linear and angular momentum; those of friction keep linear
 /// momentum, and turn by their size times the distance. Returns the number of pairs that were answered.

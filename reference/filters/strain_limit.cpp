@@ -35,10 +35,12 @@ struct Correction {
   bool is_reachable = true;
 };
 
-//   a ----- b    d = x_b - x_a, u = v_b - v_a;   p = d + h u is predicted, T is the limit that |p| is beyond
+//   a ----- b    d = x_b - x_a,  u = v_b - v_a
+//                p = d + h u is predicted, T is the limit that |p| is beyond
 //
-// Impulses along d change p to p + s d:   s^2 d.d + 2 s p.d + p.p - T^2 = 0,   with the roots
+// Impulses along d change p to p + s d:
 //
+//   s^2 d.d + 2 s p.d + p.p - T^2 = 0,   with the roots
 //   s = (-p.d +- r)/d.d,   r^2 = (p.d)^2 - d.d (p.p - T^2) = d.d T^2 - h^2 |d x u|^2
 //
 // We take that with +r: then (p + s d).d = r >= 0, the spring points the way it does now. It is written so

@@ -16,9 +16,10 @@ struct Piercing {
   Vector3 shorter;  // unit: the edge, moved this way against the triangle, shortens their line
 };
 
-//   The edge e of triangle s comes out of triangle t (normal n) at p; the line of the two runs from p along R into s.
-//   If the edge is moved by d against t, p moves by d - (d.n)/(e.n) e, and the line loses R times that:
-//     its length falls fastest along  G = R - (e.R)/(e.n) n.
+// The edge e of triangle s comes out of triangle t (normal n) at p; the line of the two runs from p
+// along R into s. If the edge is moved by d against t, p moves by d - (d.n)/(e.n) e, and the line
+// loses R times that: its length falls fastest along
+//   G = R - (e.R)/(e.n) n.
 void add_piercings(const PerParticle3& x, const Triangle& s, const Triangle& t,
                    std::vector<Piercing>& found) {
   const Vector3 t0 = x.col(t[0]), e1 = x.col(t[1]) - t0, e2 = x.col(t[2]) - t0;

@@ -10,8 +10,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 // Squared height over edge below which a triangle counts as degenerate: at 1e-10 of the edge rounding has
 // eaten the normal.
 constexpr double smallest_height_squared = 1e-20;
@@ -170,7 +168,8 @@ namespace {
 /// Bounds on the rows of grad u, for each particle i the sum over j of |du_i/dx_j| [1/m^2]. With l_km the
 /// distance from x_k to x_m, e = |E|, and d(N/|N|^2) = dN/|N|^2 in size, u_k = |E| N_k/|N_k|^2 gives for k =
 /// 1, 2
-///   |du_k/dx_k| = |u_k|^2,   |du_k/dx_3| <= g_k4,   |du_k/dx_4| <= g_k3,   g_km = |u_k|^2 l_km/e + |u_k|/e,
+///   |du_k/dx_k| = |u_k|^2,   |du_k/dx_3| <= g_k4,   |du_k/dx_4| <= g_k3,
+///   g_km = |u_k|^2 l_km/e + |u_k|/e,
 /// the same for du_3/dx_k and du_4/dx_k since grad u is symmetric, and, with |db_k/dx_3| = l_k4/e^2 and
 /// |db_k/dx_4| = l_k3/e^2, the rest from u_3 = -(b_1 u_1 + b_2 u_2) and u_4 = -((1 - b_1) u_1 + (1 - b_2)
 /// u_2).

@@ -16,15 +16,16 @@ namespace foldproof {
 
 //      x1
 //     /  \      E  = x4 - x3, e^ = E/|E|
-//   x3 -- x4    N1 = (x1 - x3) x (x1 - x4),  N2 = (x2 - x4) x (x2 - x3)      |N| = twice the area [m^2]
+//   x3 -- x4    N1 = (x1 - x3) x (x1 - x4),  N2 = (x2 - x4) x (x2 - x3);  |N|: twice the area [m^2]
 //     \  /      theta = angle from n1 to n2, signed by (n1 x n2).e^; 0 when flat, +-pi when folded
 //      x2
 //
-//   u1 = |E| N1/|N1|^2                      u3 = -(b1 u1 + b2 u2)                 b1 = (x4 - x1).E/|E|^2
-//   u2 = |E| N2/|N2|^2                      u4 = -((1 - b1) u1 + (1 - b2) u2)     b2 = (x4 - x2).E/|E|^2
+//   u1 = |E| N1/|N1|^2        u3 = -(b1 u1 + b2 u2)                 b1 = (x4 - x1).E/|E|^2
+//   u2 = |E| N2/|N2|^2        u4 = -((1 - b1) u1 + (1 - b2) u2)     b2 = (x4 - x2).E/|E|^2
 //
-//   F_elastic_i = ke c (sin(theta/2) - sin(theta0/2)) u_i          c = |E|^2/(|N1| + |N2|), at rest or now
-//   F_damping_i = -kd s (u.v) u_i                                  s = |E| as printed, or |E|^2/(|N1| + |N2|)
+//   F_elastic_i = ke c (sin(theta/2) - sin(theta0/2)) u_i   c = |E|^2/(|N1| + |N2|), at rest or now
+//   F_damping_i = -kd s (u.v) u_i                           s = |E| as printed, or
+//                                                               |E|^2/(|N1| + |N2|)
 //
 // u = -grad theta: the printed line d(theta)/dt = u.v has the wrong sign, the forces as printed have the
 // right one.

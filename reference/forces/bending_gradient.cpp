@@ -24,8 +24,8 @@ struct SideGradient {
   Row b;    // [1/m]
 };
 
-//   N = (x_k - x_l) x (x_k - x_r), (l, r) = (3, 4) for k = 1 and (4, 3) for k = 2, so that N2 = (x2 - x4) x
-//   (x2 - x3)
+//   N = (x_k - x_l) x (x_k - x_r), (l, r) = (3, 4) for k = 1 and (4, 3) for k = 2,
+//     so that N2 = (x2 - x4) x (x2 - x3)
 //   dN = (x_r - x_l) x dx_k + (x_k - x_r) x dx_l - (x_k - x_l) x dx_r
 //   u = |E| N/|N|^2:   du = N/|N|^2 d|E| + |E|/|N|^2 (I - 2 n n^T) dN,       d|E| = e^.(dx4 - dx3)
 //   b = (x4 - x_k).E/|E|^2:   |E|^2 db = (dx4 - dx_k).E + (x4 - x_k).dE - 2 b E.dE

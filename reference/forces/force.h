@@ -39,12 +39,13 @@ struct CustomForce {
 
 /// One force: an elastic or external part that depends on time and positions, and an energy. It may have more,
 /// which the functions below ask for by name:
-///   prepare_damping(s, damping)                                  it damps
+///   prepare_damping(s, damping)                               it damps
 ///   add_elastic_differential(s, definiteness, differential),
-///   add_force_differential(s, differential)                      fully implicit methods know its derivative
-///   add_stiffness_bound(s, rows)                                 it limits automatic steps
-///   add_bound_beyond_forecasts(s, rows), shortest_forecast(s)    forecasts keep a part of it stable
-///   renew_bonds(s)                                               its bonds form and break before a step
+///   add_force_differential(s, differential)                   fully implicit methods need it
+///   add_stiffness_bound(s, rows)                              it limits automatic steps
+///   add_bound_beyond_forecasts(s, rows),
+///   shortest_forecast(s)                                      forecasts keep a part of it stable
+///   renew_bonds(s)                                            its bonds form, break before a step
 template <class F>
 concept ForceModel = requires(const F force, const State s, PerParticle3 f, Energies energies) {
   force.add_elastic(s, f);  // f += F_e(t, x); adds and clears nothing

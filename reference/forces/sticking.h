@@ -6,8 +6,8 @@
 // force is that of a spring without length between where the particle and its target are forecast to be tau_s
 // from now,
 //
-//   F = k(d) ((x_t + tau_s v_t) - (x + tau_s v)),      d = |x_t - x|, the distance now
-//   k(d) = k0 (1 - (d/far)^2)^2,  0 beyond far         so that neither F nor its slope jumps where a bond breaks
+//   F = k(d) ((x_t + tau_s v_t) - (x + tau_s v)),   d = |x_t - x|, the distance now
+//   k(d) = k0 (1 - (d/far)^2)^2,  0 beyond far      neither F nor its slope jumps as a bond breaks
 //
 // k(d) (x_t - x) is minus the gradient of W = k0 far^2/6 (1 - (1 - (d/far)^2)^3); k(d) tau_s (v_t - v) is a
 // damping, linear in v and handled with it. (With k a function of the forecast distance F would not be linear

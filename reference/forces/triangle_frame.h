@@ -11,10 +11,10 @@
 
 namespace foldproof {
 
-//        c           N = (b - a) x (c - a), n = N/|N|
-//       / \          place = w_a a + w_b b + w_c c + height n
-//      / .-\--- foot
-//     a --- b        g_a = n x (c - b)/|N|: the slope of the weight w_a in the plane, and so on round
+//      c           N = (b - a) x (c - a), n = N/|N|
+//     / \          place = w_a a + w_b b + w_c c + height n
+//    / .-\--- foot
+//   a --- b        g_a = n x (c - b)/|N|: the slope of the weight w_a in the plane, and so on round
 //
 // However the corners move, n stays at right angles to the edges, so that dn = - sum_i g_i (n . dx_i), and
 //   d place = sum_i (w_i - height g_i n^T) dx_i

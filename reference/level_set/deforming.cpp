@@ -48,7 +48,8 @@ struct Origin {
   Vector3 place, displacement;
 };
 
-/// A frame's displacement u over the whole interval, at the place X that a share of it takes to p:   X + share u(X) = p
+/// A frame's displacement u over the whole interval, at the place X that a share of it takes to p:
+///   X + share u(X) = p
 /// share: s for the interval's first frame, s - 1 for its last. By iteration, which contracts where neighbouring points
 /// move by less than their distance.
 Origin origin_of(const Octree& tree, const std::vector<BranchNodes<Vector3>>& u, const Vector3& p,

@@ -18,7 +18,7 @@ void refuse_bad_count(const std::string& name, int value, int least, int most) {
 }
 
 void refuse_bad_angle(const std::string& name, double value) {
-  if (!(std::abs(value) < M_PI)) refuse_argument(name, value, "give an angle between -pi and pi rad");
+  if (!(std::abs(value) < pi)) refuse_argument(name, value, "give an angle between -pi and pi rad");
 }
 
 // --- disc ---
@@ -95,7 +95,7 @@ TriangleMesh make_disc(double radius, int rings) {
   for (int k = 1; k <= rings; ++k) {
     const double distance = radius * (double(k) / rings);
     for (int i = 0; i < 6 * k; ++i) {
-      const double angle = M_PI / 3 * i / k;
+      const double angle = pi / 3 * i / k;
       x.col(on_ring(k, i)) = distance * Vector3(std::cos(angle), std::sin(angle), 0);
     }
     add_ring(k, triangles);
@@ -113,7 +113,7 @@ TriangleMesh make_cylinder(double radius, double height, int around, int along) 
   triangles.reserve(size_t(2) * around * along);
   for (int j = 0; j <= along; ++j) {
     for (int i = 0; i < around; ++i) {
-      const double angle = 2 * M_PI * i / around;  // from +z towards +x: counter-clockwise about +y
+      const double angle = 2 * pi * i / around;  // from +z towards +x: counter-clockwise about +y
       x.col(j * around + i) =
           Vector3(radius * std::sin(angle), height * (double(j) / along), radius * std::cos(angle));
       if (j == along) continue;

@@ -178,7 +178,7 @@ TriangleMesh jittered_rows(const Sheet& sheet) {
   std::mt19937_64 random(sheet.seed);
   for (int j = 1; j < sheet.rows; ++j) {
     for (int v = row_start(sheet, j) + 1; v < row_start(sheet, j + 1) - 1; ++v) {
-      const double distance = reach * std::sqrt(uniform(random)), angle = 2 * M_PI * uniform(random);
+      const double distance = reach * std::sqrt(uniform(random)), angle = 2 * pi * uniform(random);
       x.col(v) += distance * Vector3(std::cos(angle), y_scale * std::sin(angle), 0);
     }
   }

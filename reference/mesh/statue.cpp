@@ -60,7 +60,7 @@ double window(double s) { return std::exp(-(s * s) * (s * s)); }
 /// Height of the robe's folds [m]: slanting over the chest, upright round the legs.
 double folds(const Vector3& p) {
   const double slant = p.y() / 0.085 + 3 * p.x() + 12 * p.x() * p.x();  // counts folds
-  const double chest = window((p.y() - 0.40) / 0.13) * std::sin(2 * M_PI * slant);
+  const double chest = window((p.y() - 0.40) / 0.13) * std::sin(2 * pi * slant);
   const double legs = window((p.y() - 0.09) / 0.06) * std::sin(14 * std::atan2(p.x(), p.z() + 0.1));
   return 0.005 * chest + 0.004 * legs;
 }
@@ -106,7 +106,7 @@ struct RayKnot {
 };
 
 Vector3 ray_direction(const Vector3& unit, double elevation) {
-  const double angle = elevation * M_PI / 180, radius = std::max(std::hypot(unit.x(), unit.z()), 1e-12);
+  const double angle = elevation * pi / 180, radius = std::max(std::hypot(unit.x(), unit.z()), 1e-12);
   const double outward = std::cos(angle) / radius;
   return Vector3(outward * unit.x(), std::sin(angle), outward * unit.z());
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace foldproof {
@@ -18,8 +17,8 @@ int across(const Triangle& triangle, const Edge& edge) {
   throw InputError("a triangle with two equal corners has none across an edge");
 }
 
-//       c          Loop: 3/8 of a and b, 1/8 of c and d; on the border, and for midpoints, half of a and b.
-//     /   \.
+//       c          Loop: 3/8 of a and b, 1/8 of c and d; on the border, and for midpoints, half of
+//     /   \.       a and b.
 //   a --+-- b
 //     \   /
 //       d
@@ -53,7 +52,7 @@ Neighbours neighbours_of(const TriangleMesh& mesh) {
 
 /// Loop's weight of each of the n neighbours of an inner particle; 1/16 for n = 6.
 double share_of_neighbour(std::size_t n) {
-  const double slope = 3.0 / 8 + std::cos(2 * std::numbers::pi / double(n)) / 4;
+  const double slope = 3.0 / 8 + std::cos(2 * pi / double(n)) / 4;
   return (5.0 / 8 - slope * slope) / double(n);
 }
 

@@ -8,8 +8,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double two_pi = 6.283185307179586476925286766559;
-
 Vector3 turned(const Motion& motion, const Vector3& start, double t) {
   const double rate = motion.angular_velocity.norm();
   if (rate == 0) return start - motion.center;
@@ -25,14 +23,14 @@ double acted(const Motion& motion, double t) {
 
 Vector3 position_at(const Motion& motion, const Vector3& start, double time) {
   const double t = acted(motion, time);
-  const double swing = std::sin(two_pi * motion.frequency * t + motion.phase) - std::sin(motion.phase);
+  const double swing = std::sin(2 * pi * motion.frequency * t + motion.phase) - std::sin(motion.phase);
   return motion.center + turned(motion, start, t) + t * motion.velocity + swing * motion.amplitude;
 }
 
 Vector3 velocity_at(const Motion& motion, const Vector3& start, double time) {
   if (time < motion.from || time >= motion.until) return Vector3::Zero();
   const double t = acted(motion, time);
-  const double omega = two_pi * motion.frequency;
+  const double omega = 2 * pi * motion.frequency;
   const double swing_rate = omega * std::cos(omega * t + motion.phase);
   return motion.angular_velocity.cross(turned(motion, start, t)) + motion.velocity +
          swing_rate * motion.amplitude;

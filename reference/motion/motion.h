@@ -11,8 +11,8 @@ namespace foldproof {
 /// A motion given in closed form: rotation about a fixed axis, then a shift that drifts and oscillates. It
 /// acts from one time until another, at rest before and after, and is smooth between. With t counted from its
 /// start:
-///   X(t) = C + R(angular_velocity t) (X0 - C) + velocity t + amplitude (sin(2 pi frequency t + phase) -
-///   sin(phase))
+///   X(t) = C + R(angular_velocity t) (X0 - C) + velocity t +
+///          amplitude (sin(2 pi frequency t + phase) - sin(phase))
 /// All zero: held at rest. X0 is its place until it starts.
 struct Motion {
   Vector3 velocity = Vector3::Zero();                                // m/s

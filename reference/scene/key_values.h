@@ -11,7 +11,7 @@
 
 namespace foldproof {
 
-constexpr double radians_per_degree = 3.14159265358979323846 / 180;
+constexpr double radians_per_degree = pi / 180;
 
 // Each throws InputError "file:line: ..." for a value out of its range.
 double positive(const KeyTable& keys, const std::string& key);

@@ -8,7 +8,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int around = 64;       // vertices of a circle about the axis
 constexpr int along_arc = 16;    // edges of a quarter of a circle in the profile
 constexpr int subdivisions = 4;  // of the sphere: 5120 triangles

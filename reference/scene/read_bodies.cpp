@@ -168,7 +168,7 @@ DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, cons
   enum class Field { octree };
   choice<Field>(keys, "field", {{"octree", Field::octree}});
   const auto between = choice<BetweenFrames>(
-      keys, "between", {{"carried", BetweenFrames::carried}, {"blended", BetweenFrames::blended}});
+      keys, "interpolation", {{"carried", BetweenFrames::carried}, {"blended", BetweenFrames::blended}});
   const bool is_read = keys.has("frames");
   if (is_read && keys.has("deform"))
     throw InputError(keys.where("deform") +

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "reference/scene/key_values.h"
@@ -11,8 +10,8 @@ namespace foldproof {
 
 namespace {
 
-//    ______ ______        A serpentine: straight runs, one above the other, joined by half circles whose diameter is
-//   (______                the gap between two runs. Lengths along it are kept.
+//    ______ ______        A serpentine: straight runs, one above the other, joined by half circles
+//   (______               whose diameter is the gap between two runs. Lengths along it are kept.
 //          ______)   ^ up
 //   start            |    -> along
 struct Serpentine {
@@ -21,12 +20,12 @@ struct Serpentine {
 
   /// How far along its last run the point at the arc length s [m] is: 0 before it, 1 at its end.
   double along_last(double s) const {
-    return std::max(0.0, (s - last * (run + std::numbers::pi * gap / 2)) / run);
+    return std::max(0.0, (s - last * (run + pi * gap / 2)) / run);
   }
 
   /// Where the point at the arc length s [m] lies: along, up [m].
   Eigen::Vector2d at(double s) const {
-    const double radius = gap / 2, turn = std::numbers::pi * radius;
+    const double radius = gap / 2, turn = pi * radius;
     const double below = std::max(0.0, std::floor(s / (run + turn)));  // runs completed
     const double into = s - below * (run + turn);
     const bool forth = std::fmod(below, 2) == 0;
@@ -52,7 +51,7 @@ void fold(const KeyTable& keys, PerParticle3& x) {
     throw InputError(keys.where("up") + ": 'up' must be square to 'along', and both be directions");
   const Eigen::RowVectorXd s = along.transpose() * x, height = up.transpose() * x;
   const double start = s.minCoeff(), length = s.maxCoeff() - start,
-               turns = double(layers - 1) * std::numbers::pi * gap / 2;
+               turns = double(layers - 1) * pi * gap / 2;
   if (!(height.maxCoeff() - height.minCoeff() <= 1e-6 * length))
     throw InputError(keys.where() + ": the cloth must lie flat, square to 'up', before it is folded");
   const Serpentine serpentine{(length - turns) / double(layers), gap, double(layers - 1)};

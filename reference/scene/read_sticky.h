@@ -9,7 +9,8 @@
 namespace foldproof {
 
 /// Reads [[sticky]] into the scene, whose cloth, schedule and objects are known.
-///   case_keys   of the whole file: OBJ files that [cloth] and [[object]] name are asked for their groups
+///   case_keys   of the whole file: OBJ files that [cloth] and [[object]] name are asked for their
+///               groups
 ///   folder      where relative files of the case are looked for
 void read_sticky(const KeyTable& case_keys, const std::string& folder, Scene& scene);
 

@@ -8,6 +8,7 @@ from math import inf, isfinite, log, nan
 from pathlib import Path
 from typing import Any
 
+from data.old_names import with_current_names
 from data.quantities import ratio_of
 from data.results import CaseEntry, Claim, Finding, Run, Study, load_case, load_run
 from data.unreadable import Unreadable
@@ -100,13 +101,14 @@ def compare(a: Side, b: Side) -> Comparison:
 
 
 def read_side(letter: str, given: Path) -> Side:
-    """A run from its folder or its file. Throws Unreadable if it is none."""
+    """A run from its folder or its file, its findings under today's names. Throws Unreadable if it is none."""
     file = given / "run.h5" if given.is_dir() else given
     bench = file.parent / "bench.h5"
     run = load_run(file)
     if not (run.findings or run.studies or run.claims):
         raise Unreadable(f"{file}: no run of foldproof: it holds no findings, no studies and no claims")
-    return Side(letter, str(given), run, load_run(bench) if bench.is_file() and bench != file else None)
+    beside = with_current_names(load_run(bench)) if bench.is_file() and bench != file else None
+    return Side(letter, str(given), with_current_names(run), beside)
 
 
 def _matched(a: Iterable[Any], b: Iterable[Any]) -> tuple[list[tuple[Any, Any]], list[Any], list[Any]]:

@@ -48,7 +48,7 @@ tolerance = 1e-8
 [expect.takes_steps]
 at_least = 3
 why = "a trial"
-[expect.crosses_itself]
+[expect.never_crosses_itself]
 at_most = 0
 why = "a trial"
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tests of scripts/faults: which faults --resume skips and which it runs again; in which file a fault stands."""
+"""Tests of scripts/faults: which faults --resume skips and which it runs again; where a fault stands, and what it edits."""
 from __future__ import annotations
 
 import sys
@@ -10,6 +10,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 
 from script_module import ROOT, script  # noqa: E402
+from occurrences import occurrences, replaced  # noqa: E402
 
 
 FAULTS = script("faults")
@@ -75,6 +76,24 @@ class Rooms(unittest.TestCase):
                            ("verification/checks/forces/spring_checks.cpp", "checks"), ("reference/types.h", "types"),
                            ("convergence/order.cpp", "convergence"), ("scripts/program/jobs.cpp", "program")):
             self.assertEqual(FAULTS.room_of(file), room)
+
+
+class Occurrences(unittest.TestCase):
+    def test_layout_does_not_count(self) -> None:
+        text = 'f(a,\n  "one "\n  "two");\n// first\n// second\nint b;\n'
+        for find in ('f(a, "one two")', "first second\nint b", "// first second\n  int b;\n"):
+            [part] = occurrences(text, find)
+            self.assertEqual(text[part].split()[0], find.removeprefix("// ").split()[0])
+
+    def test_every_occurrence_is_found(self) -> None:
+        self.assertEqual(len(occurrences("x = a;\nx =\n  a;", "x = a;")), 2)
+        self.assertEqual(occurrences("x = a;", "x = b;"), [])
+        self.assertEqual(occurrences("x = a;", ""), [])
+
+    def test_only_what_was_found_is_replaced(self) -> None:
+        text = "  x =\n      a + b;  // m\n"
+        [part] = occurrences(text, "  x = a ")
+        self.assertEqual(replaced(text, part, "x = 2 * a "), "  x = 2 * a + b;  // m\n")
 
 
 if __name__ == "__main__":

@@ -217,7 +217,7 @@ step = 0.001
         self.assertEqual(done.returncode, 0, done.stderr)
         reason = f"written for skirt.obj; this run uses {quad}"
         self.assertRegex(done.stdout, f"not applicable +case.mine.takes-steps +{reason}\n")
-        self.assertRegex(done.stdout, "holds +case.mine.crosses-itself ")
+        self.assertRegex(done.stdout, "holds +case.mine.never-crosses-itself ")
         told = json.loads(self.simulate(case, *mine, "--json").stdout)["findings"]
         self.assertIn({"name": "case.mine.takes-steps", "outcome": "not applicable", "note": reason}, told)
         with h5py.File(self.path / "out/mine.h5") as file:

@@ -76,9 +76,12 @@ bool is_driven(const Scene& scene) {
   return false;
 }
 
+bool is_stated(std::string_view key, const std::vector<Expectation>& all) {
+  return std::any_of(all.begin(), all.end(), [&](const Expectation& stated) { return stated.key == key; });
+}
+
 void add_unless_stated(const Expectation& usual, std::vector<Expectation>& all) {
-  const auto is_it = [&](const Expectation& stated) { return stated.key == usual.key; };
-  if (std::none_of(all.begin(), all.end(), is_it)) all.push_back(usual);
+  if (!is_stated(usual.key, all)) all.push_back(usual);
 }
 
 }  // namespace
@@ -110,10 +113,11 @@ Case with_usual_expectations(Case shown) {
          "for a force that is not the gradient of its energy"},
         shown.expectations);
   add_unless_stated(
-      {"repeats_itself", 0, "the same numbers in the same order give the same bits, whoever asks"},
+      {"is_reproducible", 0, "the same numbers in the same order give the same bits, whoever asks"},
       shown.expectations);
+  if (is_stated("tangle_does_not_grow", shown.expectations)) return shown;  // it starts crossed
   add_unless_stated(
-      {"crosses_itself", 0,
+      {"never_crosses_itself", 0,
        scene.self_collision ? "what starts free of crossings stays free of them: repulsion and impulses may "
                               "fail, impact zones may not"
                             : "no part of the scene keeps the cloth from itself, and none has to: cloth that "

@@ -44,8 +44,8 @@ struct Case {
 Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
 /// Adds what is expected of every shipped case that does not say otherwise: that it runs to its end; where
-/// the forces have an energy and nothing is driven, that the energy is accounted for; that it repeats itself;
-/// and that the cloth crosses itself in no frame.
+/// the forces have an energy and nothing is driven, that the energy is accounted for; that the run is
+/// reproducible; and that the cloth crosses itself in no frame, unless tangle_does_not_grow is stated.
 Case with_usual_expectations(Case shown);
 
 /// The name of the finding: "case.<scene>.<key>", with hyphens.

@@ -13,7 +13,8 @@ class CaseJudge {
  public:
   /// of: must outlive it.
   ///   objects      of the system that runs, which must outlive it
-  ///   level_sets   for a system built anew; they should remember those that were made (bodies/makers.h)
+  ///   level_sets   for a system built anew; they should remember those that were made
+  ///                (bodies/makers.h)
   CaseJudge(const Case& of, std::span<const Object> objects, const LevelSetMakers& level_sets)
       : case_(of), objects_(objects), repetition_(of.scene, level_sets), seen_(of.expectations.size()) {}
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "reference/forces/bending.h"
 #include "reference/scene/key_values.h"
@@ -15,7 +14,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr double in_degrees = 180 / std::numbers::pi;  // a radian
+constexpr double in_degrees = 180 / pi;  // a radian
 
 /// Against gravity; +y without it.
 Vector3 up(const Scene& scene) {
@@ -249,7 +248,7 @@ std::vector<Measurement> usual_measurements(const Scene& scene, const std::vecto
   if (scene.gravity)
     for (const char* what : {"height", "lowest"}) usual.push_back({what, what});
   for (const std::string& key : expected)
-    if (key != "runs_to_its_end" && key != "repeats_itself" && key != "takes_steps" && key != "solves_finish")
+    if (key != "runs_to_its_end" && key != "is_reproducible" && key != "takes_steps" && key != "solves_converge")
       usual.push_back({key, key});
   return usual;
 }

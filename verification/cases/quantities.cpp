@@ -11,7 +11,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr double degrees_per_radian = 180 / 3.14159265358979323846;
+constexpr double degrees_per_radian = 180 / pi;
 
 // ---- of the whole run
 
@@ -58,7 +58,7 @@ double angle_change(const Scene& scene, const State& s) {
   const std::vector<double> angles = hinge_angles(scene.mesh, s.x);
   Worst worst;
   for (size_t h = 0; h < angles.size(); ++h)
-    worst.see(std::abs(std::remainder(angles[h] - scene.rest_angles[h], 2 * M_PI)) * degrees_per_radian);
+    worst.see(std::abs(std::remainder(angles[h] - scene.rest_angles[h], 2 * pi)) * degrees_per_radian);
   return worst.value();
 }
 
@@ -206,14 +206,14 @@ std::vector<Quantity> quantities_of_the_run() {
   return {
       {"runs_to_its_end", "stops", "The run reaches its end with finite values.", Sense::at_most,
        Scope::any_cloth, nullptr, stops, nullptr},
-      {"repeats_itself", "steps",
+      {"is_reproducible", "steps",
        "Ten steps after the start, after the middle frame and before the last have the same bits when they "
        "are taken again, "
        "in another thread.",
        Sense::at_most, Scope::any_cloth, nullptr, repeated, nullptr},
       {"takes_steps", "steps", "The run takes as many steps as it should.", Sense::at_least,
        Scope::this_shape, nullptr, steps, nullptr},
-      {"solves_finish", "solves", "The linear solves keep their tolerance before their cap on iterations.",
+      {"solves_converge", "solves", "The linear solves keep their tolerance before their cap on iterations.",
        Sense::at_most, Scope::any_cloth, nullptr, unfinished, nullptr},
       {"energy_is_accounted_for", "1",
        "Kinetic, elastic and gravitational energy less the work of damping stays what it was, over the "
@@ -223,9 +223,9 @@ std::vector<Quantity> quantities_of_the_run() {
        "The mean of that energy over the last tenth of the run is that over the first tenth, over the energy "
        "exchanged.",
        Sense::at_most, Scope::any_cloth, nullptr, energy_drift, nullptr},
-      {"linear_momentum_is_kept", "1", "Linear momentum stays what it was, over sqrt(2 m E_kin).",
+      {"linear_momentum_is_conserved", "1", "Linear momentum stays what it was, over sqrt(2 m E_kin).",
        Sense::at_most, Scope::any_cloth, nullptr, linear_change, nullptr},
-      {"angular_momentum_is_kept", "1",
+      {"angular_momentum_is_conserved", "1",
        "Angular momentum about the origin stays what it was, over the cloth's reach times sqrt(2 m E_kin).",
        Sense::at_most, Scope::any_cloth, nullptr, angular_change, nullptr},
   };
@@ -253,24 +253,27 @@ std::vector<Quantity> quantities_of_shape_and_place() {
        Sense::at_least, Scope::this_shape, nullptr, depth_at_end, without_objects},
       {"makes_contact", "points", "Objects correct the motion of some points in some step.", Sense::at_least,
        Scope::this_shape, nullptr, contacts, without_objects},
-      {"pinches", "particles", "Particles are inside two objects at once.", Sense::at_least,
+      {"is_pinched", "particles", "Particles are inside two objects at once.", Sense::at_least,
        Scope::this_shape, nullptr, nullptr, without_objects, pinched_particles},
       {"stays_between", "m", "Particles inside two objects stay where they are equally deep in both.",
        Sense::at_most, Scope::any_cloth, nullptr, nullptr, without_objects, off_centre},
-      {"crosses_itself", "pairs",
+      {"never_crosses_itself", "pairs",
        "In no frame does an edge of the cloth meet a triangle of it, touching included.", Sense::at_most,
        Scope::any_cloth, self_crossings, nullptr, nullptr},
-      {"ends_crossing_itself", "pairs", "At the end no edge of the cloth meets a triangle of it.",
-       Sense::at_most, Scope::any_cloth, nullptr, self_crossings_at_end, nullptr},
+      {"tangle_does_not_grow", "pairs",
+       "In no frame do more edges of the cloth meet triangles of it than this.", Sense::at_most,
+       Scope::this_shape, self_crossings, nullptr, nullptr},
+      {"ends_untangled", "pairs", "At the end no edge of the cloth meets a triangle of it.", Sense::at_most,
+       Scope::any_cloth, nullptr, self_crossings_at_end, nullptr},
       {"keeps_its_place", "m", "The mean of all particles stays where it was.", Sense::at_most,
        Scope::this_shape, shift, nullptr, nullptr},
       {"is_carried", "m", "The mean of all particles is carried away from where it was.", Sense::at_least,
        Scope::this_shape, shift, nullptr, nullptr},
       {"is_carried_aside", "m", "The mean of all particles is carried aside, across gravity.",
        Sense::at_least, Scope::this_shape, shift_aside, nullptr, without_gravity},
-      {"slower_than", "m/s", "No particle is faster than this.", Sense::at_most, Scope::this_shape, fastest,
-       nullptr, nullptr},
-      {"turns_at", "degrees/s", "The cloth comes to turn about the vertical axis at this rate.",
+      {"speed_is_limited", "m/s", "No particle is faster than this.", Sense::at_most, Scope::this_shape,
+       fastest, nullptr, nullptr},
+      {"reaches_turning_rate", "degrees/s", "The cloth comes to turn about the vertical axis at this rate.",
        Sense::at_least, Scope::this_shape, turning_rate, nullptr, nullptr},
       {"comes_to_rest", "1", "At the end the kinetic energy is small, over its largest value.",
        Sense::at_most, Scope::this_shape, nullptr, kinetic_at_end, nullptr},

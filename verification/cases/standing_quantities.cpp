@@ -23,10 +23,10 @@ double mean_turn(const RunSeen& run) {
   const std::vector<double> angles = hinge_angles(run.scene.mesh, run.result.last.x);
   double sum = 0;
   for (size_t h = 0; h < angles.size(); ++h) {
-    const double turn = std::remainder(angles[h] - run.scene.rest_angles[h], 2 * M_PI);
+    const double turn = std::remainder(angles[h] - run.scene.rest_angles[h], 2 * pi);
     sum += turn * turn;
   }
-  return std::sqrt(sum / double(angles.size())) * 180 / M_PI;
+  return std::sqrt(sum / double(angles.size())) * 180 / pi;
 }
 
 }  // namespace

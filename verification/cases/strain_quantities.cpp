@@ -56,8 +56,9 @@ std::string without_limits(const Scene& scene) {
 
 std::vector<Quantity> strain_quantities() {
   return {
-      {"keeps_its_limits", "1", "No spring is farther beyond a strain limit than this, over its rest length.",
-       Sense::at_most, Scope::any_cloth, violation, nullptr, without_limits},
+      {"stays_within_strain_limits", "1",
+       "No spring is farther beyond a strain limit than this, over its rest length.", Sense::at_most,
+       Scope::any_cloth, violation, nullptr, without_limits},
       {"stretches_to", "1", "Some spring is stretched by this share of its rest length.", Sense::at_least,
        Scope::this_shape, largest_extension, nullptr, without_springs},
       {"lengthens_by", "1", "The cloth's longest extent grows by this share of that at rest.",

@@ -11,8 +11,8 @@ namespace foldproof {
 
 namespace {
 
-constexpr double least_turn = 20 * M_PI / 180;  // away from the rest angle, of a hinge in a crease
-constexpr int least_hinges = 3;                 // in a crease
+constexpr double least_turn = 20 * pi / 180;  // away from the rest angle, of a hinge in a crease
+constexpr int least_hinges = 3;               // in a crease
 
 /// Sets of particles that edges join.
 class Joined {
@@ -44,7 +44,7 @@ Creases creases_of(const Scene& scene, const PerParticle3& x, int side) {
   Joined joined(scene.mesh.particles());
   std::vector<size_t> turned;
   for (size_t h = 0; h < hinges.size(); ++h) {
-    if (!(side * std::remainder(angles[h] - scene.rest_angles[h], 2 * M_PI) > least_turn)) continue;
+    if (!(side * std::remainder(angles[h] - scene.rest_angles[h], 2 * pi) > least_turn)) continue;
     turned.push_back(h);
     joined.join(hinges[h].particles[2], hinges[h].particles[3]);
   }
@@ -89,11 +89,11 @@ double wavelength_at_end(const RunSeen& run) {
 
 std::vector<Quantity> wrinkle_quantities() {
   return {
-      {"creases", "1",
+      {"forms_creases", "1",
        "At the end there are so many creases: lines of three hinges or more, each turned by over 20 degrees "
        "to the same side.",
        Sense::at_least, Scope::this_shape, nullptr, creases_at_end, without_bending},
-      {"wrinkle_wavelength", "m",
+      {"wrinkles_stay_short", "m",
        "At the end wrinkles are at most this long: twice the mean straight distance, in the rest shape, from "
        "a "
        "hinge in a crease to the nearest in one of the other side.",

@@ -71,16 +71,19 @@ std::string_view name_of(Ruling ruling) {
 // A finding is held, failed (with numbers), or silent: missing from the run, inconclusive, not applicable, or
 // stopped by an error. The first row that fits decides.
 //
-//   | silent      | contradicts  | supports                  | limits       | ruling      |
-//   |-------------|--------------|---------------------------|--------------|-------------|
-//   | one or more | any          | any                       | any          | undecided   | on part of the evidence nothing is ruled
-//   | none        | one or more  | any                       | any          | refuted     | what a part refutes, the rest cannot save
-//   |             |   held       |                           |              |             |
-//   | none        | none held    | one or more failed, or    | any          | undecided   | what the claim needs is not there; whether the
-//   |             |              |   there is none           |              |             |   paper or the program is wrong, no finding says
-//   | none        | none held    | all held                  | one or more  | conditional |
-//   |             |              |                           |   held       |             |
-//   | none        | none held    | all held                  | none held    | confirmed   | contradictions and limits were sought, not found
+//       | silent      | contradicts      | supports              | limits           | ruling      |
+//   |---|-------------|------------------|-----------------------|------------------|-------------|
+//   | 1 | one or more | any              | any                   | any              | undecided   |
+//   | 2 | none        | one or more held | any                   | any              | refuted     |
+//   | 3 | none        | none held        | one or more failed,   | any              | undecided   |
+//   |   |             |                  |   or there is none    |                  |             |
+//   | 4 | none        | none held        | all held              | one or more held | conditional |
+//   | 5 | none        | none held        | all held              | none held        | confirmed   |
+//
+//   1: on part of the evidence nothing is ruled
+//   2: what a part refutes, the rest cannot save
+//   3: what the claim needs is not there; is the paper or the program wrong? no finding says
+//   5: contradictions and limits were sought, not found
 //
 // So a claim is refuted only by something found, never by something that is not found: a broken program can
 // lose a ruling, not make one.

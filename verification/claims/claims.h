@@ -51,12 +51,14 @@ Ruling ruling(const std::vector<Decider>& deciders, const std::vector<Record>& r
 
 /// The text with each placeholder replaced by a number of the run: three digits, a power of ten where the
 /// first is beyond the third place or the sixth, and its unit:
-///   {name}                     what the finding measured
-///   {name|bound}               its bound
-///   {name|column|row}          evidence: a row counted from 1, "first", "last", "smallest", "largest", or the entry
-///                              that stands in that row of the finding's first column of texts
-///   {bare: one of these}       without its unit, where the text says what is counted
-///   {largest of: a, b, ...}    the largest of several of these, which must have the same unit; also bare
+///   {name}                    what the finding measured
+///   {name|bound}              its bound
+///   {name|column|row}         evidence: a row counted from 1, "first", "last", "smallest",
+///                             "largest", or the entry that stands in that row of the finding's
+///                             first column of texts
+///   {bare: one of these}      without its unit, where the text says what is counted
+///   {largest of: a, b, ...}   the largest of several of these, which must have the same unit;
+///                             also bare
 /// Throws std::runtime_error naming the placeholder if the run has no such number.
 std::string filled(const std::string& text, const std::vector<Record>& records);
 

@@ -16,9 +16,10 @@ struct StoredResult {
 };
 
 /// A folder that several programs may write to at a time:
-///   shards/*.jsonl    one file a process, which only grows; a line {"start": key, "label": ...} when a run begins, and
-///                     {"result": key, "texts": ..., "arrays": {name: length}} when it has ended; a torn last line is ignored
-///   arrays/kk/key.h5  the arrays of a result, there before its line is written
+///   shards/*.jsonl     one file a process, which only grows; a line {"start": key, "label": ...}
+///                      when a run begins, and {"result": key, "texts": ..., "arrays":
+///                      {name: length}} when it has ended; a torn last line is ignored
+///   arrays/kk/key.h5   the arrays of a result, there before its line is written
 /// The key is the caller's: a digest of all that the result depends on. A run that was started and has no result was cut
 /// off, and is made again. Safe to call from several threads.
 class ResultStore {

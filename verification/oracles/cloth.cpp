@@ -1,7 +1,6 @@
 #include "verification/oracles/cloth.h"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 namespace foldproof::oracles {
@@ -148,7 +147,7 @@ Motion held_at(const Vector3& x) {
 }
 
 Motion harmonic_motion(const Harmonic& harmonic) {
-  const double rate = 2 * std::numbers::pi * harmonic.frequency;
+  const double rate = 2 * pi * harmonic.frequency;
   return {[harmonic, rate](double t) {
             return Vector3(harmonic.centre + std::sin(rate * t + harmonic.phase) * harmonic.amplitude);
           },

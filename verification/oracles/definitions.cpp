@@ -1,6 +1,5 @@
 #include "verification/oracles/definitions.h"
 
-#include <numbers>
 #include <string>
 
 #include "verification/oracles/scalars.h"
@@ -87,7 +86,7 @@ Quad<Digits50> checked(const Corners& x, const std::string& quantity) {
 
 void require_material(const HingeInput& hinge) {
   require(std::isfinite(hinge.ke) && std::isfinite(hinge.kd), "HingeInput ke and kd", "finite");
-  require(std::abs(hinge.theta0) <= std::numbers::pi, "HingeInput theta0", "between -pi and pi");
+  require(std::abs(hinge.theta0) <= pi, "HingeInput theta0", "between -pi and pi");
 }
 
 /// The spring's constants in any scalar; refuses a spring without rest length.

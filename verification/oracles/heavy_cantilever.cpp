@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "reference/types.h"
 #include "verification/oracles/gsl.h"
@@ -21,7 +20,7 @@ namespace foldproof::oracles {
 namespace {
 
 constexpr double tolerance = 1e-13;
-const double log_right_angle = std::log(0.5 * std::numbers::pi);
+const double log_right_angle = std::log(0.5 * pi);
 
 /// What shooting with one value of ln b finds at the clamp.
 struct Shot {
@@ -32,7 +31,7 @@ struct Shot {
 
 Shot shoot(double gamma, double log_b) {
   const RightHandSide rhs = [gamma](double u, std::span<const double> y, std::span<double> dy) {
-    const double phi = std::exp(y[0]), bounded = std::min(phi, 0.5 * std::numbers::pi);
+    const double phi = std::exp(y[0]), bounded = std::min(phi, 0.5 * pi);
     dy[0] = y[1];
     dy[1] = gamma * u * std::sin(bounded) / phi - y[1] * y[1];
     dy[2] = std::cos(bounded);

@@ -218,7 +218,7 @@ RigidityRange cylinder_range(const Eigen::Matrix3d& R) {
   constexpr int directions = 4000;
   RigidityRange range{cylinder_rigidity(R, 0), cylinder_rigidity(R, 0)};
   for (int i = 1; i < directions; ++i) {
-    const double D = cylinder_rigidity(R, std::numbers::pi * i / directions);
+    const double D = cylinder_rigidity(R, pi * i / directions);
     range = {std::min(range.least, D), std::max(range.greatest, D)};
   }
   return range;

@@ -47,7 +47,7 @@ LoadedTip tip_load(double alpha) {
   require_moderate(alpha);
   const double wanted = std::sqrt(alpha);
   const auto miss = [wanted](double eta) { return double(elliptic(eta).first - wanted); };
-  const Estimate eta = bracketed_root(miss, 1e-7, std::numbers::pi / 4, 0);
+  const Estimate eta = bracketed_root(miss, 1e-7, pi / 4, 0);
   // the integrals are good to some roundings; near eta = pi/4 a rounding of k moves phi by its root
   const auto tip = [wanted](double at) {
     return std::array<double, 2>{double(1 - 2 * elliptic(at).second / wanted),

@@ -29,10 +29,10 @@ double cotangent(const Vector3& a, const Vector3& b) { return a.dot(b) / a.cross
 // Quadratic bending: W = 3/(2 A) |K1 x1 + K2 x2 + K3 x3 + K4 x4|^2 with A the area of both triangles, and K
 // from the cotangents of the angles at x3 and x4 at rest: constant, so that F = -3/A K_i (sum K_j x_j).
 //
-//      x1          c01, c03: cotangents of the angles that the edge makes at x3 and x4 in the triangle of x1,
-//     /  \         c02, c04: the same in the triangle of x2
-//   x3 -- x4
-//     \  /         K3 = c03 + c04,  K4 = c01 + c02,  K1 = -(c01 + c03),  K2 = -(c02 + c04)
+//      x1      c01, c03: cotangents of the angles that the edge makes at x3 and x4 in the triangle
+//     /  \              of x1
+//   x3 -- x4   c02, c04: the same in the triangle of x2
+//     \  /     K3 = c03 + c04,  K4 = c01 + c02,  K1 = -(c01 + c03),  K2 = -(c02 + c04)
 //      x2
 std::array<Vector3, 4> quadratic(const Corners& x, const Corners& rest) {
   const Vector3 edge = rest[3] - rest[2];

@@ -59,7 +59,7 @@ std::string written_mesh_case(const ScratchFolder& folder) {
   std::ofstream(path) << "[cloth]\nmesh = \"square.obj\"\ndensity = 0.2\n[stretch]\nstiffness = 40\n"
                          "[time]\nend = 0.02\n[[object]]\nshape = \"sphere\"\nradius = 0.1\n"
                          "move = [0, 0, -0.5]\n"
-                         "[expect.crosses_itself]\nat_most = 0\nwhy = \"any\"\n"
+                         "[expect.never_crosses_itself]\nat_most = 0\nwhy = \"any\"\n"
                          "[expect.takes_steps]\nat_least = 1e9\nwhy = \"this\"\n"
                          "[expect.stays_flat]\nat_most = 0\nwhy = \"this\"\n";
   return path;
@@ -106,9 +106,9 @@ TEST_CASE(
   REQUIRE(usual.expectations.size() == 4);
   CHECK(usual.expectations[0].key == "runs_to_its_end");
   CHECK(usual.expectations[1].key == "energy_is_accounted_for");
-  CHECK(usual.expectations[2].key == "repeats_itself");
+  CHECK(usual.expectations[2].key == "is_reproducible");
   CHECK(usual.expectations[2].bound == 0);
-  CHECK(usual.expectations[3].key == "crosses_itself");
+  CHECK(usual.expectations[3].key == "never_crosses_itself");
   CHECK(usual.expectations[3].bound == 0);
   const Case own =
       with_usual_expectations(trial("[expect.energy_is_accounted_for]\nat_most = 0.3\nwhy = \"w\"\n"));
@@ -122,7 +122,7 @@ TEST_CASE("a case's level sets are made when it is built, each of them once") {
   const std::string statue = "[[object]]\nshape = \"statue\"\nheight = 0.1\nsubdivisions = 3\ncells = 9\n";
   const std::string twist = "[[object.deform]]\nkind = \"twist\"\namplitude = 3\nperiod = 0.1\n";
   const Case shown = trial(statue + statue + statue + "field = \"octree\"\n" + statue + twist + statue +
-                           "between = \"blended\"\n" + twist);
+                           "interpolation = \"blended\"\n" + twist);
   int grids = 0, bodies = 0;
   const LevelSetMakers compute = computing_makers();
   const LevelSetMakers kept =
@@ -146,19 +146,21 @@ TEST_CASE("a case's level sets are made when it is built, each of them once") {
 }
 
 TEST_CASE("expect: what crosses is counted, and a case that keeps cloth from itself gives its own reason") {
-  Case shown = trial("[expect.crosses_itself]\nat_most = 1\nwhy = \"w\"\n");
-  CHECK(find_quantity("crosses_itself")->of_frame(shown.scene, start_state(shown.scene)) == 0);
+  Case shown = trial("[expect.never_crosses_itself]\nat_most = 1\nwhy = \"w\"\n");
+  CHECK(find_quantity("never_crosses_itself")->of_frame(shown.scene, start_state(shown.scene)) == 0);
   State folded = start_state(shown.scene);
   folded.x.row(0) = (folded.x.row(0).array() - folded.x.row(0).mean()).abs();  // one half on the other
-  CHECK(find_quantity("crosses_itself")->of_frame(shown.scene, folded) > 10);
+  CHECK(find_quantity("never_crosses_itself")->of_frame(shown.scene, folded) > 10);
   folded.x(0, 0) = NAN;
-  CHECK(std::isnan(find_quantity("crosses_itself")->of_frame(shown.scene, folded)));
+  CHECK(std::isnan(find_quantity("never_crosses_itself")->of_frame(shown.scene, folded)));
   shown.scene.self_collision = SelfCollisionSettings{0.01, 1, 0, 8, true};
   shown.expectations.clear();
   const Case usual = with_usual_expectations(shown);
   REQUIRE(usual.expectations.size() == 3);
-  CHECK(usual.expectations[2].key == "crosses_itself");
+  CHECK(usual.expectations[2].key == "never_crosses_itself");
   CHECK_THAT(usual.expectations[2].why, Contains("impact zones"));
+  shown.expectations = {{"tangle_does_not_grow", 29, "it starts crossed"}};
+  CHECK(with_usual_expectations(shown).expectations.size() == 3);
 }
 
 TEST_CASE("expect: what is left of a height and of angles is that of the end, over that of the start") {
@@ -194,7 +196,8 @@ TEST_CASE("expect: creases are counted line by line, and lie half a wavelength a
   const RunBook book;
   const Repetition repetition(scene, computing_makers());
   const RunSeen run{scene, book, result, repetition};
-  const Quantity &creases = *find_quantity("creases"), &wavelength = *find_quantity("wrinkle_wavelength");
+  const Quantity &creases = *find_quantity("forms_creases"),
+                 &wavelength = *find_quantity("wrinkles_stay_short");
   CHECK(creases.of_run(run) == 0);
   CHECK(std::isnan(wavelength.of_run(run)));
   PerParticle3& x = result.last.x;

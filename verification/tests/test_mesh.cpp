@@ -35,8 +35,8 @@ std::vector<Shape> all_shapes() {
     shapes.push_back({"sheet " + std::to_string(int(pattern)), make_sheet(sheet_of(pattern)), 1, 1.3 * 0.9});
   }
   const double ico_edge = 4 * 0.7 / std::sqrt(10 + 2 * std::sqrt(5.0));
-  shapes.push_back({"disc", make_disc(0.7, 5), 1, 30 * 0.5 * 0.7 * 0.7 * std::sin(2 * M_PI / 30)});
-  shapes.push_back({"cylinder", make_cylinder(0.3, 1.1, 17, 9), 0, 17 * 2 * 0.3 * std::sin(M_PI / 17) * 1.1});
+  shapes.push_back({"disc", make_disc(0.7, 5), 1, 30 * 0.5 * 0.7 * 0.7 * std::sin(2 * pi / 30)});
+  shapes.push_back({"cylinder", make_cylinder(0.3, 1.1, 17, 9), 0, 17 * 2 * 0.3 * std::sin(pi / 17) * 1.1});
   shapes.push_back({"icosahedron", make_icosphere(0.7, 0), 2, 5 * std::sqrt(3.0) * ico_edge * ico_edge});
   shapes.push_back({"sphere", make_icosphere(0.7, 3), 2, 0});
   shapes.push_back({"statue", make_statue(1.7, 3), 2, 0});
@@ -51,7 +51,7 @@ Triangle from_smallest(Triangle t) {
 }
 
 double least_angle(const TriangleMesh& mesh) {
-  double least = M_PI;
+  double least = pi;
   for (const Triangle& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
       const Vector3 a = mesh.rest.col(t[(k + 1) % 3]) - mesh.rest.col(t[k]);
@@ -256,7 +256,7 @@ TEST_CASE("mesh: random sheets keep their least distance, leave no slivers and d
   Sheet sheet = {SheetPattern::random_delaunay, 1.2, 0.8, 30, 20, 0, 11};
   const TriangleMesh mesh = make_sheet(sheet);
   CHECK(rest_lengths(mesh).minCoeff() >= 0.8 * 0.04 * (1 - 8 * epsilon));
-  CHECK(least_angle(mesh) > 20 * M_PI / 180);
+  CHECK(least_angle(mesh) > 20 * pi / 180);
   CHECK(std::abs(mesh.particles() - 660) < 66);
   sheet.seed = 12;
   CHECK(make_sheet(sheet).triangles != mesh.triangles);
@@ -297,14 +297,14 @@ TEST_CASE(
   CHECK(fine.triangles.size() == 20 * 64);
   CHECK((fine.rest.leftCols(coarse.particles()) - coarse.rest).cwiseAbs().maxCoeff() <= epsilon);
   CHECK((fine.rest.colwise().norm().array() - 0.7).abs().maxCoeff() < 4 * epsilon);
-  CHECK(volume(fine) == Approx(4 * M_PI / 3 * 0.343).epsilon(0.02));
-  CHECK(volume(fine) < 4 * M_PI / 3 * 0.343);
+  CHECK(volume(fine) == Approx(4 * pi / 3 * 0.343).epsilon(0.02));
+  CHECK(volume(fine) < 4 * pi / 3 * 0.343);
 }
 
 TEST_CASE("mesh: the statue is clean, stands on its base and does not pierce itself") {
   const TriangleMesh mesh = make_statue(1.7, 4);
   CHECK(mesh.triangles.size() == 5120);
-  CHECK(least_angle(mesh) > 20 * M_PI / 180);
+  CHECK(least_angle(mesh) > 20 * pi / 180);
   CHECK(mesh.rest.row(1).minCoeff() == 0);
   CHECK(std::abs(mesh.rest.row(1).maxCoeff() - 1.7) < 4 * epsilon);
   CHECK((mesh.rest.row(1).array() < 1e-9).count() > 200);

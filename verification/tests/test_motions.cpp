@@ -167,7 +167,7 @@ TEST_CASE("the heavy cantilever's tip is the table's, and that of shooting from 
     return heavy_cantilever(gamma).drop.value / heavy_cantilever(gamma).reach.value;
   };
   CHECK(std::abs(slope(1e-3) * 8 / 1e-3 - 1) < 1e-6);
-  const double test_angle = std::tan(41.5 * std::numbers::pi / 180);
+  const double test_angle = std::tan(41.5 * pi / 180);
   const Estimate gamma = bracketed_root([&](double g) { return slope(g) - test_angle; }, 7, 9, 1e-9);
   CHECK(std::abs(gamma.value - 8.004197) < 5.1e-7);
 }
@@ -189,9 +189,9 @@ DrivenHinge driven(const HingeInput& hinge) {
 HingeInput hinge_at(const HingeInput& start, double t) {
   HingeInput now = start;
   const Vector3 amplitude = .1 * (start.x[1] - start.x[2]);
-  const double angle = 3.8 * std::numbers::pi * t + .6;
+  const double angle = 3.8 * pi * t + .6;
   now.x[1] += std::sin(angle) * amplitude;
-  now.v[1] = 3.8 * std::numbers::pi * std::cos(angle) * amplitude;
+  now.v[1] = 3.8 * pi * std::cos(angle) * amplitude;
   now.v[2].setZero();
   return now;
 }
@@ -322,7 +322,7 @@ TEST_CASE("an equilateral sheet's springs store the energy of Young's modulus Y 
     const double cell = std::sqrt(3.) / 2 * side * side, strain = 1e-5;
     const auto energy = [&, young = young, side = side](const Eigen::Matrix2d& stretch) {
       double sum = 0;
-      for (const double turn : {.2, .2 + std::numbers::pi / 3, .2 + 2 * std::numbers::pi / 3}) {
+      for (const double turn : {.2, .2 + pi / 3, .2 + 2 * pi / 3}) {
         const Eigen::Vector2d d = stretch * side * Eigen::Vector2d(std::cos(turn), std::sin(turn));
         sum += spring_energy<double>({}, {d.x(), d.y(), 0}, {young, 0, cell, side});
       }

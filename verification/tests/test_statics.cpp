@@ -3,7 +3,6 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "reference/types.h"
 #include "verification/oracles/homogenised_bending.h"
@@ -58,7 +57,7 @@ TEST_CASE("homogenised rigidities are the table's") {
   for (const Row& row : table) {
     const Eigen::Matrix3d R = relaxed_rigidity(row.mesh);
     for (size_t k = 0; k < 4; ++k)
-      CHECK(std::abs(cylinder_rigidity(R, double(k) * std::numbers::pi / 4) - row.relaxed[k]) <=
+      CHECK(std::abs(cylinder_rigidity(R, double(k) * pi / 4) - row.relaxed[k]) <=
             row.tolerance);
     const Eigen::Matrix3d stiffer = forced_rigidity(row.mesh) - R;
     CHECK(stiffer.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > -1e-12);
@@ -74,10 +73,10 @@ TEST_CASE("union jack and criss-cross are one mesh, turned by 45 degrees") {
   const PeriodicMesh jack = split_rectangles({1, 1, 2, 2, [](int i, int j) { return (i + j) % 2 == 0; }});
   for (const double angle : {.1, .9, 2.2}) {
     CHECK(std::abs(cylinder_rigidity(forced_rigidity(jack), angle) -
-                   cylinder_rigidity(forced_rigidity(crossed_squares(1)), angle + std::numbers::pi / 4)) <
+                   cylinder_rigidity(forced_rigidity(crossed_squares(1)), angle + pi / 4)) <
           1e-12);
     CHECK(std::abs(cylinder_rigidity(relaxed_rigidity(jack), angle) -
-                   cylinder_rigidity(relaxed_rigidity(crossed_squares(1)), angle + std::numbers::pi / 4)) <
+                   cylinder_rigidity(relaxed_rigidity(crossed_squares(1)), angle + pi / 4)) <
           1e-12);
   }
 }

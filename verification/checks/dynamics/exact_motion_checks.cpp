@@ -2,7 +2,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "reference/dynamics/integrator.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
@@ -82,7 +81,7 @@ TurningPair turning_pair() {
 /// Largest relative deviation of the length from the steady one over the turns (first, last] [1].
 double deviation(const TurningPair& pair, const std::string& integrator, double h, double first,
                  double last) {
-  const double turn = 2 * std::numbers::pi / pair.omega;
+  const double turn = 2 * pi / pair.omega;
   State s = pair.start;
   Worst worst;
   while (s.time < last * turn) {

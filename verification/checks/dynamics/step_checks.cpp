@@ -1,7 +1,6 @@
 // The lines of the schemes, one by one: what is modified, what continues from what, what is led and counted.
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include "reference/dynamics/integrator.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
@@ -181,7 +180,7 @@ Finding held_finding(const Subject& subject) {
 /// Where a led point is, straight from the definition of Motion, the rotation by Rodrigues' formula.
 State led_point(const PrescribedParticle& p, double t) {
   const Motion& m = p.motion;
-  const double rate = m.angular_velocity.norm(), omega = 2 * std::numbers::pi * m.frequency;
+  const double rate = m.angular_velocity.norm(), omega = 2 * pi * m.frequency;
   const Vector3 arm = p.start - m.center,
                 axis = rate > 0 ? Vector3(m.angular_velocity / rate) : Vector3(0, 0, 1);
   const Vector3 along = axis.dot(arm) * axis,
@@ -203,7 +202,7 @@ Finding led_finding(const Subject& subject, const std::string& integrator) {
       const State point = led_point(p, s.time);
       const double fastest = p.motion.velocity.norm() +
                              p.motion.angular_velocity.norm() * (p.start - p.motion.center).norm() +
-                             2 * std::numbers::pi * p.motion.frequency * p.motion.amplitude.norm();
+                             2 * pi * p.motion.frequency * p.motion.amplitude.norm();
       worst.see((s.x.col(p.particle) - point.x).norm() / epsilon);
       if (fastest > 0) worst.see((s.v.col(p.particle) - point.v).norm() / (epsilon * fastest));
     }

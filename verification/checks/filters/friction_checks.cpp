@@ -74,7 +74,7 @@ Finding slope_finding(const Subject& subject, const std::string& integrator, con
       const double time = h * steps;
       const double acceleration = std::max(0.0, g * (std::sin(al) - mu * std::cos(al)));
       friction.push_back(mu);
-      angle.push_back(al * 180 / M_PI);
+      angle.push_back(al * 180 / pi);
       ways.push_back(slid.way);
       expected.push_back(acceleration * time * time / 2);
       worst.see(std::abs(ways.back() - expected.back()));

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "reference/filters/object_collision.h"
 #include "verification/checks/filters/filter_checks.h"
@@ -108,7 +107,7 @@ Finding each_object_finding(const Subject& subject) {
 /// The half-spaces z >= 0 of a floor and of one turned about y, particles without friction between them.
 Scene wedge(double degrees) {
   Scene scene = loose_particles(5);
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vector3::UnitY()));
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(degrees * pi / 180, Vector3::UnitY()));
   scene.objects.push_back(object_at("floor", HalfSpace{}, {}));
   scene.objects.push_back(object_at("other", HalfSpace{}, {turn, Vector3::Zero()}));
   return scene;
@@ -122,7 +121,7 @@ Finding closing_finding(const Subject& subject) {
   Table measured = roundings_of("place and way");
   for (const double degrees : {95., 118., 122., 150.}) {
     const Scene scene = wedge(degrees);
-    const double angle = degrees * std::numbers::pi / 180;
+    const double angle = degrees * pi / 180;
     const Vector3 a = Vector3::UnitZ(), b(std::sin(angle), 0, std::cos(angle));
     const Eigen::Matrix2d gram{{1, a.dot(b)}, {a.dot(b), 1}};
     State state = still_at(scene.x);

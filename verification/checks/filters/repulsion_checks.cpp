@@ -235,7 +235,7 @@ std::vector<double> ways_on_slope(const Subject& subject, double friction, doubl
   const Vector3 middle = scene.x.leftCols(42).rowwise().mean();
   scene.x.leftCols(42) =
       (Vector3(1.5, 1.5, 1).asDiagonal() * (scene.x.leftCols(42).colwise() - middle)).colwise() + middle;
-  const double angle = degrees * M_PI / 180;
+  const double angle = degrees * pi / 180;
   scene.gravity = Vector3(9.81 * std::sin(angle), 0, -9.81 * std::cos(angle));
   scene.stretch = StretchMaterial{20, 0.02, 1};
   for (int i = 0; i < 42; ++i) scene.led.push_back({i, scene.x.col(i), Motion{}});
@@ -252,7 +252,7 @@ Finding slope_finding(const Subject& subject) {
                  {"way over that of Coulomb's law, less one; or over that without friction", "1"}};
   const double seconds = 0.1;
   for (const auto& [friction, degrees] : {std::pair{0.3, 20.0}, {0.5, 35.0}}) {
-    const double angle = degrees * M_PI / 180;
+    const double angle = degrees * pi / 180;
     const double slides = 9.81 * (std::sin(angle) - friction * std::cos(angle)) * seconds * seconds / 2;
     const std::vector<double> ways = ways_on_slope(subject, friction, degrees);
     const double mean = std::accumulate(ways.begin(), ways.end(), 0.0) / double(ways.size());
@@ -260,7 +260,7 @@ Finding slope_finding(const Subject& subject) {
                  std::abs(mean / slides - 1));
   }
   for (const auto& [friction, degrees] : {std::pair{0.4, 20.0}, {0.75, 35.0}}) {
-    const double free = 9.81 * std::sin(degrees * M_PI / 180) * seconds * seconds / 2;
+    const double free = 9.81 * std::sin(degrees * pi / 180) * seconds * seconds / 2;
     const std::vector<double> ways = ways_on_slope(subject, friction, degrees);
     for (size_t k = 0; k < ways.size(); ++k)
       measured.row("holds, mu " + std::to_string(friction).substr(0, 4) + ", sheet " + std::to_string(k + 1) +

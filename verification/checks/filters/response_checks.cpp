@@ -128,9 +128,9 @@ Finding untouched_finding(const Subject& subject) {
           ""};
 }
 
-//   N0   N1       over the step the plane turns by theta from N0 to N1 and takes the point's place with it; the point
-//    |  /         slides by w across N0, of which |w.N1| <= |w| sin(theta) is depth, and of a depth that it had
-//  --p-----w-->   1 - cos(theta) is left
+//   N0   N1       over the step the plane turns by theta from N0 to N1 and takes the point's place
+//    |  /         with it; the point slides by w across N0, of which |w.N1| <= |w| sin(theta) is
+//  --p-----w-->   depth, and of a depth that it had 1 - cos(theta) is left
 Finding turning_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"deepest point after the step", "|w| sin(theta) + depth (1 - cos(theta))"}};
   for (const Contact& contact : known_contacts()) {

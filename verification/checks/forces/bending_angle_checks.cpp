@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 
 #include "reference/forces/degenerate.h"
 #include "verification/checks/forces/force_checks.h"
@@ -15,8 +14,6 @@
 namespace foldproof {
 
 namespace {
-
-using std::numbers::pi;
 
 std::string in_radians(double angle) {
   char text[40];

@@ -78,7 +78,7 @@ Finding equilateral_moduli(const Subject& subject) {
   Table measured{{"case", ""}, {"worse relative error of the two", "1"}};
   std::vector<double> youngs, poissons;
   for (const double degrees : {0.0, 17.0, 30.0, 52.0, 90.0}) {
-    const double direction = degrees * std::numbers::pi / 180;
+    const double direction = degrees * pi / 180;
     // energy per area: (C11 a^2 + 2 C12 a b + C22 b^2)/2 for strains a along and b across
     const oracles::Estimate along = stiffness(probe, scene.mesh, {1, 0}, direction);
     const oracles::Estimate across = stiffness(probe, scene.mesh, {0, 1}, direction);

@@ -122,7 +122,7 @@ Finding again_finding(const Subject& subject) {
   std::vector<double> made(4, 0);
   double wrong = 0;
   for (int n = 0; n < 3000; ++n) {
-    const double level = 0.09 * std::sin(2 * M_PI * 1.7 * s.time);
+    const double level = 0.09 * std::sin(2 * pi * 1.7 * s.time);
     std::vector<char> sticks(4, 0);
     for (size_t i = 0; i < 4; ++i) {
       const double height = scene.x(2, Eigen::Index(i)) - level;

@@ -53,7 +53,7 @@ Motion waving() {
 }
 
 double largest_acceleration(const Motion& motion, const PerParticle3& x) {
-  const double rate = 2 * M_PI * motion.frequency;
+  const double rate = 2 * pi * motion.frequency;
   const double arm = (x.colwise() - motion.center).colwise().norm().maxCoeff();
   return rate * rate * motion.amplitude.norm() + motion.angular_velocity.squaredNorm() * arm;
 }

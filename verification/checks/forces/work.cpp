@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "verification/evidence.h"
 #include "verification/specimens/probe.h"
@@ -74,7 +73,7 @@ Path random_line(const PerParticle3& x, double size, unsigned seed) {
 Path random_loop(const PerParticle3& x, double size, unsigned seed) {
   Random random(seed);
   const PerParticle3 p = random.vectors(x.cols(), size), q = random.vectors(x.cols(), size);
-  const double turn = 2 * std::numbers::pi;
+  const double turn = 2 * pi;
   return {[=](double t) -> PerParticle3 { return x + std::cos(turn * t) * p + std::sin(turn * t) * q; },
           [=](double t) -> PerParticle3 { return turn * (std::cos(turn * t) * q - std::sin(turn * t) * p); }};
 }

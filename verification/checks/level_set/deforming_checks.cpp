@@ -89,10 +89,10 @@ double blended_radius(double way) {
   return low;
 }
 
-///                 p
-///              /  |  \        two balls of radius R, d apart: halfway, at the distance r from their line,
-///            /  r |    \      the mean of both distances is sqrt(r^2 + d^2/4) - R
-///          a ---- + ---- b
+///          p
+///       /  |  \        two balls of radius R, d apart: halfway, at the distance r from their line,
+///     /  r |    \      the mean of both distances is sqrt(r^2 + d^2/4) - R
+///   a ---- + ---- b
 Finding blended_ball_shrinks(const Subject&) {
   Table measured{{"case", ""}, {"miss of the radius", "tolerances"}};
   for (const double way : {0.05, 0.11, 0.17, 0.29}) {

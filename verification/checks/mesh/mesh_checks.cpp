@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "reference/mesh/obj.h"
@@ -19,8 +18,6 @@
 namespace foldproof {
 
 namespace {
-
-using std::numbers::pi;
 
 constexpr double width = 0.47, height = 0.29;  // of all sheets [m]
 

@@ -79,7 +79,7 @@ std::string two_panels(double apart) {
   for (int panel = 0; panel < 2; ++panel)
     for (int ring = 0; ring < 4; ++ring)
       for (int k = 0; k <= 5; ++k) {
-        const double angle = (5 * panel + k) * M_PI / 5, r = 0.2 + (panel == 1 ? apart : 0);
+        const double angle = (5 * panel + k) * pi / 5, r = 0.2 + (panel == 1 ? apart : 0);
         text += "v " + std::to_string(r * std::cos(angle)) + " " + std::to_string(0.1 * ring) + " " +
                 std::to_string(r * std::sin(angle)) + "\n";
       }

@@ -202,7 +202,7 @@ std::vector<TriangleSoup> touching_fans() {
   std::vector<Triangle> of_cones;
   for (int cone = 0; cone < 2; ++cone)
     for (int k = 0; k < 6; ++k) {
-      const double angle = k * M_PI / 3 + cone, r = cone == 0 ? 0.8 : 1.3;
+      const double angle = k * pi / 3 + cone, r = cone == 0 ? 0.8 : 1.3;
       cones.push_back(cones[0] + Vector3(r * std::cos(angle), cone == 0 ? 1 : -0.7, r * std::sin(angle)));
       of_cones.push_back({0, 1 + 6 * cone + k, 1 + 6 * cone + (k + 1) % 6});
     }

@@ -1,7 +1,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "verification/checks/oracles/oracle_checks.h"
 #include "verification/evidence.h"
@@ -136,7 +135,7 @@ oracles::StuckParticle moved(oracles::StuckParticle stuck, Eigen::Index k, doubl
 double energy_of_cell(double young, double side, const Eigen::Matrix2d& F) {
   const double cell = std::sqrt(3.) / 2 * side * side;
   double sum = 0;
-  for (const double turn : {.2, .2 + std::numbers::pi / 3, .2 + 2 * std::numbers::pi / 3}) {
+  for (const double turn : {.2, .2 + pi / 3, .2 + 2 * pi / 3}) {
     const Eigen::Vector2d d = F * side * Eigen::Vector2d(std::cos(turn), std::sin(turn));
     sum += oracles::spring_energy<double>({}, {d.x(), d.y(), 0}, {young, 0, cell, side});
   }

@@ -1,7 +1,6 @@
 #include <Eigen/Dense>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "verification/checks/oracles/oracle_checks.h"
 #include "verification/evidence.h"
@@ -199,7 +198,7 @@ Agreement rigidities_agree() {
     agreement.see("relaxed union jack and criss-cross, at " + std::to_string(angle),
                   {oracles::cylinder_rigidity(oracles::relaxed_rigidity(jack), angle), off},
                   {oracles::cylinder_rigidity(oracles::relaxed_rigidity(oracles::crossed_squares(1)),
-                                              angle + std::numbers::pi / 4),
+                                              angle + pi / 4),
                    off});
   return agreement;
 }
@@ -230,7 +229,7 @@ Agreement dense_algebra_agrees() {
     std::vector<std::pair<Estimate, Estimate>> pairs;
     for (int k = 1; k <= n; ++k)
       pairs.push_back({{values[k - 1], 20 * n * epsilon},
-                       {2 - 2 * std::cos(k * std::numbers::pi / (n + 1)), 4 * epsilon}});
+                       {2 - 2 * std::cos(k * pi / (n + 1)), 4 * epsilon}});
     agreement.see_worst("second differences of " + std::to_string(n), pairs);
     const Eigen::MatrixXd A = K + .1 * Eigen::MatrixXd::Ones(n, n);
     const Eigen::VectorXd x = random.vectors(n, 1).row(0).transpose();

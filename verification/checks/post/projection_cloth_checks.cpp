@@ -197,7 +197,7 @@ Finding loop_is_affine(const Subject&) {
   // .084093
   const Subdivision once = subdivision(mesh, SubdivisionRule::loop, 1);
   const double expected5 =
-      1 - (5.0 / 8 - std::pow(3.0 / 8 + std::cos(2 * 3.14159265358979323846 / 5) / 4, 2));
+      1 - (5.0 / 8 - std::pow(3.0 / 8 + std::cos(2 * pi / 5) / 4, 2));
   measured.row("weight of a point of degree 5", std::abs(once.weights.coeff(0, 0) - expected5) / epsilon);
   measured.row("weight of a point of degree 6", std::abs(once.weights.coeff(20, 20) - 10.0 / 16) / epsilon);
   return judged_worst(

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <numbers>
 
 #include "reference/bodies/makers.h"
 #include "reference/level_set/mesh_distance.h"
@@ -22,7 +21,7 @@ namespace foldproof {
 namespace {
 
 constexpr double radius = 0.13;                          // m
-constexpr double degree = 3.14159265358979323846 / 180;  // rad
+constexpr double degree = pi / 180;  // rad
 
 /// A ball as an OBJ file, and [[object]] of it with these keys.
 std::string ball_body(const ScratchFolder& folder, const std::string& keys) {
@@ -106,7 +105,7 @@ double surface_miss(const Scene& scene, const Shaping& shaping, double period, d
     x.col(i) = Eigen::AngleAxisd(30 * degree, Vector3(1, 2, 2) / 3) * ball.rest.col(i) + move;
   const Vector3 low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff(), middle = (low + high) / 2;
   const Vector3 base(middle.x(), low.y(), middle.z());
-  const double share = std::pow(std::sin(std::numbers::pi * t / period), 2);
+  const double share = std::pow(std::sin(pi * t / period), 2);
   const PerParticle3 seen = surface_at(scene.objects.at(0), t);
   Worst worst;
   for (int i = 0; i < ball.particles(); ++i)
@@ -173,7 +172,7 @@ Finding frames_finding(const Subject&) {
   const std::string body = "[[object]]\nframes = \"" + written_frames(folder) +
                            "\"\ninterval = 0.07\nfit = 0.5\ncells = 12\nmove = [0.2, -0.1, 0.3]\n";
   const Scene carried = read_case_in(folder, body),
-              blended = read_case_in(folder, body + "between = \"blended\"\n");
+              blended = read_case_in(folder, body + "interpolation = \"blended\"\n");
   const PerParticle3 x = make_icosphere(radius, 2).rest;
   const double scale = 0.5 / (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
   const PerParticle3 first = (scale * x).colwise() + Vector3(0.2, -0.1, 0.3),
@@ -238,7 +237,7 @@ std::vector<Refused> refusals(const ScratchFolder& folder) {
       {sphere + twist, {"needs a mesh", "statue"}},
       {body("interval = 0.2\nvelocity = [0, 0, 1]\n" + twist), {"unknown key 'velocity'"}},
       {body("field = \"grid\"\n" + twist), {"unknown field 'grid'", "octree"}},
-      {body("between = \"morphed\"\n" + twist), {"unknown between 'morphed'", "carried"}},
+      {body("interpolation = \"morphed\"\n" + twist), {"unknown interpolation 'morphed'", "carried"}},
       {body("interval = 1e-5\n" + twist), {"more than 1000 level sets", "interval"}},
       {body("interval = 0\n" + twist), {"'interval' must be > 0"}},
       {body("[[object.deform]]\nkind = \"melt\"\n"), {"unknown kind 'melt'", "breathe"}},

@@ -2,7 +2,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "reference/mesh/shapes.h"
 #include "verification/checks/scene/scene_checks.h"
@@ -12,8 +11,6 @@
 namespace foldproof {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 Scene cloth_case(const std::string& keys, const std::string& tables = "") {
   return read_scene_text("[cloth]\ndensity = 0.23\n" + keys + tables + short_time, "trial.toml");

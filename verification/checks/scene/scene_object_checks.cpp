@@ -48,7 +48,7 @@ double distance_of(const SceneObject& part, const Vector3& p, double t) {
 }
 
 Vector3 turned(double degrees, const Vector3& axis, const Vector3& x) {
-  return Eigen::AngleAxisd(degrees * M_PI / 180, axis.normalized()) * x;
+  return Eigen::AngleAxisd(degrees * pi / 180, axis.normalized()) * x;
 }
 
 /// Distances that the solids must have at a time, worked out by hand from the text.

@@ -7,13 +7,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace foldproof {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double degree = pi / 180;
 
 std::vector<int> held_by(const std::string& table) {
   std::vector<int> particles;
@@ -54,7 +53,7 @@ Finding hold_finding(const Subject&) {
   differences.see("start position on the path", (start_state(scene).x.col(7) - rest.col(7)).norm(),
                   arm.norm() + Vector3(0.6, 0.9, 1.1).norm());
   const Vector3 speed = spin.cross(arm) + Vector3(0.1, 0.2, 0.4) +
-                        2 * std::numbers::pi * 1.7 * std::cos(33 * degree) * Vector3(0.3, 0.5, 0.7);
+                        2 * pi * 1.7 * std::cos(33 * degree) * Vector3(0.3, 0.5, 0.7);
   differences.see("start velocity on the path", (start_state(scene).v.col(7) - speed).norm(),
                   spin.norm() * arm.norm() + speed.norm());
   return differences.finding(32,
