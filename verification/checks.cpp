@@ -35,7 +35,7 @@ std::vector<Check> all_checks() {
            scene_refusal_checks, scene_meaning_checks, scene_place_checks, scene_object_checks,
            scene_body_checks, scene_cloth_checks,
            // mesh
-           seam_checks,
+           seam_checks, split_fan_checks,
            // level_set
            mesh_distance_checks, grid_checks, marching_checks,
            // bodies

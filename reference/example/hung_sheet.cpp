@@ -19,7 +19,7 @@ int main() {
   const auto print = [](const State& s) {
     std::printf("%.1f s: %.4f m high\n", s.time, s.x.row(1).maxCoeff() - s.x.row(1).minCoeff());
   };
-  const Outcome run = simulate(build_system(scene), integrator_named("C"), start_state(scene), scene.schedule,
+  const RunResult run = simulate(build_system(scene), integrator_named("C"), start_state(scene), scene.schedule,
                                {.frame = print, .step = {}});
   return run.stop ? 1 : 0;
 }

@@ -124,9 +124,12 @@ SideLists list_sides(int particles, const std::vector<Triangle>& triangles) {
 }
 
 [[noreturn]] void refuse_third_triangle(int a, const Side* first, const MeshOrigin& origin) {
-  throw InputError(at_triangle(origin, first[2].half / 3) + edge_name(origin, a, first->b) +
-                   " has three triangles or more (" + triangle_name(origin, first[0].half / 3) + ", " +
-                   triangle_name(origin, first[1].half / 3) + " and this one); a manifold has one or two");
+  throw InputError(
+      at_triangle(origin, first[2].half / 3) + edge_name(origin, a, first->b) +
+      " has three triangles or more (" + triangle_name(origin, first[0].half / 3) + ", " +
+      triangle_name(origin, first[1].half / 3) +
+      " and this one); a manifold has one or two. Remove one: repair = \"split\" parts fans at a "
+      "vertex, and cannot tell which two of these stay joined");
 }
 
 [[noreturn]] void refuse_orientation(int a, const Side* first, const MeshOrigin& origin) {
@@ -179,9 +182,38 @@ int corner_of(const std::vector<Triangle>& triangles, int t, int v) {
   return 3 * t + (triangles[t][0] == v ? 0 : triangles[t][1] == v ? 1 : 2);
 }
 
-/// Corners of one vertex belong to the same fan when their triangles share an edge there, directly or through
-/// others: all corners are joined across all hinges, and each vertex must be left with a single set.
 void refuse_several_fans(const TriangleMesh& mesh, const MeshOrigin& origin) {
+  const std::vector<int> fans = fans_of(mesh);
+  std::vector<int> fan(mesh.particles(), -1);  // the first corner of each vertex's fan
+  for (int corner = 0; corner < int(fans.size()); ++corner) {
+    int& known = fan[tail(mesh.triangles, corner)];
+    if (known < 0) known = fans[corner];
+    if (known == fans[corner]) continue;
+    throw InputError(at_vertex(origin, tail(mesh.triangles, corner)) +
+                     "its triangles form more than one fan (" + triangle_name(origin, known / 3) + " and " +
+                     triangle_name(origin, corner / 3) +
+                     " meet in this vertex only); give each fan a vertex of its own, or, for cloth, set "
+                     "repair = \"split\"");
+  }
+}
+
+}  // namespace
+
+TriangleMesh make_mesh_of_fans(PerParticle3 rest, std::vector<Triangle> triangles, const MeshOrigin& origin) {
+  const int particles = int(rest.cols());
+  refuse_bad_sizes(rest, triangles, origin);
+  refuse_bad_coordinates(rest, origin);
+  refuse_bad_indices(particles, triangles, origin);
+  refuse_unused_vertices(particles, triangles, origin);
+  refuse_zero_areas(rest, triangles, origin);
+
+  TriangleMesh mesh{std::move(rest), std::move(triangles), {}, {}};
+  find_edges(list_sides(particles, mesh.triangles), origin, mesh);
+  return mesh;
+}
+
+/// All corners are joined across all hinges.
+std::vector<int> fans_of(const TriangleMesh& mesh) {
   std::vector<int> parent(3 * mesh.triangles.size());
   for (int corner = 0; corner < int(parent.size()); ++corner) parent[corner] = corner;
   for (const Edge& edge : mesh.edges) {
@@ -192,32 +224,13 @@ void refuse_several_fans(const TriangleMesh& mesh, const MeshOrigin& origin) {
       parent[std::max(left, right)] = std::min(left, right);
     }
   }
-  std::vector<int> fan(mesh.particles(), -1);  // the first corner of each vertex's fan
-  for (int corner = 0; corner < int(parent.size()); ++corner) {
-    int& known = fan[tail(mesh.triangles, corner)];
-    const int found = root(parent, corner);
-    if (known < 0) known = found;
-    if (known == found) continue;
-    throw InputError(at_vertex(origin, tail(mesh.triangles, corner)) +
-                     "its triangles form more than one fan (" + triangle_name(origin, known / 3) + " and " +
-                     triangle_name(origin, corner / 3) +
-                     " meet in this vertex only); give each fan a vertex of its own");
-  }
+  for (int corner = 0; corner < int(parent.size()); ++corner) parent[corner] = root(parent, corner);
+  return parent;
 }
-
-}  // namespace
 
 TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangles,
                                 const MeshOrigin& origin) {
-  const int particles = int(rest.cols());
-  refuse_bad_sizes(rest, triangles, origin);
-  refuse_bad_coordinates(rest, origin);
-  refuse_bad_indices(particles, triangles, origin);
-  refuse_unused_vertices(particles, triangles, origin);
-  refuse_zero_areas(rest, triangles, origin);
-
-  TriangleMesh mesh{std::move(rest), std::move(triangles), {}, {}};
-  find_edges(list_sides(particles, mesh.triangles), origin, mesh);
+  TriangleMesh mesh = make_mesh_of_fans(std::move(rest), std::move(triangles), origin);
   refuse_several_fans(mesh, origin);
   return mesh;
 }

@@ -50,6 +50,14 @@ struct MeshOrigin {
 TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangles,
                                 const MeshOrigin& origin = {});
 
+/// The same, but a vertex may have several fans: for those who split them (split_fans.h).
+TriangleMesh make_mesh_of_fans(PerParticle3 rest, std::vector<Triangle> triangles,
+                               const MeshOrigin& origin = {});
+
+/// Corner k of triangle t is number 3 t + k. Corners of one vertex belong to the same fan when their triangles
+/// share an edge there, directly or through others: for each corner (3 M) the first one of its fan.
+std::vector<int> fans_of(const TriangleMesh& mesh);
+
 /// Area of each triangle at the positions x (3 x N [m]); M values [m^2].
 Eigen::VectorXd triangle_areas(const std::vector<Triangle>& triangles, const PerParticle3& x);
 

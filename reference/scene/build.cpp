@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 
 #include "reference/bodies/self_intersection.h"
 #include "reference/scene/field_recipe.h"
@@ -149,11 +150,25 @@ std::string counted(size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
+/// "2 vertices split into 5 particles".
+std::string described_split(const std::vector<int>& copy_of) {
+  std::set<int> split;
+  size_t copies = 0;
+  for (int i = 0; i < int(copy_of.size()); ++i) {
+    if (copy_of[size_t(i)] == i) continue;
+    split.insert(copy_of[size_t(i)]);
+    ++copies;
+  }
+  return std::to_string(split.size()) + (split.size() == 1 ? " vertex" : " vertices") + " split into " +
+         std::to_string(split.size() + copies) + " particles";
+}
+
 }  // namespace
 
 std::vector<std::string> built_parts(const Scene& scene, const System& system) {
   std::vector<std::string> parts = {counted(size_t(scene.mesh.particles()), "particle") + ", " +
                                     counted(scene.mesh.triangles.size(), "triangle")};
+  if (!scene.copy_of.empty()) parts.push_back(described_split(scene.copy_of));
   for (const Force& force : system.forces) {
     if (std::holds_alternative<Gravity>(force)) parts.push_back("gravity");
     if (const auto* springs = std::get_if<StretchSprings>(&force))

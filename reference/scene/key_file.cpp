@@ -348,6 +348,8 @@ bool is_number(const std::string& text) {
 
 }  // namespace
 
+bool is_override(const std::string& where) { return where.starts_with("--set "); }
+
 void set_key(KeyTable& root, const std::string& assignment) {
   const size_t equals = assignment.find('=');
   std::vector<std::string> path;
@@ -366,6 +368,9 @@ void set_key(KeyTable& root, const std::string& assignment) {
                   : &table_below(*table, path[k], assignment);
     if (picks) ++k;
   }
+  const auto written = table->entries.find(path.back());
+  if (written != table->entries.end() && !is_override(written->second.where))
+    table->replaced.insert(*written);
   table->entries.insert_or_assign(path.back(), parsed_value(assignment.substr(equals + 1), "--set " + assignment));
 }
 

@@ -57,6 +57,7 @@ class KeyTable {
   void refuse_unused() const;
 
   std::map<std::string, KeyValue> entries;
+  std::map<std::string, KeyValue> replaced;  // what the file says of keys that set_key replaced
 
  private:
   const KeyValue& required(const std::string& key) const;
@@ -70,6 +71,9 @@ class KeyTable {
 /// tables and lists in more than 32 others, and, outside of quotes and comments, for a line with more than
 /// 200 dots, and for a character outside ASCII.
 std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file);
+
+/// Whether a value's place is an override on the command line, not a line of a file.
+bool is_override(const std::string& where);
 
 /// Overrides "a.b.c=value" (value as in TOML; what does not parse as such is taken for a string; a number in
 /// the path picks an entry of a list, and the only entry needs none). Missing tables are made. Throws

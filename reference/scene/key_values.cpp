@@ -75,8 +75,6 @@ void refuse_outside(const std::string& file, const std::string& folder, const st
                    "' lies outside the case file's folder; put it there, or name it by --set");
 }
 
-bool is_override(const std::string& where) { return where.starts_with("--set "); }
-
 std::string path_of(const KeyTable& keys, const std::string& key, const std::string& folder) {
   const std::string where = keys.where(key);
   const std::filesystem::path named = keys.text(key);

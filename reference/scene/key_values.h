@@ -51,9 +51,6 @@ Motion read_motion(const KeyTable& keys);
 /// turn = { axis, angle }, in degrees; no rotation if there is none.
 Eigen::AngleAxisd read_turn(const KeyTable& keys);
 
-/// Whether a value's place is an override on the command line, not a line of a file.
-bool is_override(const std::string& where);
-
 /// The file or folder that the key names. In a case file it is relative to the file's folder and may not
 /// leave it, by an absolute path, by "..", or by a link; what was given by --set is taken as it was typed,
 /// from the working folder.

@@ -1,5 +1,7 @@
 #include "reference/scene/read_region.h"
 
+#include <set>
+
 #include "reference/scene/key_values.h"
 
 namespace foldproof {
@@ -35,6 +37,13 @@ std::vector<int> numbered(const KeyTable& keys, const std::string& key, Eigen::I
     chosen.push_back(int(i));
   }
   return chosen;
+}
+
+std::vector<int> with_copies(std::vector<int> particles, const std::vector<int>& copy_of) {
+  const std::set<int> named(particles.begin(), particles.end());
+  for (int i = 0; i < int(copy_of.size()); ++i)
+    if (named.contains(copy_of[size_t(i)]) && !named.contains(i)) particles.push_back(i);
+  return particles;
 }
 
 }  // namespace foldproof

@@ -18,4 +18,7 @@ std::vector<int> in_sphere(const KeyTable& keys, const PerParticle3& x);
 /// The list under the key "particles" or "triangles".
 std::vector<int> numbered(const KeyTable& keys, const std::string& key, Eigen::Index count);
 
+/// The particles, and behind them the copies of each that are not among them. copy_of: of the scene.
+std::vector<int> with_copies(std::vector<int> particles, const std::vector<int>& copy_of);
+
 }  // namespace foldproof

@@ -67,9 +67,10 @@ std::vector<int> particles_at_top(const KeyTable& keys, const PerParticle3& x) {
 void read_hold(const KeyTable& keys, Scene& scene) {
   if (int(keys.has("particles")) + int(keys.has("box")) + int(keys.has("top")) != 1)
     throw InputError(keys.where() + ": [[hold]] needs one of 'particles', 'box', 'top'");
-  const std::vector<int> chosen = keys.has("particles") ? numbered(keys, "particles", scene.x.cols())
-                                  : keys.has("box")     ? in_box(keys, scene.x)
-                                                        : particles_at_top(keys, scene.x);
+  const std::vector<int> chosen =
+      keys.has("particles") ? with_copies(numbered(keys, "particles", scene.x.cols()), scene.copy_of)
+      : keys.has("box")     ? in_box(keys, scene.x)
+                            : particles_at_top(keys, scene.x);
   if (chosen.empty()) throw InputError(keys.where() + ": [[hold]] names no particle");
   const Motion motion = read_motion(keys);
   std::vector<char> is_held(size_t(scene.x.cols()), 0);
@@ -149,6 +150,7 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   PlacedMesh placed = read_cloth_mesh(*cloth, folder, limits);
   Scene scene = scene_of(std::move(placed.mesh), positive(*cloth, "density"));
   scene.x = std::move(placed.start);
+  scene.copy_of = std::move(placed.copy_of);
   scene.title = keys.text_or("title", "");
   scene.about = keys.text_or("about", "");
 

@@ -76,13 +76,17 @@ std::vector<Triangle> read_triangles(const KeyTable& keys, const StickySheet& sh
   return chosen;
 }
 
-std::vector<int> read_particles(const KeyTable& keys, const StickySheet& cloth) {
-  return read_region(keys, "particles", cloth.x, [&] {
+std::vector<int> read_particles(const KeyTable& keys, const StickySheet& cloth,
+                                const std::vector<int>& copy_of) {
+  std::vector<int> chosen = read_region(keys, "particles", cloth.x, [&] {
     std::vector<int> corners;
     for (const int t : triangles_of_group(keys, cloth))
       for (const int corner : cloth.triangles[size_t(t)]) corners.push_back(corner);
     return corners;
   });
+  if (keys.has("particles")) chosen = with_copies(std::move(chosen), copy_of);
+  std::ranges::sort(chosen);
+  return chosen;
 }
 
 /// Lets an object carry the patch; keeps those of its vertices that the patch uses.
@@ -136,7 +140,7 @@ StickyPatch read_patch(const KeyTable& keys, const KeyTable& case_keys, const st
                      ": [[sticky]] needs 'surface', what is sticky, and 'particles', what sticks");
   StickyPatch patch;
   read_surface(*surface, case_keys, folder, scene, cloth, patch);
-  patch.particles = read_particles(*particles, cloth);
+  patch.particles = read_particles(*particles, cloth, scene.copy_of);
   patch.name = keys.text_or("name", surface->text("of") + " " + std::to_string(scene.sticky.size() + 1));
   patch.stiffness = positive(keys, "stiffness");
   patch.forecast_time = not_negative_or(keys, "forecast_time", keys.number("forecast_time"));

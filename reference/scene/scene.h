@@ -55,6 +55,8 @@ struct Scene {
   TriangleMesh mesh;   // with the rest shape
   PerParticle3 x, v;   // start, 3 x N [m], [m/s]
   double density = 0;  // area density [kg/m^2]
+  std::vector<int> copy_of = {};  // N: the particle that each is, or is a copy of where its vertex was split
+                                  // (mesh/split_fans.h); empty where none was
 
   std::optional<Vector3> gravity;  // m/s^2
   std::optional<StretchMaterial> stretch;

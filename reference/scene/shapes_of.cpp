@@ -6,6 +6,7 @@
 #include "reference/mesh/obj.h"
 #include "reference/mesh/seams.h"
 #include "reference/mesh/shapes.h"
+#include "reference/mesh/split_fans.h"
 #include "reference/scene/key_values.h"
 
 namespace foldproof {
@@ -116,12 +117,29 @@ TriangleMesh make_shape(const KeyTable& keys, const SceneLimits& limits) {
                    "'; known: sheet, disc, cylinder, sphere, statue, hinge");
 }
 
-/// The mesh file, its panels sewn together if `seams` says so.
-TriangleMesh read_mesh(const KeyTable& keys, const std::string& folder) {
+/// The mesh file; its panels sewn together if `seams` says so, then split where they meet in a point if
+/// `repair` does.
+SplitMesh read_mesh(const KeyTable& keys, const std::string& folder) {
+  enum class ClothRepair { refuse, split };
   const std::string file = mesh_file(keys, folder, "cloth");
-  if (!keys.has("seams")) return read_obj(file);
-  TriangleSoup sewn = with_seams_closed(read_obj_soup(file), positive(keys, "seams"));
-  return make_triangle_mesh(std::move(sewn.rest), std::move(sewn.triangles), sewn.origin);
+  const auto repair =
+      choice<ClothRepair>(keys, "repair", {{"refuse", ClothRepair::refuse}, {"split", ClothRepair::split}});
+  TriangleSoup soup = read_obj_soup(file);
+  if (keys.has("seams")) soup = with_seams_closed(std::move(soup), positive(keys, "seams"));
+  if (repair == ClothRepair::refuse)
+    return {make_triangle_mesh(std::move(soup.rest), std::move(soup.triangles), soup.origin), {}};
+  const Eigen::Index vertices = soup.rest.cols();
+  SplitMesh split = split_fans(std::move(soup));
+  if (split.mesh.particles() == vertices) split.copy_of.clear();
+  return split;
+}
+
+PlacedMesh read_or_make(const KeyTable& cloth, const std::string& folder, const SceneLimits& limits) {
+  if (cloth.has("mesh")) {
+    SplitMesh read = read_mesh(cloth, folder);
+    return {std::move(read.mesh), {}, std::move(read.copy_of)};
+  }
+  return {placed_refusal(cloth.where("shape"), [&] { return make_shape(cloth, limits); }), {}};
 }
 
 /// Scales, turns and moves the positions, in this order.
@@ -159,6 +177,9 @@ void copy(const KeyTable& keys, const SceneLimits& limits, PlacedMesh& cloth) {
       triangles.push_back({c * n + t[0], c * n + t[1], c * n + t[2]});
   cloth.mesh = make_triangle_mesh(repeated(cloth.mesh.rest, copies, turn, move), std::move(triangles));
   cloth.start = repeated(cloth.start, copies, turn, move);
+  const std::vector<int> of_one = cloth.copy_of;
+  for (int c = 1; c < copies; ++c)
+    for (const int v : of_one) cloth.copy_of.push_back(c * n + v);
 }
 
 }  // namespace
@@ -186,10 +207,7 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder, con
   if (cloth.has("shape") == cloth.has("mesh"))
     throw InputError(cloth.where("mesh") +
                      ": [cloth] needs either 'shape' or 'mesh' (an OBJ file), and not both");
-  PlacedMesh result{cloth.has("mesh")
-                        ? read_mesh(cloth, folder)
-                        : placed_refusal(cloth.where("shape"), [&] { return make_shape(cloth, limits); }),
-                    {}};
+  PlacedMesh result = read_or_make(cloth, folder, limits);
 
   const auto pleats = cloth.table("pleats");
   result.start = result.mesh.rest;

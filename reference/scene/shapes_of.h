@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/scene/key_file.h"
@@ -10,8 +11,9 @@
 namespace foldproof {
 
 struct PlacedMesh {
-  TriangleMesh mesh;   // with the rest shape
-  PerParticle3 start;  // 3 x N [m]
+  TriangleMesh mesh;              // with the rest shape
+  PerParticle3 start;             // 3 x N [m]
+  std::vector<int> copy_of = {};  // as that of Scene
 };
 
 /// Reads the keys of [cloth] that say shape and place. folder: where relative files of the case are looked

@@ -190,6 +190,7 @@ class Case:
     diagnostics: dict[str, Column] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)   # what was expected of it, judged
     objects: list[CaseObject] = field(default_factory=list)
+    gravity: np.ndarray | None = None  # 3 [m/s^2]; None: there is none, or the file does not say
 
     def positions(self, frame: int) -> np.ndarray:
         """Positions of all particles in one frame, N x 3 [m]; negative counts from the end."""
@@ -268,7 +269,12 @@ def load_case(path: str | Path) -> Case:
                     triangles=np.asarray(file["mesh/triangles"], dtype=np.int64).reshape(-1, 3),
                     frame_times=np.asarray(file["frames/time"], dtype=float), objects=[_object(group) for group in file.get("objects", {}).values()],
                     findings=[_finding(name, group) for name, group in file.get("findings", {}).items()],
-                    diagnostics={column.name: column for column in columns_of(file.get("diagnostics"))})
+                    diagnostics={column.name: column for column in columns_of(file.get("diagnostics"))},
+                    gravity=_gravity(file))
+
+
+def _gravity(file: h5py.File) -> np.ndarray | None:
+    return np.asarray(file["gravity"], dtype=float).reshape(3) if "gravity" in file else None
 
 
 def _object(group: h5py.Group) -> CaseObject:

@@ -1,4 +1,4 @@
-"""One camera for all the pictures of a case, chosen from the positions alone (up is +y).
+"""One camera for all the pictures of a case, chosen from the positions and from where up is.
 
 The projection is orthographic: a scale bar then holds for every length across the view, and pictures of a
 row compare.
@@ -16,7 +16,8 @@ MARGIN = 0.05              # of the picture's size, on each side
 LARGEST_WIDTH = 600        # pixels of a finished picture
 LARGEST_HEIGHT = 880       # pixels
 RUNAWAY = 30.0             # a frame larger than this many times the first does not set the scale
-AZIMUTHS = range(-90, 90, 15)  # degrees, about +y from +z
+AZIMUTHS = range(-90, 90, 15)  # degrees, about up from the front
+WITHOUT_GRAVITY = np.array([0.0, 1.0, 0.0])  # up, where nothing falls
 
 
 @dataclass(frozen=True)
@@ -49,17 +50,36 @@ class Camera:
         return np.stack([across, down], axis=1), x @ self.toward
 
 
-def choose_camera(frames: list[np.ndarray], triangles: np.ndarray, landmarks: np.ndarray | None = None) -> Camera:
-    """A camera that holds all frames (each N x 3 [m]) and landmarks (M x 3 [m]), a little to the side of where
+def up_against(gravity: np.ndarray | None) -> np.ndarray:
+    """The direction against gravity (3 [m/s^2]; None: there is none), 3, unit."""
+    size = 0.0 if gravity is None else float(np.linalg.norm(gravity))
+    return -gravity / size if 0.0 < size < np.inf else WITHOUT_GRAVITY
+
+
+def upright_axes(up: np.ndarray) -> np.ndarray:
+    """Side, up and front as rows, 3 x 3: the axes x, y, z turned the shortest way from y to `up` (3, unit). So z up has
+    its front at -y, as in modelling programs; y down is turned about z."""
+    x, y, z = up
+    aside = x * x + z * z                   # 1 - y^2, without cancellation
+    if aside == 0:
+        return np.diag([y, y, 1.0])
+    share = (1 - y) / aside                 # 1 / (1 + y)
+    return np.array([[1 - share * x * x, -x, -share * x * z], [x, y, z], [-share * x * z, -z, 1 - share * z * z]])
+
+
+def choose_camera(frames: list[np.ndarray], triangles: np.ndarray, landmarks: np.ndarray | None = None,
+                  up: np.ndarray = WITHOUT_GRAVITY) -> Camera:
+    """An upright camera that holds all frames (each N x 3 [m]) and landmarks (M x 3 [m]), a little to the side of where
     most of the cloth faces the viewer."""
+    upright = upright_axes(up)
     frames = frames_that_set_the_scale(frames)
     normals = np.concatenate([area_normals(x, triangles[:: max(1, len(triangles) // 4000)]) for x in frames])
-    normals = normals[np.isfinite(normals).all(axis=1)]
+    normals = normals[np.isfinite(normals).all(axis=1)] @ upright.T
     elevation = _elevation(normals)
     azimuth = _azimuth(normals, elevation)
-    right, up, toward = _axes(azimuth, elevation)
+    right, upward, toward = (axis @ upright for axis in _axes(azimuth, elevation))
     points = frames if landmarks is None else [*frames, landmarks]
-    return fit_camera(np.concatenate(points), right, up, toward)
+    return fit_camera(np.concatenate(points), right, upward, toward)
 
 
 def fit_camera(points: np.ndarray, right: np.ndarray, up: np.ndarray, toward: np.ndarray) -> Camera:
@@ -87,6 +107,7 @@ def frames_that_set_the_scale(frames: list[np.ndarray]) -> list[np.ndarray]:
 
 
 def _axes(azimuth: float, elevation: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Right, up and toward the viewer, in upright axes, as are the normals below."""
     a, e = radians(azimuth), radians(elevation)
     toward = np.array([sin(a) * cos(e), sin(e), cos(a) * cos(e)])
     right = np.array([cos(a), 0.0, -sin(a)])

@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from data.results import Case
-from pictures.camera import Camera, choose_camera, frames_that_set_the_scale
+from pictures.camera import Camera, choose_camera, frames_that_set_the_scale, up_against
 from pictures.case_fields import Field
 from pictures.cloth_picture import Cloth, Scenery
 
@@ -22,7 +22,8 @@ class CaseScene:
         self.case = case
         self.centre = 0.5 * (kept.min(axis=0) + kept.max(axis=0))   # 3 [m], of the cloth in these frames
         self.reach = max(float(np.linalg.norm(kept - self.centre, axis=1).max()), 1e-12)   # [m]
-        self.camera: Camera = choose_camera(frames, case.triangles, self._landmarks(kept, shown))
+        self.up = up_against(case.gravity)                          # 3, unit
+        self.camera: Camera = choose_camera(frames, case.triangles, self._landmarks(kept, shown), self.up)
 
     def cloth(self, frame: int, field: Field | None = None, row: int = 0) -> Cloth:
         """The cloth in one frame, in its two colours or in those of a row of a field."""

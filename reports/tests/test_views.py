@@ -331,8 +331,9 @@ class ViewInThePage(WithCase):
 
 
 def load_tests(loader: unittest.TestLoader, tests: unittest.TestSuite, _: str | None) -> unittest.TestSuite:
-    """This file's tests, and those of films and exported files."""
-    tests.addTests(loader.loadTestsFromName("tests.test_exports"))
+    """This file's tests, those of films and exported files, and those of where up is."""
+    for name in ("tests.test_exports", "tests.test_upright"):
+        tests.addTests(loader.loadTestsFromName(name))
     return tests
 
 

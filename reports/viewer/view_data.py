@@ -16,7 +16,7 @@ import numpy as np
 
 from data.quantities import unit_text
 from data.results import Case
-from pictures.camera import frames_that_set_the_scale
+from pictures.camera import frames_that_set_the_scale, upright_axes
 from pictures.case_fields import Field
 from pictures.case_scene import ENDLESS, CaseScene, slowed
 from pictures.look import BACK, FILL_LIGHT, FRONT, GROUND, GROUND_FADES, MARK, OBJECT, SET_BACK, STUCK, colour_stops
@@ -91,6 +91,7 @@ def _look(scene: CaseScene) -> dict[str, Any]:
     inks = dict(front=FRONT, back=BACK, object=OBJECT, ground=GROUND, held=MARK, stuck=STUCK)
     return {"inks": {name: ink.tolist() for name, ink in inks.items()}, "light": world_light(camera).tolist(),
             "fill": (FILL_LIGHT / np.linalg.norm(FILL_LIGHT)).tolist(), "toward": camera.toward.tolist(), "pan": pan.tolist(),
+            "upright": upright_axes(scene.up).ravel().tolist(),
             "metres": list(camera.metres), "centre": scene.centre.tolist(), "reach": scene.reach,
             "fades": GROUND_FADES, "setBack": SET_BACK * max(camera.metres)}
 

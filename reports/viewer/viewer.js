@@ -115,16 +115,19 @@ function frameAt(times, time) {
   return frame;
 }
 
-/** An orthographic camera that turns about the middle of the cloth; it begins as that of the pictures. */
+/** An orthographic camera that turns about the middle of the cloth; it begins as that of the pictures. Its angles are about
+ * the case's up, from its front: `upright` has side, up and front as rows. */
 function cameraOf(scene) {
-  const { toward, pan, metres } = scene.look;
+  const { toward, pan, metres, upright } = scene.look;
+  const seen = [0, 3, 6].map((row) => [0, 1, 2].reduce((sum, k) => sum + upright[row + k] * toward[k], 0));  // toward, in upright axes
+  const world = (side, up, front) => [0, 1, 2].map((k) => upright[k] * side + upright[3 + k] * up + upright[6 + k] * front);
   const camera = {
     reset() {
-      Object.assign(camera, { azimuth: Math.atan2(toward[0], toward[2]), elevation: Math.asin(toward[1]), pan: [...pan], zoom: 1 });
+      Object.assign(camera, { azimuth: Math.atan2(seen[0], seen[2]), elevation: Math.asin(seen[1]), pan: [...pan], zoom: 1 });
     },
     axes() {                                             // right, up, toward the viewer
       const [sa, ca, se, ce] = [Math.sin(camera.azimuth), Math.cos(camera.azimuth), Math.sin(camera.elevation), Math.cos(camera.elevation)];
-      return [ca, 0, -sa, -sa * se, ce, -ca * se, sa * ce, se, ca * ce];
+      return [...world(ca, 0, -sa), ...world(-sa * se, ce, -ca * se), ...world(sa * ce, se, ca * ce)];
     },
     halfSize(aspect) {                                   // [m]; all of the picture is seen, whatever the shape of the canvas
       const height = Math.max(metres[1], metres[0] / aspect) / camera.zoom;

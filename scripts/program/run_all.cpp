@@ -182,6 +182,10 @@ int exit_code(const RunRecord& run) {
 std::string listing(const RunRecord& run) {
   std::string text;
   for (const Record& r : run.records) {
+    if (r.outcome == Outcome::not_applicable) {
+      text += fmt::format("{:<14} {:<60} {}\n", outcome_text(r), r.name, r.finding.note);
+      continue;
+    }
     const Verdict& v = r.finding.verdict;
     text += fmt::format("{:<14} {:<60} {:>11.4g} {} {:<9.4g} {}\n", outcome_text(r), r.name, v.measured,
                         r.kind == "bench" ? "target" : "<=", v.bound, v.unit == "1" ? "" : v.unit);

@@ -60,7 +60,8 @@ nlohmann::json told(const CaseRun& run, const Options& options) {
                          {"unfinished_solves", work.unfinished_solves},
                          {"findings", nlohmann::json::array()}};
   for (const Record& record : run.findings)
-    json["findings"].push_back({{"name", record.name}, {"outcome", outcome_text(record)}});
+    json["findings"].push_back(
+        {{"name", record.name}, {"outcome", outcome_text(record)}, {"note", record.finding.note}});
   return json;
 }
 

@@ -160,6 +160,8 @@ step = 0.001
             self.assertEqual(file["frames/positions"].shape, (16, 4, 3))
             self.assertEqual(file["diagnostics/time"][-1], 0.25)
             self.assertIn("gravity", list(file.attrs["built"].astype(str)))
+            np.testing.assert_array_equal(file["gravity"][:], [0, -9.80665, 0])
+            self.assertEqual(file["gravity"].attrs["unit"], "m/s^2")
         self.assertFalse(list((self.path / "out").glob("*.partial")))
         self.assertIn("hinge.h5:/frames/positions", (self.path / "out/hinge.xdmf").read_text())
 
@@ -202,6 +204,26 @@ step = 0.001
         done = self.simulate(str(ROOT / "cases/any_mesh.toml"), "--set", "cloth.mesh=" + self.write("quad.obj", quad),
                              "--set", "time.end=0.05")
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_case_with_a_mesh_of_ones_own_is_not_failed_by_bounds_for_the_shipped_one(self) -> None:
+        shutil.copy(ROOT / "cases/skirt.obj", self.path / "skirt.obj")
+        text = (ROOT / "cases/any_mesh.toml").read_text() + '[expect.takes_steps]\nat_least = 1e9\nwhy = "a trial"\n'
+        case, quad = self.write("mine.toml", text), self.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0.1\nv 0 1 0\nf 1 2 3 4\n")
+        short = ("--set", "time.end=0.02")
+        self.assertEqual(self.simulate(case, *short).returncode, 1)
+        self.assertEqual(self.simulate(case, *short, "--set", "bending.stiffness=0.2").returncode, 1)
+        mine = ("--set", f"cloth.mesh={quad}", *short)
+        done = self.simulate(case, *mine)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        reason = f"written for skirt.obj; this run uses {quad}"
+        self.assertRegex(done.stdout, f"not applicable +case.mine.takes-steps +{reason}\n")
+        self.assertRegex(done.stdout, "holds +case.mine.never-crosses-itself ")
+        told = json.loads(self.simulate(case, *mine, "--json").stdout)["findings"]
+        self.assertIn({"name": "case.mine.takes-steps", "outcome": "not applicable", "note": reason}, told)
+        with h5py.File(self.path / "out/mine.h5") as file:
+            self.assertEqual(file["findings/case.mine.takes-steps"].attrs["note"], reason)
+        stated = self.simulate(case, *mine, "--set", "expect.takes_steps.at_least=1e8")
+        self.assertEqual(stated.returncode, 1, stated.stdout)
 
     def test_a_run_that_diverges_says_when_and_where_and_keeps_its_frames(self) -> None:
         done = self.simulate(str(ROOT / "cases/hanging_sheet.toml"), "--set", "time.step=0.02", "--set", "time.frames_per_second=50")

@@ -4,6 +4,7 @@
 
 #include "reference/scene/key_file.h"
 #include "verification/cases/quantities.h"
+#include "verification/cases/replaced_shape.h"
 
 namespace foldproof {
 
@@ -16,15 +17,19 @@ namespace {
   throw InputError(where + ": unknown quantity '" + key + "' in [expect]; known: " + known);
 }
 
-Expectation read_entry(const KeyTable& expect, const std::string& key, const Scene& scene) {
+/// replaced: of replaced_shape.
+Expectation read_entry(const KeyTable& expect, const std::string& key, const Scene& scene,
+                       const std::string& replaced) {
   const std::string where = expect.where(key);
   const Quantity* quantity = find_quantity(key);
   if (!quantity) refuse_unknown(where, key);
-  const std::string refusal = quantity->refusal ? quantity->refusal(scene) : "";
-  if (!refusal.empty()) throw InputError(where + ": '" + key + "' cannot be expected: " + refusal);
   const auto entry = expect.table(key);
   const char* bound = quantity->sense == Sense::at_most ? "at_most" : "at_least";
-  Expectation expectation{key, entry->number(bound), entry->text("why")};
+  const bool is_for_this_run = quantity->scope == Scope::any_cloth || is_override(entry->where(bound));
+  const std::string not_asked = is_for_this_run ? "" : replaced;
+  const std::string refusal = quantity->refusal && not_asked.empty() ? quantity->refusal(scene) : "";
+  if (!refusal.empty()) throw InputError(where + ": '" + key + "' cannot be expected: " + refusal);
+  Expectation expectation{key, entry->number(bound), entry->text("why"), not_asked};
   if (quantity->sense == Sense::at_least && !(expectation.bound > 0))
     throw InputError(entry->where(bound) + ": at_least must be > 0, for nothing falls short of less");
   if (expectation.why.empty())
@@ -84,9 +89,10 @@ void add_unless_stated(const Expectation& usual, std::vector<Expectation>& all) 
 Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
   const CaseKeys of = parse_case(path, overrides);
   Case result{scene_from(of), {}, {}};
+  const std::string replaced = replaced_shape(of);
   if (const auto expect = of.keys->table("expect"))
     for (const auto& [key, value] : expect->entries)
-      result.expectations.push_back(read_entry(*expect, key, result.scene));
+      result.expectations.push_back(read_entry(*expect, key, result.scene, replaced));
   if (const auto ablation = of.keys->table("ablation")) read_ablation(*ablation, result);
   for (const auto& quantity : of.keys->tables("quantity"))
     result.quantities.push_back(read_measurement(*quantity, result.scene));

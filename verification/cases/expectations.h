@@ -13,8 +13,9 @@ namespace foldproof {
 /// be reached. Keys, units and what is measured: verification/cases/quantities.h.
 struct Expectation {
   std::string key;
-  double bound;     // in the quantity's unit
-  std::string why;  // the bound's reason in words
+  double bound;                // in the quantity's unit
+  std::string why;             // the bound's reason in words
+  std::string not_asked = {};  // why this run is not held to it; "" if it is
 };
 
 /// One entry of [ablation]: `"part" = "why"`. A part that is there though nothing that `foldproof ablate`
@@ -37,7 +38,9 @@ struct Case {
 /// Reads the case file's scene and its tables [expect], [ablation] and [[quantity]], from one tree of keys. Throws
 /// InputError "file:line: ..." for what read_scene refuses, an unknown quantity, one that makes no sense for
 /// the scene, and an entry without bound or reason.
-///   overrides   "a.b=c", applied in order; expect.KEY.at_most=... is one, too
+///   overrides   "a.b=c", applied in order; expect.KEY.at_most=... is one, too. Where one puts another mesh or
+///               shape in the place of the file's, bounds of the file on quantities of Scope::this_shape are
+///               not asked; those that an override states are
 Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
 /// Adds what is expected of every shipped case that does not say otherwise: that it runs to its end; where

@@ -26,9 +26,25 @@ std::string note_of(const Quantity& quantity, const Expectation& expectation, do
 }  // namespace
 
 void CaseJudge::enter(const State& frame) {
-  for (size_t k = 0; k < seen_.size(); ++k)
+  for (size_t k = 0; k < seen_.size(); ++k) {
+    if (!case_.expectations[k].not_asked.empty()) continue;  // of this shape it may have no meaning
     if (const Quantity& quantity = *find_quantity(case_.expectations[k].key); !quantity.of_run)
       seen_[k].see(value_at(quantity, case_.scene, objects_, frame));
+  }
+}
+
+Finding CaseJudge::finding_of(size_t k, const RunSeen& run) const {
+  const Expectation& expectation = case_.expectations[k];
+  const Quantity& quantity = *find_quantity(expectation.key);
+  if (!expectation.not_asked.empty())
+    return {verdict_of(quantity, expectation, nan), {}, expectation.not_asked};
+  const RunResult& result = run.result;
+  double seen = quantity.of_run ? quantity.of_run(run) : seen_[k].value();
+  std::string note = note_of(quantity, expectation, seen);
+  if (result.stop) note = "the run stopped: " + described(*result.stop);
+  const bool is_end = expectation.key == "runs_to_its_end";
+  if (result.stop && !is_end) seen = std::numeric_limits<double>::quiet_NaN();
+  return {verdict_of(quantity, expectation, seen), {}, note};
 }
 
 std::vector<Record> CaseJudge::judged(const RunResult& result) const {
@@ -36,19 +52,14 @@ std::vector<Record> CaseJudge::judged(const RunResult& result) const {
   const RunSeen run{case_.scene, book_, result, repetition_, objects_};
   for (size_t k = 0; k < seen_.size(); ++k) {
     const Expectation& expectation = case_.expectations[k];
-    const Quantity& quantity = *find_quantity(expectation.key);
-    double seen = quantity.of_run ? quantity.of_run(run) : seen_[k].value();
-    std::string note = note_of(quantity, expectation, seen);
-    if (result.stop) note = "the run stopped: " + described(*result.stop);
-    const bool is_end = expectation.key == "runs_to_its_end";
-    if (result.stop && !is_end) seen = std::numeric_limits<double>::quiet_NaN();
     Record record;
     record.name = finding_name(case_.scene, expectation);
     record.kind = "check";
-    record.claim = quantity.claim;
+    record.claim = find_quantity(expectation.key)->claim;
     record.source = case_.scene.title;
-    record.finding = {verdict_of(quantity, expectation, seen), {}, note};
-    record.outcome = outcome_of(record.finding.verdict);
+    record.finding = finding_of(k, run);
+    record.outcome =
+        expectation.not_asked.empty() ? outcome_of(record.finding.verdict) : Outcome::not_applicable;
     records.push_back(std::move(record));
   }
   return records;

@@ -26,10 +26,13 @@ class CaseJudge {
   void enter(const State& frame);
 
   /// One record for each expectation, named finding_name(...). Of a run that stopped, all but
-  /// runs_to_its_end fail: nothing is known of what was to come.
+  /// runs_to_its_end fail: nothing is known of what was to come. One that is not asked is not applicable, with
+  /// the reason as its note.
   std::vector<Record> judged(const RunResult& result) const;
 
  private:
+  Finding finding_of(size_t k, const RunSeen& run) const;
+
   const Case& case_;
   std::span<const Object> objects_;
   RunBook book_;

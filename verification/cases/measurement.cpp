@@ -160,7 +160,7 @@ ParticleRegion read_region(const KeyTable& keys, const Scene& scene) {
     in_box(*of, scene.x);  // refuses what is no box
     region.box = {of->vectors("box")[0], of->vectors("box")[1]};
   } else {
-    region.particles = numbered(*of, "particles", scene.x.cols());
+    region.particles = with_copies(numbered(*of, "particles", scene.x.cols()), scene.copy_of);
   }
   if (particles_in(region, scene).empty())
     throw InputError(keys.where("of") + ": 'of' names no particle of the cloth's start");

@@ -42,10 +42,15 @@ struct RunSeen {
 
 enum class Sense { at_most, at_least };
 
+/// What a bound on the quantity is written for: every cloth, since the method or its forces promise it; or the
+/// mesh and the objects of the case, since other ones come to something else.
+enum class Scope { any_cloth, this_shape };
+
 struct Quantity {
   const char *key, *unit;
   const char* claim;  // one sentence, true when the expectation holds
   Sense sense;
+  Scope scope;
   /// At one frame's state; the largest over all frames counts. nullptr: the quantity belongs to the whole
   /// run, or asks the objects.
   double (*of_frame)(const Scene& scene, const State& frame);

@@ -34,14 +34,14 @@ double mean_turn(const RunSeen& run) {
 std::vector<Quantity> standing_quantities() {
   return {
       {"keeps_its_height", "1", "At the end the cloth is still this high, over its height at the start.",
-       Sense::at_least, nullptr, height_left, without_gravity},
+       Sense::at_least, Scope::this_shape, nullptr, height_left, without_gravity},
       {"collapses_to", "1", "At the end the cloth has sunk to this height, over its height at the start.",
-       Sense::at_most, nullptr, height_left, without_gravity},
+       Sense::at_most, Scope::this_shape, nullptr, height_left, without_gravity},
       {"keeps_most_angles", "degrees", "At the end hinges are near their rest angles in the mean square.",
-       Sense::at_most, nullptr, mean_turn, without_bending},
+       Sense::at_most, Scope::this_shape, nullptr, mean_turn, without_bending},
       {"crumples_by", "degrees",
        "At the end hinges are turned away from their rest angles in the mean square.", Sense::at_least,
-       nullptr, mean_turn, without_bending},
+       Scope::this_shape, nullptr, mean_turn, without_bending},
   };
 }
 

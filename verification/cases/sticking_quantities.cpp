@@ -36,14 +36,14 @@ std::string without_sticky(const Scene& scene) {
 
 std::vector<Quantity> sticking_quantities() {
   return {
-      {"sticks", "particles", "Particles come to stick.", Sense::at_least, stuck_particles, nullptr,
-       without_sticky},
-      {"lets_go", "particles", "At the end no more particles stick than these.", Sense::at_most, nullptr,
-       stuck_at_end, without_sticky},
+      {"sticks", "particles", "Particles come to stick.", Sense::at_least, Scope::this_shape, stuck_particles,
+       nullptr, without_sticky},
+      {"lets_go", "particles", "At the end no more particles stick than these.", Sense::at_most,
+       Scope::this_shape, nullptr, stuck_at_end, without_sticky},
       {"keeps_hold", "m", "What sticks stays near the place at which it came to stick.", Sense::at_most,
-       slack, nullptr, without_sticky},
-      {"is_lifted", "m", "All of the cloth is lifted off what it lay on.", Sense::at_least, rise, nullptr,
-       without_gravity},
+       Scope::any_cloth, slack, nullptr, without_sticky},
+      {"is_lifted", "m", "All of the cloth is lifted off what it lay on.", Sense::at_least, Scope::this_shape,
+       rise, nullptr, without_gravity},
   };
 }
 

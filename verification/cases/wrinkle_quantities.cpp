@@ -12,7 +12,7 @@ namespace foldproof {
 namespace {
 
 constexpr double least_turn = 20 * pi / 180;  // away from the rest angle, of a hinge in a crease
-constexpr int least_hinges = 3;                 // in a crease
+constexpr int least_hinges = 3;               // in a crease
 
 /// Sets of particles that edges join.
 class Joined {
@@ -92,12 +92,12 @@ std::vector<Quantity> wrinkle_quantities() {
       {"forms_creases", "1",
        "At the end there are so many creases: lines of three hinges or more, each turned by over 20 degrees "
        "to the same side.",
-       Sense::at_least, nullptr, creases_at_end, without_bending},
+       Sense::at_least, Scope::this_shape, nullptr, creases_at_end, without_bending},
       {"wrinkles_stay_short", "m",
        "At the end wrinkles are at most this long: twice the mean straight distance, in the rest shape, from "
        "a "
        "hinge in a crease to the nearest in one of the other side.",
-       Sense::at_most, nullptr, wavelength_at_end, without_bending},
+       Sense::at_most, Scope::this_shape, nullptr, wavelength_at_end, without_bending},
   };
 }
 

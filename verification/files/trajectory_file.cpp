@@ -233,6 +233,7 @@ TrajectoryFile::TrajectoryFile(const std::string& path, const Scene& scene, cons
   file.attribute("frames_wanted",
                  int(std::lround(std::ceil(scene.schedule.end / scene.schedule.frame_interval - 1e-9))) + 1);
   write_mesh(file, scene, system);
+  if (scene.gravity) file.array("gravity", {3}, scene.gravity->data()).attribute("unit", "m/s^2");
   for (const Scalar& scalar : scalars)
     content_->rows.emplace_back(content_->diagnostics, scalar.name, scalar.unit, Shape{});
 }

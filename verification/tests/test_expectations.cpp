@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
+#include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "verification/cases/judge.h"
 #include "verification/specimens/scratch_folder.h"
@@ -42,6 +43,34 @@ std::vector<Record> judged(const Case& shown) {
       simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule,
                {[&](const State& s) { judge.enter(s); }, [&](const Diagnostics& row) { judge.enter(row); }});
   return judge.judged(result);
+}
+
+/// A square of so many triangles a side, in the folder.
+std::string written_square(const ScratchFolder& folder, const std::string& name, int side) {
+  const TriangleMesh mesh = make_sheet({.width = 0.2, .height = 0.2, .columns = side, .rows = side});
+  write_obj(folder.file(name), mesh.rest, mesh.triangles);
+  return folder.file(name);
+}
+
+/// A case of the mesh square.obj above a sphere, in the folder: one bound for any cloth, one for this shape.
+std::string written_mesh_case(const ScratchFolder& folder) {
+  written_square(folder, "square.obj", 3);
+  const std::string path = folder.file("mine.toml");
+  std::ofstream(path) << "[cloth]\nmesh = \"square.obj\"\ndensity = 0.2\n[stretch]\nstiffness = 40\n"
+                         "[time]\nend = 0.02\n[[object]]\nshape = \"sphere\"\nradius = 0.1\n"
+                         "move = [0, 0, -0.5]\n"
+                         "[expect.never_crosses_itself]\nat_most = 0\nwhy = \"any\"\n"
+                         "[expect.takes_steps]\nat_least = 1e9\nwhy = \"this\"\n"
+                         "[expect.stays_flat]\nat_most = 0\nwhy = \"this\"\n";
+  return path;
+}
+
+/// "key: reason" of each bound that is not asked.
+std::vector<std::string> not_asked(const Case& shown) {
+  std::vector<std::string> found;
+  for (const Expectation& expectation : shown.expectations)
+    if (!expectation.not_asked.empty()) found.push_back(expectation.key + ": " + expectation.not_asked);
+  return found;
 }
 
 }  // namespace
@@ -197,4 +226,54 @@ TEST_CASE("expect: a bound that is kept holds, one that is not fails, and a run 
   const Record stopped = judged(trial(capped + flat))[0];
   CHECK(stopped.outcome == Outcome::fails);
   CHECK_THAT(stopped.finding.note, Contains("cap"));
+}
+
+TEST_CASE("expect: bounds of a shape are not asked where an override puts another in its place") {
+  const ScratchFolder folder;
+  const std::string path = written_mesh_case(folder), other = written_square(folder, "other.obj", 4);
+  const std::string reason = ": written for square.obj; this run uses " + other;
+  const Case changed = read_case(path, {"cloth.mesh=" + other});
+  CHECK(not_asked(changed) == std::vector<std::string>{"stays_flat" + reason, "takes_steps" + reason});
+  const std::vector<Record> records = judged(changed);
+  REQUIRE(records.size() == 3);
+  CHECK(records[0].outcome == Outcome::holds);
+  for (const size_t k : {1, 2}) {
+    CHECK(records[k].outcome == Outcome::not_applicable);
+    CHECK(": " + records[k].finding.note == reason);
+    CHECK(std::isnan(records[k].finding.verdict.measured));
+  }
+  const std::vector<Record> as_written = judged(read_case(path));
+  CHECK(as_written[1].outcome == Outcome::holds);
+  CHECK(as_written[2].outcome == Outcome::fails);
+}
+
+TEST_CASE("expect: numbers that an override sets, and bounds that it states, are asked all the same") {
+  const ScratchFolder folder;
+  const std::string path = written_mesh_case(folder), other = written_square(folder, "other.obj", 4);
+  CHECK(not_asked(read_case(path, {"stretch.stiffness=50", "cloth.fit=0.3"})).empty());
+  CHECK(not_asked(read_case(path, {"cloth.mesh=" + folder.file("square.obj")})).empty());  // the same file
+  const Case stated = read_case(path, {"cloth.mesh=" + other, "expect.takes_steps.at_least=3"});
+  REQUIRE(not_asked(stated).size() == 1);
+  CHECK(stated.expectations[2].bound == 3);
+  CHECK(stated.expectations[2].not_asked.empty());
+}
+
+TEST_CASE(
+    "expect: objects and tables that are replaced are named, and bounds without a meaning not refused") {
+  const ScratchFolder folder;
+  const std::string path = written_mesh_case(folder);
+  const std::vector<std::string> box = {
+      R"(object=[{shape = "box", size = [0.1, 0.1, 0.1], move = [0, 0, -1]}])"};
+  REQUIRE(not_asked(read_case(path, box)).size() == 2);
+  CHECK_THAT(not_asked(read_case(path, box))[0], Contains("written for the file's 'object'"));
+  const std::vector<std::string> statue = {"object.shape=statue", "object.height=0.1",
+                                           "object.subdivisions=3"};
+  CHECK_THROWS_WITH(read_case(path, statue), Contains("unknown key 'radius'"));
+  const TriangleMesh upright = make_icosphere(0.1, 1);  // starts in no plane
+  write_obj(folder.file("ball.obj"), upright.rest, upright.triangles);
+  const Case ball = read_case(path, {"cloth.mesh=" + folder.file("ball.obj")});
+  CHECK(not_asked(ball).size() == 2);
+  CHECK(judged(ball)[1].outcome == Outcome::not_applicable);
+  CHECK_THROWS_WITH(read_case(path, {"cloth.mesh=" + folder.file("ball.obj"), "expect.stays_flat.at_most=1"}),
+                    Contains("plane of constant z"));
 }

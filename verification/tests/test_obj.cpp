@@ -134,10 +134,11 @@ TEST_CASE("obj: every refusal names the file, the line, the reason and a remedy"
        "vertex 1 (line 1) and vertex 3 (line 3) the same way; reverse the order of one triangle's vertices"},
       {square + "v 0 0 1\nf 1 2 3\nf 1 3 4\nf 3 1 5\n",
        ":8: the edge between vertex 1 (line 1) and vertex 3 (line 3) has three triangles or more (the face "
-       "of line 6, the face of line 7 and this one); a manifold has one or two"},
+       "of line 6, the face of line 7 and this one); a manifold has one or two. Remove one: repair = "
+       "\"split\" parts fans at a vertex, and cannot tell which two of these stay joined"},
       {square + "v 2 1 0\nv 2 2 0\nf 1 2 3 4\n\nf 3 5 6\n",
        ":3: its triangles form more than one fan (the face of line 7 and the face of line 9 meet in this "
-       "vertex only); give each fan a vertex of its own"}};
+       "vertex only); give each fan a vertex of its own, or, for cloth, set repair = \"split\""}};
   for (const auto& [text, message] : cases) CHECK(refusal_of(text) == message);
 }
 
