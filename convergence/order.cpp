@@ -81,10 +81,10 @@ Estimate order_deviation(const Convergence& convergence, double expected, int pa
                      std::to_string(orders.size()));
   Worst deviation, uncertainty;
   for (size_t i = orders.size() - size_t(pairs); i < orders.size(); ++i) {
-    deviation.see(std::abs(orders[i] - expected));
+    deviation.observe(std::abs(orders[i] - expected));
     const double shift = log_uncertainty(convergence.errors[i], convergence.floor) +
                          log_uncertainty(convergence.errors[i + 1], convergence.floor);
-    uncertainty.see(shift / std::log(convergence.steps[i] / convergence.steps[i + 1]));
+    uncertainty.observe(shift / std::log(convergence.steps[i] / convergence.steps[i + 1]));
   }
   return {deviation.value(), uncertainty.value()};
 }

@@ -8,7 +8,7 @@ std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const 
   std::vector<Record> records;
   const Record blank{study.name, "study", study.name, study.claim, study.source, {}, {}, "", 0, {}};
   StudyResult result;
-  const Record run = judged(blank, [&] {
+  const Record run = judge(blank, [&] {
     result = study.run(subject, tier, progress);
     return Finding{};
   });

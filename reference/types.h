@@ -59,46 +59,46 @@ struct Work {
 };
 
 // All numbers of a Work, in an order that stays: what is added up, and of what the worst counts.
-inline constexpr long Work::*counts_of_work[] = {&Work::elastic_evaluations,
-                                                 &Work::damping_preparations,
-                                                 &Work::damping_products,
-                                                 &Work::stiffness_preparations,
-                                                 &Work::stiffness_products,
-                                                 &Work::newton_iterations,
-                                                 &Work::solves,
-                                                 &Work::cg_iterations,
-                                                 &Work::object_queries,
-                                                 &Work::object_contacts,
-                                                 &Work::strain_sweeps,
-                                                 &Work::close_pairs,
-                                                 &Work::crossing_queries,
-                                                 &Work::crossings,
-                                                 &Work::zones,
-                                                 &Work::zone_particles,
-                                                 &Work::bonds,
-                                                 &Work::unfinished_solves};
-inline constexpr double Work::*worsts_of_work[] = {&Work::strain_left, &Work::worst_residual};
+inline constexpr long Work::*summed_counters[] = {&Work::elastic_evaluations,
+                                                  &Work::damping_preparations,
+                                                  &Work::damping_products,
+                                                  &Work::stiffness_preparations,
+                                                  &Work::stiffness_products,
+                                                  &Work::newton_iterations,
+                                                  &Work::solves,
+                                                  &Work::cg_iterations,
+                                                  &Work::object_queries,
+                                                  &Work::object_contacts,
+                                                  &Work::strain_sweeps,
+                                                  &Work::close_pairs,
+                                                  &Work::crossing_queries,
+                                                  &Work::crossings,
+                                                  &Work::zones,
+                                                  &Work::zone_particles,
+                                                  &Work::bonds,
+                                                  &Work::unfinished_solves};
+inline constexpr double Work::*worst_counters[] = {&Work::strain_left, &Work::worst_residual};
 
 // Whoever adds a number is stopped here until it is in one of the lists.
 static_assert(sizeof(Work) ==
-              std::size(counts_of_work) * sizeof(long) + std::size(worsts_of_work) * sizeof(double));
+              std::size(summed_counters) * sizeof(long) + std::size(worst_counters) * sizeof(double));
 
-/// Shows `see` every number of a Work, const or not: counts as long, the rest as double.
-template <class SomeWork, class See>
-void for_each_number_of_work(SomeWork& w, const See& see) {
-  for (auto count : counts_of_work) see(w.*count);
-  for (auto worst : worsts_of_work) see(w.*worst);
+/// Shows `visit` every number of a Work, const or not: counts as long, the rest as double.
+template <class SomeWork, class Visit>
+void for_each_counter(SomeWork& w, const Visit& visit) {
+  for (auto count : summed_counters) visit(w.*count);
+  for (auto worst : worst_counters) visit(w.*worst);
 }
 
 /// Sets `worst` to `value` if that is larger or NaN; a NaN stays whatever comes after it.
-inline void keep_worst(double& worst, double value) {
+inline void update_worst(double& worst, double value) {
   if (!std::isnan(worst) && !(value <= worst)) worst = value;
 }
 
 /// Adds what a part of a run cost.
 inline void add(Work& sum, const Work& part) {
-  for (auto count : counts_of_work) sum.*count += part.*count;
-  for (auto worst : worsts_of_work) keep_worst(sum.*worst, part.*worst);
+  for (auto count : summed_counters) sum.*count += part.*count;
+  for (auto worst : worst_counters) update_worst(sum.*worst, part.*worst);
 }
 
 /// Bad input: the message says what, where and what to do.

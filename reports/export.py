@@ -25,7 +25,7 @@ import numpy as np  # noqa: E402
 
 from data.cloth_values import all_values  # noqa: E402
 from data.results import Case, load_case  # noqa: E402
-from data.unreadable import Unreadable, told  # noqa: E402
+from data.unreadable import Unreadable, one_line  # noqa: E402
 from data.whole_file import write_whole  # noqa: E402
 
 
@@ -44,17 +44,17 @@ def main() -> int:
     parser.add_argument("case", metavar="CASE.h5", type=Path, help="the file of a simulation")
     parser.add_argument("--format", choices=WRITERS, required=True)
     parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the files; made if it is not there")
-    said = parser.parse_args()
+    options = parser.parse_args()
     try:
-        said.out.mkdir(parents=True, exist_ok=True)
-        files = export(load_case(said.case), said.format, said.out)
+        options.out.mkdir(parents=True, exist_ok=True)
+        files = export(load_case(options.case), options.format, options.out)
     except (OSError, Unreadable) as error:
         print(f"export: {error}", file=sys.stderr)
         return 2
     except Exception as error:  # a damaged file may hold anything
-        print(f"export: {said.case}: {told(error)}", file=sys.stderr)
+        print(f"export: {options.case}: {one_line(error)}", file=sys.stderr)
         return 2
-    print(f"{said.out}: {len(files)} files")
+    print(f"{options.out}: {len(files)} files")
     return 0
 
 
@@ -81,7 +81,7 @@ def write_obj(_: Case, bodies: list[Body], folder: Path) -> list[Path]:
         yield f"o {body.name}"
         yield from (f"v {x:.17g} {y:.17g} {z:.17g}" for x, y, z in body.x[frame].tolist())
         yield from (f"f {a} {b} {c}" for a, b, c in (body.triangles + 1).tolist())
-    return [_written(folder / f"{body.name}.{frame:04d}.obj", ("\n".join(lines(body, frame)) + "\n").encode("utf-8"))
+    return [_write(folder / f"{body.name}.{frame:04d}.obj", ("\n".join(lines(body, frame)) + "\n").encode("utf-8"))
             for body in bodies for frame in range(len(body.x))]
 
 
@@ -101,7 +101,7 @@ def write_ply(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
             head = ["ply", "format binary_little_endian 1.0", f"comment time {time:.17g} s", f"element vertex {len(points)}",
                     *(f"property double {name}" for name in columns), f"element face {len(faces)}",
                     "property list uchar int vertex_indices", "end_header\n"]
-            files.append(_written(folder / f"{body.name}.{frame:04d}.ply",
+            files.append(_write(folder / f"{body.name}.{frame:04d}.ply",
                                   "\n".join(head).encode("ascii") + points.tobytes() + faces.tobytes()))
     return files
 
@@ -116,7 +116,7 @@ def write_xdmf(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
                 for name, values in {"x": body.x, **body.values}.items():
                     file[f"{body.name}/{frame}/{name}"] = values[frame]
     partial.replace(data)
-    return [data] + [_written(folder / f"{body.name}.xdmf", _xdmf(body, data.name, case.frame_times).encode("utf-8"))
+    return [data] + [_write(folder / f"{body.name}.xdmf", _xdmf(body, data.name, case.frame_times).encode("utf-8"))
                      for body in bodies]
 
 
@@ -138,7 +138,7 @@ def _xdmf_grid(body: Body, place: str, frame: int, time: float) -> str:
             + item(f"{frame}/x", body.x.shape[1:]) + "</Geometry>\n" + "".join(attributes) + "</Grid>")
 
 
-def _written(path: Path, content: bytes) -> Path:
+def _write(path: Path, content: bytes) -> Path:
     write_whole(path, content)
     return path
 

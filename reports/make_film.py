@@ -24,10 +24,10 @@ from PIL import Image, ImageDraw, ImageFont  # noqa: E402
 
 from data.quantities import number_text  # noqa: E402
 from data.results import Case, load_case  # noqa: E402
-from data.unreadable import Unreadable, told  # noqa: E402
+from data.unreadable import Unreadable, one_line  # noqa: E402
 from pictures.case_fields import Field, fields_of  # noqa: E402
-from pictures.case_pictures import length_text, nice_length, shown_frames  # noqa: E402
-from pictures.case_scene import CaseScene, slowed  # noqa: E402
+from pictures.case_pictures import length_text, nice_length, select_frames  # noqa: E402
+from pictures.case_scene import CaseScene, slowdown  # noqa: E402
 from pictures.cloth_picture import picture_of  # noqa: E402
 from pictures.look import colour_stops  # noqa: E402
 from plots.plot_style import font_path, with_unit  # noqa: E402
@@ -51,11 +51,11 @@ class Film:
 
 def main() -> int:
     """Returns 0 when the films are written, 2 when they cannot be."""
-    said = arguments()
+    options = arguments()
     require_program("make_film", "ffmpeg")
     try:
-        outs = [said.out] if said.out else [said.run.with_suffix(".mp4"), said.run.with_suffix(".gif")]
-        film = film_of(load_case(said.run), said)
+        outs = [options.out] if options.out else [options.run.with_suffix(".mp4"), options.run.with_suffix(".gif")]
+        film = film_of(load_case(options.run), options)
         for out in outs:
             write_film(film, out)
             print(out)
@@ -63,7 +63,7 @@ def main() -> int:
         print(f"make_film: {error}", file=sys.stderr)
         return 2
     except Exception as error:  # a damaged file may hold anything
-        print(f"make_film: {said.run}: {told(error)}", file=sys.stderr)
+        print(f"make_film: {options.run}: {one_line(error)}", file=sys.stderr)
         return 2
     return 0
 
@@ -80,12 +80,12 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--field", choices=FIELDS, help="colour the cloth by a field (default: by its two sides)")
     parser.add_argument("--size", metavar="WxH", type=size_of, default=(1280, 720), help="pixels (default: 1280x720)")
     parser.add_argument("--fps", metavar="N", type=int, default=30, choices=range(1, 121), help="pictures a second (default: 30)")
-    said = parser.parse_args()
-    if said.out and said.out.suffix not in (".mp4", ".gif"):
-        parser.error(f"--out {said.out}: the name of a film ends in .mp4 or .gif")
-    if said.out and not said.out.parent.is_dir():
-        parser.error(f"--out {said.out}: there is no folder {said.out.parent}; make it first")
-    return said
+    options = parser.parse_args()
+    if options.out and options.out.suffix not in (".mp4", ".gif"):
+        parser.error(f"--out {options.out}: the name of a film ends in .mp4 or .gif")
+    if options.out and not options.out.parent.is_dir():
+        parser.error(f"--out {options.out}: there is no folder {options.out.parent}; make it first")
+    return options
 
 
 def size_of(text: str) -> tuple[int, int]:
@@ -98,18 +98,18 @@ def size_of(text: str) -> tuple[int, int]:
     raise argparse.ArgumentTypeError(f"'{text}' is not WIDTHxHEIGHT, even numbers from 64 to 4096")
 
 
-def film_of(case: Case, said: argparse.Namespace) -> Film:
+def film_of(case: Case, options: argparse.Namespace) -> Film:
     """The film that was asked for. Throws FilmError where the file does not allow it."""
     if not len(case.frame_times) or not len(case.triangles):
         raise FilmError(f"{case.path}: it holds no frames of a cloth")
     frames = frames_to_turn(case)
     if not frames:
         raise FilmError(f"{case.path}: no frame has all its particles finite")
-    _, scene = shown_frames(case)
-    fields = {field.name: field for field in fields_of(case, frames)} if said.field else {}
-    if said.field and said.field not in fields:
-        raise FilmError(f"{case.path}: it has no field '{said.field}'; it has: {', '.join(fields) or 'none'}")
-    return Film(scene, frames, fields.get(said.field), said.size, said.fps)
+    _, scene = select_frames(case)
+    fields = {field.name: field for field in fields_of(case, frames)} if options.field else {}
+    if options.field and options.field not in fields:
+        raise FilmError(f"{case.path}: it has no field '{options.field}'; it has: {', '.join(fields) or 'none'}")
+    return Film(scene, frames, fields.get(options.field), options.size, options.fps)
 
 
 def write_film(film: Film, out: Path) -> None:
@@ -150,7 +150,7 @@ def rows_of(film: Film) -> list[int]:
     """Which of the frames each picture of the film shows: the last that is not later."""
     times = film.scene.case.frame_times[film.frames]
     times = times - times[0]
-    pace = 1.0 / slowed(float(times[-1]))
+    pace = 1.0 / slowdown(float(times[-1]))
     shown = np.arange(round((times[-1] / pace + STILL) * film.fps)) / film.fps * pace
     return [int(row) for row in np.searchsorted(times, shown + 1e-9, side="right") - 1]
 
@@ -177,7 +177,7 @@ def write_words(canvas: Image.Image, film: Film, time: float, pixels_per_metre: 
     pen.rectangle((margin, top, margin + length * pixels_per_metre, top + max(1, size // 8)), fill=INK)
     pen.text((margin, top + 0.5 * size), length_text(length), font=font, fill=INK)
     times = film.scene.case.frame_times[film.frames]
-    slower = slowed(float(times[-1] - times[0]))
+    slower = slowdown(float(times[-1] - times[0]))
     pace = "real time" if slower == 1 else f"slowed {number_text(slower)} times"
     places = max(0, 2 - int(np.floor(np.log10(times[-1])))) if times[-1] > 0 else 0
     pen.text((0.5 * width, top - 0.2 * size), f"{time:.{places}f} s", font=font, fill=INK, anchor="ma")

@@ -26,7 +26,7 @@ from data.command_line import OneLineParser, require_modules, require_program  #
 
 require_modules("make_report", "numpy", "h5py", "matplotlib", "jinja2")
 from data.results import Case, CaseEntry, Run, Study, case_entry_of_file, load_case, load_run  # noqa: E402
-from data.unreadable import Unreadable, told  # noqa: E402
+from data.unreadable import Unreadable, one_line  # noqa: E402
 from data.whole_file import write_whole  # noqa: E402
 from pages.chromium import PACKAGE, NoBrowser  # noqa: E402
 from pages.compare import compare, read_side  # noqa: E402
@@ -36,7 +36,7 @@ from pages.ledger import claim_views  # noqa: E402
 from pages.needs import load_needs  # noqa: E402
 from pages.page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison  # noqa: E402
 from pages.printed import print_page  # noqa: E402
-from pages.trust import load_coverage, load_variants, tolerances_of, unended_run  # noqa: E402
+from pages.trust import load_coverage, load_variants, tolerances_of, note_on_unfinished_run  # noqa: E402
 from pictures.case_pictures import make_pictures  # noqa: E402
 from plots.angle_spectrum import plot_angle_spectrum  # noqa: E402
 from plots.case_plots import plot_diagnostics  # noqa: E402
@@ -105,7 +105,7 @@ def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = False
     in it is damaged."""
     run, bench = read_folder(folder)
     beside = {"coverage": load_coverage(folder / "coverage.json"), "variants": load_variants(folder / "variants.json"),
-              "mutation": load_mutation(folder / "mutation.json"), "unended": unended_run(folder / "verdicts.json"),
+              "mutation": load_mutation(folder / "mutation.json"), "unended": note_on_unfinished_run(folder / "verdicts.json"),
               "needs": load_needs(folder / "ablation.json", shipped if run.path else None)}
     figures.mkdir(parents=True, exist_ok=True)
     out.parent.mkdir(parents=True, exist_ok=True)
@@ -207,7 +207,7 @@ def draw_case(entry: CaseEntry, figures: Path, most: int) -> CaseView:
     except Exception as error:  # a damaged file may hold anything
         if isinstance(error, OSError) and error.errno is not None:
             raise  # figures that cannot be written
-        return CaseView(entry, view.anchor, problem=f"{entry.path.name} could not be drawn: {told(error)}")
+        return CaseView(entry, view.anchor, problem=f"{entry.path.name} could not be drawn: {one_line(error)}")
     return view
 
 

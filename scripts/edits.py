@@ -65,10 +65,10 @@ def changes_of(text: str) -> list[Change]:
         found.update(of_operator(text, tokens, k), of_unary(text, tokens, k), of_number(tokens, k), of_name(text, tokens, k))
     found.update(of_bounds(tokens))
     found.update(removals(text, tokens))
-    return sorted(change for change in found if not asks_for_memory(text, change))
+    return sorted(change for change in found if not is_in_reserve(text, change))
 
 
-def asks_for_memory(text: str, change: Change) -> bool:
+def is_in_reserve(text: str, change: Change) -> bool:
     """Is it in a call of reserve()? Results do not depend on those."""
     line = place_of(text, change)[1]
     return ".reserve(" in line
@@ -227,7 +227,7 @@ def is_action(statement: list[Piece]) -> bool:
     return statement[-1].text in (")", "++", "--")
 
 
-def applied(text: str, change: Change) -> str:
+def apply(text: str, change: Change) -> str:
     return text[:change.at] + change.after + text[change.at + len(change.before):]
 
 

@@ -18,7 +18,7 @@
 namespace foldproof {
 namespace {
 
-std::string typed(int argc, char** argv) {
+std::string command_line(int argc, char** argv) {
   std::string command = program_command();
   for (int k = 1; k < argc; ++k) command += std::string(" ") + argv[k];
   return command;
@@ -361,7 +361,7 @@ void add_readers(CLI::App& app, Options& options) {
 
 int run(int argc, char** argv) {
   Options options;
-  options.command = typed(argc, argv);
+  options.command = command_line(argc, argv);
   options.words.assign(argv, argv + argc);
   CLI::App app(
       "Verification suite and reference implementation for cloth simulation, after Bridson, Marino, Fedkiw "
@@ -384,7 +384,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return end_parse(app, error);
   }
-  if (!options.run) return refuse_missing_command(app);
+  if (!options.run) return reject_missing_command(app);
   return options.run(options);
 }
 
@@ -397,13 +397,13 @@ int main(int argc, char** argv) {
   try {
     const int code = foldproof::run(argc, argv);
     if (std::fflush(stdout) == 0) return code;
-    foldproof::say("foldproof: standard output cannot be written; is the disk full?");
+    foldproof::log_line("foldproof: standard output cannot be written; is the disk full?");
   } catch (const std::bad_alloc&) {
-    foldproof::say("foldproof: this takes more memory than there is");
+    foldproof::log_line("foldproof: this takes more memory than there is");
   } catch (const std::exception& error) {
     const char* const where =
         std::ferror(stdout) ? "foldproof: standard output cannot be written: " : "foldproof: ";
-    foldproof::say(std::string(where) + error.what());
+    foldproof::log_line(std::string(where) + error.what());
   }
   return foldproof::bad_input;
 }

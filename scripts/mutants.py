@@ -129,14 +129,14 @@ def compile_mutant(plan: Plan, edit: Edit, overlay: Path) -> dict[str, list[Path
         source = copy if original in together else Path(unit.command[-1])
         compile_unit(plan, unit, source, objects[unit.object][0], overlay)
         if original in together:  # the others that are compiled as one with it, as they are
-            objects[unit.object] += [apart(plan, unit, other) for other in together if other != original]
+            objects[unit.object] += [compile_apart(plan, unit, other) for other in together if other != original]
     return objects
 
 
 APART = collections.defaultdict(threading.Lock)
 
 
-def apart(plan: Plan, unit: Unit, source: Path) -> Path:
+def compile_apart(plan: Plan, unit: Unit, source: Path) -> Path:
     """The object of an unedited source by itself, made once after each change of what it is compiled with."""
     target = APART_FOLDER / source.relative_to(ROOT).with_suffix(".o")
     with APART[target]:
@@ -150,7 +150,7 @@ def apart(plan: Plan, unit: Unit, source: Path) -> Path:
 def compile_unit(plan: Plan, unit: Unit, source: Path, target: Path, overlay: Path) -> None:
     """Compiles as the program's own build does, but with the overlay first on the include path, and the method for
     a short compilation where the build has it for speed: the bits are the same."""
-    words = compiled_soon(plan, unit.command)
+    words = quick_compile_command(plan, unit.command)
     words[words.index("-MF") + 1] = f"{target}.d"  # ninja's own record of what was read stays as it is
     words[words.index("-o") + 1] = str(target)
     words[-1] = str(source)
@@ -159,7 +159,7 @@ def compile_unit(plan: Plan, unit: Unit, source: Path, target: Path, overlay: Pa
     make(words, "does not compile", DoesNotCompile)
 
 
-def compiled_soon(plan: Plan, command: list[str]) -> list[str]:
+def quick_compile_command(plan: Plan, command: list[str]) -> list[str]:
     """The command with -O1 in place of -O3, and with the precompiled header that was made with -O1."""
     words = list(command)
     if "-O3" not in words or "-O1" in words:

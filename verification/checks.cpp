@@ -18,7 +18,7 @@ std::vector<Check> all_checks() {
            // oracles
            oracle_checks,
            // mesh
-           mesh_checks, mesh_refusal_checks,
+           mesh_checks, mesh_rejection_checks,
            // forces
            spring_checks, force_checks, bending_checks, bending_mode_checks,
            bending_alternative_checks, bending_angle_checks, bending_energy_checks,
@@ -32,7 +32,7 @@ std::vector<Check> all_checks() {
            object_checks, response_checks, object_response_checks, pinch_checks, friction_checks,
            capstan_checks,
            // scene
-           scene_refusal_checks, scene_meaning_checks, scene_place_checks, scene_object_checks,
+           scene_rejection_checks, scene_meaning_checks, scene_place_checks, scene_object_checks,
            scene_body_checks, scene_cloth_checks,
            // mesh
            seam_checks, split_fan_checks,

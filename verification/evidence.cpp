@@ -37,7 +37,7 @@ Table::Table(std::vector<Column> columns) {
 Table::Table(std::string name, std::string title, Table rows)
     : name(std::move(name)), title(std::move(title)), columns_(std::move(rows.columns_)) {}
 
-void Table::refuse(const std::string& why) const {
+void Table::reject(const std::string& why) const {
   std::string names;
   for (const Column& column : columns_) names += (names.empty() ? "" : ", ") + column.name;
   throw std::logic_error(fmt::format("table '{}' of columns [{}]: {}", name, names, why));
@@ -47,18 +47,18 @@ size_t Table::rows() const { return columns_.empty() ? 0 : length_of(columns_.fr
 
 void Table::add(Column column) {
   if (!columns_.empty() && length_of(column) != rows())
-    refuse(fmt::format("{} values in column '{}' for {} rows", length_of(column), column.name, rows()));
+    reject(fmt::format("{} values in column '{}' for {} rows", length_of(column), column.name, rows()));
   columns_.push_back(std::move(column));
 }
 
 void Table::append(std::initializer_list<Cell> cells) {
   if (cells.size() != columns_.size())
-    refuse(fmt::format("a row of {} for {} columns", cells.size(), columns_.size()));
+    reject(fmt::format("a row of {} for {} columns", cells.size(), columns_.size()));
   const bool is_first = rows() == 0;
   for (size_t k = 0; k < cells.size(); ++k) {
     const bool is_text = cells.begin()[k].value.index() == 1;
     if (!is_first && is_text != holds_texts(columns_[k]))
-      refuse(fmt::format("column '{}' holds {}, and row {} gives it {}", columns_[k].name, kind_of(!is_text),
+      reject(fmt::format("column '{}' holds {}, and row {} gives it {}", columns_[k].name, kind_of(!is_text),
                          rows() + 1, kind_of(is_text)));
   }
   for (size_t k = 0; k < cells.size(); ++k) append_to(columns_[k], cells.begin()[k]);
@@ -67,25 +67,25 @@ void Table::append(std::initializer_list<Cell> cells) {
 const Column& Table::column(std::string_view wanted) const {
   for (const Column& column : columns_)
     if (column.name == wanted) return column;
-  refuse(fmt::format("there is no column '{}'", wanted));
+  reject(fmt::format("there is no column '{}'", wanted));
 }
 
 const std::vector<double>& Table::numbers(std::string_view wanted) const {
   const Column& found = column(wanted);
-  if (holds_texts(found)) refuse(fmt::format("column '{}' holds texts", wanted));
+  if (holds_texts(found)) reject(fmt::format("column '{}' holds texts", wanted));
   return std::get<0>(found.values);
 }
 
 std::vector<std::string> Table::texts(std::string_view wanted) const {
   const Column& found = column(wanted);
   if (length_of(found) == 0) return {};
-  if (!holds_texts(found)) refuse(fmt::format("column '{}' holds numbers", wanted));
+  if (!holds_texts(found)) reject(fmt::format("column '{}' holds numbers", wanted));
   return std::get<1>(found.values);
 }
 
 double Table::worst(std::string_view wanted) const {
   Worst worst;
-  for (const double value : numbers(wanted)) worst.see(value);
+  for (const double value : numbers(wanted)) worst.observe(value);
   return rows() == 0 ? nan : worst.value();
 }
 
@@ -94,7 +94,7 @@ size_t Table::worst_row(std::string_view wanted) const {
   const std::vector<double>& values = numbers(wanted);
   for (size_t k = 0; k < values.size(); ++k)
     if (values[k] == sought || std::isnan(values[k])) return k;
-  refuse(fmt::format("no row of column '{}' is at least 0", wanted));
+  reject(fmt::format("no row of column '{}' is at least 0", wanted));
 }
 
 Table roundings_of(const std::string& scale) { return {{"case", ""}, {"measured", "epsilon " + scale}}; }
@@ -107,7 +107,7 @@ double signed_largest(const std::vector<double>& values) {
   return largest;
 }
 
-void Worst::see(double value) {
+void Worst::observe(double value) {
   if (!std::isnan(worst_) && !(value <= worst_)) worst_ = value;
 }
 

@@ -51,7 +51,7 @@ struct Cell {
 ///
 ///   Table table{{"step", "s"}, {"error", "m"}};
 ///   for (const double h : steps) table.row(h, error_of(h));
-///   return judged_worst(table, 1e-12, "five roundings a step");
+///   return judge_worst(table, 1e-12, "five roundings a step");
 ///
 /// The first row decides which columns hold texts. What does not fit, in number or type, and a column that
 /// is not there throw std::logic_error with the names of the table and its columns.
@@ -96,7 +96,7 @@ class Table {
 
  private:
   void append(std::initializer_list<Cell> cells);
-  [[noreturn]] void refuse(const std::string& why) const;
+  [[noreturn]] void reject(const std::string& why) const;
 
   std::vector<Column> columns_;
 };
@@ -110,7 +110,7 @@ double signed_largest(const std::vector<double>& values);
 /// A maximum that keeps NaN: once a NaN was seen, it stays.
 class Worst {
  public:
-  void see(double value);
+  void observe(double value);
   double value() const { return worst_; }  // 0 if nothing was seen
 
  private:

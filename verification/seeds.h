@@ -10,6 +10,6 @@ inline unsigned seed_shift = 0;
 /// The seed of a generator in place of `own`, the one that its code names: that very one if nothing is
 /// shifted. The factor is odd, so that no two shifts give a generator the same seed, and large, so that its
 /// neighbours' are not met.
-inline unsigned shifted(unsigned own) { return own + 2654435761u * seed_shift; }
+inline unsigned shifted_seed(unsigned own) { return own + 2654435761u * seed_shift; }
 
 }  // namespace foldproof

@@ -18,7 +18,7 @@ class Clock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-Finding broken(const std::string& what) {
+Finding error_finding(const std::string& what) {
   return {{nan, nan, nan, "1", "it must run to its end"}, {}, "stopped by an error: " + what};
 }
 
@@ -53,29 +53,29 @@ std::string_view outcome_text(const Record& record) {
   return did_not_run(record) ? "did not run" : "measured";
 }
 
-Finding judged_worst(Table evidence, std::string_view column, double bound, std::string why_bound,
-                     std::string note) {
-  const Column& judged = evidence.column(column);
-  const Verdict verdict{evidence.worst(column), bound, judged.uncertainty, judged.unit, std::move(why_bound)};
+Finding judge_worst(Table evidence, std::string_view column, double bound, std::string why_bound,
+                    std::string note) {
+  const Column& judge = evidence.column(column);
+  const Verdict verdict{evidence.worst(column), bound, judge.uncertainty, judge.unit, std::move(why_bound)};
   return {verdict, std::move(evidence), std::move(note)};
 }
 
-Finding judged_worst(Table evidence, double bound, std::string why_bound, std::string note) {
+Finding judge_worst(Table evidence, double bound, std::string why_bound, std::string note) {
   const std::string last = evidence.columns().back().name;
-  return judged_worst(std::move(evidence), last, bound, std::move(why_bound), std::move(note));
+  return judge_worst(std::move(evidence), last, bound, std::move(why_bound), std::move(note));
 }
 
-Record judged(Record record, const std::function<Finding()>& act) {
+Record judge(Record record, const std::function<Finding()>& act) {
   const Clock clock;
   try {
     record.finding = act();
     record.outcome = outcome_of(record.finding.verdict);
   } catch (const NotOffered& missing) {
-    record.finding = broken("");
+    record.finding = error_finding("");
     record.finding.note = "the subject does not offer " + missing.operation;
     record.outcome = Outcome::not_applicable;
   } catch (const std::exception& error) {
-    record.finding = broken(error.what());
+    record.finding = error_finding(error.what());
     record.outcome = Outcome::fails;
   }
   record.seconds = clock.seconds();
@@ -84,7 +84,7 @@ Record judged(Record record, const std::function<Finding()>& act) {
 
 Record run_check(const Check& check, const Subject& subject) {
   Record record{check.name, "check", "", check.claim, check.source, {}, {}, "", 0, {}};
-  return judged(std::move(record), [&] { return check.run(subject); });
+  return judge(std::move(record), [&] { return check.run(subject); });
 }
 
 }  // namespace foldproof

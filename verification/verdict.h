@@ -38,11 +38,11 @@ struct Finding {
 
 /// Judges the worst number of a column (Table::worst), with the largest uncertainty of the column, against a
 /// bound in the column's unit.
-Finding judged_worst(Table evidence, std::string_view column, double bound, std::string why_bound,
-                     std::string note = "");
+Finding judge_worst(Table evidence, std::string_view column, double bound, std::string why_bound,
+                    std::string note = "");
 
 /// The same of the table's last column.
-Finding judged_worst(Table evidence, double bound, std::string why_bound, std::string note = "");
+Finding judge_worst(Table evidence, double bound, std::string why_bound, std::string note = "");
 
 /// A property that the subject must have. `run` may throw NotOffered.
 struct Check {
@@ -92,6 +92,6 @@ Record run_check(const Check& check, const Subject& subject);
 
 /// Runs `act`, which gives a check's or a study's finding, and completes the record: outcome, note of what was
 /// thrown, seconds.
-Record judged(Record record, const std::function<Finding()>& act);
+Record judge(Record record, const std::function<Finding()>& act);
 
 }  // namespace foldproof

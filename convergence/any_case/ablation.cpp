@@ -21,23 +21,23 @@ double depth_at(const Scene& scene, std::span<const Object> objects, const State
   return objects.empty() ? 0 : value_at(*find_quantity("stays_outside"), scene, objects, frame);
 }
 
-RunObserved watched(const Case& shown, const LevelSetMakers& level_sets, int particles) {
-  const Scene& scene = shown.scene;
-  const Built built = build(scene, level_sets);
+ObservedRun simulate_observed(const Case& input_case, const LevelSetProvider& level_sets, int particles) {
+  const Scene& scene = input_case.scene;
+  const BuiltScene built = build(scene, level_sets);
   const std::span<const Object> objects = built.objects;
-  RunObserved run;
+  ObservedRun run;
   std::map<double, double> energy;
-  CaseJudge judge(shown, objects, level_sets);
+  CaseJudge judge(input_case, objects, level_sets);
   Worst deepest, crossings;
   const Observer observer{[&](const State& s) {
-                            judge.enter(s);
+                            judge.record(s);
                             run.times.push_back(s.time);
                             run.x.push_back(s.x.leftCols(particles));
-                            deepest.see(depth_at(scene, objects, s));
-                            crossings.see(self_crossings(scene, s));
+                            deepest.observe(depth_at(scene, objects, s));
+                            crossings.observe(self_crossings(scene, s));
                           },
                           [&](const Diagnostics& row) {
-                            judge.enter(row);
+                            judge.record(row);
                             energy[row.time] = row.energy.total();
                           }};
   const RunResult result =
@@ -47,12 +47,12 @@ RunObserved watched(const Case& shown, const LevelSetMakers& level_sets, int par
   run.crossings = crossings.value();
   run.steps = result.steps;
   run.work = result.work;
-  if (result.stop) run.stopped = described(*result.stop);
-  const std::vector<Record> records = judge.judged(result);
+  if (result.stop) run.stopped = describe(*result.stop);
+  const std::vector<Record> records = judge.records(result);
   for (size_t k = 0; k < records.size(); ++k) {
-    if (!shown.expectations[k].not_asked.empty()) continue;
-    run.asked.push_back(shown.expectations[k].key);
-    if (records[k].outcome != Outcome::holds) run.failed.push_back(shown.expectations[k].key);
+    if (!input_case.expectations[k].not_asked.empty()) continue;
+    run.expected_keys.push_back(input_case.expectations[k].key);
+    if (records[k].outcome != Outcome::holds) run.failed_keys.push_back(input_case.expectations[k].key);
   }
   return run;
 }
@@ -66,30 +66,31 @@ std::vector<std::string> not_in(const std::vector<std::string>& keys,
   return left;
 }
 
-double energy_difference(const RunObserved& a, const RunObserved& b) {
+double energy_difference(const ObservedRun& a, const ObservedRun& b) {
   Worst worst;
   for (size_t k = 0; k < std::min(a.energy.size(), b.energy.size()); ++k)
-    worst.see(std::abs(a.energy[k] - b.energy[k]));
+    worst.observe(std::abs(a.energy[k] - b.energy[k]));
   return worst.value();
 }
 
 /// Why the run without the part is no run of the same scene, in words; "" if it is.
-std::string reason(const RunObserved& without, const RunObserved& with, double moved, const OwnError& own) {
+std::string reason(const ObservedRun& without, const ObservedRun& with, double moved,
+                   const DiscretisationError& error) {
   if (!without.stopped.empty() && with.stopped.empty())
     return "without it the run does not come to its end: " + without.stopped;
-  if (const auto failed = not_in(without.failed, with.failed); !failed.empty())
-    return fmt::format("without it this expectation fails: {}", fmt::join(failed, ", "));
-  if (const auto meaningless = not_in(with.asked, without.asked);
+  if (const auto failed_keys = not_in(without.failed_keys, with.failed_keys); !failed_keys.empty())
+    return fmt::format("without it this expectation fails: {}", fmt::join(failed_keys, ", "));
+  if (const auto meaningless = not_in(with.expected_keys, without.expected_keys);
       without.stopped.empty() && !meaningless.empty())
     return fmt::format("without it this expectation has no meaning: {}", fmt::join(meaningless, ", "));
   if (without.crossings > 0 && with.crossings == 0)
     return fmt::format("without it the cloth crosses itself, in {:g} places of a frame", without.crossings);
-  if (!(without.deepest <= with.deepest + own.value()))
+  if (!(without.deepest <= with.deepest + error.value()))
     return fmt::format("without it cloth is {:.3g} m deep in an object, with it {:.3g} m", without.deepest,
                        with.deepest);
-  if (!(moved <= own.value()))
+  if (!(moved <= error.value()))
     return fmt::format("it moves particles by {:.3g} m, more than the scene's own error of {:.3g} m", moved,
-                       own.value());
+                       error.value());
   return "";
 }
 
@@ -103,17 +104,17 @@ std::string_view name_of(Need need) {
       return "not needed here";
     case Need::missing:
       return "missing here";
-    case Need::not_missed:
+    case Need::no_effect:
       break;
   }
   return "not missed here";
 }
 
-RunObserved observed(const Case& shown, const LevelSetMakers& level_sets, int particles) {
+ObservedRun observe_run(const Case& input_case, const LevelSetProvider& level_sets, int particles) {
   const auto start = std::chrono::steady_clock::now();
-  RunObserved run;
+  ObservedRun run;
   try {
-    run = watched(shown, level_sets, particles);
+    run = simulate_observed(input_case, level_sets, particles);
   } catch (const std::exception& error) {
     run.stopped = error.what();
   }
@@ -121,68 +122,68 @@ RunObserved observed(const Case& shown, const LevelSetMakers& level_sets, int pa
   return run;
 }
 
-Case with_scene(const Case& shown, Scene scene) {
+Case with_scene(const Case& input_case, Scene scene) {
   Case changed{std::move(scene), {}, {}};
-  for (const Expectation& expectation : shown.expectations) {
-    const auto refusal = find_quantity(expectation.key)->refusal;
-    if (!refusal || refusal(changed.scene).empty()) changed.expectations.push_back(expectation);
+  for (const Expectation& expectation : input_case.expectations) {
+    const auto rejection = find_quantity(expectation.key)->rejection;
+    if (!rejection || rejection(changed.scene).empty()) changed.expectations.push_back(expectation);
   }
   return changed;
 }
 
-double position_difference(const RunObserved& a, const RunObserved& b, const PerParticle& mass) {
+double position_difference(const ObservedRun& a, const ObservedRun& b, const PerParticle& mass) {
   Worst worst;
   for (size_t k = 0; k < std::min(a.x.size(), b.x.size()); ++k) {
     const Eigen::VectorXd squares = (a.x[k] - b.x[k]).colwise().squaredNorm().transpose();
-    worst.see(std::sqrt(squares.dot(mass.matrix()) / mass.sum()));
+    worst.observe(std::sqrt(squares.dot(mass.matrix()) / mass.sum()));
   }
   return worst.value();
 }
 
-bool PartJudged::is_as_it_should_be() const {
-  const bool is_plain = need == Need::needed || need == Need::not_missed;
+bool JudgedPart::is_justified() const {
+  const bool is_plain = need == Need::needed || need == Need::no_effect;
   return is_plain == declared.empty();
 }
 
-std::string declared_for(const Case& shown, std::string_view name) {
-  for (const Declared& one : shown.declared)
+std::string declared_reason(const Case& input_case, std::string_view name) {
+  for (const DeclaredPart& one : input_case.declared)
     if (one.part == name) return one.why;
   return "";
 }
 
-void refuse_unknown_parts(const Case& shown, const std::vector<ScenePart>& parts) {
-  for (const Declared& one : shown.declared) {
+void reject_unknown_parts(const Case& input_case, const std::vector<ScenePart>& parts) {
+  for (const DeclaredPart& one : input_case.declared) {
     if (one.part == finer_mesh || std::ranges::find(parts, one.part, &ScenePart::name) != parts.end())
       continue;
     std::vector<std::string> known = {std::string(finer_mesh)};
     for (const ScenePart& part : parts) known.push_back(part.name);
     throw InputError(fmt::format("{}: [ablation] names a part '{}' that cannot be toggled; known: {}",
-                                 shown.scene.name, one.part, fmt::join(known, ", ")));
+                                 input_case.scene.name, one.part, fmt::join(known, ", ")));
   }
 }
 
-double OwnError::value() const {
+double DiscretisationError::value() const {
   double sum = 0;
   for (const double part : {time, mesh})
     if (!std::isnan(part)) sum += part;
   return std::max(sum, floor);
 }
 
-PartJudged judged(const ScenePart& part, const RunObserved& scene, RunObserved toggled, const OwnError& own,
-                  const PerParticle& mass) {
-  PartJudged result{part.name, part.is_present, Need::needed, "", 0, 0, "", {}};
+JudgedPart judge_part(const ScenePart& part, const ObservedRun& scene, ObservedRun toggled,
+                      const DiscretisationError& error, const PerParticle& mass) {
+  JudgedPart result{part.name, part.is_present, Need::needed, "", 0, 0, "", {}};
   result.position_difference = position_difference(scene, toggled, mass);
   result.energy_difference = energy_difference(scene, toggled);
-  result.because = part.is_present ? reason(toggled, scene, result.position_difference, own)
-                                   : reason(scene, toggled, result.position_difference, own);
-  const bool matters = !result.because.empty();
+  result.reason = part.is_present ? reason(toggled, scene, result.position_difference, error)
+                                  : reason(scene, toggled, result.position_difference, error);
+  const bool matters = !result.reason.empty();
   if (part.is_present)
     result.need = matters ? Need::needed : Need::not_needed;
   else
-    result.need = matters ? Need::missing : Need::not_missed;
+    result.need = matters ? Need::missing : Need::no_effect;
   if (!matters)
-    result.because = fmt::format("it moves particles by {:.3g} m; the scene's own error is {:.3g} m",
-                                 result.position_difference, own.value());
+    result.reason = fmt::format("it moves particles by {:.3g} m; the scene's own error is {:.3g} m",
+                                result.position_difference, error.value());
   result.run = std::move(toggled);
   return result;
 }

@@ -33,7 +33,7 @@ std::vector<ScenePart> parts_of(const Scene& scene);
 // costs.
 
 /// What a run did, as far as runs of the same cloth can be compared by it. Frames are those that it reached.
-struct RunObserved {
+struct ObservedRun {
   std::vector<double> times;    // of the frames [s]
   std::vector<PerParticle3> x;  // in each frame, 3 x N, the particles of the scene alone [m]
   std::vector<double> energy;   // kinetic, elastic and of gravity, at each frame [J]
@@ -42,47 +42,47 @@ struct RunObserved {
   long steps = 0;
   Work work;
   double seconds = 0;
-  std::string stopped;              // why the run came to no end, or ""
-  std::vector<std::string> asked;   // keys of the case's expectations
-  std::vector<std::string> failed;  // of those that do not hold
+  std::string stopped;                     // why the run came to no end, or ""
+  std::vector<std::string> expected_keys;  // keys of the case's expectations
+  std::vector<std::string> failed_keys;    // of those that do not hold
 };
 
 /// Runs the case. particles: of these only, the first ones, positions are kept. level_sets: of its bodies;
-/// they should remember those that were made (bodies/makers.h). An error in building or running is told in
+/// they should remember those that were made (bodies/level_set_provider.h). An error in building or running is told in
 /// `stopped`.
-RunObserved observed(const Case& shown, const LevelSetMakers& level_sets, int particles);
+ObservedRun observe_run(const Case& input_case, const LevelSetProvider& level_sets, int particles);
 
 /// The case with another scene: what is expected of the case and makes no sense for that scene is left out.
-Case with_scene(const Case& shown, Scene scene);
+Case with_scene(const Case& input_case, Scene scene);
 
 /// The largest difference over the frames that both have: the root mean square over particles, weighted with
 /// their masses (N [kg]), of how far apart they are [m].
-double position_difference(const RunObserved& a, const RunObserved& b, const PerParticle& mass);
+double position_difference(const ObservedRun& a, const ObservedRun& b, const PerParticle& mass);
 
-enum class Need { needed, not_needed, missing, not_missed };
+enum class Need { needed, not_needed, missing, no_effect };
 
 std::string_view name_of(Need need);  // "needed", "not needed here", "missing here", "not missed here"
 
 /// A part of a case, run without it if it is there, else with it.
-struct PartJudged {
+struct JudgedPart {
   std::string name;
   bool is_present;
   Need need;
-  std::string because;
+  std::string reason;
   double position_difference;  // m
   double energy_difference;    // largest over the frames [J]
   std::string declared;        // why the case has it, or leaves it out, all the same; or ""
-  RunObserved run;
+  ObservedRun run;
 
   /// It is there and needed, or absent and not missed; or else declared, and only else.
-  bool is_as_it_should_be() const;
+  bool is_justified() const;
 };
 
 /// How far the scene's own run is from the truth, roughly: by how much it changes with half the step, and
 /// with triangles of half the size. These two are not extrapolated: an error of first order is twice such a
 /// difference, one of second order a third larger than it. A case may name a coarser mesh instead of the
 /// finer one; what that says of the same error is two to four times as much (coarser_mesh.h).
-struct OwnError {
+struct DiscretisationError {
   double time = 0, mesh = 0;  // m; NaN where a run came to no end
   double floor = 0;           // a millionth of the cloth's size: less than that no one asks for [m]
 
@@ -93,17 +93,17 @@ struct OwnError {
 /// needed / missing, if the part changes positions by more than the scene's own error; or if without it the
 /// run comes to no end, an expectation of the case fails or has no meaning, the cloth crosses itself, or is
 /// deeper in objects by more than that error.
-PartJudged judged(const ScenePart& part, const RunObserved& scene, RunObserved toggled, const OwnError& own,
-                  const PerParticle& mass);
+JudgedPart judge_part(const ScenePart& part, const ObservedRun& scene, ObservedRun toggled,
+                      const DiscretisationError& error, const PerParticle& mass);
 
 /// What [ablation] calls the run with triangles of half the size. A case whose mesh approximates nothing, as two
 /// triangles that are all there is to show, says so under this name, and its own error is that of time alone.
 constexpr std::string_view finer_mesh = "finer mesh";
 
 /// The reason that the case declares for the part of this name, or for doing without a finer mesh, or "".
-std::string declared_for(const Case& shown, std::string_view name);
+std::string declared_reason(const Case& input_case, std::string_view name);
 
 /// Throws InputError for a declared part that the scene neither has nor lacks.
-void refuse_unknown_parts(const Case& shown, const std::vector<ScenePart>& parts);
+void reject_unknown_parts(const Case& input_case, const std::vector<ScenePart>& parts);
 
 }  // namespace foldproof

@@ -57,12 +57,12 @@ double coarseness(const TriangleMesh& mesh, const TriangleMesh& coarser) {
   return ratio;
 }
 
-double error_from_coarser(const RunObserved& run, const TriangleMesh& mesh, const RunObserved& coarser,
+double error_from_coarser(const ObservedRun& run, const TriangleMesh& mesh, const ObservedRun& coarser,
                           const TriangleMesh& coarser_mesh) {
   const double ratio = coarseness(mesh, coarser_mesh);
   if (run.x.empty() || coarser.x.empty()) return nan;
   const std::vector<PlaceOnTriangle> places = places_of(coarser.x[0], run.x[0], mesh.triangles);
-  RunObserved at_places;  // the coarser run, had its particles been displaced as the surface is
+  ObservedRun at_places;  // the coarser run, had its particles been displaced as the surface is
   for (const PerParticle3& x : run.x) {
     PerParticle3 moved(3, Eigen::Index(places.size()));
     for (size_t k = 0; k < places.size(); ++k)

@@ -18,7 +18,7 @@ double coarseness(const TriangleMesh& mesh, const TriangleMesh& coarser);
 /// compared with the point of the scene's surface that is nearest to it in the first frame, moved linearly
 /// with its triangle: cloth that starts in layers closer than its facets are flat is not for this. NaN where a
 /// run has no frames.
-double error_from_coarser(const RunObserved& run, const TriangleMesh& mesh, const RunObserved& coarser,
+double error_from_coarser(const ObservedRun& run, const TriangleMesh& mesh, const ObservedRun& coarser,
                           const TriangleMesh& coarser_mesh);
 
 }  // namespace foldproof

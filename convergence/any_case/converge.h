@@ -11,19 +11,19 @@ namespace foldproof {
 
 /// What is asked: `levels` runs, each with half the steps of the one before.
 struct LadderPlan {
-  Case shown;           // with the method and the end that are asked for
+  Case input_case;           // with the method and the end that are asked for
   int levels = 4;       // >= 3
   std::vector<Measurement> measurements;
 };
 
 /// The case's own: its [[quantity]] tables, or the usual ones.
-std::vector<Measurement> measurements_of(const Case& shown);
+std::vector<Measurement> measurements_of(const Case& input_case);
 
 /// The plan's level k, every step of the first divided by 2^k. step_ends: of level 0; not asked for k = 0.
 Level time_level(const LadderPlan& plan, int k, const std::vector<double>& step_ends);
 
 /// `ends`, with each step divided evenly into `parts`; ends themselves stay to the bit. start: of the first step [s].
-std::vector<double> divided(const std::vector<double>& ends, double start, int parts);
+std::vector<double> divide_steps(const std::vector<double>& ends, double start, int parts);
 
 /// One quantity over the ladder, read.
 struct QuantityOverLevels {

@@ -80,16 +80,16 @@ ErrorBar error_bar(const Ladder& ladder) {
   ErrorBar bar;
   for (size_t k = 0; k + 1 < d.size(); ++k) bar.orders.push_back(pair_order(d[k], d[k + 1], ladder));
   const double largest = std::max(std::abs(d.back()), std::abs(d[d.size() - 2]));
-  bar.because = why_no_order(d, bar.orders, ladder.floor);
-  if (!bar.because.empty()) {
+  bar.reason = why_no_order(d, bar.orders, ladder.floor);
+  if (!bar.reason.empty()) {
     bar.half_width = std::max(safety_outside * largest, ladder.floor);
     if (std::isnan(d.back()) || std::isnan(d[d.size() - 2])) bar.half_width = nan;
     return bar;
   }
-  bar.because = why_not_asymptotic(bar.orders, ladder.formal_order);
-  bar.reading = bar.because.empty() ? Reading::asymptotic : Reading::not_asymptotic;
+  bar.reason = why_not_asymptotic(bar.orders, ladder.formal_order);
+  bar.reading = bar.reason.empty() ? Reading::asymptotic : Reading::not_asymptotic;
   bar.order = bar.orders.back();
-  bar.safety = bar.because.empty() ? safety_in_range : safety_outside;
+  bar.safety = bar.reason.empty() ? safety_in_range : safety_outside;
   const double order = std::min(bar.order, ladder.formal_order);
   bar.half_width =
       std::max(grid_convergence_index(d.back(), ladder.ratio, order, bar.safety), ladder.floor);

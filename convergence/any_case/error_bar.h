@@ -23,7 +23,7 @@ std::string_view name_of(Reading reading);  // "asymptotic", "not asymptotic", "
 /// How far the finest value is from the limit.
 struct ErrorBar {
   Reading reading = Reading::inconclusive;
-  std::string because;          // why it is not asymptotic, or inconclusive; "" if asymptotic
+  std::string reason;          // why it is not asymptotic, or inconclusive; "" if asymptotic
   std::vector<double> orders;   // n - 2, of neighbouring differences; NaN where there is none
   double order = std::numeric_limits<double>::quiet_NaN();   // observed; NaN if inconclusive
   double limit = std::numeric_limits<double>::quiet_NaN();   // Richardson's; NaN without values, or order

@@ -26,17 +26,17 @@ std::vector<int> with_middles(const TriangleMesh& mesh, std::vector<int> chosen)
   return chosen;
 }
 
-std::vector<PrescribedParticle> led_with_middles(const Scene& scene) {
+std::vector<PrescribedParticle> prescribed_with_midpoints(const Scene& scene) {
   std::vector<const PrescribedParticle*> of_particle(size_t(scene.mesh.particles()), nullptr);
-  for (const PrescribedParticle& p : scene.led) of_particle[size_t(p.particle)] = &p;
-  std::vector<PrescribedParticle> led = scene.led;
+  for (const PrescribedParticle& p : scene.prescribed) of_particle[size_t(p.particle)] = &p;
+  std::vector<PrescribedParticle> prescribed = scene.prescribed;
   for (size_t e = 0; e < scene.mesh.edges.size(); ++e) {
     const PrescribedParticle* a = of_particle[size_t(scene.mesh.edges[e].a)];
     const PrescribedParticle* b = of_particle[size_t(scene.mesh.edges[e].b)];
     if (a && b && moves_alike(a->motion, b->motion))
-      led.push_back({scene.mesh.particles() + int(e), 0.5 * (a->start + b->start), a->motion});
+      prescribed.push_back({scene.mesh.particles() + int(e), 0.5 * (a->start + b->start), a->motion});
   }
-  return led;
+  return prescribed;
 }
 
 /// A half of an old edge has its rest angle; a new edge lies within an old triangle and has none.
@@ -85,12 +85,12 @@ Scene with_finer_mesh(const Scene& scene) {
   finer.mesh = make_triangle_mesh(quarters.of(scene.mesh.rest), quarters.triangles);
   finer.x = quarters.of(scene.x);
   finer.v = quarters.of(scene.v);
-  finer.led = led_with_middles(scene);
+  finer.prescribed = prescribed_with_midpoints(scene);
   if (scene.bending) finer.rest_angles = rest_angles_of_halves(scene, finer.mesh);
   for (StickyPatch& patch : finer.sticky) patch = finer_patch(scene.mesh, quarters.triangles, patch);
   if (scene.self_collision)
-    finer.self_collision->thickness =
-        std::min(finer.self_collision->thickness, 0.49 * least_height(finer.mesh.triangles, finer.mesh.rest));
+    finer.self_collision->thickness = std::min(finer.self_collision->thickness,
+                                               0.49 * smallest_height(finer.mesh.triangles, finer.mesh.rest));
   return finer;
 }
 

@@ -13,9 +13,9 @@ namespace foldproof {
 
 namespace {
 
-LevelRun watched_level(const Level& level, const LevelSetMakers& level_sets) {
-  const Scene& scene = level.shown.scene;
-  const Built built = build(scene, level_sets);
+LevelRun watched_level(const Level& level, const LevelSetProvider& level_sets) {
+  const Scene& scene = level.input_case.scene;
+  const BuiltScene built = build(scene, level_sets);
   Measurer measurer(scene, built, level.measurements);
   LevelRun run;
   const Observer observer{[&](const State& s) {
@@ -31,7 +31,7 @@ LevelRun watched_level(const Level& level, const LevelSetMakers& level_sets) {
       simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule, observer);
   run.values = measurer.values(result);
   run.work = operator_applications(result.work);
-  if (result.stop) run.stopped = described(*result.stop);
+  if (result.stop) run.stopped = describe(*result.stop);
   return run;
 }
 
@@ -40,7 +40,7 @@ void add(const std::string& text, ContentKey& key) {
   key.add(text.data(), text.size());
 }
 
-StoredResult packed(const LevelRun& run) {
+StoredResult pack(const LevelRun& run) {
   StoredResult kept;
   std::vector<double> positions;
   for (const PerParticle3& x : run.x) positions.insert(positions.end(), x.data(), x.data() + x.size());
@@ -59,7 +59,7 @@ std::vector<double> array_of(const StoredResult& kept, const std::string& name) 
   return found == kept.arrays.end() ? std::vector<double>() : found->second;
 }
 
-LevelRun unpacked(const StoredResult& kept) {
+LevelRun unpack(const StoredResult& kept) {
   LevelRun run;
   run.values = array_of(kept, "values");
   run.times = array_of(kept, "times");
@@ -77,7 +77,7 @@ LevelRun unpacked(const StoredResult& kept) {
 
 }  // namespace
 
-LevelRun run_level(const Level& level, const LevelSetMakers& level_sets) {
+LevelRun run_level(const Level& level, const LevelSetProvider& level_sets) {
   const auto start = std::chrono::steady_clock::now();
   LevelRun run;
   try {
@@ -91,7 +91,7 @@ LevelRun run_level(const Level& level, const LevelSetMakers& level_sets) {
 }
 
 std::string key_of(const Level& level, const std::string& program) {
-  const Scene& scene = level.shown.scene;
+  const Scene& scene = level.input_case.scene;
   const RunIdentity identity = identity_of(scene, program);
   ContentKey key;
   for (const std::string& text : {identity.case_text, identity.meshes, identity.program, scene.integrator}) add(text, key);
@@ -112,13 +112,13 @@ std::string key_of(const Level& level, const std::string& program) {
   return key.text();
 }
 
-LevelRun stored_level(const Level& level, const LevelSetMakers& level_sets, ResultStore& store,
+LevelRun stored_level(const Level& level, const LevelSetProvider& level_sets, ResultStore& store,
                       const std::string& program) {
   const std::string key = key_of(level, program);
-  if (const auto kept = store.find(key)) return unpacked(*kept);
+  if (const auto kept = store.find(key)) return unpack(*kept);
   store.start(key, level.label);
   LevelRun run = run_level(level, level_sets);
-  store.keep(key, packed(run));
+  store.keep(key, pack(run));
   return run;
 }
 
@@ -127,7 +127,7 @@ double field_difference(const LevelRun& a, const LevelRun& b, const PerParticle&
   Worst worst;
   for (size_t k = 0; k < a.x.size(); ++k) {
     const Eigen::VectorXd squares = (a.x[k] - b.x[k]).colwise().squaredNorm().transpose();
-    worst.see(std::sqrt(squares.dot(mass.matrix()) / mass.sum()));
+    worst.observe(std::sqrt(squares.dot(mass.matrix()) / mass.sum()));
   }
   return worst.value();
 }

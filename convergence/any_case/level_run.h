@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/bodies/makers.h"
+#include "reference/bodies/level_set_provider.h"
 #include "reference/dynamics/simulate.h"
 #include "verification/cases/expectations.h"
 #include "verification/files/result_store.h"
@@ -24,19 +24,19 @@ struct LevelRun {
 /// What is run: a case, at the resolution that its scene and schedule say.
 struct Level {
   std::string label;  // for progress and for the store
-  Case shown;
+  Case input_case;
   std::vector<Measurement> measurements;
   int particles;  // of these, the first ones, positions are kept
 };
 
 /// Runs the level. An error in building or running is told in `stopped`.
-LevelRun run_level(const Level& level, const LevelSetMakers& level_sets);
+LevelRun run_level(const Level& level, const LevelSetProvider& level_sets);
 
 /// The key of the level's result: of its case text, meshes, start, schedule, method and measurements, and of the program.
 std::string key_of(const Level& level, const std::string& program);
 
 /// The level's run from the store, or made now and kept there. Also keeps runs that stopped.
-LevelRun stored_level(const Level& level, const LevelSetMakers& level_sets, ResultStore& store,
+LevelRun stored_level(const Level& level, const LevelSetProvider& level_sets, ResultStore& store,
                       const std::string& program);
 
 /// The largest difference over the frames: the root mean square over particles, weighted with their masses

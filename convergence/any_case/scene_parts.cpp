@@ -64,7 +64,7 @@ void add_objects(const Scene& scene, Parts& parts) {
 }
 
 void add_constraints(const Scene& scene, Parts& parts) {
-  add_present(parts, !scene.led.empty(), "held particles", [](Scene& s) { s.led.clear(); });
+  add_present(parts, !scene.prescribed.empty(), "held particles", [](Scene& s) { s.prescribed.clear(); });
   for (size_t k = 0; k < scene.sticky.size(); ++k)
     add_present(parts, true, "sticky '" + scene.sticky[k].name + "'",
                 [k](Scene& s) { s.sticky.erase(s.sticky.begin() + std::ptrdiff_t(k)); });
@@ -76,7 +76,7 @@ void add_constraints(const Scene& scene, Parts& parts) {
               [](Scene& s) { s.self_collision.reset(); });
   add_absent(parts, !scene.self_collision, "self-collision", [](Scene& s) {
     s.self_collision = SelfCollisionSettings{};
-    s.self_collision->thickness = least_height(s.mesh.triangles, s.mesh.rest) / 4;
+    s.self_collision->thickness = smallest_height(s.mesh.triangles, s.mesh.rest) / 4;
   });
 }
 

@@ -49,8 +49,8 @@ NamedFinding as_homogenised(const RegularPattern& pattern, const Rigidity& rigid
     const double angle = radians(rigidity.degrees[i]);
     forced.push_back(oracles::cylinder_rigidity(rigidity.forced_tensor, angle));
     relaxed.push_back(oracles::cylinder_rigidity(rigidity.relaxed_tensor, angle));
-    worst.see(std::abs(rigidity.forced[i] / forced[i] - 1));
-    worst.see(std::abs(rigidity.relaxed[i] / relaxed[i] - 1));
+    worst.observe(std::abs(rigidity.forced[i] / forced[i] - 1));
+    worst.observe(std::abs(rigidity.relaxed[i] / relaxed[i] - 1));
   }
   const Verdict verdict{worst.value(), std::pow(gentle * pattern.longest_edge, 2), 0, "1",
                         "angles on a cylinder differ from those of small curvature by the square of longest "
@@ -97,7 +97,7 @@ NamedFinding size_does_not_matter(const std::vector<Refinement>& refinements) {
   std::vector<double> coarsest, finest, orders;
   for (size_t i = 0; i < refinements.size(); ++i) {
     const Refinement& refinement = refinements[i];
-    worst.see(order_deviation(refinement.error, 2, 2).value);
+    worst.observe(order_deviation(refinement.error, 2, 2).value);
     names.push_back(regular_patterns()[i].words);
     coarsest.push_back(refinement.rigidity.front());
     finest.push_back(refinement.rigidity.back());
@@ -124,7 +124,7 @@ NamedFinding refining_does_not_cure(const std::string& name, const std::string& 
                                     const std::vector<double>& values, double drift) {
   Worst difference;
   for (const double one : values) {
-    for (const double other : values) difference.see(one - other);
+    for (const double other : values) difference.observe(one - other);
   }
   const Verdict verdict{drift / difference.value(), 0.01, 0, "1",
                         "a difference of 100 times what halving the cells still changes will not vanish by "
@@ -263,7 +263,7 @@ StudyResult run_bending_rigidity(const Subject& subject, Tier tier, const Progre
                                                    "direction, and refinement does not remove that.",
                                                    all[1].relaxed, last_change(refinements[1])));
   Worst drift;
-  for (const Refinement& refinement : refinements) drift.see(last_change(refinement));
+  for (const Refinement& refinement : refinements) drift.observe(last_change(refinement));
   result.findings.push_back(refining_does_not_cure(
       "bending-rigidity.depends-on-pattern",
       "Curved along x, different patterns resist differently, and refinement does not remove that.", at_zero,

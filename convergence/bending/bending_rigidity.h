@@ -62,7 +62,7 @@ class FourSheets {
 };
 
 /// Where the cylinder takes a vertex.
-Vector3 wrapped(const Wrap& wrap, const Vector3& rest, bool second);
+Vector3 wrap_position(const Wrap& wrap, const Vector3& rest, bool second);
 
 /// D/ke with all vertices on the cylinder [1]; wrap.offset is not used.
 double forced_rigidity_of(const FourSheets& sheets, Wrap wrap, double ke);
@@ -102,9 +102,9 @@ class GentleSheet {
   const oracles::PlaneSheet& flat() const { return flat_; }
 
  private:
-  Eigen::VectorXd cylinder(double angle) const;                // heights of all vertices [m]
-  PerParticle3 raised(const Eigen::VectorXd& heights) const;   // 3 x N [m]
-  double rigidity(const Eigen::VectorXd& heights) const;       // D/ke of the counted hinges [1]
+  Eigen::VectorXd cylinder(double angle) const;                     // heights of all vertices [m]
+  PerParticle3 positions_at(const Eigen::VectorXd& heights) const;  // 3 x N [m]
+  double rigidity(const Eigen::VectorXd& heights) const;            // D/ke of the counted hinges [1]
   Eigen::VectorXd pull(const Eigen::VectorXd& heights) const;  // force across the sheet, 0 where held [N]
 
   const Subject& subject_;

@@ -33,7 +33,7 @@ std::vector<Factor> factors() {
 /// A square sheet rolled on a cylinder whose curvature k grows: x = (sin(k s)/k, y, (1 - cos(k s))/k) with s
 /// measured from the middle, and dx/dt at the given dk/dt.
 Scene rolling_sheet(int cells, DampingFactor factor) {
-  Scene scene = scene_of(make_sheet({SheetPattern::one_diagonal, width, width, cells, cells}), 0.13);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::one_diagonal, width, width, cells, cells}), 0.13);
   scene.bending = BendingMaterial{0, damping, Weighting::rest, factor, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   const double k = curvature;
@@ -48,16 +48,16 @@ Scene rolling_sheet(int cells, DampingFactor factor) {
 /// Power that the damping takes, -v.D v, per area of the sheet and squared rate of curvature [J s or N m s].
 double dissipation(const Subject& subject, int cells, DampingFactor factor) {
   const Scene scene = rolling_sheet(cells, factor);
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
   const State s{0, scene.x, scene.v};
-  const PerParticle3 force = offered(subject.damping_forces, "damping_forces")(*prepared, s, s.v);
+  const PerParticle3 force = require_offered(subject.damping_forces, "damping_forces")(*prepared, s, s.v);
   return -force.cwiseProduct(s.v).sum() / (width * width * rate * rate);
 }
 
 /// The dissipation of ever finer sheets.
 Table refined(const Subject& subject, const Factor& factor, int finest) {
   return refine({{"width of a cell", "m"}, {"dissipation per area and squared rate", "N m s"}},
-                doubled(6, finest), [&](int cells) {
+                doubling_range(6, finest), [&](int cells) {
                   return std::tuple{width / cells, dissipation(subject, cells, factor.factor)};
                 });
 }
@@ -102,7 +102,7 @@ StudyResult run_bending_scaling(const Subject& subject, Tier tier, const Progres
 
 }  // namespace
 
-Study bending_scaling() {
+Study bending_scaling_study() {
   return {"bending-scaling",
           "The printed factor |E| does not make the bending damping a property of the material; |E|^2/(|N1| "
           "+ |N2|) does.",

@@ -29,7 +29,7 @@ struct Strip {
 /// Shortened along y, and widened by Poisson's ratio 1/3 so that no force remains but along y.
 Scene scene_of_strip(const Strip& strip) {
   Scene scene =
-      scene_of(make_sheet({SheetPattern::equilateral, strip.width(), 0, columns, strip.rows}), density);
+      scene_at_rest(make_sheet({SheetPattern::equilateral, strip.width(), 0, columns, strip.rows}), density);
   scene.stretch = StretchMaterial{young, 0.01, 1};
   scene.bending = BendingMaterial{bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
@@ -37,13 +37,13 @@ Scene scene_of_strip(const Strip& strip) {
   scene.x.row(1) *= 1 - strip.strain;
   for (int i = 0; i < scene.mesh.particles(); ++i) {
     const double row = scene.mesh.rest(1, i) / strip.row();
-    if (row < 1.5 || row > strip.rows - 1.5) scene.led.push_back({i, scene.x.col(i), {}});
+    if (row < 1.5 || row > strip.rows - 1.5) scene.prescribed.push_back({i, scene.x.col(i), {}});
   }
   return scene;
 }
 
 /// A strip at rest in its plane under the compression, and what its forces say there.
-struct Compressed {
+struct CompressedStrip {
   State rest;
   double load;       // N/m
   double stiffness;  // the least eigenvalue of M^{-1/2} K_zz M^{-1/2}, K_zz across the plane [1/s^2]
@@ -51,7 +51,7 @@ struct Compressed {
 };
 
 /// Lets the motion in the plane die out: springs are damped, and nothing leaves the plane exactly.
-State settled(const Subject& subject, Prepared& prepared, const Scene& scene) {
+State settle(const Subject& subject, PreparedScene& prepared, const Scene& scene) {
   constexpr double h = 1e-4;  // s: a third of the elastic limit
   constexpr int steps = 800;
   State s = start_state(scene);
@@ -63,7 +63,7 @@ State settled(const Subject& subject, Prepared& prepared, const Scene& scene) {
 
 std::vector<int> free_particles(const Scene& scene) {
   std::vector<char> held(size_t(scene.mesh.particles()), 0);
-  for (const PrescribedParticle& p : scene.led) held[size_t(p.particle)] = 1;
+  for (const PrescribedParticle& p : scene.prescribed) held[size_t(p.particle)] = 1;
   std::vector<int> free;
   for (int i = 0; i < scene.mesh.particles(); ++i)
     if (!held[size_t(i)]) free.push_back(i);
@@ -71,7 +71,8 @@ std::vector<int> free_particles(const Scene& scene) {
 }
 
 /// M^{-1/2} K_zz M^{-1/2} over the free particles, by central differences of the subject's forces [1/s^2].
-Eigen::MatrixXd stiffness_across(const Subject& subject, Prepared& prepared, const Scene& scene, State s) {
+Eigen::MatrixXd stiffness_across(const Subject& subject, PreparedScene& prepared, const Scene& scene,
+                                 State s) {
   constexpr double shift = 1e-8;  // m
   const std::vector<int> free = free_particles(scene);
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
@@ -89,12 +90,13 @@ Eigen::MatrixXd stiffness_across(const Subject& subject, Prepared& prepared, con
   return (matrix + matrix.transpose()) / 2;
 }
 
-Compressed compressed(const Subject& subject, const Strip& strip) {
+CompressedStrip compress(const Subject& subject, const Strip& strip) {
   const Scene scene = scene_of_strip(strip);
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
-  offered(subject.step, "step");
-  Compressed result{settled(subject, *prepared, scene), 0, 0, PerParticle::Zero(scene.mesh.particles())};
-  const PerParticle3 force = offered(subject.elastic_forces, "elastic_forces")(*prepared, result.rest);
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
+  require_offered(subject.step, "step");
+  CompressedStrip result{settle(subject, *prepared, scene), 0, 0, PerParticle::Zero(scene.mesh.particles())};
+  const PerParticle3 force =
+      require_offered(subject.elastic_forces, "elastic_forces")(*prepared, result.rest);
   for (int i = 0; i < scene.mesh.particles(); ++i)  // what the lower clamp holds back
     if (scene.mesh.rest(1, i) < 1.5 * strip.row()) result.load -= force(1, i) / strip.width();
 
@@ -114,9 +116,9 @@ Compressed compressed(const Subject& subject, const Strip& strip) {
 Strip critical_strip(const Subject& subject, int rows) {
   const double euler = pi * pi * bending / (std::pow(Strip{rows, 0}.length(), 2) * young);
   Strip before{rows, 0.6 * euler}, strip{rows, 0.9 * euler};
-  double stiffness_before = compressed(subject, before).stiffness;
+  double stiffness_before = compress(subject, before).stiffness;
   for (int i = 0; i < 4; ++i) {
-    const double stiffness = compressed(subject, strip).stiffness;
+    const double stiffness = compress(subject, strip).stiffness;
     const double next =
         strip.strain - stiffness * (strip.strain - before.strain) / (stiffness - stiffness_before);
     if (!(std::abs(next - strip.strain) > 1e-9 * euler)) break;
@@ -139,8 +141,8 @@ NamedFinding load_finding(const Rigidities& found) {
   const double discrete = cylinder * std::pow(2 * pi / (finest_rows - 1), 2) / 12;
   const double over = found.over_ke.back() - cylinder, under = narrow - found.over_ke.back();
   Worst outside;
-  outside.see(over);
-  outside.see(under);
+  outside.observe(over);
+  outside.observe(under);
   return {
       "buckling.load-matches-euler",
       "A strip of equilateral triangles between clamps buckles at Euler's load 4 pi^2 D/L^2, its rigidity D "
@@ -162,9 +164,9 @@ struct Growth {
 };
 
 Growth growth_beyond(const Subject& subject, const Strip& strip) {
-  const Compressed at = compressed(subject, strip);
+  const CompressedStrip at = compress(subject, strip);
   const Scene scene = scene_of_strip(strip);
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
   Growth growth{{}, {}, std::sqrt(-at.stiffness), nan};
   State s = at.rest;
   s.x.row(2) += 1e-9 * at.mode.transpose();
@@ -203,7 +205,7 @@ StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& prog
   Strip critical{0, 0};
   for (const int rows : meshes) {
     critical = critical_strip(subject, rows);
-    const Compressed at = compressed(subject, critical);
+    const CompressedStrip at = compress(subject, critical);
     found.rows.push_back(rows);
     found.strains.push_back(critical.strain);
     found.loads.push_back(at.load);
@@ -232,7 +234,7 @@ StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& prog
 
 }  // namespace
 
-Study buckling() {
+Study buckling_study() {
   return {"buckling",
           "A compressed strip leaves its plane at Euler's load with the mesh's own rigidity, and grows "
           "beyond it at the rate of the linearised forces.",

@@ -34,7 +34,7 @@ LoadCase heavy(double gamma) {
           tip.reach};
 }
 
-LoadCase loaded(double alpha) {
+LoadCase load_case(double alpha) {
   const double load = alpha * strip_D / std::pow(strip_length, 2);
   const oracles::LoadedTip tip = oracles::tip_load(alpha);
   const std::string number = std::to_string(int(alpha));
@@ -77,11 +77,11 @@ Refined refine(const Subject& subject, const LoadCase& load, const StripPattern&
     refined.reaches.push_back(rest.reach / strip_length);
     for (Convergence* convergence : {&refined.drop, &refined.reach}) {
       convergence->steps.push_back(strip.spacing());
-      keep_worst(convergence->floor, error.off);
+      update_worst(convergence->floor, error.off);
     }
     refined.drop.errors.push_back(std::abs(error.drop));
     refined.reach.errors.push_back(std::abs(error.reach));
-    keep_worst(refined.strain, rest.strain);
+    update_worst(refined.strain, rest.strain);
   }
   return refined;
 }
@@ -129,9 +129,9 @@ NamedFinding within_one_percent(const std::vector<Refined>& all) {
     exact_drops.push_back(load.drop.value);
     exact_reaches.push_back(load.reach.value);
     strains.push_back(refined.strain);
-    worst.see(refined.drop.errors.back() / load.drop.value);
-    worst.see(refined.reach.errors.back() / load.reach.value);
-    uncertainty.see(refined.drop.floor / load.drop.value);
+    worst.observe(refined.drop.errors.back() / load.drop.value);
+    worst.observe(refined.reach.errors.back() / load.reach.value);
+    uncertainty.observe(refined.drop.floor / load.drop.value);
   }
   const Verdict verdict{worst.value(), 0.01, uncertainty.value(), "1",
                         "what a fabric laboratory's bending test resolves: a hundredth of the length"};
@@ -188,9 +188,9 @@ NamedFinding patterns_agree(const Subject& subject, const LoadCase& load) {
     names.push_back(pattern.words);
     drops.push_back(rest.drop / strip_length);
     reaches.push_back(rest.reach / strip_length);
-    spread.see(std::abs(drops.back() - drops.front()));
-    spread.see(std::abs(reaches.back() - reaches.front()));
-    uncertainty.see(rest.last_step);
+    spread.observe(std::abs(drops.back() - drops.front()));
+    spread.observe(std::abs(reaches.back() - reaches.front()));
+    uncertainty.observe(rest.last_step);
   }
   const Verdict verdict{spread.value(), 10 * stretch_share, uncertainty.value(), "1",
                         "the patterns stretch differently, by a few times the strain that the springs were "
@@ -230,7 +230,7 @@ StudyResult run_cantilever(const Subject& subject, Tier tier, const Progress& pr
     progress(double(all.size()) / 7);
   }
   for (const double alpha : {1.0, 4.0, 10.0}) {
-    all.push_back(refine(subject, loaded(alpha), strip_patterns()[1], sizes));
+    all.push_back(refine(subject, load_case(alpha), strip_patterns()[1], sizes));
     show(all.back(), tip);
     progress(double(all.size()) / 7);
   }

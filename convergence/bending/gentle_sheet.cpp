@@ -11,7 +11,7 @@ namespace {
 constexpr double ke = 0.0037;  // J
 
 Scene bending_scene(TriangleMesh mesh) {
-  Scene scene = scene_of(std::move(mesh), 0.17);
+  Scene scene = scene_at_rest(std::move(mesh), 0.17);
   scene.bending = BendingMaterial{ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   return scene;
@@ -64,7 +64,7 @@ Eigen::VectorXd GentleSheet::cylinder(double angle) const {
   return 0.5 * gentle_curvature * (along.transpose() * flat_.points).array().square().matrix().transpose();
 }
 
-PerParticle3 GentleSheet::raised(const Eigen::VectorXd& heights) const {
+PerParticle3 GentleSheet::positions_at(const Eigen::VectorXd& heights) const {
   PerParticle3 x = scene_.mesh.rest;
   x.row(2) = heights.transpose();
   return x;
@@ -72,15 +72,16 @@ PerParticle3 GentleSheet::raised(const Eigen::VectorXd& heights) const {
 
 double GentleSheet::rigidity(const Eigen::VectorXd& heights) const {
   // hinges that do not count are at rest in this shape, and store nothing
-  const PerParticle3 x = raised(heights);
+  const PerParticle3 x = positions_at(heights);
   Scene scene = scene_;
   for (size_t h = 0; h < flat_.hinges.size(); ++h)
     scene.rest_angles[h] = flat_.counted[h] ? 0 : angle_of(scene.mesh.hinges[h], x);
-  return 2 * Probe(subject_, scene).energy(still_at(x)) / (ke * area_ * gentle_curvature * gentle_curvature);
+  return 2 * Probe(subject_, scene).energy(resting_state(x)) /
+         (ke * area_ * gentle_curvature * gentle_curvature);
 }
 
 Eigen::VectorXd GentleSheet::pull(const Eigen::VectorXd& heights) const {
-  Eigen::VectorXd force = probe_.elastic(still_at(raised(heights))).row(2).transpose();
+  Eigen::VectorXd force = probe_.elastic(resting_state(positions_at(heights))).row(2).transpose();
   for (Eigen::Index i = 0; i < force.size(); ++i)
     if (flat_.held[size_t(i)]) force[i] = 0;
   return force;

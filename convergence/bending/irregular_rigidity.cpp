@@ -60,7 +60,7 @@ struct Effort {
 };
 
 TriangleMesh mesh_of(const Disorder& disorder, int cells, unsigned seed) {
-  Sheet sheet{disorder.pattern, gentle_side, gentle_side, cells, cells, disorder.jitter, shifted(seed)};
+  Sheet sheet{disorder.pattern, gentle_side, gentle_side, cells, cells, disorder.jitter, shifted_seed(seed)};
   if (disorder.pattern == SheetPattern::jittered) {
     sheet.rows = int(std::lround(cells * 2 / std::numbers::sqrt3));
     sheet.height = 0;
@@ -76,11 +76,11 @@ Sample sample_of(const Subject& subject, const Disorder& disorder, int cells, co
     for (const double degrees : directions) {
       const double angle = degrees * pi / 180, own = sheet.forced(angle);
       forced += own / directions.size();
-      sample.forced_error.see(std::abs(own / oracles::forced_cylinder_rigidity(sheet.flat(), angle) - 1));
+      sample.forced_error.observe(std::abs(own / oracles::forced_cylinder_rigidity(sheet.flat(), angle) - 1));
       if (seed > effort.settled) continue;
       const double settled = sheet.relaxed(angle);
       relaxed += settled / directions.size();
-      sample.relaxed_error.see(
+      sample.relaxed_error.observe(
           std::abs(settled / oracles::relaxed_cylinder_rigidity(sheet.flat(), angle) - 1));
     }
     sample.forced.values.push_back(forced);
@@ -106,8 +106,8 @@ NamedFinding as_the_oracle(const std::vector<Row>& rows) {
       widths.push_back(row.widths[i]);
       forced.push_back(row.samples[i].forced_error.value());
       relaxed.push_back(row.samples[i].relaxed_error.value());
-      worst.see(forced.back());
-      worst.see(relaxed.back());
+      worst.observe(forced.back());
+      worst.observe(relaxed.back());
     }
   }
   const Verdict verdict{worst.value(), gentle_bound, 0, "1",

@@ -19,7 +19,7 @@ Scene strip_scene(const StripPattern& pattern, int panels, double spacing, const
   const bool along_x = pattern.along == 0;
   const Sheet sheet{pattern.pattern, along_x ? length : width, along_x ? width : length,
                     along_x ? panels + 1 : cells_across, along_x ? cells_across : panels + 1};
-  Scene scene = scene_of(make_sheet(sheet), strip_density);
+  Scene scene = scene_at_rest(make_sheet(sheet), strip_density);
   scene.bending = BendingMaterial{strip_ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   if (load.gravity > 0) scene.gravity = Vector3(0, 0, -load.gravity);
@@ -94,7 +94,7 @@ Eigen::Matrix2Xd RowStrip::forces(const Eigen::Matrix2Xd& rows) const {
     x(pattern_.along, i) = rows(0, row_of_[size_t(i)]);
     x(2, i) = rows(1, row_of_[size_t(i)]);
   }
-  const PerParticle3 force = probe_.elastic(still_at(std::move(x)));
+  const PerParticle3 force = probe_.elastic(resting_state(std::move(x)));
   Eigen::Matrix2Xd sums = Eigen::Matrix2Xd::Zero(2, rows.cols());
   for (Eigen::Index i = 0; i < force.cols(); ++i)
     sums.col(row_of_[size_t(i)]) += Eigen::Vector2d(force(pattern_.along, i), force(2, i));
@@ -118,9 +118,9 @@ StripAtRest at_rest(const RowStrip& strip, StripAtRest start) {
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_steps; ++i) {
     const Eigen::VectorXd step =
-        oracles::solved(jacobian(strip, unknowns), -generalised_forces(strip, unknowns));
+        oracles::solve_linear(jacobian(strip, unknowns), -generalised_forces(strip, unknowns));
     Worst largest;
-    for (const double change : step) largest.see(std::abs(change));
+    for (const double change : step) largest.observe(std::abs(change));
     const double size = largest.value();
     unknowns += (size > longest ? longest / size : 1.0) * step;
     start.last_step = size;
@@ -133,7 +133,7 @@ StripAtRest at_rest(const RowStrip& strip, StripAtRest start) {
   start.reach = places(0, n + 1) - strip.spacing() / 2;
   start.drop = -places(1, n + 1);
   Worst strain;
-  for (Eigen::Index k = 0; k < n; ++k) strain.see(std::abs(unknowns[n + k] - 1));
+  for (Eigen::Index k = 0; k < n; ++k) strain.observe(std::abs(unknowns[n + k] - 1));
   start.strain = strain.value();
   return start;
 }

@@ -48,7 +48,7 @@ enum class RestAngles { own, flat };
 
 /// Smoothly squeezed, sheared and dented by up to a fifth of its size, at rest.
 Scene pulled_out_of_shape(const Shell& shell, RestAngles angles) {
-  Scene scene = scene_of(shell.mesh, density);
+  Scene scene = scene_at_rest(shell.mesh, density);
   scene.stretch = StretchMaterial{young, young * delay, 1};
   scene.bending = BendingMaterial{bending, bending / 2 * delay, Weighting::rest,
                                   DampingFactor::edge_squared_over_area, "sine"};
@@ -97,7 +97,7 @@ Return let_go(const Subject& subject, const Shell& shell, RestAngles angles) {
   for (int n = 0; n <= steps; ++n) {
     if (n > 0) s = stepper.step(s, duration / steps);
     const double distance = distance_from(shell.mesh.rest, s.x);
-    if (n >= 0.9 * steps) left.see(distance);
+    if (n >= 0.9 * steps) left.observe(distance);
     if (n % 12 != 0 && n < steps) continue;
     result.times.push_back(s.time);
     result.distances.push_back(distance);
@@ -114,7 +114,7 @@ NamedFinding comes_back(const std::vector<Shell>& shells, const std::vector<Retu
     names.push_back(shells[i].words);
     starts.push_back(returns[i].distances.front());
     ends.push_back(returns[i].left);
-    worst.see(ends.back() / starts.back());
+    worst.observe(ends.back() / starts.back());
   }
   const Verdict verdict{
       worst.value(), 1e-3, 0, "of the start",

@@ -92,7 +92,7 @@ NamedFinding is_the_beam(const Eigen::Vector2d& finest) {
   for (const int mode : {1, 2}) {
     measured.push_back(finest[mode - 1]);
     exact.push_back(exact_frequency(mode));
-    worst.see(std::abs(measured.back() / exact.back() - 1));
+    worst.observe(std::abs(measured.back() / exact.back() - 1));
   }
   const Verdict verdict{worst.value(), 0.01, 0, "1",
                         "a rigidity off by a fiftieth would show; the least difference between meshes of the "
@@ -109,12 +109,12 @@ NamedFinding is_the_beam(const Eigen::Vector2d& finest) {
 Scene free_strip() {
   constexpr int along = 9, across = 2;
   const double cell = strip_length / (along - 0.5);
-  Scene scene = scene_of(make_sheet({SheetPattern::one_diagonal, along * cell, across * cell, along, across}),
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::one_diagonal, along * cell, across * cell, along, across}),
                          strip_density);
   scene.bending = BendingMaterial{strip_ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   for (int i = 0; i < scene.mesh.particles(); ++i) {
-    if (scene.mesh.rest(0, i) < 1.5 * cell) scene.led.push_back({i, scene.mesh.rest.col(i), {}});
+    if (scene.mesh.rest(0, i) < 1.5 * cell) scene.prescribed.push_back({i, scene.mesh.rest.col(i), {}});
   }
   return scene;
 }
@@ -122,7 +122,7 @@ Scene free_strip() {
 /// The free particles of a scene.
 std::vector<int> free_particles(const Scene& scene) {
   std::vector<char> is_led(size_t(scene.mesh.particles()), 0);
-  for (const PrescribedParticle& led : scene.led) is_led[size_t(led.particle)] = 1;
+  for (const PrescribedParticle& prescribed : scene.prescribed) is_led[size_t(prescribed.particle)] = 1;
   std::vector<int> free;
   for (int i = 0; i < scene.mesh.particles(); ++i)
     if (!is_led[size_t(i)]) free.push_back(i);
@@ -138,9 +138,9 @@ Modes sheet_modes(const Probe& probe, const Scene& scene, const std::vector<int>
   for (Eigen::Index k = 0; k < n; ++k) {
     PerParticle3 x = scene.x;
     x(2, free[size_t(k)]) = disturbance;
-    const PerParticle3 ahead = probe.elastic(still_at(x));
+    const PerParticle3 ahead = probe.elastic(resting_state(x));
     x(2, free[size_t(k)]) = -disturbance;
-    const PerParticle3 behind = probe.elastic(still_at(x));
+    const PerParticle3 behind = probe.elastic(resting_state(x));
     for (Eigen::Index j = 0; j < n; ++j)
       K(j, k) = (behind(2, free[size_t(j)]) - ahead(2, free[size_t(j)])) / (2 * disturbance);
     masses[k] = all_masses[free[size_t(k)]];
@@ -170,7 +170,7 @@ double worst_difference(const Subject& subject, const Scene& scene, const std::s
     double coordinate = 0;
     for (size_t k = 0; k < free.size(); ++k)
       coordinate += masses[free[k]] * shape[Eigen::Index(k)] * s.x(2, free[k]) / scale;
-    worst.see(std::abs(coordinate - std::cos(2 * n * std::asin(omega * h / 2))));
+    worst.observe(std::abs(coordinate - std::cos(2 * n * std::asin(omega * h / 2))));
   }
   return worst.value();
 }
@@ -185,7 +185,7 @@ NamedFinding steps_keep_the_frequency(const Subject& subject) {
       names.emplace_back(integrator.name);
       modes.push_back(mode);
       differences.push_back(worst_difference(subject, scene, names.back(), mode));
-      worst.see(differences.back());
+      worst.observe(differences.back());
     }
   }
   const Verdict verdict{worst.value(), 1e-5, 0, "of the amplitude",

@@ -53,7 +53,7 @@ FourSheets::FourSheets(const Subject& subject, const RegularPattern& pattern, in
   for (const int columns : {n, 2 * n}) {
     for (const int rows : {n, 2 * n}) {
       Scene scene =
-          scene_of(make_sheet({pattern.pattern, columns * width_, rows * height_, columns, rows}), 0.17);
+          scene_at_rest(make_sheet({pattern.pattern, columns * width_, rows * height_, columns, rows}), 0.17);
       scene.bending = BendingMaterial{ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
       scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
       specimens_.push_back({scene.mesh.rest, Probe(subject, scene), columns == rows ? 1.0 : -1.0});
@@ -69,16 +69,17 @@ double FourSheets::energy_per_area(const std::function<Vector3(const Vector3&, b
       const Vector3 rest = specimen.rest.col(i);
       x.col(i) = bend(rest, pattern_.second_site(rest.x() / width_, rest.y() / height_));
     }
-    sum += specimen.sign * specimen.probe.energy(still_at(std::move(x)));
+    sum += specimen.sign * specimen.probe.energy(resting_state(std::move(x)));
   }
   return sum / area_;
 }
 
 double FourSheets::energy_per_area(const Wrap& wrap) const {
-  return energy_per_area([&wrap](const Vector3& rest, bool second) { return wrapped(wrap, rest, second); });
+  return energy_per_area(
+      [&wrap](const Vector3& rest, bool second) { return wrap_position(wrap, rest, second); });
 }
 
-Vector3 wrapped(const Wrap& wrap, const Vector3& rest, bool second) {
+Vector3 wrap_position(const Wrap& wrap, const Vector3& rest, bool second) {
   const Vector3 along(std::cos(wrap.direction), std::sin(wrap.direction), 0),
       across(-along.y(), along.x(), 0);
   const double turn = wrap.curvature * along.dot(rest), half = std::sin(turn / 2);
@@ -122,13 +123,13 @@ Eigen::Matrix3d measured_tensor(const FourSheets& sheets, double curvature, doub
 }
 
 double whole_sheet_rigidity(const Subject& subject, const RegularPattern& pattern, int n, double ke) {
-  Scene scene = scene_of(make_sheet({pattern.pattern, whole_side, whole_side, n, n}), 0.17);
+  Scene scene = scene_at_rest(make_sheet({pattern.pattern, whole_side, whole_side, n, n}), 0.17);
   scene.bending = BendingMaterial{ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   const Wrap wrap{0, 0.3, 0};
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
-    scene.x.col(i) = wrapped(wrap, scene.mesh.rest.col(i), false);
-  const double energy = Probe(subject, scene).energy(still_at(scene.x));
+    scene.x.col(i) = wrap_position(wrap, scene.mesh.rest.col(i), false);
+  const double energy = Probe(subject, scene).energy(resting_state(scene.x));
   return 2 * energy / (ke * std::pow(whole_side * wrap.curvature, 2));
 }
 

@@ -18,7 +18,7 @@ constexpr double bending = 2.3e-4;  // ke [J]
 
 /// Waves and noise: every mode of the mesh takes part, so that no solve is easy by its start.
 void set_motion(Scene& scene) {
-  std::mt19937_64 generator(shifted(914));
+  std::mt19937_64 generator(shifted_seed(914));
   const auto noise = [&generator] { return double(generator() >> 11) * 0x1p-53 - 0.5; };
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     const double a = scene.mesh.rest(0, i) / side, b = scene.mesh.rest(1, i) / side;
@@ -29,14 +29,14 @@ void set_motion(Scene& scene) {
 }
 
 Scene elastic_sheet(int cells) {
-  Scene scene = scene_of(make_sheet({SheetPattern::alternating, side, side, cells, cells}), 0.15);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::alternating, side, side, cells, cells}), 0.15);
   scene.gravity = Vector3(0, -9.81, 0);
   scene.stretch = StretchMaterial{stiffness, 0, 1};
   scene.bending = BendingMaterial{bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   set_motion(scene);
   for (int particle = cells * (cells + 1); particle < int(scene.x.cols()); ++particle)
-    scene.led.push_back({particle, scene.x.col(particle), {}});
+    scene.prescribed.push_back({particle, scene.x.col(particle), {}});
   return scene;
 }
 
@@ -73,12 +73,12 @@ Cost cost_of(const Subject& subject, const Setting& setting) {
   Work all;
   for (const char* scheme : {"A", "B"}) {
     scene.integrator = scheme;
-    const auto prepared = offered(subject.prepare, "prepare")(scene);
+    const auto prepared = require_offered(subject.prepare, "prepare")(scene);
     State s = start_state(scene);
     for (int i = 0; i < steps; ++i) {
       Work one;
-      s = offered(subject.step, "step")(*prepared, {&s, 1}, setting.step * limit, one);
-      largest.see(double(one.cg_iterations) / double(one.solves));
+      s = require_offered(subject.step, "step")(*prepared, {&s, 1}, setting.step * limit, one);
+      largest.observe(double(one.cg_iterations) / double(one.solves));
       all.cg_iterations += one.cg_iterations;
       all.solves += one.solves;
       all.unfinished_solves += one.unfinished_solves;

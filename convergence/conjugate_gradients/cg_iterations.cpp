@@ -24,7 +24,7 @@ struct Sweep {
   std::vector<Cost> costs;
 };
 
-Sweep varied(Sweep sweep, Setting from, const std::function<void(Setting&, double)>& set) {
+Sweep vary(Sweep sweep, Setting from, const std::function<void(Setting&, double)>& set) {
   for (double value : sweep.values) {
     set(from, value);
     sweep.settings.push_back(from);
@@ -37,30 +37,30 @@ std::vector<Sweep> sweeps(Tier tier, ResidualScale scale) {
   from.scale = scale;
   std::vector<double> sizes = {12, 24, 48, 99};
   if (tier == Tier::full) sizes.push_back(315);
-  std::vector<Sweep> all = {varied({"tolerance",
-                                    "Iterations against tolerance",
-                                    "tolerance",
-                                    "1",
-                                    {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12},
-                                    {},
-                                    {}},
-                                   from, [](Setting& s, double value) { s.tolerance = value; }),
-                            varied({"damping",
-                                    "Iterations against damping ratio",
-                                    "damping ratio",
-                                    "1",
-                                    {0.01, 0.1, 1, 10, 100},
-                                    {},
-                                    {}},
-                                   from, [](Setting& s, double value) { s.ratio = value; }),
-                            varied({"step",
-                                    "Iterations against step",
-                                    "step over elastic limit",
-                                    "1",
-                                    {0.1, 0.2, 0.4, 0.7, 1},
-                                    {},
-                                    {}},
-                                   from, [](Setting& s, double value) { s.step = value; })};
+  std::vector<Sweep> all = {vary({"tolerance",
+                                  "Iterations against tolerance",
+                                  "tolerance",
+                                  "1",
+                                  {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12},
+                                  {},
+                                  {}},
+                                 from, [](Setting& s, double value) { s.tolerance = value; }),
+                            vary({"damping",
+                                  "Iterations against damping ratio",
+                                  "damping ratio",
+                                  "1",
+                                  {0.01, 0.1, 1, 10, 100},
+                                  {},
+                                  {}},
+                                 from, [](Setting& s, double value) { s.ratio = value; }),
+                            vary({"step",
+                                  "Iterations against step",
+                                  "step over elastic limit",
+                                  "1",
+                                  {0.1, 0.2, 0.4, 0.7, 1},
+                                  {},
+                                  {}},
+                                 from, [](Setting& s, double value) { s.step = value; })};
   from.ratio = 3;  // with this and a small tolerance iterations are many enough that growth would show
   from.tolerance = 1e-8;
   Sweep size{"mesh", "Iterations against mesh size", "particles", "1", {}, {}, {}};
@@ -105,7 +105,7 @@ NamedFinding fewer_than_ten(const std::vector<Sweep>& measured) {
   for (const Sweep& sweep : measured) {
     for (size_t i = 0; i < sweep.costs.size(); ++i) {
       if (sweep.name != "damping" || sweep.values[i] != typical.ratio) continue;
-      worst.see(sweep.costs[i].largest);
+      worst.observe(sweep.costs[i].largest);
       scales.push_back(words_of(sweep.settings[i].scale));
       means.push_back(sweep.costs[i].mean);
       maxima.push_back(sweep.costs[i].largest);
@@ -127,7 +127,7 @@ NamedFinding within_chebyshev(const std::vector<Sweep>& measured) {
   for (const Sweep& sweep : measured)
     for (size_t i = 0; i < sweep.costs.size(); ++i)
       if (sweep.settings[i].scale == ResidualScale::initial_residual)
-        worst.see(sweep.costs[i].largest / iterations_allowed(sweep.settings[i]));
+        worst.observe(sweep.costs[i].largest / iterations_allowed(sweep.settings[i]));
   const Verdict verdict{worst.value(), 1, 0, "1",
                         "conjugate gradients cannot do worse than Chebyshev's polynomials"};
   return {"cg-iterations.stay-within-the-theoretical-bound",
@@ -239,7 +239,7 @@ StudyResult run_cg_iterations(const Subject& subject, Tier tier, const Progress&
 
 }  // namespace
 
-Study cg_iterations() {
+Study cg_iterations_study() {
   return {"cg-iterations",
           "A solve for the implicit velocity takes fewer than ten iterations of conjugate gradients in a "
           "typical setting, and no more on a finer mesh.",

@@ -79,7 +79,7 @@ struct Harm {
 Harm harm_of(const TolerantRuns& loose, const TolerantRuns& tight) {
   Worst error;
   for (size_t i = 0; i < loose.errors.errors.size(); ++i)
-    error.see(std::abs(loose.errors.errors[i] / tight.errors.errors[i] - 1));
+    error.observe(std::abs(loose.errors.errors[i] / tight.errors.errors[i] - 1));
   return {std::abs(loose.order() - tight.order()), error.value()};
 }
 
@@ -99,7 +99,7 @@ NamedFinding order_is_kept(const std::vector<SchemeRuns>& schemes, double tolera
       orders.push_back(run.order());
       exact_orders.push_back(runs.back().order());
       errors.push_back(harm.error);
-      worst.see(harm.order);
+      worst.observe(harm.order);
     }
   }
   const Verdict verdict{names.empty() ? nan : worst.value(), order_kept / 10, 0, "1",
@@ -216,7 +216,7 @@ StudyResult run_solve_tolerance(const Subject& subject, Tier tier, const Progres
 
 }  // namespace
 
-Study solve_tolerance() {
+Study solve_tolerance_study() {
   return {
       "solve-tolerance", "The default tolerance of the solves leaves the order of A, B and C alone.",
       "BMF03 section 3",

@@ -15,7 +15,7 @@ SceneObject solid_object(const std::string& name, const Solid& solid, double fri
 }
 
 Scene level_sheet(int n, double side, const Vector3& middle) {
-  Scene scene = scene_of(make_sheet({SheetPattern::alternating, side, side, n, n}), 0.2);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::alternating, side, side, n, n}), 0.2);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     const Vector3 X = scene.mesh.rest.col(i);
     scene.x.col(i) = middle + Vector3(X.x() - side / 2, 0, side / 2 - X.y());
@@ -30,8 +30,8 @@ Scene level_sheet(int n, double side, const Vector3& middle) {
 
 State run_to_end(const Subject& subject, const Scene& scene, double h, double end,
                  const std::function<void(const State&)>& watch) {
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
-  const auto& step = offered(subject.step, "step");
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
+  const auto& step = require_offered(subject.step, "step");
   State s = start_state(scene);
   Work work;
   watch(s);
@@ -57,10 +57,10 @@ double distance_at(const Scene& scene, const Vector3& p, double time) {
 Depths depths_of(const Scene& scene, const State& s) {
   Worst particles, edges, faces;
   const auto depth = [&](const Vector3& p) { return -distance_at(scene, p, s.time); };
-  for (Eigen::Index i = 0; i < s.x.cols(); ++i) particles.see(depth(s.x.col(i)));
-  for (const Edge& edge : scene.mesh.edges) edges.see(depth((s.x.col(edge.a) + s.x.col(edge.b)) / 2));
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i) particles.observe(depth(s.x.col(i)));
+  for (const Edge& edge : scene.mesh.edges) edges.observe(depth((s.x.col(edge.a) + s.x.col(edge.b)) / 2));
   for (const Triangle& t : scene.mesh.triangles)
-    faces.see(depth((s.x.col(t[0]) + s.x.col(t[1]) + s.x.col(t[2])) / 3));
+    faces.observe(depth((s.x.col(t[0]) + s.x.col(t[1]) + s.x.col(t[2])) / 3));
   return {particles.value(), edges.value(), faces.value()};
 }
 

@@ -11,7 +11,7 @@ namespace {
 /// Whole coordinates from -largest to largest, times `unit`.
 Vector3 whole_point(Random& random, int largest, int unit = 1) {
   Vector3 p;
-  for (double& c : p) c = unit * std::floor(random.in(-largest, largest + 1));
+  for (double& c : p) c = unit * std::floor(random.uniform(-largest, largest + 1));
   return p;
 }
 
@@ -25,14 +25,14 @@ CrossingQuery between(PairKind kind, const Corners4& start, const Corners4& end)
   return {kind, start, end - start};
 }
 
-bool is_heads(Random& random) { return random.in(0, 1) < 0.5; }
+bool is_heads(Random& random) { return random.uniform(0, 1) < 0.5; }
 
 /// Points of a plane, which itself moves.
 Corners4 flat_points(Random& random, const Vector3& u, const Vector3& w) {
   const Vector3 origin = whole_point(random, 5);
   Corners4 x;
   for (int k = 0; k < 4; ++k)
-    x.col(k) = origin + std::floor(random.in(-4, 5)) * u + std::floor(random.in(-4, 5)) * w;
+    x.col(k) = origin + std::floor(random.uniform(-4, 5)) * u + std::floor(random.uniform(-4, 5)) * w;
   return x;
 }
 
@@ -77,7 +77,7 @@ CrossingQuery met_at_an_end(Random& random, PairKind kind) {
 Corners4 parallel_points(Random& random, PairKind kind) {
   Corners4 x = whole_points(random, 6);
   const Vector3 d = whole_point(random, 3);
-  const auto along = [&] { return Vector3(std::floor(random.in(-3, 4)) * d); };
+  const auto along = [&] { return Vector3(std::floor(random.uniform(-3, 4)) * d); };
   if (kind == PairKind::edge_edge) {
     x.col(1) = x.col(0) + along();
     x.col(3) = x.col(2) + along();
@@ -122,7 +122,7 @@ CrossingQuery motionless(Random& random, PairKind kind) {
 CrossingQuery through_a_side(Random& random, PairKind kind) {
   CrossingQuery query = coplanar_throughout(random, kind);
   query.x.col(3) = whole_point(random, 10);
-  query.way.col(3) = whole_point(random, 10);
+  query.displacement.col(3) = whole_point(random, 10);
   return query;
 }
 
@@ -133,13 +133,13 @@ oracles::Features features_of(PairKind kind) {
                                            : oracles::Features::edge_and_edge;
 }
 
-bool truly_meets(const CrossingQuery& query) {
-  return oracles::ever_meet(features_of(query.kind), oracles::exact_motion(query.x, query.way));
+bool meets_exactly(const CrossingQuery& query) {
+  return oracles::ever_meet(features_of(query.kind), oracles::exact_motion(query.x, query.displacement));
 }
 
-bool truly_meets_before(const CrossingQuery& query, double end) {
+bool meets_exactly_before(const CrossingQuery& query, double end) {
   if (!(end > 0)) return false;
-  const oracles::Motion motion = oracles::exact_motion(query.x, query.way);
+  const oracles::Motion motion = oracles::exact_motion(query.x, query.displacement);
   return oracles::ever_meet(features_of(query.kind), oracles::until(motion, std::nextafter(end, 0)));
 }
 
@@ -162,7 +162,7 @@ const std::vector<CrossingFamily>& degenerate_families() {
 
 CrossingQuery far_away(const CrossingQuery& query) {
   const Vector3 place(1000, -998, 1001);
-  return {query.kind, (query.x / 16).colwise() + place, query.way / 16};
+  return {query.kind, (query.x / 16).colwise() + place, query.displacement / 16};
 }
 
 }  // namespace foldproof

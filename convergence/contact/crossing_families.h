@@ -13,14 +13,14 @@ namespace foldproof {
 
 struct CrossingQuery {
   PairKind kind;
-  Corners4 x, way;  // m
+  Corners4 x, displacement;  // m
 };
 
 oracles::Features features_of(PairKind kind);
 
 /// Does it meet, decided without rounding? And before the time `end` of the motion, 0 to 1?
-bool truly_meets(const CrossingQuery& query);
-bool truly_meets_before(const CrossingQuery& query, double end);
+bool meets_exactly(const CrossingQuery& query);
+bool meets_exactly_before(const CrossingQuery& query, double end);
 
 /// A kind of question.
 struct CrossingFamily {

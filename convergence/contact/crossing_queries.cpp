@@ -21,30 +21,30 @@ struct Tally {
   double seconds = 0;  // of the processor, for all answers
 };
 
-void enter(const CrossingQuery& query, const std::optional<Approach>& told, Tally& tally) {
-  const bool meets = truly_meets(query);
+void record(const CrossingQuery& query, const std::optional<Approach>& approach, Tally& tally) {
+  const bool meets = meets_exactly(query);
   ++tally.queries;
   tally.meetings += meets;
-  tally.misses += meets && !told;
-  tally.alarms += !meets && told;
-  tally.late += told && truly_meets_before(query, told->time);
+  tally.misses += meets && !approach;
+  tally.alarms += !meets && approach;
+  tally.late += approach && meets_exactly_before(query, approach->time);
 }
 
-Tally asked(const std::string& name, const std::vector<CrossingQuery>& queries) {
+Tally tally_queries(const std::string& name, const std::vector<CrossingQuery>& queries) {
   Tally tally;
   tally.name = name;
   std::vector<std::optional<Approach>> answers(queries.size());
   const double start = processor_seconds();
   for (std::size_t k = 0; k < queries.size(); ++k)
-    answers[k] = first_approach(queries[k].kind, queries[k].x, queries[k].way, kept);
+    answers[k] = first_approach(queries[k].kind, queries[k].x, queries[k].displacement, kept);
   tally.seconds = processor_seconds() - start;
-  for (std::size_t k = 0; k < queries.size(); ++k) enter(queries[k], answers[k], tally);
+  for (std::size_t k = 0; k < queries.size(); ++k) record(queries[k], answers[k], tally);
   return tally;
 }
 
 using Make = std::function<CrossingQuery(Random&, PairKind)>;
 
-std::vector<CrossingQuery> made(const Make& make, PairKind kind, int count, unsigned seed) {
+std::vector<CrossingQuery> make_queries(const Make& make, PairKind kind, int count, unsigned seed) {
   Random random(seed);
   std::vector<CrossingQuery> queries;
   for (int k = 0; k < count; ++k) queries.push_back(make(random, kind));
@@ -66,17 +66,19 @@ Tallies all_tallies(int random, int degenerate, const Progress& progress) {
   const auto& families = degenerate_families();
   const int each = degenerate / int(families.size()) + 1;
   for (const PairKind kind : kinds) {
-    all.random.push_back(asked("random, " + name_of(kind), made(random_query, kind, random, 5)));
+    all.random.push_back(
+        tally_queries("random, " + name_of(kind), make_queries(random_query, kind, random, 5)));
     progress(kind == kinds[0] ? 0.3 : 0.8);
-    all.far.push_back(asked(
-        "random far away, " + name_of(kind),
-        made([](Random& r, PairKind k) { return far_away(random_query(r, k)); }, kind, degenerate, 11)));
+    all.far.push_back(
+        tally_queries("random far away, " + name_of(kind),
+                      make_queries([](Random& r, PairKind k) { return far_away(random_query(r, k)); }, kind,
+                                   degenerate, 11)));
     for (const CrossingFamily& family : families) {
       const std::string name = family.name + ", " + name_of(kind);
-      all.degenerate.push_back(asked(name, made(family.make, kind, each, 7)));
-      all.far.push_back(
-          asked(name + ", far away",
-                made([&](Random& r, PairKind k) { return far_away(family.make(r, k)); }, kind, each, 13)));
+      all.degenerate.push_back(tally_queries(name, make_queries(family.make, kind, each, 7)));
+      all.far.push_back(tally_queries(
+          name + ", far away",
+          make_queries([&](Random& r, PairKind k) { return far_away(family.make(r, k)); }, kind, each, 13)));
     }
   }
   return all;
@@ -142,7 +144,7 @@ double reported_within(double at_start, double keep) {
 }
 
 double distance_at(const CrossingQuery& query, double time) {
-  return oracles::feature_distance(features_of(query.kind), query.x + time * query.way).value;
+  return oracles::feature_distance(features_of(query.kind), query.x + time * query.displacement).value;
 }
 
 /// Queries that do not meet, and how many of them are reported for a distance to be kept.
@@ -156,19 +158,19 @@ struct Alarms {
     keep.push_back(distance);
     reported.push_back(0);
     for (const CrossingQuery& query : apart) {
-      const auto told = first_approach(query.kind, query.x, query.way, distance);
-      if (!told) continue;
+      const auto approach = first_approach(query.kind, query.x, query.displacement, distance);
+      if (!approach) continue;
       ++reported.back();
       const double most = reported_within(distance_at(query, 0), distance);
-      reach.see(distance_at(query, told->time) / most);
+      reach.observe(distance_at(query, approach->time) / most);
     }
   }
 };
 
 Alarms alarms_of(PairKind kind, int count) {
   Alarms alarms{kind, {}, {}, {}, {}};
-  for (const CrossingQuery& query : made(random_query, kind, count, 17))
-    if (!truly_meets(query)) alarms.apart.push_back(query);
+  for (const CrossingQuery& query : make_queries(random_query, kind, count, 17))
+    if (!meets_exactly(query)) alarms.apart.push_back(query);
   for (const double keep : {1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1}) alarms.ask(keep);
   return alarms;
 }
@@ -176,15 +178,15 @@ Alarms alarms_of(PairKind kind, int count) {
 NamedFinding tells_near_ones_only(const std::vector<Alarms>& all) {
   Worst worst;
   std::vector<std::string> names;
-  std::vector<double> keep, reported, asked;
+  std::vector<double> keep, reported, tally_queries;
   for (const Alarms& alarms : all) {
     for (std::size_t k = 0; k < alarms.keep.size(); ++k) {
       names.push_back(name_of(alarms.kind));
       keep.push_back(alarms.keep[k]);
-      asked.push_back(double(alarms.apart.size()));
+      tally_queries.push_back(double(alarms.apart.size()));
       reported.push_back(alarms.reported[k]);
     }
-    worst.see(alarms.reach.value());
+    worst.observe(alarms.reach.value());
   }
   // only the 50 digits of the distance tell 1 from the roundings of the moved coordinates
   constexpr double roundings = 1e-10;
@@ -196,7 +198,7 @@ NamedFinding tells_near_ones_only(const std::vector<Alarms>& all) {
         "coordinates of 10 m are rounded by 1e-15 m, a 10^12th of the least distance to be kept"},
        {{"queries", "", names},
         {"distance to be kept", "m", keep},
-        {"apart", "1", asked},
+        {"apart", "1", tally_queries},
         {"told", "1", reported}},
        ""}};
 }
@@ -245,7 +247,7 @@ StudyResult run_crossing_queries(const Subject&, Tier tier, const Progress& prog
 
 }  // namespace
 
-Study crossing_queries() {
+Study crossing_queries_study() {
   return {"crossing-queries", "The test for crossings misses none, whatever moves how.",
           "Bridson, Fedkiw and Anderson (2002), section 6",
           "A vertex and a triangle, or two edges, move in straight lines between points of small whole "

@@ -78,7 +78,7 @@ Cloth sheet_in(const Body& body, double edge) {
   return cloth;
 }
 
-PerParticle3 projected(const Body& body, const Cloth& cloth, double eps) {
+PerParticle3 project(const Body& body, const Cloth& cloth, double eps) {
   const std::vector<Object> objects = {{body.name, RigidObject{body.solid, {}, Motion{}}, 0}};
   const FoldProjection projection{"plain", {eps, eps + 1e-3, 1}, PinchedPoints::left_alone, 1e-13, 50};
   return project_folds(objects, cloth.x, 0, projection).x;
@@ -86,19 +86,19 @@ PerParticle3 projected(const Body& body, const Cloth& cloth, double eps) {
 
 /// The least eps [m] with which no triangle meets the body, to a thousandth, and the longest edge [m] that it
 /// has then.
-struct Needed {
+struct NeededEps {
   double eps, longest_edge;
 };
 
-Needed needed(const Body& body, double edge) {
+NeededEps find_needed_eps(const Body& body, double edge) {
   const Cloth cloth = sheet_in(body, edge);
   double too_little = 0, enough = 4 * edge;
   for (int k = 0; k < 60 && enough - too_little > 5e-4 * enough; ++k) {
     const double middle = (too_little + enough) / 2;
-    const bool is_clear = body.is_clear({projected(body, cloth, middle), cloth.mesh.triangles});
+    const bool is_clear = body.is_clear({project(body, cloth, middle), cloth.mesh.triangles});
     (is_clear ? enough : too_little) = middle;
   }
-  const PerParticle3 x = projected(body, cloth, enough);
+  const PerParticle3 x = project(body, cloth, enough);
   double longest = 0;
   for (const Edge& e : cloth.mesh.edges) longest = std::max(longest, (x.col(e.a) - x.col(e.b)).norm());
   return {enough, longest};
@@ -114,7 +114,7 @@ Range range_of(const Body& body, int levels) {
   Range range;
   double edge = body.size / 6;
   for (int k = 0; k < levels; ++k, edge /= 2) {
-    const Needed found = needed(body, edge);
+    const NeededEps found = find_needed_eps(body, edge);
     range.measured.steps.push_back(found.longest_edge);
     range.measured.errors.push_back(found.eps);
     range.over_bound.push_back(found.eps / body.bound(found.longest_edge));
@@ -144,7 +144,7 @@ NamedFinding order_finding(const Body& body, const Range& range) {
 
 NamedFinding bound_finding(const Body& body, const Range& range) {
   Worst worst;
-  for (double ratio : range.over_bound) worst.see(ratio);
+  for (double ratio : range.over_bound) worst.observe(ratio);
   const std::string bound = body.order == 2 ? "L^2/(6 R)" : "L/sqrt(3)";
   return {"required-eps.derived-eps-suffices." + body.name,
           "On the " + body.words + " an eps of " + bound + " suffices, L the longest edge.",
@@ -181,7 +181,7 @@ StudyResult run_eps_needed(const Subject&, Tier tier, const Progress& progress) 
 
 }  // namespace
 
-Study eps_needed() {
+Study eps_needed_study() {
   return {"required-eps",
           "The eps that keeps triangles out of an object grows as the square of their edges over its radius, "
           "and as their edges along its own edges.",

@@ -40,7 +40,7 @@ struct Strip {
 Scene scene_of_strip(const Strip& strip) {
   const double edge = strip.length / strip.columns;
   Scene scene =
-      scene_of(make_sheet({SheetPattern::equilateral, strip.length, 0, strip.columns, strip.rows}), 0.2);
+      scene_at_rest(make_sheet({SheetPattern::equilateral, strip.length, 0, strip.columns, strip.rows}), 0.2);
   scene.stretch = strip.stretch;
   scene.bending =
       BendingMaterial{strip.ke, strip.relaxation * strip.ke, Weighting::rest, DampingFactor::edge, "sine"};
@@ -55,19 +55,20 @@ Scene scene_of_strip(const Strip& strip) {
   Motion inwards;
   inwards.velocity = Vector3(strip.nearer / strip.seconds, 0, 0);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-    if (scene.x(0, i) < 1.01 * edge) scene.led.push_back({int(i), scene.x.col(i), inwards});
-    if (scene.x(0, i) > strip.length - 1.01 * edge) scene.led.push_back({int(i), scene.x.col(i), Motion{}});
+    if (scene.x(0, i) < 1.01 * edge) scene.prescribed.push_back({int(i), scene.x.col(i), inwards});
+    if (scene.x(0, i) > strip.length - 1.01 * edge)
+      scene.prescribed.push_back({int(i), scene.x.col(i), Motion{}});
   }
   Random random(8);
   scene.x += random.vectors(scene.x.cols(), strip.noise);
-  for (PrescribedParticle& p : scene.led) p.start = scene.x.col(p.particle);
+  for (PrescribedParticle& p : scene.prescribed) p.start = scene.x.col(p.particle);
   scene.schedule.end = strip.seconds;
   scene.schedule.frame_interval = strip.seconds / 10;
   return scene;
 }
 
 /// A run's last state.
-struct Folded {
+struct FoldedSheet {
   std::string name;
   bool is_limited;
   double area_lost = nan;                        // over that at rest [1]
@@ -76,10 +77,10 @@ struct Folded {
   double steps = nan, sweeps = nan, left = nan;  // 1, 1 a step, over the rest length
 };
 
-Folded folded(const Hinges& hinges, bool is_limited) {
+FoldedSheet fold(const Hinges& hinges, bool is_limited) {
   const Scene scene = scene_of_strip(
       {length, columns, 5, {5, 0.002, 1}, hinges.stiffness, 0.005, nearer, duration, 1e-6, is_limited});
-  Folded result{hinges.name, is_limited};
+  FoldedSheet result{hinges.name, is_limited};
   const RunResult run =
       simulate(build_system(scene), integrator_named("C"), start_state(scene), scene.schedule, {});
   if (run.stop) return result;
@@ -102,7 +103,7 @@ Folded folded(const Hinges& hinges, bool is_limited) {
 constexpr double bed_length = 0.3;  // of the strip on the bed [m]
 
 /// A bed of springs under a long narrow strip, and the waves that it is pushed into.
-struct Wrinkled {
+struct WrinkledSheet {
   double bed = nan;         // K [N/m^3]
   double wavelength = nan;  // along the strip's middle, at rest [m]
   double expected = nan;    // 2 pi (D/K)^(1/4) [m]
@@ -123,9 +124,9 @@ CustomForce elastic_bed(double bed, double density, const PerParticle& mass) {
   return force;
 }
 
-Wrinkled wrinkled(double wavelength) {
+WrinkledSheet wrinkle(double wavelength) {
   constexpr double ke = 1e-4, rigidity = 2. / 9 * ke;  // of a narrow strip of equilateral triangles [J]
-  Wrinkled result;
+  WrinkledSheet result;
   result.expected = wavelength;
   result.bed = rigidity * std::pow(2 * pi / wavelength, 4);
   const Scene scene =
@@ -142,9 +143,9 @@ Wrinkled wrinkled(double wavelength) {
   return result;
 }
 
-std::vector<Column> evidence_of(const std::vector<Wrinkled>& runs) {
+std::vector<Column> evidence_of(const std::vector<WrinkledSheet>& runs) {
   std::vector<double> bed, wavelength, expected, height;
-  for (const Wrinkled& run : runs) {
+  for (const WrinkledSheet& run : runs) {
     bed.push_back(run.bed);
     wavelength.push_back(1e3 * run.wavelength);
     expected.push_back(1e3 * run.expected);
@@ -156,10 +157,10 @@ std::vector<Column> evidence_of(const std::vector<Wrinkled>& runs) {
           {"height", "mm", height}};
 }
 
-NamedFinding wavelength_finding(const std::vector<Wrinkled>& runs) {
+NamedFinding wavelength_finding(const std::vector<WrinkledSheet>& runs) {
   Worst worst;
-  for (const Wrinkled& run : runs)
-    worst.see(run.height > 1e-3 ? std::abs(run.wavelength / run.expected - 1) : nan);
+  for (const WrinkledSheet& run : runs)
+    worst.observe(run.height > 1e-3 ? std::abs(run.wavelength / run.expected - 1) : nan);
   return {
       "folding.wrinkle-length-matches-theory",
       "With 0 % compression, a strip on an elastic bed folds into waves of length 2 pi (D/K)^(1/4), those of "
@@ -170,10 +171,10 @@ NamedFinding wavelength_finding(const std::vector<Wrinkled>& runs) {
        "waves lower than a millimetre count as none"}};
 }
 
-std::vector<Column> evidence_of(const std::vector<Folded>& runs) {
+std::vector<Column> evidence_of(const std::vector<FoldedSheet>& runs) {
   std::vector<std::string> hinges, limits;
   std::vector<double> area, height, wavelength, steps, sweeps, left;
-  for (const Folded& run : runs) {
+  for (const FoldedSheet& run : runs) {
     hinges.push_back(run.name);
     limits.push_back(run.is_limited ? "0 %" : "none");
     area.push_back(run.area_lost);
@@ -188,10 +189,10 @@ std::vector<Column> evidence_of(const std::vector<Folded>& runs) {
           {"sweeps a step", "1", sweeps}, {"violation left", "1", left}};
 }
 
-NamedFinding area_finding(const std::vector<Folded>& runs) {
+NamedFinding area_finding(const std::vector<FoldedSheet>& runs) {
   Worst worst;
-  for (const Folded& run : runs)
-    if (run.is_limited) worst.see(run.area_lost);
+  for (const FoldedSheet& run : runs)
+    if (run.is_limited) worst.observe(run.area_lost);
   return {"folding.limit-preserves-area",
           "With 0 % compression, a strip between ends that are led together loses none of its area.",
           {{worst.value(), 2 * tolerance, 0, "of the area",
@@ -201,8 +202,8 @@ NamedFinding area_finding(const std::vector<Folded>& runs) {
            ""}};
 }
 
-NamedFinding lost_finding(const std::vector<Folded>& runs) {
-  const Folded& run = runs[1];  // stiff hinges, no limit
+NamedFinding lost_finding(const std::vector<FoldedSheet>& runs) {
+  const FoldedSheet& run = runs[1];  // stiff hinges, no limit
   const double least = 0.5 * nearer / length;
   return {"folding.area-is-lost-without-the-limit",
           "Without the limit, a strip whose hinges are stiff beside its springs stays in its plane and is "
@@ -231,8 +232,8 @@ double cosine_height(double arc, double shortening) {
   return (low + high) / 2;
 }
 
-NamedFinding height_finding(const std::vector<Folded>& runs) {
-  const Folded& run = runs[0];  // stiff hinges, 0 %
+NamedFinding height_finding(const std::vector<FoldedSheet>& runs) {
+  const FoldedSheet& run = runs[0];  // stiff hinges, 0 %
   const double expected = cosine_height(clear, nearer);
   return {"folding.arc-height-matches-its-length",
           "With 0 % compression, a strip of stiff hinges rises in one arc, as high as one that is as long as "
@@ -248,14 +249,14 @@ NamedFinding height_finding(const std::vector<Folded>& runs) {
 StudyResult run_folding(const Subject&, Tier tier, const Progress& progress) {
   std::vector<Hinges> all = {{"stiff", 4.1e-3}, {"soft", 1e-6}};
   if (tier == Tier::full) all.push_back({"hardly any", 1e-8});
-  std::vector<Folded> runs;
+  std::vector<FoldedSheet> runs;
   for (const Hinges& hinges : all)
     for (const bool is_limited : {true, false}) {
-      runs.push_back(folded(hinges, is_limited));
+      runs.push_back(fold(hinges, is_limited));
       progress(double(runs.size()) / double(2 * all.size()));
     }
-  std::vector<Wrinkled> waves;
-  for (const double wavelength : {0.06, 0.1}) waves.push_back(wrinkled(wavelength));
+  std::vector<WrinkledSheet> waves;
+  for (const double wavelength : {0.06, 0.1}) waves.push_back(wrinkle(wavelength));
   return {{area_finding(runs), lost_finding(runs), height_finding(runs), wavelength_finding(waves)},
           {},
           {},
@@ -265,7 +266,7 @@ StudyResult run_folding(const Subject&, Tier tier, const Progress& progress) {
 
 }  // namespace
 
-Study folding() {
+Study folding_study() {
   return {"folding",
           "Cloth that may not be compressed folds, and keeps its area; without the limit it is compressed "
           "where its hinges "

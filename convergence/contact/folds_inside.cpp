@@ -20,7 +20,7 @@ constexpr double least_crest = 1e-3;  // m
 /// A tube on a drum as wide as it, 5 mm inside, pushed together by a tenth and held at both ends; what pushes
 /// it makes it buckle to both sides of the drum's surface.
 Scene tube_on_drum() {
-  Scene scene = scene_of(make_cylinder(radius, length, around, along), 0.2);
+  Scene scene = scene_at_rest(make_cylinder(radius, length, around, along), 0.2);
   std::uint64_t state = 4;
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     const Vector3 X = scene.mesh.rest.col(i);
@@ -29,14 +29,14 @@ Scene tube_on_drum() {
     const Vector3 outward = Vector3(X.x(), 0, X.z()) / radius;
     scene.x.col(i) = Vector3(0, 0.9 * (X.y() - length / 2), 0) + (0.975 * radius + noise) * outward;
     if (X.y() < 0.5 * length / along || X.y() > length - 0.5 * length / along)
-      scene.led.push_back({int(i), scene.x.col(i), Motion{}});
+      scene.prescribed.push_back({int(i), scene.x.col(i), Motion{}});
   }
   scene.stretch = StretchMaterial{20, 0.05, 1};
   scene.bending = BendingMaterial{1e-4, 6e-6, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles = hinge_angles(scene.mesh, scene.mesh.rest);
   SceneObject drum = solid_object("drum", Capsule{radius, 0.3}, 0.2);
   std::get<RigidObject>(drum.object.body).place.rotation =
-      oracles::turn_between(Vector3::UnitZ(), Vector3::UnitY());
+      oracles::rotation_between(Vector3::UnitZ(), Vector3::UnitY());
   scene.objects.push_back(drum);
   scene.solver.tolerance = 1e-8;
   return scene;
@@ -100,10 +100,10 @@ double mean_fold(const Scene& scene, const State& s) {
 /// How deep the deepest particle is that nothing holds [m]; 0 if none is inside.
 double deepest_free(const Scene& scene, const State& s) {
   std::vector<char> held(size_t(s.x.cols()), 0);
-  for (const PrescribedParticle& particle : scene.led) held[size_t(particle.particle)] = 1;
+  for (const PrescribedParticle& particle : scene.prescribed) held[size_t(particle.particle)] = 1;
   Worst deepest;
   for (Eigen::Index i = 0; i < s.x.cols(); ++i)
-    if (!held[size_t(i)]) deepest.see(-distance_at(scene, s.x.col(i), s.time));
+    if (!held[size_t(i)]) deepest.observe(-distance_at(scene, s.x.col(i), s.time));
   return deepest.value();
 }
 
@@ -174,7 +174,7 @@ StudyResult run_folds_inside(const Subject& subject, Tier tier, const Progress& 
 
 }  // namespace
 
-Study folds_inside() {
+Study folds_inside_study() {
   return {"folding-inside-objects", "Cloth that may stay inside of an object folds more.",
           "BMF03 section 5.3",
           "A tube that starts inside of a drum is pushed together, and a sheet falls on a ball: how many "

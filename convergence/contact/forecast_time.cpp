@@ -20,7 +20,7 @@ constexpr double radius = 0.3;  // of the ball [m]
 
 /// Particles that nothing holds together, just above the object, all with the same velocity.
 Scene swarm(const SceneObject& object, const Vector3& velocity) {
-  Scene scene = scene_of(make_sheet({SheetPattern::one_diagonal, 0.3, 0.3, 9, 9}), 0.2);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::one_diagonal, 0.3, 0.3, 9, 9}), 0.2);
   scene.objects.push_back(object);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     Vector3 p(scene.mesh.rest(0, i) - 0.15, 0.4, scene.mesh.rest(1, i) - 0.15);
@@ -36,7 +36,7 @@ Scene swarm(const SceneObject& object, const Vector3& velocity) {
 SceneObject floor_object() {
   SceneObject part = solid_object("floor", HalfSpace{}, 0);
   std::get<RigidObject>(part.object.body).place.rotation =
-      oracles::turn_between(Vector3::UnitZ(), Vector3::UnitY());
+      oracles::rotation_between(Vector3::UnitZ(), Vector3::UnitY());
   return part;
 }
 
@@ -47,11 +47,11 @@ SceneObject ball_object(const Motion& motion) {
 }
 
 /// The largest |phi| right after the step in which all points were forecast to lie on the surface [m].
-double missed(const Subject& subject, const Scene& scene, double h) {
+double forecast_miss(const Subject& subject, const Scene& scene, double h) {
   const State end = run_to_end(subject, scene, h, h, [](const State&) {});
   Worst worst;
   for (Eigen::Index i = 0; i < end.x.cols(); ++i)
-    worst.see(std::abs(distance_at(scene, end.x.col(i), end.time)));
+    worst.observe(std::abs(distance_at(scene, end.x.col(i), end.time)));
   return worst.value();
 }
 
@@ -74,7 +74,7 @@ std::vector<Setting> curved_settings() {
 
 NamedFinding flat_finding(const Subject& subject) {
   const double h = 0.004;
-  const double off = missed(subject, swarm(floor_object(), {1.1, -1.7, 0.4}), h);
+  const double off = forecast_miss(subject, swarm(floor_object(), {1.1, -1.7, 0.4}), h);
   return {"forecast-time.exact-on-a-plane",
           "On a plane, a point that is forecast to lie on the surface lies on it after the step.",
           {{off / (epsilon * (0.4 + 2 * h)), 20, 0, "epsilon of the extent",
@@ -86,7 +86,7 @@ NamedFinding flat_finding(const Subject& subject) {
 /// Error against the step, for one setting.
 Convergence misses(const Subject& subject, const Setting& setting, const std::vector<double>& steps) {
   Convergence result{steps, {}, 1e-15};
-  for (const double h : steps) result.errors.push_back(missed(subject, setting.scene, h));
+  for (const double h : steps) result.errors.push_back(forecast_miss(subject, setting.scene, h));
   return result;
 }
 
@@ -121,7 +121,7 @@ Decay decay_of(const Subject& subject, double tau_over_h) {
   for (size_t n = 0; n + 1 < decay.phi.size(); ++n) {
     const bool is_treated = decay.phi[n] - tau_over_h * h * 0.9 < 0 || n > 6;
     if (is_treated && std::abs(decay.phi[n]) > 1e-6)
-      off.see(std::abs(decay.phi[n + 1] / decay.phi[n] - (1 - 1 / tau_over_h)));
+      off.observe(std::abs(decay.phi[n + 1] / decay.phi[n] - (1 - 1 / tau_over_h)));
   }
   decay.off = off.value();
   return decay;
@@ -188,7 +188,7 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
     approach.curves.push_back({fmt::format("tau = {} h", ratio), decay.times, decay.phi, nan, {}});
     ratios.push_back(ratio);
     offs.push_back(decay.off);
-    off.see(decay.off);
+    off.observe(decay.off);
   }
   result.figures.push_back(approach);
   result.findings.push_back(

@@ -56,7 +56,7 @@ NamedFinding order_finding(const Cut& cut) {
 NamedFinding bound_finding(const Cut& cut) {
   Worst worst;
   for (size_t k = 0; k < cut.lengths.size(); ++k)
-    worst.see(cut.edges[k] / (cut.lengths[k] * cut.lengths[k] / (8 * radius)));
+    worst.observe(cut.edges[k] / (cut.lengths[k] * cut.lengths[k] / (8 * radius)));
   return {"pointwise-contact.edge-penetration-is-within-the-chord",
           "No edge is deeper than a chord of its length.",
           {{worst.value(), 1.1, 0, "1",
@@ -83,7 +83,7 @@ NamedFinding spike_finding(const Subject& subject) {
   Scene scene = level_sheet(8, 0.3, {0.3 / 24, 0.03, 0.3 / 48});
   scene.objects.push_back(solid_object("pin", Capsule{0.003, 0.6}, 0));
   auto& body = std::get<RigidObject>(scene.objects[0].object.body);
-  body.place = {oracles::turn_between(Vector3::UnitZ(), Vector3::UnitY()), {0, -0.6, 0}};
+  body.place = {oracles::rotation_between(Vector3::UnitZ(), Vector3::UnitY()), {0, -0.6, 0}};
   const State end = run_to_end(subject, scene, usual_step(scene), 0.25, [](const State&) {});
   const double height = end.x.row(1).mean();
   return {"pointwise-contact.a-thin-pin-passes-through",
@@ -123,7 +123,7 @@ StudyResult run_pointwise_contact(const Subject& subject, Tier tier, const Progr
 
 }  // namespace
 
-Study pointwise_contact() {
+Study pointwise_contact_study() {
   return {"pointwise-contact", "Particles alone are enough where the cloth is dense.", "BMF03 section 5.2",
           "The response holds points out of objects. What lies between the points is held out only as far as "
           "the object is flat from one point to the next.",

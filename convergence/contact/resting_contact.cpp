@@ -40,11 +40,11 @@ Rest rest_of(const Subject& subject, const std::string& response) {
   run_to_end(subject, scene, h, end, [&](const State& s) {
     rest.times.push_back(s.time);
     rest.speeds.push_back(std::sqrt(s.v.squaredNorm() / double(s.v.cols())));
-    depth.see(depths_of(scene, s).particles);
+    depth.observe(depths_of(scene, s).particles);
     if (s.time > settled) {
       sum += (s.v - before).squaredNorm() / double(s.v.cols()) / (h * h);
       ++steps;
-      speed.see(rest.speeds.back());
+      speed.observe(rest.speeds.back());
     }
     before = s.v;
   });
@@ -54,7 +54,7 @@ Rest rest_of(const Subject& subject, const std::string& response) {
   return rest;
 }
 
-std::vector<Column> compared(const Rest& forecast, const Rest& other) {
+std::vector<Column> compare(const Rest& forecast, const Rest& other) {
   return {{"response", "", std::vector<std::string>{forecast.response, other.response}},
           {"shaking at rest", "m/s^2", std::vector<double>{forecast.jitter, other.jitter}},
           {"speed at rest", "m/s", std::vector<double>{forecast.speed, other.speed}},
@@ -69,7 +69,7 @@ NamedFinding quieter(const Rest& forecast, const Rest& push_out) {
           "pushed out.",
           {{forecast.jitter / push_out.jitter, 0.5, 0, "1",
             "two responses that are equally good differ by a hundredth here; half is far beyond that"},
-           compared(forecast, push_out),
+           compare(forecast, push_out),
            what_is_measured}};
 }
 
@@ -79,7 +79,7 @@ NamedFinding alike(const Rest& forecast, const Rest& projection) {
           "step and lose their velocity into it.",
           {{std::abs(forecast.jitter / projection.jitter - 1), 0.1, 0, "1",
             "the same shaking but for a tenth, which chance may make"},
-           compared(forecast, projection),
+           compare(forecast, projection),
            what_is_measured}};
 }
 
@@ -112,7 +112,7 @@ StudyResult run_resting_contact(const Subject& subject, Tier, const Progress& pr
 
 }  // namespace
 
-Study resting_contact() {
+Study resting_contact_study() {
   return {"resting-contact", "Forecasting lets cloth come to rest.", "BMF03 section 5.2",
           "A sheet falls on a ball and hangs over it. The paper's response corrects velocities before the "
           "cloth moves; the two it is compared with look at where the cloth has come to.",

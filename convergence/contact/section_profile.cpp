@@ -31,8 +31,8 @@ Cut cut_by(const TriangleMesh& mesh, int axis, double height) {
 
 /// The line from this edge on, through the triangle first, until it ends or closes; marks the edges that it
 /// passes.
-std::vector<int> walked(const TriangleMesh& mesh, const Cut& cut, int edge, int triangle,
-                        std::vector<bool>& passed) {
+std::vector<int> walk(const TriangleMesh& mesh, const Cut& cut, int edge, int triangle,
+                      std::vector<bool>& passed) {
   std::vector<int> line = {edge};
   passed[std::size_t(edge)] = true;
   while (triangle >= 0) {
@@ -77,7 +77,7 @@ Section section_of(const TriangleMesh& mesh, int axis) {
     for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
       const bool is_border = mesh.edges[e].triangles[1] < 0;
       if (cut.of_edge[e].t < 0 || passed[e] || (from_border && !is_border)) continue;
-      Section found = section_along(mesh, cut, walked(mesh, cut, int(e), mesh.edges[e].triangles[0], passed));
+      Section found = section_along(mesh, cut, walk(mesh, cut, int(e), mesh.edges[e].triangles[0], passed));
       if (longest.length.empty() || found.length.back() > longest.length.back()) longest = std::move(found);
     }
   }

@@ -37,7 +37,7 @@ struct Search {
   double seconds;  // processor time, the least of three searches
 };
 
-Search searched(int n, int layers) {
+Search time_search(int n, int layers) {
   const TriangleMesh mesh = stacked_sheets(n, layers, 0.0015);
   const ClothTree cloth = make_cloth_tree(mesh);
   Search search{double(mesh.particles()), double(layers), 0, std::numeric_limits<double>::infinity()};
@@ -63,9 +63,9 @@ double growth(const std::vector<Search>& of) {
 
 void add_searches(Tier tier, StudyResult& result) {
   std::vector<Search> by_size, by_layers;
-  for (const int n : {23, 45, 71, 141}) by_size.push_back(searched(n, 2));
-  if (tier == Tier::full) by_size.push_back(searched(224, 2));
-  for (const int layers : {1, 2, 4, 8}) by_layers.push_back(searched(45, layers));
+  for (const int n : {23, 45, 71, 141}) by_size.push_back(time_search(n, 2));
+  if (tier == Tier::full) by_size.push_back(time_search(224, 2));
+  for (const int layers : {1, 2, 4, 8}) by_layers.push_back(time_search(45, layers));
   result.findings.push_back(
       {"self-collision-cost.search-time-is-nearly-linear",
        "The search for close pairs takes time in proportion to the particles, but for little.",
@@ -100,9 +100,9 @@ void add_zones(const Subject& subject, StudyResult& result) {
     Work work;
     for (const unsigned seed : {31u, 32u, 33u}) {
       Scene scene = layered_scene({4, 0.003, 0.001, 3, {0.002, 0, 0.2, count, true}, seed});
-      const auto prepared = offered(subject.prepare, "prepare")(scene);
+      const auto prepared = require_offered(subject.prepare, "prepare")(scene);
       const State start = start_state(scene);
-      offered(subject.step, "step")(*prepared, std::vector<State>{start}, 0.004, work);
+      require_offered(subject.step, "step")(*prepared, std::vector<State>{start}, 0.004, work);
     }
     rounds.push_back(count);
     zones.push_back(double(work.zones));
@@ -133,7 +133,7 @@ double resting_gap(const Subject& subject, double thickness, double h) {
   Scene scene = layered_scene({2, 1.1 * thickness, 0, 0, {thickness, 8, 0.3, 8, true}, 7});
   scene.gravity = Vector3(0, 0, -9.81);
   scene.stretch = StretchMaterial{20, 0.02, 1};
-  for (int i = 0; i < 42; ++i) scene.led.push_back({i, scene.x.col(i), Motion{}});
+  for (int i = 0; i < 42; ++i) scene.prescribed.push_back({i, scene.x.col(i), Motion{}});
   Stepper stepper(subject, scene, "C");
   const State end = stepper.run(stepper.start(), h, int(std::lround(0.3 / h)));
   return end.x.rightCols(42).row(2).mean();
@@ -151,9 +151,9 @@ void add_rest(const Subject& subject, StudyResult& result) {
       gaps.push_back(gap);
       least = std::min(least, gap);
       most = std::max(most, gap);
-      outside.see(std::max(gap / thickness, 0.5 * thickness / gap));
+      outside.observe(std::max(gap / thickness, 0.5 * thickness / gap));
     }
-    spread.see((most - least) / thickness);
+    spread.observe((most - least) / thickness);
   }
   const std::vector<Column> evidence = {
       {"thickness", "m", thicknesses}, {"step", "s", steps}, {"gap at rest", "m", gaps}};
@@ -177,7 +177,7 @@ void add_rest(const Subject& subject, StudyResult& result) {
 
 }  // namespace
 
-Study self_collision_cost() {
+Study self_collision_cost_study() {
   return {"self-collision-cost",
           "Keeping cloth from itself costs time in proportion to its particles, and its thickness is what "
           "layers keep.",

@@ -26,7 +26,7 @@ double height_at(double s) {
 }
 
 /// A body with a wrinkled sheet half inside it: particle by particle at height_at over the surface.
-struct Sunk {
+struct SunkCloth {
   std::string name;
   Solid solid;
   PerParticle3 x;  // m
@@ -46,11 +46,11 @@ Vector3 placed_over(const std::string& name, double s, double w) {
           r * std::cos(a)};
 }
 
-std::vector<Sunk> sunk_sheets(const TriangleMesh& sheet) {
-  std::vector<Sunk> all = {{"half space", HalfSpace{}, {}},
-                           {"ball", Sphere{ball_radius}, {}},
-                           {"torus", Torus{ring_radius, tube_radius}, {}}};
-  for (Sunk& one : all) {
+std::vector<SunkCloth> sunk_sheets(const TriangleMesh& sheet) {
+  std::vector<SunkCloth> all = {{"half space", HalfSpace{}, {}},
+                                {"ball", Sphere{ball_radius}, {}},
+                                {"torus", Torus{ring_radius, tube_radius}, {}}};
+  for (SunkCloth& one : all) {
     one.x.resize(3, sheet.particles());
     for (int i = 0; i < sheet.particles(); ++i)
       one.x.col(i) = placed_over(one.name, sheet.rest(0, i) - width / 2, sheet.rest(1, i) - height / 2);
@@ -58,13 +58,13 @@ std::vector<Sunk> sunk_sheets(const TriangleMesh& sheet) {
   return all;
 }
 
-ProjectedCloth projected(const Sunk& cloth, const std::string& map, double reach) {
+ProjectedCloth project(const SunkCloth& cloth, const std::string& map, double reach) {
   const std::vector<Object> objects = {{cloth.name, RigidObject{cloth.solid, {}, Motion{}}, 0}};
   return project_folds(objects, cloth.x, 0, {map, {0, reach, deepest}, PinchedPoints::left_alone, 1e-12, 50});
 }
 
 /// What became of the wrinkles, of points that began inside.
-struct Kept {
+struct KeptWrinkles {
   std::vector<double> reach, deviation, share, wavelength;  // tau [m], [m], 1, [m]
 };
 
@@ -74,10 +74,11 @@ std::vector<double> middle_row(const PerParticle& phi) {
   return {phi.data() + first, phi.data() + first + columns + 1};
 }
 
-Kept kept_by(const Sunk& cloth, const std::string& map, const std::vector<double>& reaches) {
-  Kept kept;
+KeptWrinkles measure_kept(const SunkCloth& cloth, const std::string& map,
+                          const std::vector<double>& reaches) {
+  KeptWrinkles kept;
   for (const double reach : reaches) {
-    const ProjectedCloth after = projected(cloth, map, reach);
+    const ProjectedCloth after = project(cloth, map, reach);
     const auto is_inside = [&](Eigen::Index i) { return after.before[i] < 0; };
     const double was = deviation_where(after.before, is_inside), is = deviation_where(after.after, is_inside);
     kept.reach.push_back(reach);
@@ -88,7 +89,7 @@ Kept kept_by(const Sunk& cloth, const std::string& map, const std::vector<double
   return kept;
 }
 
-std::vector<Column> evidence(const std::vector<std::pair<std::string, Kept>>& all) {
+std::vector<Column> evidence(const std::vector<std::pair<std::string, KeptWrinkles>>& all) {
   std::vector<std::string> names;
   std::vector<double> reach, deviation, share, length;
   for (const auto& [name, kept] : all) {
@@ -105,12 +106,12 @@ std::vector<Column> evidence(const std::vector<std::pair<std::string, Kept>>& al
           {"dominant wavelength", "m", length}};
 }
 
-using AllKept = std::vector<std::pair<std::string, Kept>>;  // body, what is kept over tau
+using AllKept = std::vector<std::pair<std::string, KeptWrinkles>>;  // body, what is kept over tau
 
 NamedFinding plain_flattens(const AllKept& plain) {
   Worst worst;
   for (const auto& [name, kept] : plain)
-    for (double deviation : kept.deviation) worst.see(deviation);
+    for (double deviation : kept.deviation) worst.observe(deviation);
   return {
       "wrinkle-preservation.plain-flattens-wrinkles",
       "Plain projection leaves nothing of the depths that were inside: all lie on the surface.",
@@ -126,7 +127,7 @@ double least_slope(double reach) {
 NamedFinding blend_keeps_its_share(const AllKept& blend) {
   Worst worst;
   for (const auto& [name, kept] : blend)
-    for (size_t k = 0; k < kept.reach.size(); ++k) worst.see(least_slope(kept.reach[k]) / kept.share[k]);
+    for (size_t k = 0; k < kept.reach.size(); ++k) worst.observe(least_slope(kept.reach[k]) / kept.share[k]);
   return {
       "wrinkle-preservation.blend-keeps-a-share-of-depths",
       "The blend leaves at least (tau - w/2)/(tau + t^ - w/2) of the deviation of depths that were inside.",
@@ -138,21 +139,21 @@ NamedFinding blend_keeps_its_share(const AllKept& blend) {
 }
 
 /// Of the deeper half of the penetrations.
-double share_of_the_deep(const Sunk& cloth, const std::string& map, double reach) {
-  const ProjectedCloth after = projected(cloth, map, reach);
+double share_of_the_deep(const SunkCloth& cloth, const std::string& map, double reach) {
+  const ProjectedCloth after = project(cloth, map, reach);
   const auto is_deep = [&](Eigen::Index i) { return after.before[i] < -deepest / 2; };
   return deviation_where(after.after, is_deep) / deviation_where(after.before, is_deep);
 }
 
-NamedFinding power_crushes_the_deep(const std::vector<Sunk>& sheets) {
+NamedFinding power_crushes_the_deep(const std::vector<SunkCloth>& sheets) {
   Worst worst;
   std::vector<std::string> names;
   std::vector<double> power, blend;
-  for (const Sunk& cloth : sheets) {
+  for (const SunkCloth& cloth : sheets) {
     names.push_back(cloth.name);
     power.push_back(share_of_the_deep(cloth, "power", deepest / 5));
     blend.push_back(share_of_the_deep(cloth, "blend", deepest / 5));
-    worst.see(power.back() / blend.back());
+    worst.observe(power.back() / blend.back());
   }
   return {"wrinkle-preservation.power-crushes-deep-wrinkles",
           "With tau a fifth of the deepest penetration the power law leaves the deeper half of the wrinkles "
@@ -169,7 +170,7 @@ NamedFinding power_crushes_the_deep(const std::vector<Sunk>& sheets) {
 NamedFinding wavelength_stays(const std::string& map, const AllKept& kept) {
   Worst worst;
   for (const auto& [name, one] : kept)
-    for (double length : one.wavelength) worst.see(std::abs(length - wavelength));
+    for (double length : one.wavelength) worst.observe(std::abs(length - wavelength));
   return {"wrinkle-preservation.wavelength-is-preserved." + map,
           "The dominant wavelength of the depths stays that of the wrinkles.",
           {{worst.value(), wavelength * wavelength / width, 0, "m",
@@ -200,7 +201,7 @@ Curve outline() {
 }
 
 /// Figure 2 of the paper: the same wrinkles before and after, one map a figure.
-Figure before_and_after(const Sunk& cloth, const DepthMap& map, double reach) {
+Figure before_and_after(const SunkCloth& cloth, const DepthMap& map, double reach) {
   const std::string words(map.title);
   return {"profile-" + std::string(map.name),
           "Before and after: " + words,
@@ -209,7 +210,7 @@ Figure before_and_after(const Sunk& cloth, const DepthMap& map, double reach) {
           nan,
           "A strip half inside a ball, seen from the side; tau = 6 mm, eps = 0 (BMF03 figure 2).",
           {outline(), profile("before", cloth.x),
-           profile("after", projected(cloth, std::string(map.name), reach).x)}};
+           profile("after", project(cloth, std::string(map.name), reach).x)}};
 }
 
 Figure shares(const std::vector<std::pair<std::string, AllKept>>& by_map) {
@@ -271,7 +272,7 @@ Map slice_of_union() {
 
 StudyResult run_wrinkles_kept(const Subject&, Tier tier, const Progress& progress) {
   const TriangleMesh sheet = make_sheet({SheetPattern::one_diagonal, width, height, columns, rows});
-  const std::vector<Sunk> sheets = sunk_sheets(sheet);
+  const std::vector<SunkCloth> sheets = sunk_sheets(sheet);
   std::vector<double> reaches;
   for (double reach = deepest / 16; reach < 4.1 * deepest; reach *= tier == Tier::quick ? 2 : std::sqrt(2.0))
     reaches.push_back(reach);
@@ -280,8 +281,8 @@ StudyResult run_wrinkles_kept(const Subject&, Tier tier, const Progress& progres
   std::vector<std::pair<std::string, AllKept>> by_map;
   for (const DepthMap& map : depth_maps()) {
     AllKept all;
-    for (const Sunk& cloth : sheets)
-      all.emplace_back(cloth.name, kept_by(cloth, std::string(map.name), reaches));
+    for (const SunkCloth& cloth : sheets)
+      all.emplace_back(cloth.name, measure_kept(cloth, std::string(map.name), reaches));
     if (map.name != "plain") result.findings.push_back(wavelength_stays(std::string(map.name), all));
     result.figures.push_back(before_and_after(sheets[1], map, 0.006));
     by_map.emplace_back(std::string(map.name), std::move(all));
@@ -297,7 +298,7 @@ StudyResult run_wrinkles_kept(const Subject&, Tier tier, const Progress& progres
 
 }  // namespace
 
-Study wrinkles_kept() {
+Study wrinkles_kept_study() {
   return {
       "wrinkle-preservation",
       "Maps of depth keep the wrinkles that plain projection flattens; how much of them depends on tau.",

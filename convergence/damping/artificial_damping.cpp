@@ -44,11 +44,11 @@ NamedFinding as_derived(const VibratingSheet& sheet, const Response& response) {
   Column omega_h{"omega h", "1", std::vector<double>{}}, ratios{"damping ratio", "1", std::vector<double>{}},
       measured{"|factor|", "1", std::vector<double>{}},
       errors{"error of the factors", "1", std::vector<double>{}};
-  const auto see = [&](const SheetMode& mode, const Relaxation& relaxation, double h,
-                       const oracles::Factors& factors) {
+  const auto observe = [&](const SheetMode& mode, const Relaxation& relaxation, double h,
+                           const oracles::Factors& factors) {
     const oracles::Oscillator oscillator = oscillator_of(mode, relaxation);
     const double error = distance_of(factors, oracles::step_factors(name, oscillator, h));
-    worst.see(error);
+    worst.observe(error);
     std::get<0>(omega_h.values).push_back(mode.frequency * h);
     std::get<0>(ratios.values).push_back(oscillator.damping / (2 * mode.frequency));
     std::get<0>(measured.values).push_back(decay_of(factors));
@@ -56,8 +56,8 @@ NamedFinding as_derived(const VibratingSheet& sheet, const Response& response) {
   };
   for (size_t i = 0; i < sheet.modes.size(); ++i) {
     for (size_t s = 0; s < response.steps.size(); ++s)
-      see(sheet.modes[i], {}, response.steps[s], response.free[s][i]);
-    see(sheet.modes[i], response.relaxation, response.steps[1], response.damped[i]);
+      observe(sheet.modes[i], {}, response.steps[s], response.free[s][i]);
+    observe(sheet.modes[i], response.relaxation, response.steps[1], response.damped[i]);
   }
   return {"artificial-damping.mode-factors-are-as-derived." + name,
           "A step of " + name +
@@ -115,7 +115,7 @@ Curve loss_curve(const VibratingSheet& sheet, const Response& response) {
     const double loss = loss_per_period(sheet.modes[i], response.free.front()[i], h);
     const double least = 2 * pi / (sheet.modes[i].frequency * h) * 1e-9;
     points.emplace_back(sheet.modes[i].frequency * h, std::abs(loss) > least ? std::abs(loss) : nan);
-    if (std::abs(loss) > least) grows.see(-loss);
+    if (std::abs(loss) > least) grows.observe(-loss);
   }
   std::ranges::sort(points, {}, &std::pair<double, double>::first);
   Curve curve{std::string(response.method.name) + (grows.value() > 0 ? ", grows" : ""), {}, {}, nan, {}};
@@ -194,7 +194,7 @@ StudyResult run_artificial_damping(const Subject& subject, Tier tier, const Prog
 
 }  // namespace
 
-Study artificial_damping() {
+Study artificial_damping_study() {
   return {"artificial-damping",
           "Schemes A, B and C damp only what is damped; backward Euler damps every vibration, the faster the "
           "more.",

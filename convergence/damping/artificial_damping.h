@@ -37,6 +37,6 @@ struct Trend {
 Trend trend_of(const std::vector<double>& times, const std::vector<double>& values, int blocks);
 
 /// At most some 500 of the values, evenly chosen.
-std::vector<double> thinned(const std::vector<double>& values);
+std::vector<double> thin_out(const std::vector<double>& values);
 
 }  // namespace foldproof

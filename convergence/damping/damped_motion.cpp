@@ -56,7 +56,7 @@ double whole_fold(const DampedMotion& motion) {
 }  // namespace
 
 DampedMotion expanding_triangle() {
-  constexpr double edge = 0.37, density = 0.19, damping = 0.013, way = 1e-6;  // m, kg/m^2, N s/m, m
+  constexpr double edge = 0.37, density = 0.19, damping = 0.013, path_length = 1e-6;  // m, kg/m^2, N s/m, m
   const double radius = edge / std::sqrt(3.0);
   PerParticle3 rest(3, 3), outward(3, 3);
   for (int i = 0; i < 3; ++i) {
@@ -66,27 +66,27 @@ DampedMotion expanding_triangle() {
   }
   DampedMotion motion{"triangle",
                       "an expanding triangle",
-                      scene_of(make_triangle_mesh(rest, {{0, 1, 2}}), density),
+                      scene_at_rest(make_triangle_mesh(rest, {{0, 1, 2}}), density),
                       9 * damping / (density * edge * edge),
                       {},
                       {},
                       {}};
   motion.scene.stretch = StretchMaterial{0, damping, 1};
   motion.scene.solver.tolerance = 1e-13;
-  const double speed = way * motion.rate, rate = motion.rate;
+  const double speed = path_length * motion.rate, rate = motion.rate;
   motion.scene.v = speed * outward;
-  motion.exact = [rest, outward, way, speed, rate](double t) {
+  motion.exact = [rest, outward, path_length, speed, rate](double t) {
     const double left = std::exp(-rate * t);
-    return State{t, rest + way * (1 - left) * outward, speed * left * outward};
+    return State{t, rest + path_length * (1 - left) * outward, speed * left * outward};
   };
-  measure_by({rest, {outward / 3}, {way}, {speed}}, motion);
+  measure_by({rest, {outward / 3}, {path_length}, {speed}}, motion);
   return motion;
 }
 
 DampedMotion folding_hinge() {
   constexpr double length = 0.23, density = 0.31, damping = 0.0017, spring_damping = 0.011, fold = 0.8;
   const TriangleMesh mesh = make_hinge(length, -0.35);
-  DampedMotion motion{"hinge", "a folding hinge", scene_of(mesh, density), 0, {}, {}, {}};
+  DampedMotion motion{"hinge", "a folding hinge", scene_at_rest(mesh, density), 0, {}, {}, {}};
   Scene& scene = motion.scene;
   scene.stretch = StretchMaterial{0, spring_damping, 1};
   scene.bending = BendingMaterial{0, damping, Weighting::rest, DampingFactor::edge, "sine"};
@@ -105,9 +105,9 @@ DampedMotion folding_hinge() {
     const oracles::ClothState end = exact_end(scene, oracle_of(scene), t, 1e-11).state;
     return State{t, end.x, end.v};
   };
-  const double start = hinge_angles(mesh, scene.x).front(), way = whole_fold(motion);
-  motion.progress = [mesh, start, way](const State& s) -> std::vector<double> {
-    return {(hinge_angles(mesh, s.x).front() - start) / way};
+  const double start = hinge_angles(mesh, scene.x).front(), path_length = whole_fold(motion);
+  motion.progress = [mesh, start, path_length](const State& s) -> std::vector<double> {
+    return {(hinge_angles(mesh, s.x).front() - start) / path_length};
   };
   const double speed = fold * motion.rate;
   motion.speed = [speed](const State& s) -> std::vector<double> {
@@ -119,7 +119,7 @@ DampedMotion folding_hinge() {
 }
 
 DampedMotion sheet_in_plane(int cells) {
-  constexpr double relaxation = 0.011, way = 1e-9;  // s, kg^1/2 m of every mode's coordinate
+  constexpr double relaxation = 0.011, path_length = 1e-9;  // s, kg^1/2 m of every mode's coordinate
   const Scene elastic = sheet_at_rest(cells, {relaxation, 0});
   DampedMotion motion{"sheet", "a sheet", elastic, 0, {}, {}, {}};
   Scene& scene = motion.scene;
@@ -135,7 +135,7 @@ DampedMotion sheet_in_plane(int cells) {
   for (const SheetMode& mode : modes_of(elastic)) {
     if (mode.kind != ModeKind::stretch) continue;
     rates.push_back(relaxation * mode.frequency * mode.frequency);
-    const double speed = (random.in(-1, 1) < 0 ? -way : way) * rates.back();
+    const double speed = (random.uniform(-1, 1) < 0 ? -path_length : path_length) * rates.back();
     shapes.push_back(mode.shape);
     coordinates.weights.push_back(mode.shape * mass.asDiagonal());
     coordinates.speeds.push_back(speed);
@@ -185,25 +185,25 @@ DampedRun run_damped(const Subject& subject, const DampedMotion& motion, std::st
   return run;
 }
 
-double farthest(const DampedRun& run) {
+double largest_progress(const DampedRun& run) {
   Worst largest;
   for (const std::vector<double>& row : run.progress)
-    for (const double progress : row) largest.see(progress);
+    for (const double progress : row) largest.observe(progress);
   return largest.value();
 }
 
-double backward(const DampedRun& run) {
+double largest_reversal(const DampedRun& run) {
   Worst largest;
   for (size_t n = 1; n < run.progress.size(); ++n)
     for (size_t i = 0; i < run.progress[n].size(); ++i)
-      largest.see(run.progress[n - 1][i] - run.progress[n][i]);
+      largest.observe(run.progress[n - 1][i] - run.progress[n][i]);
   return largest.value();
 }
 
-double misconduct(const DampedRun& run) {
+double worst_overshoot_or_reversal(const DampedRun& run) {
   Worst worst;
-  worst.see(backward(run));
-  worst.see(farthest(run) - 1);
+  worst.observe(largest_reversal(run));
+  worst.observe(largest_progress(run) - 1);
   return worst.value();
 }
 

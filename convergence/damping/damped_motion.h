@@ -50,13 +50,13 @@ DampedRun run_damped(const Subject& subject, const DampedMotion& motion, std::st
                      int steps);
 
 /// The largest progress of any coordinate: 1 when nothing overshoots (with signs; NaN if any is).
-double farthest(const DampedRun& run);
+double largest_progress(const DampedRun& run);
 
 /// How far any coordinate has turned back at most, over its whole way; 0 when its progress never falls.
-double backward(const DampedRun& run);
+double largest_reversal(const DampedRun& run);
 
 /// Turning back or overshooting, whatever is worse, over the whole way.
-double misconduct(const DampedRun& run);
+double worst_overshoot_or_reversal(const DampedRun& run);
 
 /// What was measured of some motions at some steps, for a table of evidence.
 struct MotionRows {

@@ -34,7 +34,7 @@ Vibration make_vibration(int cells) {
   PerParticle3 x = PerParticle3::Zero(3, scene.x.cols()), v = x;
   Random random(61);
   for (const SheetMode& mode : modes) {
-    const double phase = random.in(0, 2 * pi);
+    const double phase = random.uniform(0, 2 * pi);
     x += std::cos(phase) / mode.frequency * mode.shape;
     v += std::sin(phase) * mode.shape;
   }
@@ -62,9 +62,9 @@ double evaluations(const Work& work) {
 }
 
 /// Kinetic and elastic energy [J].
-double energy_of(const Subject& subject, Prepared& prepared, const PerParticle& mass, const State& s) {
+double energy_of(const Subject& subject, PreparedScene& prepared, const PerParticle& mass, const State& s) {
   const double kinetic = s.v.colwise().squaredNorm().dot(mass.transpose()) / 2;
-  return kinetic + offered(subject.potential_energy, "potential_energy")(prepared, s);
+  return kinetic + require_offered(subject.potential_energy, "potential_energy")(prepared, s);
 }
 
 Run run_of(const Subject& subject, const Vibration& vibration, const std::string& method, double h,
@@ -72,7 +72,7 @@ Run run_of(const Subject& subject, const Vibration& vibration, const std::string
   Scene scene = vibration.scene;
   scene.integrator = method;
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
   Stepper stepper(subject, scene, method);
   std::vector<State> past = {stepper.start()};
   const double start = energy_of(subject, *prepared, mass, past.front());
@@ -158,7 +158,7 @@ NamedFinding stays_bounded(const Run& run) {
   // energy
   const double kept = 1 - part_of_limit * part_of_limit;
   Worst worst;
-  for (const double energy : run.energy) worst.see(std::abs(std::log(energy)));
+  for (const double energy : run.energy) worst.observe(std::abs(std::log(energy)));
   return {
       "artificial-damping.energy-stays-bounded." + run.method,
       "Over a hundred periods the energy of an undamped crumpling sheet stays within what the fastest mode's "
@@ -167,7 +167,7 @@ NamedFinding stays_bounded(const Run& run) {
       {{run.whole ? worst.value() : nan, -std::log(kept), 0, "|ln(energy/start)|",
         "a linear mode's energy lies between 1 and 1 - (omega h/2)^2 of a number that the scheme keeps; "
         "omega h/2 is at most a half"},
-       {{"time", "periods", thinned(run.time)}, {"energy", "of the start's", thinned(run.energy)}},
+       {{"time", "periods", thin_out(run.time)}, {"energy", "of the start's", thin_out(run.energy)}},
        ""}};
 }
 
@@ -177,7 +177,7 @@ NamedFinding dies_out(const Run& run) {
       "Backward Euler takes more than half the energy of an undamped sheet within a hundred periods at half "
       "the elastic limit.",
       {{run.energy.back(), 0.5, 0, "of the start's energy", "half of the energy is what we call significant"},
-       {{"time", "periods", thinned(run.time)}, {"energy", "of the start's", thinned(run.energy)}},
+       {{"time", "periods", thin_out(run.time)}, {"energy", "of the start's", thin_out(run.energy)}},
        ""}};
 }
 

@@ -22,11 +22,11 @@ constexpr const char* why_turning =
 
 // ---- the derived ways of schemes A, B and C (pure damping, r = (1 - a)/(1 + a) a step)
 
-struct Ways {
+struct Paths {
   double first, total;  // over the exact one [1]
 };
 
-Ways derived_ways(const std::string& scheme, double a) {
+Paths derived_paths(const std::string& scheme, double a) {
   if (scheme == "A") return {2 * a * (1 - a), 1 - a * a};
   return {2 * a / (1 + a), 1};
 }
@@ -46,9 +46,9 @@ NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& m
     const int steps = int(std::ceil(30 / -std::log(std::abs((1 - a) / (1 + a)))));
     const DampedRun run = run_damped(subject, motions.triangle, scheme, a, steps);
     const double first = run.progress[1][0], total = run.progress.back()[0];
-    const Ways derived = derived_ways(scheme, a);
-    worst.see(std::abs(first - derived.first) / (1 + a * a));
-    worst.see(std::abs(total - derived.total) / (1 + a * a));
+    const Paths derived = derived_paths(scheme, a);
+    worst.observe(std::abs(first - derived.first) / (1 + a * a));
+    worst.observe(std::abs(total - derived.total) / (1 + a * a));
     std::get<0>(as.values).push_back(a);
     std::get<0>(firsts.values).push_back(first);
     std::get<0>(totals.values).push_back(total);
@@ -67,8 +67,8 @@ NamedFinding overshoots(const Subject& subject, const DampedMotions& motions) {
   Worst worst;
   MotionRows rows("farthest in the wrong direction", "ways");
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet}) {
-    const double wrong = backward(run_damped(subject, *motion, "A", a, 12));
-    worst.see(100 / wrong);
+    const double wrong = largest_reversal(run_damped(subject, *motion, "A", a, 12));
+    worst.observe(100 / wrong);
     rows.add(*motion, a, wrong);
   }
   return {"monotonicity.overshoots.A",
@@ -87,8 +87,8 @@ NamedFinding is_stable(const Subject& subject, const DampedMotions& motions) {
     for (const double a : {1.6, 10.0, 100.0}) {
       const std::vector<double> energies = run_damped(subject, *motion, "A", a, 40).kinetic_energy;
       Worst largest;
-      for (size_t n = 1; n < energies.size(); ++n) largest.see(energies[n]);
-      worst.see(largest.value());
+      for (size_t n = 1; n < energies.size(); ++n) largest.observe(energies[n]);
+      worst.observe(largest.value());
       rows.add(*motion, a, largest.value());
     }
   return {"monotonicity.stable-under-any-damping.A",
@@ -108,8 +108,8 @@ NamedFinding is_bounded(const Subject& subject, const DampedMotions& motions, co
   MotionRows rows("farthest", "ways");
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {0.7, 4.3, 25.0, 110.0}) {
-      const double far = farthest(run_damped(subject, *motion, scheme, a, 30));
-      worst.see(far);
+      const double far = largest_progress(run_damped(subject, *motion, scheme, a, 30));
+      worst.observe(far);
       rows.add(*motion, a, far);
     }
   return {"monotonicity.overshoot-is-bounded." + scheme,
@@ -146,8 +146,8 @@ NamedFinding monotone_below_one(const Subject& subject, const DampedMotions& mot
   MotionRows rows("overshoot or way back", "ways");
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {0.2, 0.7, 0.95}) {
-      const double wrong = misconduct(run_damped(subject, *motion, scheme, a, 40));
-      worst.see(wrong);
+      const double wrong = worst_overshoot_or_reversal(run_damped(subject, *motion, scheme, a, 40));
+      worst.observe(wrong);
       rows.add(*motion, a, wrong);
     }
   return {"monotonicity.monotone-in-short-steps." + scheme,
@@ -162,8 +162,8 @@ NamedFinding is_monotone(const Subject& subject, const DampedMotions& motions, c
   MotionRows rows("overshoot or way back", "ways");
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {0.7, 4.3, 25.0, 400.0}) {
-      const double wrong = misconduct(run_damped(subject, *motion, method, a, 30));
-      worst.see(wrong);
+      const double wrong = worst_overshoot_or_reversal(run_damped(subject, *motion, method, a, 30));
+      worst.observe(wrong);
       rows.add(*motion, a, wrong);
     }
   return {
@@ -177,12 +177,12 @@ NamedFinding is_monotone(const Subject& subject, const DampedMotions& motions, c
 double farthest_by_bdf2(double a, int steps) {
   double before = 1, now = std::exp(-2 * a);
   Worst largest;
-  largest.see(1 - now);
+  largest.observe(1 - now);
   for (int n = 1; n < steps; ++n) {
     const double next = (4 * now - before) / (3 + 4 * a);
     before = now;
     now = next;
-    largest.see(1 - now);
+    largest.observe(1 - now);
   }
   return largest.value();
 }
@@ -191,9 +191,9 @@ std::vector<NamedFinding> bdf2_findings(const Subject& subject, const DampedMoti
   Worst least, error;
   MotionRows rows("farthest", "ways");
   for (const double a : {0.5, 1.6, 4.3, 10.0}) {
-    const double far = farthest(run_damped(subject, motions.triangle, "BDF2", a, 30));
-    least.see(far > 1 ? 0.01 / (far - 1) : std::numeric_limits<double>::infinity());
-    error.see(std::abs(far - farthest_by_bdf2(a, 30)));
+    const double far = largest_progress(run_damped(subject, motions.triangle, "BDF2", a, 30));
+    least.observe(far > 1 ? 0.01 / (far - 1) : std::numeric_limits<double>::infinity());
+    error.observe(std::abs(far - farthest_by_bdf2(a, 30)));
     rows.add(motions.triangle, a, far);
   }
   return {{"monotonicity.overshoots.BDF2",
@@ -233,7 +233,7 @@ StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& 
 
 }  // namespace
 
-Study monotonicity() {
+Study monotonicity_study() {
   return {"monotonicity",
           "In steps far longer than the damping's time A overshoots without bound, B and C by the way itself "
           "at most, though they swing; backward Euler alone is monotone.",

@@ -118,7 +118,7 @@ Figure sheet_figure(const Subject& subject, const DampedMotions& motions, Tier t
   for (const std::string method : {"A", "B", "C", "BDF2", "implicit-midpoint"}) {
     Curve curve{method, as, {}, nan, {}};
     for (const double a : as) {
-      const double wrong = misconduct(run_damped(subject, motions.sheet, method, a, 20));
+      const double wrong = worst_overshoot_or_reversal(run_damped(subject, motions.sheet, method, a, 20));
       curve.y.push_back(wrong > least_shown && wrong < 1e5 ? wrong : nan);
     }
     figure.curves.push_back(std::move(curve));

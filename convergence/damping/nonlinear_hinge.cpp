@@ -10,8 +10,8 @@ NamedFinding passes_the_bound(const Subject& subject, const DampedMotion& hinge)
   Worst worst;
   MotionRows rows("farthest", "ways");
   for (const double a : {10.0, 25.0}) {
-    const double far = farthest(run_damped(subject, hinge, "C", a, 30));
-    worst.see(2 / far);
+    const double far = largest_progress(run_damped(subject, hinge, "C", a, 30));
+    worst.observe(2 / far);
     rows.add(hinge, a, far);
   }
   return {
@@ -31,9 +31,9 @@ NamedFinding is_monotone_on_a_hinge(const Subject& subject, const DampedMotion& 
   MotionRows rows("overshoot or way back", "ways");
   for (const double a : {0.7, 4.3, 10.0, 25.0, 400.0}) {
     const DampedRun run = run_damped(subject, hinge, method, a, 30);
-    const double wrong =
-        run.work.unfinished_solves == 0 ? misconduct(run) : std::numeric_limits<double>::quiet_NaN();
-    worst.see(wrong);
+    const double wrong = run.work.unfinished_solves == 0 ? worst_overshoot_or_reversal(run)
+                                                         : std::numeric_limits<double>::quiet_NaN();
+    worst.observe(wrong);
     rows.add(hinge, a, wrong);
   }
   return {
@@ -50,8 +50,8 @@ NamedFinding passes_its_place(const Subject& subject, const DampedMotion& hinge)
   for (const double a : {0.7, 1.1, 1.6}) {
     const DampedRun run = run_damped(subject, hinge, "backward-euler", a, 30);
     const double far =
-        run.work.unfinished_solves == 0 ? farthest(run) : std::numeric_limits<double>::quiet_NaN();
-    worst.see(1.1 / far);
+        run.work.unfinished_solves == 0 ? largest_progress(run) : std::numeric_limits<double>::quiet_NaN();
+    worst.observe(1.1 / far);
     rows.add(hinge, a, far);
   }
   return {
@@ -77,8 +77,8 @@ Table hinge_table(const Subject& subject, const DampedMotion& hinge) {
       const DampedRun run = run_damped(subject, hinge, name, a, 30);
       std::get<1>(method.values).push_back(name);
       std::get<0>(as.values).push_back(a);
-      std::get<0>(far.values).push_back(farthest(run));
-      std::get<0>(back.values).push_back(backward(run));
+      std::get<0>(far.values).push_back(largest_progress(run));
+      std::get<0>(back.values).push_back(largest_reversal(run));
       std::get<0>(newton.values).push_back(double(run.work.newton_iterations) / double(run.speed.size() - 1));
       std::get<0>(unfinished.values).push_back(double(run.work.unfinished_solves));
     }

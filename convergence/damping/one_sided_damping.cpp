@@ -26,14 +26,15 @@ OneSided one_sided(const Subject& subject, const VibratingSheet& sheet, const In
       factors_of(subject, sheet, method, {springs ? relaxation : 0, springs ? 0 : relaxation}, h);
   Worst worst;
   for (size_t i = 0; i < sheet.modes.size(); ++i)
-    if (sheet.modes[i].kind != damped) worst.see(std::abs(loss_per_period(sheet.modes[i], factors[i], h)));
+    if (sheet.modes[i].kind != damped)
+      worst.observe(std::abs(loss_per_period(sheet.modes[i], factors[i], h)));
   return {std::string(method.name), springs ? "springs" : "hinges", worst.value()};
 }
 
 NamedFinding spares_the_undamped(const OneSided& springs, const OneSided& hinges) {
   Worst worst;
-  worst.see(springs.worst);
-  worst.see(hinges.worst);
+  worst.observe(springs.worst);
+  worst.observe(hinges.worst);
   return {"artificial-damping.undamped-parts-stay-undamped." + springs.method,
           "Scheme " + springs.method +
               " adds no damping to bending when springs alone are damped heavily, nor to stretch when hinges "
@@ -50,7 +51,7 @@ NamedFinding spares_the_undamped(const OneSided& springs, const OneSided& hinges
 /// The same measure of backward Euler, which must be large: the claim's other half.
 NamedFinding damps_everything(const OneSided& springs, const OneSided& hinges) {
   Worst worst;
-  for (const OneSided& one : {springs, hinges}) worst.see(0.1 / one.worst);
+  for (const OneSided& one : {springs, hinges}) worst.observe(0.1 / one.worst);
   return {
       "artificial-damping.damps-every-motion.backward-euler",
       "Backward Euler damps motions that nothing damps: at half the elastic limit the fastest of them loses "

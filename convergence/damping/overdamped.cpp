@@ -21,8 +21,8 @@ double velocity_misconduct(const DampedRun& run) {
   Worst worst;
   for (size_t n = 1; n < run.speed.size(); ++n)
     for (size_t i = 0; i < run.speed[n].size(); ++i) {
-      worst.see(-run.speed[n][i]);
-      worst.see(run.speed[n][i] - run.speed[n - 1][i]);
+      worst.observe(-run.speed[n][i]);
+      worst.observe(run.speed[n][i] - run.speed[n - 1][i]);
     }
   return worst.value();
 }
@@ -32,7 +32,9 @@ struct Misconduct {
   double position, velocity;
 };
 
-Misconduct misconduct_of(const DampedRun& run) { return {misconduct(run), velocity_misconduct(run)}; }
+Misconduct misconduct_of(const DampedRun& run) {
+  return {worst_overshoot_or_reversal(run), velocity_misconduct(run)};
+}
 
 struct SheetRows {
   Column a{"h c/2", "1", std::vector<double>{}}, position{"positions", "ways", std::vector<double>{}},
@@ -51,8 +53,8 @@ NamedFinding sheet_is_monotone(const Subject& subject, const DampedMotion& sheet
   SheetRows rows;
   for (const double a : {0.7, 4.3, 25.0, 400.0}) {
     const Misconduct wrong = misconduct_of(run_damped(subject, sheet, method, a, 30));
-    worst.see(wrong.position);
-    worst.see(wrong.velocity);
+    worst.observe(wrong.position);
+    worst.observe(wrong.velocity);
     rows.add(a, wrong);
   }
   return {"monotonicity.overdamped-sheet.monotone." + method,
@@ -83,8 +85,8 @@ NamedFinding sheet_is_bounded(const Subject& subject, const DampedMotion& sheet,
   SheetRows rows;
   for (const double a : {0.7, 2.2, 4.3, 7.0, 12.0}) {
     const Misconduct wrong = misconduct_of(run_damped(subject, sheet, scheme, a, 30));
-    worst.see(wrong.position);
-    worst.see(wrong.velocity);
+    worst.observe(wrong.position);
+    worst.observe(wrong.velocity);
     rows.add(a, wrong);
   }
   return {"monotonicity.overdamped-sheet.overshoot-is-bounded." + scheme,
@@ -104,7 +106,7 @@ NamedFinding sheet_swings(const Subject& subject, const DampedMotion& sheet, con
   SheetRows rows;
   for (const double a : {2.2, 4.3, 7.0, 12.0}) {
     const Misconduct wrong = misconduct_of(run_damped(subject, sheet, scheme, a, 30));
-    worst.see(0.1 / wrong.velocity);
+    worst.observe(0.1 / wrong.velocity);
     rows.add(a, wrong);
   }
   return {"monotonicity.overdamped-sheet.velocity-changes-sign." + scheme,
@@ -123,8 +125,8 @@ NamedFinding hinge_closes_monotonically(const Subject& subject, const DampedMoti
   MotionRows rows("overshoot or way back", "ways");
   for (const double a : {0.2, 0.7, 4.3, 25.0, 110.0, 400.0}) {
     const DampedRun run = run_damped(subject, hinge, method, a, 40);
-    const double wrong = run.work.unfinished_solves == 0 ? misconduct(run) : nan;
-    worst.see(wrong);
+    const double wrong = run.work.unfinished_solves == 0 ? worst_overshoot_or_reversal(run) : nan;
+    worst.observe(wrong);
     rows.add(hinge, a, wrong);
   }
   return {
@@ -195,7 +197,7 @@ Table closing_table(const Subject& subject, const DampedMotion& hinge) {
       const DampedRun run = run_damped(subject, hinge, integrator.name, a, 40);
       std::get<1>(method.values).push_back(std::string(integrator.name));
       std::get<0>(as.values).push_back(a);
-      std::get<0>(wrong.values).push_back(misconduct(run));
+      std::get<0>(wrong.values).push_back(worst_overshoot_or_reversal(run));
       std::get<0>(newton.values).push_back(double(run.work.newton_iterations) / double(run.speed.size() - 1));
       std::get<0>(unfinished.values).push_back(double(run.work.unfinished_solves));
     }

@@ -11,8 +11,8 @@ namespace foldproof {
 
 namespace {
 
-constexpr double least_ratio = 4;  // damping ratio of the slowest mode of either kind
-constexpr double way = 1e-9;       // kg^1/2 m of every mode's coordinate
+constexpr double least_ratio = 4;     // damping ratio of the slowest mode of either kind
+constexpr double path_length = 1e-9;  // kg^1/2 m of every mode's coordinate
 
 /// One mode: q = way (e^-slow t + e^-fast t)/2.
 struct Decay {
@@ -56,8 +56,8 @@ DampedMotion overdamped_sheet(int cells) {
   std::vector<ModeMotion> moving;
   Random random(97);
   for (const SheetMode& mode : modes) {
-    moving.push_back({mode.shape, mode.shape * mass.asDiagonal(), random.in(-1, 1) < 0 ? -way : way,
-                      decay_of(mode, relaxation)});
+    moving.push_back({mode.shape, mode.shape * mass.asDiagonal(),
+                      random.uniform(-1, 1) < 0 ? -path_length : path_length, decay_of(mode, relaxation)});
     motion.rate = std::max(motion.rate, oscillator_of(mode, relaxation).damping);
   }
   motion.exact = [rest, moving](double t) {
@@ -89,7 +89,7 @@ DampedMotion overdamped_sheet(int cells) {
 DampedMotion closing_hinge() {
   constexpr double length = 0.23, density = 0.31, rest_angle = 0.2, start_angle = 2.1;  // m, kg/m^2, rad, rad
   const TriangleMesh mesh = make_hinge(length, rest_angle);
-  DampedMotion motion{"closing hinge", "a hinge that closes", scene_of(mesh, density), 0, {}, {}, {}};
+  DampedMotion motion{"closing hinge", "a hinge that closes", scene_at_rest(mesh, density), 0, {}, {}, {}};
   Scene& scene = motion.scene;
   scene.x = make_hinge(length, start_angle).rest;
   scene.stretch = StretchMaterial{40, 9, 1};
@@ -97,7 +97,7 @@ DampedMotion closing_hinge() {
   scene.rest_angles = {rest_angle};
   scene.solver.tolerance = 1e-11;
 
-  for (const int held : {0, 2, 3}) scene.led.push_back({held, scene.x.col(held), {}});
+  for (const int held : {0, 2, 3}) scene.prescribed.push_back({held, scene.x.col(held), {}});
 
   // the tip, particle 1, turns about the edge: damped at the rate kd |E| |u_2|^2/m
   const double mass = lumped_masses(mesh, density)[1];

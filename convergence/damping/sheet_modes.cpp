@@ -83,7 +83,7 @@ std::vector<Kick> kicks(const std::vector<SheetMode>& modes) {
   const PerParticle3 none = PerParticle3::Zero(3, modes.front().shape.cols());
   PerParticle3 sum = none;
   Random random(47);
-  for (const SheetMode& mode : modes) sum += random.in(-1, 1) < 0 ? mode.shape : -mode.shape;
+  for (const SheetMode& mode : modes) sum += random.uniform(-1, 1) < 0 ? mode.shape : -mode.shape;
   sum *= size / sum.colwise().norm().maxCoeff();
   return {{sum, none}, {none, highest_frequency(modes) * sum}};
 }
@@ -124,7 +124,7 @@ oracles::Factors eigenvalues(const Eigen::Matrix2d& matrix) {
 }  // namespace
 
 Scene sheet_at_rest(int cells, const Relaxation& relaxation) {
-  Scene scene = scene_of(make_sheet({SheetPattern::union_jack, side, side, cells, cells}), density);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::union_jack, side, side, cells, cells}), density);
   scene.mesh.rest.topRows(2).array() -= side / 2;
   scene.x = scene.mesh.rest;
   scene.stretch = StretchMaterial{young, relaxation.stretch * young, 1};
@@ -181,15 +181,15 @@ std::vector<oracles::Factors> measured_factors(const Subject& subject, const Sce
 double distance_of(const oracles::Factors& a, const oracles::Factors& b) {
   Worst straight, crossed;
   for (size_t i = 0; i < 2; ++i) {
-    straight.see(std::abs(a[i] - b[i]));
-    crossed.see(std::abs(a[i] - b[1 - i]));
+    straight.observe(std::abs(a[i] - b[i]));
+    crossed.observe(std::abs(a[i] - b[1 - i]));
   }
   return crossed.value() < straight.value() ? crossed.value() : straight.value();
 }
 
 double decay_of(const oracles::Factors& factors) {
   Worst largest;
-  for (const std::complex<double>& factor : factors) largest.see(std::abs(factor));
+  for (const std::complex<double>& factor : factors) largest.observe(std::abs(factor));
   return largest.value();
 }
 

@@ -5,7 +5,7 @@
 
 namespace foldproof {
 
-Study artificial_damping();  // artificial-damping: what methods take from vibrations that nothing damps
-Study monotonicity();        // monotonicity: coming to rest in steps longer than the damping's time
+Study artificial_damping_study();  // artificial-damping: what methods take from vibrations that nothing damps
+Study monotonicity_study();        // monotonicity: coming to rest in steps longer than the damping's time
 
 }  // namespace foldproof

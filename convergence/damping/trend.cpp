@@ -43,7 +43,7 @@ Trend trend_of(const std::vector<double>& times, const std::vector<double>& valu
   return trend;
 }
 
-std::vector<double> thinned(const std::vector<double>& values) {
+std::vector<double> thin_out(const std::vector<double>& values) {
   const size_t stride = 1 + values.size() / 500;
   std::vector<double> kept;
   for (size_t i = 0; i < values.size(); i += stride) kept.push_back(values[i]);

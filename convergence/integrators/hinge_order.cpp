@@ -19,7 +19,7 @@ constexpr double tolerance = 1e-13;
 
 /// x1 is free, x2 oscillates in all three directions, the shared edge is held.
 Scene driven_scene() {
-  Scene scene = scene_of(make_hinge(length, rest_angle), 0.21);
+  Scene scene = scene_at_rest(make_hinge(length, rest_angle), 0.21);
   scene.gravity = Vector3(0.4, -9.1, 1.3);
   scene.stretch = StretchMaterial{17, 0.013, 1};
   scene.bending = BendingMaterial{0.011, 0.0005, Weighting::rest, DampingFactor::edge, "sine"};
@@ -31,7 +31,7 @@ Scene driven_scene() {
   swing.amplitude = Vector3(0.006, 0.011, 0.047);
   swing.frequency = 3.7;
   swing.phase = 0.6;
-  scene.led = {
+  scene.prescribed = {
       {1, scene.mesh.rest.col(1), swing}, {2, scene.mesh.rest.col(2), {}}, {3, scene.mesh.rest.col(3), {}}};
   return scene;
 }
@@ -51,7 +51,8 @@ oracles::ClothDefinition driven_oracle(const Scene& scene) {
   hinge.young = scene.stretch->stiffness;
   hinge.spring_damping = scene.stretch->damping;
   hinge.gravity = *scene.gravity;
-  for (const PrescribedParticle& led : scene.led) hinge.prescribed[led.particle] = oracle_motion(led);
+  for (const PrescribedParticle& prescribed : scene.prescribed)
+    hinge.prescribed[prescribed.particle] = oracle_motion(prescribed);
   return oracles::driven_hinge(hinge);
 }
 
@@ -87,7 +88,7 @@ StudyResult run_hinge_order(const Subject& subject, Tier tier, const Progress& p
 
 }  // namespace
 
-Study hinge_time_order() {
+Study hinge_time_order_study() {
   return {"time-order.hinge",
           "Schemes A, B and C are second order in x and v on a nonlinear, damped, driven hinge, whatever the "
           "sequence of steps.",

@@ -18,17 +18,17 @@ constexpr double disturbance = 1e-10;  // m
 
 /// A sheet held at two corners of one edge falls from the horizontal; it is symmetric about x = side/2.
 Scene falling_sheet() {
-  Scene scene = scene_of(make_sheet({SheetPattern::criss_cross, side, side, 8, 8}), 0.2);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::criss_cross, side, side, 8, 8}), 0.2);
   scene.gravity = Vector3(0, 0, -9.80665);
   scene.stretch = StretchMaterial{60, 0.02, 1};
   scene.bending = BendingMaterial{2e-4, 2e-6, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
-  scene.led = {{0, scene.x.col(0), {}}, {8, scene.x.col(8), {}}};
+  scene.prescribed = {{0, scene.x.col(0), {}}, {8, scene.x.col(8), {}}};
   return scene;
 }
 
 /// The particle that each is mirrored to, found in the rest shape.
-std::vector<int> mirrored(const Scene& scene) {
+std::vector<int> mirror_particles(const Scene& scene) {
   std::vector<int> partner(size_t(scene.mesh.particles()), -1);
   for (int i = 0; i < scene.mesh.particles(); ++i)
     for (int j = 0; j < scene.mesh.particles(); ++j)
@@ -43,7 +43,7 @@ double asymmetry(const PerParticle3& x, const std::vector<int>& partner) {
   Worst worst;
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const Vector3 other = x.col(partner.at(size_t(i)));
-    worst.see((x.col(i) - Vector3(side - other.x(), other.y(), other.z())).norm());
+    worst.observe((x.col(i) - Vector3(side - other.x(), other.y(), other.z())).norm());
   }
   return worst.value();
 }
@@ -54,15 +54,15 @@ struct History {
 };
 
 History asymmetry_of_run(const Subject& subject, const Scene& scene, double end) {
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
-  const std::vector<int> partner = mirrored(scene);
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
+  const std::vector<int> partner = mirror_particles(scene);
   State s = start_state(scene);
   const double h = 0.4 * elastic_limit(build_system(scene), s);
   const int steps = int(end / h), apart = steps / 40;
   History history;
   Work uncounted;
   for (int i = 1; i <= steps; ++i) {
-    s = offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
+    s = require_offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
     if (i % apart != 0) continue;
     history.times.push_back(i * h);
     history.steps.push_back(i);
@@ -71,11 +71,11 @@ History asymmetry_of_run(const Subject& subject, const Scene& scene, double end)
   return history;
 }
 
-Scene disturbed(Scene scene) {
-  std::mt19937_64 random(shifted(77));
+Scene disturb(Scene scene) {
+  std::mt19937_64 random(shifted_seed(77));
   for (double& component : scene.x.reshaped())
     component += disturbance * (2 * double(random() >> 11) * 0x1p-53 - 1);
-  for (PrescribedParticle& p : scene.led) p.start = scene.x.col(p.particle);
+  for (PrescribedParticle& p : scene.prescribed) p.start = scene.x.col(p.particle);
   return scene;
 }
 
@@ -93,9 +93,9 @@ NamedFinding finding_of(const History& rounding, const History& seeded) {
   Worst worst, grown;
   std::vector<double> roundings;
   for (size_t i = 0; i < rounding.times.size(); ++i) {
-    grown.see(seeded.values[i] / disturbance);
+    grown.observe(seeded.values[i] / disturbance);
     roundings.push_back(rounding.values[i] / (epsilon * side * rounding.steps[i] * grown.value()));
-    worst.see(roundings.back());
+    worst.observe(roundings.back());
   }
   return {
       "mirror-symmetry.only-rounding-breaks-it",
@@ -116,7 +116,7 @@ StudyResult run_mirror_symmetry(const Subject& subject, Tier tier, const Progres
   const Scene scene = falling_sheet();
   const History rounding = asymmetry_of_run(subject, scene, end);
   progress(0.5);
-  const History seeded = asymmetry_of_run(subject, disturbed(scene), end);
+  const History seeded = asymmetry_of_run(subject, disturb(scene), end);
   progress(1);
   StudyResult result;
   result.findings.push_back(finding_of(rounding, seeded));
@@ -133,7 +133,7 @@ StudyResult run_mirror_symmetry(const Subject& subject, Tier tier, const Progres
 
 }  // namespace
 
-Study mirror_symmetry() {
+Study mirror_symmetry_study() {
   return {"mirror-symmetry",
           "What is symmetric stays so, but for rounding that grows as the motion's own instability lets it.",
           "our test of BMF03 section 3",

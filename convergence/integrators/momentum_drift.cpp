@@ -36,7 +36,7 @@ struct Drift {
 
 /// A jittered sheet, bent and stretched, that turns, flaps and flies away.
 Scene flying_sheet(double spring_damping, double bending_damping) {
-  Scene scene = scene_of(make_sheet({SheetPattern::jittered, 0.53, 0, 5, 4, 0.23, 11}), 0.17);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::jittered, 0.53, 0, 5, 4, 0.23, 11}), 0.17);
   scene.stretch = StretchMaterial{13, spring_damping, 1};
   scene.bending = BendingMaterial{0.0017, bending_damping, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0.07);
@@ -67,11 +67,11 @@ Vector3 momentum_about_origin(const PerParticle& mass, const State& s) {
 struct Scales {
   Worst angular, weighted, linear;  // sum m |x| |v|, sqrt(sum m x^2 sum m v^2) [kg m^2/s], sum m |v| [kg m/s]
 
-  void see(const PerParticle& mass, const State& s) {
+  void observe(const PerParticle& mass, const State& s) {
     const Eigen::RowVectorXd x = s.x.colwise().norm(), v = s.v.colwise().norm();
-    angular.see(x.cwiseProduct(v).dot(mass.transpose()));
-    weighted.see(std::sqrt(x.cwiseAbs2().dot(mass.transpose()) * v.cwiseAbs2().dot(mass.transpose())));
-    linear.see(v.dot(mass.transpose()));
+    angular.observe(x.cwiseProduct(v).dot(mass.transpose()));
+    weighted.observe(std::sqrt(x.cwiseAbs2().dot(mass.transpose()) * v.cwiseAbs2().dot(mass.transpose())));
+    linear.observe(v.dot(mass.transpose()));
   }
 };
 
@@ -82,7 +82,7 @@ void add_level(Stepper& stepper, const Integrator& method, int count, Drift& dri
   History history(start, method.history);
   Scales scales;
   for (int i = 0; i < count; ++i) {
-    scales.see(mass, history.now());
+    scales.observe(mass, history.now());
     const std::span<const State> past = history.past();
     history.advance(stepper.step_after({past.begin(), past.end()}, end / count));
   }
@@ -106,7 +106,7 @@ Drift drift_of(const Subject& subject, const Scene& scene, const Integrator& met
 
 NamedFinding kept(const Drift& drift, const std::string& material) {
   Worst worst;
-  for (double roundings : drift.roundings) worst.see(roundings);
+  for (double roundings : drift.roundings) worst.observe(roundings);
   Finding finding{
       {worst.value(), 16, 0, "epsilon, a step, of sum m|x||v|",
        "a step rounds x and v of each particle once, and the dozen or so forces on it, each at most about "
@@ -150,7 +150,7 @@ NamedFinding falls_with_the_order(const Drift& drift) {
 NamedFinding drift_is_real(const Drift& drift) {
   constexpr double rounding_bound = 16;
   Worst worst;
-  for (double roundings : drift.roundings) worst.see(rounding_bound / roundings);
+  for (double roundings : drift.roundings) worst.observe(rounding_bound / roundings);
   Finding finding{
       {worst.value(), 0.01, 0, "of the drift", "a hundred times what counts as kept cannot be rounding"},
       {{"step", "s", drift.steps}, {"drift in roundings", "1", drift.roundings}},
@@ -172,7 +172,7 @@ NamedFinding linear_is_kept(const Drifts& drifts) {
       roundings{"drift in roundings", "1", std::vector<double>{}};
   for (const Drift* drift : {&drifts.undamped, &drifts.damped})
     for (size_t k = 0; k < drift->steps.size(); ++k) {
-      worst.see(drift->linear[k]);
+      worst.observe(drift->linear[k]);
       std::get<0>(steps.values).push_back(drift->steps[k]);
       std::get<0>(roundings.values).push_back(drift->linear[k]);
     }
@@ -189,7 +189,7 @@ NamedFinding linear_is_kept(const Drifts& drifts) {
 
 NamedFinding kept_to_tolerance(const Drift& drift, const std::string& material) {
   Worst worst;
-  for (const double part : drift.of_tolerance) worst.see(part);
+  for (const double part : drift.of_tolerance) worst.observe(part);
   return {
       "momentum-drift." + material + "-angular-is-conserved." + drift.scheme,
       "The implicit midpoint rule keeps the angular momentum of a free, " + material +
@@ -281,7 +281,7 @@ StudyResult run_momentum_drift(const Subject& subject, Tier tier, const Progress
 
 }  // namespace
 
-Study momentum_drift() {
+Study momentum_drift_study() {
   return {"momentum-drift",
           "Schemes A and B keep the angular momentum of a free sheet to rounding, damped or not; C keeps it "
           "undamped, and lets it drift by second order in the step when damped. The implicit midpoint rule "

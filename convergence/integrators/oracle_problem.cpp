@@ -60,15 +60,15 @@ void set_material(const Scene& scene, oracles::ClothMaterial& material) {
 
 }  // namespace
 
-oracles::Motion oracle_motion(const PrescribedParticle& led) {
-  const Motion& motion = led.motion;
+oracles::Motion oracle_motion(const PrescribedParticle& prescribed) {
+  const Motion& motion = prescribed.motion;
   if (motion.from != 0 || std::isfinite(motion.until))
-    throw InputError("oracle_motion: particle " + std::to_string(led.particle) +
+    throw InputError("oracle_motion: particle " + std::to_string(prescribed.particle) +
                      " starts or stops on the way");
   if (!motion.velocity.isZero(0) || !motion.angular_velocity.isZero(0))
-    throw InputError("oracle_motion: particle " + std::to_string(led.particle) +
+    throw InputError("oracle_motion: particle " + std::to_string(prescribed.particle) +
                      " turns or drifts; only oscillation is known");
-  const Vector3 centre = led.start - std::sin(motion.phase) * motion.amplitude;
+  const Vector3 centre = prescribed.start - std::sin(motion.phase) * motion.amplitude;
   return oracles::harmonic_motion({centre, motion.amplitude, motion.frequency, motion.phase});
 }
 
@@ -81,7 +81,8 @@ oracles::ClothDefinition oracle_of(const Scene& scene) {
       cloth.hinges.push_back(
           oracles::hinge_at_rest(scene.mesh.hinges[h].particles, scene.mesh.rest, scene.rest_angles[h]));
   if (scene.gravity) cloth.gravity = *scene.gravity;
-  for (const PrescribedParticle& led : scene.led) cloth.prescribed[led.particle] = oracle_motion(led);
+  for (const PrescribedParticle& prescribed : scene.prescribed)
+    cloth.prescribed[prescribed.particle] = oracle_motion(prescribed);
   return cloth;
 }
 

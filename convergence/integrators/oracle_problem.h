@@ -22,6 +22,6 @@ struct ExactEnd {
 ExactEnd exact_end(const Scene& scene, const oracles::ClothDefinition& cloth, double end, double tolerance);
 
 /// The motion of one led particle. InputError for a motion that turns or drifts.
-oracles::Motion oracle_motion(const PrescribedParticle& led);
+oracles::Motion oracle_motion(const PrescribedParticle& prescribed);
 
 }  // namespace foldproof

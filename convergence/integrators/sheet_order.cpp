@@ -27,7 +27,7 @@ void set_waves(Scene& scene) {
 
 /// Its two upper corners are led to and fro.
 Scene hanging_scene() {
-  Scene scene = scene_of(make_sheet({SheetPattern::alternating, width, height, cells, cells}), 0.19);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::alternating, width, height, cells, cells}), 0.19);
   scene.gravity = Vector3(0, -9.81, 0);
   scene.stretch = StretchMaterial{11, 0.035, 1};
   scene.bending = BendingMaterial{3e-4, 3e-5, Weighting::rest, DampingFactor::edge, "sine"};
@@ -40,7 +40,7 @@ Scene hanging_scene() {
   swing.phase = 0.8;
   const int top = cells * (cells + 1);
   for (int particle : {top, top + cells}) {
-    scene.led.push_back({particle, scene.x.col(particle), swing});
+    scene.prescribed.push_back({particle, scene.x.col(particle), swing});
     scene.v.col(particle) = velocity_at(swing, scene.x.col(particle), 0);
   }
   return scene;
@@ -59,7 +59,7 @@ StudyResult run_sheet_order(const Subject& subject, Tier tier, const Progress& p
 
 }  // namespace
 
-Study sheet_time_order() {
+Study sheet_time_order_study() {
   return {"time-order.sheet",
           "Schemes A, B and C are second order in x and v on a damped hanging sheet, whatever the sequence "
           "of steps.",

@@ -5,9 +5,9 @@
 
 namespace foldproof {
 
-Study hinge_time_order();  // time-order.hinge: errors at the end of a driven hinge's motion against the step
-Study sheet_time_order();  // time-order.sheet: the same on a hanging sheet
-Study momentum_drift();    // momentum-drift: angular momentum of a free sheet
-Study mirror_symmetry();   // mirror-symmetry: how rounding breaks it
+Study hinge_time_order_study();  // time-order.hinge: errors at the end of a driven hinge's motion against the step
+Study sheet_time_order_study();  // time-order.sheet: the same on a hanging sheet
+Study momentum_drift_study();    // momentum-drift: angular momentum of a free sheet
+Study mirror_symmetry_study();   // mirror-symmetry: how rounding breaks it
 
 }  // namespace foldproof

@@ -35,11 +35,11 @@ struct Run {
 
 double largest_difference(const PerParticle3& p, const PerParticle3& q) {
   Worst worst;
-  for (Eigen::Index i = 0; i < p.size(); ++i) worst.see(std::abs(p.data()[i] - q.data()[i]));
+  for (Eigen::Index i = 0; i < p.size(); ++i) worst.observe(std::abs(p.data()[i] - q.data()[i]));
   return worst.value();
 }
 
-State end_of(const Subject& subject, Prepared& prepared, const Scene& scene,
+State end_of(const Subject& subject, PreparedScene& prepared, const Scene& scene,
              const std::vector<double>& steps) {
   History history(start_state(scene), 2);
   Work uncounted;
@@ -63,7 +63,7 @@ Run errors_of(const Subject& subject, const OrderProblem& problem, const Observe
   Run run{method.integrator, pattern, {}, {}, {}};
   Scene scene = problem.scene;
   scene.integrator = std::string(run.integrator.name);
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
   run.x.floor = run.v.floor = problem.uncertainty;
   for (int level = 0, count = method.coarsest; level < method.levels; ++level, count *= 2) {
     const State end = end_of(subject, *prepared, scene, steps_of(run.pattern, problem.end, count));
@@ -77,7 +77,7 @@ Run errors_of(const Subject& subject, const OrderProblem& problem, const Observe
 }
 
 std::vector<Run> all_runs(const Subject& subject, const OrderProblem& problem, const Progress& progress) {
-  offered(subject.step, "step");
+  require_offered(subject.step, "step");
   double steps = 0;
   for (const ObservedMethod& method : problem.methods)
     steps += double(method.patterns.size()) * method.coarsest * (std::pow(2, method.levels) - 1);
@@ -109,10 +109,10 @@ std::array<Quantity, 2> quantities() {
 Convergence above_floor(const Convergence& errors) {
   constexpr int least = pairs_judged + 1;
   const size_t levels = size_t(std::max(least, levels_above_floor(errors, 50)));
-  Convergence judged = errors;
-  judged.steps.resize(std::min(levels, errors.steps.size()));
-  judged.errors.resize(judged.steps.size());
-  return judged;
+  Convergence result = errors;
+  result.steps.resize(std::min(levels, errors.steps.size()));
+  result.errors.resize(result.steps.size());
+  return result;
 }
 
 NamedFinding finding_of(const OrderProblem& problem, const Run& run, const Quantity& quantity) {
@@ -129,7 +129,7 @@ NamedFinding finding_of(const OrderProblem& problem, const Run& run, const Quant
   const std::string name(run.integrator.name);
   return {problem.study + "." + name + "." + std::string(run.pattern.name) + "." + quantity.name,
           name + " is " + in_words(run.integrator.order) + " order in the " + quantity.words + " of " +
-              problem.thing + " with " + std::string(run.pattern.words) + ".",
+              problem.description + " with " + std::string(run.pattern.words) + ".",
           std::move(finding)};
 }
 
@@ -144,8 +144,8 @@ NamedFinding newmark_with_variable_steps(const OrderProblem& problem, const std:
     for (const Quantity& quantity : quantities()) {
       const Convergence& errors = run.*quantity.errors;
       const Estimate one = order_deviation(above_floor(errors), second, pairs_judged);
-      deviation.see(one.value);
-      uncertainty.see(one.uncertainty);
+      deviation.observe(one.value);
+      uncertainty.observe(one.uncertainty);
       patterns.emplace_back(run.pattern.name);
       names.push_back(quantity.name);
       orders.push_back(pair_orders(errors).back());
@@ -179,7 +179,7 @@ Figure figure_of(const OrderProblem& problem, const std::vector<Run>& runs, cons
                  const Selection& selection) {
   const bool of_paper = selection.prefix.empty();
   Figure figure{selection.prefix + "errors-in-" + quantity.name,
-                "Error in the " + quantity.words + " of " + problem.thing + ": " + selection.words,
+                "Error in the " + quantity.words + " of " + problem.description + ": " + selection.words,
                 {"mean step", "s", Scale::log},
                 {"largest error in " + quantity.name, quantity.unit, Scale::log},
                 of_paper ? 2 : nan,
@@ -231,7 +231,7 @@ namespace {
 std::vector<double> random_steps(double ratio) {
   constexpr int length = 8;
   std::vector<double> steps;
-  std::mt19937_64 generator(shifted(20030726));
+  std::mt19937_64 generator(shifted_seed(20030726));
   double sum = 0;
   for (int i = 0; i < length; ++i) {
     const double uniform = double(generator() >> 11) * 0x1p-53;

@@ -48,10 +48,10 @@ std::vector<ObservedMethod> paper_methods(int coarsest, int levels);
 
 /// A motion whose end is known from elsewhere.
 struct OrderProblem {
-  std::string study;  // the name of the study
-  std::string thing;  // "the driven hinge"
-  Scene scene;        // its integrator is replaced by each of the methods
-  double end;         // s
+  std::string study;        // the name of the study
+  std::string description;  // "the driven hinge"
+  Scene scene;              // its integrator is replaced by each of the methods
+  double end;               // s
   std::vector<ObservedMethod> methods;
   oracles::ClothState truth;  // at the end
   double uncertainty;         // of every component of truth [m], [m/s]

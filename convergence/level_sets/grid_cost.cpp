@@ -32,9 +32,9 @@ GridCost cost_of(const MeshDistance& mesh, int cells) {
   Random random(113);
   Worst error;
   for (int i = 0; i < points; ++i) {
-    const Vector3 on_surface = mesh.corners[size_t(random.in(0, double(mesh.corners.size())))][0];
+    const Vector3 on_surface = mesh.corners[size_t(random.uniform(0, double(mesh.corners.size())))][0];
     const Vector3 p = on_surface + random.vectors(1, 1.7 * lattice.spacing).col(0);
-    error.see(std::abs(grid.at(p).phi - mesh.at(p).phi));
+    error.observe(std::abs(grid.at(p).phi - mesh.at(p).phi));
   }
   return {double(cells),
           double(lattice.size()),

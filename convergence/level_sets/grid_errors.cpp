@@ -33,7 +33,7 @@ double steepness_error(const Grid& grid, long index) {
 struct Mean {
   double sum = 0;
   long count = 0;
-  void see(double value) { sum += value, ++count; }
+  void observe(double value) { sum += value, ++count; }
   double value() const { return sum / double(count); }
 };
 
@@ -57,7 +57,7 @@ KnownBody known_torus() {
           cube(Vector3(0.011, 0.017, -0.005), {1.05, 1.05, 0.5}), 0.14};
 }
 
-Grid sampled(const KnownBody& body, int cells) {
+Grid sample_grid(const KnownBody& body, int cells) {
   Grid grid{lattice_of(body, cells), {}};
   grid.phi.resize(grid.lattice.size());
   for (long i = 0; i < grid.lattice.size(); ++i)
@@ -65,8 +65,8 @@ Grid sampled(const KnownBody& body, int cells) {
   return grid;
 }
 
-Grid marched(const KnownBody& body, int cells, Start start, MarchingOrder order) {
-  const Grid exact = sampled(body, cells);
+Grid march_grid(const KnownBody& body, int cells, Start start, MarchingOrder order) {
+  const Grid exact = sample_grid(body, cells);
   Seeds seeds;
   if (start == Start::crude) {
     std::vector<float> side;
@@ -91,12 +91,12 @@ NodeErrors node_errors(const KnownBody& body, const Grid& grid) {
     const Vector3 p = grid.lattice.position(node);
     if (!body.bounds.contains(p)) continue;
     const double error = std::abs(grid.phi[i] - body.at(p).phi);
-    all.see(error);
-    worst.see(error);
+    all.observe(error);
+    worst.observe(error);
     if (!body.away(p)) continue;
-    away.see(error);
-    worst_away.see(error);
-    if (is_inner(grid.lattice, node)) steepness.see(steepness_error(grid, i));
+    away.observe(error);
+    worst_away.observe(error);
+    if (is_inner(grid.lattice, node)) steepness.observe(steepness_error(grid, i));
   }
   return {grid.lattice.spacing, all.value(),        worst.value(),
           away.value(),         worst_away.value(), steepness.value()};
@@ -108,14 +108,14 @@ PointErrors point_errors(const KnownBody& body, const Grid& grid, int points) {
   const Vector3 low = body.bounds.min(), sizes = body.bounds.sizes();
   for (int seen = 0; seen < points;) {
     Vector3 p;
-    for (int axis = 0; axis < 3; ++axis) p[axis] = low[axis] + sizes[axis] * random.in(0, 1);
+    for (int axis = 0; axis < 3; ++axis) p[axis] = low[axis] + sizes[axis] * random.uniform(0, 1);
     const Distance exact = body.at(p);
     if (!(std::abs(exact.phi) < near_surface)) continue;
     ++seen;
     const Distance in_cell = grid.in_cell(p);
-    value.see(std::abs(in_cell.phi - exact.phi));
-    cell.see((in_cell.normal - exact.normal).norm());
-    nodal.see((grid.at(p).normal - exact.normal).norm());
+    value.observe(std::abs(in_cell.phi - exact.phi));
+    cell.observe((in_cell.normal - exact.normal).norm());
+    nodal.observe((grid.at(p).normal - exact.normal).norm());
   }
   return {grid.lattice.spacing, value.value(), cell.value(), nodal.value()};
 }
@@ -135,10 +135,10 @@ ContourErrors contour_errors(const KnownBody& body, const Grid& grid) {
       const Distance exact = body.at(p);
       const double degrees =
           std::acos(std::clamp(grid.at(p).normal.dot(exact.normal), -1.0, 1.0)) * 180 / pi;
-      offset.see(std::abs(exact.phi) / lattice.spacing);
-      worst_offset.see(std::abs(exact.phi) / lattice.spacing);
-      angle.see(degrees);
-      worst_angle.see(degrees);
+      offset.observe(std::abs(exact.phi) / lattice.spacing);
+      worst_offset.observe(std::abs(exact.phi) / lattice.spacing);
+      angle.observe(degrees);
+      worst_angle.observe(degrees);
     }
   }
   return {lattice.spacing, offset.value(), worst_offset.value(), angle.value(), worst_angle.value()};

@@ -6,14 +6,14 @@
 #include <functional>
 #include <memory>
 
-#include "convergence/level_sets/kept_level_sets.h"
+#include "convergence/level_sets/cached_level_sets.h"
 #include "convergence/level_sets/studies.h"
 #include "reference/bodies/deforming_content.h"
 #include "reference/mesh/shapes.h"
 #include "verification/processor_time.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/files/hdf5_file.h"
-#include "verification/files/kept_level_sets_file.h"
+#include "verification/files/level_set_folder.h"
 #include "verification/files/level_set_cache_file.h"
 
 namespace foldproof {
@@ -35,7 +35,7 @@ OctreeSettings settings(int depth) {
 struct Kept {
   std::shared_ptr<const DeformingBody> body;
   bool was_loaded = false;
-  std::string why_refused;  // why the file that was there was not taken; empty if none was, or it was taken
+  std::string why_rejected;  // why the file that was there was not taken; empty if none was, or it was taken
 };
 
 /// The body as a program gets it that keeps level sets in the folder.
@@ -44,15 +44,15 @@ Kept kept(const std::string& folder, const MeshSequence& sequence, const OctreeS
   const auto listen = [&](const std::string& line) {
     result.was_loaded |= line.starts_with("level sets loaded");
     if (const size_t at = line.find("refused: "); at != std::string::npos)
-      result.why_refused = line.substr(at);
+      result.why_rejected = line.substr(at);
   };
-  result.body = caching_makers(folder, listen).make_deforming_body(sequence, how, BetweenFrames::carried);
+  result.body = caching_provider(folder, listen).make_deforming_body(sequence, how, BetweenFrames::carried);
   return result;
 }
 
 /// Where it is kept.
 std::string file_of(const std::string& folder, const MeshSequence& sequence, const OctreeSettings& how) {
-  return (std::filesystem::path(folder) / (origin_key(sequence, how) + ".h5")).string();
+  return (std::filesystem::path(folder) / (input_key(sequence, how) + ".h5")).string();
 }
 
 /// Answers that differ in a bit, at points and times of all kinds.
@@ -130,7 +130,7 @@ void turn_bit(const std::string& path, std::uintmax_t from_end) {
 void write_unsound(const std::string& path) {
   DeformingBody body = make_deforming_body(animation(2), settings(4), BetweenFrames::carried);
   body.frames[1].field.branches[3].children += 1;
-  write_level_sets(path, body, origin_key(animation(2), settings(4)));
+  write_level_sets(path, body, input_key(animation(2), settings(4)));
 }
 
 std::vector<Spoiling> spoilings() {
@@ -161,7 +161,7 @@ std::vector<Spoiling> spoilings() {
        [](MeshSequence&, OctreeSettings& how) { how.tolerance = 1.01e-3; }}};
 }
 
-NamedFinding unfit_files_are_refused() {
+NamedFinding unfit_files_are_rejected() {
   const ScratchFolder scratch;
   const std::string folder = scratch.file("kept"), good = file_of(folder, animation(2), settings(4)),
                     spoilt = scratch.file("spoilt");
@@ -179,13 +179,13 @@ NamedFinding unfit_files_are_refused() {
     spoiling.file(path);
     const bool is_there = std::filesystem::exists(path);
     const Kept rebuilt = kept(spoilt, sequence, how), again = kept(spoilt, sequence, how);
-    const bool is_refused = !rebuilt.was_loaded && rebuilt.why_refused.empty() != is_there &&
-                            rebuilt.why_refused.find(spoiling.reason) != std::string::npos;
+    const bool is_rejected = !rebuilt.was_loaded && rebuilt.why_rejected.empty() != is_there &&
+                             rebuilt.why_rejected.find(spoiling.reason) != std::string::npos;
     names.push_back(spoiling.name);
-    const size_t name_at = rebuilt.why_refused.find(".h5");
-    reasons.push_back(name_at == std::string::npos ? "no file" : rebuilt.why_refused.substr(name_at + 3));
-    wrong.push_back((is_refused ? 0 : 1) + (again.was_loaded ? 0 : 1));
-    worst.see(wrong.back());
+    const size_t name_at = rebuilt.why_rejected.find(".h5");
+    reasons.push_back(name_at == std::string::npos ? "no file" : rebuilt.why_rejected.substr(name_at + 3));
+    wrong.push_back((is_rejected ? 0 : 1) + (again.was_loaded ? 0 : 1));
+    worst.observe(wrong.back());
   }
   return {"level-set-cache.invalid-files-are-rejected",
           "A file that is cut, damaged, foreign or computed from something else is refused with the reason, "
@@ -201,16 +201,16 @@ StudyResult run_level_set_cache(const Subject&, Tier, const Progress& progress) 
   result.findings.push_back(loaded_is_the_same(costs));
   result.findings.push_back(loading_is_cheap(costs));
   progress(0.2);
-  result.findings.push_back(unfit_files_are_refused());
+  result.findings.push_back(unfit_files_are_rejected());
   progress(0.7);
-  result.findings.push_back(runs_with_kept_level_sets_are_the_same());
-  result.findings.push_back(unfit_grids_are_refused());
+  result.findings.push_back(runs_with_cached_level_sets_agree());
+  result.findings.push_back(unfit_grids_are_rejected());
   return result;
 }
 
 }  // namespace
 
-Study level_set_cache() {
+Study level_set_cache_study() {
   return {"level-set-cache", "Level sets computed beforehand serve many runs.", "BMF03 section 5.1",
           "A whole animation's level sets are stored in a file with the key of what they were computed from. "
           "What does a second run pay, and can it be fooled?",

@@ -48,7 +48,7 @@ NamedFinding order_finding(const ExpectedOrder& expected, const Convergence& con
 std::vector<NodeErrors> march_all(const KnownBody& body, const std::vector<int>& cells, Start start,
                                   MarchingOrder order) {
   std::vector<NodeErrors> levels;
-  for (const int n : cells) levels.push_back(node_errors(body, marched(body, n, start, order)));
+  for (const int n : cells) levels.push_back(node_errors(body, march_grid(body, n, start, order)));
   return levels;
 }
 
@@ -115,12 +115,12 @@ double trilinear_bound(double h) {
 void add_interpolation(const std::vector<int>& cells, StudyResult& result) {
   const KnownBody body = known_ball();
   std::vector<PointErrors> levels;
-  for (const int n : cells) levels.push_back(point_errors(body, sampled(body, n), points));
+  for (const int n : cells) levels.push_back(point_errors(body, sample_grid(body, n), points));
   const Convergence value = against_h(levels, &PointErrors::value);
   const Convergence cell = against_h(levels, &PointErrors::cell_gradient);
   const Convergence nodal = against_h(levels, &PointErrors::nodal_gradient);
   Worst share;
-  for (const PointErrors& level : levels) share.see(level.value / trilinear_bound(level.h));
+  for (const PointErrors& level : levels) share.observe(level.value / trilinear_bound(level.h));
   result.findings.push_back(
       {"level-set-resolution.trilinear-error-is-bounded-by-curvature",
        "Between exact nodes the trilinear value misses a ball's distance by no more than its curvature "
@@ -165,10 +165,10 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
   std::vector<NodeErrors> nodes;
   std::vector<ContourErrors> crude, exact;
   for (const int n : cells) {
-    const Grid grid = marched(body, n, Start::crude, MarchingOrder::first);
+    const Grid grid = march_grid(body, n, Start::crude, MarchingOrder::first);
     nodes.push_back(node_errors(body, grid));
     crude.push_back(contour_errors(body, grid));
-    exact.push_back(contour_errors(body, marched(body, n, Start::band, MarchingOrder::second)));
+    exact.push_back(contour_errors(body, march_grid(body, n, Start::band, MarchingOrder::second)));
   }
   result.findings.push_back(
       order_finding({"crude-start.distance-is-first-order",
@@ -177,7 +177,7 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
                     against_h(nodes, &NodeErrors::mean)));
   const Convergence offset = against_h(crude, &ContourErrors::worst_offset);
   Worst farthest;
-  for (const double cells_off : offset.errors) farthest.see(cells_off);
+  for (const double cells_off : offset.errors) farthest.observe(cells_off);
   result.findings.push_back(
       {"level-set-resolution.crude-start.contour-is-within-half-a-cell",
        "The crude start leaves the surface off by half a cell at most.",
@@ -229,7 +229,7 @@ StudyResult run_level_set_resolution(const Subject&, Tier tier, const Progress& 
 
 }  // namespace
 
-Study level_set_resolution() {
+Study level_set_resolution_study() {
   return {"level-set-resolution",
           "From exact values next to the surface second-order marching gives the distance to O(h^2); the "
           "paper's crude start gives it to O(h), with normals that stay wrong.",

@@ -32,10 +32,10 @@ known_torus();  // radii 0.61 and 0.23 m; away: half the tube's radius from its 
 enum class Start { band, layer, crude };
 
 /// `cells` along the longest side of the body's bounds, three more around it.
-Grid marched(const KnownBody& body, int cells, Start start, MarchingOrder order);
+Grid march_grid(const KnownBody& body, int cells, Start start, MarchingOrder order);
 
 /// Exact values at all nodes.
-Grid sampled(const KnownBody& body, int cells);
+Grid sample_grid(const KnownBody& body, int cells);
 
 struct NodeErrors {
   double h;                      // m

@@ -19,9 +19,9 @@ constexpr double tolerance = 1.5e-4;  // of the octrees [m]
 constexpr double middle = 0.31;       // the time that is looked at [s]
 
 /// A ball that is thrown along x while it is drawn out, bends and swings, all at different rates.
-Vector3 deformed(const Vector3& X, double t) {
-  const double drawn = 1 + 0.25 * std::sin(2.1 * t), bend = 3.2 * std::sin(3.7 * t);
-  const Vector3 x(X.x() * drawn, X.y() / std::sqrt(drawn), X.z() / std::sqrt(drawn));
+Vector3 deform(const Vector3& X, double t) {
+  const double drawn_pairs = 1 + 0.25 * std::sin(2.1 * t), bend = 3.2 * std::sin(3.7 * t);
+  const Vector3 x(X.x() * drawn_pairs, X.y() / std::sqrt(drawn_pairs), X.z() / std::sqrt(drawn_pairs));
   return x + Vector3(0.7 * (t - middle), bend * x.x() * x.x() * 0.5 + 0.12 * std::sin(2.9 * t), 0.3 * t * t);
 }
 
@@ -31,7 +31,7 @@ OctreeSettings settings_to(int depth) {
 
 /// Points within 2 cm of the surface at the middle time.
 std::vector<Vector3> points_near(const MeshDistance& mesh) {
-  std::mt19937 random(shifted(33301));
+  std::mt19937 random(shifted_seed(33301));
   std::uniform_real_distribution<double> along(-0.4, 0.4), height(-0.02, 0.02);
   std::vector<Vector3> points;
   while (points.size() < 1500) {
@@ -44,23 +44,24 @@ std::vector<Vector3> points_near(const MeshDistance& mesh) {
 
 /// Two frames, an interval apart, with the time that is looked at in their middle.
 struct Pair {
-  double interval;          // s
-  double way;               // the farthest that a vertex moves in it [m]
-  double blended, carried;  // largest miss of phi at the middle time [m]
-  double evaluations;       // distances asked for, for one frame
+  double interval;              // s
+  double largest_displacement;  // the farthest that a vertex moves in it [m]
+  double blended, carried;      // largest miss of phi at the middle time [m]
+  double evaluations;           // distances asked for, for one frame
   double kept;  // of the second frame's nodes, the share that keeps the nearest point of the first [1]
 };
 
 double largest_miss(const DeformingBody& body, const MeshDistance& exact,
                     const std::vector<Vector3>& points) {
   Worst worst;
-  for (const Vector3& p : points) worst.see(std::abs(deforming_at(body, p, middle).phi - exact.at(p).phi));
+  for (const Vector3& p : points)
+    worst.observe(std::abs(deforming_at(body, p, middle).phi - exact.at(p).phi));
   return worst.value();
 }
 
-Pair measured(const TriangleMesh& ball, double interval, int depth, const std::vector<Vector3>& points,
-              const MeshDistance& exact) {
-  const MeshSequence sequence = deformed_mesh(ball, deformed, {middle - interval / 2, middle + interval / 2});
+Pair measure(const TriangleMesh& ball, double interval, int depth, const std::vector<Vector3>& points,
+             const MeshDistance& exact) {
+  const MeshSequence sequence = deformed_mesh(ball, deform, {middle - interval / 2, middle + interval / 2});
   DeformingBody body = make_deforming_body(sequence, settings_to(depth), BetweenFrames::blended);
   Pair pair{interval,
             (sequence.positions[1] - sequence.positions[0]).colwise().norm().maxCoeff(),
@@ -109,7 +110,7 @@ NamedFinding second_order(const std::vector<Pair>& pairs, Miss miss, const std::
 
 NamedFinding carried_errs_less(const std::vector<Pair>& pairs) {
   Worst worst;
-  for (std::size_t i = 0; i < 2; ++i) worst.see(pairs[i].carried / pairs[i].blended);
+  for (std::size_t i = 0; i < 2; ++i) worst.observe(pairs[i].carried / pairs[i].blended);
   return {
       "level-sets-in-time.carried-error-is-smaller",
       "Carried along with the body, phi errs by less than a half of what it errs if blended at the point.",
@@ -125,7 +126,7 @@ NamedFinding carried_errs_less(const std::vector<Pair>& pairs) {
 NamedFinding frame_is_cheap(const std::vector<Pair>& pairs, int depth) {
   const double nodes = std::pow(std::ldexp(1, depth) + 1, 3);
   Worst worst;
-  for (const Pair& pair : pairs) worst.see(pair.evaluations / nodes);
+  for (const Pair& pair : pairs) worst.observe(pair.evaluations / nodes);
   return {
       "level-sets-in-time.frames-compute-few-distances",
       "A frame of a deforming body asks for a tenth of the distances that a whole grid as fine would need.",
@@ -145,7 +146,7 @@ NamedFinding fast_bodies_keep_little(const std::vector<Pair>& pairs) {
       {{pairs.front().kept, 0.1, 0, "1",
         "a tenth: a node farther from the surface than the way keeps its nearest point, and few of them are "
         "in the cube"},
-       {{"longest way of a vertex", "m", column(pairs, &Pair::way)},
+       {{"longest way of a vertex", "m", column(pairs, &Pair::largest_displacement)},
         {"nodes that keep their nearest point", "1", column(pairs, &Pair::kept)}},
        ""}};
 }
@@ -169,7 +170,7 @@ Table table_of(const std::vector<Pair>& pairs) {
   return {"intervals",
           "A ball of 0.15 m that is thrown, drawn out, bends and swings",
           {{"time between frames", "s", column(pairs, &Pair::interval)},
-           {"longest way of a vertex", "m", column(pairs, &Pair::way)},
+           {"longest way of a vertex", "m", column(pairs, &Pair::largest_displacement)},
            {"miss, blended", "m", column(pairs, &Pair::blended)},
            {"miss, carried", "m", column(pairs, &Pair::carried)},
            {"distances for a frame", "1", column(pairs, &Pair::evaluations)},
@@ -179,12 +180,12 @@ Table table_of(const std::vector<Pair>& pairs) {
 StudyResult run_level_sets_in_time(const Subject&, Tier tier, const Progress& progress) {
   const int depth = tier == Tier::quick ? 7 : 8;
   const TriangleMesh ball = make_icosphere(radius, tier == Tier::quick ? 3 : 4);
-  const MeshSequence then = deformed_mesh(ball, deformed, {middle});
+  const MeshSequence then = deformed_mesh(ball, deform, {middle});
   const MeshDistance exact = make_mesh_distance(then.positions[0], then.triangles);
   const std::vector<Vector3> points = points_near(exact);
   std::vector<Pair> pairs;
   for (const double interval : {0.28, 0.14, 0.07, 0.035}) {
-    pairs.push_back(measured(ball, interval, depth, points, exact));
+    pairs.push_back(measure(ball, interval, depth, points, exact));
     progress(double(pairs.size()) / 4);
   }
   StudyResult result;
@@ -198,7 +199,7 @@ StudyResult run_level_sets_in_time(const Subject&, Tier tier, const Progress& pr
 
 }  // namespace
 
-Study level_sets_in_time() {
+Study level_sets_in_time_study() {
   return {"level-sets-in-time",
           "Stored level sets of a deforming body, interpolated in time, converge to the body.",
           "BMF03 section 5.1",

@@ -49,7 +49,7 @@ std::vector<Body> bodies() {
 
 /// Points within the band: from random ones down to the surface and out again along N.
 std::vector<Vector3> points_in_band(const Body& body, double band) {
-  std::mt19937 random(shifted(60013));
+  std::mt19937 random(shifted_seed(60013));
   std::uniform_real_distribution<double> along(-0.5, 0.5), height(-band, band);
   std::vector<Vector3> points;
   while (points.size() < 8000) {
@@ -74,14 +74,14 @@ double grid_miss(const Body& body, const std::vector<Vector3>& points, int level
       const Vector3 node = cell + Vector3(k & 1, k >> 1 & 1, k >> 2);
       nodes[corner_steps[k]] = body.distance(node / cells - Vector3::Constant(0.5)).phi;
     }
-    worst.see(std::abs(trilinear(nodes, 0, q - cell).value - body.distance(p).phi));
+    worst.observe(std::abs(trilinear(nodes, 0, q - cell).value - body.distance(p).phi));
   }
   return worst.value();
 }
 
 double tree_miss(const Body& body, const std::vector<Vector3>& points, const Octree& tree) {
   Worst worst;
-  for (const Vector3& p : points) worst.see(std::abs(tree.at(p).phi - body.distance(p).phi));
+  for (const Vector3& p : points) worst.observe(std::abs(tree.at(p).phi - body.distance(p).phi));
   return worst.value();
 }
 
@@ -247,7 +247,7 @@ StudyResult run_octree_memory(const Subject&, Tier tier, const Progress& progres
 
 }  // namespace
 
-Study octree_memory() {
+Study octree_memory_study() {
   return {"octree-memory", "An octree takes less memory than a regular grid of the same error.",
           "BMF03 section 5.1",
           "How much does adaptive sampling save? For bodies with even curvature, sharp edges and bumps, a "

@@ -37,7 +37,7 @@ struct EdgePoint {
 };
 
 std::vector<EdgePoint> edge_points(const Askew& body, double h) {
-  std::mt19937_64 random(shifted(97));
+  std::mt19937_64 random(shifted_seed(97));
   const auto unit = [&] { return double(random() >> 11) * 0x1p-53; };
   std::vector<EdgePoint> points;
   for (int i = 0; i < 6000; ++i) {
@@ -73,8 +73,8 @@ EdgeErrors edge_errors(const Askew& body, const Solid& solid, double h) {
     const double angle = 180 / pi *
                          std::atan2(at.normal.cross(point.normal).norm(), at.normal.dot(point.normal));
     if (!(angle <= told_apart)) errors.reach = std::max(errors.reach, point.from_edge / h);
-    keep_worst(errors.worst_angle, angle);
-    keep_worst(errors.worst_phi, std::abs(at.phi));
+    update_worst(errors.worst_angle, angle);
+    update_worst(errors.worst_phi, std::abs(at.phi));
   }
   return errors;
 }
@@ -116,7 +116,7 @@ std::vector<Column> evidence(const Sampling& sampling) {
 
 NamedFinding reach_finding(const Sampling& sampling) {
   Worst worst;
-  for (const EdgeErrors& errors : sampling.errors) worst.see(errors.reach);
+  for (const EdgeErrors& errors : sampling.errors) worst.observe(errors.reach);
   return {"sharp-edges.normals-blend-near-edges-only." + sampling.name,
           "On " + sampling.words + " N is the face's but for a few cells next to an edge.",
           {{worst.value(), sampling.looks, 0, "cells", sampling.why_looks},
@@ -200,7 +200,7 @@ StudyResult run_sharp_edges(const Subject&, Tier tier, const Progress& progress)
 
 }  // namespace
 
-Study sharp_edges() {
+Study sharp_edges_study() {
   return {"sharp-edges", "Sampled distances round off edges and blend the normals next to them.",
           "BMF03 section 5.1",
           "How far from an edge is N not the face's, and how much does refinement help? A box askew to the "

@@ -73,7 +73,7 @@ NamedFinding bound_of(const Regime& regime, const Limits& limits) {
   std::vector<double> ratios;
   for (size_t i = 0; i < limits.bounds.size(); ++i) {
     ratios.push_back(limits.bounds[i] / limits.exact.errors[i]);
-    worst.see(ratios.back());
+    worst.observe(ratios.back());
   }
   const Verdict verdict{worst.value(), 1, 0.01 * worst.value(), "1",
                         "the bound on the frequency must not lie below it"};
@@ -93,7 +93,7 @@ NamedFinding smaller_of_both(const std::vector<Limits>& alone, const Limits& bot
   for (size_t i = 0; i < both.exact.errors.size(); ++i) {
     springs.push_back(alone[0].exact.errors[i]);
     bending.push_back(alone[1].exact.errors[i]);
-    worst.see(std::abs(both.exact.errors[i] / std::min(springs.back(), bending.back()) - 1));
+    worst.observe(std::abs(both.exact.errors[i] / std::min(springs.back(), bending.back()) - 1));
   }
   const Verdict verdict{worst.value(), 0.01, 0, "1",
                         "power iteration has found the frequencies to better than a hundredth"};

@@ -90,7 +90,7 @@ namespace {
 
 /// A sheet of side 1 whose modulus, damping and density are 1: steps over one unit of time.
 Scene unit_sheet(int cells) {
-  Scene scene = scene_of(make_sheet({SheetPattern::union_jack, 1, 1, cells, cells}), 1);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::union_jack, 1, 1, cells, cells}), 1);
   scene.stretch = StretchMaterial{1, 1, 1};
   return scene;
 }

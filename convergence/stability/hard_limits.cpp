@@ -25,7 +25,7 @@ struct HardSheet {
 };
 
 Scene sheet_scene(const Sheet& sheet, double bending) {
-  Scene scene = scene_of(make_sheet(sheet), density);
+  Scene scene = scene_at_rest(make_sheet(sheet), density);
   scene.stretch = StretchMaterial{stretch, 0, 1};
   if (bending > 0) scene.bending = BendingMaterial{bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
@@ -70,7 +70,7 @@ NamedFinding undamped_finding(const HardSheet& sheet, const SheetLimits& limits)
   Worst worst;
   std::vector<std::string> names;
   for (const Integrator& integrator : paper_schemes()) names.emplace_back(integrator.name);
-  for (const double ratio : limits.schemes) worst.see(std::abs(ratio - 1));
+  for (const double ratio : limits.schemes) worst.observe(std::abs(ratio - 1));
   const Verdict verdict{
       worst.value(), 0.01, 0, "1",
       "the bisection ends at a width of a sixth of that, and power iteration has found omega "
@@ -89,7 +89,7 @@ NamedFinding bound_finding(const std::vector<HardSheet>& sheets, const std::vect
   for (size_t i = 0; i < sheets.size(); ++i) {
     names.push_back(sheets[i].words);
     ratios.push_back(limits[i].bound);
-    worst.see(ratios.back());
+    worst.observe(ratios.back());
   }
   return {
       "hard-limits.bound-is-safe",
@@ -150,7 +150,7 @@ NamedFinding damped_finding(const std::vector<Damped>& limits, const std::vector
     told_by.emplace_back(is_told_by_runs(limits[i]) ? "runs" : "step matrix of the fastest mode");
     ratios.push_back(limits[i].ratio);
     expected.push_back(limits[i].expected);
-    worst.see(std::abs(measured[i] / expected.back() - 1));
+    worst.observe(std::abs(measured[i] / expected.back() - 1));
   }
   return {
       "hard-limits.damped-limit-is-as-derived",
@@ -204,7 +204,7 @@ Figure damping_figure(const std::vector<Damped>& limits, const std::vector<doubl
                 {}};
   for (const char* scheme : {"A", "B", "C"})
     figure.curves.push_back(measured_curve(scheme, limits, measured));
-  Curve derived{"derived for C: zeta + sqrt(1 + zeta^2)", in_decades(0.5, 100, 81), {}, nan, {}};
+  Curve derived{"derived for C: zeta + sqrt(1 + zeta^2)", geometric_range(0.5, 100, 81), {}, nan, {}};
   for (const double zeta : derived.x) derived.y.push_back(zeta + std::sqrt(1 + zeta * zeta));
   figure.curves.push_back(std::move(derived));
   return figure;
@@ -241,7 +241,7 @@ StudyResult run_hard_limits(const Subject& subject, Tier, const Progress& progre
 
 }  // namespace
 
-Study hard_limits() {
+Study hard_limits_study() {
   return {
       "hard-limits",
       "Stiffness ratios, slivers and graded meshes leave the largest stable step at 2/omega; damping leaves "

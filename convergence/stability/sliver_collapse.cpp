@@ -12,13 +12,13 @@ namespace {
 
 /// The ribbon of cases/hard/slivers.toml: held at one end, it falls from the horizontal.
 Scene falling_ribbon(double safety) {
-  Scene scene = scene_of(make_sheet({SheetPattern::one_diagonal, 1.2, 0.003, 2, 6}), 0.2);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::one_diagonal, 1.2, 0.003, 2, 6}), 0.2);
   scene.gravity = Vector3(0, 0, -9.80665);
   scene.stretch = StretchMaterial{50, 0, 1};
   scene.bending = BendingMaterial{1e-6, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   for (int i = 0; i < scene.mesh.particles(); ++i)
-    if (scene.x(0, i) == 0) scene.led.push_back({i, scene.x.col(i), {}});
+    if (scene.x(0, i) == 0) scene.prescribed.push_back({i, scene.x.col(i), {}});
   scene.schedule = {0.3, 0.1, {0, safety, 0.1}, 200'000};
   return scene;
 }
@@ -38,7 +38,7 @@ NamedFinding sliver_collapse() {
   Worst apart;
   for (const double safety : safeties) {
     times.push_back(collapse_time(falling_ribbon(safety)));
-    apart.see(std::abs(times.back() / times.front() - 1));
+    apart.observe(std::abs(times.back() / times.front() - 1));
   }
   return {"hard-limits.slivers-collapse-at-any-step",
           "A falling ribbon of triangles 1200 times as long as high shears until one has lost its area, at "

@@ -57,7 +57,7 @@ struct MappedSheet {
 
 MappedSheet mapped_sheet(const Subject& subject, const Springs& springs, Tier tier) {
   const bool quick = tier == Tier::quick;
-  MappedSheet sheet{springs, {}, in_decades(0.03, 30, quick ? 5 : 10)};
+  MappedSheet sheet{springs, {}, geometric_range(0.03, 30, quick ? 5 : 10)};
   for (const int cells : quick ? std::vector{coarsest, 8, 16} : std::vector{coarsest, 6, 8, 12, 16, 24, 32})
     sheet.modes.push_back({cells, fastest_mode(subject, relaxing_sheet(springs, cells, 0))});
   return sheet;
@@ -167,8 +167,9 @@ Map map_of(const Integrator& method, const MappedSheet& sheet, const MapPoints& 
 
 NamedFinding as_derived(const Integrator& method, const Springs& springs, const MapPoints& points) {
   Worst worst;
-  for (size_t i = 0; i < points.tried.size(); ++i) worst.see(std::abs(points.tried[i] / points.known[i] - 1));
-  if (points.tried.empty()) worst.see(nan);
+  for (size_t i = 0; i < points.tried.size(); ++i)
+    worst.observe(std::abs(points.tried[i] / points.known[i] - 1));
+  if (points.tried.empty()) worst.observe(nan);
   return {"stability-sheet.map-follows-the-fastest-mode." + springs.name + "." + std::string(method.name),
           "Over damping and resolution, with " + springs.words + ", the largest stable step of " +
               std::string(method.title) + " is that of the oscillator that the fastest mode is.",

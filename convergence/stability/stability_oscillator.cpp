@@ -59,7 +59,7 @@ LimitRow limit_row(const Subject& subject, const Integrator& integrator, const s
 
 NamedFinding limit_finding(const Integrator& integrator, const LimitRow& row) {
   Worst worst;
-  for (size_t i = 0; i < row.zeta.size(); ++i) worst.see(std::abs(row.measured[i] / row.known[i] - 1));
+  for (size_t i = 0; i < row.zeta.size(); ++i) worst.observe(std::abs(row.measured[i] / row.known[i] - 1));
   const std::string name(integrator.name), title(integrator.title);
   const bool mixed = integrator.family == Family::mixed;
   const std::string what = !mixed ? "where its stability polynomial leaves 1, so that damping narrows it"
@@ -85,7 +85,7 @@ NamedFinding undamped_growth(const Subject& subject, const Integrator& integrato
   std::vector<double> excess;
   for (const double y : steps) {
     excess.push_back(std::pow(spectral_radius_at(of, y), 2) - 1);
-    worst.see(std::abs(excess.back() / (std::pow(y, power) / (power == 2 ? 1 : 4)) - 1));
+    worst.observe(std::abs(excess.back() / (std::pow(y, power) / (power == 2 ? 1 : 4)) - 1));
   }
   const std::string name(integrator.name);
   return {"stability-oscillator.undamped-motion-grows." + name,
@@ -97,16 +97,16 @@ NamedFinding undamped_growth(const Subject& subject, const Integrator& integrato
            "measured is the largest relative deviation of the excess"}};
 }
 
-NamedFinding unlimited(const Subject& subject, const Integrator& integrator) {
+NamedFinding unlimited_finding(const Subject& subject, const Integrator& integrator) {
   Worst worst;
   std::vector<double> ratios, largest;
   for (const double zeta : {0.0, 0.01, 0.1, 0.5, 1.0, 10.0}) {
     const SteppedMotion of = stepped_motion(subject, hinge_oscillator(zeta), integrator.name);
     Worst here;
-    for (const double omega_h : in_decades(0.01, 1000, 26)) here.see(spectral_radius_at(of, omega_h));
+    for (const double omega_h : geometric_range(0.01, 1000, 26)) here.observe(spectral_radius_at(of, omega_h));
     ratios.push_back(zeta);
     largest.push_back(here.value());
-    worst.see(here.value() - 1);
+    worst.observe(here.value() - 1);
   }
   return {"stability-oscillator.has-no-limit." + std::string(integrator.name),
           std::string(integrator.title) + " is stable on the damped oscillator at every step.",
@@ -117,7 +117,7 @@ NamedFinding unlimited(const Subject& subject, const Integrator& integrator) {
 
 Curve known_curve(const Integrator& integrator) {
   Curve curve{"limit as known", {}, {}, nan, {}};
-  for (const double zeta : in_decades(0.01, 10, 61)) {
+  for (const double zeta : geometric_range(0.01, 10, 61)) {
     curve.x.push_back(known_limit(integrator, zeta));
     curve.y.push_back(zeta);
   }
@@ -130,8 +130,8 @@ Map radius_map(const Subject& subject, const Integrator& integrator, int finenes
           "Spectral radius of one step of " + std::string(integrator.title) + " (" + name + ")",
           {"step times frequency, omega h", "1", Scale::log},
           {"damping ratio", "1", Scale::log},
-          in_decades(0.1, 30, 12 * fineness + 1),
-          in_decades(0.01, 10, 9 * fineness + 1),
+          geometric_range(0.1, 30, 12 * fineness + 1),
+          geometric_range(0.01, 10, 9 * fineness + 1),
           {},
           "spectral radius",
           "1",
@@ -168,7 +168,7 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
   for (const Integrator& integrator : integrators()) {
     progress(done++ / double(integrators().size()));
     if (integrator.family == Family::fully_implicit) {
-      result.findings.push_back(unlimited(subject, integrator));
+      result.findings.push_back(unlimited_finding(subject, integrator));
     } else {
       const LimitRow row = limit_row(subject, integrator, ratios);
       result.findings.push_back(limit_finding(integrator, row));
@@ -188,7 +188,7 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
 
 }  // namespace
 
-Study stability_oscillator() {
+Study stability_oscillator_study() {
   return {"stability-oscillator",
           "On the damped oscillator schemes A and B are stable up to 2/omega whatever the damping, C further "
           "the more it is damped; explicit methods lose their step to the damping, implicit ones have no "

@@ -44,7 +44,7 @@ DampedLimits damped_limits(const Subject& subject, const Integrator& integrator,
                            int points) {
   constexpr double omega0 = 50, threshold = 1e-6;
   DampedLimits limits;
-  for (const double times : in_decades(0.01, 100, points)) {
+  for (const double times : geometric_range(0.01, 100, points)) {
     const SmallMotion motion =
         free_motion(clamped_sheet(times * damping.springs, times * damping.bending), omega0);
     const LinearForces forces = linear_forces(subject, motion);
@@ -68,7 +68,7 @@ std::vector<Column> columns_of(const DampedLimits& limits) {
 double worst_deviation(const std::vector<double>& measured, const std::vector<double>& expected) {
   if (measured.empty()) return nan;
   Worst worst;
-  for (size_t i = 0; i < measured.size(); ++i) worst.see(std::abs(measured[i] / expected[i] - 1));
+  for (size_t i = 0; i < measured.size(); ++i) worst.observe(std::abs(measured[i] / expected[i] - 1));
   return worst.value();
 }
 
@@ -89,7 +89,7 @@ NamedFinding independence(const Integrator& integrator, const Damping& damping, 
 
 NamedFinding never_narrower(const Damping& damping, const DampedLimits& limits) {
   Worst worst;
-  for (size_t i = 0; i < limits.measured.size(); ++i) worst.see(limits.elastic[i] / limits.measured[i]);
+  for (size_t i = 0; i < limits.measured.size(); ++i) worst.observe(limits.elastic[i] / limits.measured[i]);
   return {
       "stability-sheet.damping-never-lowers-the-limit." + damping.name + ".C",
       "On a sheet with " + damping.words + " scheme C is stable up to 2/omega at least.",
@@ -157,7 +157,7 @@ StudyResult run_stability_sheet(const Subject& subject, Tier tier, const Progres
 
 }  // namespace
 
-Study stability_sheet() {
+Study stability_sheet_study() {
   return {
       "stability-sheet",
       "On a sheet the largest stable step of A and B does not depend on the damping and that of C only "

@@ -13,16 +13,16 @@ namespace {
 
 /// Does a small disturbance stay small in steps of h [s]? Stable motion is bounded by the modes' amplitudes,
 /// unstable motion grows beyond every bound.
-enum class Fate { stays, grows };
+enum class ProjectionOutcome { stays, grows };
 
 struct Trial {
   const Subject& subject;
   const Scene& scene;
-  Prepared& prepared;
+  PreparedScene& prepared;
   int steps;
 };
 
-Fate fate_of(const Trial& trial, double h) {
+ProjectionOutcome fate_of(const Trial& trial, double h) {
   constexpr double growth = 1000;
   State s = start_state(trial.scene);
   s.x += small_disturbance * disturbance_shape(s.x.cols());
@@ -30,15 +30,15 @@ Fate fate_of(const Trial& trial, double h) {
   Work uncounted;
   for (int i = 0; i < trial.steps; ++i) {
     s = trial.subject.step(trial.prepared, {&s, 1}, h, uncounted);
-    if (!((s.x - trial.scene.x).norm() <= growth * start)) return Fate::grows;
+    if (!((s.x - trial.scene.x).norm() <= growth * start)) return ProjectionOutcome::grows;
   }
-  return Fate::stays;
+  return ProjectionOutcome::stays;
 }
 
 }  // namespace
 
 PerParticle3 disturbance_shape(Eigen::Index n) {
-  std::mt19937_64 generator(shifted(6021));
+  std::mt19937_64 generator(shifted_seed(6021));
   PerParticle3 values(3, n);
   for (Eigen::Index i = 0; i < values.size(); ++i)
     values.data()[i] = double(generator() >> 11) * 0x1p-53 - 0.5;
@@ -46,14 +46,15 @@ PerParticle3 disturbance_shape(Eigen::Index n) {
 }
 
 Scene flat_sheet(int cells) {
-  Scene scene = scene_of(make_sheet({SheetPattern::union_jack, flat_side, flat_side, cells, cells}), 0.23);
+  Scene scene =
+      scene_at_rest(make_sheet({SheetPattern::union_jack, flat_side, flat_side, cells, cells}), 0.23);
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   return scene;
 }
 
 ForceOperator elastic_operator(const Subject& subject, const Scene& scene) {
-  const std::shared_ptr<Prepared> prepared = offered(subject.prepare, "prepare")(scene);
-  const auto& forces = offered(subject.elastic_forces, "elastic_forces");
+  const std::shared_ptr<PreparedScene> prepared = require_offered(subject.prepare, "prepare")(scene);
+  const auto& forces = require_offered(subject.elastic_forces, "elastic_forces");
   return [&forces, prepared, start = start_state(scene)](const PerParticle3& displacement) {
     const double scale = small_disturbance / displacement.norm();
     State ahead = start, behind = start;
@@ -64,8 +65,8 @@ ForceOperator elastic_operator(const Subject& subject, const Scene& scene) {
 }
 
 ForceOperator damping_operator(const Subject& subject, const Scene& scene) {
-  const std::shared_ptr<Prepared> prepared = offered(subject.prepare, "prepare")(scene);
-  const auto& forces = offered(subject.damping_forces, "damping_forces");
+  const std::shared_ptr<PreparedScene> prepared = require_offered(subject.prepare, "prepare")(scene);
+  const auto& forces = require_offered(subject.damping_forces, "damping_forces");
   return [&forces, prepared, start = start_state(scene)](const PerParticle3& v) {
     return forces(*prepared, start, v);
   };
@@ -74,7 +75,7 @@ ForceOperator damping_operator(const Subject& subject, const Scene& scene) {
 LargestEigenvalue largest_eigenvalue(const Scene& scene, const ForceOperator& F) {
   constexpr int rounds = 400;
   PerParticle root = lumped_masses(scene.mesh, scene.density).cwiseSqrt().cwiseInverse();
-  for (const PrescribedParticle& led : scene.led) root[led.particle] = 0;
+  for (const PrescribedParticle& prescribed : scene.prescribed) root[prescribed.particle] = 0;
   PerParticle3 mode = (disturbance_shape(scene.x.cols()) * root.asDiagonal()).normalized();
   LargestEigenvalue largest{0, {}};
   for (int i = 0; i < rounds; ++i) {
@@ -94,15 +95,15 @@ FastestMode fastest_mode(const Subject& subject, const Scene& scene) {
 
 double largest_stable_step(const Subject& subject, const Scene& scene, double omega,
                            const StepSearch& search) {
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
-  offered(subject.step, "step");
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
+  require_offered(subject.step, "step");
   const Trial trial{subject, scene, *prepared, search.steps};
   double below = search.low, above = search.high;
-  if (fate_of(trial, below * 2 / omega) == Fate::grows) return nan;
-  if (fate_of(trial, above * 2 / omega) == Fate::stays) return nan;
+  if (fate_of(trial, below * 2 / omega) == ProjectionOutcome::grows) return nan;
+  if (fate_of(trial, above * 2 / omega) == ProjectionOutcome::stays) return nan;
   for (int i = 0; i < search.halvings; ++i) {
     const double middle = (below + above) / 2;
-    (fate_of(trial, middle * 2 / omega) == Fate::stays ? below : above) = middle;
+    (fate_of(trial, middle * 2 / omega) == ProjectionOutcome::stays ? below : above) = middle;
   }
   return (below + above) / 2;
 }

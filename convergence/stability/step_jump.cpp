@@ -8,8 +8,8 @@ namespace foldproof {
 
 namespace {
 
-constexpr double fraction = 0.9;                  // s: the long step over 2/omega
-constexpr double room = 1 - fraction * fraction;  // 1 - s^2
+constexpr double fraction = 0.9;                               // s: the long step over 2/omega
+constexpr double one_minus_squared = 1 - fraction * fraction;  // 1 - s^2
 constexpr int jump = 100;
 
 /// A sheet that vibrates in one mode.
@@ -17,13 +17,13 @@ struct Vibration {
   const Subject& subject;
   const Scene& scene;
   const FastestMode& mode;
-  Prepared& prepared;
+  PreparedScene& prepared;
 };
 
 double energy(const Vibration& of, const State& s) {
   const PerParticle mass = lumped_masses(of.scene.mesh, of.scene.density);
   return 0.5 * s.v.colwise().squaredNorm().dot(mass.transpose()) +
-         offered(of.subject.potential_energy, "potential_energy")(of.prepared, s);
+         require_offered(of.subject.potential_energy, "potential_energy")(of.prepared, s);
 }
 
 /// Energies after the jump over that at the start [1].
@@ -42,8 +42,8 @@ EnergyRange after_jump(const Vibration& of, double phase) {
   EnergyRange range;
   for (int i = 0; i < 60; ++i) {
     s = of.subject.step(of.prepared, {&s, 1}, h, uncounted);
-    range.largest.see(energy(of, s) / start);
-    range.over_least.see(start / energy(of, s));
+    range.largest.observe(energy(of, s) / start);
+    range.over_least.observe(start / energy(of, s));
   }
   return range;
 }
@@ -55,8 +55,8 @@ EnergyRange after_jump(const Vibration& of, double phase) {
 // [Q, Q/(1 - s^2)].
 NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& scheme) {
   scene.integrator = scheme;
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
-  offered(subject.step, "step");
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
+  require_offered(subject.step, "step");
   const FastestMode mode = fastest_mode(subject, scene);
   Worst worst;
   std::vector<double> phases, least, most;
@@ -65,8 +65,8 @@ NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& s
     const EnergyRange range = after_jump({subject, scene, mode, *prepared}, phases.back());
     least.push_back(1 / range.over_least.value());
     most.push_back(range.largest.value());
-    worst.see(range.largest.value() * room);
-    worst.see(range.over_least.value() * room);
+    worst.observe(range.largest.value() * one_minus_squared);
+    worst.observe(range.over_least.value() * one_minus_squared);
   }
   return {
       "hard-limits.energy-is-bounded-across-a-step-jump." + scheme,

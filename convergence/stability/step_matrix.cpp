@@ -20,7 +20,7 @@ constexpr double sheet_disturbance = 1e-7, hinge_disturbance = 1e-12;  // m
 
 /// scene.x + q shapes and q' shapes; disturbances as SmallMotion has them, times the size `unit` [m
 /// sqrt(kg)].
-State disturbed(const SmallMotion& motion, const Eigen::VectorXd& y, double time, double unit) {
+State disturb(const SmallMotion& motion, const Eigen::VectorXd& y, double time, double unit) {
   const Eigen::Index n = motion.shapes.cols(), particles = motion.scene.x.cols();
   const Eigen::VectorXd x = motion.shapes * y.head(n) * unit;
   const Eigen::VectorXd v = motion.shapes * y.tail(n) * (unit * motion.omega0);
@@ -42,12 +42,12 @@ Eigen::VectorXd coordinates(const SmallMotion& motion, const PerParticle3& diffe
 double unit_of(const SmallMotion& motion) { return motion.disturbance / motion.shapes.cwiseAbs().maxCoeff(); }
 
 /// The state after one step from the disturbances y of the latest states.
-State stepped(const SteppedMotion& of, const Eigen::VectorXd& y, Steps steps, double unit) {
+State step_disturbance(const SteppedMotion& of, const Eigen::VectorXd& y, Steps steps, double unit) {
   const Eigen::Index size = 2 * of.motion.shapes.cols();
   std::vector<State> past;
   for (int i = 0; i < of.history; ++i)
     past.push_back(
-        disturbed(of.motion, y.segment(i * size, size), i + 1 < of.history ? -steps.before : 0, unit));
+        disturb(of.motion, y.segment(i * size, size), i + 1 < of.history ? -steps.before : 0, unit));
   Work uncounted;
   return of.subject.step(*of.prepared, past, steps.now, uncounted);
 }
@@ -64,30 +64,30 @@ SmallMotion hinge_oscillator(double zeta) {
   const double omega = std::sqrt(ke * length * length / (N1 + N2) / 2 * squared_mode / mass);
   const double kd = 2 * zeta * omega * mass / (length * squared_mode);  // N s
 
-  Scene scene = scene_of(make_hinge(length, 0), density);
+  Scene scene = scene_at_rest(make_hinge(length, 0), density);
   scene.bending = BendingMaterial{ke, kd, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles = {0};
-  for (int i = 1; i < 4; ++i) scene.led.push_back({i, scene.x.col(i), {}});
+  for (int i = 1; i < 4; ++i) scene.prescribed.push_back({i, scene.x.col(i), {}});
   Eigen::MatrixXd shape = Eigen::MatrixXd::Zero(12, 1);
   shape(2, 0) = 1 / std::sqrt(mass);
   return {std::move(scene), std::move(shape), omega, hinge_disturbance};
 }
 
 Scene clamped_sheet(double spring_damping, double bending_damping) {
-  Scene scene = scene_of(make_sheet({SheetPattern::union_jack, 0.33, 0.22, 3, 2}), 0.23);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::union_jack, 0.33, 0.22, 3, 2}), 0.23);
   scene.stretch = StretchMaterial{29, spring_damping, 1};
   scene.bending = BendingMaterial{0.11, bending_damping, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   for (int i = 0; i < scene.mesh.particles(); ++i)
-    if (scene.mesh.rest(0, i) < 0.17) scene.led.push_back({i, scene.x.col(i), {}});
+    if (scene.mesh.rest(0, i) < 0.17) scene.prescribed.push_back({i, scene.x.col(i), {}});
   return scene;
 }
 
 SmallMotion free_motion(Scene scene, double omega0) {
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   std::vector<char> held(size_t(mass.size()), 0);
-  for (const PrescribedParticle& p : scene.led) held[size_t(p.particle)] = 1;
-  const Eigen::Index n = 3 * (mass.size() - Eigen::Index(scene.led.size()));
+  for (const PrescribedParticle& p : scene.prescribed) held[size_t(p.particle)] = 1;
+  const Eigen::Index n = 3 * (mass.size() - Eigen::Index(scene.prescribed.size()));
   Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(3 * mass.size(), n);
   Eigen::Index column = 0;
   for (Eigen::Index i = 0; i < mass.size(); ++i)
@@ -104,16 +104,16 @@ SmallMotion motion_along(Scene scene, const PerParticle3& shape, double omega0) 
 }
 
 LinearForces linear_forces(const Subject& subject, const SmallMotion& motion) {
-  const auto prepared = offered(subject.prepare, "prepare")(motion.scene);
-  const auto& elastic = offered(subject.elastic_forces, "elastic_forces");
-  const auto& damping = offered(subject.damping_forces, "damping_forces");
+  const auto prepared = require_offered(subject.prepare, "prepare")(motion.scene);
+  const auto& elastic = require_offered(subject.elastic_forces, "elastic_forces");
+  const auto& damping = require_offered(subject.damping_forces, "damping_forces");
   const PerParticle inverse = lumped_masses(motion.scene.mesh, motion.scene.density).cwiseInverse();
   const Eigen::Index n = motion.shapes.cols();
   const double unit = unit_of(motion);
   LinearForces forces{Eigen::MatrixXd(n, n), Eigen::MatrixXd(n, n)};
   for (Eigen::Index j = 0; j < n; ++j) {
     const Eigen::VectorXd y = Eigen::VectorXd::Unit(2 * n, j);
-    const State ahead = disturbed(motion, y, 0, unit), behind = disturbed(motion, -y, 0, unit);
+    const State ahead = disturb(motion, y, 0, unit), behind = disturb(motion, -y, 0, unit);
     const PerParticle3 pull = (elastic(*prepared, behind) - elastic(*prepared, ahead)) / (2 * unit);
     forces.stiffness.col(j) = coordinates(motion, pull * inverse.asDiagonal());
     const PerParticle3 drag =
@@ -128,8 +128,8 @@ LinearForces linear_forces(const Subject& subject, const SmallMotion& motion) {
 SteppedMotion stepped_motion(const Subject& subject, SmallMotion motion, std::string_view integrator) {
   motion.scene.integrator = std::string(integrator);
   motion.scene.solver.tolerance = tight;
-  offered(subject.step, "step");
-  auto prepared = offered(subject.prepare, "prepare")(motion.scene);
+  require_offered(subject.step, "step");
+  auto prepared = require_offered(subject.prepare, "prepare")(motion.scene);
   return {subject, std::move(motion), integrator_named(integrator).history, std::move(prepared)};
 }
 
@@ -140,7 +140,7 @@ Eigen::MatrixXd step_matrix(const SteppedMotion& of, Steps steps) {
   for (Eigen::Index i = 0; i + 2 * n < size; ++i) matrix(i, i + 2 * n) = 1;  // now becomes before
   for (Eigen::Index j = 0; j < size; ++j) {
     const Eigen::VectorXd y = Eigen::VectorXd::Unit(size, j);
-    const State ahead = stepped(of, y, steps, unit), behind = stepped(of, -y, steps, unit);
+    const State ahead = step_disturbance(of, y, steps, unit), behind = step_disturbance(of, -y, steps, unit);
     matrix.col(j).segment(size - 2 * n, n) = coordinates(of.motion, ahead.x - behind.x) / (2 * unit);
     matrix.col(j).tail(n) = coordinates(of.motion, ahead.v - behind.v) / (2 * unit * of.motion.omega0);
   }
@@ -162,7 +162,7 @@ double spectral_radius(const Eigen::MatrixXd& matrix) {
   if (!matrix.allFinite()) return std::numeric_limits<double>::quiet_NaN();
   Worst worst;
   const Eigen::VectorXcd values = oracles::eigenvalues(matrix);
-  for (const std::complex<double>& value : values) worst.see(std::abs(value));
+  for (const std::complex<double>& value : values) worst.observe(std::abs(value));
   return worst.value();
 }
 
@@ -187,12 +187,12 @@ double largest_constant_step(const SteppedMotion& of, const StepRange& range) {
 double transient_growth(const Eigen::MatrixXd& matrix, int powers) {
   if (!matrix.allFinite()) return std::numeric_limits<double>::quiet_NaN();
   Worst worst;
-  worst.see(1);
+  worst.observe(1);
   Eigen::MatrixXd power = matrix;
   for (int i = 0; i < powers; ++i) {
     if (!power.allFinite()) return std::numeric_limits<double>::infinity();
     const Eigen::MatrixXd square = power.transpose() * power;
-    worst.see(std::sqrt(oracles::symmetric_eigenvalues(square)[square.rows() - 1]));
+    worst.observe(std::sqrt(oracles::symmetric_eigenvalues(square)[square.rows() - 1]));
     power = matrix * power;
   }
   return worst.value();

@@ -46,7 +46,7 @@ struct SteppedMotion {
   const Subject& subject;
   SmallMotion motion;
   int history;  // states that the method looks back on
-  std::unique_ptr<Prepared> prepared;
+  std::unique_ptr<PreparedScene> prepared;
 };
 
 /// Throws NotOffered if the subject does not step.

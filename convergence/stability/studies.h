@@ -6,10 +6,10 @@
 namespace foldproof {
 
 Study elastic_limit_study();      // elastic-limit: the largest stable step under refinement
-Study stability_oscillator();     // stability-oscillator: every method's limit over the damping ratio
-Study stability_sheet();          // stability-sheet: limits of a sheet over damping and resolution
-Study variable_step_stability();  // variable-step-stability: stable steps in turn; BDF2's growing steps
+Study stability_oscillator_study();     // stability-oscillator: every method's limit over the damping ratio
+Study stability_sheet_study();          // stability-sheet: limits of a sheet over damping and resolution
+Study variable_step_stability_study();  // variable-step-stability: stable steps in turn; BDF2's growing steps
 Study transient_growth_study();   // transient-growth: how far a stable scheme carries a disturbance
-Study hard_limits();              // hard-limits: largest stable steps of hard sheets, under damping, over jumps
+Study hard_limits_study();              // hard-limits: largest stable steps of hard sheets, under damping, over jumps
 
 }  // namespace foldproof

@@ -41,7 +41,7 @@ struct GrowthTable {
 GrowthTable growth_table(const Subject& subject, const std::string& scheme) {
   GrowthTable table;
   for (const double omega_h : {0.1, 0.5, 1.0, 1.5, 1.9, 1.99})
-    for (const double a : in_decades(0.01, 1000, 16)) {
+    for (const double a : geometric_range(0.01, 1000, 16)) {
       table.omega_h.push_back(omega_h);
       table.a.push_back(a);
       table.growth.push_back(oscillator_growth(subject, scheme, omega_h, a));
@@ -56,7 +56,7 @@ std::vector<Column> columns_of(const GrowthTable& table) {
 NamedFinding derived_finding(const std::string& scheme, const GrowthTable& table) {
   Worst worst;
   for (size_t i = 0; i < table.a.size(); ++i)
-    worst.see(std::abs(table.growth[i] / derived_growth(scheme, table.omega_h[i], table.a[i]) - 1));
+    worst.observe(std::abs(table.growth[i] / derived_growth(scheme, table.omega_h[i], table.a[i]) - 1));
   return {"transient-growth.growth-is-as-derived." + scheme,
           "The growth of a disturbance of the damped oscillator under scheme " + scheme +
               " is that of the derived matrix.",
@@ -72,7 +72,7 @@ NamedFinding grows_with_damping(const GrowthTable& table) {
   std::vector<double> least;
   for (size_t i = 0; i < table.a.size(); ++i) {
     least.push_back(table.omega_h[i] * std::abs(table.a[i] - 1));
-    worst.see(least.back() / table.growth[i]);
+    worst.observe(least.back() / table.growth[i]);
   }
   std::vector<Column> columns = columns_of(table);
   columns.push_back({"omega h |h c/2 - 1|", "1", least});
@@ -105,7 +105,7 @@ NamedFinding bounded_finding(const std::string& scheme, const GrowthTable& table
   std::vector<double> bounds;
   for (size_t i = 0; i < table.a.size(); ++i) {
     bounds.push_back(oracles::undamped_growth(table.omega_h[i]));
-    worst.see(table.growth[i] / bounds.back());
+    worst.observe(table.growth[i] / bounds.back());
   }
   std::vector<Column> columns = columns_of(table);
   columns.push_back({"undamped growth", "1", bounds});
@@ -126,7 +126,7 @@ Map growth_map(const Subject& subject, const std::string& scheme, int fineness) 
           {"step times frequency, omega h", "1", Scale::linear},
           {"damping over a step, h c/2", "1", Scale::log},
           {},
-          in_decades(0.01, 100, 8 * fineness + 1),
+          geometric_range(0.01, 100, 8 * fineness + 1),
           {},
           "largest norm of a power of the step",
           "1",
@@ -151,7 +151,7 @@ struct SheetGrowth {
 constexpr double part_of_limit = 0.9;
 
 SheetGrowth sheet_growth(const Subject& subject, int points) {
-  SheetGrowth found{in_decades(0.01, 100, points), std::vector<std::vector<double>>(schemes().size())};
+  SheetGrowth found{geometric_range(0.01, 100, points), std::vector<std::vector<double>>(schemes().size())};
   for (const double damping : found.damping) {
     const SmallMotion motion = free_motion(clamped_sheet(0.3 * damping, 0.01 * damping), 50);
     const Eigen::MatrixXd stiffness = linear_forces(subject, motion).stiffness;
@@ -178,7 +178,7 @@ void add_sheet(const Subject& subject, int points, StudyResult& result) {
     figure.curves.push_back({"scheme " + schemes()[i], found.damping, found.growth[i], nan, {}});
     if (schemes()[i] == "A") continue;
     Worst worst;
-    for (const double growth : found.growth[i]) worst.see(growth / bound);
+    for (const double growth : found.growth[i]) worst.observe(growth / bound);
     result.findings.push_back(
         {"transient-growth.sheet-growth-is-bounded." + schemes()[i],
          "On a sheet whose stiffness and damping do not commute, scheme " + schemes()[i] +

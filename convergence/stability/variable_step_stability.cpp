@@ -36,7 +36,7 @@ NamedFinding resonance_finding(const Subject& subject, const std::string& scheme
   const std::vector<double> alone = {stepped_radius(of, short_step, short_step),
                                      stepped_radius(of, long_step, long_step)};
   Worst either;
-  for (const double radius : alone) either.see(radius);
+  for (const double radius : alone) either.observe(radius);
   const Verdict verdict{either.value() / pair, 0.5, 0, "1",
                         "growth by more than two in each pair of steps is no rounding, and no slow drift"};
   return {"variable-step-stability.alternating-steps-resonate." + scheme,
@@ -55,7 +55,7 @@ NamedFinding damped_finding(const Subject& subject, const std::string& scheme) {
   for (const double zeta : ratios) {
     radii.push_back(
         stepped_radius(stepped_motion(subject, hinge_oscillator(zeta), scheme), short_step, long_step));
-    worst.see(radii.back());
+    worst.observe(radii.back());
   }
   return {
       "variable-step-stability.damping-removes-resonance." + scheme,
@@ -82,8 +82,8 @@ Map ratio_map(const Subject& subject, const std::string& method, int fineness) {
           "Steps of 1.99/omega and shorter ones in turn, method " + method,
           {"shorter step over longer one", "1", Scale::linear},
           {"damping ratio", "1", Scale::linear},
-          evenly(0.02, 1, 14 * fineness),
-          evenly(0, 0.6, 8 * fineness),
+          linear_range(0.02, 1, 14 * fineness),
+          linear_range(0, 0.6, 8 * fineness),
           {},
           "spectral radius of a pair of steps",
           "1",
@@ -100,7 +100,7 @@ Map ratio_map(const Subject& subject, const std::string& method, int fineness) {
 
 void add_border(const std::string& scheme, Map& map) {
   Curve curve{"spectral radius 1, derived", {}, {}, nan, {}};
-  for (const double ratio : evenly(0.02, 1, 197)) {
+  for (const double ratio : linear_range(0.02, 1, 197)) {
     const double zeta = curing_ratio(scheme, ratio * long_step, long_step);
     curve.x.push_back(ratio);
     curve.y.push_back(zeta > 0 ? zeta : nan);
@@ -114,7 +114,7 @@ NamedFinding map_finding(const std::string& scheme, const Map& map) {
   for (size_t iy = 0, i = 0; iy < map.y_values.size(); ++iy)
     for (const double ratio : map.x_values) {
       const double exact = exact_radius(scheme, map.y_values[iy], ratio * long_step, long_step);
-      worst.see(std::abs(map.values[i++] / exact - 1));
+      worst.observe(std::abs(map.values[i++] / exact - 1));
     }
   return {
       "variable-step-stability.growth-is-as-derived." + scheme,
@@ -133,8 +133,8 @@ Map both_steps_map(const Subject& subject, int fineness) {
       "Two steps in turn without damping",
       {"first step, omega h", "1", Scale::linear},
       {"second step, omega h", "1", Scale::linear},
-      evenly(0.05, 2, 12 * fineness + 1),
-      evenly(0.05, 2, 12 * fineness + 1),
+      linear_range(0.05, 2, 12 * fineness + 1),
+      linear_range(0.05, 2, 12 * fineness + 1),
       {},
       "spectral radius of a pair of steps",
       "1",
@@ -158,8 +158,8 @@ double sheet_growth(const Subject& subject, Scene scene, const std::string& sche
   const double omega = fastest_mode(subject, scene).omega;
   scene.stretch->damping = 2 * zeta * stretch / omega;
   scene.integrator = scheme;
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
-  offered(subject.step, "step");
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
+  require_offered(subject.step, "step");
   State s = start_state(scene);
   s.x += small_disturbance * disturbance_shape(s.x.cols());
   const double start = (s.x - scene.x).norm();
@@ -168,13 +168,13 @@ double sheet_growth(const Subject& subject, Scene scene, const std::string& sche
   for (int i = 0; i < 2 * pairs && !(worst.value() >= enough); ++i) {
     const double h = (i % 2 == 0 ? short_step : long_step) / omega;
     s = subject.step(*prepared, {&s, 1}, h, uncounted);
-    worst.see((s.x - scene.x).norm() / start);
+    worst.observe((s.x - scene.x).norm() / start);
   }
   return worst.value();
 }
 
 void add_sheet_findings(const Subject& subject, const std::string& scheme, StudyResult& result) {
-  const Scene scene = scene_of(make_sheet({SheetPattern::union_jack, 0.61, 0.61, 5, 5}), 0.23);
+  const Scene scene = scene_at_rest(make_sheet({SheetPattern::union_jack, 0.61, 0.61, 5, 5}), 0.23);
   const double undamped = sheet_growth(subject, scene, scheme, 0);
   const double damped = sheet_growth(subject, scene, scheme, 0.5);
   result.findings.push_back(
@@ -219,7 +219,7 @@ StudyResult run_variable_step_stability(const Subject& subject, Tier tier, const
 
 }  // namespace
 
-Study variable_step_stability() {
+Study variable_step_stability_study() {
   return {"variable-step-stability",
           "Steps that are stable each by itself can resonate in turn: undamped, A, B and C more than double "
           "in each pair of .69/omega and 1.99/omega; a damping ratio of a half cures it.",

@@ -49,14 +49,14 @@ Lag measured_lag(const Subject& subject, const std::string& method, double k, do
   scene.integrator = method;
   const double omega = std::sqrt(k / particle_mass);
   const double settled = 12 * std::max(tau, 2 / omega), watched = 3 * 2 * pi / omega;
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
   State s = start_state(scene);
   s.v.col(0) = Vector3(0, turning * arm, 0);
   Work uncounted;
   std::vector<std::complex<double>> seen;
   std::complex<double> sum = 0;
   while (s.time < settled + watched) {
-    s = offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
+    s = require_offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
     if (s.bonds.empty()) return {nan, nan};
     if (s.time < settled) continue;
     seen.push_back(std::complex<double>(s.x(0, 0), s.x(1, 0)) * std::polar(1.0, -turning * s.time) - arm);
@@ -64,7 +64,7 @@ Lag measured_lag(const Subject& subject, const std::string& method, double k, do
   }
   const std::complex<double> mean = sum / double(seen.size());
   Worst farthest;
-  for (const std::complex<double>& u : seen) farthest.see(std::abs(u - mean));
+  for (const std::complex<double>& u : seen) farthest.observe(std::abs(u - mean));
   return {std::abs(mean), 2 * farthest.value() * k / (particle_mass * turning * turning * arm)};
 }
 
@@ -81,7 +81,7 @@ void add_lags_of_long_steps(const Subject& subject, StudyResult& result) {
       methods.emplace_back(method), steps.push_back(omega_h);
       measured.push_back(measured_lag(subject, method, k, tau, h).mean);
       derived.push_back(derived_lag(method, k, tau, h));
-      off.see(std::abs(measured.back() / derived.back() - 1));
+      off.observe(std::abs(measured.back() / derived.back() - 1));
     }
   result.findings.push_back(
       {"sticking-lag.lag-grows-with-the-step-in-C",
@@ -109,13 +109,13 @@ void add_lags(const Subject& subject, Tier tier, StudyResult& result) {
   Worst off, swings;
   double least_swing = INFINITY;
   std::vector<double> stiffness, plain, plain_swing, lag, derived, swing;
-  for (const double k : in_decades(10, 1e4, tier == Tier::quick ? 4 : 10)) {
+  for (const double k : geometric_range(10, 1e4, tier == Tier::quick ? 4 : 10)) {
     const double omega = std::sqrt(k / particle_mass), tau = 2 / omega, h = 0.02 / omega;  // critical damping
     const Lag without = measured_lag(subject, "C", k, 0, h), with = measured_lag(subject, "C", k, tau, h);
     stiffness.push_back(k), plain.push_back(without.mean), plain_swing.push_back(without.swing);
     lag.push_back(with.mean), derived.push_back(derived_lag("C", k, tau, h)), swing.push_back(with.swing);
-    off.see(std::abs(with.mean / derived.back() - 1));
-    swings.see(with.swing);
+    off.observe(std::abs(with.mean / derived.back() - 1));
+    swings.observe(with.swing);
     least_swing = std::min(least_swing, std::isnan(without.swing) ? -INFINITY : without.swing);
   }
   figure.curves = {{"plain spring, mean", stiffness, plain, nan, {}},
@@ -185,11 +185,11 @@ void add_limits(const Subject& subject, Tier tier, StudyResult& result) {
     const std::string name(integrator.name);
     Curve curve{name, {}, {}, nan, {}}, known{name + ", derived", {}, {}, nan, {}};
     Worst off;
-    for (const double omega_tau : in_decades(0.03, 30, tier == Tier::quick ? 7 : 19)) {
+    for (const double omega_tau : geometric_range(0.03, 30, tier == Tier::quick ? 7 : 19)) {
       curve.x.push_back(omega_tau), known.x.push_back(omega_tau);
       curve.y.push_back(measured_limit(subject, name.c_str(), omega_tau));
       known.y.push_back(derived_limit(name, omega_tau));
-      off.see(std::abs(curve.y.back() / known.y.back() - 1));
+      off.observe(std::abs(curve.y.back() / known.y.back() - 1));
     }
     result.findings.push_back(
         {"sticking-lag.limit-is-as-derived." + name,
@@ -217,7 +217,7 @@ void add_layers(const Subject& subject, StudyResult& result) {
     ratios.push_back(omega_h);
     with.push_back(layers_radius(subject, omega_h, 0.5) - 1);
     without.push_back(layers_radius(subject, omega_h, 0) - 1);
-    stable.see(with.back());
+    stable.observe(with.back());
     if (omega_h > 2) least = std::min(least, std::isnan(without.back()) ? -INFINITY : without.back());
   }
   const std::vector<Column> evidence = {{"omega h of a bond", "1", ratios},
@@ -254,12 +254,13 @@ void add_cost(const Subject& subject, Tier tier, StudyResult& result) {
                 {}};
   const int cells = tier == Tier::quick ? 8 : 24;
   const double loose = iterations_where(subject, cells, StuckTo::nothing, 1);
-  std::vector<double> numbers = in_decades(0.01, 1e4, 7), on_surface, on_cloth, none(numbers.size(), loose);
+  std::vector<double> numbers = geometric_range(0.01, 1e4, 7), on_surface, on_cloth,
+                      none(numbers.size(), loose);
   Worst surface;
   for (const double number : numbers) {
     on_surface.push_back(iterations_where(subject, cells, StuckTo::surface, number));
     on_cloth.push_back(iterations_where(subject, cells, StuckTo::cloth, number));
-    surface.see(on_surface.back() / loose);
+    surface.observe(on_surface.back() / loose);
   }
   figure.curves = {{"nothing sticks", numbers, none, nan, {}},
                    {"to a surface", numbers, on_surface, nan, {}},
@@ -296,7 +297,7 @@ StudyResult run_sticking_lag(const Subject& subject, Tier tier, const Progress& 
 
 }  // namespace
 
-Study sticking_lag() {
+Study sticking_lag_study() {
   return {"sticking-lag",
           "What sticks lags by m a/k; forecasts end its swinging and, in scheme C, free the step of its "
           "stiffness.",

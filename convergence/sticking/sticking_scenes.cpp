@@ -13,9 +13,9 @@ namespace foldproof {
 namespace {
 
 /// What the first step makes of the start's bonds, everything else at rest.
-State begun(const Subject& subject, Prepared& prepared, State s) {
+State begun(const Subject& subject, PreparedScene& prepared, State s) {
   Work uncounted;
-  s.bonds = offered(subject.step, "step")(prepared, {&s, 1}, 1e-12, uncounted).bonds;
+  s.bonds = require_offered(subject.step, "step")(prepared, {&s, 1}, 1e-12, uncounted).bonds;
   return s;
 }
 
@@ -25,7 +25,7 @@ Scene particle_on_palm(const Vector3& place, const Motion& motion, double stiffn
   PerParticle3 x(3, 3);
   x << place, place + Vector3(0.1, 0, 0), place + Vector3(0, 0.1, 0);
   const TriangleMesh mesh = make_triangle_mesh(x, {{0, 1, 2}});
-  Scene scene = scene_of(mesh, 3 * particle_mass / triangle_areas(mesh.triangles, mesh.rest)[0]);
+  Scene scene = scene_at_rest(mesh, 3 * particle_mass / triangle_areas(mesh.triangles, mesh.rest)[0]);
   StickyPatch patch = palm(scene, 2, motion);
   patch.particles = {0};
   patch.stiffness = stiffness;
@@ -42,7 +42,7 @@ StuckParticle::StuckParticle(const Subject& subject, const char* method, double 
     : subject_(subject), omega_(std::sqrt(stiffness / particle_mass)) {
   Scene scene = particle_on_palm({0.11, 0.23, 0}, Motion{}, stiffness, forecast_time);
   scene.integrator = method;
-  prepared_ = offered(subject.prepare, "prepare")(scene);
+  prepared_ = require_offered(subject.prepare, "prepare")(scene);
   rest_ = begun(subject, *prepared_, start_state(scene));
 }
 
@@ -54,7 +54,7 @@ Eigen::MatrixXd StuckParticle::step_matrix(double h) const {
     if (j == 0) s.x(2, 0) += small;
     if (j == 1) s.v(2, 0) += small * omega_;
     Work uncounted;
-    const State next = offered(subject_.step, "step")(*prepared_, {&s, 1}, h, uncounted);
+    const State next = require_offered(subject_.step, "step")(*prepared_, {&s, 1}, h, uncounted);
     matrix.col(j) << (next.x(2, 0) - rest_.x(2, 0)) / small, next.v(2, 0) / (small * omega_);
   }
   return matrix;
@@ -65,7 +65,7 @@ namespace {
 /// Two layers of soft cloth, the lower one held but for the particle nearest to its middle.
 Scene held_layers() {
   constexpr double side = 0.2;
-  Scene scene = scene_of(two_sheets(2, side, 0.004), 0.2);
+  Scene scene = scene_at_rest(two_sheets(2, side, 0.004), 0.2);
   scene.stretch = StretchMaterial{0.3, 0, 1};
   scene.bending = BendingMaterial{1e-4, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
@@ -73,7 +73,7 @@ Scene held_layers() {
   Eigen::Index middle = 0;
   (scene.x.leftCols(lower).colwise() - Vector3(side / 2, side / 2, 0)).colwise().norm().minCoeff(&middle);
   for (int i = 0; i < int(lower); ++i)
-    if (i != middle) scene.led.push_back({i, scene.x.col(i), Motion{}});
+    if (i != middle) scene.prescribed.push_back({i, scene.x.col(i), Motion{}});
   return scene;
 }
 
@@ -90,12 +90,12 @@ double layers_radius(const Subject& subject, double omega_h, double share) {
   patch.far = 0.05;
   scene.sticky = {patch};
   scene.solver.tolerance = 1e-14;
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
   const State rest = begun(subject, *prepared, start_state(scene));
 
   std::vector<Eigen::Index> free;  // coordinates
   for (Eigen::Index i = 0; i < rest.x.cols(); ++i)
-    if (std::ranges::none_of(scene.led, [&](const PrescribedParticle& p) { return p.particle == i; }))
+    if (std::ranges::none_of(scene.prescribed, [&](const PrescribedParticle& p) { return p.particle == i; }))
       for (Eigen::Index k = 0; k < 3; ++k) free.push_back(3 * i + k);
   const Eigen::Index n = Eigen::Index(free.size());
   Eigen::MatrixXd matrix(2 * n, 2 * n);
@@ -105,7 +105,7 @@ double layers_radius(const Subject& subject, double omega_h, double share) {
       if (j < n) s.x.reshaped()[free[size_t(j)]] += by;
       if (j >= n) s.v.reshaped()[free[size_t(j - n)]] += by / h;
       Work uncounted;
-      return offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
+      return require_offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
     };
     const State ahead = stepped(small), behind = stepped(-small);
     const Eigen::VectorXd x = (ahead.x - behind.x).reshaped() / (2 * small),
@@ -118,7 +118,7 @@ double layers_radius(const Subject& subject, double omega_h, double share) {
 double iterations_where(const Subject& subject, int n, StuckTo to, double number) {
   constexpr double h = 0.004, tau = 0.02, density = 0.2;
   const TriangleMesh mesh = two_sheets(n, 0.5, 0.002);
-  Scene scene = scene_of(mesh, density);
+  Scene scene = scene_at_rest(mesh, density);
   scene.stretch = StretchMaterial{20, 0.3, 1};
   const double mass = density * (0.5 / n) * (0.5 / n);  // of a particle inside
   StickyPatch patch = to == StuckTo::cloth ? layer_patch(mesh) : palm(scene, 2, Motion{});
@@ -128,11 +128,11 @@ double iterations_where(const Subject& subject, int n, StuckTo to, double number
   patch.near = 0.003;
   patch.far = 0.05;
   scene.sticky = {patch};
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
   State s = start_state(scene);
   s.v = disturbance_shape(s.x.cols());
   Work work;
-  for (int k = 0; k < 3; ++k) s = offered(subject.step, "step")(*prepared, {&s, 1}, h, work);
+  for (int k = 0; k < 3; ++k) s = require_offered(subject.step, "step")(*prepared, {&s, 1}, h, work);
   return double(work.cg_iterations) / double(work.solves);
 }
 

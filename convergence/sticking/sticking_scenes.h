@@ -25,7 +25,7 @@ class StuckParticle {
  private:
   const Subject& subject_;
   double omega_;
-  std::unique_ptr<Prepared> prepared_;
+  std::unique_ptr<PreparedScene> prepared_;
   State rest_;
 };
 

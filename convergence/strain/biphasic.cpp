@@ -44,7 +44,7 @@ struct Springs {
 
 /// Edges along the pull, so that the strip's modulus is Y, and only edges along it are stretched.
 Scene strip(const Springs& springs) {
-  Scene scene = scene_of(
+  Scene scene = scene_at_rest(
       make_sheet({SheetPattern::equilateral, length, 0, springs.columns, springs.columns / 5}), density);
   scene.stretch = StretchMaterial{springs.young, damping_time * springs.young, 1};
   if (springs.is_limited) {
@@ -59,23 +59,23 @@ Scene strip(const Springs& springs) {
   pull.amplitude = Vector3(fastest / (turn * turn), 0, 0);
   pull.frequency = frequency;
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
-    if (scene.x(0, i) < 1e-9) scene.led.push_back({int(i), scene.x.col(i), pull});
+    if (scene.x(0, i) < 1e-9) scene.prescribed.push_back({int(i), scene.x.col(i), pull});
   scene.schedule.end = duration;
   scene.schedule.frame_interval = duration / 80;
   return scene;
 }
 
 /// What a run shows.
-struct Pulled {
+struct PulledStrip {
   Springs springs;
   std::vector<double> loads, extensions;  // N/m, 1
   double steps = 0, sweeps = 0, seconds = 0, step_limit = 0, largest_strain = 0;
 };
 
-Pulled pulled(const Springs& springs) {
+PulledStrip pull_strip(const Springs& springs) {
   const Scene scene = strip(springs);
   const System system = build_system(scene);
-  Pulled result{springs, {}, {}};
+  PulledStrip result{springs, {}, {}};
   result.step_limit = elastic_limit(system, start_state(scene));
   const auto frame = [&](const State& s) {
     double ends = 0, count = 0;  // m
@@ -86,10 +86,10 @@ Pulled pulled(const Springs& springs) {
     }
     for (const Edge& edge : scene.mesh.edges) {
       const double rest = (scene.mesh.rest.col(edge.b) - scene.mesh.rest.col(edge.a)).norm();
-      keep_worst(result.largest_strain, (s.x.col(edge.b) - s.x.col(edge.a)).norm() / rest - 1);
+      update_worst(result.largest_strain, (s.x.col(edge.b) - s.x.col(edge.a)).norm() / rest - 1);
     }
     result.loads.push_back(load_at(s.time));
-    result.extensions.push_back((ends / count - s.x(0, scene.led.front().particle)) / length - 1);
+    result.extensions.push_back((ends / count - s.x(0, scene.prescribed.front().particle)) / length - 1);
   };
   const auto start = std::chrono::steady_clock::now();
   const RunResult run =
@@ -102,7 +102,7 @@ Pulled pulled(const Springs& springs) {
 }
 
 /// Slope of extension over load between two loads, by least squares [m/N].
-double compliance(const Pulled& run, double low, double high) {
+double compliance(const PulledStrip& run, double low, double high) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (size_t k = 0; k < run.loads.size(); ++k) {
     const double x = run.loads[k], y = run.extensions[k];
@@ -113,22 +113,22 @@ double compliance(const Pulled& run, double low, double high) {
 }
 
 /// How much less the strip gives way once springs are at their limits.
-double late_over_early(const Pulled& run) {
+double late_over_early(const PulledStrip& run) {
   return compliance(run, 3 * locking, most * locking) / compliance(run, 0.1 * locking, 0.9 * locking);
 }
 
-std::vector<Column> evidence_of(const Pulled& run) {
+std::vector<Column> evidence_of(const PulledStrip& run) {
   std::vector<double> bar;
   for (const double load : run.loads)
     bar.push_back(bar_extension(load, run.springs.young, run.springs.is_limited ? limit : INFINITY));
   return {{"load", "N/m", run.loads}, {"extension", "1", run.extensions}, {"of the bar", "1", bar}};
 }
 
-NamedFinding bar_finding(const Pulled& run) {
+NamedFinding bar_finding(const PulledStrip& run) {
   Worst worst;
   std::vector<Column> evidence = evidence_of(run);
   const auto& bar = std::get<0>(evidence[2].values);
-  for (size_t k = 0; k < bar.size(); ++k) worst.see(std::abs(run.extensions[k] - bar[k]) / limit);
+  for (size_t k = 0; k < bar.size(); ++k) worst.observe(std::abs(run.extensions[k] - bar[k]) / limit);
   const double wave = length / std::sqrt(weak / density);       // s
   const double growth = most * locking * 2 * pi * frequency;  // of the load, at most [N/m/s]
   const double lag = (wave + damping_time) * growth / (2 * weak) / limit;
@@ -144,7 +144,7 @@ NamedFinding bar_finding(const Pulled& run) {
            ""}};
 }
 
-NamedFinding phases_finding(const Pulled& run) {
+NamedFinding phases_finding(const PulledStrip& run) {
   return {"biphasic.gives-way-then-holds",
           "Beyond three times the load at which it begins to reach its limits, the strip gives way a twelfth "
           "as much as it did before.",
@@ -156,20 +156,20 @@ NamedFinding phases_finding(const Pulled& run) {
            "0.9 times it"}};
 }
 
-NamedFinding one_phase_finding(const std::vector<Pulled>& runs) {
+NamedFinding one_phase_finding(const std::vector<PulledStrip>& runs) {
   Table measured{{"case", ""}, {"|slope late over early - 1|", "1"}};
-  for (const Pulled& run : runs)
+  for (const PulledStrip& run : runs)
     if (!run.springs.is_limited) measured.row(run.springs.name, std::abs(late_over_early(run) - 1));
   return {
       "biphasic.springs-without-limits-have-one-phase",
       "Without limits a strip gives way to the last as it did at first, weak or stiff springs.",
-      judged_worst(
+      judge_worst(
           measured, 0.25,
           "springs are linear, the load's way into the strip is not quite slow: far from the twelfth of a "
           "strip with limits")};
 }
 
-NamedFinding steps_finding(const Pulled& limited, const Pulled& stiff) {
+NamedFinding steps_finding(const PulledStrip& limited, const PulledStrip& stiff) {
   const double ratio = stiff.steps / limited.steps;
   return {"biphasic.limits-allow-larger-steps",
           "Springs that need no limit to stay within 10 % under the largest load are four times as stiff, "
@@ -187,7 +187,7 @@ NamedFinding steps_finding(const Pulled& limited, const Pulled& stiff) {
            ""}};
 }
 
-Figure figure_of(const std::vector<Pulled>& runs) {
+Figure figure_of(const std::vector<PulledStrip>& runs) {
   Figure figure{"curve",
                 "Extension of a strip under a growing load",
                 {"load at the clamp", "N/m", Scale::linear},
@@ -196,17 +196,17 @@ Figure figure_of(const std::vector<Pulled>& runs) {
                 "A strip pulled by one end, ever faster. The bar: strain proportional to the load beyond, "
                 "until it is the limit.",
                 {}};
-  for (const Pulled& run : runs)
+  for (const PulledStrip& run : runs)
     figure.curves.push_back({run.springs.name, run.loads, run.extensions, nan, {}});
   const std::vector<Column> evidence = evidence_of(runs.front());
   figure.curves.push_back({"bar with a limit", runs.front().loads, std::get<0>(evidence[2].values), nan, {}});
   return figure;
 }
 
-Table table_of(const std::vector<Pulled>& runs) {
+Table table_of(const std::vector<PulledStrip>& runs) {
   std::vector<std::string> names;
   std::vector<double> columns, limits, steps, sweeps, seconds, strains;
-  for (const Pulled& run : runs) {
+  for (const PulledStrip& run : runs) {
     names.push_back(run.springs.name);
     columns.push_back(run.springs.columns);
     limits.push_back(1e3 * run.step_limit);
@@ -234,9 +234,9 @@ StudyResult run_biphasic(const Subject&, Tier tier, const Progress& progress) {
       all.push_back({"weak, limits", weak, true, columns});
       all.push_back({"stiff", most * weak, false, columns});
     }
-  std::vector<Pulled> runs;
+  std::vector<PulledStrip> runs;
   for (const Springs& springs : all) {
-    runs.push_back(pulled(springs));
+    runs.push_back(pull_strip(springs));
     progress(double(runs.size()) / double(all.size()));
   }
   return {{bar_finding(runs[0]), phases_finding(runs[0]), one_phase_finding({runs[1], runs[2]}),
@@ -248,7 +248,7 @@ StudyResult run_biphasic(const Subject&, Tier tier, const Progress& progress) {
 
 }  // namespace
 
-Study biphasic() {
+Study biphasic_study() {
   return {"biphasic",
           "Weak springs with limits give way to a load at first and then no more, in steps that springs "
           "without limits, "

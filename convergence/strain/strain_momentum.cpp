@@ -21,7 +21,7 @@ constexpr int coarsest = 60;  // steps
 /// A jittered sheet that spins so fast, and flaps so wildly, that its weak, undamped springs are at their
 /// limits most of the time; it starts within them.
 Scene spinning_sheet() {
-  Scene scene = scene_of(make_sheet({SheetPattern::jittered, 0.53, 0, 5, 4, 0.23, 11}), 0.17);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::jittered, 0.53, 0, 5, 4, 0.23, 11}), 0.17);
   scene.stretch = StretchMaterial{3, 0, 1};
   scene.bending = BendingMaterial{0.0017, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0.07);
@@ -54,7 +54,7 @@ void add_level(const Subject& subject, const Scene& scene, int count, Drift& dri
   State s = start;
   Worst size;
   for (int n = 0; n < count; ++n) {
-    size.see(s.x.colwise().norm().cwiseProduct(s.v.colwise().norm()).dot(system.mass.transpose()));
+    size.observe(s.x.colwise().norm().cwiseProduct(s.v.colwise().norm()).dot(system.mass.transpose()));
     s = stepper.step(s, end / count);
   }
   const Vector3 before = angular_momentum(system, start);
@@ -74,7 +74,7 @@ std::vector<Column> evidence_of(const Drift& drift) {
 
 NamedFinding kept(const Drift& drift) {
   Worst worst;
-  for (const double roundings : drift.roundings) worst.see(roundings);
+  for (const double roundings : drift.roundings) worst.observe(roundings);
   return {"strain-momentum.is-conserved." + drift.scheme,
           "Scheme " + drift.scheme +
               " keeps the angular momentum of a free sheet at its strain limits to rounding.",
@@ -125,7 +125,7 @@ StudyResult run_strain_momentum(const Subject& subject, Tier tier, const Progres
 
 }  // namespace
 
-Study strain_momentum() {
+Study strain_momentum_study() {
   return {"strain-momentum",
           "While strain limits act, scheme B keeps the angular momentum of a free sheet to rounding; A and C "
           "let it drift, by "

@@ -39,11 +39,12 @@ struct JerkedSheet {
 };
 
 JerkedSheet jerked_sheet(int cells) {
-  JerkedSheet sheet{cells, scene_of(make_sheet({SheetPattern::union_jack, 1, 1, cells, cells}), 0.2), {}, {}};
+  JerkedSheet sheet{
+      cells, scene_at_rest(make_sheet({SheetPattern::union_jack, 1, 1, cells, cells}), 0.2), {}, {}};
   sheet.scene.stretch = StretchMaterial{10, 0, 1};
   for (int i = 0; i <= cells; ++i) {
     const int top = cells * (cells + 1) + i;
-    sheet.scene.led.push_back({top, sheet.scene.x.col(top), Motion{}});
+    sheet.scene.prescribed.push_back({top, sheet.scene.x.col(top), Motion{}});
   }
   sheet.system = build_system(sheet.scene);
   sheet.v = PerParticle3::Zero(3, sheet.scene.x.cols());
@@ -69,8 +70,9 @@ double asymmetry(const JerkedSheet& sheet, const PerParticle3& v) {
   const int row = sheet.cells + 1;
   Worst worst;
   for (Eigen::Index i = 0; i < v.cols(); ++i) {
-    const Eigen::Index mirrored = i / row * row + sheet.cells - i % row;
-    worst.see((v.col(i) - Vector3(-v(0, mirrored), v(1, mirrored), v(2, mirrored))).norm());
+    const Eigen::Index mirror_finding = i / row * row + sheet.cells - i % row;
+    worst.observe(
+        (v.col(i) - Vector3(-v(0, mirror_finding), v(1, mirror_finding), v(2, mirror_finding))).norm());
   }
   return worst.value() / largest_difference(v, sheet.v);
 }
@@ -121,9 +123,9 @@ NamedFinding growth(const Row& row) {
            "measured is |exponent - 2|"}};
 }
 
-NamedFinding mirrored(const Row& row) {
+NamedFinding mirror_finding(const Row& row) {
   Worst worst;
-  for (const double asymmetry : row.asymmetry) worst.see(asymmetry / epsilon);
+  for (const double asymmetry : row.asymmetry) worst.observe(asymmetry / epsilon);
   return {"strain-sweeps.jacobi-is-mirror-symmetric",
           "Sweeps that correct all springs from the same velocities answer a mirror-symmetric motion by a "
           "mirror-symmetric "
@@ -136,7 +138,7 @@ NamedFinding mirrored(const Row& row) {
            ""}};
 }
 
-NamedFinding biased(const std::vector<Row>& rows) {
+NamedFinding bias_finding(const std::vector<Row>& rows) {
   Worst worst;
   std::vector<std::string> orders;
   std::vector<double> coarsest;
@@ -144,7 +146,7 @@ NamedFinding biased(const std::vector<Row>& rows) {
     if (row.order == "jacobi") continue;
     orders.push_back(row.order);
     coarsest.push_back(row.asymmetry.front());
-    worst.see(0.01 / row.asymmetry.front());
+    worst.observe(0.01 / row.asymmetry.front());
   }
   return {
       "strain-sweeps.sequential-sweeps-break-mirror-symmetry",
@@ -160,7 +162,7 @@ NamedFinding biased(const std::vector<Row>& rows) {
 NamedFinding energy(const std::vector<Row>& rows) {
   Worst worst;
   for (const Row& row : rows)
-    for (const double left : row.energy_left) worst.see(left);
+    for (const double left : row.energy_left) worst.observe(left);
   return {
       "strain-sweeps.kinetic-energy-decreases",
       "Limiting the strain of a sheet that moves away from its place takes kinetic energy, in whatever "
@@ -177,8 +179,8 @@ Curve residuals(const NamedOrder& order, int cells) {
   for (int sweeps = 1;; sweeps *= 2) {
     const StrainSweeps done = swept(sheet, order.order, sweeps).done;
     curve.x.push_back(done.sweeps);
-    curve.y.push_back(done.left);
-    if (!(done.left > tolerance)) return curve;
+    curve.y.push_back(done.remaining_violation);
+    if (!(done.remaining_violation > tolerance)) return curve;
   }
 }
 
@@ -199,7 +201,7 @@ Table table_of(const std::vector<Row>& rows) {
 }
 
 /// Springs that are beyond their limits at the start are brought back in one step, whatever that takes.
-Table brought_back() {
+Table recovery_table() {
   std::vector<double> stretches = {1.05, 1.12, 1.2, 1.4}, given, elastic, sweeps;
   const JerkedSheet sheet = jerked_sheet(12);
   StrainLimiter free = sheet.limiter(SweepOrder::gauss_seidel, 10'000);
@@ -236,21 +238,21 @@ StudyResult run_strain_sweeps(const Subject&, Tier tier, const Progress& progres
   for (const NamedOrder& order : sweep_orders()) {
     rows.push_back(row_of(order, meshes));
     result.findings.push_back(growth(rows.back()));
-    if (order.order == SweepOrder::jacobi) result.findings.push_back(mirrored(rows.back()));
+    if (order.order == SweepOrder::jacobi) result.findings.push_back(mirror_finding(rows.back()));
     figure.curves.push_back(residuals(order, 12));
     progress(double(rows.size()) / double(sweep_orders().size()));
   }
-  result.findings.push_back(biased(rows));
+  result.findings.push_back(bias_finding(rows));
   result.findings.push_back(energy(rows));
   result.figures.push_back(std::move(figure));
   result.tables.push_back(table_of(rows));
-  result.tables.push_back(brought_back());
+  result.tables.push_back(recovery_table());
   return result;
 }
 
 }  // namespace
 
-Study strain_sweeps() {
+Study strain_sweeps_study() {
   return {"strain-sweeps",
           "Sweeps of strain limiting grow as the square of the cells along a side, in every order; only "
           "those that "

@@ -5,8 +5,8 @@
 
 namespace foldproof {
 
-Study strain_sweeps();    // strain-sweeps: sweeps of strain limiting over mesh and order
-Study strain_momentum();  // strain-momentum: angular momentum at the strain limits
-Study biphasic();         // biphasic: weak springs with limits under a growing load
+Study strain_sweeps_study();    // strain-sweeps: sweeps of strain limiting over mesh and order
+Study strain_momentum_study();  // strain-momentum: angular momentum at the strain limits
+Study biphasic_study();         // biphasic: weak springs with limits under a growing load
 
 }  // namespace foldproof

@@ -61,17 +61,17 @@ const ScenePart& part_named(const std::vector<ScenePart>& parts, const std::stri
 }
 
 /// A run of one particle that is at x in both of its frames.
-RunObserved made_up_run(double x) {
-  RunObserved run;
+ObservedRun made_up_run(double x) {
+  ObservedRun run;
   run.times = {0, 1};
   run.x = {Vector3(x, 0, 0), Vector3(x, 0, 0)};
   run.energy = {1, 1};
   return run;
 }
 
-Need need_of(bool is_present, const RunObserved& scene, const RunObserved& toggled) {
+Need judge_need(bool is_present, const ObservedRun& scene, const ObservedRun& toggled) {
   const ScenePart one{"part", is_present, {}};
-  return judged(one, scene, toggled, {0.01, 0.02, 1e-6}, PerParticle::Constant(1, 0.5)).need;
+  return judge_part(one, scene, toggled, {0.01, 0.02, 1e-6}, PerParticle::Constant(1, 0.5)).need;
 }
 
 }  // namespace
@@ -89,10 +89,10 @@ TEST_CASE("a finer mesh is the same cloth") {
   thick.self_collision->thickness = 0.017;  // of triangles 35 mm high
   const Scene finer_thick = with_finer_mesh(thick);
   CHECK(finer_thick.self_collision->thickness <
-        least_height(finer_thick.mesh.triangles, finer_thick.mesh.rest) / 2);
+        smallest_height(finer_thick.mesh.triangles, finer_thick.mesh.rest) / 2);
   CHECK(finer_thick.self_collision->thickness > 0.008);
-  CHECK(finer.led.size() == 7 + 6);  // a row of particles, and the middles of its edges
-  for (const PrescribedParticle& p : finer.led) CHECK(p.start == finer.x.col(p.particle));
+  CHECK(finer.prescribed.size() == 7 + 6);  // a row of particles, and the middles of its edges
+  for (const PrescribedParticle& p : finer.prescribed) CHECK(p.start == finer.x.col(p.particle));
 }
 
 TEST_CASE("halves of a hinge's edge have its rest angle, new edges have none") {
@@ -127,7 +127,7 @@ TEST_CASE("each part of a scene can be toggled by itself") {
   CHECK(part_named(parts, "rest angles").toggled(scene).rest_angles[0] == 0);
   CHECK(part_named(parts, "object 'floor'").toggled(scene).objects.empty());
   CHECK(part_named(parts, "friction of objects").toggled(scene).objects[0].object.friction == 0);
-  CHECK(part_named(parts, "held particles").toggled(scene).led.empty());
+  CHECK(part_named(parts, "held particles").toggled(scene).prescribed.empty());
   CHECK_FALSE(part_named(parts, "self-collision").toggled(scene).self_collision);
   CHECK_FALSE(part_named(parts, "strain limits").is_present);
   CHECK(part_named(parts, "strain limits").toggled(scene).strain_limits);
@@ -136,7 +136,7 @@ TEST_CASE("each part of a scene can be toggled by itself") {
 }
 
 TEST_CASE("positions differ by the root mean square over particles, in the worst frame") {
-  RunObserved a, b;
+  ObservedRun a, b;
   a.x = {PerParticle3::Zero(3, 2), PerParticle3::Zero(3, 2)};
   b.x = a.x;
   b.x[1].col(0) = Vector3(0, 3, 4);
@@ -155,7 +155,7 @@ TEST_CASE("a coarser mesh is compared where it lies on the finer one") {
     moved.row(1).array() += by * x.row(0).array().square();
     return moved;
   };
-  RunObserved run, coarser;
+  ObservedRun run, coarser;
   run.x = {fine.rest, bulged(fine.rest, 0.1)};
   coarser.x = {coarse.rest, bulged(coarse.rest, 0.1)};
   // the same motion: what is left, e^2 / 8 of x^2 for sides e = 0.1, is that facets are moved linearly
@@ -168,7 +168,7 @@ TEST_CASE("a coarser mesh is compared where it lies on the finer one") {
   coarser.x[1] = coarse.rest.colwise() + Vector3(0, 0.3, 0);
   run.x[1] = fine.rest;
   CHECK(error_from_coarser(run, fine, coarser, coarse) == Approx(0.3 / (r - 1)).epsilon(1e-12));
-  CHECK(std::isnan(error_from_coarser(RunObserved{}, fine, coarser, coarse)));
+  CHECK(std::isnan(error_from_coarser(ObservedRun{}, fine, coarser, coarse)));
   CHECK_THROWS_AS(coarseness(coarse, fine), InputError);
   CHECK_THROWS_AS(coarseness(fine, make_geodesic_sphere(1, 11)), InputError);
 }
@@ -176,61 +176,61 @@ TEST_CASE("a coarser mesh is compared where it lies on the finer one") {
 TEST_CASE("a case names its coarser mesh beside its reasons") {
   const std::string path = "coarser_mesh_trial.toml";
   std::ofstream(path) << text << "[ablation]\ncoarser_mesh = \"cloth.rows=2\"\n\"gravity\" = \"a reason\"\n";
-  const Case shown = read_case(path);
-  CHECK(shown.coarser_mesh == std::vector<std::string>{"cloth.rows=2"});
-  REQUIRE(shown.declared.size() == 1);
-  CHECK(shown.declared[0].part == "gravity");
+  const Case input_case = read_case(path);
+  CHECK(input_case.coarser_mesh == std::vector<std::string>{"cloth.rows=2"});
+  REQUIRE(input_case.declared.size() == 1);
+  CHECK(input_case.declared[0].part == "gravity");
   std::filesystem::remove(path);
 }
 
 TEST_CASE("a part is needed when it changes more than the scene's own error") {
-  const RunObserved scene = made_up_run(0);
-  CHECK(need_of(true, scene, made_up_run(0.029)) == Need::not_needed);
-  CHECK(need_of(true, scene, made_up_run(0.031)) == Need::needed);
-  CHECK(need_of(false, scene, made_up_run(0.029)) == Need::not_missed);
-  CHECK(need_of(false, scene, made_up_run(0.031)) == Need::missing);
-  CHECK(need_of(true, scene, made_up_run(std::nan(""))) == Need::needed);
+  const ObservedRun scene = made_up_run(0);
+  CHECK(judge_need(true, scene, made_up_run(0.029)) == Need::not_needed);
+  CHECK(judge_need(true, scene, made_up_run(0.031)) == Need::needed);
+  CHECK(judge_need(false, scene, made_up_run(0.029)) == Need::no_effect);
+  CHECK(judge_need(false, scene, made_up_run(0.031)) == Need::missing);
+  CHECK(judge_need(true, scene, made_up_run(std::nan(""))) == Need::needed);
 }
 
 TEST_CASE("a part is needed where cloth fails without it, however little it moves") {
-  const RunObserved scene = made_up_run(0);
+  const ObservedRun scene = made_up_run(0);
   const auto with = [](auto change) {
-    RunObserved run = made_up_run(0);
+    ObservedRun run = made_up_run(0);
     change(run);
     return run;
   };
-  const RunObserved stops = with([](RunObserved& r) { r.stopped = "it stopped"; });
-  const RunObserved crosses = with([](RunObserved& r) { r.crossings = 3; });
-  const RunObserved sinks = with([](RunObserved& r) { r.deepest = 0.031; });
-  const RunObserved fails = with([](RunObserved& r) { r.failed = {"stays_flat"}; });
-  const RunObserved asks = with([](RunObserved& r) { r.asked = {"sticks"}; });
-  CHECK(need_of(true, asks, made_up_run(0)) == Need::needed);
-  CHECK(need_of(true, asks, asks) == Need::not_needed);
-  CHECK(need_of(false, asks, made_up_run(0)) == Need::not_missed);
-  for (const RunObserved& broken : {stops, crosses, sinks, fails}) {
-    CHECK(need_of(true, scene, broken) == Need::needed);
-    CHECK(need_of(true, broken, broken) == Need::not_needed);
-    CHECK(need_of(false, broken, scene) == Need::missing);
-    CHECK(need_of(false, scene, broken) == Need::not_missed);
+  const ObservedRun stops = with([](ObservedRun& r) { r.stopped = "it stopped"; });
+  const ObservedRun crosses = with([](ObservedRun& r) { r.crossings = 3; });
+  const ObservedRun sinks = with([](ObservedRun& r) { r.deepest = 0.031; });
+  const ObservedRun fails = with([](ObservedRun& r) { r.failed_keys = {"stays_flat"}; });
+  const ObservedRun asks = with([](ObservedRun& r) { r.expected_keys = {"sticks"}; });
+  CHECK(judge_need(true, asks, made_up_run(0)) == Need::needed);
+  CHECK(judge_need(true, asks, asks) == Need::not_needed);
+  CHECK(judge_need(false, asks, made_up_run(0)) == Need::no_effect);
+  for (const ObservedRun& broken : {stops, crosses, sinks, fails}) {
+    CHECK(judge_need(true, scene, broken) == Need::needed);
+    CHECK(judge_need(true, broken, broken) == Need::not_needed);
+    CHECK(judge_need(false, broken, scene) == Need::missing);
+    CHECK(judge_need(false, scene, broken) == Need::no_effect);
   }
 }
 
 TEST_CASE("what a case declares is asked for, and no more than that") {
-  PartJudged part{"gravity", true, Need::needed, "", 0, 0, "", {}};
-  CHECK(part.is_as_it_should_be());
+  JudgedPart part{"gravity", true, Need::needed, "", 0, 0, "", {}};
+  CHECK(part.is_justified());
   part.declared = "a reason";
-  CHECK_FALSE(part.is_as_it_should_be());
+  CHECK_FALSE(part.is_justified());
   part.need = Need::not_needed;
-  CHECK(part.is_as_it_should_be());
+  CHECK(part.is_justified());
   part.declared = "";
-  CHECK_FALSE(part.is_as_it_should_be());
+  CHECK_FALSE(part.is_justified());
 
-  Case shown{trial(), {}, {{"strain limits", "a reason"}}};
-  const std::vector<ScenePart> parts = parts_of(shown.scene);
-  CHECK(declared_for(shown, "strain limits") == "a reason");
-  CHECK(declared_for(shown, "gravity").empty());
-  shown.declared.push_back({"finer mesh", "two triangles are all there is"});
-  CHECK_NOTHROW(refuse_unknown_parts(shown, parts));
-  shown.declared.push_back({"wind", "a reason"});
-  CHECK_THROWS_AS(refuse_unknown_parts(shown, parts), InputError);
+  Case input_case{trial(), {}, {{"strain limits", "a reason"}}};
+  const std::vector<ScenePart> parts = parts_of(input_case.scene);
+  CHECK(declared_reason(input_case, "strain limits") == "a reason");
+  CHECK(declared_reason(input_case, "gravity").empty());
+  input_case.declared.push_back({"finer mesh", "two triangles are all there is"});
+  CHECK_NOTHROW(reject_unknown_parts(input_case, parts));
+  input_case.declared.push_back({"wind", "a reason"});
+  CHECK_THROWS_AS(reject_unknown_parts(input_case, parts), InputError);
 }

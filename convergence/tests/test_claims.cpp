@@ -113,14 +113,15 @@ TEST_CASE("numbers in a text come from the findings, with unit, three digits and
                              {"|m|/2", "g", std::vector<double>{7, 3}},
                              {"share", "1", std::vector<double>{0.5, not_a_number}}};
   const std::vector<Record> records = {record};
-  CHECK(filled("{mass} of {mass|bound}", records) == "0.123 kg of 0.5 kg");
-  CHECK(filled("{mass||m|/2|light}, {mass||m|/2|1}, {mass||m|/2|last}", records) == "3 g, 7 g, 3 g");
-  CHECK(filled("{mass||m|/2|smallest} to {mass||m|/2|largest}", records) == "3 g to 7 g");
-  CHECK(filled("{mass|share|first}", records) == "0.5");
+  CHECK(fill_placeholders("{mass} of {mass|bound}", records) == "0.123 kg of 0.5 kg");
+  CHECK(fill_placeholders("{mass||m|/2|light}, {mass||m|/2|1}, {mass||m|/2|last}", records) ==
+        "3 g, 7 g, 3 g");
+  CHECK(fill_placeholders("{mass||m|/2|smallest} to {mass||m|/2|largest}", records) == "3 g to 7 g");
+  CHECK(fill_placeholders("{mass|share|first}", records) == "0.5");
   for (const char* wrong :
        {"{mess}", "{mass|share|3}", "{mass|share|0}", "{mass|share|heavily}", "{mass|volume|1}",
         "{mass|share|last}", "{mass|share|largest}", "{mass", "{mass|case|1}"})
-    CHECK_THROWS_WITH(filled(wrong, records),
+    CHECK_THROWS_WITH(fill_placeholders(wrong, records),
                       Catch::Contains("placeholder {mass") || Catch::Contains("placeholder {mess}"));
 }
 
@@ -131,33 +132,37 @@ TEST_CASE(
       finding("small", holds, 5.9217e-5), finding("large", holds, 1.9949e7),
       finding("plain", holds, 123456),    finding("unknown", fails, not_a_number),
       finding("none", holds, 0),          finding("below", holds, -0.00123456)};
-  CHECK(filled("{small}, {large}, {plain}, {none}", records) == "5.92×10⁻⁵ kg, 1.99×10⁷ kg, 123000 kg, 0 kg");
-  CHECK(filled("{bare: small} and {bare: below}", records) == "5.92×10⁻⁵ and -0.00123");
-  CHECK(filled("{largest of: small, plain, none}", records) == "123000 kg");
-  CHECK(filled("{bare: largest of: small, none|bound}", records) == "0.5");
-  CHECK_THROWS_WITH(filled("{largest of: small, unknown}", records),
+  CHECK(fill_placeholders("{small}, {large}, {plain}, {none}", records) ==
+        "5.92×10⁻⁵ kg, 1.99×10⁷ kg, 123000 kg, 0 kg");
+  CHECK(fill_placeholders("{bare: small} and {bare: below}", records) == "5.92×10⁻⁵ and -0.00123");
+  CHECK(fill_placeholders("{largest of: small, plain, none}", records) == "123000 kg");
+  CHECK(fill_placeholders("{bare: largest of: small, none|bound}", records) == "0.5");
+  CHECK_THROWS_WITH(fill_placeholders("{largest of: small, unknown}", records),
                     Catch::Contains("largest of: small, unknown"));
-  CHECK_THROWS_WITH(filled("{largest of: unknown, small}", records), Catch::Contains("not a number"));
+  CHECK_THROWS_WITH(fill_placeholders("{largest of: unknown, small}", records),
+                    Catch::Contains("not a number"));
   std::vector<Record> mixed = records;
   mixed.front().finding.verdict.unit = "m";
-  CHECK_THROWS_WITH(filled("{largest of: small, plain}", mixed), Catch::Contains("different units"));
+  CHECK_THROWS_WITH(fill_placeholders("{largest of: small, plain}", mixed),
+                    Catch::Contains("different units"));
 }
 
 TEST_CASE("a ruled claim has its numbers; one that asks for a number that is not there is refused by name") {
   const std::vector<Record> records = {finding("support", holds)};
-  CHECK(ruled(small_claim(Ruling::confirmed, "It is {support}."), records).claim.why == "It is 0.25 kg.");
-  CHECK_THROWS_WITH(ruled(small_claim(Ruling::confirmed, "It is {other}."), records),
+  CHECK(rule_claim(small_claim(Ruling::confirmed, "It is {support}."), records).claim.why ==
+        "It is 0.25 kg.");
+  CHECK_THROWS_WITH(rule_claim(small_claim(Ruling::confirmed, "It is {other}."), records),
                     Catch::Contains("claim X1"));
 }
 
 TEST_CASE("a ruling other than the recorded one fails; an open question stays open") {
   const std::vector<Record> held = {finding("support", holds)}, failed = {finding("support", fails)};
-  CHECK(outcome_of(ruled(small_claim(Ruling::confirmed, ""), held)) == holds);
-  CHECK(outcome_of(ruled(small_claim(Ruling::confirmed, ""), failed)) == fails);
-  CHECK(outcome_of(ruled(small_claim(Ruling::confirmed, ""), {})) == fails);
-  CHECK(outcome_of(ruled(small_claim(Ruling::refuted, ""), held)) == fails);
-  CHECK(outcome_of(ruled(small_claim(Ruling::undecided, ""), held)) == fails);
-  CHECK(outcome_of(ruled(small_claim(Ruling::undecided, ""), {})) == Outcome::inconclusive);
+  CHECK(outcome_of(rule_claim(small_claim(Ruling::confirmed, ""), held)) == holds);
+  CHECK(outcome_of(rule_claim(small_claim(Ruling::confirmed, ""), failed)) == fails);
+  CHECK(outcome_of(rule_claim(small_claim(Ruling::confirmed, ""), {})) == fails);
+  CHECK(outcome_of(rule_claim(small_claim(Ruling::refuted, ""), held)) == fails);
+  CHECK(outcome_of(rule_claim(small_claim(Ruling::undecided, ""), held)) == fails);
+  CHECK(outcome_of(rule_claim(small_claim(Ruling::undecided, ""), {})) == Outcome::inconclusive);
 }
 
 TEST_CASE("the ledger has every claim of sections 3, 4 and 6 once, and claims of section 5 in their order") {

@@ -96,10 +96,10 @@ TEST_CASE("the floor's uncertainty covers every error that the floor allows") {
   const Estimate deviation = order_deviation(convergence, 2, 1);
   for (const double first : {-1.0, 1.0}) {
     for (const double second : {-1.0, 1.0}) {
-      Convergence shifted = convergence;
-      shifted.errors[2] += first * convergence.floor;
-      shifted.errors[3] += second * convergence.floor;
-      CHECK(order_deviation(shifted, 2, 1).value <= deviation.value + deviation.uncertainty);
+      Convergence shifted_seed = convergence;
+      shifted_seed.errors[2] += first * convergence.floor;
+      shifted_seed.errors[3] += second * convergence.floor;
+      CHECK(order_deviation(shifted_seed, 2, 1).value <= deviation.value + deviation.uncertainty);
     }
   }
   CHECK(deviation.uncertainty < 0.5);

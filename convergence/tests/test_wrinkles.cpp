@@ -7,7 +7,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/files/hdf5_file.h"
-#include "reference/bodies/makers.h"
+#include "reference/bodies/level_set_provider.h"
 #include "verification/files/stored_run_file.h"
 #include "verification/files/trajectory_file.h"
 
@@ -69,7 +69,7 @@ end = 0.1
 TEST_CASE("a stored simulation is read back bit for bit, overrides and all") {
   const ScratchFolder folder;
   const Scene scene = read_scene_text(small_case, "small.toml", {"cloth.width=0.45", "object.0.radius=0.25"});
-  const Built built = build(scene, computing_makers());
+  const BuiltScene built = build(scene, computing_provider());
   State s = built.start;
   {
     TrajectoryFile file(folder.file("small.h5"), scene, built.system, built.objects, {});

@@ -20,7 +20,7 @@ constexpr int coarsest = 4;                    // cells along each side
 /// Held along its upper edge, swung by a smooth velocity. Every constant is a property of the cloth, none of
 /// the mesh.
 Scene swung_sheet(int cells) {
-  Scene scene = scene_of(make_sheet({SheetPattern::one_diagonal, width, height, cells, cells}), 0.19);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::one_diagonal, width, height, cells, cells}), 0.19);
   scene.integrator = "C";
   scene.gravity = Vector3(0, -9.81, 0);
   scene.stretch = StretchMaterial{47, 0.047, 1};
@@ -33,7 +33,7 @@ Scene swung_sheet(int cells) {
     scene.v.col(i) = Vector3(0.2, 0, 1.1 + 0.5 * std::cos(2.9 * a)) * below * below;
   }
   for (int i = cells * (cells + 1); i < scene.mesh.particles(); ++i)
-    scene.led.push_back({i, scene.mesh.rest.col(i), {}});
+    scene.prescribed.push_back({i, scene.mesh.rest.col(i), {}});
   return scene;
 }
 
@@ -52,7 +52,7 @@ struct MeshRun {
 double usual_share() { return StepRule{}.safety; }
 
 /// Of the particles of a finer mesh, those of the coarsest.
-PerParticle3 shared(const PerParticle3& x, int cells) {
+PerParticle3 shared_particles(const PerParticle3& x, int cells) {
   const int every = cells / coarsest;
   PerParticle3 picked(3, (coarsest + 1) * (coarsest + 1));
   for (int row = 0, k = 0; row <= coarsest; ++row)
@@ -68,9 +68,9 @@ MeshRun run_mesh(const Subject& subject, int cells) {
   const PlannedRun coarse = run_planned(subject, scene, {end, usual, infinite, infinite});
   const PlannedRun fine = run_planned(subject, scene, {end, 2 * usual, infinite, infinite});
   const PerParticle3 correction = (fine.last.x - coarse.last.x) / 3;
-  mesh.x = shared(fine.last.x + correction, cells);
-  mesh.uncertainty = largest_distance(mesh.x, shared(fine.last.x, cells));
-  mesh.time_error = largest_distance(mesh.x, shared(coarse.last.x, cells));
+  mesh.x = shared_particles(fine.last.x + correction, cells);
+  mesh.uncertainty = largest_distance(mesh.x, shared_particles(fine.last.x, cells));
+  mesh.time_error = largest_distance(mesh.x, shared_particles(coarse.last.x, cells));
   mesh.applications = operator_applications(coarse.work);
   mesh.farthest = fine.farthest;
   return mesh;
@@ -119,8 +119,8 @@ NamedFinding step_errs_less(const std::vector<MeshRun>& meshes, const std::vecto
   for (size_t i = 0; i < space.size(); ++i) {
     cells.push_back(meshes[i].cells);
     time.push_back(meshes[i].time_error);
-    worst.see(time.back() / space[i]);
-    uncertainty.see(meshes[i].uncertainty / space[i]);
+    worst.observe(time.back() / space[i]);
+    uncertainty.observe(meshes[i].uncertainty / space[i]);
   }
   const Verdict verdict{worst.value(), 0.1, uncertainty.value(), "1",
                         "a tenth: then a shorter step would lessen the whole error by no more than that"};
@@ -200,7 +200,7 @@ StudyResult run_mesh_error(const Subject& subject, Tier tier, const Progress& pr
 
 }  // namespace
 
-Study mesh_error() {
+Study mesh_error_study() {
   return {
       "mesh-error", "On a smooth motion the mesh errs more than a step of half the elastic limit does.",
       "ours",

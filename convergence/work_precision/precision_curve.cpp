@@ -19,7 +19,7 @@ struct TimedRun {
   double seconds;  // least of all repeats
 };
 
-TimedRun timed(const Subject& subject, const Scene& scene, const RunPlan& plan) {
+TimedRun time_run(const Subject& subject, const Scene& scene, const RunPlan& plan) {
   const double start = processor_seconds();
   TimedRun best{run_planned(subject, scene, plan), 0};
   best.seconds = processor_seconds() - start;
@@ -71,21 +71,21 @@ PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& p
     const RunPlan plan{problem.end, int(std::lround(count)), far_away * truth.motion, problem.budget};
     const bool is_short = plan.steps > problem.end / truth.elastic_limit;
     if (is_short && expected_work(curve, plan.steps) > problem.budget) break;
-    const auto [run, seconds] = timed(subject, scene, plan);
+    const auto [run, seconds] = time_run(subject, scene, plan);
     if (run.ending == Ending::over_budget) {
       if (is_short) break;
       continue;  // long steps can be dearer than short ones, for Newton's method
     }
     const double error =
         run.ending == Ending::reached ? largest_distance(run.last.x, truth.x) / truth.motion : nan;
-    curve.runs.push_back({plan.steps, error <= lost ? error : nan, operator_applications(run.work), seconds,
-                          double(run.steps) / plan.steps, run.work});
-    again = !(error <= finest_error) || measured_runs(curve) < problem.least_points;
+    curve.runs.push_back({plan.steps, error <= diverged_error ? error : nan, operator_applications(run.work),
+                          seconds, double(run.steps) / plan.steps, run.work});
+    again = !(error <= finest_error) || measured_runs(curve) < problem.min_points;
   }
   return curve;
 }
 
-std::string_view words_of(LimitedBy limit) {
+std::string_view name_of(LimitedBy limit) {
   switch (limit) {
     case LimitedBy::accuracy:
       return "accuracy";

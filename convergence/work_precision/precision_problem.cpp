@@ -19,18 +19,18 @@ constexpr double tight = 1e-12;            // of the solves in the reference run
 
 double largest_distance_from(const PerParticle3& start, const PerParticle3& x) {
   Worst worst;
-  for (Eigen::Index i = 0; i < x.cols(); ++i) worst.see((x.col(i) - start.col(i)).norm());
+  for (Eigen::Index i = 0; i < x.cols(); ++i) worst.observe((x.col(i) - start.col(i)).norm());
   return worst.value();
 }
 
 /// The limit of a method's ends as its steps shrink, from two runs.
-struct Extrapolated {
+struct Extrapolation {
   PerParticle3 x;     // 3 x N [m]
   double correction;  // largest component of what was added to the finer one [m]
   double farthest;    // of the finer run [m]
 };
 
-Extrapolated extrapolated(const Subject& subject, Scene scene, const Integrator& integrator,
+Extrapolation extrapolate(const Subject& subject, Scene scene, const Integrator& integrator,
                           const RunPlan& coarse) {
   scene.integrator = std::string(integrator.name);
   scene.solver.tolerance = tight;
@@ -44,8 +44,8 @@ Extrapolated extrapolated(const Subject& subject, Scene scene, const Integrator&
 
 void measure_limits(const Subject& subject, const Scene& scene, PrecisionTruth& truth) {
   truth.elastic_limit = elastic_limit(build_system(scene), start_state(scene));
-  truth.elastic_2_over = 2 / fastest_mode(subject, scene).omega;
-  truth.damping_2_over = 2 / largest_eigenvalue(scene, damping_operator(subject, scene)).value;
+  truth.two_over_omega = 2 / fastest_mode(subject, scene).omega;
+  truth.two_over_c = 2 / largest_eigenvalue(scene, damping_operator(subject, scene)).value;
 }
 
 }  // namespace
@@ -57,13 +57,13 @@ double operator_applications(const Work& work) {
 
 double largest_distance(const PerParticle3& p, const PerParticle3& q) {
   Worst worst;
-  for (Eigen::Index i = 0; i < p.size(); ++i) worst.see(std::abs(p.data()[i] - q.data()[i]));
+  for (Eigen::Index i = 0; i < p.size(); ++i) worst.observe(std::abs(p.data()[i] - q.data()[i]));
   return worst.value();
 }
 
 PlannedRun run_planned(const Subject& subject, const Scene& scene, const RunPlan& plan) {
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
-  const auto& step = offered(subject.step, "step");
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
+  const auto& step = require_offered(subject.step, "step");
   History history(start_state(scene), 2);
   PlannedRun run{Ending::reached, 0, history.now(), {}, 0};
   Worst farthest;
@@ -71,7 +71,7 @@ PlannedRun run_planned(const Subject& subject, const Scene& scene, const RunPlan
     while (run.steps < plan.steps && run.ending == Ending::reached) {
       ++run.steps;
       history.advance(step(*prepared, history.past(), plan.end / plan.steps, run.work));
-      farthest.see(largest_distance_from(scene.x, history.now().x));
+      farthest.observe(largest_distance_from(scene.x, history.now().x));
       if (!(farthest.value() <= plan.farthest)) run.ending = Ending::diverged;
       if (operator_applications(run.work) > plan.budget) run.ending = Ending::over_budget;
     }
@@ -88,8 +88,8 @@ PrecisionTruth truth_of(const Subject& subject, const PrecisionProblem& problem)
   measure_limits(subject, problem.scene, truth);
   const int at_limit = int(std::ceil(problem.end / truth.elastic_limit));
   const RunPlan second_plan{problem.end, problem.finest * at_limit, infinite, infinite};
-  const Extrapolated second =
-      extrapolated(subject, problem.scene, integrator_named(problem.second), second_plan);
+  const Extrapolation second =
+      extrapolate(subject, problem.scene, integrator_named(problem.second), second_plan);
   double own = 0;
   if (problem.first == FirstOpinion::oracle) {
     const ExactEnd exact = exact_end(problem.scene, oracle_of(problem.scene), problem.end, oracle_tolerance);
@@ -99,9 +99,9 @@ PrecisionTruth truth_of(const Subject& subject, const PrecisionProblem& problem)
     // of fourth order, RK4 needs fewer steps; it is stable for damping rates up to 2.785/h: start from 2/h,
     // since rates change along the motion
     RunPlan plan = second_plan;
-    plan.steps = std::max(
-        {problem.finest * at_limit / 2, at_limit, int(std::ceil(problem.end / truth.damping_2_over))});
-    const Extrapolated first = extrapolated(subject, problem.scene, integrator_named("RK4"), plan);
+    plan.steps =
+        std::max({problem.finest * at_limit / 2, at_limit, int(std::ceil(problem.end / truth.two_over_c))});
+    const Extrapolation first = extrapolate(subject, problem.scene, integrator_named("RK4"), plan);
     truth.x = first.x;
     own = first.correction;
   }

@@ -15,13 +15,13 @@ enum class FirstOpinion { oracle, runge_kutta };
 
 struct PrecisionProblem {
   std::string name;   // part of the findings' names
-  std::string thing;  // "the heavily damped sheet"
+  std::string description;  // "the heavily damped sheet"
   Scene scene;        // its integrator is replaced by each of the table
   double end;         // s
   FirstOpinion first;
   std::string second;  // the scheme whose extrapolation is the second opinion
   double ratio;      // of the numbers of steps of neighbouring runs, > 1
-  int least_points;  // measured runs of a curve before it may end
+  int min_points;  // measured runs of a curve before it may end
   int finest;        // steps of the second opinion's coarser run over those at the elastic limit
   double budget;     // largest work of one judged run [operator applications]
 };
@@ -33,8 +33,8 @@ struct PrecisionTruth {
   double uncertainty;     // of any component of x, over the motion [1]: the first opinion's own, and how far
                           // the second is from it
   double elastic_limit;   // at the start, the solver's bound [s]
-  double elastic_2_over;  // 2/omega of the fastest mode of the start, by power iteration [s]
-  double damping_2_over;  // 2/c of the fastest damping rate of the start, by power iteration [s]
+  double two_over_omega;  // 2/omega of the fastest mode of the start, by power iteration [s]
+  double two_over_c;  // 2/c of the fastest damping rate of the start, by power iteration [s]
 };
 
 /// One run with constant steps.

@@ -13,14 +13,14 @@ constexpr double solver_tolerance = 1e-8;  // as in the shipped cases
 /// Both opposite corners swing about the held edge, one of them from far out.
 Scene swinging_hinge() {
   constexpr double rest_angle = 0.5;
-  Scene scene = scene_of(make_hinge(0.17, rest_angle), 0.23);
+  Scene scene = scene_at_rest(make_hinge(0.17, rest_angle), 0.23);
   scene.gravity = Vector3(0.3, -9.3, 1.7);
   scene.stretch = StretchMaterial{31, 0.011, 1};
   scene.bending = BendingMaterial{0.013, 0.0004, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles = {rest_angle};
   scene.solver.tolerance = solver_tolerance;
   scene.v.col(0) = Vector3(0.1, -0.2, 1.3);
-  scene.led = {{2, scene.mesh.rest.col(2), {}}, {3, scene.mesh.rest.col(3), {}}};
+  scene.prescribed = {{2, scene.mesh.rest.col(2), {}}, {3, scene.mesh.rest.col(3), {}}};
   return scene;
 }
 
@@ -28,7 +28,7 @@ Scene swinging_hinge() {
 /// swinging.
 Scene swinging_statue() {
   constexpr double height = 1, held = 0.96;  // m
-  Scene scene = scene_of(make_statue(height, 3), 0.3);
+  Scene scene = scene_at_rest(make_statue(height, 3), 0.3);
   scene.gravity = Vector3(0, -9.81, 0);
   scene.stretch = StretchMaterial{100, 0.1, 1};
   scene.bending = BendingMaterial{2e-2, 4e-4, Weighting::rest, DampingFactor::edge, "sine"};
@@ -37,7 +37,7 @@ Scene swinging_statue() {
   for (int i = 0; i < scene.mesh.particles(); ++i) {
     const double below = held * height - scene.mesh.rest(1, i);
     if (below < 0)
-      scene.led.push_back({i, scene.mesh.rest.col(i), {}});
+      scene.prescribed.push_back({i, scene.mesh.rest.col(i), {}});
     else
       scene.v.col(i) = Vector3(0.9, 0.1, 0.7) * below;
   }
@@ -49,7 +49,7 @@ Scene swinging_statue() {
 Scene hanging_sheet(int cells, double relaxation) {
   constexpr double width = 0.83, height = 0.71;  // m
   constexpr double young = 23, stiffness = 4e-4;
-  Scene scene = scene_of(make_sheet({SheetPattern::alternating, width, height, cells, cells}), 0.19);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::alternating, width, height, cells, cells}), 0.19);
   scene.gravity = Vector3(0, -9.81, 0);
   scene.stretch = StretchMaterial{young, young * relaxation, 1};
   // a hinge's stiffness is ke c/2, its damping with this factor kd c
@@ -66,7 +66,7 @@ Scene hanging_sheet(int cells, double relaxation) {
   }
   const int top = cells * (cells + 1);
   for (int particle : {top, top + cells}) {
-    scene.led.push_back({particle, scene.x.col(particle), {}});
+    scene.prescribed.push_back({particle, scene.x.col(particle), {}});
     scene.v.col(particle).setZero();
   }
   return scene;

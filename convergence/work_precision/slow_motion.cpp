@@ -63,7 +63,7 @@ NamedFinding as_derived(const Convergence& errors, const Creeping& motion) {
   orders.insert(orders.begin(), nan);
   for (size_t i = 0; i < errors.steps.size(); ++i) {
     derived.push_back(derived_error(motion, errors.steps[i]));
-    worst.see(std::abs(errors.errors[i] / derived.back() - 1));
+    worst.observe(std::abs(errors.errors[i] / derived.back() - 1));
   }
   return {
       "work-precision.slow-motion-is-first-order.C",
@@ -83,7 +83,7 @@ NamedFinding as_derived(const Convergence& errors, const Creeping& motion) {
 NamedFinding keeps_its_order(const Convergence& errors, const Creeping& motion) {
   Worst worst;
   std::vector<double> orders = pair_orders(errors);
-  for (const double order : orders) worst.see(std::abs(order - 2));
+  for (const double order : orders) worst.observe(std::abs(order - 2));
   orders.insert(orders.begin(), nan);
   return {"work-precision.slow-motion-is-second-order.A",
           "However large the damping, A's error on the slow motion is of second order in the step.",

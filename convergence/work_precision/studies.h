@@ -5,7 +5,7 @@
 
 namespace foldproof {
 
-Study work_precision();  // work-precision: error against work and seconds, all methods
-Study mesh_error();      // mesh-error: error of the mesh beside that of the step
+Study work_precision_study();  // work-precision: error against work and seconds, all methods
+Study mesh_error_study();      // mesh-error: error of the mesh beside that of the step
 
 }  // namespace foldproof

@@ -39,10 +39,11 @@ StudyResult run_work_precision(const Subject& subject, Tier tier, const Progress
 const PrecisionCurve& curve_of(const PrecisionScene& scene, std::string_view method) {
   for (const PrecisionCurve& curve : scene.curves)
     if (curve.integrator.name == method) return curve;
-  throw InputError("work-precision: no runs of '" + std::string(method) + "' on " + scene.problem.thing);
+  throw InputError("work-precision: no runs of '" + std::string(method) + "' on " +
+                   scene.problem.description);
 }
 
-Study work_precision() {
+Study work_precision_study() {
   return {
       "work-precision",
       "On heavily damped cloth schemes A and B take steps larger than explicit ones by the ratio of the "

@@ -39,10 +39,10 @@ struct PrecisionCurve {
 };
 
 /// A run whose error exceeds the motion itself counts as diverged.
-constexpr double lost = 1;
+constexpr double diverged_error = 1;
 
 /// The runs of one method: from an eighth of the steps at the elastic limit on, finer by problem.ratio, until
-/// the error is `finest_error` [1] and problem.least_points runs were measured, or until a run with a step
+/// the error is `finest_error` [1] and problem.min_points runs were measured, or until a run with a step
 /// below the elastic limit exceeds the problem's budget, or would if work went on to grow as between the two
 /// before. Runs with longer steps that exceed it are left out.
 PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& problem,
@@ -52,7 +52,7 @@ PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& p
 /// Why a step cannot be longer at a wanted error.
 enum class LimitedBy { accuracy, stability, not_tried, not_reached };
 
-std::string_view words_of(LimitedBy limit);
+std::string_view name_of(LimitedBy limit);
 
 /// What a wanted error costs. All NaN when it was not reached.
 struct Price {

@@ -13,14 +13,15 @@ NamedFinding reference_is_known(const PrecisionScene& scene) {
   const Verdict verdict{scene.truth.uncertainty, wanted_errors.back() / 10, 0, "1",
                         "a tenth of the smallest error that a price is read off at, so that it shifts no "
                         "price by more than a tenth of a run's error"};
-  return {"work-precision.reference-is-accurate." + scene.problem.name,
-          "Two opinions on where " + scene.problem.thing + " ends agree to a ten-thousandth of its motion.",
-          {verdict,
-           {{"largest motion", "m", std::vector<double>{scene.truth.motion}},
-            {"disagreement and own uncertainty", "1", std::vector<double>{scene.truth.uncertainty}}},
-           (scene.problem.first == FirstOpinion::oracle ? "GSL and extrapolated scheme "
-                                                        : "extrapolated RK4 and extrapolated scheme ") +
-               scene.problem.second}};
+  return {
+      "work-precision.reference-is-accurate." + scene.problem.name,
+      "Two opinions on where " + scene.problem.description + " ends agree to a ten-thousandth of its motion.",
+      {verdict,
+       {{"largest motion", "m", std::vector<double>{scene.truth.motion}},
+        {"disagreement and own uncertainty", "1", std::vector<double>{scene.truth.uncertainty}}},
+       (scene.problem.first == FirstOpinion::oracle ? "GSL and extrapolated scheme "
+                                                    : "extrapolated RK4 and extrapolated scheme ") +
+           scene.problem.second}};
 }
 
 /// By what an error shrinks when the step is halved, from a pair of runs.
@@ -54,17 +55,17 @@ NamedFinding errors_fall(const PrecisionScene& scene) {
     coarse.push_back(curve.runs[i - 1].error);
     fine.push_back(curve.runs[i].error);
     shrinkages.push_back(shrinkage(curve.runs[i - 1], curve.runs[i]));
-    worst.see(shrinkages.back());
-    worst_with_uncertainty.see(shrinkages.back() * (1 + 2 * scene.truth.uncertainty / fine.back()));
+    worst.observe(shrinkages.back());
+    worst_with_uncertainty.observe(shrinkages.back() * (1 + 2 * scene.truth.uncertainty / fine.back()));
   }
-  if (int(methods.size()) < least_judged) worst.see(nan);
+  if (int(methods.size()) < least_judged) worst.observe(nan);
   const Verdict verdict{
       worst.value(), std::sqrt(0.5), worst_with_uncertainty.value() - worst.value(), "1",
       "an error of first order is halved with the step, one that does not fall stays 1; the "
       "bound is half an order, midway between the two in the logarithm"};
   return {
       "work-precision.errors-decrease." + scene.problem.name,
-      "On " + scene.problem.thing + ", errors fall with the step at the end of every method's range.",
+      "On " + scene.problem.description + ", errors fall with the step at the end of every method's range.",
       {verdict,
        {{"method", "1", methods},
         {"error of the run before", "1", coarse},
@@ -94,7 +95,7 @@ double step_of(const PrecisionScene& scene, std::string_view scheme, double want
 /// Damping limits explicit steps at best to 2.785/c (RK4), elasticity those of A and B to 2/omega.
 NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
   constexpr double runge_kutta_reach = 2.785 / 2;  // of RK4 along the negative real axis, over that of Euler
-  const double predicted = scene.truth.elastic_2_over / (runge_kutta_reach * scene.truth.damping_2_over);
+  const double predicted = scene.truth.two_over_omega / (runge_kutta_reach * scene.truth.two_over_c);
   Worst worst;
   std::vector<std::string> schemes;
   std::vector<double> wanted, mixed, fully_explicit, ratios;
@@ -105,7 +106,7 @@ NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
       mixed.push_back(step_of(scene, scheme, error));
       fully_explicit.push_back(largest_explicit_step(scene, error));
       ratios.push_back(mixed.back() / fully_explicit.back());
-      if (error == wanted_errors.front()) worst.see(predicted / ratios.back());
+      if (error == wanted_errors.front()) worst.observe(predicted / ratios.back());
     }
   }
   const double runs_apart = scene.problem.ratio * scene.problem.ratio;
@@ -114,7 +115,7 @@ NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
       "both steps are known to the ratio of neighbouring runs, and their quotient to its square"};
   return {
       "work-precision.mixed-steps-are-larger." + scene.problem.name,
-      "On " + scene.problem.thing +
+      "On " + scene.problem.description +
           ", schemes A and B reach one percent of error with steps larger than the best explicit "
           "method's by the ratio of the elastic limit to the explicit damping limit.",
       {verdict,
@@ -132,7 +133,7 @@ NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
 ///   (1 + a) z^2 + (h^2 omega^2 - 2) z + 1 - a = 0,   a = h c/2,
 ///   g = (h^2 omega^2/2 - 2)/a to first order.
 double growth_beyond(const PrecisionScene& scene, double h) {
-  const double beyond = std::pow(h / scene.truth.elastic_2_over, 2), a = h / scene.truth.damping_2_over;
+  const double beyond = std::pow(h / scene.truth.two_over_omega, 2), a = h / scene.truth.two_over_c;
   return std::pow(1 + std::max(0., 2 * beyond - 2) / a, scene.problem.end / h);
 }
 
@@ -143,11 +144,11 @@ NamedFinding within_the_limit(const PrecisionScene& scene) {
   for (double error : wanted_errors) {
     steps.push_back(step_of(scene, "B", error));
     growths.push_back(growth_beyond(scene, steps.back()));
-    worst.see(steps.back() / scene.truth.elastic_2_over);
+    worst.observe(steps.back() / scene.truth.two_over_omega);
   }
   return {
       "work-precision.steps-stay-within-the-limit." + scene.problem.name,
-      "On " + scene.problem.thing +
+      "On " + scene.problem.description +
           ", the largest step with which B reaches a wanted error is at most 2/omega, as nearly as a step is "
           "known.",
       {{worst.value(), scene.problem.ratio, 0, "1",
@@ -163,14 +164,14 @@ NamedFinding within_the_limit(const PrecisionScene& scene) {
 /// then of first order in h (order reduction), while A and B keep the middle of the step.
 NamedFinding C_needs_shorter_steps(const PrecisionScene& scene) {
   const double error = wanted_errors.front(), ratio = step_of(scene, "C", error) / step_of(scene, "B", error);
-  return {
-      "work-precision.C-needs-shorter-steps." + scene.problem.name,
-      "On " + scene.problem.thing + ", C reaches one percent of error only with steps less than half of B's.",
-      {{ratio, 0.5, 0, "1", "both steps are known to the ratio of neighbouring runs, the root of two"},
-       {{"largest step of C", "s", std::vector<double>{step_of(scene, "C", error)}},
-        {"largest step of B", "s", std::vector<double>{step_of(scene, "B", error)}}},
-       "measured is the ratio of the steps. Where h c is large, C moves positions by h F/c of the step's "
-       "start: its error falls with the first power of h until h c is small"}};
+  return {"work-precision.C-needs-shorter-steps." + scene.problem.name,
+          "On " + scene.problem.description +
+              ", C reaches one percent of error only with steps less than half of B's.",
+          {{ratio, 0.5, 0, "1", "both steps are known to the ratio of neighbouring runs, the root of two"},
+           {{"largest step of C", "s", std::vector<double>{step_of(scene, "C", error)}},
+            {"largest step of B", "s", std::vector<double>{step_of(scene, "B", error)}}},
+           "measured is the ratio of the steps. Where h c is large, C moves positions by h F/c of the step's "
+           "start: its error falls with the first power of h until h c is small"}};
 }
 
 /// C's solves over A's at equal numbers of steps.
@@ -182,11 +183,11 @@ NamedFinding one_more_solve(const std::vector<PrecisionScene>& scenes) {
     for (const PrecisionRun& a : curve_of(scene, "A").runs) {
       for (const PrecisionRun& c : curve_of(scene, "C").runs) {
         if (a.steps != c.steps || std::isnan(a.error) || std::isnan(c.error)) continue;
-        things.push_back(scene.problem.thing);
+        things.push_back(scene.problem.description);
         steps.push_back(a.steps);
         solves.push_back(double(c.work.solves) / double(a.work.solves));
         work.push_back(c.applications / a.applications);
-        worst.see(std::abs(solves.back() - 2));
+        worst.observe(std::abs(solves.back() - 2));
       }
     }
   }

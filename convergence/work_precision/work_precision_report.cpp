@@ -35,7 +35,7 @@ std::vector<CostAxis> cost_axes() {
            }}};
 }
 
-Curve drawn(const PrecisionScene& scene, const PrecisionCurve& curve, const CostAxis& cost) {
+Curve curve_of(const PrecisionScene& scene, const PrecisionCurve& curve, const CostAxis& cost) {
   Curve points{std::string(curve.integrator.name), {}, {}, percent * scene.truth.uncertainty, {}};
   for (const PrecisionRun& run : curve.runs) {
     points.x.push_back(cost.of(scene, run));
@@ -108,11 +108,11 @@ Table cheapest(const std::vector<PrecisionScene>& scenes) {
     for (double wanted : wanted_errors) {
       for (const Currency& currency : currencies) {
         const Podium best = podium(scene, wanted, currency);
-        things.push_back(scene.problem.thing);
+        things.push_back(scene.problem.description);
         errors.push_back(percent * wanted);
         by.push_back(currency.name);
         first.push_back(best.first);
-        limits.emplace_back(words_of(best.best.limit));
+        limits.emplace_back(name_of(best.best.limit));
         steps.push_back(best.best.step);
         relative.push_back(best.best.step / scene.truth.elastic_limit);
         work.push_back(best.best.applications);
@@ -146,12 +146,12 @@ Table prices(const std::vector<PrecisionScene>& scenes) {
     for (double wanted : wanted_errors) {
       for (const PrecisionCurve& curve : scene.curves) {
         const Price price = price_at(curve, scene.problem.end, wanted);
-        things.push_back(scene.problem.thing);
+        things.push_back(scene.problem.description);
         errors.push_back(percent * wanted);
         methods.emplace_back(curve.integrator.name);
         steps.push_back(price.step);
         relative.push_back(price.step / scene.truth.elastic_limit);
-        limits.emplace_back(words_of(price.limit));
+        limits.emplace_back(name_of(price.limit));
         work.push_back(price.applications);
         seconds.push_back(price.seconds);
         unfinished.push_back(price.unfinished);
@@ -175,14 +175,14 @@ Table scales(const std::vector<PrecisionScene>& scenes) {
   std::vector<std::string> things;
   std::vector<double> particles, ends, motions, uncertainties, limits, elastic, damping;
   for (const PrecisionScene& scene : scenes) {
-    things.push_back(scene.problem.thing);
+    things.push_back(scene.problem.description);
     particles.push_back(double(scene.problem.scene.mesh.particles()));
     ends.push_back(scene.problem.end);
     motions.push_back(scene.truth.motion);
     uncertainties.push_back(percent * scene.truth.uncertainty);
     limits.push_back(scene.truth.elastic_limit);
-    elastic.push_back(scene.truth.elastic_2_over);
-    damping.push_back(scene.truth.damping_2_over);
+    elastic.push_back(scene.truth.two_over_omega);
+    damping.push_back(scene.truth.two_over_c);
   }
   return {"scenes",
           "The motions, and how well their ends are known",
@@ -202,7 +202,7 @@ Table coverage(const std::vector<PrecisionScene>& scenes) {
   std::array<std::vector<double>, 5> numbers;
   for (const PrecisionScene& scene : scenes) {
     for (const PrecisionCurve& curve : scene.curves) {
-      things.push_back(scene.problem.thing);
+      things.push_back(scene.problem.description);
       methods.emplace_back(curve.integrator.name);
       std::array<double, 5> row = {};
       for (const PrecisionRun& run : curve.runs) {
@@ -232,7 +232,7 @@ Table all_runs(const std::vector<PrecisionScene>& scenes) {
     for (const PrecisionCurve& curve : scene.curves) {
       for (const PrecisionRun& run : curve.runs) {
         const Work& w = run.work;
-        things.push_back(scene.problem.thing);
+        things.push_back(scene.problem.description);
         methods.emplace_back(curve.integrator.name);
         const std::array<double, 10> row = {double(run.steps),
                                             percent * run.error,
@@ -270,14 +270,14 @@ std::vector<Figure> precision_figures(const PrecisionScene& scene) {
   std::vector<Figure> figures;
   for (const CostAxis& cost : cost_axes()) {
     Figure figure{scene.problem.name + "-" + cost.name,
-                  "Error against " + cost.words + ": " + scene.problem.thing,
+                  "Error against " + cost.words + ": " + scene.problem.description,
                   cost.axis,
                   {"position error over the motion", "%", Scale::log},
                   nan,
                   caption,
                   {}};
     for (const PrecisionCurve& curve : scene.curves) {
-      Curve points = drawn(scene, curve, cost);
+      Curve points = curve_of(scene, curve, cost);
       if (points.x.empty())
         figure.caption += " No run of " + points.label + " ended within its budget.";
       else

@@ -10,7 +10,7 @@
 
 #include "reference/bodies/self_intersection.h"
 #include "reference/bodies/winding.h"
-#include "reference/mesh/mesh_places.h"
+#include "reference/mesh/mesh_locations.h"
 
 namespace foldproof {
 
@@ -35,7 +35,7 @@ void join(std::vector<int>& parent, int a, int b) {
 }
 
 /// Each border vertex has two border edges, so that borders are loops: as many as there are roots.
-void refuse_holes(const TriangleMesh& mesh, const MeshOrigin& origin) {
+void reject_holes(const TriangleMesh& mesh, const MeshOrigin& origin) {
   std::vector<int> parent = roots(mesh.particles());
   std::vector<const Edge*> border;
   for (const Edge& edge : mesh.edges) {
@@ -47,24 +47,24 @@ void refuse_holes(const TriangleMesh& mesh, const MeshOrigin& origin) {
   std::set<int> loops;
   for (const Edge* edge : border) loops.insert(root(parent, edge->a));
   const Edge& first = *border.front();
-  throw InputError(at_triangle(origin, first.triangles[0]) +
+  throw InputError(triangle_location(origin, first.triangles[0]) +
                    "a hole: " + edge_name(origin, first.a, first.b) + ", at " +
                    position_name(mesh.rest.col(first.a)) + ", has no triangle on its other side (" +
                    std::to_string(border.size()) + " such edges around " + std::to_string(loops.size()) +
                    (loops.size() == 1 ? " hole" : " holes") + "); " + remedy);
 }
 
-void refuse_self_intersections(const TriangleMesh& mesh, const MeshOrigin& origin) {
+void reject_self_intersections(const TriangleMesh& mesh, const MeshOrigin& origin) {
   const auto pairs = self_intersections(mesh.rest, mesh.triangles);
   if (pairs.empty()) return;
   const auto [s, t] = pairs.front();
-  throw InputError(at_triangle(origin, t) + "meets " + triangle_name(origin, s) + " near " +
+  throw InputError(triangle_location(origin, t) + "meets " + triangle_name(origin, s) + " near " +
                    position_name(mesh.rest.col(mesh.triangles[t][0])) + ", the first of " +
                    std::to_string(pairs.size()) + " intersecting pairs; " + remedy);
 }
 
 /// Outside of all other pieces normals point outward, in one of them inward.
-void refuse_inside_out(const TriangleMesh& mesh, const MeshOrigin& origin) {
+void reject_inside_out(const TriangleMesh& mesh, const MeshOrigin& origin) {
   const std::vector<int> piece = pieces_of(mesh);
   const int pieces = *std::max_element(piece.begin(), piece.end()) + 1;
   for (int own = 0; own < pieces; ++own) {
@@ -75,7 +75,7 @@ void refuse_inside_out(const TriangleMesh& mesh, const MeshOrigin& origin) {
     const bool outward = enclosed_volume(mesh.rest, inside) > 0;
     if (around == (outward ? 0 : 1)) continue;
     const int first = int(std::find(piece.begin(), piece.end(), own) - piece.begin());
-    throw InputError(at_triangle(origin, first) + "the piece of " + std::to_string(inside.size()) +
+    throw InputError(triangle_location(origin, first) + "the piece of " + std::to_string(inside.size()) +
                      " triangles that begins here is inside out: its normals point " +
                      (outward ? "outward, though it lies within another piece" : "inward") +
                      "; reverse the order of its triangles' vertices, or set repair = \"winding\"");
@@ -106,9 +106,9 @@ double enclosed_volume(const PerParticle3& x, const std::vector<Triangle>& trian
 TriangleMesh make_closed_mesh(TriangleSoup soup) {
   const MeshOrigin origin = std::move(soup.origin);
   TriangleMesh mesh = make_triangle_mesh(std::move(soup.rest), std::move(soup.triangles), origin);
-  refuse_holes(mesh, origin);
-  refuse_self_intersections(mesh, origin);
-  refuse_inside_out(mesh, origin);
+  reject_holes(mesh, origin);
+  reject_self_intersections(mesh, origin);
+  reject_inside_out(mesh, origin);
   return mesh;
 }
 

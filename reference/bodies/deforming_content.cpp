@@ -66,7 +66,7 @@ bool is_finite(const DeformingFrame& frame) {
 
 }  // namespace
 
-std::string origin_key(const MeshSequence& sequence, const OctreeSettings& settings) {
+std::string input_key(const MeshSequence& sequence, const OctreeSettings& settings) {
   ContentKey key;
   key.add(method_version);
   key.add(sequence.triangles);
@@ -95,7 +95,7 @@ std::string content_key(const DeformingBody& body) {
   return key.text();
 }
 
-void require_sound(const DeformingBody& body) {
+void require_valid_content(const DeformingBody& body) {
   const std::size_t count = body.frames.size();
   if (count == 0) throw InputError("deforming body: no frame");
   for (std::size_t k = 0; k < count; ++k) {

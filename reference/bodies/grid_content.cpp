@@ -18,7 +18,7 @@ void require(bool is_met, const char* what) {
 
 }  // namespace
 
-std::string origin_key(const TriangleSoup& soup, const GridMethod& method, Repair repair) {
+std::string input_key(const TriangleSoup& soup, const GridMethod& method, Repair repair) {
   ContentKey key;
   key.add(method_version);
   key.add(soup.triangles);
@@ -41,7 +41,7 @@ std::string content_key(const Grid& grid) {
   return key.text();
 }
 
-void require_sound(const Grid& grid) {
+void require_valid_content(const Grid& grid) {
   const Lattice& lattice = grid.lattice;
   require(lattice.origin.allFinite() && std::isfinite(lattice.spacing) && lattice.spacing > 0,
           "its lattice has no place or no spacing");

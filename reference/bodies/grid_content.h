@@ -8,12 +8,12 @@
 namespace foldproof {
 
 /// Of everything that make_level_set computes from, bit for bit, and the version of its method.
-std::string origin_key(const TriangleSoup& soup, const GridMethod& method, Repair repair);
+std::string input_key(const TriangleSoup& soup, const GridMethod& method, Repair repair);
 
 /// Of the grid itself.
 std::string content_key(const Grid& grid);
 
 /// Throws InputError saying what is wrong with a grid that no build made. A sound grid can be asked anywhere.
-void require_sound(const Grid& grid);
+void require_valid_content(const Grid& grid);
 
 }  // namespace foldproof

@@ -17,7 +17,7 @@ void look_for_solid(const TriangleSoup& soup, MeshInspection& found) {
     found.pieces = *std::max_element(pieces.begin(), pieces.end()) + 1;
     found.volume = enclosed_volume(mesh.rest, mesh.triangles);
   } catch (const InputError& error) {
-    found.refusal = error.what();
+    found.rejection = error.what();
   }
 }
 
@@ -39,10 +39,11 @@ MeshInspection inspect_mesh(const TriangleSoup& soup, int cells) {
   look_for_solid(soup, found);
   const GridMethod method{cells, 4, 3, MarchingOrder::second};
   try {
-    count_nodes(soup, *make_level_set(soup, method, found.refusal.empty() ? Repair::refuse : Repair::winding),
+    count_nodes(soup,
+                *make_level_set(soup, method, found.rejection.empty() ? Repair::refuse : Repair::winding),
                 found);
   } catch (const InputError& error) {
-    found.no_repair = error.what();
+    found.repair_failure = error.what();
   }
   return found;
 }

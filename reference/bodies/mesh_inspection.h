@@ -10,12 +10,12 @@ namespace foldproof {
 
 struct MeshInspection {
   long vertices = 0, triangles = 0;
-  Bounds bounds;          // m
-  std::string refusal;    // why it is no solid, as make_closed_mesh says it; empty if it is one
-  int pieces = 0;         // of a solid
-  double volume = 0;      // of a solid [m^3]
-  std::string no_repair;  // why it cannot be repaired either; empty if it can, or need not be
-  long nodes = 0;         // of the grid that case files get; 0 if there is none
+  Bounds bounds;               // m
+  std::string rejection;       // why it is no solid, as make_closed_mesh says it; empty if it is one
+  int pieces = 0;              // of a solid
+  double volume = 0;           // of a solid [m^3]
+  std::string repair_failure;  // why it cannot be repaired either; empty if it can, or need not be
+  long nodes = 0;              // of the grid that case files get; 0 if there is none
   long against_sign = 0, among_rays = 0;  // nodes whose sign ray parity denies; where its rays do not agree
 };
 

@@ -17,7 +17,7 @@ struct View {
   int along, u, v;
 };
 
-Vector2 seen(const Vector3& x, const View& view) { return {x[view.u], x[view.v]}; }
+Vector2 project_along(const Vector3& x, const View& view) { return {x[view.u], x[view.v]}; }
 
 /// Does the edge pass p on its right? Half open in v: the lower end counts, the upper one does not. Both
 /// triangles of an edge ask with the same numbers in the same order, so that both get the same answer.
@@ -28,7 +28,7 @@ bool passes(Vector2 a, Vector2 b, const Vector2& p) {
 }
 
 bool covers(const Corners& t, const View& view, const Vector2& p) {
-  const Vector2 a = seen(t[0], view), b = seen(t[1], view), c = seen(t[2], view);
+  const Vector2 a = project_along(t[0], view), b = project_along(t[1], view), c = project_along(t[2], view);
   return (passes(a, b, p) != passes(b, c, p)) != passes(c, a, p);
 }
 
@@ -36,7 +36,7 @@ bool covers(const Corners& t, const View& view, const Vector2& p) {
 /// one that is seen edge on answers with rounding only.
 double crossing(const Corners& t, const View& view, const Vector2& p) {
   const Vector3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  const Vector2 step = p - seen(t[0], view);
+  const Vector2 step = p - project_along(t[0], view);
   const double w =
       t[0][view.along] - (step.x() * normal[view.u] + step.y() * normal[view.v]) / normal[view.along];
   const auto [low, high] = std::minmax({t[0][view.along], t[1][view.along], t[2][view.along]});
@@ -61,8 +61,9 @@ void flip_beyond(const Corners& t, const View& view, const Lattice& lattice,
     for (node[view.u] = u0; node[view.u] <= u1; ++node[view.u]) {
       node[view.along] = 0;
       const Vector3 start = lattice.position(node);
-      if (!covers(t, view, seen(start, view))) continue;
-      const double cells = (crossing(t, view, seen(start, view)) - start[view.along]) / lattice.spacing;
+      if (!covers(t, view, project_along(start, view))) continue;
+      const double cells =
+          (crossing(t, view, project_along(start, view)) - start[view.along]) / lattice.spacing;
       node[view.along] = int(std::max(std::floor(cells) + 1, 0.0));
       if (node[view.along] < lattice.nodes[view.along]) bits[lattice.index(node)] ^= 1;
     }

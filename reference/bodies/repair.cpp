@@ -8,7 +8,7 @@
 
 #include "reference/bodies/closed_mesh.h"
 #include "reference/bodies/winding.h"
-#include "reference/mesh/mesh_places.h"
+#include "reference/mesh/mesh_locations.h"
 
 namespace foldproof {
 
@@ -57,14 +57,14 @@ std::vector<std::vector<Neighbour>> neighbours_of(const std::vector<Triangle>& t
 }
 
 /// Walks over the patch of `first`: whether each of its triangles is turned against the first (1) or not (0).
-std::vector<int> walk(int first, const std::vector<std::vector<Neighbour>>& neighbours,
-                      std::vector<int>& turned) {
+std::vector<int> collect_patch(int first, const std::vector<std::vector<Neighbour>>& neighbours,
+                               std::vector<int>& flip_state) {
   std::vector<int> patch{first};
-  turned[first] = 0;
+  flip_state[first] = 0;
   for (size_t i = 0; i < patch.size(); ++i) {
     for (const Neighbour& next : neighbours[patch[i]]) {
-      if (turned[next.triangle] >= 0) continue;
-      turned[next.triangle] = next.opposed ? 1 - turned[patch[i]] : turned[patch[i]];
+      if (flip_state[next.triangle] >= 0) continue;
+      flip_state[next.triangle] = next.opposed ? 1 - flip_state[patch[i]] : flip_state[patch[i]];
       patch.push_back(next.triangle);
     }
   }
@@ -82,30 +82,30 @@ std::vector<float> sides_of(const MeshDistance& mesh, const Lattice& lattice) {
 
 }  // namespace
 
-std::vector<Triangle> oriented(const TriangleSoup& soup) {
+std::vector<Triangle> orient_triangles(const TriangleSoup& soup) {
   std::vector<Triangle> triangles;
   std::copy_if(soup.triangles.begin(), soup.triangles.end(), std::back_inserter(triangles),
                [&](const Triangle& t) { return has_area(soup.rest, t); });
   const std::vector<std::vector<Neighbour>> neighbours = neighbours_of(triangles);
-  std::vector<int> turned(triangles.size(), -1);
+  std::vector<int> flip_state(triangles.size(), -1);
   for (int first = 0; first < int(triangles.size()); ++first) {
-    if (turned[first] >= 0) continue;
-    const std::vector<int> patch = walk(first, neighbours, turned);
+    if (flip_state[first] >= 0) continue;
+    const std::vector<int> patch = collect_patch(first, neighbours, flip_state);
     double area[2] = {0, 0};
-    for (const int t : patch) area[turned[t]] += area_of(soup.rest, triangles[t]);
+    for (const int t : patch) area[flip_state[t]] += area_of(soup.rest, triangles[t]);
     const int minority = area[1] > area[0] ? 0 : 1;
     for (const int t : patch)
-      if (turned[t] == minority) std::swap(triangles[t][1], triangles[t][2]);
+      if (flip_state[t] == minority) std::swap(triangles[t][1], triangles[t][2]);
   }
   return triangles;
 }
 
 std::shared_ptr<const Grid> make_repaired_grid(const TriangleSoup& soup, const GridMethod& method) {
-  const MeshDistance mesh = make_mesh_distance(soup.rest, oriented(soup));
+  const MeshDistance mesh = make_mesh_distance(soup.rest, orient_triangles(soup));
   const Lattice lattice = lattice_about(mesh.tree.nodes[0].bounds, method.cells, method.margin);
   Seeds seeds = seeds_from_sides(lattice, sides_of(mesh, lattice));
   if (seeds.nodes.empty())
-    throw InputError(at_mesh(soup.origin) + "repair finds no inside: the winding number of its " +
+    throw InputError(mesh_location(soup.origin) + "repair finds no inside: the winding number of its " +
                      std::to_string(soup.triangles.size()) +
                      " triangles is below 1/2 at every node; turn them outward, or give a finer grid");
   for (size_t i = 0; i < seeds.nodes.size(); ++i) {

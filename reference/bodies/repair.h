@@ -10,7 +10,7 @@ namespace foldproof {
 
 /// The triangles that have area, each turned so that it agrees with its neighbours across edges of two
 /// triangles; of every patch so found the larger part of its area keeps its orientation.
-std::vector<Triangle> oriented(const TriangleSoup& soup);
+std::vector<Triangle> orient_triangles(const TriangleSoup& soup);
 
 /// repair = "winding". Inside is where the generalised winding number of the oriented triangles is at least
 /// 1/2, at every node. A node next to one on the other side gets its exact distance to the triangles where

@@ -15,12 +15,12 @@ using Corners = std::array<Vector3, 3>;
 
 constexpr int leaf_size = 4;
 
-Vector2 flattened(const Vector3& x, int axis) { return {x[(axis + 1) % 3], x[(axis + 2) % 3]}; }
+Vector2 drop_axis(const Vector3& x, int axis) { return {x[(axis + 1) % 3], x[(axis + 2) % 3]}; }
 
 /// An axis along which the triangle can be looked at without losing its area.
 int open_axis(const Corners& t) {
   for (int axis = 0; axis < 3; ++axis)
-    if (side_of_line(flattened(t[0], axis), flattened(t[1], axis), flattened(t[2], axis)) != 0) return axis;
+    if (side_of_line(drop_axis(t[0], axis), drop_axis(t[1], axis), drop_axis(t[2], axis)) != 0) return axis;
   return 0;
 }
 
@@ -41,8 +41,8 @@ bool agree(int a, int b, int c) { return (a >= 0 && b >= 0 && c >= 0) || (a <= 0
 /// The segment p q lies in the triangle's plane.
 bool meet_in_plane(const Corners& t, const Vector3& p, const Vector3& q) {
   const int axis = open_axis(t);
-  const Vector2 a = flattened(t[0], axis), b = flattened(t[1], axis), c = flattened(t[2], axis);
-  const Vector2 u = flattened(p, axis), v = flattened(q, axis);
+  const Vector2 a = drop_axis(t[0], axis), b = drop_axis(t[1], axis), c = drop_axis(t[2], axis);
+  const Vector2 u = drop_axis(p, axis), v = drop_axis(q, axis);
   if (agree(side_of_line(a, b, u), side_of_line(b, c, u), side_of_line(c, a, u))) return true;
   return segments_meet(a, b, u, v) || segments_meet(b, c, u, v) || segments_meet(c, a, u, v);
 }
@@ -73,8 +73,8 @@ bool folded_flat(const PerParticle3& x, const Triangle& s, const Triangle& t) {
   int other = 0;
   while (has_corner(t, s[other])) ++other;
   const int axis = open_axis(corners);
-  const Vector2 a = flattened(corners[(other + 1) % 3], axis), b = flattened(corners[(other + 2) % 3], axis);
-  return side_of_line(a, b, flattened(corners[other], axis)) == side_of_line(a, b, flattened(far, axis));
+  const Vector2 a = drop_axis(corners[(other + 1) % 3], axis), b = drop_axis(corners[(other + 2) % 3], axis);
+  return side_of_line(a, b, drop_axis(corners[other], axis)) == side_of_line(a, b, drop_axis(far, axis));
 }
 
 /// Has an edge of s that does not end in a vertex of t a point of t?

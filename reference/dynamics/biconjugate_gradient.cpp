@@ -16,8 +16,8 @@ double product(const PerParticle3& a, const PerParticle3& b, const PerParticle& 
 // In the variable M^{1/2} dw the iteration is the plain one of van der Vorst's paper, with its letters; here
 // it is written with masses: r, s, p, v, t are momenta [kg m/s], M^{-1} p and M^{-1} s the directions in dw
 // [m/s].
-Solve solve_unsymmetric_step(const NewtonMatrix& A, const SolverSettings& settings, const PerParticle3& r0,
-                             PerParticle3& dw, Work& work) {
+SolveResult solve_unsymmetric_step(const NewtonMatrix& A, const SolverSettings& settings,
+                                   const PerParticle3& r0, PerParticle3& dw, Work& work) {
   const PerParticle& inverse_mass = A.inverse_mass;
   const auto norm = [&](const PerParticle3& a) { return std::sqrt(product(a, a, inverse_mass)); };
   dw.setZero(3, r0.cols());

@@ -41,11 +41,11 @@ double squared_momentum(const PerParticle3& v, const PerParticle& mass, const Pe
   return sum;
 }
 
-Solve record(Solve solve, Work& work) {
+SolveResult record(SolveResult solve, Work& work) {
   ++work.solves;
   work.cg_iterations += solve.iterations;
   if (!solve.converged) ++work.unfinished_solves;
-  keep_worst(work.worst_residual, solve.residual);
+  update_worst(work.worst_residual, solve.residual);
   return solve;
 }
 
@@ -54,8 +54,8 @@ using Product = std::function<double(const PerParticle3& p, PerParticle3& q)>;
 
 /// Adds to v the solution of A w = r by conjugate gradients, preconditioned with the masses: the plain
 /// iteration in the variable M^{1/2} w. scale: what the residual's norm is compared with [kg^1/2 m/s].
-Solve iterate(const Product& A, const PerParticle& inverse_mass, const SolverSettings& settings, double scale,
-              PerParticle3 r, PerParticle3& v) {
+SolveResult iterate(const Product& A, const PerParticle& inverse_mass, const SolverSettings& settings,
+                    double scale, PerParticle3 r, PerParticle3& v) {
   PerParticle3 q(3, r.cols());
   double rr = squared_norm(r, inverse_mass);
   double residual = std::sqrt(rr) / scale;
@@ -83,9 +83,9 @@ double positive_or_one(double scale) { return scale > 0 ? scale : 1; }
 
 }  // namespace
 
-Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass,
-                     const PerParticle& inverse_mass, const SolverSettings& settings, PerParticle3& v,
-                     Work& work) {
+SolveResult solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass,
+                           const PerParticle& inverse_mass, const SolverSettings& settings, PerParticle3& v,
+                           Work& work) {
   const Product A = [&](const PerParticle3& p, PerParticle3& q) {  // (M - s D) p
     q.setZero();
     damping.add_product(p, q);
@@ -109,15 +109,15 @@ Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle
   return record(iterate(A, inverse_mass, settings, scale, r, v), work);
 }
 
-Solve solve_newton_step(const NewtonMatrix& matrix, const SolverSettings& settings, const PerParticle3& r,
-                        PerParticle3& dw, Work& work) {
+SolveResult solve_newton_step(const NewtonMatrix& matrix, const SolverSettings& settings,
+                              const PerParticle3& r, PerParticle3& dw, Work& work) {
   const Product A = [&](const PerParticle3& p, PerParticle3& q) {
     multiply(matrix, p, q, work);
     return p.cwiseProduct(q).sum();
   };
   dw.setZero(3, r.cols());
   const double scale = positive_or_one(std::sqrt(squared_norm(r, matrix.inverse_mass)));
-  const Solve solve = iterate(A, matrix.inverse_mass, settings, scale, r, dw);
+  const SolveResult solve = iterate(A, matrix.inverse_mass, settings, scale, r, dw);
   ++work.solves;
   work.cg_iterations += solve.iterations;
   return solve;

@@ -19,7 +19,7 @@ struct SolverSettings {
   ResidualScale scale = ResidualScale::momentum;
 };
 
-struct Solve {
+struct SolveResult {
   int iterations;
   double residual;  // relative, as accumulated by the iteration [1]; NaN if the data were not finite
   bool converged;   // residual <= tolerance
@@ -35,14 +35,14 @@ struct Solve {
 /// iteration below is that one, written with masses. It starts from the explicit guess w0, so that every
 /// iterate differs from it by internal forces only, and keeps linear and angular momentum to rounding however
 /// early it stops.
-Solve solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass,
-                     const PerParticle& inverse_mass, const SolverSettings& settings, PerParticle3& v,
-                     Work& work);
+SolveResult solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass,
+                           const PerParticle& inverse_mass, const SolverSettings& settings, PerParticle3& v,
+                           Work& work);
 
 /// Solves A dw = r, A symmetric, for the free particles from dw = 0; prescribed ones get 0. r: 3 x N momenta [kg m/s]; on exit
 /// dw: 3 x N [m/s]. The residual is relative to |r|. Stops at once, with `indefinite` set, when it meets a
 /// direction p with p.A p <= 0: dw is then what it had so far.
-Solve solve_newton_step(const NewtonMatrix& A, const SolverSettings& settings, const PerParticle3& r,
-                        PerParticle3& dw, Work& work);
+SolveResult solve_newton_step(const NewtonMatrix& A, const SolverSettings& settings, const PerParticle3& r,
+                              PerParticle3& dw, Work& work);
 
 }  // namespace foldproof

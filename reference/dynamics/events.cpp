@@ -53,10 +53,10 @@ std::vector<double> sticking_event_times(const System& system, double start) {
 }
 
 Events::Events(const System& system, double start, double tolerance)
-    : given_(system), times_(event_times(system.led, start)), tolerance_(tolerance), last_(start) {
+    : given_(system), times_(event_times(system.prescribed, start)), tolerance_(tolerance), last_(start) {
   if (!times_.empty()) {
     own_ = std::make_unique<System>(system);
-    lead(start);
+    set_prescribed_motion(start);
   }
   for (const std::vector<double>& more :
        {object_event_times(system, start), sticking_event_times(system, start)})
@@ -73,21 +73,21 @@ double Events::next() const {
   return times_.empty() ? std::numeric_limits<double>::infinity() : times_.front();
 }
 
-State Events::passed(State s) {
+State Events::pass_events(State s) {
   pass(s.time);
-  if (own_) impose(velocities_at(own_->led, s.time), s.v);
+  if (own_) impose(velocities_at(own_->prescribed, s.time), s.v);
   return s;
 }
 
 void Events::pass(double t) {
   last_ = t;
   std::erase_if(times_, [&](double time) { return time <= t + tolerance_; });
-  if (own_) lead(t);
+  if (own_) set_prescribed_motion(t);
 }
 
-void Events::lead(double t) {
-  std::ranges::transform(given_.led, own_->led.begin(),
-                         [&](const PrescribedParticle& p) { return as_after(p, t, tolerance_); });
+void Events::set_prescribed_motion(double t) {
+  std::ranges::transform(given_.prescribed, own_->prescribed.begin(),
+                         [&](const PrescribedParticle& p) { return smooth_continuation(p, t, tolerance_); });
 }
 
 }  // namespace foldproof

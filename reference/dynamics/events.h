@@ -35,14 +35,14 @@ class Events {
   /// When the next event is due [s]; infinite if there is none.
   double next() const;
 
-  /// The system until then. It stays where it is; `passed` changes it.
+  /// The system until then. It stays where it is; `pass_events` changes it.
   const System& system() const { return own_ ? *own_ : given_; }
 
   /// The state s after all events due by its time: led particles have the velocities of their new motions.
-  State passed(State s);
+  State pass_events(State s);
 
  private:
-  void lead(double t);
+  void set_prescribed_motion(double t);
   void pass(double t);
 
   const System& given_;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "reference/dynamics/end_of_step.h"
+#include "reference/dynamics/finish_step.h"
 
 namespace foldproof {
 
@@ -28,15 +28,16 @@ Rate rate_at(const System& system, const State& s, Work& work) {
 }
 
 /// now + h sum_i weights_i rate_i, at the time t [s]; prescribed particles where they are then.
-State advanced(const System& system, const State& now, double t, const std::vector<double>& weights,
-               const std::vector<Rate>& rates, double h) {
+State advance(const System& system, const State& now, double t, const std::vector<double>& weights,
+              const std::vector<Rate>& rates, double h) {
   State s{t, now.x, now.v, now.bonds};
   for (size_t i = 0; i < weights.size(); ++i) {
     s.x += h * weights[i] * rates[i].velocity;
     s.v += h * weights[i] * rates[i].acceleration;
   }
-  for (const PrescribedParticle& p : system.led) s.x.col(p.particle) = position_at(p.motion, p.start, t);
-  impose(velocities_at(system.led, t), s.v);
+  for (const PrescribedParticle& p : system.prescribed)
+    s.x.col(p.particle) = position_at(p.motion, p.start, t);
+  impose(velocities_at(system.prescribed, t), s.v);
   return s;
 }
 
@@ -44,12 +45,12 @@ State runge_kutta(const Tableau& tableau, const System& system, const State& now
   std::vector<Rate> rates;
   for (size_t i = 0; i < tableau.b.size(); ++i) {
     const double t = now.time + tableau.c[i] * h;
-    rates.push_back(rate_at(system, advanced(system, now, t, tableau.A[i], rates, h), work));
+    rates.push_back(rate_at(system, advance(system, now, t, tableau.A[i], rates, h), work));
   }
   PerParticle3 v_move = PerParticle3::Zero(3, now.x.cols());
   for (size_t i = 0; i < rates.size(); ++i) v_move += tableau.b[i] * rates[i].velocity;
-  const State end = advanced(system, now, now.time + h, tableau.b, rates, h);
-  return end_of_step(system, now, h, {std::move(v_move), end.v}, work);
+  const State end = advance(system, now, now.time + h, tableau.b, rates, h);
+  return finish_step(system, now, h, {std::move(v_move), end.v}, work);
 }
 
 }  // namespace

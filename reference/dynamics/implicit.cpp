@@ -7,16 +7,16 @@
 #include <variant>
 
 #include "reference/dynamics/biconjugate_gradient.h"
-#include "reference/dynamics/end_of_step.h"
+#include "reference/dynamics/finish_step.h"
 #include "reference/forces/degenerate.h"
 
 namespace foldproof {
 
 namespace {
 
-constexpr int most_newton_iterations = 60, most_halvings = 12;
-constexpr double forcing = 1e-3;         // relative residual to which a Newton step is solved
-constexpr double least_decrease = 1e-4;  // of the residual or of the work left, as a part of the step taken
+constexpr int max_newton_iterations = 60, max_halvings = 12;
+constexpr double forcing = 1e-3;       // relative residual to which a Newton step is solved
+constexpr double min_decrease = 1e-4;  // of the residual or of the work left, as a part of the step taken
 
 /// The stage equation's data: see the header.
 struct Stage {
@@ -42,7 +42,7 @@ PerParticle3 residual_of(const System& system, const Stage& stage, const PerPart
   damping_at(system.forces, at, work).add_product(w, force);
   ++work.damping_products;
   PerParticle3 residual = stage.s * force - (w - stage.V) * system.mass.asDiagonal();
-  for (const PrescribedParticle& p : system.led) residual.col(p.particle).setZero();
+  for (const PrescribedParticle& p : system.prescribed) residual.col(p.particle).setZero();
   return residual;
 }
 
@@ -50,7 +50,7 @@ PerParticle3 residual_of(const System& system, const Stage& stage, const PerPart
 struct Trial {
   PerParticle3 w, residual;
   double norm;
-  bool better;  // than where it started
+  bool is_improved;  // than where it started
 };
 
 double product(const PerParticle3& a, const PerParticle3& b) { return a.cwiseProduct(b).sum(); }
@@ -59,16 +59,16 @@ double product(const PerParticle3& a, const PerParticle3& b) { return a.cwisePro
 /// rule, is positive: then the step leads downhill in the potential of which the residual is minus the
 /// gradient (the damping's part has none), though the residual itself may have to rise on the way. Gives up
 /// after a dozen halvings.
-Trial search(const System& system, const Stage& stage, const Trial& from, const PerParticle3& dw,
-             Work& work) {
+Trial line_search(const System& system, const Stage& stage, const Trial& from, const PerParticle3& dw,
+                  Work& work) {
   double part = 1;
-  for (int i = 0; i < most_halvings; ++i, part /= 2) {
+  for (int i = 0; i < max_halvings; ++i, part /= 2) {
     try {
       const PerParticle3 w = from.w + part * dw;
       const PerParticle3 residual = residual_of(system, stage, w, work);
       const double norm = norm_of(residual, system.inverse_mass);
       const double before = product(from.residual, dw), after = product(residual, dw);
-      if (norm < (1 - least_decrease * part) * from.norm || before + after > least_decrease * before)
+      if (norm < (1 - min_decrease * part) * from.norm || before + after > min_decrease * before)
         return {w, residual, norm, true};
     } catch (const DegenerateElement&) {  // too far: a triangle lost its area on the way
     }
@@ -102,41 +102,41 @@ std::optional<PerParticle3> exact_step(const System& system, const Stage& stage,
   const SolverSettings settings{forcing, system.solver.max_iterations, ResidualScale::momentum};
   PerParticle3 dw;
   const NewtonMatrix A{system.mass, system.inverse_mass, damping, derivative, stage.s};
-  const Solve solve = solve_unsymmetric_step(A, settings, from.residual, dw, work);
+  const SolveResult solve = solve_unsymmetric_step(A, settings, from.residual, dw, work);
   if (!solve.converged || !(product(from.residual, dw) > 0)) return {};
   return dw;
 }
 
 /// One iteration of Newton's method. Where damping or current weighting makes the derivative unsymmetric, the
 /// exact step is tried first; the symmetric one takes over where that fails, far from the solution.
-Trial improved(const System& system, const Stage& stage, const Trial& from, Work& work) {
+Trial newton_step(const System& system, const Stage& stage, const Trial& from, Work& work) {
   if (const std::optional<PerParticle3> dw = exact_step(system, stage, from, work)) {
-    const Trial to = search(system, stage, from, *dw, work);
-    if (to.better) return to;
+    const Trial to = line_search(system, stage, from, *dw, work);
+    if (to.is_improved) return to;
   }
-  return search(system, stage, from, symmetric_step(system, stage, from, work), work);
+  return line_search(system, stage, from, symmetric_step(system, stage, from, work), work);
 }
 
 /// The stage equation with the forces linearised about the state `now`, the elastic derivative semidefinite:
 ///   (M - s D - s^2 K) dw = s (F + D w + K (X + s w - x)) - M (w - V),
 /// less what prescribed particles ask for.
 /// w: on entry the velocity to start from with the known velocities written in, on exit w + dw.
-Solve solve_linearised(const System& system, const State& now, const Stage& stage,
-                       const SolverSettings& settings, PerParticle3& w, Work& work) {
+SolveResult solve_linearised(const System& system, const State& now, const Stage& stage,
+                             const SolverSettings& settings, PerParticle3& w, Work& work) {
   const DampingOperator damping = damping_at(system.forces, now, work);
   const ForceDifferential stiffness =
       elastic_differential_at(system.forces, now, Definiteness::semidefinite, work);
   PerParticle3 force = elastic_forces(system.forces, now, work);
   damping.add_product(w, force);
-  PerParticle3 moved = stage.X - now.x + stage.s * w;
-  stiffness.add_product(moved, force);
+  PerParticle3 displacement = stage.X - now.x + stage.s * w;
+  stiffness.add_product(displacement, force);
   ++work.damping_products, ++work.stiffness_products;
   PerParticle3 impulse = stage.s * force - (w - stage.V) * system.mass.asDiagonal();
-  for (const PrescribedParticle& p : system.led) impulse.col(p.particle).setZero();
+  for (const PrescribedParticle& p : system.prescribed) impulse.col(p.particle).setZero();
 
   PerParticle3 dw;
-  const NewtonMatrix of_the_start{system.mass, system.inverse_mass, damping, stiffness, stage.s};
-  const Solve solve = solve_newton_step(of_the_start, settings, impulse, dw, work);
+  const NewtonMatrix start_matrix{system.mass, system.inverse_mass, damping, stiffness, stage.s};
+  const SolveResult solve = solve_newton_step(start_matrix, settings, impulse, dw, work);
   w += dw;
   return solve;
 }
@@ -150,10 +150,10 @@ double rounding_at(const System& system, const Stage& stage, const PerParticle3&
   return stage.s * rounding * std::sqrt(rows.cwiseAbs2().dot(system.inverse_mass));
 }
 
-/// Newton's method from a trial, until its residual is `enough` [kg^1/2 m/s] or nothing improves it.
-Trial iterated(const System& system, const Stage& stage, Trial at, double enough, Work& work) {
-  for (int i = 0; at.norm > enough && at.better && i < most_newton_iterations; ++i) {
-    at = improved(system, stage, at, work);
+/// Newton's method from a trial, until its residual is `target_norm` [kg^1/2 m/s] or nothing improves it.
+Trial solve_newton(const System& system, const Stage& stage, Trial at, double target_norm, Work& work) {
+  for (int i = 0; at.norm > target_norm && at.is_improved && i < max_newton_iterations; ++i) {
+    at = newton_step(system, stage, at, work);
     ++work.newton_iterations;
   }
   return at;
@@ -185,21 +185,22 @@ Trial linearised_trial(const System& system, const State& now, const Stage& stag
 /// the stage's time, and as fast.
 PerParticle3 solve_stage(const System& system, const State& now, Stage& stage, Work& work) {
   PerParticle3 w = now.v;
-  impose(velocities_at(system.led, stage.time), w);
-  for (const PrescribedParticle& p : system.led)
+  impose(velocities_at(system.prescribed, stage.time), w);
+  for (const PrescribedParticle& p : system.prescribed)
     stage.X.col(p.particle) = position_at(p.motion, p.start, stage.time) - stage.s * w.col(p.particle);
 
   const Trial start = trial_at(system, stage, w, work);
   const double size = start.norm + norm_of(w * system.mass.asDiagonal(), system.inverse_mass);
-  const double enough = std::max(system.solver.tolerance * size, rounding_at(system, stage, w));
-  Trial end = iterated(system, stage, start, enough, work);
-  if (!(end.norm <= enough)) {
+  const double target_norm = std::max(system.solver.tolerance * size, rounding_at(system, stage, w));
+  Trial end = solve_newton(system, stage, start, target_norm, work);
+  if (!(end.norm <= target_norm)) {
     const Trial again =
-        iterated(system, stage, linearised_trial(system, now, stage, start, work), enough, work);
+        solve_newton(system, stage, linearised_trial(system, now, stage, start, work), target_norm, work);
     if (again.norm < end.norm) end = again;
   }
-  if (!(end.norm <= enough)) ++work.unfinished_solves;
-  keep_worst(work.worst_residual, enough > 0 ? system.solver.tolerance * end.norm / enough : end.norm);
+  if (!(end.norm <= target_norm)) ++work.unfinished_solves;
+  update_worst(work.worst_residual,
+               target_norm > 0 ? system.solver.tolerance * end.norm / target_norm : end.norm);
   return end.w;
 }
 
@@ -209,25 +210,25 @@ State backward_euler(const System& system, std::span<const State> past, double h
   const State& now = past.back();
   Stage stage{now.time + h, now.x, now.v, h, now.bonds};
   const PerParticle3 w = solve_stage(system, now, stage, work);
-  return end_of_step(system, now, h, {w, w}, work);
+  return finish_step(system, now, h, {w, w}, work);
 }
 
 State linearised_backward_euler(const System& system, std::span<const State> past, double h, Work& work) {
   const State& now = past.back();
   PerParticle3 w = now.v;
-  impose(mean_velocities(system.led, now.x, now.time, h), w);
+  impose(mean_velocities(system.prescribed, now.x, now.time, h), w);
   const Stage stage{now.time + h, now.x, now.v, h, now.bonds};
-  const Solve solve = solve_linearised(system, now, stage, system.solver, w, work);
+  const SolveResult solve = solve_linearised(system, now, stage, system.solver, w, work);
   if (!solve.converged) ++work.unfinished_solves;
-  keep_worst(work.worst_residual, solve.residual);
-  return end_of_step(system, now, h, {w, w}, work);
+  update_worst(work.worst_residual, solve.residual);
+  return finish_step(system, now, h, {w, w}, work);
 }
 
 State implicit_midpoint(const System& system, std::span<const State> past, double h, Work& work) {
   const State& now = past.back();
   Stage stage{now.time + h / 2, now.x, now.v, h / 2, now.bonds};
   const PerParticle3 w = solve_stage(system, now, stage, work);
-  return end_of_step(system, now, h, {w, 2 * w - now.v}, work);
+  return finish_step(system, now, h, {w, 2 * w - now.v}, work);
 }
 
 State bdf2(const System& system, std::span<const State> past, double h, Work& work) {
@@ -240,7 +241,7 @@ State bdf2(const System& system, std::span<const State> past, double h, Work& wo
   const double p = r * r / (1 + 2 * r), s = h * (1 + r) / (1 + 2 * r);
   Stage stage{now.time + h, now.x + p * (now.x - before.x), now.v + p * (now.v - before.v), s, now.bonds};
   const PerParticle3 w = solve_stage(system, now, stage, work);
-  return end_of_step(system, now, h, {(stage.X + stage.s * w - now.x) / h, w}, work);
+  return finish_step(system, now, h, {(stage.X + stage.s * w - now.x) / h, w}, work);
 }
 
 }  // namespace foldproof

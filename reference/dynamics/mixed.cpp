@@ -43,13 +43,13 @@ State mixed_explicit_implicit(const System& system, std::span<const State> past,
   // position: leapfrog with the explicit half-step velocity, once it has been modified
   const PerParticle3 v_half = explicit_half_step(system, here, now.v, now.v, h, work);
   PerParticle3 v_move = v_half;
-  impose(mean_velocities(system.led, now.x, now.time, h), v_move);
+  impose(mean_velocities(system.prescribed, now.x, now.time, h), v_move);
   correct(system.filters, {now.time, end, h}, now, v_move, work);
   State next{end, now.x + h * v_move, v_move, now.bonds};
 
   // velocity: trapezoidal rule, continued from the half-step velocity before its modification
   const Forces there = forces_at(system, next, work);
-  next.v = implicit_half_step(system, there, v_half, velocities_at(system.led, end), h, work);
+  next.v = implicit_half_step(system, there, v_half, velocities_at(system.prescribed, end), h, work);
   correct(system.filters, {end, end, h}, next, next.v, work);
   return next;
 }
@@ -60,15 +60,15 @@ State central_newmark(const System& system, std::span<const State> past, double 
   const Forces here = forces_at(system, now, work);
 
   // position: move with a velocity that is implicit in the damping
-  PerParticle3 v_half =
-      implicit_half_step(system, here, now.v, mean_velocities(system.led, now.x, now.time, h), h, work);
+  PerParticle3 v_half = implicit_half_step(system, here, now.v,
+                                           mean_velocities(system.prescribed, now.x, now.time, h), h, work);
   correct(system.filters, {now.time, end, h}, now, v_half, work);
   State next{end, now.x + h * v_half, v_half, now.bonds};
 
   // velocity: the rest of the step, explicit, from the modified half-step velocity
   const Forces there = forces_at(system, next, work);
   next.v = explicit_half_step(system, there, v_half, v_half, h, work);
-  impose(velocities_at(system.led, end), next.v);
+  impose(velocities_at(system.prescribed, end), next.v);
   return next;
 }
 
@@ -78,15 +78,15 @@ State variable_step_newmark(const System& system, std::span<const State> past, d
   const Forces here = forces_at(system, now, work);
 
   // position: move with a velocity that is implicit in the damping, as in scheme B
-  PerParticle3 v_move =
-      implicit_half_step(system, here, now.v, mean_velocities(system.led, now.x, now.time, h), h, work);
+  PerParticle3 v_move = implicit_half_step(system, here, now.v,
+                                           mean_velocities(system.prescribed, now.x, now.time, h), h, work);
   correct(system.filters, {now.time, end, h}, now, v_move, work);
   State next{end, now.x + h * v_move, v_move, now.bonds};
 
   // velocity: trapezoidal rule from v_n, as in scheme A
   const PerParticle3 v_half = explicit_half_step(system, here, now.v, now.v, h, work);
   const Forces there = forces_at(system, next, work);
-  next.v = implicit_half_step(system, there, v_half, velocities_at(system.led, end), h, work);
+  next.v = implicit_half_step(system, there, v_half, velocities_at(system.prescribed, end), h, work);
   correct(system.filters, {end, end, h}, next, next.v, work);
   return next;
 }

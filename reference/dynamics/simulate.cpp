@@ -174,7 +174,7 @@ void Run::step_to_frame(double target) {
     const double due = events_.next();
     step_to(due < target - close ? due : target);
     if (!stop_ && due <= history_.now().time + close)
-      history_ = History(events_.passed(history_.now()), integrator_.history);
+      history_ = History(events_.pass_events(history_.now()), integrator_.history);
   }
 }
 
@@ -214,7 +214,7 @@ void Run::step(double target) {
   const bool asks_for_limit = observer_.step || !(end || schedule_.step.fixed > 0);
   const double limit = asks_for_limit ? elastic_limit(system, now) : 0;
   const double h = end ? *end - now.time
-                       : even_step(left, step_allowed(system, integrator_, history_.past(), schedule_.step, limit));
+                       : even_step(left, allowed_step(system, integrator_, history_.past(), schedule_.step, limit));
   if (!(now.time + h > now.time)) {
     stop_ = Stop{"a step became too short to advance the time", now.time, number, -1};
     return;
@@ -281,7 +281,7 @@ double Run::damping_power(const State& s) const {
 
 }  // namespace
 
-double step_allowed(const System& system, const Integrator& integrator, std::span<const State> past,
+double allowed_step(const System& system, const Integrator& integrator, std::span<const State> past,
                     const StepRule& rule, double limit) {
   double wanted = rule.fixed > 0 ? rule.fixed : automatic_step(system, integrator, past.back(), rule, limit);
   if (past.size() > 1) {

@@ -43,15 +43,15 @@ struct Diagnostics {
   double seconds = 0;                         // since the start of the run, clock time
 };
 
-/// Shows `see` every number of a Diagnostics, const or not, but the clock time, in an order that stays: counts as
+/// Shows `visit` every number of a Diagnostics, const or not, but the clock time, in an order that stays: counts as
 /// long, the rest as double.
-template <class SomeDiagnostics, class See>
-void for_each_number_of_row(SomeDiagnostics& d, const See& see) {
-  for (auto* value : {&d.time, &d.step, &d.damping_work, &d.step_over_elastic_limit}) see(*value);
-  for (auto term : energy_terms) see(d.energy.*term);
+template <class SomeDiagnostics, class Visit>
+void for_each_value(SomeDiagnostics& d, const Visit& visit) {
+  for (auto* value : {&d.time, &d.step, &d.damping_work, &d.step_over_elastic_limit}) visit(*value);
+  for (auto term : energy_terms) visit(d.energy.*term);
   for (auto* momentum : {&d.linear_momentum, &d.angular_momentum})
-    for (auto& component : *momentum) see(component);
-  for_each_number_of_work(d.work, see);
+    for (auto& component : *momentum) visit(component);
+  for_each_counter(d.work, visit);
 }
 
 // A new number must be shown above.
@@ -107,7 +107,7 @@ RunResult resume(const System& system, const Integrator& integrator, const Check
 /// the integrator's largest_growth.
 ///   limit   the elastic limit at the latest of them [s]; a rule with a fixed step does not ask
 ///           for it
-double step_allowed(const System& system, const Integrator& integrator, std::span<const State> past,
+double allowed_step(const System& system, const Integrator& integrator, std::span<const State> past,
                     const StepRule& rule, double limit);
 
 }  // namespace foldproof

@@ -26,7 +26,7 @@ void prescribe(System& system, const PrescribedParticle& particle) {
   if (system.inverse_mass[i] == 0)
     throw InputError("the motion of particle " + std::to_string(i) + " is prescribed twice");
   system.inverse_mass[i] = 0;
-  system.led.push_back(particle);
+  system.prescribed.push_back(particle);
 }
 
 double elastic_limit(const System& system, const State& s) {
@@ -40,16 +40,16 @@ double widened_limit(const System& system, const State& s, double limit) {
       forecast = std::min(forecast, force.shortest_forecast(s));
   });
   if (std::isinf(forecast)) return limit;
-  const double others = 2 / frequency_beyond_forecasts(system.forces, s, system.inverse_mass);
+  const double others = 2 / frequency_without_sticking_springs(system.forces, s, system.inverse_mass);
   return std::max(limit, std::min(others, 2 * forecast));
 }
 
 void begin_step(const System& system, State& s) {
   for_each_force(system.forces, [&](const auto& force) {
-    if constexpr (requires { force.renew_bonds(s); }) force.renew_bonds(s);
+    if constexpr (requires { force.update_bonds(s); }) force.update_bonds(s);
   });
   for (const Filter& filter : system.filters)
-    if (const auto* self = std::get_if<SelfCollision>(&filter)) self->renew_pairs(s);
+    if (const auto* self = std::get_if<SelfCollision>(&filter)) self->update_pair_cache(s);
 }
 
 Energies energies(const System& system, const State& s) {

@@ -16,7 +16,7 @@ struct System {
   PerParticle inverse_mass;  // N [1/kg]; 0 where the motion is prescribed
   std::vector<Force> forces;
   std::vector<Filter> filters;
-  std::vector<PrescribedParticle> led;
+  std::vector<PrescribedParticle> prescribed;
   SolverSettings solver;
 };
 

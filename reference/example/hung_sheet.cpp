@@ -7,13 +7,13 @@
 
 int main() {
   using namespace foldproof;
-  Scene scene = scene_of(make_sheet({.width = 1, .height = 1, .columns = 12, .rows = 12}), 0.2);  // m, kg/m^2
+  Scene scene = scene_at_rest(make_sheet({.width = 1, .height = 1, .columns = 12, .rows = 12}), 0.2);  // m, kg/m^2
   scene.gravity = Vector3(0, -9.80665, 0);                                                        // m/s^2
   scene.stretch = StretchMaterial{.stiffness = 50, .damping = 0.5};  // N/m, N s/m
   scene.bending = BendingMaterial{.stiffness = 1e-3};                // J
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);             // rad
   for (const int corner : {156, 168})                                // of the upper border
-    scene.led.push_back({corner, scene.x.col(corner), Motion{}});
+    scene.prescribed.push_back({corner, scene.x.col(corner), Motion{}});
   scene.schedule.end = 1;               // s
   scene.schedule.frame_interval = 0.1;  // s
   const auto print = [](const State& s) {

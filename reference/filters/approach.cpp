@@ -8,7 +8,7 @@ namespace foldproof {
 namespace {
 
 // Planes tried before a motion is taken for a meeting.
-constexpr int most_planes = 1000;
+constexpr int max_planes = 1000;
 
 //    first feature
 //   ------o------      At time t the features are nearest across the vector N. A plane with that
@@ -19,35 +19,39 @@ constexpr int most_planes = 1000;
 //                      proof; the nearest points only make it last long.
 //
 /// How long a plane with the normal N keeps the features at least `gap` [m] apart, from positions x on, at
-/// the rates `way`: infinite if they do not close, negative if it does not part them now.
-double parted_for(PairKind kind, const Corners4& x, const Corners4& way, const Vector3& N, double gap) {
-  const Eigen::RowVector4d height = N.transpose() * x, rate = N.transpose() * way;  // m, m per motion
-  const int first = kind == PairKind::vertex_triangle ? 1 : 2;  // points of the first feature
+/// the rates `displacement`: infinite if they do not close, negative if it does not part them now.
+double separated_for(PairKind kind, const Corners4& x, const Corners4& displacement, const Vector3& N,
+                     double gap) {
+  const Eigen::RowVector4d height = N.transpose() * x,
+                           rate = N.transpose() * displacement;  // m, m per motion
+  const int first = kind == PairKind::vertex_triangle ? 1 : 2;   // points of the first feature
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < first; ++i)
     for (int j = first; j < 4; ++j) {
-      const double room = height[i] - height[j] - gap, closing = rate[j] - rate[i];
-      if (!(room > 0)) return -1;
-      if (closing > 0) least = std::min(least, room / closing);
+      const double clearance = height[i] - height[j] - gap, closing = rate[j] - rate[i];
+      if (!(clearance > 0)) return -1;
+      if (closing > 0) least = std::min(least, clearance / closing);
     }
   return least;
 }
 
 }  // namespace
 
-std::optional<Approach> first_approach(PairKind kind, const Corners4& x, const Corners4& way, double keep) {
+std::optional<Approach> first_approach(PairKind kind, const Corners4& x, const Corners4& displacement,
+                                       double min_distance) {
   // seen from one of the points, so that large coordinates and common motion cost no digits
-  const Corners4 from = x.colwise() - Vector3(x.col(3)), along = way.colwise() - Vector3(way.col(3));
+  const Corners4 from = x.colwise() - Vector3(x.col(3)),
+                 along = displacement.colwise() - Vector3(displacement.col(3));
   double t = 0;
   Nearness at = nearness(kind, from);
   // what is kept, when an approach is reported, and halfway between the two what planes promise [m]
-  const double kept = at.distance > keep ? keep : at.distance / 2;
-  const double reported = kept + std::min(at.distance - kept, kept) / 2;
-  const double promised = (kept + reported) / 2;
-  for (int plane = 0; plane < most_planes && at.distance > reported; ++plane) {
-    const double lasts = parted_for(kind, from + t * along, along, at.normal, promised);
-    if (!(lasts > 0)) break;
-    t += lasts;
+  const double kept_distance = at.distance > min_distance ? min_distance : at.distance / 2;
+  const double report_distance = kept_distance + std::min(at.distance - kept_distance, kept_distance) / 2;
+  const double plane_gap = (kept_distance + report_distance) / 2;
+  for (int plane = 0; plane < max_planes && at.distance > report_distance; ++plane) {
+    const double duration = separated_for(kind, from + t * along, along, at.normal, plane_gap);
+    if (!(duration > 0)) break;
+    t += duration;
     if (t >= 1) return {};
     at = nearness(kind, from + t * along);
   }

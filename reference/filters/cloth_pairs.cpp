@@ -54,7 +54,7 @@ bool overlap(const FeaturePair& pair, const std::vector<Bounds>& particles) {
 }
 
 /// moved: N, or empty, which asks about all pairs.
-bool is_asked(const FeaturePair& pair, const std::vector<char>& moved) {
+bool has_moved_particle(const FeaturePair& pair, const std::vector<char>& moved) {
   return moved.empty() || std::any_of(pair.particles.begin(), pair.particles.end(),
                                       [&](int i) { return moved[size_t(i)] != 0; });
 }
@@ -152,7 +152,7 @@ void Search::compare(int s, int t) {
   if (!moved.empty() && !triangle_moved[size_t(s)] && !triangle_moved[size_t(t)]) return;
   if (!triangles[size_t(s)].intersects(triangles[size_t(t)])) return;
   const Triangle &at_s = cloth.triangles[size_t(s)], &at_t = cloth.triangles[size_t(t)];
-  const OwnFeatures &own_s = cloth.own[size_t(s)], &own_t = cloth.own[size_t(t)];
+  const OwnedFeatures &own_s = cloth.own[size_t(s)], &own_t = cloth.own[size_t(t)];
   for (size_t k = 0; k < 3; ++k) {
     if (own_s.corner[k]) add_vertex(at_s[k], t);
     if (own_t.corner[k]) add_vertex(at_t[k], s);
@@ -169,24 +169,24 @@ void Search::add_vertex(int vertex, int triangle) {
   if (!particles[size_t(vertex)].intersects(triangles[size_t(triangle)])) return;
   if (share_a_particle({vertex, vertex}, t)) return;
   const FeaturePair pair{PairKind::vertex_triangle, {vertex, t[0], t[1], t[2]}};
-  if (is_asked(pair, moved)) found.push_back(pair);
+  if (has_moved_particle(pair, moved)) found.push_back(pair);
 }
 
 void Search::add_edges(const VertexOrEdge& e, const VertexOrEdge& f) {
   if (e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b) return;
   const FeaturePair pair{PairKind::edge_edge, {e.a, e.b, f.a, f.b}};
-  if (overlap(pair, particles) && is_asked(pair, moved)) found.push_back(pair);
+  if (overlap(pair, particles) && has_moved_particle(pair, moved)) found.push_back(pair);
 }
 
 }  // namespace
 
 ClothTree make_cloth_tree(const TriangleMesh& mesh) {
-  ClothTree cloth{mesh.triangles, std::vector<OwnFeatures>(mesh.triangles.size()), {}, 0};
+  ClothTree cloth{mesh.triangles, std::vector<OwnedFeatures>(mesh.triangles.size()), {}, 0};
   cloth.tree = make_box_tree(triangle_bounds(mesh.rest, mesh.triangles), triangles_per_leaf);
-  std::vector<char> spoken_for(size_t(mesh.particles()), 0);
+  std::vector<char> vertex_has_owner(size_t(mesh.particles()), 0);
   for (size_t t = 0; t < mesh.triangles.size(); ++t)
     for (size_t k = 0; k < 3; ++k) {
-      char& taken = spoken_for[size_t(mesh.triangles[t][k])];
+      char& taken = vertex_has_owner[size_t(mesh.triangles[t][k])];
       cloth.own[t].corner[k] = !taken;
       taken = 1;
     }
@@ -226,7 +226,7 @@ std::optional<std::vector<FeaturePair>> pairs_from_cache(const PairCache& cache,
   if (!lie_within(boxes, cache.boxes)) return {};
   std::vector<FeaturePair> chosen;
   for (const FeaturePair& pair : cache.pairs)
-    if (overlap(pair, boxes) && is_asked(pair, moved)) chosen.push_back(pair);
+    if (overlap(pair, boxes) && has_moved_particle(pair, moved)) chosen.push_back(pair);
   return chosen;
 }
 

@@ -13,14 +13,14 @@ namespace foldproof {
 
 /// What a triangle answers for, so that each vertex and each edge is asked about once: of its corners and its
 /// sides (k: from corner k to the next), those that belong to it.
-struct OwnFeatures {
+struct OwnedFeatures {
   std::array<bool, 3> corner, side;
 };
 
 /// Boxes over the cloth's triangles. Which triangles share a box the rest shape decides, once.
 struct ClothTree {
   std::vector<Triangle> triangles;  // M
-  std::vector<OwnFeatures> own;     // M
+  std::vector<OwnedFeatures> own;   // M
   BoxTree tree;                     // over the triangles
   double mean_edge;                 // at rest [m]
 };

@@ -31,12 +31,12 @@ void ImpactZones::join(const FeaturePair& pair) {
   grown_[size_t(into)] = 1;
 }
 
-bool ImpactZones::together(const FeaturePair& pair) const {
+bool ImpactZones::are_joined(const FeaturePair& pair) const {
   const int root = root_of(pair.particles[0]);
   return std::all_of(pair.particles.begin(), pair.particles.end(), [&](int i) { return root_of(i) == root; });
 }
 
-std::vector<std::vector<int>> ImpactZones::grown() {
+std::vector<std::vector<int>> ImpactZones::take_grown_zones() {
   std::map<int, std::vector<int>> zones;  // by root
   for (int i = 0; i < int(parent_.size()); ++i)
     if (const int root = root_of(i); grown_[size_t(root)]) zones[root].push_back(i);
@@ -130,13 +130,13 @@ Solved solve(const Matrix6& left, const Motion6& right, double scale) {
 double move_as_one(const std::vector<int>& zone, const PerParticle3& x, const PerParticle& mass,
                    const PerParticle& inverse_mass, PerParticle3& v) {
   const Frame frame = frame_of(zone, x);
-  NormalEquations led, free;
+  NormalEquations prescribed, free;
   for (const int i : zone) {
     const bool is_led = inverse_mass[i] == 0;
-    (is_led ? led : free).add(frame.velocity_of(x.col(i)), v.col(i), is_led ? 1 : mass[i]);
+    (is_led ? prescribed : free).add(frame.velocity_of(x.col(i)), v.col(i), is_led ? 1 : mass[i]);
   }
   // what the prescribed particles say first; momentum decides the rest
-  const Solved by_led = solve(led.left, led.right, led.left.trace());
+  const Solved by_led = solve(prescribed.left, prescribed.right, prescribed.left.trace());
   const Matrix6 onto = by_led.open * by_led.open.transpose();
   const Solved by_momentum =
       solve(onto * free.left * onto, onto * (free.right - free.left * by_led.motion), free.left.trace());
@@ -147,7 +147,7 @@ double move_as_one(const std::vector<int>& zone, const PerParticle3& x, const Pe
     if (inverse_mass[i] > 0)
       v.col(i) = rigid;
     else
-      keep_worst(missed, (rigid - v.col(i)).norm());
+      update_worst(missed, (rigid - v.col(i)).norm());
   }
   return missed;
 }

@@ -17,10 +17,10 @@ class ImpactZones {
   /// Puts the pair's particles, and the zones they are in, into one zone.
   void join(const FeaturePair& pair);
 
-  bool together(const FeaturePair& pair) const;  // all four in one zone
+  bool are_joined(const FeaturePair& pair) const;  // all four in one zone
 
   /// The zones that have grown since the last call, each with its particles in ascending order.
-  std::vector<std::vector<int>> grown();
+  std::vector<std::vector<int>> take_grown_zones();
 
   long zones() const;      // of two particles or more
   long particles() const;  // in them

@@ -7,8 +7,8 @@ namespace foldproof {
 void ObjectCollision::correct(const Span& span, const State& s, PerParticle3& v, Work& work) const {
   const double tau = forecast_time > 0 ? forecast_time : span.step;
   const bool moves = span.end > span.start;
-  const bool ahead = response.asked == Asked::at_end;
-  ObjectsDuring around(objects, ahead ? Span{span.end, span.end, span.step} : span);
+  const bool ahead = response.query_time == QueryTime::at_end;
+  ObjectsOverSpan around(objects, ahead ? Span{span.end, span.end, span.step} : span);
   for (const CollisionPoint& point : points) {
     const Vector3 p = point.mean(s.x), before = point.mean(v);
     const Vector3 place = ahead ? Vector3(p + (span.end - span.start) * before) : p;

@@ -31,7 +31,7 @@ double forecast_distance(const ObjectPoint& at, const Vector3& v_p, double tau) 
 /// Each object once, the one that the point is forecast to be deepest in first: an object that is not the
 /// nearest, but will be entered, is not forgotten. If the way out of one leads into another that faces it,
 /// the point is held between them.
-Vector3 against_each(std::span<ObjectPoint> left, const MovingPoint& point) {
+Vector3 forecast_against_each(std::span<ObjectPoint> left, const MovingPoint& point) {
   Vector3 v = point.v;
   std::optional<ObjectPoint> before;
   const auto deeper = [&](const ObjectPoint& a, const ObjectPoint& b) {
@@ -50,19 +50,19 @@ Vector3 against_each(std::span<ObjectPoint> left, const MovingPoint& point) {
   return v;
 }
 
-Vector3 forecast(std::span<ObjectPoint> said, const MovingPoint& point) {
+Vector3 forecast(std::span<ObjectPoint> answers, const MovingPoint& point) {
   const auto inside = [](const ObjectPoint& at) { return at.phi < 0; };
-  if (std::count_if(said.begin(), said.end(), inside) < 2) return against_each(said, point);
-  const Nearest nearest = nearest_of(said);
+  if (std::count_if(answers.begin(), answers.end(), inside) < 2) return forecast_against_each(answers, point);
+  const Nearest nearest = nearest_of(answers);
   return velocity_between(nearest.first, nearest.second, point);
 }
 
-Vector3 forecast_deepest(std::span<ObjectPoint> said, const MovingPoint& point) {
-  return forecast_velocity(nearest_of(said).first, point.v, point.tau);
+Vector3 forecast_deepest(std::span<ObjectPoint> answers, const MovingPoint& point) {
+  return forecast_velocity(nearest_of(answers).first, point.v, point.tau);
 }
 
 /// v with `push` [m/s] added along the normal, and friction.
-Vector3 pushed(const ObjectPoint& at, const Vector3& v, double push) {
+Vector3 push_out_velocity(const ObjectPoint& at, const Vector3& v, double push) {
   const Vector3 relative = v - at.velocity;
   const Vector3 sliding = relative - relative.dot(at.normal) * at.normal;
   return v + push * at.normal - (1 - kept_by_friction(at.friction, push, sliding.norm())) * sliding;
@@ -70,20 +70,20 @@ Vector3 pushed(const ObjectPoint& at, const Vector3& v, double push) {
 
 /// Put on the surface if it would be inside after the step; a velocity that ends the step loses its part into
 /// a surface that the point is on.
-Vector3 projection(std::span<ObjectPoint> said, const MovingPoint& point) {
+Vector3 projection(std::span<ObjectPoint> answers, const MovingPoint& point) {
   const double h = point.span.end - point.span.start;
-  const ObjectPoint at = nearest_of(said).first;
+  const ObjectPoint at = nearest_of(answers).first;
   const double inwards = -(point.v - at.velocity).dot(at.normal);  // m/s
   double push = 0;
   if (h > 0 && at.phi < 0) push = -at.phi / h;
   if (h == 0 && at.phi < touching * point.span.step * inwards) push = inwards;
-  return push > 0 ? pushed(at, point.v, push) : point.v;
+  return push > 0 ? push_out_velocity(at, point.v, push) : point.v;
 }
 
 /// A point that is found inside after the step gets the velocity that takes it out in one step.
-Vector3 push_out(std::span<ObjectPoint> said, const MovingPoint& point) {
+Vector3 push_out(std::span<ObjectPoint> answers, const MovingPoint& point) {
   if (point.span.end > point.span.start) return point.v;
-  const ObjectPoint at = nearest_of(said).first;
+  const ObjectPoint at = nearest_of(answers).first;
   return at.phi < 0 ? forecast_velocity(at, point.v, point.span.step) : point.v;
 }
 
@@ -122,13 +122,13 @@ Vector3 velocity_between(const ObjectPoint& a, const ObjectPoint& b, const Movin
 const std::vector<Response>& responses() {
   static const std::vector<Response> table = {
       {"forecast", "interface forecasting; pinched points are held between (BMF03 section 5.2)",
-       Asked::at_start, forecast},
+       QueryTime::at_start, forecast},
       {"forecast_deepest",
-       "interface forecasting against the deepest or nearest object alone, pinched or not", Asked::at_start,
-       forecast_deepest},
-      {"projection", "points are put on the surface after the step", Asked::at_end, projection},
+       "interface forecasting against the deepest or nearest object alone, pinched or not",
+       QueryTime::at_start, forecast_deepest},
+      {"projection", "points are put on the surface after the step", QueryTime::at_end, projection},
       {"push_out", "points found inside after a step are given the velocity that takes them out in the next",
-       Asked::at_start, push_out},
+       QueryTime::at_start, push_out},
   };
   return table;
 }

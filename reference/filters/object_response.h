@@ -35,7 +35,7 @@ Vector3 forecast_velocity(const ObjectPoint& at, const Vector3& v_p, double tau)
 Vector3 velocity_between(const ObjectPoint& a, const ObjectPoint& b, const MovingPoint& point);
 
 /// Where a response asks the objects.
-enum class Asked {
+enum class QueryTime {
   at_start,  // at the point, at the span's start
   at_end     // where its velocity takes the point, at the span's end
 };
@@ -43,8 +43,8 @@ enum class Asked {
 /// A way to answer; `velocity` is v, bit for bit, where there is nothing to answer.
 struct Response {
   std::string_view name, about;
-  Asked asked;
-  Vector3 (*velocity)(std::span<ObjectPoint> said, const MovingPoint& point);  // may reorder what is said
+  QueryTime query_time;
+  Vector3 (*velocity)(std::span<ObjectPoint> answers, const MovingPoint& point);  // may reorder what is said
 };
 
 /// The table of responses: the paper's first.

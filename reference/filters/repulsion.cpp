@@ -19,15 +19,15 @@ double compliance(const FeaturePair& pair, const Eigen::Vector4d& weights, const
 
 void push_apart(const FeaturePair& pair, const Eigen::Vector4d& weights, const Vector3& change,
                 const PerParticle& inverse_mass, PerParticle3& v) {
-  const double yields = compliance(pair, weights, inverse_mass);
-  if (!(yields > 0)) return;
+  const double pair_compliance = compliance(pair, weights, inverse_mass);
+  if (!(pair_compliance > 0)) return;
   for (int k = 0; k < 4; ++k) {
     const int i = pair.particles[size_t(k)];
-    if (inverse_mass[i] > 0) v.col(i) += weights[k] * inverse_mass[i] / yields * change;
+    if (inverse_mass[i] > 0) v.col(i) += weights[k] * inverse_mass[i] / pair_compliance * change;
   }
 }
 
-Vector3 rubbed(const Vector3& relative, const Vector3& N, double push, double friction) {
+Vector3 friction_impulse(const Vector3& relative, const Vector3& N, double push, double friction) {
   const Vector3 along = relative - relative.dot(N) * N;
   const double speed = along.norm();
   return speed > 0 ? Vector3(-std::min(1.0, friction * push / speed) * along) : Vector3::Zero();
@@ -47,8 +47,8 @@ bool inside_both(const Eigen::Vector4d& weights) { return (weights.array() != 0)
 /// pairs are at ends and corners, with normals that lean: layers would catch on each other's edges when they
 /// slide. So two edges count where they are nearest inside both; a vertex counts over a triangle, and at a
 /// triangle's rim only if it is no nearer to another triangle, as over a fold or at the cloth's border.
-std::vector<ClosePair> carrying(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
-                                double thickness) {
+std::vector<ClosePair> load_bearing_pairs(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
+                                          double thickness) {
   std::vector<ClosePair> close;
   PerParticle nearest = PerParticle::Constant(x.cols(), thickness);  // of each vertex to a triangle [m]
   for (const FeaturePair& pair : pairs) {
@@ -72,17 +72,18 @@ long repel(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
            const SelfCollisionSettings& settings, double h, const PerParticle& inverse_mass,
            PerParticle3& v) {
   long answered = 0;
-  for (const auto& [pair, at] : carrying(pairs, x, settings.thickness)) {
-    const double overlap = settings.thickness - at.distance;           // d [m]
-    const double yields = compliance(pair, at.weights, inverse_mass);  // 1/kg
+  for (const auto& [pair, at] : load_bearing_pairs(pairs, x, settings.thickness)) {
+    const double overlap = settings.thickness - at.distance;                    // d [m]
+    const double pair_compliance = compliance(pair, at.weights, inverse_mass);  // 1/kg
     const Vector3 relative = corners_of(pair, v) * at.weights;
     const double parting = relative.dot(at.normal),
                  wanted = overlap_per_step * overlap / h;  // v_N, 0.1 d/h [m/s]
     double after = std::max(0.0, parting);
-    if (after < wanted) after += std::min(h * settings.stiffness * overlap * yields, wanted - after);
+    if (after < wanted) after += std::min(h * settings.stiffness * overlap * pair_compliance, wanted - after);
     const double push = after - parting;
-    if (!(push > 0) || !(yields > 0)) continue;
-    push_apart(pair, at.weights, push * at.normal + rubbed(relative, at.normal, push, settings.friction),
+    if (!(push > 0) || !(pair_compliance > 0)) continue;
+    push_apart(pair, at.weights,
+               push * at.normal + friction_impulse(relative, at.normal, push, settings.friction),
                inverse_mass, v);
     ++answered;
   }

@@ -25,7 +25,7 @@ void push_apart(const FeaturePair& pair, const Eigen::Vector4d& weights, const V
 
 /// Coulomb: of the relative velocity that is left across N, at most friction times `push` [m/s] is taken, and
 /// no more than there is. Returns the change [m/s].
-Vector3 rubbed(const Vector3& relative, const Vector3& N, double push, double friction);
+Vector3 friction_impulse(const Vector3& relative, const Vector3& N, double push, double friction);
 
 /// Pairs nearer than the thickness s at x, those of them that carry (repulsion.cpp), one after the other as v
 /// then is: with d = s - distance and v_N the rate at which they part,

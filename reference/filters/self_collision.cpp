@@ -11,8 +11,8 @@ namespace foldproof {
 
 namespace {
 
-constexpr double kept_share = 0.1;    // of the thickness: the distance that no motion may undercut
-constexpr double spare_share = 0.12;  // of the mean edge: the margin to spare of the cache
+constexpr double min_distance_share = 0.1;  // of the thickness: the distance that no motion may undercut
+constexpr double spare_share = 0.12;        // of the mean edge: the margin to spare of the cache
 constexpr double untangling_time =
     0.01;  // s: in it what pierces moves by a thickness against what it pierces
 
@@ -27,74 +27,75 @@ struct Step {
   std::vector<char> moved =
       {};  // N: particles whose velocity was changed since all pairs were last asked; empty: all
 
-  double keep() const { return kept_share * filter.settings.thickness; }  // m
+  double min_distance() const { return min_distance_share * filter.settings.thickness; }  // m
   std::vector<FeaturePair> pairs() const;
   std::optional<Approach> approach(const FeaturePair& pair);
-  long answer_all(int round);
-  void answer(const FeaturePair& pair, const Approach& met, int round);
-  bool grow(ImpactZones& zones, std::vector<char>& leads);
-  void move_zones(ImpactZones& zones, std::vector<char>& leads);
+  long resolve_all(int round);
+  void resolve(const FeaturePair& pair, const Approach& contact, int round);
+  bool join_approaching_pairs(ImpactZones& zones, std::vector<char>& is_off_its_path);
+  void move_zones(ImpactZones& zones, std::vector<char>& is_off_its_path);
 };
 
 /// near_pairs, from the filter's cache where it reaches.
 std::vector<FeaturePair> pairs_of(const SelfCollision& filter, const PerParticle3& x, const PerParticle3& end,
                                   double margin, const std::vector<char>& moved = {}) {
   if (const std::shared_ptr<const PairCache> cache = filter.cache->load())
-    if (auto chosen = pairs_from_cache(*cache, x, end, margin, moved)) return std::move(*chosen);
+    if (auto cached = pairs_from_cache(*cache, x, end, margin, moved)) return std::move(*cached);
   return near_pairs(filter.cloth, x, end, margin, moved);
 }
 
 std::vector<FeaturePair> Step::pairs() const {
-  std::vector<FeaturePair> found = pairs_of(filter, s.x, s.x + h * v, 2 * keep(), moved);
-  if (!tangled.empty()) leave_out_tangled(tangled, found);
+  std::vector<FeaturePair> found = pairs_of(filter, s.x, s.x + h * v, 2 * min_distance(), moved);
+  if (!tangled.empty()) remove_tangled_pairs(tangled, found);
   return found;
 }
 
 std::optional<Approach> Step::approach(const FeaturePair& pair) {
   ++work.crossing_queries;
-  return first_approach(pair.kind, corners_of(pair, s.x), h * corners_of(pair, v), keep());
+  return first_approach(pair.kind, corners_of(pair, s.x), h * corners_of(pair, v), min_distance());
 }
 
 /// Each pair that would come together, one after the other as v then is. Returns their number.
-long Step::answer_all(int round) {
-  const std::vector<FeaturePair> asked = pairs();
+long Step::resolve_all(int round) {
+  const std::vector<FeaturePair> pairs_to_test = pairs();
   moved.assign(size_t(v.cols()), 0);
-  long answered = 0;
-  for (const FeaturePair& pair : asked) {
-    const std::optional<Approach> met = approach(pair);
-    if (!met) continue;
-    answer(pair, *met, round);
+  long resolved = 0;
+  for (const FeaturePair& pair : pairs_to_test) {
+    const std::optional<Approach> contact = approach(pair);
+    if (!contact) continue;
+    resolve(pair, *contact, round);
     for (const int i : pair.particles) moved[size_t(i)] = 1;
-    ++answered;
+    ++resolved;
   }
-  work.crossings += answered;
-  return answered;
+  work.crossings += resolved;
+  return resolved;
 }
 
 /// The impulse between the points that would meet, along the line between them then. In the first round they
 /// may come as near as the thickness, where repulsion awaits them; after it their approach is stopped.
 /// Friction as in repulsion.
-void Step::answer(const FeaturePair& pair, const Approach& met, int round) {
-  const Vector3& N = met.at.normal;
-  const double gap = (corners_of(pair, s.x) * met.at.weights).dot(N);  // along it, at the start [m]
-  const Vector3 relative = corners_of(pair, v) * met.at.weights;
+void Step::resolve(const FeaturePair& pair, const Approach& contact, int round) {
+  const Vector3& N = contact.at.normal;
+  const double gap = (corners_of(pair, s.x) * contact.at.weights).dot(N);  // along it, at the start [m]
+  const Vector3 relative = corners_of(pair, v) * contact.at.weights;
   const double allowed = round > 0 ? 0 : std::min(0.0, (filter.settings.thickness - gap) / h);  // m/s
   const double push = allowed - relative.dot(N);
   if (!(push > 0)) return;
-  push_apart(pair, met.at.weights, push * N + rubbed(relative, N, push, filter.settings.friction),
-             filter.inverse_mass, v);
+  push_apart(pair, contact.at.weights,
+             push * N + friction_impulse(relative, N, push, filter.settings.friction), filter.inverse_mass,
+             v);
 }
 
 /// Joins what still comes together; false if nothing does. leads: prescribed particles that no zone's motion
 /// meets.
-bool Step::grow(ImpactZones& zones, std::vector<char>& leads) {
+bool Step::join_approaching_pairs(ImpactZones& zones, std::vector<char>& is_off_its_path) {
   bool any = false;
   for (const FeaturePair& pair : pairs()) {
-    const bool led =
-        std::any_of(pair.particles.begin(), pair.particles.end(), [&](int i) { return leads[size_t(i)]; });
-    const bool together = zones.together(pair);
-    if ((together && !led) || !approach(pair)) continue;
-    if (together)
+    const bool prescribed = std::any_of(pair.particles.begin(), pair.particles.end(),
+                                        [&](int i) { return is_off_its_path[size_t(i)]; });
+    const bool are_joined = zones.are_joined(pair);
+    if ((are_joined && !prescribed) || !approach(pair)) continue;
+    if (are_joined)
       throw DegenerateElement("prescribed motion takes the cloth through itself",
                               {pair.particles.begin(), pair.particles.end()});
     zones.join(pair);
@@ -103,20 +104,20 @@ bool Step::grow(ImpactZones& zones, std::vector<char>& leads) {
   return any;
 }
 
-void Step::move_zones(ImpactZones& zones, std::vector<char>& leads) {
+void Step::move_zones(ImpactZones& zones, std::vector<char>& is_off_its_path) {
   moved.assign(size_t(v.cols()), 0);
-  for (const std::vector<int>& zone : zones.grown()) {
-    const double missed = move_as_one(zone, s.x, filter.mass, filter.inverse_mass, v);
+  for (const std::vector<int>& zone : zones.take_grown_zones()) {
+    const double deviation = move_as_one(zone, s.x, filter.mass, filter.inverse_mass, v);
     for (const int i : zone) {
       moved[size_t(i)] = 1;
-      leads[size_t(i)] = filter.inverse_mass[i] == 0 && h * missed > 1e-6 * keep();
+      is_off_its_path[size_t(i)] = filter.inverse_mass[i] == 0 && h * deviation > 1e-6 * min_distance();
     }
   }
 }
 
 }  // namespace
 
-void SelfCollision::renew_pairs(const State& s) const {
+void SelfCollision::update_pair_cache(const State& s) const {
   const double spare = spare_share * cloth.mean_edge;
   const std::shared_ptr<const PairCache> latest = cache->load();
   // half of it is left for the step to come
@@ -131,7 +132,7 @@ void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, W
   if (!at_start.empty()) {
     const CrossingTriangles crossing = self_intersections(s.x, cloth.triangles);
     if (!crossing.empty()) tangled = tangled_particles(crossing, cloth.triangles, s.x.cols());
-    if (!crossing.empty()) leave_out_tangled(tangled, close);
+    if (!crossing.empty()) remove_tangled_pairs(tangled, close);
     push_out_of_tangle(crossing, cloth.triangles, s.x, settings.thickness / untangling_time, inverse_mass, v);
   }
   work.close_pairs += repel(close, s.x, settings, h, inverse_mass, v);
@@ -139,11 +140,11 @@ void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, W
 
   Step step{*this, s, v, h, work, tangled};
   for (int round = 0; round < settings.rounds; ++round)
-    if (step.answer_all(round) == 0) return;
+    if (step.resolve_all(round) == 0) return;
 
   ImpactZones zones(s.x.cols());
-  std::vector<char> leads(size_t(s.x.cols()), 0);
-  while (step.grow(zones, leads)) step.move_zones(zones, leads);
+  std::vector<char> is_off_its_path(size_t(s.x.cols()), 0);
+  while (step.join_approaching_pairs(zones, is_off_its_path)) step.move_zones(zones, is_off_its_path);
   work.zones += zones.zones();
   work.zone_particles += zones.particles();
 }

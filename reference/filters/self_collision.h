@@ -34,7 +34,7 @@ struct SelfCollision {
 
   /// Makes the cache anew if it is not valid at s, with a margin to spare for the next steps. It spares most
   /// searches and changes no bit: correct() searches where the cache does not reach.
-  void renew_pairs(const State& s) const;
+  void update_pair_cache(const State& s) const;
 
   /// Throws DegenerateElement where prescribed particles force the cloth through itself.
   void correct(const Span& span, const State& s, PerParticle3& v, Work& work) const;

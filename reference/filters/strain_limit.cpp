@@ -17,12 +17,12 @@ namespace {
 constexpr double at_the_limit = 8 * std::numeric_limits<double>::epsilon();
 
 /// What the springs of a sweep were found to be, before they were corrected.
-struct Seen {
+struct SweepResult {
   double violation = 0;  // the largest, over the rest length [1]
   long corrected = 0, unreachable = 0;
 
-  void add(const Seen& part) {
-    keep_worst(violation, part.violation);
+  void add(const SweepResult& part) {
+    update_worst(violation, part.violation);
     corrected += part.corrected;
     unreachable += part.unreachable;
   }
@@ -73,31 +73,32 @@ class Sweeps {
         upper_squared_(std::pow(upper_ * (1 + at_the_limit), 2)) {}
 
   /// number: of the sweep, from 0.
-  Seen sweep(int number) {
-    if (limiter_.limits.order == SweepOrder::jacobi) return all_at_once();
+  SweepResult sweep(int number) {
+    if (limiter_.limits.order == SweepOrder::jacobi) return jacobi_sweep();
     const bool is_coloured = limiter_.limits.order == SweepOrder::coloured;
     if (is_coloured && limiter_.limits.threads > 1) return on_threads();
     const bool backwards = limiter_.limits.order == SweepOrder::alternating && number % 2 == 1;
-    Seen seen;
+    SweepResult result;
     if (backwards)
       for (auto spring = limiter_.springs.rbegin(); spring != limiter_.springs.rend(); ++spring)
-        correct(*spring, seen);
+        correct(*spring, result);
     else
-      for (const LimitedSpring& spring : limiter_.springs) correct(spring, seen);
-    return seen;
+      for (const LimitedSpring& spring : limiter_.springs) correct(spring, result);
+    return result;
   }
 
   /// The largest violation now, over the rest length [1].
-  double left() const {
+  double remaining_violation() const {
     double largest = 0;
-    for (const LimitedSpring& spring : limiter_.springs) keep_worst(largest, asked(spring).violation);
+    for (const LimitedSpring& spring : limiter_.springs)
+      update_worst(largest, needed_correction(spring).violation);
     return largest;
   }
 
  private:
   /// What the spring needs; a violation of 0 if it is within its limits, which no square root is needed to
   /// see.
-  Correction asked(const LimitedSpring& spring) const {
+  Correction needed_correction(const LimitedSpring& spring) const {
     const Vector3 d = x_.col(spring.b) - x_.col(spring.a), u = v_.col(spring.b) - v_.col(spring.a);
     const double L0 = spring.rest_length, squared = (d + h_ * u).squaredNorm();
     if (squared <= upper_squared_ * L0 * L0 && squared >= lower_squared_ * L0 * L0) return {};
@@ -118,30 +119,30 @@ class Sweeps {
 
   /// Counts what is asked for; false if there is nothing to be done: within the limits, both ends prescribed,
   /// or without length, which has no direction.
-  bool enter(const LimitedSpring& spring, const Correction& needed, Seen& seen) const {
+  bool record(const LimitedSpring& spring, const Correction& needed, SweepResult& result) const {
     if (needed.violation == 0) return false;
-    keep_worst(seen.violation, needed.violation);
+    update_worst(result.violation, needed.violation);
     const bool is_held = limiter_.inverse_mass[spring.a] + limiter_.inverse_mass[spring.b] == 0;
-    if (!needed.is_reachable || is_held || !std::isfinite(needed.share)) ++seen.unreachable;
+    if (!needed.is_reachable || is_held || !std::isfinite(needed.share)) ++result.unreachable;
     if (is_held || !std::isfinite(needed.share)) return false;
-    ++seen.corrected;
+    ++result.corrected;
     return true;
   }
 
-  void correct(const LimitedSpring& spring, Seen& seen) {
-    const Correction needed = asked(spring);
-    if (enter(spring, needed, seen)) push(spring, needed.share);
+  void correct(const LimitedSpring& spring, SweepResult& result) {
+    const Correction needed = needed_correction(spring);
+    if (record(spring, needed, result)) push(spring, needed.share);
   }
 
   /// A coloured sweep on threads: same bits, since springs of a colour share no particle and are sorted by
   /// colour.
-  Seen on_threads() {
-    std::vector<Seen> seen(size_t(limiter_.limits.threads));
+  SweepResult on_threads() {
+    std::vector<SweepResult> result(size_t(limiter_.limits.threads));
     run_colours_on_threads(limiter_.colours, limiter_.limits.threads, [&](int first, int last, int thread) {
-      for (int i = first; i < last; ++i) correct(limiter_.springs[size_t(i)], seen[size_t(thread)]);
+      for (int i = first; i < last; ++i) correct(limiter_.springs[size_t(i)], result[size_t(thread)]);
     });
-    Seen sum;
-    for (const Seen& part : seen) sum.add(part);
+    SweepResult sum;
+    for (const SweepResult& part : result) sum.add(part);
     return sum;
   }
 
@@ -149,23 +150,23 @@ class Sweeps {
   // would not be kept. Near the limits a full impulse is a projection P_i, in the norm weighted with masses,
   // that acts on two particles; so sum_i P_i/n_i is at most one and the sweep a mean of projections: it never
   // leads away from velocities within the limits, and converges to such where there are any.
-  Seen all_at_once() {
+  SweepResult jacobi_sweep() {
     const std::vector<LimitedSpring>& springs = limiter_.springs;
-    Seen seen;
+    SweepResult result;
     std::vector<std::pair<int, double>> shares;  // of springs to be corrected
-    std::vector<int> meeting(size_t(v_.cols()), 0);
+    std::vector<int> impulses_at(size_t(v_.cols()), 0);
     for (size_t i = 0; i < springs.size(); ++i) {
-      const Correction needed = asked(springs[i]);
-      if (!enter(springs[i], needed, seen)) continue;
+      const Correction needed = needed_correction(springs[i]);
+      if (!record(springs[i], needed, result)) continue;
       shares.emplace_back(int(i), needed.share);
       for (const int end : {springs[i].a, springs[i].b})
-        if (limiter_.inverse_mass[end] > 0) ++meeting[size_t(end)];
+        if (limiter_.inverse_mass[end] > 0) ++impulses_at[size_t(end)];
     }
     for (const auto& [i, share] : shares) {
       const LimitedSpring& spring = springs[size_t(i)];
-      push(spring, share / std::max(meeting[size_t(spring.a)], meeting[size_t(spring.b)]));
+      push(spring, share / std::max(impulses_at[size_t(spring.a)], impulses_at[size_t(spring.b)]));
     }
-    return seen;
+    return result;
   }
 
   const StrainLimiter& limiter_;
@@ -181,22 +182,22 @@ StrainSweeps limit_strain(const StrainLimiter& limiter, double h, const PerParti
   Sweeps sweeps(limiter, h, x, v);
   StrainSweeps done;
   while (true) {
-    const Seen seen = sweeps.sweep(done.sweeps);
+    const SweepResult result = sweeps.sweep(done.sweeps);
     ++done.sweeps;
-    done.unreachable = seen.unreachable;
-    done.left = seen.violation;
-    if (seen.corrected == 0) return done;
+    done.unreachable = result.unreachable;
+    done.remaining_violation = result.violation;
+    if (result.corrected == 0) return done;
     const bool is_last = done.sweeps >= limiter.limits.sweeps;
-    if (!is_last && !(seen.violation <= limiter.limits.tolerance)) continue;
-    done.left = sweeps.left();
-    if (is_last || done.left <= limiter.limits.tolerance) return done;
+    if (!is_last && !(result.violation <= limiter.limits.tolerance)) continue;
+    done.remaining_violation = sweeps.remaining_violation();
+    if (is_last || done.remaining_violation <= limiter.limits.tolerance) return done;
   }
 }
 
 void StrainLimiter::correct(const Span& span, const State& s, PerParticle3& v, Work& work) const {
   const StrainSweeps done = limit_strain(*this, span.step, s.x, v);
   work.strain_sweeps += done.sweeps;
-  keep_worst(work.strain_left, done.left);
+  update_worst(work.strain_left, done.remaining_violation);
 }
 
 }  // namespace foldproof

@@ -56,7 +56,7 @@ struct StrainSweeps {
   int sweeps = 0;  // the one that found nothing to do included
   /// Largest violation of a limit, over the rest length; <= the tolerance unless sweeps ran out, or what is left is
   /// held at both ends [1].
-  double left = 0;
+  double remaining_violation = 0;
   long unreachable = 0;  // springs of the last sweep that no impulse along them brings within their limits
 };
 

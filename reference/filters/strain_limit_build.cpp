@@ -10,12 +10,12 @@ namespace foldproof {
 namespace {
 
 void check(const StrainLimits& limits) {
-  const auto refuse = [](const std::string& why) { throw InputError("strain limits: " + why); };
-  if (!(limits.extension >= 0)) refuse("extension must be a number >= 0");
-  if (!(limits.compression >= 0 && limits.compression < 1)) refuse("compression must lie in [0, 1)");
-  if (!(limits.tolerance > 0)) refuse("tolerance must be > 0");
-  if (limits.sweeps < 1) refuse("at least one sweep is needed");
-  if (!(limits.threads >= 1 && limits.threads <= 256)) refuse("threads must lie in 1 .. 256");
+  const auto reject = [](const std::string& why) { throw InputError("strain limits: " + why); };
+  if (!(limits.extension >= 0)) reject("extension must be a number >= 0");
+  if (!(limits.compression >= 0 && limits.compression < 1)) reject("compression must lie in [0, 1)");
+  if (!(limits.tolerance > 0)) reject("tolerance must be > 0");
+  if (limits.sweeps < 1) reject("at least one sweep is needed");
+  if (!(limits.threads >= 1 && limits.threads <= 256)) reject("threads must lie in 1 .. 256");
 }
 
 /// The first colour that no spring before it has at either end, for each spring.

@@ -45,19 +45,20 @@ void add_piercings(const PerParticle3& x, const Triangle& s, const Triangle& t,
 void push(const Piercing& at, double speed, const PerParticle& inverse_mass, PerParticle3& v) {
   const std::array<int, 5> particles = {at.a, at.b, at.triangle[0], at.triangle[1], at.triangle[2]};
   const std::array<double, 5> weights = {1 - at.along, at.along, -at.w[0], -at.w[1], -at.w[2]};
-  double yields = 0, now = 0;  // 1/kg, m/s
+  double pair_compliance = 0, now = 0;  // 1/kg, m/s
   for (size_t k = 0; k < 5; ++k) {
-    yields += weights[k] * weights[k] * inverse_mass[particles[k]];
+    pair_compliance += weights[k] * weights[k] * inverse_mass[particles[k]];
     now += weights[k] * v.col(particles[k]).dot(at.shorter);
   }
-  if (!(yields > 0) || !(now < speed)) return;
+  if (!(pair_compliance > 0) || !(now < speed)) return;
   for (size_t k = 0; k < 5; ++k)
-    v.col(particles[k]) += weights[k] * inverse_mass[particles[k]] / yields * (speed - now) * at.shorter;
+    v.col(particles[k]) +=
+        weights[k] * inverse_mass[particles[k]] / pair_compliance * (speed - now) * at.shorter;
 }
 
 }  // namespace
 
-std::string triangles_named(const CrossingTriangles& crossing) {
+std::string list_triangles(const CrossingTriangles& crossing) {
   std::string text = std::to_string(crossing.size()) + " pairs of triangles:";
   for (size_t k = 0; k < std::min<size_t>(5, crossing.size()); ++k)
     text += (k > 0 ? ", " : " ") + std::to_string(crossing[k].first) + " and " +
@@ -74,7 +75,7 @@ std::vector<char> tangled_particles(const CrossingTriangles& crossing, const std
   return tangled;
 }
 
-void leave_out_tangled(const std::vector<char>& tangled, std::vector<FeaturePair>& pairs) {
+void remove_tangled_pairs(const std::vector<char>& tangled, std::vector<FeaturePair>& pairs) {
   std::erase_if(pairs, [&](const FeaturePair& pair) {
     return std::all_of(pair.particles.begin(), pair.particles.end(),
                        [&](int i) { return tangled[size_t(i)]; });

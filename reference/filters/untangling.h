@@ -15,7 +15,7 @@ namespace foldproof {
 using CrossingTriangles = std::vector<std::pair<int, int>>;  // by their numbers
 
 /// "2 pairs of triangles: 12 and 40, 12 and 41"; the first five are named.
-std::string triangles_named(const CrossingTriangles& crossing);
+std::string list_triangles(const CrossingTriangles& crossing);
 
 /// N: whether the particle belongs to a triangle that crosses another.
 std::vector<char> tangled_particles(const CrossingTriangles& crossing, const std::vector<Triangle>& triangles,
@@ -23,7 +23,7 @@ std::vector<char> tangled_particles(const CrossingTriangles& crossing, const std
 
 /// Leaves out the pairs of which all particles are tangled: to be held apart where they are would hold them
 /// crossed.
-void leave_out_tangled(const std::vector<char>& tangled, std::vector<FeaturePair>& pairs);
+void remove_tangled_pairs(const std::vector<char>& tangled, std::vector<FeaturePair>& pairs);
 
 /// Where an edge of one triangle pierces another at p, moves the two against each other, at `speed` [m/s] at
 /// least, in the direction in which the line where they cross grows shorter. Impulses sum to zero. x, v: 3 x

@@ -101,7 +101,7 @@ double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, cons
   return std::atan2(N1.dot(x3 - x2) * E.norm(), N1.dot(N2));
 }
 
-HingeShape checked_shape_of(const BendingHinge& hinge, const PerParticle3& x) {
+HingeShape checked_hinge_shape(const BendingHinge& hinge, const PerParticle3& x) {
   const auto [i1, i2, i3, i4] = hinge.particles;
   const HingeShape shape = hinge_shape(x.col(i1), x.col(i2), x.col(i3), x.col(i4));
   if (shape.degenerate) throw DegenerateElement("a triangle of a hinge has lost its area", {i1, i2, i3, i4});
@@ -131,7 +131,7 @@ Eigen::Matrix<double, 3, 4> bending_mode(const HingeShape& shape) {
   const BendingLaw& law = bending_law(material.law);
   const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
   for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_shape_of(hinge, s.x);
+    const HingeShape shape = checked_hinge_shape(hinge, s.x);
     const double magnitude = is_sine ? shape.sin_half - hinge.sin_half_rest
                                      : law.magnitude(angle_of(hinge, s.x), hinge.rest_angle);
     add_forces(hinge.particles, shape,
@@ -143,7 +143,7 @@ double Bending::energy(const State& s) const {
   const BendingLaw& law = bending_law(material.law);
   double sum = 0;
   for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_shape_of(hinge, s.x);
+    const HingeShape shape = checked_hinge_shape(hinge, s.x);
     sum +=
         weight_of(hinge, shape, material.weighting) * law.potential(angle_of(hinge, s.x), hinge.rest_angle);
   }
@@ -154,7 +154,7 @@ double Bending::energy(const State& s) const {
   if (material.damping == 0) return;
   damping.hinges.reserve(damping.hinges.size() + hinges.size());
   for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_shape_of(hinge, s.x);
+    const HingeShape shape = checked_hinge_shape(hinge, s.x);
     const double factor = material.damping_factor == DampingFactor::edge
                               ? shape.edge
                               : shape.edge * shape.edge / shape.area_sum;
@@ -200,7 +200,7 @@ Eigen::Vector4d mode_gradient_rows(const HingeShape& shape, const std::array<int
   const BendingLaw& law = bending_law(material.law);
   const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
   for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_shape_of(hinge, s.x);
+    const HingeShape shape = checked_hinge_shape(hinge, s.x);
     const double weight = material.stiffness * weight_of(hinge, shape, material.weighting);
     const double theta = is_sine ? 0 : angle_of(hinge, s.x);
     const double slope = is_sine ? 0.5 * std::sqrt(std::max(0.0, 1 - shape.sin_half * shape.sin_half))
@@ -239,7 +239,7 @@ Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material,
     const double theta0 = rest_angles[h];
     if (!(std::abs(theta0) <= pi)) throw InputError("bending: rest angles must lie in [-pi, pi] rad");
     BendingHinge hinge{mesh.hinges[h].particles, 0, theta0, std::sin(theta0 / 2)};
-    const HingeShape shape = checked_shape_of(hinge, mesh.rest);
+    const HingeShape shape = checked_hinge_shape(hinge, mesh.rest);
     hinge.rest_weight = shape.edge * shape.edge / shape.area_sum;
     bending.hinges.push_back(hinge);
   }

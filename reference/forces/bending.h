@@ -84,7 +84,7 @@ double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, cons
 
 /// The same of the hinge's particles at x (3 x N [m]). Throws DegenerateElement naming them if a triangle has
 /// lost its area.
-HingeShape checked_shape_of(const BendingHinge& hinge, const PerParticle3& x);
+HingeShape checked_hinge_shape(const BendingHinge& hinge, const PerParticle3& x);
 
 /// theta of the hinge's particles at x (3 x N [m]) [rad]; sin_half would not do near pi, where it hardly
 /// changes.

@@ -14,7 +14,7 @@ struct HingeRates {
 };
 
 HingeRates rates_of(const BendingHinge& hinge, const PerParticle3& x) {
-  const HingeShape shape = checked_shape_of(hinge, x);
+  const HingeShape shape = checked_hinge_shape(hinge, x);
   const auto [i1, i2, i3, i4] = hinge.particles;
   const Eigen::Matrix<double, 3, 4> mode = bending_mode(shape);
   return {shape, angle_of(hinge, x), Eigen::Map<const Vector12>(mode.data()),

@@ -35,9 +35,9 @@ void add_hinges(const std::vector<HingeDamper>& hinges, const PerParticle3& v, P
 
 void add_targets(const std::vector<TargetDamper>& targets, const PerParticle3& v, PerParticle3& f) {
   for (const TargetDamper& t : targets) {
-    const Vector3 pull = t.coefficient * (carried(t.frames, v) - v.col(t.particle));
+    const Vector3 pull = t.coefficient * (frame_velocity(t.frames, v) - v.col(t.particle));
     f.col(t.particle) += pull;
-    add_at_corners(t.frames, -pull, f);
+    add_corner_forces(t.frames, -pull, f);
   }
 }
 

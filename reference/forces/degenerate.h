@@ -11,10 +11,10 @@ struct DegenerateElement : std::runtime_error {
   std::vector<int> particles;
 
   DegenerateElement(const std::string& what, std::vector<int> of)
-      : std::runtime_error(described(what, of)), particles(std::move(of)) {}
+      : std::runtime_error(describe(what, of)), particles(std::move(of)) {}
 
  private:
-  static std::string described(const std::string& what, const std::vector<int>& of) {
+  static std::string describe(const std::string& what, const std::vector<int>& of) {
     std::string text = what + " (particles";
     for (int particle : of) text += " " + std::to_string(particle);
     return text + ")";

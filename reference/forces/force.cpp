@@ -68,7 +68,7 @@ double damping_rate_bound(const DampingOperator& damping, const PerParticle& inv
   }
   for (const TargetDamper& t : damping.targets) add_row_sums(t.particle, t.frames, t.coefficient, rows);
   double largest = 0;
-  for (Eigen::Index i = 0; i < rows.size(); ++i) keep_worst(largest, rows[i] * inverse_mass[i]);
+  for (Eigen::Index i = 0; i < rows.size(); ++i) update_worst(largest, rows[i] * inverse_mass[i]);
   return largest;
 }
 
@@ -76,7 +76,7 @@ namespace {
 
 double frequency_of(const PerParticle& rows, const PerParticle& inverse_mass) {
   double largest = 0;
-  for (Eigen::Index i = 0; i < rows.size(); ++i) keep_worst(largest, rows[i] * inverse_mass[i]);
+  for (Eigen::Index i = 0; i < rows.size(); ++i) update_worst(largest, rows[i] * inverse_mass[i]);
   return std::sqrt(largest);
 }
 
@@ -85,8 +85,8 @@ double frequency_of(const PerParticle& rows, const PerParticle& inverse_mass) {
 PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& s, StickingPart part) {
   PerParticle rows = PerParticle::Zero(s.x.cols());
   for_each_force(forces, [&](const auto& force) {
-    if constexpr (requires { force.add_bound_beyond_forecasts(s, rows); })
-      if (part == StickingPart::beyond_forecasts) return force.add_bound_beyond_forecasts(s, rows);
+    if constexpr (requires { force.add_bound_without_springs(s, rows); })
+      if (part == StickingPart::without_springs) return force.add_bound_without_springs(s, rows);
     if constexpr (requires { force.add_stiffness_bound(s, rows); }) force.add_stiffness_bound(s, rows);
   });
   return rows;
@@ -96,9 +96,9 @@ double frequency_bound(const std::vector<Force>& forces, const State& s, const P
   return frequency_of(stiffness_row_bounds(forces, s, StickingPart::all), inverse_mass);
 }
 
-double frequency_beyond_forecasts(const std::vector<Force>& forces, const State& s,
-                                  const PerParticle& inverse_mass) {
-  return frequency_of(stiffness_row_bounds(forces, s, StickingPart::beyond_forecasts), inverse_mass);
+double frequency_without_sticking_springs(const std::vector<Force>& forces, const State& s,
+                                          const PerParticle& inverse_mass) {
+  return frequency_of(stiffness_row_bounds(forces, s, StickingPart::without_springs), inverse_mass);
 }
 
 }  // namespace foldproof

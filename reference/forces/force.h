@@ -43,9 +43,9 @@ struct CustomForce {
 ///   add_elastic_differential(s, definiteness, differential),
 ///   add_force_differential(s, differential)                   fully implicit methods need it
 ///   add_stiffness_bound(s, rows)                              it limits automatic steps
-///   add_bound_beyond_forecasts(s, rows),
+///   add_bound_without_springs(s, rows),
 ///   shortest_forecast(s)                                      forecasts keep a part of it stable
-///   renew_bonds(s)                                            its bonds form, break before a step
+///   update_bonds(s)                                            its bonds form, break before a step
 template <class F>
 concept ForceModel = requires(const F force, const State s, PerParticle3 f, Energies energies) {
   force.add_elastic(s, f);  // f += F_e(t, x); adds and clears nothing
@@ -77,7 +77,7 @@ ForceDifferential elastic_differential_at(const std::vector<Force>& forces, cons
 /// Custom forces give that of their elastic part alone.
 ForceDifferential force_differential_at(const std::vector<Force>& forces, const State& s, Work& work);
 
-enum class StickingPart { all, beyond_forecasts };
+enum class StickingPart { all, without_springs };
 
 /// Upper bounds on the row sums of the forces' stiffness matrix at s, for each particle [N/m].
 PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& s, StickingPart part);
@@ -90,8 +90,8 @@ PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& 
 double frequency_bound(const std::vector<Force>& forces, const State& s, const PerParticle& inverse_mass);
 
 /// The same without the springs of sticking, whose forecasts keep scheme C stable: forces/sticking.h.
-double frequency_beyond_forecasts(const std::vector<Force>& forces, const State& s,
-                                  const PerParticle& inverse_mass);
+double frequency_without_sticking_springs(const std::vector<Force>& forces, const State& s,
+                                          const PerParticle& inverse_mass);
 
 /// An upper bound on the largest damping rate [1/s], the largest eigenvalue of -M^{-1} D, by the same row
 /// sums.

@@ -11,12 +11,12 @@ namespace foldproof {
 namespace {
 
 /// From 1 at 0 down to 0 at 1 and beyond; flat at both ends. [1]
-double faded(double part) { return part < 1 ? std::pow(1 - part * part, 2) : 0; }
+double fade(double part) { return part < 1 ? std::pow(1 - part * part, 2) : 0; }
 
 /// k0 at the time t, on the way to the patch's end.
 double stiffness_at(const StickyPatch& patch, double t) {
   if (!(patch.release > 0) || !(t > patch.until - patch.release)) return patch.stiffness;
-  return patch.stiffness * faded((t - (patch.until - patch.release)) / patch.release);
+  return patch.stiffness * fade((t - (patch.until - patch.release)) / patch.release);
 }
 
 /// F [N]: what the spring does to the particle.
@@ -27,11 +27,11 @@ Vector3 pull_of(const StickyTarget& target, const State& s) {
 /// H of dF = H du, u = x_t - x: k across u, k + d dk/dd along it.
 Eigen::Matrix3d spring_matrix(const StickyTarget& target, const State& s, Definiteness definiteness) {
   const Vector3 u = target.x - s.x.col(target.particle);
-  double fading = target.fading;
+  double stiffness_slope = target.stiffness_slope;
   const double squared = target.distance * target.distance;
   if (definiteness == Definiteness::semidefinite && squared > 0)
-    fading = std::max(fading, -target.stiffness / squared);
-  return target.stiffness * Eigen::Matrix3d::Identity() + fading * u * u.transpose();
+    stiffness_slope = std::max(stiffness_slope, -target.stiffness / squared);
+  return target.stiffness * Eigen::Matrix3d::Identity() + stiffness_slope * u * u.transpose();
 }
 
 /// Where the corners of a patch are that moves by itself, and how fast.
@@ -52,13 +52,13 @@ StickyTarget target_of(const StickyPatch& patch, const State& s, const Surface& 
   }
   target.x = place_of(target.frames, x);
   if (patch.place) {
-    target.v = carried(target.frames, surface.v);
+    target.v = frame_velocity(target.frames, surface.v);
     target.frames.clear();
   }
   target.distance = (target.x - s.x.col(bond.particle)).norm();
   const double k0 = stiffness_at(patch, s.time), part = target.distance / patch.far;
-  target.stiffness = k0 * faded(part);
-  target.fading = part < 1 ? -4 * k0 * (1 - part * part) / (patch.far * patch.far) : 0;
+  target.stiffness = k0 * fade(part);
+  target.stiffness_slope = part < 1 ? -4 * k0 * (1 - part * part) / (patch.far * patch.far) : 0;
   return target;
 }
 
@@ -88,7 +88,7 @@ void Sticking::add_elastic(const State& s, PerParticle3& f) const {
   for (const StickyTarget& target : targets_at(s)) {
     const Vector3 pull = pull_of(target, s);
     f.col(target.particle) += pull;
-    add_at_corners(target.frames, -pull, f);
+    add_corner_forces(target.frames, -pull, f);
     // what a target that moves by itself adds to the damping does not depend on the cloth's velocity
     f.col(target.particle) += target.stiffness * patches[size_t(target.patch)].forecast_time * target.v;
   }
@@ -120,10 +120,10 @@ void Sticking::add_elastic_differential(const State& s, Definiteness definitenes
     const Eigen::Matrix3d H = spring_matrix(target, s, definiteness);
     const Vector3 pull = definiteness == Definiteness::exact ? pull_of(target, s) : Vector3::Zero();
     differential.custom.push_back([target, H, pull](const PerParticle3& dx, PerParticle3& df) {
-      const Vector3 change = H * (carried(target.frames, dx) - dx.col(target.particle));
+      const Vector3 change = H * (frame_velocity(target.frames, dx) - dx.col(target.particle));
       df.col(target.particle) += change;
-      add_at_corners(target.frames, -change, df);
-      add_turning(target.frames, -pull, dx, df);
+      add_corner_forces(target.frames, -change, df);
+      add_corner_force_change(target.frames, -pull, dx, df);
     });
   }
 }
@@ -135,15 +135,16 @@ void Sticking::add_force_differential(const State& s, ForceDifferential& differe
     const double tau = patches[size_t(target.patch)].forecast_time, c = tau * target.stiffness;
     if (tau == 0) continue;
     const Vector3 u = target.x - s.x.col(target.particle);
-    const Vector3 q = target.v + carried(target.frames, s.v) - s.v.col(target.particle);
-    const double fading = tau * target.fading;
+    const Vector3 q = target.v + frame_velocity(target.frames, s.v) - s.v.col(target.particle);
+    const double stiffness_slope = tau * target.stiffness_slope;
     differential.symmetric = false;
     differential.custom.push_back([=, v = s.v](const PerParticle3& dx, PerParticle3& df) {
-      const Vector3 du = carried(target.frames, dx) - dx.col(target.particle);
-      const Vector3 change = fading * u.dot(du) * q + c * carried_turning(target.frames, dx, v);
+      const Vector3 du = frame_velocity(target.frames, dx) - dx.col(target.particle);
+      const Vector3 change =
+          stiffness_slope * u.dot(du) * q + c * frame_velocity_change(target.frames, dx, v);
       df.col(target.particle) += change;
-      add_at_corners(target.frames, -change, df);
-      add_turning(target.frames, -c * q, dx, df);
+      add_corner_forces(target.frames, -change, df);
+      add_corner_force_change(target.frames, -c * q, dx, df);
     });
   }
 }
@@ -161,14 +162,14 @@ void add_row_sums(int particle, const std::vector<TriangleFrame>& frames, double
 
 void Sticking::add_stiffness_bound(const State& s, PerParticle& rows) const {
   for (const StickyTarget& target : targets_at(s)) {
-    const double along = target.stiffness + target.fading * target.distance * target.distance;
+    const double along = target.stiffness + target.stiffness_slope * target.distance * target.distance;
     add_row_sums(target.particle, target.frames, std::max(target.stiffness, std::abs(along)), rows);
   }
-  add_bound_beyond_forecasts(s, rows);
+  add_bound_without_springs(s, rows);
 }
 
 // (dJ)^T F is a sum of three terms over pairs of corners, each at most |height| |F| |g_i| |g_j| |dx_j|.
-void Sticking::add_bound_beyond_forecasts(const State& s, PerParticle& rows) const {
+void Sticking::add_bound_without_springs(const State& s, PerParticle& rows) const {
   for (const StickyTarget& target : targets_at(s)) {
     const double force = pull_of(target, s).norm();
     for (const TriangleFrame& frame : target.frames) {

@@ -54,7 +54,7 @@ struct StickyTarget {
   Vector3 x;                          // x_t [m]
   Vector3 v;                          // v_t of a surface that moves by itself [m/s]; else 0
   double distance;                    // d [m]
-  double stiffness, fading;           // k [N/m], and dk/dd over d [N/m^3]
+  double stiffness, stiffness_slope;  // k [N/m], and dk/dd over d [N/m^3]
   std::vector<TriangleFrame> frames;  // of cloth, over their number; of other surfaces none
 };
 
@@ -68,7 +68,7 @@ struct Sticking {
   /// bonds with all of its triangles within `near`, at its place as it is (in the very same call, if it broke
   /// off and is near another place: so it slips); as long as they hold it makes no more. A particle never
   /// sticks to a triangle that it is a corner of.
-  void renew_bonds(State& s) const;
+  void update_bonds(State& s) const;
 
   /// The targets of all bonds of s, in their order. Throws DegenerateElement for a triangle without area.
   std::vector<StickyTarget> targets_at(const State& s) const;
@@ -87,7 +87,7 @@ struct Sticking {
   /// is that of the springs, and that beyond what forecasts keep stable: of frames of cloth that turn while
   /// springs pull.
   void add_stiffness_bound(const State& s, PerParticle& rows) const;
-  void add_bound_beyond_forecasts(const State& s, PerParticle& rows) const;
+  void add_bound_without_springs(const State& s, PerParticle& rows) const;
 
   /// The shortest tau_s of a patch that has bonds [s]; infinite without any.
   double shortest_forecast(const State& s) const;

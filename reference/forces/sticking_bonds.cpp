@@ -36,7 +36,7 @@ void add_bond_if_near(const PatchNow& now, int triangle, int particle, const Vec
   const Corners3 corners = corners_at(now.x, names);
   const double distance = (nearest_on_triangle(corners, p).point - p).norm();
   if (!(distance <= now.patch.near)) return;
-  const Vector3 place = place_in(corners, p);
+  const Vector3 place = local_place(corners, p);
   if (!place.allFinite())
     throw DegenerateElement("a triangle of sticky '" + now.patch.name + "' has no area", {particle});
   bonds.push_back({now.number, triangle, particle, place});
@@ -77,7 +77,7 @@ void add_new_bonds(const PatchNow& now, const State& s, const Stuck& stuck, std:
 
 }  // namespace
 
-void Sticking::renew_bonds(State& s) const {
+void Sticking::update_bonds(State& s) const {
   std::vector<Bond> bonds;
   Stuck stuck;
   for (const StickyTarget& target : targets_at(s)) {

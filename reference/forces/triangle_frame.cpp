@@ -4,7 +4,7 @@
 
 namespace foldproof {
 
-Vector3 place_in(const Corners3& corners, const Vector3& p) {
+Vector3 local_place(const Corners3& corners, const Vector3& p) {
   const auto& [a, b, c] = corners;
   const Vector3 along_b = b - a, along_c = c - a, from_a = p - a, N = along_b.cross(along_c);
   const double squared = N.squaredNorm();
@@ -37,7 +37,7 @@ Vector3 place_of(const std::vector<TriangleFrame>& frames, const PerParticle3& x
   return sum;
 }
 
-Vector3 carried(const std::vector<TriangleFrame>& frames, const PerParticle3& v) {
+Vector3 frame_velocity(const std::vector<TriangleFrame>& frames, const PerParticle3& v) {
   Vector3 sum = Vector3::Zero();
   for (const TriangleFrame& frame : frames)
     for (int i = 0; i < 3; ++i) {
@@ -47,7 +47,7 @@ Vector3 carried(const std::vector<TriangleFrame>& frames, const PerParticle3& v)
   return sum;
 }
 
-void add_at_corners(const std::vector<TriangleFrame>& frames, const Vector3& force, PerParticle3& f) {
+void add_corner_forces(const std::vector<TriangleFrame>& frames, const Vector3& force, PerParticle3& f) {
   for (const TriangleFrame& frame : frames)
     for (int i = 0; i < 3; ++i)
       f.col(frame.corners[size_t(i)]) +=
@@ -65,16 +65,16 @@ struct Turning {
 Turning turning_of(const TriangleFrame& frame, const PerParticle3& dx) {
   Eigen::Matrix3d moved;  // of the corners
   for (int i = 0; i < 3; ++i) moved.col(i) = dx.col(frame.corners[size_t(i)]);
-  const Vector3 lifted = moved.transpose() * frame.normal;  // n . dx_j
+  const Vector3 heights = moved.transpose() * frame.normal;  // n . dx_j
   const Eigen::Matrix3d& g = frame.slopes;
-  return {-g * lifted,
-          -g * (g.transpose() * moved).transpose() + frame.normal * (g.transpose() * g * lifted).transpose()};
+  return {-g * heights, -g * (g.transpose() * moved).transpose() +
+                            frame.normal * (g.transpose() * g * heights).transpose()};
 }
 
 }  // namespace
 
-void add_turning(const std::vector<TriangleFrame>& frames, const Vector3& force, const PerParticle3& dx,
-                 PerParticle3& f) {
+void add_corner_force_change(const std::vector<TriangleFrame>& frames, const Vector3& force,
+                             const PerParticle3& dx, PerParticle3& f) {
   for (const TriangleFrame& frame : frames) {
     const Turning turning = turning_of(frame, dx);
     for (int i = 0; i < 3; ++i)
@@ -83,8 +83,8 @@ void add_turning(const std::vector<TriangleFrame>& frames, const Vector3& force,
   }
 }
 
-Vector3 carried_turning(const std::vector<TriangleFrame>& frames, const PerParticle3& dx,
-                        const PerParticle3& v) {
+Vector3 frame_velocity_change(const std::vector<TriangleFrame>& frames, const PerParticle3& dx,
+                              const PerParticle3& v) {
   Vector3 sum = Vector3::Zero();
   for (const TriangleFrame& frame : frames) {
     const Turning turning = turning_of(frame, dx);

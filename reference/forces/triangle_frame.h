@@ -28,7 +28,7 @@ struct TriangleFrame {
 
 /// The place of p as a bond keeps it: weights of the corners b and c, height [m]. NaN if the triangle has no
 /// area.
-Vector3 place_in(const Corners3& corners, const Vector3& p);
+Vector3 local_place(const Corners3& corners, const Vector3& p);
 
 /// The frame of a triangle with that place, `part` of it: part 1/B for one of B. The triangle must have an
 /// area.
@@ -39,19 +39,19 @@ TriangleFrame frame_of(const std::array<int, 3>& particles, const PerParticle3& 
 Vector3 place_of(const std::vector<TriangleFrame>& frames, const PerParticle3& x);
 
 /// J v: its velocity [m/s] when the corners have the velocities v (3 x N [m/s]).
-Vector3 carried(const std::vector<TriangleFrame>& frames, const PerParticle3& v);
+Vector3 frame_velocity(const std::vector<TriangleFrame>& frames, const PerParticle3& v);
 
 /// f += J^T force: what a force [N] at the place does to the corners. Its sum is the force.
-void add_at_corners(const std::vector<TriangleFrame>& frames, const Vector3& force, PerParticle3& f);
+void add_corner_forces(const std::vector<TriangleFrame>& frames, const Vector3& force, PerParticle3& f);
 
 /// f += (dJ)^T force, J's change with the displacement dx of the corners (3 x N [m]). With g_i and n as
 /// above, and
 ///   d(g_i) = - sum_j g_j (g_i . dx_j) + n sum_j (g_i . g_j) (n . dx_j)
-void add_turning(const std::vector<TriangleFrame>& frames, const Vector3& force, const PerParticle3& dx,
-                 PerParticle3& f);
+void add_corner_force_change(const std::vector<TriangleFrame>& frames, const Vector3& force,
+                             const PerParticle3& dx, PerParticle3& f);
 
 /// (dJ) v [m/s]: the same change of J with dx, applied to velocities v.
-Vector3 carried_turning(const std::vector<TriangleFrame>& frames, const PerParticle3& dx,
-                        const PerParticle3& v);
+Vector3 frame_velocity_change(const std::vector<TriangleFrame>& frames, const PerParticle3& dx,
+                              const PerParticle3& v);
 
 }  // namespace foldproof

@@ -66,7 +66,7 @@ Origin origin_of(const Octree& tree, const std::vector<BranchNodes<Vector3>>& u,
   return origin;
 }
 
-DeformingPoint joined(const Interval& interval, const Origin& a, const Origin& b) {
+DeformingPoint interpolate(const Interval& interval, const Origin& a, const Origin& b) {
   const double s = interval.part;
   const Distance before = interval.now->field.at(a.place), after = interval.next->field.at(b.place);
   const Vector3 gradient = (1 - s) * before.normal + s * after.normal;
@@ -87,12 +87,12 @@ DeformingPoint deforming_at(const DeformingBody& body, const Vector3& p, double 
   const auto& back = interval.next->from_previous;
   const Octree &now = interval.now->field, &next = interval.next->field;
   if (body.between == BetweenFrames::blended)
-    return joined(interval, {p, displacement_at(now, ahead, p)}, {p, displacement_at(next, back, p)});
+    return interpolate(interval, {p, displacement_at(now, ahead, p)}, {p, displacement_at(next, back, p)});
   const double s = interval.part;
-  return joined(interval, origin_of(now, ahead, p, s), origin_of(next, back, p, s - 1));
+  return interpolate(interval, origin_of(now, ahead, p, s), origin_of(next, back, p, s - 1));
 }
 
-Vector3 carried_along(const DeformingBody& body, const Vector3& p, double start, double end) {
+Vector3 advected_position(const DeformingBody& body, const Vector3& p, double start, double end) {
   Vector3 q = p;
   for (double t = start; t < end;) {
     const auto next =

@@ -75,6 +75,6 @@ struct DeformingPoint {
 DeformingPoint deforming_at(const DeformingBody& body, const Vector3& p, double t);
 
 /// Where the body takes the point that is at p at time `start` until the time `end` [m].
-Vector3 carried_along(const DeformingBody& body, const Vector3& p, double start, double end);
+Vector3 advected_position(const DeformingBody& body, const Vector3& p, double start, double end);
 
 }  // namespace foldproof

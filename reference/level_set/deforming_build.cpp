@@ -56,16 +56,16 @@ class NodeValues {
   NodeValues(const MeshSequence& sequence, std::size_t frame, const OctreeSettings& settings)
       : mesh_(make_mesh_distance(sequence.positions[frame], sequence.triangles)), settings_(settings) {}
 
-  /// `way`: the farthest that a vertex has moved since the frame before [m].
-  void follow(const NodeValues& before, double way) {
+  /// `displacement`: the farthest that a vertex has moved since the frame before [m].
+  void follow(const NodeValues& before, double displacement) {
     before_ = &before.known_;
-    way_ = way;
+    displacement_ = displacement;
   }
 
   const NodeValue& at(const Vector3& p) {
     const Position position = {p.x(), p.y(), p.z()};
     const auto [place, is_new] = known_.try_emplace(position);
-    if (is_new && !keep(p, position, place->second)) place->second = searched(p);
+    if (is_new && !keep(p, position, place->second)) place->second = search_nearest(p);
     return place->second;
   }
 
@@ -90,14 +90,14 @@ class NodeValues {
             barycentric(mesh_.corners[nearest.triangle], nearest.point)};
   }
 
-  NodeValue searched(const Vector3& p) {
+  NodeValue search_nearest(const Vector3& p) {
     return value_at(p, nearest_feature(mesh_, p, std::numeric_limits<double>::infinity()));
   }
 
   bool keep(const Vector3& p, const Position& position, NodeValue& value) {
     if (!before_) return false;
     const auto known = before_->find(position);
-    if (known == before_->end() || !(known->second.least > way_)) return false;
+    if (known == before_->end() || !(known->second.least > displacement_)) return false;
     const NodeValue& old = known->second;
     const Triangle& t = mesh_.triangles[old.triangle];
     const double most = (p - at_point_of(t, old.weight, mesh_.x)).norm();
@@ -115,7 +115,7 @@ class NodeValues {
   MeshDistance mesh_;
   const OctreeSettings& settings_;
   const Known* before_ = nullptr;
-  double way_ = 0;  // m
+  double displacement_ = 0;  // m
   long searches_ = 0;
   Known known_;
 };
@@ -151,7 +151,7 @@ DeformingFrame make_frame(const MeshSequence& sequence, std::size_t k, NodeValue
   return frame;
 }
 
-double farthest_way(const PerParticle3& from, const PerParticle3& to) {
+double largest_displacement(const PerParticle3& from, const PerParticle3& to) {
   return (to - from).colwise().norm().maxCoeff();
 }
 
@@ -222,7 +222,8 @@ DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSett
   std::unique_ptr<NodeValues> before;
   for (std::size_t k = 0; k < sequence.times.size(); ++k) {
     auto values = std::make_unique<NodeValues>(sequence, k, settings);
-    if (before) values->follow(*before, farthest_way(sequence.positions[k - 1], sequence.positions[k]));
+    if (before)
+      values->follow(*before, largest_displacement(sequence.positions[k - 1], sequence.positions[k]));
     body.frames.push_back(make_frame(sequence, k, *values, settings));
     before = std::move(values);
   }

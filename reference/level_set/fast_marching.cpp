@@ -47,17 +47,17 @@ Upwind upwind(const March& march, const Node& node, int axis, double sign) {
   const Lattice& lattice = march.grid.lattice;
   const long index = lattice.index(node), stride = lattice.strides()[axis];
   double nearest = infinity, behind = infinity;
-  for (const int way : {-1, 1}) {
-    const int room = way < 0 ? node[axis] : lattice.nodes[axis] - 1 - node[axis];
-    if (room < 1) continue;
-    const long next = index + way * stride;
+  for (const int direction : {-1, 1}) {
+    const int nodes_beyond = direction < 0 ? node[axis] : lattice.nodes[axis] - 1 - node[axis];
+    if (nodes_beyond < 1) continue;
+    const long next = index + direction * stride;
     if (!march.known[next] || sign * march.grid.phi[next] < 0) continue;
     const double distance = known_distance(march, next, sign);
     if (!(distance < nearest)) continue;
     nearest = distance;
-    const bool two =
-        room > 1 && march.known[next + way * stride] && sign * march.grid.phi[next + way * stride] >= 0;
-    behind = two ? known_distance(march, next + way * stride, sign) : infinity;
+    const bool two = nodes_beyond > 1 && march.known[next + direction * stride] &&
+                     sign * march.grid.phi[next + direction * stride] >= 0;
+    behind = two ? known_distance(march, next + direction * stride, sign) : infinity;
   }
   const double per_h2 = 1 / (lattice.spacing * lattice.spacing);
   // (3 T - 4 T1 + T2)/(2 h) = (3/2) (T - (4 T1 - T2)/3)/h
@@ -106,16 +106,16 @@ void update_neighbours(March& march, long index) {
   // -0 is on the surface, counted as inside
   const double sign = std::signbit(march.grid.phi[index]) ? -1 : 1;
   for (int axis = 0; axis < 3; ++axis) {
-    for (const int way : {-1, 1}) {
+    for (const int direction : {-1, 1}) {
       Node next = node;
-      next[axis] += way;
+      next[axis] += direction;
       if (next[axis] < 0 || next[axis] >= lattice.nodes[axis] || march.known[lattice.index(next)]) continue;
       update(march, next, sign);
     }
   }
 }
 
-March started(const Lattice& lattice, const Seeds& seeds, MarchingOrder order) {
+March start_march(const Lattice& lattice, const Seeds& seeds, MarchingOrder order) {
   if (seeds.nodes.empty()) throw InputError("march: no node lies next to the surface; give a finer grid");
   March march{{lattice, std::vector<double>(lattice.size(), infinity)},
               order,
@@ -139,7 +139,7 @@ double crossing(float a, float b) {
 }  // namespace
 
 Grid march(const Lattice& lattice, const Seeds& seeds, MarchingOrder order) {
-  March march = started(lattice, seeds, order);
+  March march = start_march(lattice, seeds, order);
   for (const long node : seeds.nodes) update_neighbours(march, node);
   while (!march.front.empty()) {
     const Trial next = march.front.top();
@@ -160,8 +160,8 @@ Seeds seeds_from_sides(const Lattice& lattice, const std::vector<float>& side) {
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double behind = node[axis] > 0 ? crossing(side[index], side[index - strides[axis]]) : 0;
-      const bool room = node[axis] + 1 < lattice.nodes[axis];
-      const double ahead = room ? crossing(side[index], side[index + strides[axis]]) : 0;
+      const bool nodes_beyond = node[axis] + 1 < lattice.nodes[axis];
+      const double ahead = nodes_beyond ? crossing(side[index], side[index + strides[axis]]) : 0;
       sum += std::max(behind, ahead);
     }
     if (!(sum > 0)) continue;

@@ -60,16 +60,16 @@ Slope slope_along(const Lattice& lattice, int axis, const Place& place) {
 }
 
 /// The part of the way that leads to p which lies outside of the bounds; it begins inside.
-double share_outside(const Bounds& bounds, const Vector3& p, const Vector3& way) {
+double share_outside(const Bounds& bounds, const Vector3& p, const Vector3& displacement) {
   double share = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double beyond = std::max(p[axis] - bounds.max()[axis], bounds.min()[axis] - p[axis]);
-    if (beyond > 0) share = std::max(share, beyond / std::abs(way[axis]));
+    if (beyond > 0) share = std::max(share, beyond / std::abs(displacement[axis]));
   }
   return std::min(share, 1.0);
 }
 
-Distance blended(const Grid& grid, const Vector3& p) {
+Distance blend_gradients(const Grid& grid, const Vector3& p) {
   const Place place = place_of(grid.lattice, p);
   const std::array<double, 8> weights = corner_weights(place.within);
   const std::array<long, 3> strides = grid.lattice.strides();
@@ -129,16 +129,16 @@ Lattice lattice_about(const Bounds& bounds, int cells, int margin) {
 // the lattice is a better q: |p - s| never grows, and stands still where s is a nearest point of p.
 Distance Grid::at(const Vector3& p) const {
   const Bounds bounds = lattice.bounds();
-  if (bounds.contains(p)) return blended(*this, p);
+  if (bounds.contains(p)) return blend_gradients(*this, p);
   if (!p.allFinite()) return {std::numeric_limits<double>::quiet_NaN(), Vector3::Zero()};
-  Vector3 q = p.cwiseMax(bounds.min()).cwiseMin(bounds.max()), way;
+  Vector3 q = p.cwiseMax(bounds.min()).cwiseMin(bounds.max()), displacement;
   for (int round = 0; round < rounds; ++round) {
-    const Distance there = blended(*this, q);
-    way = p - (q - there.phi * there.normal);
-    q = p - share_outside(bounds, p, way) * way;
+    const Distance there = blend_gradients(*this, q);
+    displacement = p - (q - there.phi * there.normal);
+    q = p - share_outside(bounds, p, displacement) * displacement;
   }
-  const double distance = way.norm();
-  return {distance, way / distance};
+  const double distance = displacement.norm();
+  return {distance, displacement / distance};
 }
 
 Distance Grid::in_cell(const Vector3& p) const {

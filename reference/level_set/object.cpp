@@ -15,37 +15,37 @@ constexpr double steepest = 2;
 
 }  // namespace
 
-RigidDuring RigidObject::during(const Span& span) const {
+RigidOverSpan RigidObject::over(const Span& span) const {
   const Pose pose = pose_at(motion, span.start);
   const Pose now = after(pose, place);
-  const Eigen::Matrix3d turned = now.rotation.toRotationMatrix();
-  RigidDuring during{&solid, turned, turned.transpose(), now.translation, {}, {}, pose.translation};
+  const Eigen::Matrix3d rotation = now.rotation.toRotationMatrix();
+  RigidOverSpan over{&solid, rotation, rotation.transpose(), now.translation, {}, {}, pose.translation};
   if (span.end > span.start) {
     const Pose end = pose_at(motion, span.end);
     const Eigen::Matrix3d turn = (end.rotation * pose.rotation.conjugate()).toRotationMatrix();
-    during.spin = (turn - Eigen::Matrix3d::Identity()) / (span.end - span.start);
-    during.drift = (end.translation - pose.translation) / (span.end - span.start);
+    over.spin = (turn - Eigen::Matrix3d::Identity()) / (span.end - span.start);
+    over.drift = (end.translation - pose.translation) / (span.end - span.start);
   } else {
-    during.drift = velocity_at(motion, during.pivot, span.start);
+    over.drift = velocity_at(motion, over.pivot, span.start);
     for (int axis = 0; axis < 3; ++axis)
-      during.spin.col(axis) =
-          velocity_at(motion, during.pivot + Vector3::Unit(axis), span.start) - during.drift;
+      over.spin.col(axis) = velocity_at(motion, over.pivot + Vector3::Unit(axis), span.start) - over.drift;
   }
-  return during;
+  return over;
 }
 
-ObjectPoint RigidDuring::at(const Vector3& p) const {
+ObjectPoint RigidOverSpan::at(const Vector3& p) const {
   // by columns: pairs of coordinates are written at once, as they are read; of single ones the reader would
   // wait
-  const Vector3 away = p - moved;
+  const Vector3 away = p - translation;
   const Distance distance =
-      distance_to(*solid, back.col(0) * away.x() + back.col(1) * away.y() + back.col(2) * away.z());
-  return {distance.phi, turned * distance.normal, velocity_at(p)};
+      distance_to(*solid, inverse_rotation.col(0) * away.x() + inverse_rotation.col(1) * away.y() +
+                              inverse_rotation.col(2) * away.z());
+  return {distance.phi, rotation * distance.normal, velocity_at(p)};
 }
 
 namespace {
 
-void enter(ObjectPoint point, Nearest& nearest) {
+void record(ObjectPoint point, Nearest& nearest) {
   if (point.phi < 0) ++nearest.inside;
   if (point.phi < nearest.first.phi) std::swap(point, nearest.first);
   if (point.phi < nearest.second.phi) std::swap(point, nearest.second);
@@ -53,51 +53,52 @@ void enter(ObjectPoint point, Nearest& nearest) {
 
 }  // namespace
 
-ObjectPoint DeformingDuring::at(const Vector3& p) const {
+ObjectPoint DeformingOverSpan::at(const Vector3& p) const {
   const DeformingPoint now = deforming_at(*body, p, span.start);
   ObjectPoint point{now.phi, now.normal, now.velocity};
   if (span.end > span.start)
-    point.velocity = (carried_along(*body, p, span.start, span.end) - p) / (span.end - span.start);
+    point.velocity = (advected_position(*body, p, span.start, span.end) - p) / (span.end - span.start);
   return point;
 }
 
 Nearest nearest_of(std::span<const ObjectPoint> points) {
   Nearest nearest;
-  for (const ObjectPoint& point : points) enter(point, nearest);
+  for (const ObjectPoint& point : points) record(point, nearest);
   return nearest;
 }
 
-ObjectsDuring::ObjectsDuring(std::span<const Object> objects, const Span& span) : answers_(objects.size()) {
+ObjectsOverSpan::ObjectsOverSpan(std::span<const Object> objects, const Span& span)
+    : answers_(objects.size()) {
   for (const Object& object : objects)
-    std::visit([&](const auto& body) { bodies_.emplace_back(body.during(span)); }, object.body);
+    std::visit([&](const auto& body) { bodies_.emplace_back(body.over(span)); }, object.body);
   for (std::size_t i = 0; i < objects.size(); ++i) friction_.push_back(objects[i].friction);
 }
 
-std::span<ObjectPoint> ObjectsDuring::at(const Vector3& p) {
+std::span<ObjectPoint> ObjectsOverSpan::at(const Vector3& p) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     answers_[i] = std::visit([&](const auto& body) { return body.at(p); }, bodies_[i]);
     answers_[i].part = int(i);
     answers_[i].friction = friction_[i];
   }
-  asked_ = p;
+  queried_point_ = p;
   return answers_;
 }
 
-bool ObjectsDuring::out_of_reach(const Vector3& p, const Vector3& v, double time) const {
-  const double moved = steepest * (p - asked_).norm();  // NaN before the first question
-  for (const ObjectPoint& answer : answers_) {          // in whatever order it was put since
-    const double room = answer.phi - moved;             // m, at least
-    if (!(room > 0) || std::isinf(room)) return false;
+bool ObjectsOverSpan::out_of_reach(const Vector3& p, const Vector3& v, double time) const {
+  const double moved = steepest * (p - queried_point_).norm();  // NaN before the first question
+  for (const ObjectPoint& answer : answers_) {                  // in whatever order it was put since
+    const double clearance = answer.phi - moved;                // m, at least
+    if (!(clearance > 0) || std::isinf(clearance)) return false;
     const auto& body = bodies_[std::size_t(answer.part)];
     const double squared_speed =
-        std::visit([&](const auto& during) { return during.squared_speed_past(p, v); }, body);
-    if (!(room * room > time * time * squared_speed)) return false;
+        std::visit([&](const auto& over) { return over.squared_relative_speed(p, v); }, body);
+    if (!(clearance * clearance > time * time * squared_speed)) return false;
   }
   return true;
 }
 
 Nearest nearest_objects(std::span<const Object> objects, const Vector3& p, const Span& span) {
-  return nearest_of(ObjectsDuring(objects, span).at(p));
+  return nearest_of(ObjectsOverSpan(objects, span).at(p));
 }
 
 }  // namespace foldproof

@@ -32,17 +32,17 @@ struct ObjectPoint {
 };
 
 /// A rigid object during a span: its poses and its velocity, which all points share, worked out once.
-struct RigidDuring {
+struct RigidOverSpan {
   const Solid* solid;
-  Eigen::Matrix3d turned;  // the solid's point X is at x = turned X + moved at the span's start
-  Eigen::Matrix3d back;    // turned's inverse
-  Vector3 moved;           // m
-  Eigen::Matrix3d spin;    // the object's point at p has the velocity drift + spin (p - pivot) [1/s]
-  Vector3 drift, pivot;    // m/s, m
+  Eigen::Matrix3d rotation;          // the solid's point X is at x = turned X + moved at the span's start
+  Eigen::Matrix3d inverse_rotation;  // turned's inverse
+  Vector3 translation;               // m
+  Eigen::Matrix3d spin;  // the object's point at p has the velocity drift + spin (p - pivot) [1/s]
+  Vector3 drift, pivot;  // m/s, m
 
   ObjectPoint at(const Vector3& p) const;
   Vector3 velocity_at(const Vector3& p) const { return drift + spin * (p - pivot); }  // m/s
-  double squared_speed_past(const Vector3& p, const Vector3& v) const {
+  double squared_relative_speed(const Vector3& p, const Vector3& v) const {
     return (v - velocity_at(p)).squaredNorm();  // m^2/s^2
   }
 };
@@ -53,17 +53,17 @@ struct RigidObject {
   Pose place;
   RigidMotion motion;
 
-  RigidDuring during(const Span& span) const;  // this object must outlive it
-  ObjectPoint at(const Vector3& p, const Span& span) const { return during(span).at(p); }
+  RigidOverSpan over(const Span& span) const;  // this object must outlive it
+  ObjectPoint at(const Vector3& p, const Span& span) const { return over(span).at(p); }
 };
 
-struct DeformingDuring {
+struct DeformingOverSpan {
   const DeformingBody* body;
   Span span;
 
   ObjectPoint at(const Vector3& p) const;
   /// Not known without asking.
-  double squared_speed_past(const Vector3&, const Vector3&) const {
+  double squared_relative_speed(const Vector3&, const Vector3&) const {
     return std::numeric_limits<double>::infinity();
   }
 };
@@ -72,8 +72,8 @@ struct DeformingDuring {
 struct DeformingObject {
   std::shared_ptr<const DeformingBody> body;
 
-  DeformingDuring during(const Span& span) const { return {body.get(), span}; }
-  ObjectPoint at(const Vector3& p, const Span& span) const { return during(span).at(p); }
+  DeformingOverSpan over(const Span& span) const { return {body.get(), span}; }
+  ObjectPoint at(const Vector3& p, const Span& span) const { return over(span).at(p); }
 };
 
 using Body = std::variant<RigidObject, DeformingObject>;
@@ -97,9 +97,9 @@ struct Nearest {
 Nearest nearest_of(std::span<const ObjectPoint> points);
 
 /// Objects during a span, to be asked about many points. The objects must outlive it.
-class ObjectsDuring {
+class ObjectsOverSpan {
  public:
-  ObjectsDuring(std::span<const Object> objects, const Span& span);
+  ObjectsOverSpan(std::span<const Object> objects, const Span& span);
 
   /// What each object says about p, in their order; overwritten by the next call.
   std::span<ObjectPoint> at(const Vector3& p);
@@ -109,10 +109,11 @@ class ObjectsDuring {
   bool out_of_reach(const Vector3& p, const Vector3& v, double time) const;
 
  private:
-  std::vector<std::variant<RigidDuring, DeformingDuring>> bodies_;
+  std::vector<std::variant<RigidOverSpan, DeformingOverSpan>> bodies_;
   std::vector<double> friction_;
   std::vector<ObjectPoint> answers_;
-  Vector3 asked_ = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());  // the point of the answers
+  Vector3 queried_point_ =
+      Vector3::Constant(std::numeric_limits<double>::quiet_NaN());  // the point of the answers
 };
 
 Nearest nearest_objects(std::span<const Object> objects, const Vector3& p, const Span& span);

@@ -9,7 +9,7 @@ namespace foldproof {
 
 namespace {
 
-Vector3 clamped_to_cube(const OctreeSettings& cube, const Vector3& p) {
+Vector3 clamp_to_cube(const OctreeSettings& cube, const Vector3& p) {
   return p.cwiseMax(cube.corner).cwiseMin(cube.corner + Vector3::Constant(cube.width));
 }
 
@@ -32,7 +32,7 @@ Distance beyond_cube(const Distance& at_q, const Vector3& q, const Vector3& p) {
   return {phi, phi > 0 ? Vector3(away / phi) : at_q.normal};
 }
 
-void see_part(PartsAt& at, const Distance& distance, int part) {
+void see_part(NearestParts& at, const Distance& distance, int part) {
   if (distance.phi < 0) ++at.inside;
   if (at.first_part < 0 || distance.phi < at.first.phi) {
     at.second = at.first;
@@ -76,7 +76,7 @@ OctreeLeaf leaf_at(const Octree& tree, const Vector3& p) {
 }
 
 Distance Octree::at(const Vector3& p) const {
-  const Vector3 q = clamped_to_cube(settings, p);
+  const Vector3 q = clamp_to_cube(settings, p);
   const OctreeLeaf leaf = leaf_at(*this, q);
   const OctreeBranch& branch = branches[leaf.branch];
   Trilinear nearest = trilinear(phi[branch.channels], leaf.child, leaf.local);
@@ -87,11 +87,11 @@ Distance Octree::at(const Vector3& p) const {
   return q == p ? distance_of(nearest) : beyond_cube(distance_of(nearest), q, p);
 }
 
-PartsAt parts_at(const Octree& tree, const Vector3& p) {
-  const Vector3 q = clamped_to_cube(tree.settings, p);
+NearestParts nearest_parts(const Octree& tree, const Vector3& p) {
+  const Vector3 q = clamp_to_cube(tree.settings, p);
   const OctreeLeaf leaf = leaf_at(tree, q);
   const OctreeBranch& branch = tree.branches[leaf.branch];
-  PartsAt at;
+  NearestParts at;
   for (int k = branch.channels; k < branch.channels + branch.parts; ++k) {
     const Distance distance = distance_in(tree, k, leaf);
     see_part(at, q == p ? distance : beyond_cube(distance, q, p), tree.part[k]);
@@ -120,7 +120,7 @@ std::size_t bytes(const Octree& tree) {
          tree.phi.size() * sizeof(BranchNodes<double>) + tree.starts.size() * sizeof(OctreeStart);
 }
 
-void set_starts(Octree& tree) {
+void index_descent_starts(Octree& tree) {
   tree.start_level = 0;
   while (std::size_t(8) << 3 * tree.start_level <= tree.branches.size()) ++tree.start_level;
   const int last = tree.start_level, cells = 1 << last;

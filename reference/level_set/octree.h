@@ -78,7 +78,7 @@ Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSett
 
 /// Makes a tree whose branches stand ready to be asked: the levels down to start_level are looked up, for a
 /// descent waits for memory at each.
-void set_starts(Octree& tree);
+void index_descent_starts(Octree& tree);
 
 /// The leaf that holds p, which lies in the cube.
 struct OctreeLeaf {
@@ -92,7 +92,7 @@ OctreeLeaf leaf_at(const Octree& tree, const Vector3& p);
 inline const Distance nowhere{std::numeric_limits<double>::infinity(), Vector3::Zero()};
 
 /// What a union says about a point: the two parts it is deepest in or nearest to.
-struct PartsAt {
+struct NearestParts {
   Distance first = nowhere, second = nowhere;
   int first_part = -1, second_part = -1;  // -1: no second part is within reach
   int inside = 0;                         // parts that the point is inside of: two or more, and it is pinched
@@ -100,7 +100,7 @@ struct PartsAt {
 
 /// p anywhere; outside of the cube distances are measured from the surface point below the cube's nearest
 /// point.
-PartsAt parts_at(const Octree& tree, const Vector3& p);
+NearestParts nearest_parts(const Octree& tree, const Vector3& p);
 
 /// What a node of the union is: the part nearest to it, and whether two or more parts hold it.
 struct NodeFlags {

@@ -29,7 +29,7 @@ void append(Octree& tree, const OctreeGrowth& growth, const GrowingBranch& branc
   const std::vector<BranchNodes<double>> phi(first, first + branch.parts);
   const int channels = int(tree.part.size());
   for (int k = 0; k < branch.parts; ++k)
-    if (is_kept(phi, k, growth.settings.reach)) {
+    if (needs_channel(phi, k, growth.settings.reach)) {
       tree.part.push_back(growth.part[branch.channels + k]);
       tree.phi.push_back(phi[k]);
     }
@@ -54,7 +54,7 @@ Octree laid_out(const OctreeGrowth& growth) {
   tree.branches.shrink_to_fit();
   tree.part.shrink_to_fit();
   tree.phi.shrink_to_fit();
-  set_starts(tree);
+  index_descent_starts(tree);
   return tree;
 }
 
@@ -79,7 +79,7 @@ void require_free_boundary(const Octree& tree, int branch, const OctreePlace& pl
 Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings) {
   require(!bodies.empty() && bodies.size() < 256, "there must be 1 to 255 bodies");
   require_usable(settings);
-  OctreeGrowth growth = grown_octree(bodies, settings);
+  OctreeGrowth growth = grow_octree(bodies, settings);
   balance(growth);
   Octree tree = laid_out(growth);
   const std::vector<OctreePlace> places = branch_places(tree);

@@ -27,7 +27,7 @@ struct Samples {
   std::vector<BranchNodes<double>> phi;
 };
 
-Samples sampled(OctreeGrowth& growth, const std::vector<int>& parts, const OctreePlace& place) {
+Samples take_samples(OctreeGrowth& growth, const std::vector<int>& parts, const OctreePlace& place) {
   Samples samples{parts, std::vector<BranchNodes<double>>(parts.size())};
   for (std::size_t k = 0; k < parts.size(); ++k)
     for (int n = 0; n < 27; ++n)
@@ -78,12 +78,12 @@ BranchNodes<double> nodes_of_child(const FineNodes& fine, int c) {
 /// Which bodies may be nearest, or within reach, somewhere in the cell: a distance changes by no more than
 /// the way.
 Samples near_parts(const Samples& samples, const OctreeSettings& settings, int level) {
-  const double way = half_diagonal(settings, level);
+  const double half_width = half_diagonal(settings, level);
   double nearest = samples.phi[0][centre];
   for (const auto& phi : samples.phi) nearest = std::min(nearest, phi[centre]);
   Samples near;
   for (std::size_t k = 0; k < samples.part.size(); ++k)
-    if (samples.phi[k][centre] - way <= std::max(nearest + way, settings.reach)) {
+    if (samples.phi[k][centre] - half_width <= std::max(nearest + half_width, settings.reach)) {
       near.part.push_back(samples.part[k]);
       near.phi.push_back(samples.phi[k]);
     }
@@ -104,7 +104,7 @@ bool wants_split(const Samples& samples, const OctreeSettings& settings, int lev
   for (std::size_t k = 0; k < samples.phi.size(); ++k) {
     const bool may_hold_surface = std::abs(samples.phi[k][centre]) <= half_diagonal(settings, level);
     if (level < settings.surface_depth && may_hold_surface) return true;
-    if (is_kept(samples.phi, k, settings.reach) && is_missed(samples.phi[k], settings)) return true;
+    if (needs_channel(samples.phi, k, settings.reach) && is_missed(samples.phi[k], settings)) return true;
   }
   return false;
 }
@@ -142,7 +142,7 @@ void make_cell(OctreeGrowth& growth, const OctreePlace& place) {
       const auto first = growth.part.begin() + branch.channels;
       const std::vector<int> parts(first, first + branch.parts);
       const OctreePlace child = child_place(branch.place, c);
-      const Samples samples = near_parts(sampled(growth, parts, child), growth.settings, child.level);
+      const Samples samples = near_parts(take_samples(growth, parts, child), growth.settings, child.level);
       growth.branches[b].child[c] = add_branch(growth, child, samples);
     }
     b = growth.branches[b].child[c];
@@ -171,7 +171,7 @@ bool is_in_front(const BranchNodes<double>& one, const BranchNodes<double>& othe
 
 }  // namespace
 
-bool is_kept(const std::vector<BranchNodes<double>>& phi, std::size_t part, double reach) {
+bool needs_channel(const std::vector<BranchNodes<double>>& phi, std::size_t part, double reach) {
   const BranchNodes<double>& own = phi[part];
   if (std::ranges::any_of(own, [&](double value) { return value <= reach; })) return true;
   for (std::size_t other = 0; other < phi.size(); ++other)
@@ -179,12 +179,12 @@ bool is_kept(const std::vector<BranchNodes<double>>& phi, std::size_t part, doub
   return true;
 }
 
-OctreeGrowth grown_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings) {
+OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings) {
   OctreeGrowth growth{bodies, settings, {}, {}, {}, 0};
   std::vector<int> all(bodies.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = int(k);
   const OctreePlace cube{0, {0, 0, 0}};
-  add_branch(growth, cube, near_parts(sampled(growth, all, cube), settings, 0));
+  add_branch(growth, cube, near_parts(take_samples(growth, all, cube), settings, 0));
   for (std::size_t b = 0; b < growth.branches.size(); ++b) split_children(growth, int(b));
   return growth;
 }

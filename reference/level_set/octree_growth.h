@@ -26,7 +26,7 @@ struct OctreeGrowth {
 };
 
 /// Splits cells, from the whole cube down, as long as the settings ask for it.
-OctreeGrowth grown_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings);
+OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings);
 
 /// Splits leaves that touch, be it at a corner, cells more than one level finer.
 void balance(OctreeGrowth& growth);
@@ -34,6 +34,6 @@ void balance(OctreeGrowth& growth);
 /// Is a part worth a channel: nearer than the reach at one of the nodes, or not behind one and the same other
 /// part at all of them? Behind it at the nodes it is so between them, where phi is interpolated, and on
 /// neighbours' faces too.
-bool is_kept(const std::vector<BranchNodes<double>>& phi, std::size_t part, double reach);
+bool needs_channel(const std::vector<BranchNodes<double>>& phi, std::size_t part, double reach);
 
 }  // namespace foldproof

@@ -7,24 +7,26 @@ namespace foldproof {
 
 namespace {
 
-/// A unit vector along d; `otherwise` where d is zero.
-Vector3 direction_of(const Vector3& d, const Vector3& otherwise) {
+/// A unit vector along d; `fallback` where d is zero.
+Vector3 direction_of(const Vector3& d, const Vector3& fallback) {
   const double length = d.norm();
-  return length > 0 ? Vector3(d / length) : otherwise;
+  return length > 0 ? Vector3(d / length) : fallback;
 }
 
-/// The distance to all points within `radius` of a core whose point nearest to p is `nearest`; `otherwise` is
+/// The distance to all points within `radius` of a core whose point nearest to p is `nearest`; `fallback` is
 /// N on the core itself.
-Distance rounded(const Vector3& p, const Vector3& nearest, double radius, const Vector3& otherwise) {
+Distance round_off(const Vector3& p, const Vector3& nearest, double radius, const Vector3& fallback) {
   const Vector3 away = p - nearest;
-  return {away.norm() - radius, direction_of(away, otherwise)};
+  return {away.norm() - radius, direction_of(away, fallback)};
 }
 
 }  // namespace
 
 Distance HalfSpace::at(const Vector3& p) const { return {p.z(), Vector3::UnitZ()}; }
 
-Distance Sphere::at(const Vector3& p) const { return rounded(p, Vector3::Zero(), radius, Vector3::UnitZ()); }
+Distance Sphere::at(const Vector3& p) const {
+  return round_off(p, Vector3::Zero(), radius, Vector3::UnitZ());
+}
 
 Distance Box::at(const Vector3& p) const {
   const Vector3 beyond = p.cwiseAbs() - half_extents;  // per axis, positive outside the two faces
@@ -39,12 +41,12 @@ Distance Box::at(const Vector3& p) const {
 }
 
 Distance Capsule::at(const Vector3& p) const {
-  return rounded(p, {0, 0, std::clamp(p.z(), -half_length, half_length)}, radius, Vector3::UnitX());
+  return round_off(p, {0, 0, std::clamp(p.z(), -half_length, half_length)}, radius, Vector3::UnitX());
 }
 
 Distance Torus::at(const Vector3& p) const {
   const Vector3 outward = direction_of({p.x(), p.y(), 0}, Vector3::UnitX());
-  return rounded(p, ring_radius * outward, tube_radius, outward);
+  return round_off(p, ring_radius * outward, tube_radius, outward);
 }
 
 }  // namespace foldproof

@@ -12,7 +12,7 @@ namespace {
 using GridPoint = boost::polygon::point_data<std::int32_t>;  // each coordinate in [0, 2^30]
 using VoronoiDiagram = boost::polygon::voronoi_diagram<double>;
 
-void refuse_bad_points(const Eigen::Matrix2Xd& points) {
+void reject_bad_points(const Eigen::Matrix2Xd& points) {
   if (points.cols() < 3) {
     throw InputError("delaunay: " + std::to_string(points.cols()) + " points; give at least three");
   }
@@ -39,7 +39,7 @@ std::vector<GridPoint> round_to_grid(const Eigen::Matrix2Xd& points) {
   return grid;
 }
 
-void refuse_coincident(const std::vector<GridPoint>& grid) {
+void reject_coincident(const std::vector<GridPoint>& grid) {
   std::vector<int> order(grid.size());
   for (size_t i = 0; i < grid.size(); ++i) order[i] = int(i);
   std::sort(order.begin(), order.end(),
@@ -84,9 +84,9 @@ std::vector<int> points_around(const VoronoiDiagram::vertex_type& vertex) {
 }  // namespace
 
 std::vector<Triangle> delaunay(const Eigen::Matrix2Xd& points) {
-  refuse_bad_points(points);
+  reject_bad_points(points);
   const std::vector<GridPoint> grid = round_to_grid(points);
-  refuse_coincident(grid);
+  reject_coincident(grid);
   VoronoiDiagram diagram;
   boost::polygon::construct_voronoi(grid.begin(), grid.end(), &diagram);
 

@@ -29,11 +29,11 @@ struct Contents {
   std::vector<std::string> names_g, names_o;  // of the groups that the next faces belong to
 };
 
-[[noreturn]] void refuse(const std::string& file, int line, const std::string& reason) {
+[[noreturn]] void reject(const std::string& file, int line, const std::string& reason) {
   throw InputError(file + ":" + std::to_string(line) + ": " + reason);
 }
 
-std::string quoted(std::string_view token) { return "'" + std::string(token) + "'"; }
+std::string quote(std::string_view token) { return "'" + std::string(token) + "'"; }
 
 // Twice the largest cloth that the program's speed is measured on.
 constexpr size_t most_vertices = 2'000'000, most_triangles = 4'000'000;
@@ -84,8 +84,8 @@ double number(const Cursor& cursor, std::string_view word) {
   const std::from_chars_result result = std::from_chars(word.data() + plus, end, value);
   if (result.ec == std::errc() && result.ptr == end) return value;
   const bool too_large = result.ec == std::errc::result_out_of_range;
-  refuse(cursor.file, cursor.line,
-         quoted(word) + (too_large ? " does not fit a double" : " is not a number") +
+  reject(cursor.file, cursor.line,
+         quote(word) + (too_large ? " does not fit a double" : " is not a number") +
              "; a vertex is written 'v x y z'");
 }
 
@@ -99,9 +99,9 @@ void read_vertex(Cursor& cursor, Contents& contents) {
     if (count < 3) vertex[count] = value;
   }
   if (count < 3 || count > 7)
-    refuse(cursor.file, line, "a vertex of " + std::to_string(count) + " numbers; write 'v x y z'");
+    reject(cursor.file, line, "a vertex of " + std::to_string(count) + " numbers; write 'v x y z'");
   if (contents.vertices.size() == most_vertices)
-    refuse(cursor.file, line,
+    reject(cursor.file, line,
            "more than " + std::to_string(most_vertices) + " vertices, the most that is read");
   contents.vertices.push_back(vertex);
   contents.origin.vertex_lines.push_back(line);
@@ -133,14 +133,14 @@ int vertex_index(const Cursor& cursor, std::string_view word, size_t vertices) {
   std::string_view rest = word;
   const std::optional<int> taken = take_index(rest);
   if (!taken || !ends_well(rest)) {
-    refuse(cursor.file, cursor.line, quoted(word) + " is no corner of a face; write a, a/b, a//c or a/b/c");
+    reject(cursor.file, cursor.line, quote(word) + " is no corner of a face; write a, a/b, a//c or a/b/c");
   }
   const int index = *taken;
   if (index == 0)
-    refuse(cursor.file, cursor.line, "index 0 in " + quoted(word) + "; vertices are counted from 1");
+    reject(cursor.file, cursor.line, "index 0 in " + quote(word) + "; vertices are counted from 1");
   if (index > 0) return index - 1;
   if (size_t(-long(index)) > vertices) {
-    refuse(cursor.file, cursor.line,
+    reject(cursor.file, cursor.line,
            "index " + std::to_string(index) + " is out of range; " + std::to_string(vertices) +
                " vertices come before this face");
   }
@@ -162,7 +162,7 @@ void read_face(Cursor& cursor, Contents& contents) {
     fan[std::min(count, 2)] = index;
     if (count < 2) continue;
     if (contents.triangles.size() == most_triangles)
-      refuse(cursor.file, line,
+      reject(cursor.file, line,
              "more than " + std::to_string(most_triangles) + " triangles, the most that is read");
     contents.triangles.push_back(fan);
     contents.origin.triangle_lines.push_back(line);
@@ -171,7 +171,7 @@ void read_face(Cursor& cursor, Contents& contents) {
         add_once(int(contents.triangles.size()) - 1, contents.groups[name]);
   }
   if (count < 3)
-    refuse(cursor.file, line, "a face of " + std::to_string(count) + " vertices; give at least three");
+    reject(cursor.file, line, "a face of " + std::to_string(count) + " vertices; give at least three");
 }
 
 /// The words of a record, each once. Every face that follows is entered under each of them, so that without a
@@ -181,19 +181,19 @@ std::vector<std::string> read_names(Cursor& cursor) {
   for (std::string_view word = next_word(cursor); !word.empty(); word = next_word(cursor)) {
     if (std::ranges::find(names, word) != names.end()) continue;
     if (names.size() == most_names)
-      refuse(cursor.file, cursor.line,
+      reject(cursor.file, cursor.line,
              "more than " + std::to_string(most_names) + " names of groups in a record; give fewer");
     names.emplace_back(word);
   }
   return names;
 }
 
-void refuse_missing_vertices(const Contents& contents) {
+void reject_missing_vertices(const Contents& contents) {
   const int vertices = int(contents.vertices.size());
   for (size_t t = 0; t < contents.triangles.size(); ++t) {
     for (int v : contents.triangles[t]) {
       if (v < vertices) continue;
-      refuse(contents.origin.file, contents.origin.triangle_lines[t],
+      reject(contents.origin.file, contents.origin.triangle_lines[t],
              "index " + std::to_string(v + 1) + " is out of range; the file has " + std::to_string(vertices) +
                  " vertices");
     }
@@ -202,7 +202,7 @@ void refuse_missing_vertices(const Contents& contents) {
 
 /// All records of a file, and no more.
 Contents contents_of(std::string_view text, const std::string& file) {
-  if (text.empty()) refuse(file, 1, "the file is empty; give v and f records");
+  if (text.empty()) reject(file, 1, "the file is empty; give v and f records");
   Contents contents;
   contents.origin.file = file;
   Cursor cursor{text, file};
@@ -216,8 +216,8 @@ Contents contents_of(std::string_view text, const std::string& file) {
     skip_rest_of_record(cursor);
   }
   if (contents.triangles.empty())
-    refuse(file, cursor.line - 1, "the file ends without a face; give f records");
-  refuse_missing_vertices(contents);
+    reject(file, cursor.line - 1, "the file ends without a face; give f records");
+  reject_missing_vertices(contents);
   return contents;
 }
 
@@ -243,7 +243,7 @@ TriangleSoup read_obj_soup_text(std::string_view text, const std::string& file) 
   TriangleSoup soup = soup_of(text, file);
   for (Eigen::Index v = 0; v < soup.rest.cols(); ++v) {
     if (!soup.rest.col(v).allFinite())
-      refuse(file, soup.origin.vertex_lines[v], "a coordinate is not finite; give numbers in m");
+      reject(file, soup.origin.vertex_lines[v], "a coordinate is not finite; give numbers in m");
   }
   return soup;
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "reference/mesh/mesh_places.h"
+#include "reference/mesh/mesh_locations.h"
 
 namespace foldproof {
 
@@ -47,12 +47,12 @@ class Kept {
   std::map<Cell, std::vector<int>> in_cell_;
 };
 
-void refuse_lost_side(const TriangleSoup& panels, const std::vector<int>& becomes) {
+void reject_lost_side(const TriangleSoup& panels, const std::vector<int>& becomes) {
   for (size_t t = 0; t < panels.triangles.size(); ++t) {
     const auto& [a, b, c] = panels.triangles[t];
     if (becomes[size_t(a)] == becomes[size_t(b)] || becomes[size_t(b)] == becomes[size_t(c)] ||
         becomes[size_t(c)] == becomes[size_t(a)])
-      throw InputError(at_triangle(panels.origin, int(t)) +
+      throw InputError(triangle_location(panels.origin, int(t)) +
                        "two corners of this triangle are so near that a seam would join them; give a smaller "
                        "distance");
   }
@@ -60,15 +60,15 @@ void refuse_lost_side(const TriangleSoup& panels, const std::vector<int>& become
 
 }  // namespace
 
-TriangleSoup with_seams_closed(TriangleSoup panels, double distance) {
+TriangleSoup close_seams(TriangleSoup panels, double distance) {
   if (!(distance > 0) || !std::isfinite(distance))
-    throw InputError(at_mesh(panels.origin) + "seams need a distance > 0 m");
+    throw InputError(mesh_location(panels.origin) + "seams need a distance > 0 m");
   const int count = int(panels.rest.cols());
   Kept kept(panels.rest, distance);
   std::vector<int> becomes, number(size_t(count), -1), lines, left;
   for (int v = 0; v < count; ++v) {
     if (!panels.rest.col(v).allFinite())
-      throw InputError(at_vertex(panels.origin, v) + "a coordinate is not finite; give numbers in m");
+      throw InputError(vertex_location(panels.origin, v) + "a coordinate is not finite; give numbers in m");
     const int other = kept.near(v);
     becomes.push_back(other < 0 ? v : other);
     if (other >= 0) continue;
@@ -77,7 +77,7 @@ TriangleSoup with_seams_closed(TriangleSoup panels, double distance) {
     left.push_back(v);
     if (!panels.origin.vertex_lines.empty()) lines.push_back(panels.origin.vertex_lines[size_t(v)]);
   }
-  refuse_lost_side(panels, becomes);
+  reject_lost_side(panels, becomes);
   for (Triangle& triangle : panels.triangles)
     for (int& corner : triangle) corner = number[size_t(becomes[size_t(corner)])];
   const PerParticle3 rest = panels.rest(Eigen::all, left);

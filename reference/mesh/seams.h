@@ -10,6 +10,6 @@ namespace foldproof {
 /// twice. Triangles keep their numbers and places in the file; vertices that are left keep theirs in the
 /// file, and are numbered anew in their order. Throws InputError "FILE:LINE: ..." for a distance that is not
 /// > 0 or not finite, coordinates that are not finite, and a triangle of which two corners become one.
-TriangleSoup with_seams_closed(TriangleSoup panels, double distance);
+TriangleSoup close_seams(TriangleSoup panels, double distance);
 
 }  // namespace foldproof

@@ -8,17 +8,17 @@
 namespace foldproof {
 namespace {
 
-void refuse_bad_length(const std::string& name, double value) {
-  if (!(value > 0) || !std::isfinite(value)) refuse_argument(name, value, "give a positive length in m");
+void reject_bad_length(const std::string& name, double value) {
+  if (!(value > 0) || !std::isfinite(value)) reject_argument(name, value, "give a positive length in m");
 }
 
-void refuse_bad_count(const std::string& name, int value, int least, int most) {
+void reject_bad_count(const std::string& name, int value, int least, int most) {
   if (value >= least && value <= most) return;
-  refuse_argument(name, value, "give " + std::to_string(least) + " to " + std::to_string(most));
+  reject_argument(name, value, "give " + std::to_string(least) + " to " + std::to_string(most));
 }
 
-void refuse_bad_angle(const std::string& name, double value) {
-  if (!(std::abs(value) < pi)) refuse_argument(name, value, "give an angle between -pi and pi rad");
+void reject_bad_angle(const std::string& name, double value) {
+  if (!(std::abs(value) < pi)) reject_argument(name, value, "give an angle between -pi and pi rad");
 }
 
 // --- disc ---
@@ -66,7 +66,7 @@ std::vector<double> fold_lines(const TriangleMesh& sheet, int columns_per_pleat)
   return lines;
 }
 
-void refuse_crossing(const TriangleMesh& sheet, const std::vector<double>& lines) {
+void reject_crossing(const TriangleMesh& sheet, const std::vector<double>& lines) {
   for (size_t t = 0; t < sheet.triangles.size(); ++t) {
     const auto [a, b, c] = sheet.triangles[t];
     const auto [left, right] = std::minmax({sheet.rest(0, a), sheet.rest(0, b), sheet.rest(0, c)});
@@ -80,15 +80,15 @@ void refuse_crossing(const TriangleMesh& sheet, const std::vector<double>& lines
 
 }  // namespace
 
-void refuse_argument(const std::string& name, double value, const std::string& remedy) {
+void reject_argument(const std::string& name, double value, const std::string& remedy) {
   std::ostringstream message;
   message << name << " is " << value << "; " << remedy;
   throw InputError(message.str());
 }
 
 TriangleMesh make_disc(double radius, int rings) {
-  refuse_bad_length("make_disc: radius", radius);
-  refuse_bad_count("make_disc: rings", rings, 1, 10000);
+  reject_bad_length("make_disc: radius", radius);
+  reject_bad_count("make_disc: rings", rings, 1, 10000);
   PerParticle3 x = PerParticle3::Zero(3, ring_start(rings + 1));
   std::vector<Triangle> triangles;
   triangles.reserve(size_t(6) * rings * rings);
@@ -104,10 +104,10 @@ TriangleMesh make_disc(double radius, int rings) {
 }
 
 TriangleMesh make_cylinder(double radius, double height, int around, int along) {
-  refuse_bad_length("make_cylinder: radius", radius);
-  refuse_bad_length("make_cylinder: height", height);
-  refuse_bad_count("make_cylinder: around", around, 3, 10000);
-  refuse_bad_count("make_cylinder: along", along, 1, 10000);
+  reject_bad_length("make_cylinder: radius", radius);
+  reject_bad_length("make_cylinder: height", height);
+  reject_bad_count("make_cylinder: around", around, 3, 10000);
+  reject_bad_count("make_cylinder: along", along, 1, 10000);
   PerParticle3 x(3, around * (along + 1));
   std::vector<Triangle> triangles;
   triangles.reserve(size_t(2) * around * along);
@@ -129,8 +129,8 @@ TriangleMesh make_cylinder(double radius, double height, int around, int along) 
 }
 
 TriangleMesh make_hinge(double length, double angle) {
-  refuse_bad_length("make_hinge: length", length);
-  refuse_bad_angle("make_hinge: angle", angle);
+  reject_bad_length("make_hinge: length", length);
+  reject_bad_angle("make_hinge: angle", angle);
   PerParticle3 x(3, 4);
   x.col(0) = length * Vector3(0.4, 0.9, 0);
   x.col(1) = length * Vector3(0.7, -0.6 * std::cos(angle), -0.6 * std::sin(angle));
@@ -139,11 +139,11 @@ TriangleMesh make_hinge(double length, double angle) {
   return make_triangle_mesh(std::move(x), {{0, 2, 3}, {1, 3, 2}});
 }
 
-PerParticle3 pleated(const TriangleMesh& sheet, int columns_per_pleat, double angle) {
-  refuse_bad_count("pleated: columns_per_pleat", columns_per_pleat, 1, 1000000);
-  refuse_bad_angle("pleated: angle", angle);
+PerParticle3 pleated_positions(const TriangleMesh& sheet, int columns_per_pleat, double angle) {
+  reject_bad_count("pleated: columns_per_pleat", columns_per_pleat, 1, 1000000);
+  reject_bad_angle("pleated: angle", angle);
   const std::vector<double> lines = fold_lines(sheet, columns_per_pleat);
-  refuse_crossing(sheet, lines);
+  reject_crossing(sheet, lines);
 
   // panel k starts at starts[k] and goes on along (cos, 0, +-sin): up if k is even, down if it is odd
   const auto direction = [angle](size_t k) {

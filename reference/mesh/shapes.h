@@ -60,7 +60,7 @@ TriangleMesh make_geodesic_sphere(double radius, int divisions);
 /// The mesh with every edge divided into `parts` >= 1, which makes parts^2 triangles of each, in its plane.
 /// Old vertices keep their numbers; parts - 1 on each edge come next, from a to b, then those inside
 /// triangles.
-TriangleMesh divided(const TriangleMesh& mesh, int parts);
+TriangleMesh divide_edges(const TriangleMesh& mesh, int parts);
 
 /// A seated figure with crossed legs, arms in the lap, head and low folds; closed, genus 0, normals outward,
 /// y up, facing +z, y in [0, height] [m], about 0.9 height wide. It stands in for the Buddha of BMF03 figures
@@ -88,9 +88,9 @@ TriangleMesh make_hinge(double length, double angle);
 /// the y axis, so that neighbours differ by `angle` [rad], |angle| < pi; positive: the first panel rises
 /// towards +z. The sheet must be one whose triangles do not cross the fold lines: one_diagonal, alternating,
 /// union_jack or criss_cross.
-PerParticle3 pleated(const TriangleMesh& sheet, int columns_per_pleat, double angle);
+PerParticle3 pleated_positions(const TriangleMesh& sheet, int columns_per_pleat, double angle);
 
 /// Throws InputError "NAME is VALUE; REMEDY", for all functions of this file.
-[[noreturn]] void refuse_argument(const std::string& name, double value, const std::string& remedy);
+[[noreturn]] void reject_argument(const std::string& name, double value, const std::string& remedy);
 
 }  // namespace foldproof

@@ -12,41 +12,41 @@ namespace {
 
 const double row_ratio = std::sqrt(0.75);  // height of an equilateral triangle over its edge
 
-[[noreturn]] void refuse(const std::string& name, double value, const std::string& remedy) {
-  refuse_argument("make_sheet: " + name, value, remedy);
+[[noreturn]] void reject(const std::string& name, double value, const std::string& remedy) {
+  reject_argument("make_sheet: " + name, value, remedy);
 }
 
 bool has_offset_rows(SheetPattern pattern) {
   return pattern == SheetPattern::equilateral || pattern == SheetPattern::jittered;
 }
 
-void refuse_bad_arguments(const Sheet& sheet) {
+void reject_bad_arguments(const Sheet& sheet) {
   if (!(sheet.width > 0) || !std::isfinite(sheet.width))
-    refuse("width", sheet.width, "give a positive length in m");
+    reject("width", sheet.width, "give a positive length in m");
   const bool height_follows = sheet.height == 0 && has_offset_rows(sheet.pattern);
   if ((!(sheet.height > 0) && !height_follows) || !std::isfinite(sheet.height)) {
-    refuse("height", sheet.height, "give a positive length in m (or 0 for equilateral and jittered)");
+    reject("height", sheet.height, "give a positive length in m (or 0 for equilateral and jittered)");
   }
-  if (sheet.columns < 1) refuse("columns", sheet.columns, "give at least 1");
-  if (sheet.rows < 1) refuse("rows", sheet.rows, "give at least 1");
+  if (sheet.columns < 1) reject("columns", sheet.columns, "give at least 1");
+  if (sheet.rows < 1) reject("rows", sheet.rows, "give at least 1");
   if (double(sheet.columns) * sheet.rows > 1e8) {
-    refuse("columns * rows", double(sheet.columns) * sheet.rows, "give at most 1e8 cells");
+    reject("columns * rows", double(sheet.columns) * sheet.rows, "give at most 1e8 cells");
   }
   if (!(sheet.jitter >= 0 && sheet.jitter < 0.5))
-    refuse("jitter", sheet.jitter, "give a fraction in [0, 0.5)");
+    reject("jitter", sheet.jitter, "give a fraction in [0, 0.5)");
 }
 
-void refuse_bad_grading(const Sheet& sheet) {
+void reject_bad_grading(const Sheet& sheet) {
   if (!(sheet.grading > 0) || !std::isfinite(sheet.grading))
-    refuse("grading", sheet.grading, "give a positive ratio of the last cell's width to the first one's");
+    reject("grading", sheet.grading, "give a positive ratio of the last cell's width to the first one's");
   const bool is_of_squares =
       !has_offset_rows(sheet.pattern) && sheet.pattern != SheetPattern::random_delaunay;
   if (sheet.grading == 1) return;
   if (!is_of_squares)
-    refuse("grading", sheet.grading,
+    reject("grading", sheet.grading,
            "leave it at 1, or choose one_diagonal, alternating, union_jack or criss_cross");
   if (sheet.columns < 2 || sheet.rows < 2)
-    refuse("grading", sheet.grading, "leave it at 1, or give two columns and rows");
+    reject("grading", sheet.grading, "leave it at 1, or give two columns and rows");
 }
 
 double row_height(const Sheet& sheet) {
@@ -245,10 +245,10 @@ void add_interior(const Sheet& sheet, Scatter& scatter) {
   }
 }
 
-TriangleMesh scattered(const Sheet& sheet) {
+TriangleMesh make_random_sheet(const Sheet& sheet) {
   const double aspect = sheet.width / sheet.columns / (sheet.height / sheet.rows);
   if (!(aspect > 0.25 && aspect < 4)) {
-    refuse("cell width over cell height", aspect, "choose columns and rows that bring it between 1/4 and 4");
+    reject("cell width over cell height", aspect, "choose columns and rows that bring it between 1/4 and 4");
   }
   Scatter scatter = empty_scatter(sheet);
   add_border(sheet, scatter);
@@ -270,8 +270,8 @@ TriangleMesh scattered(const Sheet& sheet) {
 }  // namespace
 
 TriangleMesh make_sheet(const Sheet& sheet) {
-  refuse_bad_arguments(sheet);
-  refuse_bad_grading(sheet);
+  reject_bad_arguments(sheet);
+  reject_bad_grading(sheet);
   switch (sheet.pattern) {
     case SheetPattern::one_diagonal:
     case SheetPattern::alternating:
@@ -284,9 +284,9 @@ TriangleMesh make_sheet(const Sheet& sheet) {
     case SheetPattern::jittered:
       return jittered_rows(sheet);
     case SheetPattern::random_delaunay:
-      return scattered(sheet);
+      return make_random_sheet(sheet);
   }
-  refuse("pattern", int(sheet.pattern), "give one of SheetPattern");
+  reject("pattern", int(sheet.pattern), "give one of SheetPattern");
 }
 
 }  // namespace foldproof

@@ -73,13 +73,13 @@ class DividedNumbers {
 };
 
 void require_radius(const char* name, double radius) {
-  if (!(radius > 0) || !std::isfinite(radius)) refuse_argument(name, radius, "give a positive length in m");
+  if (!(radius > 0) || !std::isfinite(radius)) reject_argument(name, radius, "give a positive length in m");
 }
 
 }  // namespace
 
-TriangleMesh divided(const TriangleMesh& mesh, int parts) {
-  if (parts < 1) refuse_argument("divided: parts", parts, "give 1 or more");
+TriangleMesh divide_edges(const TriangleMesh& mesh, int parts) {
+  if (parts < 1) reject_argument("divided: parts", parts, "give 1 or more");
   const DividedNumbers numbers(mesh, parts);
   const auto share = [parts](int steps) { return double(steps) / parts; };
   PerParticle3 x(3, numbers.count());
@@ -112,10 +112,10 @@ TriangleMesh divided(const TriangleMesh& mesh, int parts) {
 TriangleMesh make_icosphere(double radius, int subdivisions) {
   require_radius("make_icosphere: radius", radius);
   if (subdivisions < 0 || subdivisions > 9)
-    refuse_argument("make_icosphere: subdivisions", subdivisions, "give 0 to 9");
+    reject_argument("make_icosphere: subdivisions", subdivisions, "give 0 to 9");
   TriangleMesh mesh = icosahedron();
   for (int level = 0; level < subdivisions; ++level) {
-    mesh = divided(mesh, 2);
+    mesh = divide_edges(mesh, 2);
     mesh.rest.colwise().normalize();
   }
   mesh.rest *= radius;
@@ -125,8 +125,8 @@ TriangleMesh make_icosphere(double radius, int subdivisions) {
 TriangleMesh make_geodesic_sphere(double radius, int divisions) {
   require_radius("make_geodesic_sphere: radius", radius);
   if (divisions < 1 || divisions > 512)
-    refuse_argument("make_geodesic_sphere: divisions", divisions, "give 1 to 512");
-  TriangleMesh mesh = divided(icosahedron(), divisions);
+    reject_argument("make_geodesic_sphere: divisions", divisions, "give 1 to 512");
+  TriangleMesh mesh = divide_edges(icosahedron(), divisions);
   mesh.rest.colwise().normalize();
   mesh.rest *= radius;
   return mesh;

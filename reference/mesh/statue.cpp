@@ -112,7 +112,7 @@ Vector3 ray_direction(const Vector3& unit, double elevation) {
 }
 
 /// Where the ray that belongs to a point of the unit sphere leaves the figure.
-Vector3 carried(const std::vector<Limb>& limbs, const Vector3& unit) {
+Vector3 project_to_surface(const std::vector<Limb>& limbs, const Vector3& unit) {
   const std::array<RayKnot, 9> knots = {{{0, 0.08, -90},
                                          {0.22, 0.08, -15},
                                          {0.30, 0.09, 0},
@@ -211,17 +211,17 @@ TriangleMesh set_up(TriangleMesh mesh, double height) {
 
 /// Carries the mesh of a unit sphere to the figure.
 void carry(const std::vector<Limb>& limbs, PerParticle3& x) {
-  for (int v = 0; v < int(x.cols()); ++v) x.col(v) = carried(limbs, x.col(v));
+  for (int v = 0; v < int(x.cols()); ++v) x.col(v) = project_to_surface(limbs, x.col(v));
 }
 
 void divide(const std::vector<Limb>& limbs, int parts, int power, TriangleMesh& mesh) {
-  mesh = divided(mesh, parts);
+  mesh = divide_edges(mesh, parts);
   project(limbs, mesh.rest);
   relax(limbs, 15, power, mesh);
 }
 
 void require_height(const char* name, double height) {
-  if (!(height > 0) || !std::isfinite(height)) refuse_argument(name, height, "give a positive length in m");
+  if (!(height > 0) || !std::isfinite(height)) reject_argument(name, height, "give a positive length in m");
 }
 
 /// The smallest divisor >= 15, for fewer leave a limb without vertices. divisions >= 15.
@@ -236,7 +236,7 @@ int coarse_divisions(int divisions) {
 TriangleMesh make_statue(double height, int subdivisions) {
   require_height("make_statue: height", height);
   if (subdivisions < 3 || subdivisions > 8)
-    refuse_argument("make_statue: subdivisions", subdivisions, "give 3 to 8");
+    reject_argument("make_statue: subdivisions", subdivisions, "give 3 to 8");
   const std::vector<Limb> limbs = seated_figure();
   const int coarse = std::min(subdivisions, 4);  // the first level with vertices on every limb
   TriangleMesh mesh = make_icosphere(1, coarse);
@@ -250,7 +250,7 @@ TriangleMesh make_statue(double height, int subdivisions) {
 TriangleMesh make_even_statue(double height, int divisions) {
   require_height("make_even_statue: height", height);
   if (divisions < 15 || divisions > 256 || coarse_divisions(divisions) > 29)
-    refuse_argument("make_even_statue: divisions", divisions, "give 15 to 256, with a divisor from 15 to 29");
+    reject_argument("make_even_statue: divisions", divisions, "give 15 to 256, with a divisor from 15 to 29");
   const std::vector<Limb> limbs = seated_figure();
   const int coarse = coarse_divisions(divisions);
   TriangleMesh mesh = make_geodesic_sphere(1, coarse);

@@ -71,7 +71,7 @@ void add_old_points(const TriangleMesh& mesh, SubdivisionRule rule, Weights& wei
   }
 }
 
-std::vector<Triangle> quartered(const TriangleMesh& mesh) {
+std::vector<Triangle> quarter_triangles(const TriangleMesh& mesh) {
   const auto middle = [&](int a, int b) {
     const auto [low, high] = std::minmax(a, b);
     const auto before = [](const Edge& edge, const std::pair<int, int>& ends) {
@@ -93,7 +93,7 @@ Subdivision one_level(const TriangleMesh& mesh, SubdivisionRule rule) {
   Weights weights;
   add_old_points(mesh, rule, weights);
   add_edge_points(mesh, rule, weights);
-  Subdivision finer{quartered(mesh), {}};
+  Subdivision finer{quarter_triangles(mesh), {}};
   finer.weights.resize(mesh.particles() + Eigen::Index(mesh.edges.size()), mesh.particles());
   finer.weights.setFromTriplets(weights.begin(), weights.end());
   return finer;

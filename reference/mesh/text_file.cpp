@@ -19,7 +19,7 @@ class LineCounter {
   explicit LineCounter(std::size_t longest) : longest_(longest) {}
 
   /// False if a line is too long.
-  bool enter(const char* at, std::size_t count) {
+  bool count_lines(const char* at, std::size_t count) {
     const char* const end = at + count;
     while (const void* found = std::memchr(at, '\n', std::size_t(end - at))) {
       const char* const line_end = static_cast<const char*>(found);
@@ -40,7 +40,7 @@ class LineCounter {
 };
 
 /// Throws InputError for what is no regular file: a pipe or a device might never end.
-void refuse_unless_regular(const std::string& path) {
+void reject_unless_regular(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status))
@@ -51,14 +51,14 @@ void refuse_unless_regular(const std::string& path) {
     throw InputError(path + ": cannot be read; give a regular file");
 }
 
-[[noreturn]] void refuse_size(const std::string& path, std::size_t most) {
+[[noreturn]] void reject_size(const std::string& path, std::size_t most) {
   throw InputError(path + ": longer than " + std::to_string(most) + " bytes, the most that is read");
 }
 
 }  // namespace
 
 std::string read_text_file(const std::string& path, const TextLimits& limits) {
-  refuse_unless_regular(path);
+  reject_unless_regular(path);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file)
@@ -66,17 +66,17 @@ std::string read_text_file(const std::string& path, const TextLimits& limits) {
                      "); check the path");
   std::error_code unknown;
   if (const auto size = std::filesystem::file_size(path, unknown); !unknown && size > limits.bytes)
-    refuse_size(path, limits.bytes);
+    reject_size(path, limits.bytes);
   std::string text;
   std::vector<char> chunk(1 << 16);
   LineCounter lines(limits.line);
   while (file) {
     file.read(chunk.data(), std::streamsize(chunk.size()));
     const auto count = std::size_t(file.gcount());
-    if (!lines.enter(chunk.data(), count))
+    if (!lines.count_lines(chunk.data(), count))
       throw InputError(path + ":" + std::to_string(lines.line()) + ": a line of more than " +
                        std::to_string(limits.line) + " bytes; the most that is read");
-    if (text.size() + count > limits.bytes) refuse_size(path, limits.bytes);
+    if (text.size() + count > limits.bytes) reject_size(path, limits.bytes);
     text.append(chunk.data(), count);
   }
   if (!file.eof()) throw InputError(path + ": cannot be read; give a regular file");

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "reference/mesh/mesh_places.h"
+#include "reference/mesh/mesh_locations.h"
 
 namespace foldproof {
 namespace {
@@ -34,11 +34,11 @@ int opposite(const std::vector<Triangle>& triangles, int half) { return triangle
 
 // --- refusals that need no edges ---
 
-void refuse_bad_sizes(const PerParticle3& rest, const std::vector<Triangle>& triangles,
+void reject_bad_sizes(const PerParticle3& rest, const std::vector<Triangle>& triangles,
                       const MeshOrigin& origin) {
-  if (triangles.empty()) throw InputError(at_mesh(origin) + "no triangles; give at least one");
+  if (triangles.empty()) throw InputError(mesh_location(origin) + "no triangles; give at least one");
   if (triangles.size() > size_t(std::numeric_limits<int>::max() / 3)) {
-    throw InputError(at_mesh(origin) + std::to_string(triangles.size()) +
+    throw InputError(mesh_location(origin) + std::to_string(triangles.size()) +
                      " triangles are too many to count; split the mesh");
   }
   if (origin.file.empty()) return;
@@ -47,24 +47,24 @@ void refuse_bad_sizes(const PerParticle3& rest, const std::vector<Triangle>& tri
   }
 }
 
-void refuse_bad_coordinates(const PerParticle3& rest, const MeshOrigin& origin) {
+void reject_bad_coordinates(const PerParticle3& rest, const MeshOrigin& origin) {
   for (int v = 0; v < int(rest.cols()); ++v) {
     if (!rest.col(v).allFinite())
-      throw InputError(at_vertex(origin, v) + "a coordinate is not finite; give numbers in m");
+      throw InputError(vertex_location(origin, v) + "a coordinate is not finite; give numbers in m");
   }
 }
 
-void refuse_bad_indices(int particles, const std::vector<Triangle>& triangles, const MeshOrigin& origin) {
+void reject_bad_indices(int particles, const std::vector<Triangle>& triangles, const MeshOrigin& origin) {
   for (int t = 0; t < int(triangles.size()); ++t) {
     for (int v : triangles[t]) {
       if (v >= 0 && v < particles) continue;
-      throw InputError(at_triangle(origin, t) + "vertex index " + std::to_string(v) +
+      throw InputError(triangle_location(origin, t) + "vertex index " + std::to_string(v) +
                        " is out of range; the " + std::to_string(particles) + " vertices are counted from 0");
     }
   }
 }
 
-void refuse_unused_vertices(int particles, const std::vector<Triangle>& triangles, const MeshOrigin& origin) {
+void reject_unused_vertices(int particles, const std::vector<Triangle>& triangles, const MeshOrigin& origin) {
   std::vector<char> used(particles, 0);
   for (const Triangle& triangle : triangles) {
     for (int v : triangle) used[v] = 1;
@@ -72,7 +72,7 @@ void refuse_unused_vertices(int particles, const std::vector<Triangle>& triangle
   const long unused = std::count(used.begin(), used.end(), 0);
   if (unused == 0) return;
   const int first = int(std::find(used.begin(), used.end(), 0) - used.begin());
-  throw InputError(at_vertex(origin, first) + "in no triangle, the first of " + std::to_string(unused) +
+  throw InputError(vertex_location(origin, first) + "in no triangle, the first of " + std::to_string(unused) +
                    " unused vertices (they would have no mass); remove them");
 }
 
@@ -89,12 +89,12 @@ bool has_area(const PerParticle3& rest, const Triangle& triangle) {
   return 0.5 * side1.cross(side2).norm() > 1e-12 * longest_squared;
 }
 
-void refuse_zero_areas(const PerParticle3& rest, const std::vector<Triangle>& triangles,
+void reject_zero_areas(const PerParticle3& rest, const std::vector<Triangle>& triangles,
                        const MeshOrigin& origin) {
   for (int t = 0; t < int(triangles.size()); ++t) {
     if (has_area(rest, triangles[t])) continue;
     throw InputError(
-        at_triangle(origin, t) + "no area: " + vertex_name(origin, triangles[t][0]) + ", " +
+        triangle_location(origin, t) + "no area: " + vertex_name(origin, triangles[t][0]) + ", " +
         vertex_name(origin, triangles[t][1]) + " and " + vertex_name(origin, triangles[t][2]) +
         " lie on a line (area at most 1e-12 of the longest side squared); remove or repair the triangle");
   }
@@ -123,17 +123,17 @@ SideLists list_sides(int particles, const std::vector<Triangle>& triangles) {
   return lists;
 }
 
-[[noreturn]] void refuse_third_triangle(int a, const Side* first, const MeshOrigin& origin) {
+[[noreturn]] void reject_third_triangle(int a, const Side* first, const MeshOrigin& origin) {
   throw InputError(
-      at_triangle(origin, first[2].half / 3) + edge_name(origin, a, first->b) +
+      triangle_location(origin, first[2].half / 3) + edge_name(origin, a, first->b) +
       " has three triangles or more (" + triangle_name(origin, first[0].half / 3) + ", " +
       triangle_name(origin, first[1].half / 3) +
       " and this one); a manifold has one or two. Remove one: repair = \"split\" parts fans at a "
       "vertex, and cannot tell which two of these stay joined");
 }
 
-[[noreturn]] void refuse_orientation(int a, const Side* first, const MeshOrigin& origin) {
-  throw InputError(at_triangle(origin, first[1].half / 3) + "opposite orientation to its neighbour, " +
+[[noreturn]] void reject_orientation(int a, const Side* first, const MeshOrigin& origin) {
+  throw InputError(triangle_location(origin, first[1].half / 3) + "opposite orientation to its neighbour, " +
                    triangle_name(origin, first[0].half / 3) + ": both run along " +
                    edge_name(origin, a, first->b) +
                    " the same way; reverse the order of one triangle's vertices");
@@ -141,7 +141,7 @@ SideLists list_sides(int particles, const std::vector<Triangle>& triangles) {
 
 /// Appends the edge from a that the `count` sides at `first` share, and its hinge if it has two triangles.
 void add_edge(int a, const Side* first, int count, const MeshOrigin& origin, TriangleMesh& mesh) {
-  if (count > 2) refuse_third_triangle(a, first, origin);
+  if (count > 2) reject_third_triangle(a, first, origin);
   if (count == 1) {
     mesh.edges.push_back({a, first->b, {first->half / 3, -1}});
     return;
@@ -149,7 +149,7 @@ void add_edge(int a, const Side* first, int count, const MeshOrigin& origin, Tri
   int forward = first[0].half, backward = first[1].half;  // forward runs from a to b: its triangle holds x1
   if (tail(mesh.triangles, forward) != a) std::swap(forward, backward);
   if (tail(mesh.triangles, forward) != a || tail(mesh.triangles, backward) == a)
-    refuse_orientation(a, first, origin);
+    reject_orientation(a, first, origin);
   const int x1 = opposite(mesh.triangles, forward), x2 = opposite(mesh.triangles, backward);
   mesh.hinges.push_back({{x1, x2, a, first->b}, int(mesh.edges.size())});
   mesh.edges.push_back({a, first->b, {forward / 3, backward / 3}});
@@ -182,14 +182,14 @@ int corner_of(const std::vector<Triangle>& triangles, int t, int v) {
   return 3 * t + (triangles[t][0] == v ? 0 : triangles[t][1] == v ? 1 : 2);
 }
 
-void refuse_several_fans(const TriangleMesh& mesh, const MeshOrigin& origin) {
+void reject_several_fans(const TriangleMesh& mesh, const MeshOrigin& origin) {
   const std::vector<int> fans = fans_of(mesh);
   std::vector<int> fan(mesh.particles(), -1);  // the first corner of each vertex's fan
   for (int corner = 0; corner < int(fans.size()); ++corner) {
     int& known = fan[tail(mesh.triangles, corner)];
     if (known < 0) known = fans[corner];
     if (known == fans[corner]) continue;
-    throw InputError(at_vertex(origin, tail(mesh.triangles, corner)) +
+    throw InputError(vertex_location(origin, tail(mesh.triangles, corner)) +
                      "its triangles form more than one fan (" + triangle_name(origin, known / 3) + " and " +
                      triangle_name(origin, corner / 3) +
                      " meet in this vertex only); give each fan a vertex of its own, or, for cloth, set "
@@ -201,11 +201,11 @@ void refuse_several_fans(const TriangleMesh& mesh, const MeshOrigin& origin) {
 
 TriangleMesh make_mesh_of_fans(PerParticle3 rest, std::vector<Triangle> triangles, const MeshOrigin& origin) {
   const int particles = int(rest.cols());
-  refuse_bad_sizes(rest, triangles, origin);
-  refuse_bad_coordinates(rest, origin);
-  refuse_bad_indices(particles, triangles, origin);
-  refuse_unused_vertices(particles, triangles, origin);
-  refuse_zero_areas(rest, triangles, origin);
+  reject_bad_sizes(rest, triangles, origin);
+  reject_bad_coordinates(rest, origin);
+  reject_bad_indices(particles, triangles, origin);
+  reject_unused_vertices(particles, triangles, origin);
+  reject_zero_areas(rest, triangles, origin);
 
   TriangleMesh mesh{std::move(rest), std::move(triangles), {}, {}};
   find_edges(list_sides(particles, mesh.triangles), origin, mesh);
@@ -231,7 +231,7 @@ std::vector<int> fans_of(const TriangleMesh& mesh) {
 TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangles,
                                 const MeshOrigin& origin) {
   TriangleMesh mesh = make_mesh_of_fans(std::move(rest), std::move(triangles), origin);
-  refuse_several_fans(mesh, origin);
+  reject_several_fans(mesh, origin);
   return mesh;
 }
 
@@ -245,7 +245,7 @@ Eigen::VectorXd triangle_areas(const std::vector<Triangle>& triangles, const Per
   return areas;
 }
 
-double least_height(const std::vector<Triangle>& triangles, const PerParticle3& x) {
+double smallest_height(const std::vector<Triangle>& triangles, const PerParticle3& x) {
   const Eigen::VectorXd areas = triangle_areas(triangles, x);
   double least = std::numeric_limits<double>::infinity();
   for (size_t t = 0; t < triangles.size(); ++t)

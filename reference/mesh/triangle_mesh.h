@@ -62,7 +62,7 @@ std::vector<int> fans_of(const TriangleMesh& mesh);
 Eigen::VectorXd triangle_areas(const std::vector<Triangle>& triangles, const PerParticle3& x);
 
 /// The least height of a triangle at the positions x [m]; infinite without triangles.
-double least_height(const std::vector<Triangle>& triangles, const PerParticle3& x);
+double smallest_height(const std::vector<Triangle>& triangles, const PerParticle3& x);
 
 /// Lumped masses: a third of each adjacent triangle's rest area times the area density [kg/m^2]; N values
 /// [kg].

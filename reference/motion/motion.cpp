@@ -8,37 +8,37 @@ namespace foldproof {
 
 namespace {
 
-Vector3 turned(const Motion& motion, const Vector3& start, double t) {
+Vector3 rotate_about_axis(const Motion& motion, const Vector3& start, double t) {
   const double rate = motion.angular_velocity.norm();
   if (rate == 0) return start - motion.center;
   return Eigen::AngleAxisd(rate * t, motion.angular_velocity / rate) * (start - motion.center);
 }
 
 /// How long the motion has acted by the time t [s].
-double acted(const Motion& motion, double t) {
+double active_duration(const Motion& motion, double t) {
   return std::clamp(t, motion.from, motion.until) - motion.from;
 }
 
 }  // namespace
 
 Vector3 position_at(const Motion& motion, const Vector3& start, double time) {
-  const double t = acted(motion, time);
+  const double t = active_duration(motion, time);
   const double swing = std::sin(2 * pi * motion.frequency * t + motion.phase) - std::sin(motion.phase);
-  return motion.center + turned(motion, start, t) + t * motion.velocity + swing * motion.amplitude;
+  return motion.center + rotate_about_axis(motion, start, t) + t * motion.velocity + swing * motion.amplitude;
 }
 
 Vector3 velocity_at(const Motion& motion, const Vector3& start, double time) {
   if (time < motion.from || time >= motion.until) return Vector3::Zero();
-  const double t = acted(motion, time);
+  const double t = active_duration(motion, time);
   const double omega = 2 * pi * motion.frequency;
   const double swing_rate = omega * std::cos(omega * t + motion.phase);
-  return motion.angular_velocity.cross(turned(motion, start, t)) + motion.velocity +
+  return motion.angular_velocity.cross(rotate_about_axis(motion, start, t)) + motion.velocity +
          swing_rate * motion.amplitude;
 }
 
-std::vector<double> event_times(const std::vector<PrescribedParticle>& led, double start) {
+std::vector<double> event_times(const std::vector<PrescribedParticle>& prescribed, double start) {
   std::vector<double> times;
-  for (const PrescribedParticle& p : led)
+  for (const PrescribedParticle& p : prescribed)
     for (const double time : {p.motion.from, p.motion.until})
       if (time > start && std::isfinite(time)) times.push_back(time);
   std::ranges::sort(times);
@@ -46,28 +46,30 @@ std::vector<double> event_times(const std::vector<PrescribedParticle>& led, doub
   return times;
 }
 
-PrescribedParticle as_after(const PrescribedParticle& led, double t, double tolerance) {
-  const Motion& motion = led.motion;
-  if (t + tolerance < motion.from) return {led.particle, led.start, {}};
-  if (t + tolerance >= motion.until) return {led.particle, position_at(motion, led.start, motion.until), {}};
-  PrescribedParticle moving = led;
+PrescribedParticle smooth_continuation(const PrescribedParticle& prescribed, double t, double tolerance) {
+  const Motion& motion = prescribed.motion;
+  if (t + tolerance < motion.from) return {prescribed.particle, prescribed.start, {}};
+  if (t + tolerance >= motion.until)
+    return {prescribed.particle, position_at(motion, prescribed.start, motion.until), {}};
+  PrescribedParticle moving = prescribed;
   moving.motion.from = std::min(motion.from, t);
   moving.motion.until = std::numeric_limits<double>::infinity();
   return moving;
 }
 
-std::vector<KnownVelocity> velocities_at(const std::vector<PrescribedParticle>& led, double t) {
+std::vector<KnownVelocity> velocities_at(const std::vector<PrescribedParticle>& prescribed, double t) {
   std::vector<KnownVelocity> known;
-  known.reserve(led.size());
-  for (const PrescribedParticle& p : led) known.push_back({p.particle, velocity_at(p.motion, p.start, t)});
+  known.reserve(prescribed.size());
+  for (const PrescribedParticle& p : prescribed)
+    known.push_back({p.particle, velocity_at(p.motion, p.start, t)});
   return known;
 }
 
-std::vector<KnownVelocity> mean_velocities(const std::vector<PrescribedParticle>& led, const PerParticle3& x,
-                                           double t, double h) {
+std::vector<KnownVelocity> mean_velocities(const std::vector<PrescribedParticle>& prescribed,
+                                           const PerParticle3& x, double t, double h) {
   std::vector<KnownVelocity> known;
-  known.reserve(led.size());
-  for (const PrescribedParticle& p : led) {
+  known.reserve(prescribed.size());
+  for (const PrescribedParticle& p : prescribed) {
     const Vector3 end = position_at(p.motion, p.start, t + h);
     known.push_back({p.particle, (end - x.col(p.particle)) / h});
   }

@@ -37,11 +37,11 @@ struct PrescribedParticle {
 };
 
 /// The times after `start` at which a motion starts or stops, ascending, each once [s].
-std::vector<double> event_times(const std::vector<PrescribedParticle>& led, double start);
+std::vector<double> event_times(const std::vector<PrescribedParticle>& prescribed, double start);
 
 /// The same particle with a motion that goes on smoothly for ever as it does just after `t` [s], and that is
 /// the given one until the next event. Events as little as `tolerance` [s] after t count as passed.
-PrescribedParticle as_after(const PrescribedParticle& led, double t, double tolerance);
+PrescribedParticle smooth_continuation(const PrescribedParticle& prescribed, double t, double tolerance);
 
 /// Velocities that a solve has to take as known.
 struct KnownVelocity {
@@ -50,11 +50,11 @@ struct KnownVelocity {
 };
 
 /// The velocities at time t.
-std::vector<KnownVelocity> velocities_at(const std::vector<PrescribedParticle>& led, double t);
+std::vector<KnownVelocity> velocities_at(const std::vector<PrescribedParticle>& prescribed, double t);
 
 /// The mean velocities over [t, t + h]: x + h v then ends exactly on the prescribed path.
-std::vector<KnownVelocity> mean_velocities(const std::vector<PrescribedParticle>& led, const PerParticle3& x,
-                                           double t, double h);
+std::vector<KnownVelocity> mean_velocities(const std::vector<PrescribedParticle>& prescribed,
+                                           const PerParticle3& x, double t, double h);
 
 /// Writes the known velocities into v (3 x N [m/s]).
 void impose(const std::vector<KnownVelocity>& known, PerParticle3& v);

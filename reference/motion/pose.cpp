@@ -47,7 +47,7 @@ Pose pose_of(const Keyframes& motion, double t) {
 }
 
 Vector3 velocity_of(const Motion& motion, const Vector3& x, double t) {
-  return velocity_at(motion, unplaced(pose_of(motion, t), x), t);
+  return velocity_at(motion, to_body(pose_of(motion, t), x), t);
 }
 
 Vector3 velocity_of(const Keyframes& motion, const Vector3& x, double t) {
@@ -62,14 +62,14 @@ Vector3 velocity_of(const Keyframes& motion, const Vector3& x, double t) {
 
 }  // namespace
 
-Vector3 placed(const Pose& pose, const Vector3& X) { return pose.rotation * X + pose.translation; }
+Vector3 to_world(const Pose& pose, const Vector3& X) { return pose.rotation * X + pose.translation; }
 
-Vector3 unplaced(const Pose& pose, const Vector3& x) {
+Vector3 to_body(const Pose& pose, const Vector3& x) {
   return pose.rotation.conjugate() * (x - pose.translation);
 }
 
 Pose after(const Pose& second, const Pose& first) {
-  return {second.rotation * first.rotation, placed(second, first.translation)};
+  return {second.rotation * first.rotation, to_world(second, first.translation)};
 }
 
 Keyframes make_keyframes(std::vector<Keyframe> keys) {

@@ -16,8 +16,8 @@ struct Pose {
   Vector3 translation = Vector3::Zero();                         // T [m]
 };
 
-Vector3 placed(const Pose& pose, const Vector3& X);    // [m]
-Vector3 unplaced(const Pose& pose, const Vector3& x);  // the X of a placed x [m]
+Vector3 to_world(const Pose& pose, const Vector3& X);  // [m]
+Vector3 to_body(const Pose& pose, const Vector3& x);   // the X of a placed x [m]
 Pose after(const Pose& second, const Pose& first);     // first, then second
 
 struct Keyframe {

@@ -14,9 +14,9 @@ double plain(const DepthBand& band, double phi) { return std::max(phi, band.near
 
 double power(const DepthBand& band, double phi) {
   if (phi >= band.reach) return phi;
-  const double depths = band.reach + band.deepest, room = band.reach - band.nearest;
+  const double depths = band.reach + band.deepest, band_width = band.reach - band.nearest;
   const double u = std::max(0.0, (phi + band.deepest) / depths);
-  return band.nearest + room * std::pow(u, depths / room);
+  return band.nearest + band_width * std::pow(u, depths / band_width);
 }
 
 //   f  |          /       room = tau - eps, depths = tau + t^: the image and the domain
@@ -26,8 +26,8 @@ double power(const DepthBand& band, double phi) {
 //     -t^       tau  phi
 double blend(const DepthBand& band, double phi) {
   if (phi >= band.reach) return phi;
-  const double depths = band.reach + band.deepest, room = band.reach - band.nearest;
-  const double w = room / 2, m = (room - w / 2) / (depths - w / 2);
+  const double depths = band.reach + band.deepest, band_width = band.reach - band.nearest;
+  const double w = band_width / 2, m = (band_width - w / 2) / (depths - w / 2);
   const double from_top = band.reach - phi;
   if (from_top < w) return phi + (1 - m) * from_top * from_top / (2 * w);
   return band.nearest + m * std::max(0.0, phi + band.deepest);

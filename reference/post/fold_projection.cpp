@@ -11,12 +11,12 @@ namespace {
 struct Place {
   Vector3 x;   // m
   double phi;  // there [m]
-  Fate fate;
+  ProjectionOutcome fate;
 };
 
 /// The union of the objects at one time.
 struct Union {
-  ObjectsDuring objects;
+  ObjectsOverSpan objects;
   long queries = 0;
 
   Nearest at(const Vector3& p) {
@@ -26,25 +26,27 @@ struct Union {
 };
 
 /// Moves p, where the objects say `here`, until phi is f or a little more.
-Place moved(Union& solids, const FoldProjection& projection, Vector3 p, ObjectPoint here, double f) {
+Place move_point(Union& solids, const FoldProjection& projection, Vector3 p, ObjectPoint here, double f) {
   const double aim = f + projection.tolerance / 2;
-  Place best{p, here.phi, Fate::unfinished};
+  Place best{p, here.phi, ProjectionOutcome::unfinished};
   for (int move = 0; move < projection.max_moves; ++move) {
     p += (aim - here.phi) * here.normal;
     here = solids.at(p).first;
-    if (f <= here.phi && here.phi <= f + projection.tolerance) return {p, here.phi, Fate::moved};
-    if (std::abs(here.phi - aim) < std::abs(best.phi - aim)) best = {p, here.phi, Fate::unfinished};
+    if (f <= here.phi && here.phi <= f + projection.tolerance) return {p, here.phi, ProjectionOutcome::moved};
+    if (std::abs(here.phi - aim) < std::abs(best.phi - aim))
+      best = {p, here.phi, ProjectionOutcome::unfinished};
   }
   return best;
 }
 
 /// What becomes of p, of which the objects say `nearest`.
-Place projected(Union& solids, const FoldProjection& projection, const DepthMap& map, const Vector3& p,
-                const Nearest& nearest) {
+Place project_point(Union& solids, const FoldProjection& projection, const DepthMap& map, const Vector3& p,
+                    const Nearest& nearest) {
   const double phi = nearest.first.phi, f = map.at(projection.band, phi);
-  if (nearest.pinched() && projection.pinched == PinchedPoints::left_alone) return {p, phi, Fate::pinched};
-  if (!(f > phi)) return {p, phi, Fate::untouched};
-  return moved(solids, projection, p, nearest.first, f);
+  if (nearest.pinched() && projection.pinched == PinchedPoints::left_alone)
+    return {p, phi, ProjectionOutcome::pinched};
+  if (!(f > phi)) return {p, phi, ProjectionOutcome::untouched};
+  return move_point(solids, projection, p, nearest.first, f);
 }
 
 void check_projection(const FoldProjection& projection) {
@@ -56,7 +58,9 @@ void check_projection(const FoldProjection& projection) {
 
 }  // namespace
 
-int ProjectedCloth::count(Fate fate) const { return int(std::count(fates.begin(), fates.end(), fate)); }
+int ProjectedCloth::count(ProjectionOutcome fate) const {
+  return int(std::count(outcomes.begin(), outcomes.end(), fate));
+}
 
 ProjectedCloth project_folds(std::span<const Object> objects, const PerParticle3& x, double time,
                              const FoldProjection& projection) {
@@ -66,11 +70,11 @@ ProjectedCloth project_folds(std::span<const Object> objects, const PerParticle3
   ProjectedCloth cloth{x, PerParticle(x.cols()), PerParticle(x.cols()), {}};
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const Nearest nearest = solids.at(x.col(i));
-    const Place place = projected(solids, projection, map, x.col(i), nearest);
+    const Place place = project_point(solids, projection, map, x.col(i), nearest);
     cloth.before[i] = nearest.first.phi;
     cloth.x.col(i) = place.x;
     cloth.after[i] = place.phi;
-    cloth.fates.push_back(place.fate);
+    cloth.outcomes.push_back(place.fate);
   }
   cloth.object_queries = solids.queries;
   return cloth;

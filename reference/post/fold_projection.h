@@ -25,7 +25,7 @@ struct FoldProjection {
 };
 
 /// What became of a point.
-enum class Fate {
+enum class ProjectionOutcome {
   untouched,  // not a bit of it changed: it is farther out than tau, or as far out as the map wants it
   moved,      // it is where the map wants it, to the tolerance
   pinched,    // left alone, not a bit of it changed
@@ -33,13 +33,13 @@ enum class Fate {
 };
 
 struct ProjectedCloth {
-  PerParticle3 x;           // 3 x N [m]
-  PerParticle before;       // N, signed distance to the union of the objects [m]
-  PerParticle after;        // N [m]
-  std::vector<Fate> fates;  // N
+  PerParticle3 x;                           // 3 x N [m]
+  PerParticle before;                       // N, signed distance to the union of the objects [m]
+  PerParticle after;                        // N [m]
+  std::vector<ProjectionOutcome> outcomes;  // N
   long object_queries = 0;
 
-  int count(Fate fate) const;
+  int count(ProjectionOutcome fate) const;
 };
 
 /// Projects the points x (3 x N [m]) of the cloth at `time` [s]. phi is that of the union of the objects, the

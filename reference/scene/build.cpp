@@ -9,7 +9,7 @@
 
 namespace foldproof {
 
-Scene scene_of(TriangleMesh mesh, double density) {
+Scene scene_at_rest(TriangleMesh mesh, double density) {
   Scene scene;
   scene.x = mesh.rest;
   scene.v = PerParticle3::Zero(3, mesh.rest.cols());
@@ -42,7 +42,7 @@ StrainLimiter strain_limiter(const Scene& scene, const PerParticle& inverse_mass
 
 }  // namespace
 
-std::vector<Object> build_objects(const Scene& scene, const LevelSetMakers& level_sets) {
+std::vector<Object> build_objects(const Scene& scene, const LevelSetProvider& level_sets) {
   std::vector<Object> objects;
   for (const SceneObject& part : scene.objects) {
     objects.push_back(part.object);
@@ -51,14 +51,14 @@ std::vector<Object> build_objects(const Scene& scene, const LevelSetMakers& leve
   return objects;
 }
 
-Built build(const Scene& scene, const LevelSetMakers& level_sets) {
+BuiltScene build(const Scene& scene, const LevelSetProvider& level_sets) {
   std::vector<Object> objects = build_objects(scene, level_sets);
   System system = make_system(lumped_masses(scene.mesh, scene.density));
   if (scene.gravity) system.forces.push_back(Gravity{*scene.gravity, system.mass});
   if (scene.stretch) system.forces.push_back(make_springs(scene.mesh, *scene.stretch));
   if (scene.bending) system.forces.push_back(make_bending(scene.mesh, *scene.bending, scene.rest_angles));
   if (!scene.sticky.empty()) system.forces.push_back(Sticking{scene.sticky});
-  for (const PrescribedParticle& particle : scene.led) prescribe(system, particle);
+  for (const PrescribedParticle& particle : scene.prescribed) prescribe(system, particle);
   if (scene.strain_limits) system.filters.push_back(strain_limiter(scene, system.inverse_mass));
   if (!scene.objects.empty()) system.filters.push_back(object_collision(scene, system, objects));
   if (scene.self_collision) system.filters.push_back(self_collision(scene, system));
@@ -66,13 +66,13 @@ Built build(const Scene& scene, const LevelSetMakers& level_sets) {
   return {std::move(system), start_state(scene), std::move(objects)};
 }
 
-System build_system(const Scene& scene) { return build(scene, computing_makers()).system; }
+System build_system(const Scene& scene) { return build(scene, computing_provider()).system; }
 
 PerParticle3 surface_at(const SceneObject& part, double t) {
   if (part.animation) return positions_at(*part.animation, t);
   const Pose pose = pose_at(std::get<RigidObject>(part.object.body).motion, t);
   PerParticle3 x(3, part.vertices.cols());
-  for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) = placed(pose, part.vertices.col(i));
+  for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) = to_world(pose, part.vertices.col(i));
   return x;
 }
 
@@ -93,7 +93,7 @@ PerParticle3 surface_velocity_at(const SceneObject& part, double t) {
 
 State start_state(const Scene& scene) {
   State s{0, scene.x, scene.v};
-  for (const PrescribedParticle& p : scene.led) {
+  for (const PrescribedParticle& p : scene.prescribed) {
     s.x.col(p.particle) = position_at(p.motion, p.start, 0);
     s.v.col(p.particle) = velocity_at(p.motion, p.start, 0);
   }
@@ -102,12 +102,12 @@ State start_state(const Scene& scene) {
 
 namespace {
 
-std::string described(const BendingMaterial& material) {
+std::string describe(const BendingMaterial& material) {
   return std::string(material.weighting == Weighting::rest ? "rest" : "current") + " weighting, law '" +
          std::string(material.law) + "'" + (material.damping > 0 ? ", damped" : "");
 }
 
-std::string described(const SceneObject& part) {
+std::string describe(const SceneObject& part) {
   char friction[40];
   std::snprintf(friction, sizeof friction, "%.6g", part.object.friction);
   const std::string frames =
@@ -115,13 +115,13 @@ std::string described(const SceneObject& part) {
   return "object '" + part.object.name + "' (" + part.shape + frames + ", friction " + friction + ")";
 }
 
-std::string described(const StickyPatch& patch) {
+std::string describe(const StickyPatch& patch) {
   return "sticky '" + patch.name + "' (" + std::to_string(patch.triangles.size()) + " triangles of " +
          (patch.place ? "an object" : "the cloth") + ", " + std::to_string(patch.particles.size()) +
          " particles that may stick)";
 }
 
-std::string described(const StrainLimiter& limiter) {
+std::string describe(const StrainLimiter& limiter) {
   const StrainLimits& limits = limiter.limits;
   char range[80];
   std::snprintf(range, sizeof range, "%.6g to %.6g", 1 - limits.compression, 1 + limits.extension);
@@ -132,21 +132,21 @@ std::string described(const StrainLimiter& limiter) {
          " of their rest lengths, in at most " + std::to_string(limits.sweeps) + " sweeps";
 }
 
-std::string described(const ObjectCollision& collision) {
+std::string describe(const ObjectCollision& collision) {
   return std::to_string(collision.points.size()) + " points held out of objects, response '" +
          std::string(collision.response.name) + "'";
 }
 
-std::string described(const SelfCollision& self) {
+std::string describe(const SelfCollision& self) {
   char numbers[80];
   std::snprintf(numbers, sizeof numbers, "self-collision (thickness %.6g m, friction %.6g)",
                 self.settings.thickness, self.settings.friction);
   return numbers +
-         (self.at_start.empty() ? "" : ", which starts crossing itself: " + triangles_named(self.at_start));
+         (self.at_start.empty() ? "" : ", which starts crossing itself: " + list_triangles(self.at_start));
 }
 
 /// "1 hinge", "5 hinges".
-std::string counted(size_t count, const std::string& what) {
+std::string count_text(size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
@@ -165,28 +165,28 @@ std::string described_split(const std::vector<int>& copy_of) {
 
 }  // namespace
 
-std::vector<std::string> built_parts(const Scene& scene, const System& system) {
-  std::vector<std::string> parts = {counted(size_t(scene.mesh.particles()), "particle") + ", " +
-                                    counted(scene.mesh.triangles.size(), "triangle")};
+std::vector<std::string> describe_parts(const Scene& scene, const System& system) {
+  std::vector<std::string> parts = {count_text(size_t(scene.mesh.particles()), "particle") + ", " +
+                                    count_text(scene.mesh.triangles.size(), "triangle")};
   if (!scene.copy_of.empty()) parts.push_back(described_split(scene.copy_of));
   for (const Force& force : system.forces) {
     if (std::holds_alternative<Gravity>(force)) parts.push_back("gravity");
     if (const auto* springs = std::get_if<StretchSprings>(&force))
-      parts.push_back(counted(springs->springs.size(), "spring") +
+      parts.push_back(count_text(springs->springs.size(), "spring") +
                       (scene.stretch->damping > 0 ? ", damped" : ""));
     if (const auto* bending = std::get_if<Bending>(&force))
-      parts.push_back(counted(bending->hinges.size(), "hinge") + ", " + described(bending->material));
+      parts.push_back(count_text(bending->hinges.size(), "hinge") + ", " + describe(bending->material));
   }
-  if (!system.led.empty())
-    parts.push_back(counted(system.led.size(), "particle") + " with prescribed motion");
-  for (const SceneObject& part : scene.objects) parts.push_back(described(part));
-  for (const StickyPatch& patch : scene.sticky) parts.push_back(described(patch));
+  if (!system.prescribed.empty())
+    parts.push_back(count_text(system.prescribed.size(), "particle") + " with prescribed motion");
+  for (const SceneObject& part : scene.objects) parts.push_back(describe(part));
+  for (const StickyPatch& patch : scene.sticky) parts.push_back(describe(patch));
   for (const Filter& filter : system.filters)
-    if (const auto* limiter = std::get_if<StrainLimiter>(&filter)) parts.push_back(described(*limiter));
+    if (const auto* limiter = std::get_if<StrainLimiter>(&filter)) parts.push_back(describe(*limiter));
   for (const Filter& filter : system.filters)
-    if (const auto* collision = std::get_if<ObjectCollision>(&filter)) parts.push_back(described(*collision));
+    if (const auto* collision = std::get_if<ObjectCollision>(&filter)) parts.push_back(describe(*collision));
   for (const Filter& filter : system.filters)
-    if (const auto* self = std::get_if<SelfCollision>(&filter)) parts.push_back(described(*self));
+    if (const auto* self = std::get_if<SelfCollision>(&filter)) parts.push_back(describe(*self));
   return parts;
 }
 

@@ -6,7 +6,7 @@ namespace {
 
 /// Makes one kind of field and puts it into the body.
 struct FieldMaker {
-  const LevelSetMakers& level_sets;
+  const LevelSetProvider& level_sets;
   Body& body;
 
   void operator()(const GridRecipe& grid) const {
@@ -27,13 +27,13 @@ struct FieldMaker {
 
 }  // namespace
 
-void make_field(const FieldRecipe& recipe, const LevelSetMakers& level_sets, Body& body) {
+void make_field(const FieldRecipe& recipe, const LevelSetProvider& level_sets, Body& body) {
   try {
     std::visit(FieldMaker{level_sets, body}, recipe.of);
   } catch (const InputError& error) {
-    const std::string said = error.what();
-    if (!said.starts_with("grid: ") && !said.starts_with("octree: ")) throw;
-    throw InputError(recipe.where + ": " + said);
+    const std::string message = error.what();
+    if (!message.starts_with("grid: ") && !message.starts_with("octree: ")) throw;
+    throw InputError(recipe.where + ": " + message);
   }
 }
 

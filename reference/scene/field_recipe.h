@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "reference/bodies/makers.h"
+#include "reference/bodies/level_set_provider.h"
 #include "reference/level_set/object.h"
 
 namespace foldproof {
@@ -42,6 +42,6 @@ struct FieldRecipe {
 
 /// Gives the body the field that the recipe describes. Throws InputError with the recipe's place for a field
 /// that is too fine, and what the maker throws.
-void make_field(const FieldRecipe& recipe, const LevelSetMakers& level_sets, Body& body);
+void make_field(const FieldRecipe& recipe, const LevelSetProvider& level_sets, Body& body);
 
 }  // namespace foldproof

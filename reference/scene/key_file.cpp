@@ -29,9 +29,9 @@ struct Place {
   int depth = 0;
 };
 
-std::shared_ptr<KeyTable> converted(const toml::table& table, const Place& at);
+std::shared_ptr<KeyTable> convert(const toml::table& table, const Place& at);
 
-KeyValue converted(const toml::node& node, const Place& at) {
+KeyValue convert(const toml::node& node, const Place& at) {
   const std::string &name = at.name, where = place(at.file, node.source());
   if (at.depth > most_nested)
     throw InputError(where + ": tables and lists in more than " + std::to_string(most_nested) + " others");
@@ -39,21 +39,21 @@ KeyValue converted(const toml::node& node, const Place& at) {
   if (const auto* value = node.as_integer()) return {long(value->get()), where};
   if (const auto* value = node.as_floating_point()) return {value->get(), where};
   if (const auto* value = node.as_string()) return {value->get(), where};
-  if (const auto* value = node.as_table()) return {converted(*value, at), where};
+  if (const auto* value = node.as_table()) return {convert(*value, at), where};
   if (const auto* list = node.as_array()) {
     std::vector<KeyValue> values;
-    for (const toml::node& entry : *list) values.push_back(converted(entry, {name, at.file, at.depth + 1}));
+    for (const toml::node& entry : *list) values.push_back(convert(entry, {name, at.file, at.depth + 1}));
     return {values, where};
   }
   throw InputError(where + ": '" + name + "' is a date or time, which no key takes");
 }
 
-std::shared_ptr<KeyTable> converted(const toml::table& table, const Place& at) {
+std::shared_ptr<KeyTable> convert(const toml::table& table, const Place& at) {
   const auto& [name, file, depth] = at;
   auto result = std::make_shared<KeyTable>(name, place(file, table.source()));
   for (const auto& [key, node] : table) {
     const std::string full = name.empty() ? std::string(key) : name + "." + std::string(key);
-    KeyValue value = converted(node, {full, file, depth + 1});
+    KeyValue value = convert(node, {full, file, depth + 1});
     value.where = file.starts_with("--") ? file : file + ":" + std::to_string(key.source().begin.line);
     result->entries.emplace(std::string(key), std::move(value));
   }
@@ -84,11 +84,11 @@ bool as_vector(const KeyValue& value, Vector3& result) {
 }  // namespace
 
 bool KeyTable::has(const std::string& key) const {
-  asked_.insert(key);
+  requested_.insert(key);
   return entries.contains(key);
 }
 
-const KeyValue& KeyTable::required(const std::string& key) const {
+const KeyValue& KeyTable::require_key(const std::string& key) const {
   if (!has(key))
     throw InputError(where_ + ": " + (name_.empty() ? "the file" : "[" + name_ + "]") + " needs the key '" +
                      key + "'");
@@ -107,40 +107,40 @@ std::string KeyTable::where(const std::string& key) const {
 
 double KeyTable::number(const std::string& key) const {
   double storage = 0;
-  const double* number = as_number(required(key), storage);
+  const double* number = as_number(require_key(key), storage);
   if (!number) wrong_type(key, "a finite number");
   return *number;
 }
 
-double KeyTable::number_or(const std::string& key, double otherwise) const {
-  return has(key) ? number(key) : otherwise;
+double KeyTable::number_or(const std::string& key, double fallback) const {
+  return has(key) ? number(key) : fallback;
 }
 
 long KeyTable::integer(const std::string& key) const {
-  const auto* value = std::get_if<long>(&required(key).data);
+  const auto* value = std::get_if<long>(&require_key(key).data);
   if (!value) wrong_type(key, "a whole number");
   return *value;
 }
 
-long KeyTable::integer_or(const std::string& key, long otherwise) const {
-  return has(key) ? integer(key) : otherwise;
+long KeyTable::integer_or(const std::string& key, long fallback) const {
+  return has(key) ? integer(key) : fallback;
 }
 
-bool KeyTable::flag_or(const std::string& key, bool otherwise) const {
-  if (!has(key)) return otherwise;
-  const auto* value = std::get_if<bool>(&required(key).data);
+bool KeyTable::flag_or(const std::string& key, bool fallback) const {
+  if (!has(key)) return fallback;
+  const auto* value = std::get_if<bool>(&require_key(key).data);
   if (!value) wrong_type(key, "true or false");
   return *value;
 }
 
 std::string KeyTable::text(const std::string& key) const {
-  const auto* value = std::get_if<std::string>(&required(key).data);
+  const auto* value = std::get_if<std::string>(&require_key(key).data);
   if (!value) wrong_type(key, "a text in quotes");
   return *value;
 }
 
-std::string KeyTable::text_or(const std::string& key, const std::string& otherwise) const {
-  return has(key) ? text(key) : otherwise;
+std::string KeyTable::text_or(const std::string& key, const std::string& fallback) const {
+  return has(key) ? text(key) : fallback;
 }
 
 bool KeyTable::is_text(const std::string& key) const {
@@ -153,16 +153,16 @@ bool KeyTable::is_list(const std::string& key) const {
 
 Vector3 KeyTable::vector(const std::string& key) const {
   Vector3 result;
-  if (!as_vector(required(key), result)) wrong_type(key, "three numbers [x, y, z]");
+  if (!as_vector(require_key(key), result)) wrong_type(key, "three numbers [x, y, z]");
   return result;
 }
 
-Vector3 KeyTable::vector_or(const std::string& key, const Vector3& otherwise) const {
-  return has(key) ? vector(key) : otherwise;
+Vector3 KeyTable::vector_or(const std::string& key, const Vector3& fallback) const {
+  return has(key) ? vector(key) : fallback;
 }
 
 std::vector<long> KeyTable::integers(const std::string& key) const {
-  const auto* list = std::get_if<std::vector<KeyValue>>(&required(key).data);
+  const auto* list = std::get_if<std::vector<KeyValue>>(&require_key(key).data);
   if (!list) wrong_type(key, "a list of whole numbers");
   std::vector<long> result;
   for (const KeyValue& entry : *list) {
@@ -174,7 +174,7 @@ std::vector<long> KeyTable::integers(const std::string& key) const {
 }
 
 std::vector<std::string> KeyTable::texts(const std::string& key) const {
-  const auto* list = std::get_if<std::vector<KeyValue>>(&required(key).data);
+  const auto* list = std::get_if<std::vector<KeyValue>>(&require_key(key).data);
   if (!list) wrong_type(key, "a list of texts");
   std::vector<std::string> result;
   for (const KeyValue& entry : *list) {
@@ -186,7 +186,7 @@ std::vector<std::string> KeyTable::texts(const std::string& key) const {
 }
 
 std::vector<Vector3> KeyTable::vectors(const std::string& key) const {
-  const auto* list = std::get_if<std::vector<KeyValue>>(&required(key).data);
+  const auto* list = std::get_if<std::vector<KeyValue>>(&require_key(key).data);
   if (!list) wrong_type(key, "a list of points [[x, y, z], ...]");
   std::vector<Vector3> result(list->size());
   for (size_t k = 0; k < list->size(); ++k)
@@ -215,23 +215,23 @@ std::vector<std::shared_ptr<KeyTable>> KeyTable::tables(const std::string& key) 
 }
 
 void KeyTable::leave(const std::string& key) const {
-  asked_.insert(key);
+  requested_.insert(key);
   left_.insert(key);
 }
 
-void KeyTable::refuse_unused() const {
+void KeyTable::reject_unused() const {
   std::string known;
-  for (const std::string& key : asked_) known += (known.empty() ? "" : ", ") + key;
+  for (const std::string& key : requested_) known += (known.empty() ? "" : ", ") + key;
   for (const auto& [key, value] : entries) {
-    if (!asked_.contains(key))
+    if (!requested_.contains(key))
       throw InputError(value.where + ": unknown key '" + key + "' in " +
                        (name_.empty() ? "the file" : "[" + name_ + "]") + "; known here: " + known);
     if (left_.contains(key)) continue;
-    if (const auto* below = std::get_if<std::shared_ptr<KeyTable>>(&value.data)) (*below)->refuse_unused();
+    if (const auto* below = std::get_if<std::shared_ptr<KeyTable>>(&value.data)) (*below)->reject_unused();
     if (const auto* list = std::get_if<std::vector<KeyValue>>(&value.data))
       for (const KeyValue& entry : *list)
         if (const auto* below = std::get_if<std::shared_ptr<KeyTable>>(&entry.data))
-          (*below)->refuse_unused();
+          (*below)->reject_unused();
   }
 }
 
@@ -285,7 +285,7 @@ std::optional<Unbearable> unbearable(std::string_view text) {
 
 /// Tried without its letters outside ASCII first: what is well formed has them in comments and texts alone,
 /// where the parser bears them. On the way to a complaint it does not.
-toml::table parsed(const std::string& text, const std::string& file) {
+toml::table parse_toml(const std::string& text, const std::string& file) {
   std::string plain = text;
   const auto mark = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
   std::replace_if(
@@ -300,7 +300,7 @@ std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string&
   if (const auto found = unbearable(text))
     throw InputError(file + ":" + std::to_string(found->line) + ": " + found->why);
   try {
-    return converted(parsed(text, file), Place{"", file});
+    return convert(parse_toml(text, file), Place{"", file});
   } catch (const toml::parse_error& error) {
     throw InputError(place(file, error.source()) + ": " + std::string(error.description()));
   }
@@ -311,7 +311,7 @@ namespace {
 KeyValue parsed_value(const std::string& text, const std::string& where) {
   if (unbearable(text)) return {text, where};
   try {
-    return converted(*parsed("value = " + text, where).get("value"), Place{"value", where});
+    return convert(*parse_toml("value = " + text, where).get("value"), Place{"value", where});
   } catch (const toml::parse_error&) {
     return {text, where};
   }

@@ -27,16 +27,16 @@ class KeyTable {
 
   bool has(const std::string& key) const;  // asking makes the key known
   double number(const std::string& key) const;
-  double number_or(const std::string& key, double otherwise) const;
+  double number_or(const std::string& key, double fallback) const;
   long integer(const std::string& key) const;
-  long integer_or(const std::string& key, long otherwise) const;
-  bool flag_or(const std::string& key, bool otherwise) const;
+  long integer_or(const std::string& key, long fallback) const;
+  bool flag_or(const std::string& key, bool fallback) const;
   std::string text(const std::string& key) const;
-  std::string text_or(const std::string& key, const std::string& otherwise) const;
+  std::string text_or(const std::string& key, const std::string& fallback) const;
   bool is_text(const std::string& key) const;
   bool is_list(const std::string& key) const;
   Vector3 vector(const std::string& key) const;
-  Vector3 vector_or(const std::string& key, const Vector3& otherwise) const;
+  Vector3 vector_or(const std::string& key, const Vector3& fallback) const;
   std::vector<long> integers(const std::string& key) const;
   std::vector<std::string> texts(const std::string& key) const;
   std::vector<Vector3> vectors(const std::string& key) const;
@@ -46,7 +46,7 @@ class KeyTable {
   /// The tables of [[key]]; empty if there is none.
   std::vector<std::shared_ptr<KeyTable>> tables(const std::string& key) const;
 
-  /// Leaves the key to another reader: it is known, and neither read nor searched by refuse_unused here.
+  /// Leaves the key to another reader: it is known, and neither read nor searched by reject_unused here.
   void leave(const std::string& key) const;
 
   /// "file:line" of the key, or of the table if it lacks the key.
@@ -54,17 +54,17 @@ class KeyTable {
   const std::string& where() const { return where_; }
 
   /// Throws InputError for the first key, here or below, that no one asked for, and lists those that were.
-  void refuse_unused() const;
+  void reject_unused() const;
 
   std::map<std::string, KeyValue> entries;
   std::map<std::string, KeyValue> replaced;  // what the file says of keys that set_key replaced
 
  private:
-  const KeyValue& required(const std::string& key) const;
+  const KeyValue& require_key(const std::string& key) const;
   [[noreturn]] void wrong_type(const std::string& key, const std::string& wanted) const;
 
   std::string name_, where_;
-  mutable std::set<std::string> asked_, left_;
+  mutable std::set<std::string> requested_, left_;
 };
 
 /// Parses TOML text; `file` names it in messages. Throws InputError "file:line: ..." for a syntax error, for

@@ -15,30 +15,30 @@ double positive(const KeyTable& keys, const std::string& key) {
   return value;
 }
 
-double positive_or(const KeyTable& keys, const std::string& key, double otherwise) {
-  return keys.has(key) ? positive(keys, key) : otherwise;
+double positive_or(const KeyTable& keys, const std::string& key, double fallback) {
+  return keys.has(key) ? positive(keys, key) : fallback;
 }
 
-double not_negative_or(const KeyTable& keys, const std::string& key, double otherwise) {
-  const double value = keys.number_or(key, otherwise);
+double non_negative_or(const KeyTable& keys, const std::string& key, double fallback) {
+  const double value = keys.number_or(key, fallback);
   if (!(value >= 0)) throw InputError(keys.where(key) + ": '" + key + "' must not be negative");
   return value;
 }
 
-long count_or(const KeyTable& keys, const std::string& key, long otherwise) {
-  const long value = keys.integer_or(key, otherwise);
+long count_or(const KeyTable& keys, const std::string& key, long fallback) {
+  const long value = keys.integer_or(key, fallback);
   if (!(value >= 1 && value <= 1'000'000'000))
     throw InputError(keys.where(key) + ": '" + key + "' must lie in 1 .. 1,000,000,000");
   return value;
 }
 
-void refuse_many_triangles(const KeyTable& keys, const std::string& key, double triangles,
+void reject_many_triangles(const KeyTable& keys, const std::string& key, double triangles,
                            const SceneLimits& limits) {
   if (triangles <= limits.triangles) return;
-  char told[100];
-  std::snprintf(told, sizeof told, " asks for %.4g triangles; %.4g at most are made", triangles,
+  char message[100];
+  std::snprintf(message, sizeof message, " asks for %.4g triangles; %.4g at most are made", triangles,
                 limits.triangles);
-  throw InputError(keys.where(key) + ": '" + key + "'" + told);
+  throw InputError(keys.where(key) + ": '" + key + "'" + message);
 }
 
 Motion read_motion(const KeyTable& keys) {
@@ -65,7 +65,7 @@ Eigen::AngleAxisd read_turn(const KeyTable& keys) {
   return {turn->number("angle") * radians_per_degree, axis.normalized()};
 }
 
-void refuse_outside(const std::string& file, const std::string& folder, const std::string& where) {
+void reject_outside(const std::string& file, const std::string& folder, const std::string& where) {
   namespace fs = std::filesystem;
   const fs::path inner = fs::weakly_canonical(fs::absolute(file));
   const fs::path outer = fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder));
@@ -83,7 +83,7 @@ std::string path_of(const KeyTable& keys, const std::string& key, const std::str
   if (named.is_absolute() || std::ranges::find(named, "..") != named.end())
     throw InputError(where + ": '" + named.string() +
                      "' leaves the case file's folder; put the file there, or name it by --set");
-  refuse_outside(file, folder, where);
+  reject_outside(file, folder, where);
   return file;
 }
 

@@ -15,9 +15,9 @@ constexpr double radians_per_degree = pi / 180;
 
 // Each throws InputError "file:line: ..." for a value out of its range.
 double positive(const KeyTable& keys, const std::string& key);
-double positive_or(const KeyTable& keys, const std::string& key, double otherwise);
-double not_negative_or(const KeyTable& keys, const std::string& key, double otherwise);
-long count_or(const KeyTable& keys, const std::string& key, long otherwise);  // 1 .. 1,000,000,000
+double positive_or(const KeyTable& keys, const std::string& key, double fallback);
+double non_negative_or(const KeyTable& keys, const std::string& key, double fallback);
+long count_or(const KeyTable& keys, const std::string& key, long fallback);  // 1 .. 1,000,000,000
 
 /// The value of the choice that the key names; the first is the default.
 template <class Choice>
@@ -34,13 +34,13 @@ Choice choice(const KeyTable& keys, const std::string& key,
 
 /// What make() returns; a refusal that names no place gets this one.
 template <class Make>
-auto placed_refusal(const std::string& where, const Make& make) {
+auto with_error_location(const std::string& where, const Make& make) {
   try {
     return make();
   } catch (const InputError& error) {
-    const std::string said = error.what(), file = where.substr(0, where.find(':'));
-    if (said.starts_with(file) || said.starts_with("--set")) throw;
-    throw InputError(where + ": " + said);
+    const std::string message = error.what(), file = where.substr(0, where.find(':'));
+    if (message.starts_with(file) || message.starts_with("--set")) throw;
+    throw InputError(where + ": " + message);
   }
 }
 
@@ -57,6 +57,6 @@ Eigen::AngleAxisd read_turn(const KeyTable& keys);
 std::string path_of(const KeyTable& keys, const std::string& key, const std::string& folder);
 
 /// Throws InputError, naming `where`, if the file does not lie in the folder or one below it, links followed.
-void refuse_outside(const std::string& file, const std::string& folder, const std::string& where);
+void reject_outside(const std::string& file, const std::string& folder, const std::string& where);
 
 }  // namespace foldproof

@@ -8,7 +8,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr int around = 64;       // vertices of a circle about the axis
+constexpr int context = 64;      // vertices of a circle about the axis
 constexpr int along_arc = 16;    // edges of a quarter of a circle in the profile
 constexpr int subdivisions = 4;  // of the sphere: 5120 triangles
 
@@ -18,20 +18,20 @@ struct ProfilePoint {
 
 /// The profile turned about the z axis; it runs upwards (counter-clockwise if it closes), so that triangles
 /// point away from the axis. Points on the axis must not be in it.
-ObjectSurface revolved(const std::vector<ProfilePoint>& profile, bool closes) {
+ObjectSurface revolve(const std::vector<ProfilePoint>& profile, bool closes) {
   const int rings = int(profile.size());
   ObjectSurface surface;
-  surface.vertices.resize(3, rings * around);
+  surface.vertices.resize(3, rings * context);
   for (int k = 0; k < rings; ++k)
-    for (int i = 0; i < around; ++i) {
-      const double angle = 2 * pi * i / around;
-      surface.vertices.col(k * around + i) << profile[size_t(k)].r * std::cos(angle),
+    for (int i = 0; i < context; ++i) {
+      const double angle = 2 * pi * i / context;
+      surface.vertices.col(k * context + i) << profile[size_t(k)].r * std::cos(angle),
           profile[size_t(k)].r * std::sin(angle), profile[size_t(k)].z;
     }
   for (int k = 0; k + (closes ? 0 : 1) < rings; ++k)
-    for (int i = 0; i < around; ++i) {
-      const int a = k * around + i, b = k * around + (i + 1) % around;
-      const int c = (k + 1) % rings * around + i, d = (k + 1) % rings * around + (i + 1) % around;
+    for (int i = 0; i < context; ++i) {
+      const int a = k * context + i, b = k * context + (i + 1) % context;
+      const int c = (k + 1) % rings * context + i, d = (k + 1) % rings * context + (i + 1) % context;
       surface.triangles.push_back({a, b, d});
       surface.triangles.push_back({a, d, c});
     }
@@ -79,7 +79,7 @@ ObjectSurface capsule_surface(double radius, double half_length) {
       const double r = radius * std::max(std::cos(latitude), 1e-3);  // a pinhole at the poles
       profile.push_back({r, end + radius * std::sin(latitude)});
     }
-  return revolved(profile, false);
+  return revolve(profile, false);
 }
 
 ObjectSurface torus_surface(double ring_radius, double tube_radius) {
@@ -88,7 +88,7 @@ ObjectSurface torus_surface(double ring_radius, double tube_radius) {
     const double angle = pi / 2 * k / along_arc;
     profile.push_back({ring_radius + tube_radius * std::cos(angle), tube_radius * std::sin(angle)});
   }
-  return revolved(profile, true);
+  return revolve(profile, true);
 }
 
 }  // namespace foldproof

@@ -9,28 +9,28 @@
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/key_values.h"
-#include "reference/scene/shapes_of.h"
+#include "reference/scene/read_cloth_mesh.h"
 
 namespace foldproof {
 
 namespace {
 
-TriangleSoup read_soup(const KeyTable& keys, const CaseAround& around) {
+TriangleSoup read_soup(const KeyTable& keys, const CaseContext& context) {
   TriangleSoup soup;
   if (keys.has("shape") && keys.text("shape") != "statue")
     throw InputError(keys.where("shape") +
                      ": a body that deforms needs a mesh: shape = \"statue\", 'mesh' or 'frames'");
   if (keys.has("mesh")) {
-    soup = read_obj_soup(mesh_file(keys, around.folder, "object"));
+    soup = read_obj_soup(mesh_file(keys, context.folder, "object"));
   } else {
     const int subdivisions = int(count_or(keys, "subdivisions", 4));
-    refuse_many_triangles(keys, "subdivisions", std::ldexp(20.0, std::min(2 * subdivisions, 2000)),
-                          around.limits);
-    TriangleMesh statue = placed_refusal(keys.where("shape"),
-                                         [&] { return make_statue(positive(keys, "height"), subdivisions); });
+    reject_many_triangles(keys, "subdivisions", std::ldexp(20.0, std::min(2 * subdivisions, 2000)),
+                          context.limits);
+    TriangleMesh statue = with_error_location(
+        keys.where("shape"), [&] { return make_statue(positive(keys, "height"), subdivisions); });
     soup = {std::move(statue.rest), std::move(statue.triangles), {}};
   }
-  fit(keys, soup.rest);
+  scale_to_fit(keys, soup.rest);
   return soup;
 }
 
@@ -56,22 +56,23 @@ OctreeSettings read_octree(const KeyTable& keys, const Bounds& bounds, double ce
 
 /// The refusal of make_closed_mesh with what the frame is called, and another remedy: no repair is offered
 /// here.
-void refuse_open_frame(const MeshSequence& animation, size_t k, const std::string& where) {
+void reject_open_frame(const MeshSequence& animation, size_t k, const std::string& where) {
   try {
     make_closed_mesh({animation.positions[k], animation.triangles, {}});
   } catch (const InputError& error) {
-    const std::string said = error.what();
+    const std::string message = error.what();
     throw InputError(where + ": frame " + std::to_string(k) + " (" + std::to_string(animation.times[k]) +
-                     " s): " + said.substr(0, said.rfind(';')) + "; mend it, or give a smaller amplitude");
+                     " s): " + message.substr(0, message.rfind(';')) +
+                     "; mend it, or give a smaller amplitude");
   }
 }
 
 /// The folder lies within the case file's; so must what its links name.
-void refuse_links_outside(const std::string& folder, const std::string& case_folder,
+void reject_links_outside(const std::string& folder, const std::string& case_folder,
                           const std::string& where) {
   std::error_code none;  // a folder that is not there is refused by who reads it
   for (const auto& entry : std::filesystem::directory_iterator(folder, none))
-    refuse_outside(entry.path().string(), case_folder, where);
+    reject_outside(entry.path().string(), case_folder, where);
 }
 
 /// The recipe with the place of the key that says how fine the field is.
@@ -80,14 +81,14 @@ std::shared_ptr<const FieldRecipe> recipe_of(const KeyTable& keys, Recipe of) {
   return std::make_shared<const FieldRecipe>(FieldRecipe{std::move(of), keys.where("cells")});
 }
 
-MeshSequence read_frames(const KeyTable& keys, const CaseAround& around) {
+MeshSequence read_frames(const KeyTable& keys, const CaseContext& context) {
   const std::string where = keys.where("frames");
-  const std::string folder = path_of(keys, "frames", around.folder);
-  if (!is_override(where)) refuse_links_outside(folder, around.folder, where);
+  const std::string folder = path_of(keys, "frames", context.folder);
+  if (!is_override(where)) reject_links_outside(folder, context.folder, where);
   MeshSequence animation;
   try {
     animation =
-        read_obj_sequence(folder, positive_or(keys, "interval", 1.0 / 30), long(around.limits.frames));
+        read_obj_sequence(folder, positive_or(keys, "interval", 1.0 / 30), long(context.limits.frames));
   } catch (const InputError& error) {
     throw InputError(where + ": " + error.what());
   }
@@ -106,39 +107,39 @@ BodyDeformation read_deformation(const KeyTable& keys) {
 }
 
 /// Times 0, interval, ... until the last one that the case asks for.
-std::vector<double> read_times(const KeyTable& keys, const CaseAround& around) {
+std::vector<double> read_times(const KeyTable& keys, const CaseContext& context) {
   const double interval = positive_or(keys, "interval", 1.0 / 30);
-  const double until = positive_or(keys, "until", around.end);
+  const double until = positive_or(keys, "until", context.end);
   const double count = std::ceil(until / interval * (1 - 1e-9));
-  if (!(count < around.limits.frames))
-    throw InputError(keys.where("interval") + ": more than " + std::to_string(long(around.limits.frames)) +
+  if (!(count < context.limits.frames))
+    throw InputError(keys.where("interval") + ": more than " + std::to_string(long(context.limits.frames)) +
                      " level sets; a longer 'interval' or an earlier 'until' gives fewer");
   std::vector<double> times;
   for (long k = 0; k <= long(count); ++k) times.push_back(double(k) * interval);
   return times;
 }
 
-void put(const Pose& place, PerParticle3& x) {
-  for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) = placed(place, x.col(i));
+void transform_positions(const Pose& place, PerParticle3& x) {
+  for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) = to_world(place, x.col(i));
 }
 
 /// The body in its place, carried through its deformations.
-MeshSequence read_deformed(const KeyTable& keys, const Pose& place, const CaseAround& around) {
-  TriangleMesh mesh = make_closed_mesh(read_soup(keys, around));
-  put(place, mesh.rest);
+MeshSequence read_deformed(const KeyTable& keys, const Pose& place, const CaseContext& context) {
+  TriangleMesh mesh = make_closed_mesh(read_soup(keys, context));
+  transform_positions(place, mesh.rest);
   std::vector<BodyDeformation> parts;
   for (const auto& part : keys.tables("deform")) parts.push_back(read_deformation(*part));
   return deformed_mesh(mesh, deformation_of(std::move(parts), bounds_of(mesh.rest)),
-                       read_times(keys, around));
+                       read_times(keys, context));
 }
 
 }  // namespace
 
 bool is_deforming(const KeyTable& keys) { return keys.has("frames") || keys.has("deform"); }
 
-BodyShape read_mesh_body(const KeyTable& keys, const CaseAround& around) {
+BodyShape read_mesh_body(const KeyTable& keys, const CaseContext& context) {
   enum class Field { grid, octree, exact };
-  TriangleSoup soup = read_soup(keys, around);
+  TriangleSoup soup = read_soup(keys, context);
   const auto field = choice<Field>(
       keys, "field", {{"grid", Field::grid}, {"octree", Field::octree}, {"exact", Field::exact}});
   const auto repair =
@@ -164,7 +165,7 @@ BodyShape read_mesh_body(const KeyTable& keys, const CaseAround& around) {
   return {MeshSolid{}, std::move(surface), recipe_of(keys, ExactRecipe{mesh.rest, mesh.triangles})};
 }
 
-DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, const CaseAround& around) {
+DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, const CaseContext& context) {
   enum class Field { octree };
   choice<Field>(keys, "field", {{"octree", Field::octree}});
   const auto between = choice<BetweenFrames>(
@@ -173,12 +174,12 @@ DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, cons
   if (is_read && keys.has("deform"))
     throw InputError(keys.where("deform") +
                      ": 'frames' are an animation; they do not go with [[object.deform]]");
-  auto animation = is_read ? read_frames(keys, around) : read_deformed(keys, place, around);
+  auto animation = is_read ? read_frames(keys, context) : read_deformed(keys, place, context);
   if (is_read)
-    for (PerParticle3& x : animation.positions) put(place, x);
+    for (PerParticle3& x : animation.positions) transform_positions(place, x);
   Bounds bounds;
   for (size_t k = 0; k < animation.times.size(); ++k) {
-    refuse_open_frame(animation, k, keys.where(is_read ? "frames" : "deform"));
+    reject_open_frame(animation, k, keys.where(is_read ? "frames" : "deform"));
     bounds.extend(bounds_of(animation.positions[k]));
   }
   const OctreeSettings settings = read_octree(keys, bounds, read_cell(keys, animation.positions.front()));

@@ -14,7 +14,7 @@
 namespace foldproof {
 
 /// What a body's keys do not say.
-struct CaseAround {
+struct CaseContext {
   std::string folder;  // where relative files of the case are looked for
   double end;          // of the run [s]
   const SceneLimits& limits;
@@ -32,7 +32,7 @@ bool is_deforming(const KeyTable& keys);
 
 /// `shape = "statue"` or `mesh`, as the exact distance, a grid or an octree of it: `field`, `cells`,
 /// `tolerance`. Throws InputError for a mesh that is not closed, unless it is to be repaired.
-BodyShape read_mesh_body(const KeyTable& keys, const CaseAround& around);
+BodyShape read_mesh_body(const KeyTable& keys, const CaseContext& context);
 
 struct DeformingShape {
   std::shared_ptr<const MeshSequence> animation;
@@ -41,6 +41,6 @@ struct DeformingShape {
 
 /// `frames` or [[object.deform]] of a body of triangles, in its place before it deforms. Throws InputError
 /// "file:line: frame ..." for a frame that is no closed mesh.
-DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, const CaseAround& around);
+DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, const CaseContext& context);
 
 }  // namespace foldproof

@@ -37,7 +37,7 @@ BodyShape read_torus(const KeyTable& keys) {
   return {Torus{ring, tube}, torus_surface(ring, tube)};
 }
 
-BodyShape read_shape(const KeyTable& keys, const CaseAround& around) {
+BodyShape read_shape(const KeyTable& keys, const CaseContext& context) {
   const auto read = choice<BodyShape (*)(const KeyTable&)>(keys, "shape",
                                                            {{"sphere", read_sphere},
                                                             {"half_space", read_half_space},
@@ -45,7 +45,7 @@ BodyShape read_shape(const KeyTable& keys, const CaseAround& around) {
                                                             {"capsule", read_capsule},
                                                             {"torus", read_torus},
                                                             {"statue", nullptr}});
-  return read ? read(keys) : read_mesh_body(keys, around);
+  return read ? read(keys) : read_mesh_body(keys, context);
 }
 
 Pose read_pose(const KeyTable& keys) {
@@ -64,18 +64,18 @@ RigidMotion read_rigid_motion(const KeyTable& keys) {
   }
 }
 
-void read_rigid(const KeyTable& keys, const Pose& place, const CaseAround& around, SceneObject& part) {
-  BodyShape shape = keys.has("mesh") ? read_mesh_body(keys, around) : read_shape(keys, around);
+void read_rigid(const KeyTable& keys, const Pose& place, const CaseContext& context, SceneObject& part) {
+  BodyShape shape = keys.has("mesh") ? read_mesh_body(keys, context) : read_shape(keys, context);
   part.vertices.resize(3, shape.surface.vertices.cols());
   for (Eigen::Index i = 0; i < part.vertices.cols(); ++i)
-    part.vertices.col(i) = placed(place, shape.surface.vertices.col(i));
+    part.vertices.col(i) = to_world(place, shape.surface.vertices.col(i));
   part.triangles = std::move(shape.surface.triangles);
   part.object.body = RigidObject{std::move(shape.solid), place, read_rigid_motion(keys)};
   part.field = std::move(shape.field);
 }
 
-void read_deforming(const KeyTable& keys, const Pose& place, const CaseAround& around, SceneObject& part) {
-  DeformingShape shape = read_deforming_body(keys, place, around);
+void read_deforming(const KeyTable& keys, const Pose& place, const CaseContext& context, SceneObject& part) {
+  DeformingShape shape = read_deforming_body(keys, place, context);
   part.vertices = shape.animation->positions.front();
   part.triangles = shape.animation->triangles;
   part.animation = std::move(shape.animation);
@@ -83,7 +83,7 @@ void read_deforming(const KeyTable& keys, const Pose& place, const CaseAround& a
   part.field = std::move(shape.field);
 }
 
-SceneObject read_object(const KeyTable& keys, const CaseAround& around, size_t number) {
+SceneObject read_object(const KeyTable& keys, const CaseContext& context, size_t number) {
   const bool is_shape = keys.has("shape"), is_mesh = keys.has("mesh"), is_animation = keys.has("frames");
   if (int(is_shape) + int(is_mesh) + int(is_animation) != 1)
     throw InputError(
@@ -93,8 +93,8 @@ SceneObject read_object(const KeyTable& keys, const CaseAround& around, size_t n
   SceneObject part;
   part.shape = is_shape ? keys.text("shape") : is_mesh ? "mesh" : "animation";
   part.object.name = keys.text_or("name", part.shape + " " + std::to_string(number + 1));
-  part.object.friction = not_negative_or(keys, "friction", 0);
-  (is_deforming(keys) ? read_deforming : read_rigid)(keys, read_pose(keys), around, part);
+  part.object.friction = non_negative_or(keys, "friction", 0);
+  (is_deforming(keys) ? read_deforming : read_rigid)(keys, read_pose(keys), context, part);
   if (!part.vertices.allFinite())
     throw InputError(keys.where() + ": a place of its surface is not finite; give smaller lengths");
   return part;
@@ -112,9 +112,9 @@ void read_collision(const KeyTable& keys, CollisionSettings& collision) {
 
 }  // namespace
 
-void read_objects(const KeyTable& keys, const CaseAround& around, Scene& scene) {
+void read_objects(const KeyTable& keys, const CaseContext& context, Scene& scene) {
   for (const auto& object : keys.tables("object"))
-    scene.objects.push_back(read_object(*object, around, scene.objects.size()));
+    scene.objects.push_back(read_object(*object, context, scene.objects.size()));
   const auto collision = keys.table("collision");
   if (!collision) return;
   if (scene.objects.empty()) throw InputError(collision->where() + ": [collision] needs an [[object]]");

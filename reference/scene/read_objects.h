@@ -8,6 +8,6 @@
 namespace foldproof {
 
 /// Reads both into the scene, whose schedule is known.
-void read_objects(const KeyTable& keys, const CaseAround& around, Scene& scene);
+void read_objects(const KeyTable& keys, const CaseContext& context, Scene& scene);
 
 }  // namespace foldproof

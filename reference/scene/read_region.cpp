@@ -6,7 +6,7 @@
 
 namespace foldproof {
 
-std::vector<int> in_box(const KeyTable& keys, const PerParticle3& x) {
+std::vector<int> select_in_box(const KeyTable& keys, const PerParticle3& x) {
   const std::vector<Vector3> box = keys.vectors("box");
   if (box.size() != 2)
     throw InputError(keys.where("box") +
@@ -18,7 +18,7 @@ std::vector<int> in_box(const KeyTable& keys, const PerParticle3& x) {
   return chosen;
 }
 
-std::vector<int> in_sphere(const KeyTable& keys, const PerParticle3& x) {
+std::vector<int> select_in_sphere(const KeyTable& keys, const PerParticle3& x) {
   const auto sphere = keys.table("sphere");
   const Vector3 center = sphere->vector("center");
   const double radius = positive(*sphere, "radius");

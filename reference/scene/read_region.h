@@ -10,10 +10,10 @@ namespace foldproof {
 
 /// Each takes x, where the things are (3 x N [m]), or their count N, and throws InputError "file:line: ..."
 /// for a value out of its range.
-///   in_box      box = [[x, y, z], [x, y, z]]
-///   in_sphere   sphere = { center, radius }
-std::vector<int> in_box(const KeyTable& keys, const PerParticle3& x);
-std::vector<int> in_sphere(const KeyTable& keys, const PerParticle3& x);
+///   select_in_box      box = [[x, y, z], [x, y, z]]
+///   select_in_sphere   sphere = { center, radius }
+std::vector<int> select_in_box(const KeyTable& keys, const PerParticle3& x);
+std::vector<int> select_in_sphere(const KeyTable& keys, const PerParticle3& x);
 
 /// The list under the key "particles" or "triangles".
 std::vector<int> numbered(const KeyTable& keys, const std::string& key, Eigen::Index count);

@@ -12,7 +12,7 @@
 #include "reference/scene/read_sticky.h"
 #include "reference/scene/read_strain.h"
 #include "reference/scene/scene.h"
-#include "reference/scene/shapes_of.h"
+#include "reference/scene/read_cloth_mesh.h"
 
 namespace foldproof {
 
@@ -20,16 +20,16 @@ namespace {
 
 StretchMaterial read_stretch(const KeyTable& keys) {
   StretchMaterial material;
-  material.stiffness = not_negative_or(keys, "stiffness", keys.number("stiffness"));
-  material.damping = not_negative_or(keys, "damping", 0);
+  material.stiffness = non_negative_or(keys, "stiffness", keys.number("stiffness"));
+  material.damping = non_negative_or(keys, "damping", 0);
   material.rest_length_scale = positive_or(keys, "rest_length_scale", 1);
   return material;
 }
 
 BendingMaterial read_bending(const KeyTable& keys) {
   BendingMaterial material;
-  material.stiffness = not_negative_or(keys, "stiffness", keys.number("stiffness"));
-  material.damping = not_negative_or(keys, "damping", 0);
+  material.stiffness = non_negative_or(keys, "stiffness", keys.number("stiffness"));
+  material.damping = non_negative_or(keys, "damping", 0);
   material.weighting =
       choice<Weighting>(keys, "weighting", {{"rest", Weighting::rest}, {"current", Weighting::current}});
   material.damping_factor = choice<DampingFactor>(
@@ -69,16 +69,16 @@ void read_hold(const KeyTable& keys, Scene& scene) {
     throw InputError(keys.where() + ": [[hold]] needs one of 'particles', 'box', 'top'");
   const std::vector<int> chosen =
       keys.has("particles") ? with_copies(numbered(keys, "particles", scene.x.cols()), scene.copy_of)
-      : keys.has("box")     ? in_box(keys, scene.x)
+      : keys.has("box")     ? select_in_box(keys, scene.x)
                             : particles_at_top(keys, scene.x);
   if (chosen.empty()) throw InputError(keys.where() + ": [[hold]] names no particle");
   const Motion motion = read_motion(keys);
   std::vector<char> is_held(size_t(scene.x.cols()), 0);
-  for (const PrescribedParticle& other : scene.led) is_held[size_t(other.particle)] = 1;
+  for (const PrescribedParticle& other : scene.prescribed) is_held[size_t(other.particle)] = 1;
   for (int i : chosen) {
     if (is_held[size_t(i)]++)
       throw InputError(keys.where() + ": particle " + std::to_string(i) + " is held twice");
-    scene.led.push_back({i, scene.x.col(i), motion});
+    scene.prescribed.push_back({i, scene.x.col(i), motion});
   }
 }
 
@@ -115,7 +115,7 @@ constexpr size_t longest_name = 100;
 
 /// A case's name becomes a part of file names, and of names of findings: it must not lead anywhere, nor need
 /// quoting.
-void refuse_name(const std::string& name, const std::string& path) {
+void reject_name(const std::string& name, const std::string& path) {
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-' || c == '.';
@@ -130,7 +130,7 @@ void refuse_name(const std::string& name, const std::string& path) {
 }
 
 /// Numbers of a case can each be sound and yet come to more than a double holds, or to less.
-void refuse_overflow(const KeyTable& cloth, const Scene& scene) {
+void reject_overflow(const KeyTable& cloth, const Scene& scene) {
   const State start = start_state(scene);
   if (!start.x.allFinite() || !start.v.allFinite() || !scene.mesh.rest.allFinite())
     throw InputError(cloth.where() + ": a place or velocity at the start, or at rest, is not finite");
@@ -148,14 +148,14 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   const auto cloth = keys.table("cloth"), time = keys.table("time");
   if (!cloth || !time) throw InputError(keys.where() + ": a case needs the tables [cloth] and [time]");
   PlacedMesh placed = read_cloth_mesh(*cloth, folder, limits);
-  Scene scene = scene_of(std::move(placed.mesh), positive(*cloth, "density"));
+  Scene scene = scene_at_rest(std::move(placed.mesh), positive(*cloth, "density"));
   scene.x = std::move(placed.start);
   scene.copy_of = std::move(placed.copy_of);
   scene.title = keys.text_or("title", "");
   scene.about = keys.text_or("about", "");
 
   if (const auto start = keys.table("start")) read_start(*start, scene);
-  refuse_overflow(*cloth, scene);
+  reject_overflow(*cloth, scene);
   if (const auto gravity = keys.table("gravity"))
     scene.gravity = gravity->vector_or("acceleration", {0, -9.80665, 0});
   if (const auto stretch = keys.table("stretch")) scene.stretch = read_stretch(*stretch);
@@ -165,14 +165,14 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
     scene.rest_angles = read_rest_angles(*bending, scene.mesh);
   }
   for (const auto& hold : keys.tables("hold")) read_hold(*hold, scene);
-  refuse_overflow(*cloth, scene);
+  reject_overflow(*cloth, scene);
   read_time(*time, scene);
   read_objects(keys, {folder, scene.schedule.end, limits}, scene);
   if (const auto self = keys.table("self_collision"))
     scene.self_collision = read_self_collision(*self, scene.mesh);
   read_sticky(keys, folder, scene);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
-  if (const auto self = keys.table("self_collision")) refuse_tangled_start(*self, scene);
+  if (const auto self = keys.table("self_collision")) reject_tangled_start(*self, scene);
   scene.name = file.stem().string();
   scene.folder = folder;
   scene.text = of.text;
@@ -181,7 +181,7 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
 
 CaseKeys parse_case_text(const std::string& text, const std::string& path,
                          const std::vector<std::string>& overrides) {
-  refuse_name(std::filesystem::path(path).stem().string(), path);
+  reject_name(std::filesystem::path(path).stem().string(), path);
   CaseKeys of{path, text, parse_keys(text, path)};
   for (const std::string& assignment : overrides) {
     set_key(*of.keys, assignment);
@@ -203,7 +203,7 @@ Scene scene_alone(const CaseKeys& of, const SceneLimits& limits) {
   keys.leave("expect");    // what must hold of the run: whoever judges it reads that table
   keys.leave("ablation");  // why parts are there or left out: whoever toggles them reads that table
   keys.leave("quantity");  // what is measured of the run: whoever measures reads those tables
-  keys.refuse_unused();
+  keys.reject_unused();
   return scene;
 }
 

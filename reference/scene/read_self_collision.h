@@ -13,6 +13,6 @@ namespace foldproof {
 SelfCollisionSettings read_self_collision(const KeyTable& keys, const TriangleMesh& mesh);
 
 /// With untangle = false, throws InputError naming the first triangles of a start that crosses itself.
-void refuse_tangled_start(const KeyTable& keys, const Scene& scene);
+void reject_tangled_start(const KeyTable& keys, const Scene& scene);
 
 }  // namespace foldproof

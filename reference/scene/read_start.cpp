@@ -85,7 +85,7 @@ void read_start(const KeyTable& keys, Scene& scene) {
 
   const Vector3 spin = keys.vector_or("spin", Vector3::Zero()) * radians_per_degree;
   const Vector3 velocity = keys.vector_or("velocity", Vector3::Zero());
-  const double noise = not_negative_or(keys, "noise", 0);
+  const double noise = non_negative_or(keys, "noise", 0);
   std::mt19937_64 random(std::uint64_t(keys.integer_or("seed", 1)));
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     const Vector3 arm = scene.x.col(i) - center;

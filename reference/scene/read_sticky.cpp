@@ -9,7 +9,7 @@
 #include "reference/mesh/obj.h"
 #include "reference/scene/key_values.h"
 #include "reference/scene/read_region.h"
-#include "reference/scene/shapes_of.h"
+#include "reference/scene/read_cloth_mesh.h"
 
 namespace foldproof {
 
@@ -53,8 +53,8 @@ std::vector<int> read_region(const KeyTable& keys, const std::string& list, cons
                      "', 'box', 'sphere', 'group', or none for all");
   std::vector<int> chosen;
   if (is_list) chosen = numbered(keys, list, x.cols());
-  if (is_box) chosen = in_box(keys, x);
-  if (is_sphere) chosen = in_sphere(keys, x);
+  if (is_box) chosen = select_in_box(keys, x);
+  if (is_sphere) chosen = select_in_sphere(keys, x);
   if (is_group) chosen = of_group();
   if (!is_list && !is_box && !is_sphere && !is_group)
     for (int i = 0; i < int(x.cols()); ++i) chosen.push_back(i);
@@ -143,12 +143,12 @@ StickyPatch read_patch(const KeyTable& keys, const KeyTable& case_keys, const st
   patch.particles = read_particles(*particles, cloth, scene.copy_of);
   patch.name = keys.text_or("name", surface->text("of") + " " + std::to_string(scene.sticky.size() + 1));
   patch.stiffness = positive(keys, "stiffness");
-  patch.forecast_time = not_negative_or(keys, "forecast_time", keys.number("forecast_time"));
+  patch.forecast_time = non_negative_or(keys, "forecast_time", keys.number("forecast_time"));
   patch.near = positive(keys, "near");
   patch.far = positive(keys, "far");
-  patch.from = not_negative_or(keys, "from", 0);
+  patch.from = non_negative_or(keys, "from", 0);
   patch.until = keys.number_or("until", patch.until);
-  patch.release = not_negative_or(keys, "release", 0);
+  patch.release = non_negative_or(keys, "release", 0);
   if (!(patch.until > patch.from))
     throw InputError(keys.where("until") + ": 'until' must be later than 'from', in s");
   if (patch.release > 0 && !(patch.release <= patch.until - patch.from))

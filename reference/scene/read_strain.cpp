@@ -10,8 +10,8 @@ void read_strain_limits(const KeyTable& keys, Scene& scene) {
   if (!scene.stretch)
     throw InputError(table->where() + ": [strain_limits] limits springs; the case needs a [stretch] table");
   StrainLimits limits;
-  limits.extension = not_negative_or(*table, "extension", limits.extension);
-  limits.compression = not_negative_or(*table, "compression", limits.compression);
+  limits.extension = non_negative_or(*table, "extension", limits.extension);
+  limits.compression = non_negative_or(*table, "compression", limits.compression);
   if (!(limits.compression < 1))
     throw InputError(table->where("compression") + ": 'compression' must lie in [0, 1)");
   limits.order = choice<SweepOrder>(*table, "order",

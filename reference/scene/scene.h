@@ -19,7 +19,7 @@
 
 namespace foldproof {
 
-struct LevelSetMakers;  // bodies/makers.h
+struct LevelSetProvider;  // bodies/level_set_provider.h
 struct FieldRecipe;     // scene/field_recipe.h
 
 /// An object, and its surface as triangles: for pictures, not for the collisions.
@@ -62,7 +62,7 @@ struct Scene {
   std::optional<StretchMaterial> stretch;
   std::optional<BendingMaterial> bending;
   std::vector<double> rest_angles;  // one a hinge [rad], when there is bending
-  std::vector<PrescribedParticle> led;
+  std::vector<PrescribedParticle> prescribed;
   std::vector<SceneObject> objects;
   CollisionSettings collision;
   std::optional<StrainLimits> strain_limits;  // needs stretch
@@ -75,7 +75,7 @@ struct Scene {
 };
 
 /// A scene of the mesh at rest in its rest shape, without any force.
-Scene scene_of(TriangleMesh mesh, double density);
+Scene scene_at_rest(TriangleMesh mesh, double density);
 
 /// A case file, parsed once: whoever reads a part of it asks this tree.
 struct CaseKeys {
@@ -92,7 +92,7 @@ CaseKeys parse_case_text(const std::string& text, const std::string& path,
                          const std::vector<std::string>& overrides);
 
 /// The scene that the keys describe; no level set is computed. Throws InputError "file:line: ..." for
-/// anything that it does not understand, but leaves keys that it does not know to refuse_unused of the tree,
+/// anything that it does not understand, but leaves keys that it does not know to reject_unused of the tree,
 /// after all of it was read. See cases/KEYS.md for the keys.
 Scene scene_from(const CaseKeys& of, const SceneLimits& limits = {});
 
@@ -103,7 +103,7 @@ Scene read_scene_text(const std::string& text, const std::string& path,
                       const std::vector<std::string>& overrides = {}, const SceneLimits& limits = {});
 
 /// What moves, and where it starts.
-struct Built {
+struct BuiltScene {
   System system;
   State start;
   std::vector<Object> objects;  // with the fields of their bodies; whoever judges asks these, not the system's own
@@ -111,7 +111,7 @@ struct Built {
 
 /// Builds what the scene names, and nothing else. level_sets: who makes those of its bodies. Throws
 /// InputError, that names the key's place where it was read from a file, for a level set that cannot be made.
-Built build(const Scene& scene, const LevelSetMakers& level_sets);
+BuiltScene build(const Scene& scene, const LevelSetProvider& level_sets);
 
 /// The system of build(), its level sets computed.
 System build_system(const Scene& scene);
@@ -119,9 +119,9 @@ System build_system(const Scene& scene);
 State start_state(const Scene& scene);
 
 /// The scene's objects, with the fields of their bodies.
-std::vector<Object> build_objects(const Scene& scene, const LevelSetMakers& level_sets);
+std::vector<Object> build_objects(const Scene& scene, const LevelSetProvider& level_sets);
 
 /// What was built, a phrase for each part: "289 particles, 512 triangles", "gravity", "800 springs", ...
-std::vector<std::string> built_parts(const Scene& scene, const System& system);
+std::vector<std::string> describe_parts(const Scene& scene, const System& system);
 
 }  // namespace foldproof

@@ -13,7 +13,7 @@ struct SceneLimits {
 };
 
 /// Throws InputError "file:line: ..." where the key asks for more triangles than the limit.
-void refuse_many_triangles(const KeyTable& keys, const std::string& key, double triangles,
+void reject_many_triangles(const KeyTable& keys, const std::string& key, double triangles,
                            const SceneLimits& limits);
 
 }  // namespace foldproof

@@ -30,7 +30,7 @@ def columns_of(group: h5py.Group | None) -> list[Column]:
 def _values(data: h5py.Dataset) -> np.ndarray:
     values = data[()]
     if np.asarray(values).dtype.kind in "OSU":
-        return np.array([_decoded(value) for value in np.atleast_1d(values)], dtype=object)
+        return np.array([_decode(value) for value in np.atleast_1d(values)], dtype=object)
     return np.atleast_1d(np.asarray(values, dtype=float))
 
 
@@ -47,7 +47,7 @@ def _place(entry: tuple[str, h5py.Group | h5py.Dataset]) -> tuple[float, str]:
 
 def attributes_of(item: h5py.Group | h5py.Dataset) -> dict[str, Any]:
     """All attributes, texts decoded."""
-    return {plain(key): _decoded(value) for key, value in item.attrs.items()}
+    return {plain(key): _decode(value) for key, value in item.attrs.items()}
 
 
 # What no XML may hold, so that no SVG and no page may: control characters, halves of surrogate pairs (which is how bytes
@@ -60,33 +60,33 @@ def plain(text: str) -> str:
     return _NO_TEXT.sub("\ufffd", text)
 
 
-def _decoded(value: Any) -> Any:
+def _decode(value: Any) -> Any:
     if isinstance(value, bytes):
         return plain(value.decode("utf-8", "replace"))
     if isinstance(value, str):
         return plain(value)
     if isinstance(value, np.ndarray) and value.dtype.kind in "OSU":
-        return [_decoded(entry) for entry in value.ravel()]
+        return [_decode(entry) for entry in value.ravel()]
     return value
 
 
-def text_of(said: dict[str, Any], key: str) -> str:
+def text_of(attributes: dict[str, Any], key: str) -> str:
     """A text, "" if absent."""
-    value = said.get(key, "")
+    value = attributes.get(key, "")
     return "" if isinstance(value, h5py.Empty) else str(value)
 
 
-def texts_of(said: dict[str, Any], key: str) -> list[str]:
+def texts_of(attributes: dict[str, Any], key: str) -> list[str]:
     """A list of texts that are not empty."""
-    value = said.get(key, [])
+    value = attributes.get(key, [])
     if isinstance(value, str):
         value = [value]
     return [] if isinstance(value, h5py.Empty) else [str(entry) for entry in value if str(entry)]
 
 
-def number_of(said: dict[str, Any], key: str, absent: float = float("nan")) -> float:
+def number_of(attributes: dict[str, Any], key: str, absent: float = float("nan")) -> float:
     """A number, `absent` if there is none."""
-    value = said.get(key, absent)
+    value = attributes.get(key, absent)
     try:
         return float(np.ravel(value)[0])
     except (TypeError, ValueError, IndexError):

@@ -25,9 +25,9 @@ def split_number(value: float, digits: int = 3) -> tuple[str, int | None]:
     needs: 0.1, not 0.100.
     """
     if is_count(value):
-        return (MINUS if value < 0 else "") + _grouped(str(abs(int(value)))), None
+        return (MINUS if value < 0 else "") + _group_digits(str(abs(int(value)))), None
     enough = (count for count in range(1, digits) if float(f"{value:.{count - 1}e}") == value)
-    return rounded_number(value, next(enough, digits))
+    return round_number(value, next(enough, digits))
 
 
 def is_count(value: float) -> bool:
@@ -35,7 +35,7 @@ def is_count(value: float) -> bool:
     return math.isfinite(value) and abs(value) < 1e7 and value == int(value)
 
 
-def rounded_number(value: float, digits: int = 3) -> tuple[str, int | None]:
+def round_number(value: float, digits: int = 3) -> tuple[str, int | None]:
     """As split_number, but a whole number is rounded like any other. NaN and infinities are named."""
     if math.isnan(value):
         return "NaN", None
@@ -48,12 +48,12 @@ def rounded_number(value: float, digits: int = 3) -> tuple[str, int | None]:
     exponent = int(f"{size:.{digits - 1}e}".split("e")[1])
     if -3 <= exponent < 6:
         places = digits - 1 - exponent
-        return sign + _grouped(f"{round(size, places):.{max(0, places)}f}"), None
+        return sign + _group_digits(f"{round(size, places):.{max(0, places)}f}"), None
     mantissa, power = f"{size:.{digits - 1}e}".split("e")
     return sign + mantissa, int(power)
 
 
-def _grouped(text: str) -> str:
+def _group_digits(text: str) -> str:
     """Thousands apart from five digits on: 12345 becomes 12 345."""
     whole, point, rest = text.partition(".")
     if len(whole) >= 5:
@@ -69,7 +69,7 @@ def number_text(value: float, digits: int = 3) -> str:
 
 def number_html(value: float) -> Markup:
     """A number for the page; the full value shows when pointed at, if it was rounded."""
-    return _marked_up(float(value), *split_number(float(value)))
+    return _mark_up(float(value), *split_number(float(value)))
 
 
 def known_html(value: float) -> Markup:
@@ -77,7 +77,7 @@ def known_html(value: float) -> Markup:
     return Markup('<span class="n">–</span>') if math.isnan(value) else number_html(value)
 
 
-def _marked_up(value: float, mantissa: str, exponent: int | None) -> Markup:
+def _mark_up(value: float, mantissa: str, exponent: int | None) -> Markup:
     power = "" if exponent is None else Markup("{}×{}10<sup>{}</sup>").format(
         "\u200a", "\u200a", str(exponent).replace("-", MINUS))
     if math.isfinite(value) and not is_count(value) and float(f"{value:.2e}") != value:
@@ -113,7 +113,7 @@ def cells_html(values: Iterable[object]) -> list[Markup]:
     numbers = [float(value) for value in values]  # type: ignore[arg-type]
     if all(is_count(value) or not math.isfinite(value) for value in numbers):
         return [known_html(value) for value in numbers]
-    return [known_html(value) if math.isnan(value) else _marked_up(value, *rounded_number(value)) for value in numbers]
+    return [known_html(value) if math.isnan(value) else _mark_up(value, *round_number(value)) for value in numbers]
 
 
 def seconds_html(value: float) -> Markup:
@@ -121,7 +121,7 @@ def seconds_html(value: float) -> Markup:
     if math.isnan(value):
         return Markup("duration not recorded")
     if value >= 120:
-        minutes = _marked_up(value / 60, *rounded_number(value / 60))
+        minutes = _mark_up(value / 60, *round_number(value / 60))
         return Markup('{}\u2009<span class="unit">min</span>').format(minutes)
     if value < 0.01:
         return Markup('<span class="n">&lt;\u20090.01</span>\u2009<span class="unit">s</span>')

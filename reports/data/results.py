@@ -280,8 +280,8 @@ def _gravity(file: h5py.File) -> np.ndarray | None:
 def _object(group: h5py.Group) -> CaseObject:
     names = {"vertices": "vertices", "rotation": "rotation", "translation": "translation", "positions": "deformed"}
     arrays = {field: np.asarray(group[key], dtype=float) for key, field in names.items() if key in group}
-    said = attributes_of(group)
-    return CaseObject(name=text_of(said, "name"), shape=text_of(said, "shape"), **arrays,
+    attributes = attributes_of(group)
+    return CaseObject(name=text_of(attributes, "name"), shape=text_of(attributes, "shape"), **arrays,
                       triangles=np.asarray(group["triangles"], dtype=np.int64).reshape(-1, 3))
 
 
@@ -291,29 +291,29 @@ def case_entry_of_file(path: Path) -> CaseEntry | None:
         with reading_hdf5(path), h5py.File(path, "r") as file:
             if "frames" not in file:
                 return None
-            said = attributes_of(file)
+            attributes = attributes_of(file)
     except Unreadable:
         return None
-    return CaseEntry(name=text_of(said, "case_name") or path.stem, title=text_of(said, "title") or path.stem,
-                     about=text_of(said, "about"), seconds=number_of(said, "seconds"),
-                     stopped=text_of(said, "stopped"),
+    return CaseEntry(name=text_of(attributes, "case_name") or path.stem, title=text_of(attributes, "title") or path.stem,
+                     about=text_of(attributes, "about"), seconds=number_of(attributes, "seconds"),
+                     stopped=text_of(attributes, "stopped"),
                      path=path)
 
 
 def _finding(name: str, group: h5py.Group) -> Finding:
-    said = attributes_of(group)
-    texts = {key: text_of(said, key) for key in
+    attributes = attributes_of(group)
+    texts = {key: text_of(attributes, key) for key in
              ("kind", "study", "claim", "source", "unit", "why_bound", "outcome", "note", "better")}
-    numbers = {key: number_of(said, key) for key in ("measured", "bound", "uncertainty", "seconds")}
-    return Finding(name=name, **texts, **numbers, faults=texts_of(said, "faults"),
+    numbers = {key: number_of(attributes, key) for key in ("measured", "bound", "uncertainty", "seconds")}
+    return Finding(name=name, **texts, **numbers, faults=texts_of(attributes, "faults"),
                    evidence=columns_of(group.get("evidence")))
 
 
 def _study(name: str, group: h5py.Group) -> Study:
-    said = attributes_of(group)
-    return Study(name=name, claim=text_of(said, "claim"), source=text_of(said, "source"),
-                 about=text_of(said, "about"),
-                 seconds=number_of(said, "seconds"),
+    attributes = attributes_of(group)
+    return Study(name=name, claim=text_of(attributes, "claim"), source=text_of(attributes, "source"),
+                 about=text_of(attributes, "about"),
+                 seconds=number_of(attributes, "seconds"),
                  figures=[_figure(key, figure) for key, figure in in_order(group, "figures")],
                  maps=[_map(key, group) for key, group in in_order(group, "maps")],
                  tables=[Table(text_of(attributes_of(table), "title") or key, columns_of(table))
@@ -321,21 +321,21 @@ def _study(name: str, group: h5py.Group) -> Study:
 
 
 def _figure(name: str, group: h5py.Group) -> StudyFigure:
-    said = attributes_of(group)
-    return StudyFigure(name=name, **_axes(said), slope=number_of(said, "slope"), curves=_curves(group))
+    attributes = attributes_of(group)
+    return StudyFigure(name=name, **_axes(attributes), slope=number_of(attributes, "slope"), curves=_curves(group))
 
 
 def _map(name: str, group: h5py.Group) -> StudyMap:
-    said = attributes_of(group)
+    attributes = attributes_of(group)
     x, y = (np.asarray(group[key], dtype=float) for key in "xy")
-    return StudyMap(name=name, **_axes(said), quantity=text_of(said, "quantity"), unit=text_of(said, "unit"),
-                    scale=text_of(said, "scale") or "linear", x=x, y=y, curves=_curves(group),
+    return StudyMap(name=name, **_axes(attributes), quantity=text_of(attributes, "quantity"), unit=text_of(attributes, "unit"),
+                    scale=text_of(attributes, "scale") or "linear", x=x, y=y, curves=_curves(group),
                     values=np.asarray(group["values"], dtype=float).reshape(len(y), len(x)))
 
 
-def _axes(said: dict[str, Any]) -> dict[str, str]:
-    texts = {key: text_of(said, key) for key in ("title", "caption", "x_label", "x_unit", "y_label", "y_unit")}
-    return texts | {key: text_of(said, key) or "linear" for key in ("x_scale", "y_scale")}
+def _axes(attributes: dict[str, Any]) -> dict[str, str]:
+    texts = {key: text_of(attributes, key) for key in ("title", "caption", "x_label", "x_unit", "y_label", "y_unit")}
+    return texts | {key: text_of(attributes, key) or "linear" for key in ("x_scale", "y_scale")}
 
 
 def _curves(group: h5py.Group) -> list[Curve]:
@@ -343,27 +343,27 @@ def _curves(group: h5py.Group) -> list[Curve]:
 
 
 def _curve(name: str, group: h5py.Group) -> Curve:
-    said = attributes_of(group)
+    attributes = attributes_of(group)
     orders = np.asarray(group["pair_orders"], dtype=float) if "pair_orders" in group else None
     x, y = (np.asarray(group[key], dtype=float) for key in "xy")
     marks = group["marks"].asstr()[:] if "marks" in group else None
-    return Curve(label=text_of(said, "label") or name, floor=number_of(said, "floor"), pair_orders=orders,
-                 slope=number_of(said, "slope"), x=x, y=y, marks=marks)
+    return Curve(label=text_of(attributes, "label") or name, floor=number_of(attributes, "floor"), pair_orders=orders,
+                 slope=number_of(attributes, "slope"), x=x, y=y, marks=marks)
 
 
 def _claim(name: str, group: h5py.Group) -> Claim:
-    said = attributes_of(group)
-    texts = {key: text_of(said, key)
+    attributes = attributes_of(group)
+    texts = {key: text_of(attributes, key)
              for key in ("section", "statement", "ruling", "recorded", "condition", "why")}
-    names, roles = texts_of(said, "decided_by"), texts_of(said, "roles")
+    names, roles = texts_of(attributes, "decided_by"), texts_of(attributes, "roles")
     return Claim(name=name, **texts, decided_by=list(zip(names, roles + [""] * len(names))))
 
 
 def _case_entry(name: str, group: h5py.Group, folder: Path) -> CaseEntry:
-    said = attributes_of(group)
-    return CaseEntry(name=name, title=text_of(said, "title") or name, about=text_of(said, "about"),
-                     seconds=number_of(said, "seconds"), stopped=text_of(said, "stopped"),
-                     path=folder / Path(text_of(said, "file") or f"{name}.h5").name)
+    attributes = attributes_of(group)
+    return CaseEntry(name=name, title=text_of(attributes, "title") or name, about=text_of(attributes, "about"),
+                     seconds=number_of(attributes, "seconds"), stopped=text_of(attributes, "stopped"),
+                     path=folder / Path(text_of(attributes, "file") or f"{name}.h5").name)
 
 
 def _with_outcomes(faults: list[Fault], file: Path) -> list[Fault]:
@@ -378,8 +378,8 @@ def _with_outcomes(faults: list[Fault], file: Path) -> list[Fault]:
 def _with_outcome(fault: Fault, row: dict[str, Any]) -> Fault:
     def number(value: float | None) -> float:
         return float("nan") if value is None else value
-    checks = [FaultCheck(said["name"], said["outcome"], *(number(said[key]) for key in ("measured", "bound", "margin")))
-              for said in row.get("checks", [])]
+    checks = [FaultCheck(attributes["name"], attributes["outcome"], *(number(attributes[key]) for key in ("measured", "bound", "margin")))
+              for attributes in row.get("checks", [])]
     return replace(fault, outcome=row["outcome"], checks=checks)
 
 

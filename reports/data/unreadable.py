@@ -10,7 +10,7 @@ class Unreadable(Exception):
     """A file that is not there, not what it is taken for, or damaged."""
 
 
-def told(error: BaseException) -> str:
+def one_line(error: BaseException) -> str:
     """An error in one line, with its kind where it says little itself."""
     return " ".join(f"{type(error).__name__}: {error}".split())
 
@@ -25,4 +25,4 @@ def reading(path: Path) -> Iterator[None]:
     except FileNotFoundError as error:
         raise Unreadable(f"{path}: there is no such file") from error
     except Exception as error:
-        raise Unreadable(f"{path}: {told(error)}") from error
+        raise Unreadable(f"{path}: {one_line(error)}") from error

@@ -36,7 +36,7 @@ def cheapest_of(studies: Iterable[Study]) -> Cheapest | None:
             rows = _rows(table)
             if rows and all(key in rows[0] for key in NEEDED):
                 unit = next(column.unit for column in table.columns if _name(column) == "error wanted")
-                return _arranged([row for row in rows if row["by"] == rows[0]["by"]], unit)
+                return _arrange([row for row in rows if row["by"] == rows[0]["by"]], unit)
     return None
 
 
@@ -49,7 +49,7 @@ def _name(column: Column) -> str:
     return column.name.replace("_", " ")
 
 
-def _arranged(rows: list[dict[str, object]], unit: str) -> Cheapest:
+def _arrange(rows: list[dict[str, object]], unit: str) -> Cheapest:
     errors = list(dict.fromkeys(float(row["error wanted"]) for row in rows))
     scenes = list(dict.fromkeys(str(row["scene"]) for row in rows))
     found = {(str(row["scene"]), float(row["error wanted"])): _choice(row) for row in rows}

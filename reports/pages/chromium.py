@@ -74,10 +74,10 @@ class Browser:
 
     def evaluate(self, expression: str) -> Any:
         """The value of an expression in the page; of a promise, what it comes to. Throws NoBrowser for what throws."""
-        said = self._call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
-        if "exceptionDetails" in said:
-            raise NoBrowser(f"{expression}: {said['exceptionDetails'].get('exception', {}).get('description', 'error')}")
-        return said["result"].get("value")
+        reply = self._call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        if "exceptionDetails" in reply:
+            raise NoBrowser(f"{expression}: {reply['exceptionDetails'].get('exception', {}).get('description', 'error')}")
+        return reply["result"].get("value")
 
     def press(self, key: str) -> None:
         """One key that writes one letter, as from a keyboard."""
@@ -92,11 +92,11 @@ class Browser:
         """The page on A4 paper with an outline; `head` and `foot` are HTML with a style of its own, repeated on every
         sheet."""
         inch = 1 / 25.4
-        said = self._call("Page.printToPDF", paperWidth=210 * inch, paperHeight=297 * inch, marginTop=18 * inch,
+        reply = self._call("Page.printToPDF", paperWidth=210 * inch, paperHeight=297 * inch, marginTop=18 * inch,
                           marginBottom=18 * inch, marginLeft=16 * inch, marginRight=16 * inch, printBackground=True,
                           displayHeaderFooter=True, headerTemplate=head, footerTemplate=foot, generateTaggedPDF=True,
                           generateDocumentOutline=True)
-        return b64decode(said["data"])
+        return b64decode(reply["data"])
 
     def close(self) -> None:
         """Ends the browser and removes its files."""
@@ -131,11 +131,11 @@ class Browser:
         except OSError as error:
             raise NoBrowser(f"{PACKAGE} ended: {error}") from error
         while True:
-            said = self._next(method)
-            if said.get("id") == self._last:
-                if "error" in said:
-                    raise NoBrowser(f"{PACKAGE} refuses {method}: {said['error'].get('message')}")
-                return said.get("result", {})
+            reply = self._next(method)
+            if reply.get("id") == self._last:
+                if "error" in reply:
+                    raise NoBrowser(f"{PACKAGE} refuses {method}: {reply['error'].get('message')}")
+                return reply.get("result", {})
 
     def _load(self, address: str) -> None:
         before = self._loads
@@ -153,19 +153,19 @@ class Browser:
             if not parts[-1]:
                 raise NoBrowser(f"{PACKAGE} gives no answer to {awaited}")
         text, _, self._unread = b"".join(parts).partition(b"\0")
-        said = json.loads(text)
-        self._note(said.get("method"), said.get("params", {}))
-        return said
+        reply = json.loads(text)
+        self._note(reply.get("method"), reply.get("params", {}))
+        return reply
 
-    def _note(self, event: str | None, said: dict[str, Any]) -> None:
+    def _note(self, event: str | None, reply: dict[str, Any]) -> None:
         if event == "Page.loadEventFired":
             self._loads += 1
         elif event == "Runtime.exceptionThrown":
-            details = said["exceptionDetails"]
+            details = reply["exceptionDetails"]
             self.complaints.append(details.get("exception", {}).get("description", details["text"]))
-        elif event == "Log.entryAdded" and said["entry"]["level"] == "error":
-            self.complaints.append(said["entry"]["text"])
-        elif event == "Runtime.consoleAPICalled" and said["type"] in ("error", "assert"):
-            self.complaints.append(" ".join(str(part.get("value", part.get("description"))) for part in said["args"]))
-        elif event == "Network.requestWillBeSent" and not said["request"]["url"].startswith("data:"):
-            self.requests.append(said["request"]["url"])
+        elif event == "Log.entryAdded" and reply["entry"]["level"] == "error":
+            self.complaints.append(reply["entry"]["text"])
+        elif event == "Runtime.consoleAPICalled" and reply["type"] in ("error", "assert"):
+            self.complaints.append(" ".join(str(part.get("value", part.get("description"))) for part in reply["args"]))
+        elif event == "Network.requestWillBeSent" and not reply["request"]["url"].startswith("data:"):
+            self.requests.append(reply["request"]["url"])

@@ -77,12 +77,12 @@ class Comparison:
 
 def compare(a: Side, b: Side) -> Comparison:
     """Compares findings, claims, studies and cases by name."""
-    both, only_a, only_b = _matched(a.findings(), b.findings())
+    both, only_a, only_b = _match(a.findings(), b.findings())
     changes = [Change(one, other, _factor_of(one, other)) for one, other in both]
     measured = [change for change in changes if not _same(change.a.measured, change.b.measured)
                 or not _same(change.a.bound, change.b.bound)]
-    rates, _, _ = _matched(a.rates(), b.rates())
-    claims, _, _ = _matched(a.run.claims, b.run.claims)
+    rates, _, _ = _match(a.rates(), b.rates())
+    claims, _, _ = _match(a.run.claims, b.run.claims)
     return Comparison(
         a, b, provenance=[(label, a.run.provenance.get(key, ""), b.run.provenance.get(key, "")) for label, key in PROVENANCE
                           if key in a.run.provenance or key in b.run.provenance],
@@ -111,7 +111,7 @@ def read_side(letter: str, given: Path) -> Side:
     return Side(letter, str(given), with_current_names(run), beside)
 
 
-def _matched(a: Iterable[Any], b: Iterable[Any]) -> tuple[list[tuple[Any, Any]], list[Any], list[Any]]:
+def _match(a: Iterable[Any], b: Iterable[Any]) -> tuple[list[tuple[Any, Any]], list[Any], list[Any]]:
     """What both have, by name, in B's order; what only A has; what only B has."""
     of_a, of_b = ({item.name: item for item in items} for items in (a, b))
     return ([(of_a[name], item) for name, item in of_b.items() if name in of_a],
@@ -141,25 +141,25 @@ def _by_factor(costs: Iterable[Cost]) -> list[Cost]:
     return sorted(costs, key=lambda cost: -_size(cost.factor))
 
 
-def _paired(what: str, unit: str, a: float, b: float) -> Cost:
+def _pair(what: str, unit: str, a: float, b: float) -> Cost:
     return Cost(what, unit, a, b, 1.0 if a == b else ratio_of(b, a))
 
 
 def _seconds(a: Side, b: Side) -> Iterable[Cost]:
     """Time of the whole run, of each study, of each case."""
     whole = [float(side.run.provenance.get("seconds", nan)) for side in (a, b)]
-    yield _paired("the whole run", "s", *whole)
+    yield _pair("the whole run", "s", *whole)
     for kind, items in (("study", lambda side: side.run.studies), ("case", lambda side: side.run.cases)):
-        for one, other in _matched(items(a), items(b))[0]:
+        for one, other in _match(items(a), items(b))[0]:
             if one.seconds == one.seconds and other.seconds == other.seconds:
-                yield _paired(f"{kind} {one.name}", "s", one.seconds, other.seconds)
+                yield _pair(f"{kind} {one.name}", "s", one.seconds, other.seconds)
 
 
 def _work(a: Side, b: Side) -> Iterable[Cost]:
     """Counted work: columns of studies that count it, added up; steps and iterations of cases."""
-    for one, other in _matched(a.run.studies, b.run.studies)[0]:
+    for one, other in _match(a.run.studies, b.run.studies)[0]:
         yield from _pairs(one.name, _work_of_study, one, other)
-    for one, other in _matched(a.run.cases, b.run.cases)[0]:
+    for one, other in _match(a.run.cases, b.run.cases)[0]:
         yield from _pairs(f"case {one.name}", _work_of_case, one, other)
 
 
@@ -167,7 +167,7 @@ def _pairs(name: str, count: Callable[[Any], dict[str, float]], one: Any, other:
     before, after = count(one), count(other)
     for what in before:
         if what in after:
-            yield _paired(f"{name}: {what}", "1", before[what], after[what])
+            yield _pair(f"{name}: {what}", "1", before[what], after[what])
 
 
 def _work_of_study(study: Study) -> dict[str, float]:

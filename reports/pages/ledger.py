@@ -38,10 +38,10 @@ def claim_views(claims: Iterable[Claim], findings: Iterable[Finding]) -> list[Cl
 
 def ruling_counts(views: Iterable[ClaimView]) -> list[tuple[str, int]]:
     """How many claims have each ruling; only those that occur."""
-    return counted_rulings(view.claim for view in views)
+    return count_rulings(view.claim for view in views)
 
 
-def counted_rulings(claims: Iterable[Claim]) -> list[tuple[str, int]]:
+def count_rulings(claims: Iterable[Claim]) -> list[tuple[str, int]]:
     """The same of claims themselves."""
     counted = Counter(claim.ruling for claim in claims)
     others = sorted(set(counted) - set(RULINGS))

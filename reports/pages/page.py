@@ -109,7 +109,7 @@ def render(page: Page) -> str:
     """The whole report as one HTML text."""
     environment = new_environment()
     environment.globals.update(
-        keys=figure_keys, notes=figure_notes, map_notes=map_notes, orders=order_table, table=shown_rows, groups=group_by_prefix,
+        keys=figure_keys, notes=figure_notes, map_notes=map_notes, orders=order_table, table=select_rows, groups=group_by_prefix,
         margin=margin_percent, plain=all_hold, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE,
         most_open=MOST_OPEN, viewer=Markup(_viewer()), rulings=ledger.ruling_counts, sections=ledger.by_section,
         cheapest=cheapest_of(view.study for view in page.studies),
@@ -141,7 +141,7 @@ def commands_of(page: Page) -> dict[str, str]:
 def render_comparison(comparison: Comparison) -> str:
     """The page of two runs as one HTML text."""
     environment = new_environment()
-    environment.globals.update(rulings=ledger.counted_rulings)
+    environment.globals.update(rulings=ledger.count_rulings)
     return environment.get_template("compare.html.j2").render(said=comparison)
 
 
@@ -242,7 +242,7 @@ class ShownTable:
     last: list[tuple[Markup, ...]]
 
 
-def shown_rows(columns: list[Column], most: int = WHOLE_TABLE) -> ShownTable:
+def select_rows(columns: list[Column], most: int = WHOLE_TABLE) -> ShownTable:
     """What is shown of a table, all of it up to `most` rows; vectors are set as one column for each component."""
     flat = [part for column in columns for part in _components(column)]
     count = max((len(column.values) for column in flat), default=0)

@@ -82,14 +82,14 @@ class Variants:
 def tolerances_of(findings: Iterable[Finding]) -> Tolerances:
     """All findings that were judged against a bound."""
     judged = [finding for finding in findings if finding.outcome in ("holds", "fails", "inconclusive")]
-    ranked = [Tolerance(finding, used) for finding in judged if isfinite(used := used_of(finding))]
+    ranked = [Tolerance(finding, used) for finding in judged if isfinite(used := used_share(finding))]
     ranked.sort(key=lambda entry: -entry.used)
     others = [finding for finding in judged if finding.bound <= 0]
     return Tolerances(ranked, [finding for finding in others if finding.bound == 0 and not finding.measured < 0],
                       [finding for finding in others if finding.bound < 0 or finding.measured < 0])
 
 
-def used_of(finding: Finding) -> float:
+def used_share(finding: Finding) -> float:
     """The part of the bound that is used; NaN where that says nothing."""
     if not finding.bound > 0:
         return float("nan")
@@ -102,10 +102,10 @@ def load_coverage(file: Path) -> Coverage | None:
     if not file.is_file():
         return None
     with reading(file):
-        told = json.loads(file.read_text(encoding="utf-8"))
-        files = [_covered(row["file"], row, _ranges(row["lines_missed"])) for row in told["files"] if row["lines"]]
+        content = json.loads(file.read_text(encoding="utf-8"))
+        files = [_coverage_of(row["file"], row, _ranges(row["lines_missed"])) for row in content["files"] if row["lines"]]
         files.sort(key=lambda row: row.lines_reached / max(row.lines, 1))
-        return Coverage(told["commit"], told["ran"], told["least"], _covered("all", told["total"], ""), files)
+        return Coverage(content["commit"], content["ran"], content["least"], _coverage_of("all", content["total"], ""), files)
 
 
 def load_variants(file: Path) -> Variants | None:
@@ -114,27 +114,27 @@ def load_variants(file: Path) -> Variants | None:
     if not file.is_file():
         return None
     with reading(file):
-        told = json.loads(file.read_text(encoding="utf-8"))
+        content = json.loads(file.read_text(encoding="utf-8"))
         runs = [VariantRun(row["variant"], " ".join(row["options"]), row["findings"],
-                           [alarm["name"] for alarm in row["false_alarms"]]) for row in told["runs"]]
-        return Variants(told.get("commit", "not recorded"), runs)
+                           [alarm["name"] for alarm in row["false_alarms"]]) for row in content["runs"]]
+        return Variants(content.get("commit", "not recorded"), runs)
 
 
-def unended_run(file: Path) -> str:
+def note_on_unfinished_run(file: Path) -> str:
     """What to say if the last run into this folder did not come to its end; "" if it did, or if there is no file.
     Throws Unreadable for another file."""
     if not file.is_file():
         return ""
     with reading(file):
-        told = json.loads(file.read_text(encoding="utf-8"))
-        waiting, begun = sum(finding["outcome"] == "did not run" for finding in told["findings"]), told["program"]["date"]
+        content = json.loads(file.read_text(encoding="utf-8"))
+        waiting, begun = sum(finding["outcome"] == "did not run" for finding in content["findings"]), content["program"]["date"]
     if not waiting:
         return ""
     return (f"The last run into this folder, begun {begun}, did not come to its end: {waiting} checks, studies "
             "and cases of it have no result. What is shown here is older.")
 
 
-def _covered(name: str, row: dict, missed: str) -> CoveredFile:
+def _coverage_of(name: str, row: dict, missed: str) -> CoveredFile:
     return CoveredFile(name, row["lines"], row["lines_reached"], row["branches"], row["branches_taken"], missed)
 
 

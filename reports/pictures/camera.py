@@ -124,13 +124,13 @@ def _elevation(normals: np.ndarray) -> float:
 def _azimuth(normals: np.ndarray, elevation: float) -> float:
     """Degrees: 28 to the side of the fullest view, on the side that shows more, and facing the cloth's
     front."""
-    def shown(azimuth: float) -> float:
+    def share_shown(azimuth: float) -> float:
         return float(np.abs(normals @ _axes(azimuth, elevation)[2]).sum())
 
-    seen = {azimuth: shown(azimuth) for azimuth in AZIMUTHS}
+    seen = {azimuth: share_shown(azimuth) for azimuth in AZIMUTHS}
     fullest = max(seen, key=lambda azimuth: seen[azimuth])
     if not max(seen.values()) > 1.15 * min(seen.values()):
         fullest = 0
-    azimuth = max((fullest + 28.0, fullest - 28.0), key=shown)
+    azimuth = max((fullest + 28.0, fullest - 28.0), key=share_shown)
     front = float((normals @ _axes(azimuth, elevation)[2]).sum())
-    return azimuth if front >= -1e-3 * shown(azimuth) else azimuth + 180.0
+    return azimuth if front >= -1e-3 * share_shown(azimuth) else azimuth + 180.0

@@ -12,7 +12,7 @@ from data.quantities import number_text
 from data.results import Case
 from pictures.camera import Camera
 from pictures.case_scene import CaseScene
-from pictures.cloth_picture import SAMPLES, finished, paint, webp_bytes
+from pictures.cloth_picture import SAMPLES, finish_pixels, paint, webp_bytes
 from plots.plot_style import INK, are_for_papers, finish, new_figure
 
 USUAL, WIDE = 5, 6                  # pictures in a row; wide ones are set in two lines of three
@@ -49,10 +49,10 @@ def make_pictures(case: Case, name: str, folder: Path) -> PictureRow | None:
     triangles."""
     if not len(case.frame_times) or not len(case.triangles):
         return None
-    chosen, scene = shown_frames(case)
+    chosen, scene = select_frames(case)
     camera = scene.camera
     painted = [paint(scene.cloth(frame), camera, scene.scenery(frame)) for frame in chosen]
-    drawn = [finished(samples) for samples in painted]
+    drawn = [finish_pixels(samples) for samples in painted]
     times = [float(case.frame_times[frame]) for frame in chosen]
     bar = nice_length(0.3 * camera.metres[0])
     if are_for_papers():
@@ -67,7 +67,7 @@ def make_pictures(case: Case, name: str, folder: Path) -> PictureRow | None:
                       portrait=picture_uri(portrait), portrait_size=(portrait.shape[1], portrait.shape[0]))
 
 
-def shown_frames(case: Case) -> tuple[list[int], CaseScene]:
+def select_frames(case: Case) -> tuple[list[int], CaseScene]:
     """The frames that stand in the row, and the scene whose camera holds them."""
     chosen = evenly_spaced(case.frame_times, USUAL)
     scene = CaseScene(case, chosen)
@@ -102,7 +102,7 @@ def _portrait_of(whole: list[bool]) -> int:
     return max((k for k in range(round(0.6 * (len(whole) - 1)) + 1) if whole[k]), default=0)
 
 
-def _cut(picture: np.ndarray) -> np.ndarray:
+def _trim(picture: np.ndarray) -> np.ndarray:
     """The picture without its empty margins."""
     lines, columns = (np.flatnonzero(picture[:, :, 3].any(axis=axis)) for axis in (1, 0))
     if not len(lines):
@@ -114,7 +114,7 @@ def _portrait(samples: np.ndarray) -> np.ndarray:
     """The picture cut to what is in it, PORTRAIT_HEIGHT pixels high or a little more."""
     lines = np.flatnonzero((samples[:, :, 3] > 0).any(axis=1))
     height = lines[-1] - lines[0] if len(lines) else len(samples)
-    return _cut(finished(samples, max(SAMPLES, height // PORTRAIT_HEIGHT)))
+    return _trim(finish_pixels(samples, max(SAMPLES, height // PORTRAIT_HEIGHT)))
 
 
 def picture_uri(picture: np.ndarray) -> str:

@@ -59,7 +59,7 @@ class CaseScene:
         return points[((points >= low - reach) & (points <= high + reach)).all(axis=1)]
 
 
-def slowed(seconds: float) -> float:
+def slowdown(seconds: float) -> float:
     """How many times slower than in truth a simulation of so many seconds is shown: 1, or so that it lasts SHORTEST."""
     if not seconds > 0 or seconds >= SHORTEST:
         return 1.0

@@ -14,7 +14,7 @@ from matplotlib import image
 from pictures.camera import Camera
 from pictures.look import MARK, SET_BACK, STUCK
 from pictures.raster import Raster, rasterise
-from pictures.shading import Surface, shaded
+from pictures.shading import Surface, shade
 
 SAMPLES = 2                                 # per pixel along each axis
 COARSE = 64                                 # triangles; up to here every triangle is shaded flat
@@ -44,7 +44,7 @@ class Scenery:
 
 def picture_of(cloth: Cloth, camera: Camera, scenery: Scenery | None = None) -> np.ndarray:
     """The picture, RGBA, height x width x 4, uint8."""
-    return finished(paint(cloth, camera, scenery))
+    return finish_pixels(paint(cloth, camera, scenery))
 
 
 def paint(cloth: Cloth, camera: Camera, scenery: Scenery | None = None) -> np.ndarray:
@@ -56,7 +56,7 @@ def paint(cloth: Cloth, camera: Camera, scenery: Scenery | None = None) -> np.nd
     raster = rasterise(points, nearness, surface.triangles, (height, width))
     seen = raster.seen >= 0
     colour = np.zeros((height, width, 4), dtype=np.float32)
-    light, cover = shaded(raster, surface, camera, SAMPLES)
+    light, cover = shade(raster, surface, camera, SAMPLES)
     for channel in range(3):
         colour[:, :, channel][seen] = light[channel]
     colour[:, :, 3][seen] = cover
@@ -66,7 +66,7 @@ def paint(cloth: Cloth, camera: Camera, scenery: Scenery | None = None) -> np.nd
     return colour
 
 
-def finished(colour: np.ndarray, size: int = SAMPLES) -> np.ndarray:
+def finish_pixels(colour: np.ndarray, size: int = SAMPLES) -> np.ndarray:
     """Averages size x size samples (weighted by coverage) to a pixel and turns linear light into 8-bit sRGB."""
     height, width = colour.shape[0] // size, colour.shape[1] // size
     weighted = colour[:height * size, :width * size].copy()

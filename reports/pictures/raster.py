@@ -103,16 +103,16 @@ def _fill(raster: Raster, points: np.ndarray, depth_planes: np.ndarray) -> None:
     cuts = np.searchsorted(ends, np.arange(PAIRS_AT_ONCE, ends[-1] if len(ends) else 0, PAIRS_AT_ONCE))
     for chunk in np.split(np.arange(len(planes)), cuts):
         owner = np.repeat(chunk, rows[chunk])
-        line = np.repeat(first[chunk], rows[chunk]) + _counted(rows[chunk])
+        line = np.repeat(first[chunk], rows[chunk]) + _count_up(rows[chunk])
         start, count = _spans(planes[owner], line + 0.5, shape[1])
         plane = depth_planes[owner]
         level = plane[:, 0] * (start + 0.5) + plane[:, 1] * (line + 0.5) + plane[:, 2]
-        along = _counted(count)
+        along = _count_up(count)
         near = np.repeat(level, count) + np.repeat(plane[:, 0], count) * along
         _keep_nearest(raster, np.repeat(line * shape[1] + start, count) + along, near, np.repeat(owner, count))
 
 
-def _counted(count: np.ndarray) -> np.ndarray:
+def _count_up(count: np.ndarray) -> np.ndarray:
     """0, 1, ... count - 1 of each, one after the other."""
     return np.arange(int(count.sum())) - np.repeat(np.cumsum(count) - count, count)
 

@@ -28,7 +28,7 @@ class Surface:
     colours: str                    # that colour bar
 
 
-def shaded(raster: Raster, surface: Surface, camera: Camera, samples_per_pixel: int) -> tuple[np.ndarray, np.ndarray]:
+def shade(raster: Raster, surface: Surface, camera: Camera, samples_per_pixel: int) -> tuple[np.ndarray, np.ndarray]:
     """Linear RGB, 3 x S, and coverage, S, of every sample that sees a triangle, in raster order."""
     seen = SeenSamples(raster)
     of_object = (raster.triangles[:, 0] >= surface.particles)[seen.owner]
@@ -41,7 +41,7 @@ def shaded(raster: Raster, surface: Surface, camera: Camera, samples_per_pixel: 
         codes = seen.at(np.concatenate([surface.codes, beyond]))
         colour = field_colours(np.clip(codes, 0.0, 1.0), surface.colours)
     thing = np.where(on_ground, GROUND[:, None], OBJECT[:, None]).astype(np.float32)
-    light, shine = _lights(normal, _reached(seen, surface, camera, normal))
+    light, shine = _lights(normal, _light_share(seen, surface, camera, normal))
     of_field = ~of_object & (surface.codes is not None)
     light = np.where(of_field, 0.40 + 0.52 * light, light)      # so that the colours of a field stay those of its bar
     colour = np.where(of_object, thing, colour) * light + np.where(of_field | on_ground, 0.0, shine)
@@ -81,7 +81,7 @@ def _toward(light: np.ndarray, normal: list[np.ndarray]) -> np.ndarray:
     return x * normal[0] + y * normal[1] + z * normal[2]
 
 
-def _reached(seen: SeenSamples, surface: Surface, camera: Camera, normal: list[np.ndarray]) -> np.ndarray:
+def _light_share(seen: SeenSamples, surface: Surface, camera: Camera, normal: list[np.ndarray]) -> np.ndarray:
     """From 0 to 1, S: how much of each sample the key light reaches. Ground casts no shadow."""
     casters = surface.triangles[~surface.ground[surface.triangles[:, 0]]]
     with np.errstate(invalid="ignore"):

@@ -114,7 +114,7 @@ def _width(lines: list[Line]) -> float:
 
 
 def _draw_lines(axes: Axes, time: np.ndarray, lines: list[Line], scale: str, factor: float) -> None:
-    drawn = [thinned(time, values / factor) for _, values, _, _ in lines]
+    drawn = [thin_out(time, values / factor) for _, values, _, _ in lines]
     everything = np.concatenate([values / factor for _, values, _, _ in lines])
     everything = everything[np.isfinite(everything) & ((everything > 0) | (scale != "log"))]
     if not len(everything):
@@ -149,9 +149,9 @@ def _set_y_limits(axes: Axes, values: np.ndarray, scale: str) -> None:
     if low == high == 0.0:
         axes.set_ylim(-0.1, 1.0)
         return
-    room = 0.06 * (high - low) if high - low > 1e-6 * max(abs(low), abs(high)) else 0.1 * abs(high) or 1.0
-    bottom = 0.0 if 0 <= low < 0.5 * high else low - room
-    axes.set_ylim(bottom, high + room)
+    margin = 0.06 * (high - low) if high - low > 1e-6 * max(abs(low), abs(high)) else 0.1 * abs(high) or 1.0
+    bottom = 0.0 if 0 <= low < 0.5 * high else low - margin
+    axes.set_ylim(bottom, high + margin)
 
 
 def _power_of_ten(values: list[np.ndarray], unit: str) -> tuple[float, str]:
@@ -174,7 +174,7 @@ class History:
     largest: np.ndarray
 
 
-def thinned(t: np.ndarray, y: np.ndarray) -> History:
+def thin_out(t: np.ndarray, y: np.ndarray) -> History:
     """The history as it is up to MOST_POINTS points, else summed up in that many stretches. NaN stays NaN."""
     if len(t) <= MOST_POINTS:
         return History(t, y, y, y)

@@ -23,7 +23,7 @@ def plot_contacts(case: Case, name: str, folder: Path) -> list[tuple[str, Plot]]
     every, rest = case.every_frame("object_distance"), case.rest_positions()
     if every is None or rest is None:
         return []
-    flat = laid_flat(rest)
+    flat = flatten_to_plane(rest)
     limit = 0.5 * _mean_edge(rest, case.triangles)
     near = (every < limit).sum(axis=1)
     if len(near) > 1:
@@ -38,7 +38,7 @@ def plot_contacts(case: Case, name: str, folder: Path) -> list[tuple[str, Plot]]
     return [(caption, _map(flat, triangles, np.nan_to_num(distances, posinf=1e300), limit, f"{name}-contacts", folder))]
 
 
-def laid_flat(rest: np.ndarray) -> np.ndarray | None:
+def flatten_to_plane(rest: np.ndarray) -> np.ndarray | None:
     """N x 2 [m]: a flat shape without the axis along which it is flat, a tube about an axis cut open and unrolled;
     None for others."""
     extents = np.ptp(rest, axis=0)

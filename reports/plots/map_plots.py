@@ -134,12 +134,12 @@ def _place_of_name(path: np.ndarray, names: list[np.ndarray], others: list[np.nd
     if not len(path):
         return None
     across, up = path.T
-    room = np.minimum(np.minimum(across, 1 - across) - 0.08, 1.5 * np.minimum(up, 1 - up))
+    clearance = np.minimum(np.minimum(across, 1 - across) - 0.08, 1.5 * np.minimum(up, 1 - up))
     obstacles = [name[None, :] for name in names] + [other for other in others if len(other)]
     for obstacle in obstacles:
         apart = path[:, None, :] - obstacle[None, :, :]
-        room = np.minimum(room, np.hypot(apart[:, :, 0], 2.0 * apart[:, :, 1]).min(axis=1))
-    return path[int(np.argmax(np.minimum(room, 0.3)))]
+        clearance = np.minimum(clearance, np.hypot(apart[:, :, 0], 2.0 * apart[:, :, 1]).min(axis=1))
+    return path[int(np.argmax(np.minimum(clearance, 0.3)))]
 
 
 def _path(axes: Axes, x: np.ndarray, y: np.ndarray) -> np.ndarray:

@@ -29,7 +29,7 @@ def diverged_x(curves: list[Curve]) -> np.ndarray:
     return np.concatenate([curve.x[has_mark(curve, "diverged")] for curve in curves])
 
 
-def clipped(curve: Curve, y: np.ndarray) -> np.ndarray:
+def clip_levels(curve: Curve, y: np.ndarray) -> np.ndarray:
     """Levels to draw: of marked runs, those that err less than the reference stand just below its floor."""
     return y if curve.marks is None or not curve.floor > 0 else np.maximum(y, CLIP * curve.floor)
 
@@ -41,7 +41,7 @@ def draw_strip(axes: Axes, curves: list[Curve], pens: list[Pen]) -> None:
     if not rows:
         return
     height = ROW * (len(rows) + 1)
-    _make_room(axes, height)
+    _add_headroom(axes, height)
     axes.add_patch(Rectangle((0, 1 - height), 1, height, transform=axes.transAxes, facecolor=BAND, edgecolor="none",
                              zorder=0.5))
     axes.plot([0, 1], [1 - height] * 2, transform=axes.transAxes, color=MUTED, linewidth=0.7, zorder=2)
@@ -53,7 +53,7 @@ def draw_strip(axes: Axes, curves: list[Curve], pens: list[Pen]) -> None:
                   scaley=False)
 
 
-def _make_room(axes: Axes, height: float) -> None:
+def _add_headroom(axes: Axes, height: float) -> None:
     """Raises the upper limit of y, so that what was shown fills the axes but for `height` of them, where no tick is
     named."""
     bottom, top = axes.get_ylim()

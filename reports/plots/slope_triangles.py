@@ -52,7 +52,7 @@ def draw_own_slopes(axes: Axes, shown: list[Points], pens: list[Pen], slopes: li
         if not np.isfinite(slope) or slope == 0:
             continue
         others = [points for k, points in enumerate(shown) if k != index and len(points[0]) > 1]
-        places = [(_room(axes, place, others, drawn), place) for place in _places(axes, [shown[index]], slope, gap)]
+        places = [(_clearance(axes, place, others, drawn), place) for place in _places(axes, [shown[index]], slope, gap)]
         if places:
             drawn.append(max(places, key=lambda one: one[0])[1])
             _draw(axes, drawn[-1], slope, gap)
@@ -81,22 +81,22 @@ def _places(axes: Axes, curves: list[Points], slope: float, gap: float) -> list[
     return places
 
 
-def _room(axes: Axes, place: Triangle, others: list[Points], drawn: list[Triangle]) -> float:
+def _clearance(axes: Axes, place: Triangle, others: list[Points], drawn: list[Triangle]) -> float:
     """Least distance up or down to other curves, triangles and the frame [decades]; negative where they meet."""
     at = np.linspace(place.start, place.start + place.width, 15)
     low, high = place.span(at)
     bottom, top = np.log10(axes.get_ylim())
-    room = min(low.min() - bottom, top - high.max())
+    clearance = min(low.min() - bottom, top - high.max())
     for x, y in others:
         order = np.argsort(x)
         level = np.interp(at, np.log10(x[order]), np.log10(y[order]), left=np.nan, right=np.nan)
         apart = np.fmax(level - high, low - level)[np.isfinite(level)]
-        room = min(room, apart.min(initial=np.inf))
+        clearance = min(clearance, apart.min(initial=np.inf))
     for other in drawn:
         if other.start < place.start + place.width and place.start < other.start + other.width:
             other_low, other_high = other.span(np.clip(at, other.start, other.start + other.width))
-            room = min(room, max(other_low.min() - high.max(), low.min() - other_high.max()))
-    return float(room)
+            clearance = min(clearance, max(other_low.min() - high.max(), low.min() - other_high.max()))
+    return float(clearance)
 
 
 def _envelope(shown: list[Points], start: float, stop: float, slope: float) -> tuple[float, float] | None:

@@ -13,7 +13,7 @@ from matplotlib.markers import MarkerStyle
 from data.results import Curve, StudyFigure
 from plots.plot_style import (BAND, COLOURS, INK, MARKERS, MUTED, PAPER, Pen, Plot, Points, finish, label_axes,
                               new_figure, say_in_the_middle, scale_axis, variable_of)
-from plots.point_marks import clipped, diverged_x, draw_strip, has_mark, is_marked
+from plots.point_marks import clip_levels, diverged_x, draw_strip, has_mark, is_marked
 from plots.slope_triangles import draw_common_slope, draw_own_slopes
 
 WIDTH, HEIGHT = 7.6, 4.0            # [inch]
@@ -122,7 +122,7 @@ def _is_drawable(curve: Curve, figure: StudyFigure) -> np.ndarray:
 
 def _drawable(curve: Curve, figure: StudyFigure) -> Points:
     good = _is_drawable(curve, figure)
-    return curve.x[good], clipped(curve, curve.y[good])
+    return curve.x[good], clip_levels(curve, curve.y[good])
 
 
 def _coincide(one: Curve, other: Curve) -> bool:
@@ -139,7 +139,7 @@ def _draw_curve(axes: Axes, figure: StudyFigure, curve: Curve, pen: Pen, layer: 
     """Line and markers. Where some runs of a figure are marked, hollow means that a solve did not finish."""
     good = np.flatnonzero(_is_drawable(curve, figure))
     order = good[np.argsort(curve.x[good], kind="stable")]
-    x, y = curve.x[order], clipped(curve, curve.y[order])
+    x, y = curve.x[order], clip_levels(curve, curve.y[order])
     axes.plot(x, y, color=pen.colour, linewidth=pen.width, zorder=3 + 0.01 * layer)
     if not pen.marker:
         return
@@ -158,12 +158,12 @@ def _set_limits(axes: Axes, figure: StudyFigure, shown: list[Points]) -> None:
                                 + ([diverged_x(figure.curves)] if part == 0 else []))
         low, high = values.min(), values.max()
         if scale == "log":
-            room = max(0.06 * np.log10(high / low), 0.06 if part == 0 else 0.15)
-            set_limits(low / 10 ** room, high * 10 ** room)
+            margin = max(0.06 * np.log10(high / low), 0.06 if part == 0 else 0.15)
+            set_limits(low / 10 ** margin, high * 10 ** margin)
             continue
-        room = 0.06 * (high - low) or 0.1 * abs(high) or 1.0
+        margin = 0.06 * (high - low) or 0.1 * abs(high) or 1.0
         from_zero = part == 1 and low >= 0 and low < 0.4 * high
-        set_limits(0.0 if from_zero else low - room, high + room)
+        set_limits(0.0 if from_zero else low - margin, high + margin)
 
 
 def _lowest(figure: StudyFigure) -> float:

@@ -31,17 +31,17 @@ def page_svg(text: str, name: str, description: str, variables: Mapping[str, str
     referred = dict.fromkeys(_REFERENCE.findall(text))
     names = _Names({old: f"plot-{name}-{k}" for k, old in enumerate(referred)}, variables)
     drawing = fromstring(text.encode("utf-8"))
-    inside = "".join(_written(child, names) for child in drawing)
+    inside = "".join(_write(child, names) for child in drawing)
     return Markup('<svg class="plot" role="img" aria-label="{}" viewBox="{}">{}</svg>').format(
         description, drawing.get("viewBox", ""), Markup(inside))
 
 
-def _written(element: Element, names: _Names) -> str:
+def _write(element: Element, names: _Names) -> str:
     """An element and all in it, as SVG; a group without attributes is what it holds."""
     tag = _local(element.tag)
     if tag in _LEFT_OUT:
         return ""
-    inside = _words(element.text) + "".join(_written(child, names) + _words(child.tail) for child in element)
+    inside = _words(element.text) + "".join(_write(child, names) + _words(child.tail) for child in element)
     attributes = "".join(_attribute(_local(key), value, names) for key, value in element.items())
     if tag in ("g", "defs") and not inside:
         return ""
@@ -70,9 +70,9 @@ def _attribute(key: str, value: str, names: _Names) -> str:
     elif key == "transform":
         value = _NO_TURN.sub("", value)
     elif key == "d":
-        value = _AROUND_A_LETTER.sub(r"\1", _FRACTION.sub(_rounded, value))
+        value = _AROUND_A_LETTER.sub(r"\1", _FRACTION.sub(_round, value))
     elif key in ("x", "y", "width", "height"):
-        value = _FRACTION.sub(_rounded, value)
+        value = _FRACTION.sub(_round, value)
     value = _REFERENCE.sub(lambda found: names.ids[found[0]], value) if "url(" in value else value
     return f' {key}="{escape(value)}"' if value else ""
 
@@ -83,6 +83,6 @@ def _style(value: str, names: _Names) -> str:
     return _FONT.sub(r"font-size: \1px", value).replace(": ", ":").replace("; ", ";")
 
 
-def _rounded(found: re.Match[str]) -> str:
+def _round(found: re.Match[str]) -> str:
     shorter = f"{float(found[0]):.{DECIMALS}f}".rstrip("0").rstrip(".")
     return "0" if shorter == "-0" else shorter

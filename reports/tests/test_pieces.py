@@ -9,8 +9,8 @@ import numpy as np
 
 from data.quantities import number_text, quantity_html, quantity_text, seconds_html, unit_text
 from data.results import Column, load_run
-from pages.page import margin_percent, shown_rows
-from plots.contact_maps import laid_flat
+from pages.page import margin_percent, select_rows
+from plots.contact_maps import flatten_to_plane
 from plots.map_plots import edges_of, map_notes
 from plots.study_plots import spread
 from tests.made_up_run import put_run
@@ -47,7 +47,7 @@ class Pieces(unittest.TestCase):
         self.assertEqual(map_notes(study_map), [])
 
     def test_long_tables_say_what_they_leave_out(self) -> None:
-        shown = shown_rows([Column("step", "1", np.arange(1001.0))])
+        shown = select_rows([Column("step", "1", np.arange(1001.0))])
         self.assertEqual(len(shown.first) + shown.left_out + len(shown.last), 1001)
 
     def test_margin_bar_says_nothing_about_nan(self) -> None:
@@ -67,10 +67,10 @@ class ContactMaps(unittest.TestCase):
     def test_a_tube_is_unrolled_and_a_flat_sheet_keeps_its_shape(self) -> None:
         angles, heights = np.meshgrid(np.linspace(-np.pi, np.pi, 25)[:-1], np.linspace(0.0, 0.5, 5))
         tube = np.column_stack([0.2 * np.cos(angles.ravel()), heights.ravel(), 0.2 * np.sin(angles.ravel())])
-        flat = laid_flat(tube)
+        flat = flatten_to_plane(tube)
         np.testing.assert_allclose(np.ptp(flat, axis=0), [0.2 * 2 * np.pi * 23 / 24, 0.5])
         sheet = np.column_stack([angles.ravel(), heights.ravel(), np.full(angles.size, 0.3)])
-        np.testing.assert_array_equal(laid_flat(sheet), sheet[:, :2])
+        np.testing.assert_array_equal(flatten_to_plane(sheet), sheet[:, :2])
 
     def test_a_shape_that_cannot_be_laid_flat_has_no_map(self) -> None:
-        self.assertIsNone(laid_flat(np.random.default_rng(5).normal(size=(50, 3))))
+        self.assertIsNone(flatten_to_plane(np.random.default_rng(5).normal(size=(50, 3))))

@@ -75,7 +75,7 @@ class ResultsInNumpy(unittest.TestCase):
             file["frames/velocities"] = 2 * file["frames/positions"][:]
         np.testing.assert_array_equal(load_trajectory(path).velocities, 2 * sheet.positions)
 
-    def refused(self, load: Callable[[Path], object], name: str, why: str) -> None:
+    def assert_rejected(self, load: Callable[[Path], object], name: str, why: str) -> None:
         """The file must be refused, in words that name it and say why."""
         with self.assertRaises(Unreadable) as raised:
             load(self.root / "results" / name)
@@ -88,23 +88,23 @@ class ResultsInNumpy(unittest.TestCase):
         with h5py.File(root / "other.h5", "w") as file:
             file["frames/time"] = [0.0]
         for load in (load_results, load_trajectory):
-            self.refused(load, "nowhere.h5", "there is no such file")
-            self.refused(load, "text.h5", "no HDF5 file")
-        self.refused(load_results, "other.h5", "no run of foldproof")
-        self.refused(load_results, "fold.h5", "no run of foldproof")
-        self.refused(load_trajectory, "other.h5", "no simulation of foldproof")
-        self.refused(load_trajectory, "run.h5", "no simulation of foldproof")
+            self.assert_rejected(load, "nowhere.h5", "there is no such file")
+            self.assert_rejected(load, "text.h5", "no HDF5 file")
+        self.assert_rejected(load_results, "other.h5", "no run of foldproof")
+        self.assert_rejected(load_results, "fold.h5", "no run of foldproof")
+        self.assert_rejected(load_trajectory, "other.h5", "no simulation of foldproof")
+        self.assert_rejected(load_trajectory, "run.h5", "no simulation of foldproof")
         with self.assertRaisesRegex(KeyError, "no case 'cape' in this run; it has: fold, gone"):
             load_results(root).trajectory("cape")
 
     def test_numbers_that_do_not_fit_together_are_refused(self) -> None:
         with h5py.File(self.root / "results" / "fold.h5", "r+") as file:
             file["mesh/triangles"][0] = [0, 1, 4]
-        self.refused(load_trajectory, "fold.h5", "names a particle")
+        self.assert_rejected(load_trajectory, "fold.h5", "names a particle")
         with h5py.File(self.root / "results" / "fold.h5", "r+") as file:
             del file["frames/time"]
             file["frames/time"] = np.arange(5.0)
-        self.refused(load_trajectory, "fold.h5", "5 frames of 4 particles")
+        self.assert_rejected(load_trajectory, "fold.h5", "5 frames of 4 particles")
 
 
 class VerdictsSchema(unittest.TestCase):

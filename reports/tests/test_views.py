@@ -26,7 +26,7 @@ from make_report import make_report  # noqa: E402
 from pages.chromium import Browser  # noqa: E402
 from pictures.camera import choose_camera  # noqa: E402
 from pictures.case_fields import fields_of, most_telling  # noqa: E402
-from pictures.case_scene import CaseScene, slowed  # noqa: E402
+from pictures.case_scene import CaseScene, slowdown  # noqa: E402
 from pictures.cloth_picture import Cloth, Scenery, picture_of, webp_bytes  # noqa: E402
 from pictures.look import BACK, FRONT  # noqa: E402
 from plots.angle_spectrum import folded_beyond, plot_angle_spectrum  # noqa: E402
@@ -102,7 +102,7 @@ class Pictures(unittest.TestCase):
         self.assertEqual((scenery.x.shape, scenery.ground.any()), ((7, 3), False))
 
     def test_short_films_are_slowed_by_a_plain_number(self) -> None:
-        self.assertEqual([slowed(seconds) for seconds in (3.0, 0.3, 0.012, 0.0)], [1.0, 2.0, 50.0, 1.0])
+        self.assertEqual([slowdown(seconds) for seconds in (3.0, 0.3, 0.012, 0.0)], [1.0, 2.0, 50.0, 1.0])
 
 
 class Fields(WithCase):

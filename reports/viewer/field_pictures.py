@@ -13,7 +13,7 @@ from data.cloth_values import edges_of
 from data.quantities import number_text, unit_text
 from data.results import Case
 from pictures.case_fields import Field, fields_of, most_telling
-from pictures.case_pictures import picture_uri, shown_frames
+from pictures.case_pictures import picture_uri, select_frames
 from pictures.cloth_picture import picture_of
 from pictures.look import field_colours
 from plots.plot_style import INK, are_for_papers, finish, new_figure, with_unit
@@ -44,7 +44,7 @@ def make_field_view(case: Case, name: str, folder: Path, most: int) -> FieldView
     frames = frames_to_turn(case)
     if not frames:
         return None
-    chosen, scene = shown_frames(case)
+    chosen, scene = select_frames(case)
     fields = fields_of(case, frames)
     rows = [row for row, frame in enumerate(frames) if frame in chosen] or [0]
     field, row = most_telling(fields, rows, edges_of(case.triangles)) or (None, rows[len(rows) // 2])

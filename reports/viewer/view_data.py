@@ -18,7 +18,7 @@ from data.quantities import unit_text
 from data.results import Case
 from pictures.camera import frames_that_set_the_scale, upright_axes
 from pictures.case_fields import Field
-from pictures.case_scene import ENDLESS, CaseScene, slowed
+from pictures.case_scene import ENDLESS, CaseScene, slowdown
 from pictures.look import BACK, FILL_LIGHT, FRONT, GROUND, GROUND_FADES, MARK, OBJECT, SET_BACK, STUCK, colour_stops
 from pictures.shading import world_light
 from plots.plot_style import level_text
@@ -53,7 +53,7 @@ def make_view(scene: CaseScene, frames: list[int], fields: list[Field], most: in
     text were longer than `most` characters. None if it still were."""
     for stride in range(1, max(2, len(frames) // LEAST_FRAMES + 1)):
         rows = list(range(0, len(frames), stride))
-        packed, error = _packed(scene, [frames[row] for row in rows], fields, rows)
+        packed, error = _pack(scene, [frames[row] for row in rows], fields, rows)
         text = b64encode(packed).decode("ascii")
         if len(text) <= most:
             times = len(scene.case.frame_times)
@@ -61,7 +61,7 @@ def make_view(scene: CaseScene, frames: list[int], fields: list[Field], most: in
     return None
 
 
-def _packed(scene: CaseScene, frames: list[int], fields: list[Field], rows: list[int]) -> tuple[bytes, float]:
+def _pack(scene: CaseScene, frames: list[int], fields: list[Field], rows: list[int]) -> tuple[bytes, float]:
     case = scene.case
     x = case.every_frame("positions")[frames]
     box, codes, error = _in_box(x)
@@ -74,7 +74,7 @@ def _packed(scene: CaseScene, frames: list[int], fields: list[Field], rows: list
         objects.append(_object(part, k, frames, arrays))
     times = case.frame_times[frames]
     header = {"times": times.tolist(), "particles": len(case.held), "box": box, "objects": objects, "look": _look(scene),
-              "slowed": slowed(float(times[-1] - times[0])), "fields": [_field(field) for field in fields],
+              "slowed": slowdown(float(times[-1] - times[0])), "fields": [_field(field) for field in fields],
               "maps": {name: colour_stops(name).tolist() for name in sorted({field.colours for field in fields})},
               "arrays": [about for about, _ in arrays]}
     told = json.dumps(header, separators=(",", ":")).encode("ascii")

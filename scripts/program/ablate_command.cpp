@@ -14,7 +14,7 @@
 #include "convergence/any_case/ablation.h"
 #include "convergence/any_case/coarser_mesh.h"
 #include "convergence/any_case/finer_scene.h"
-#include "reference/bodies/makers.h"
+#include "reference/bodies/level_set_provider.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/json_text.h"
@@ -22,7 +22,7 @@
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
-#include "verification/files/whole_file.h"
+#include "verification/files/atomic_file.h"
 
 namespace foldproof {
 
@@ -30,39 +30,39 @@ namespace {
 
 /// A case and all runs that are asked of it.
 struct Ablation {
-  Case shown;
-  LevelSetMakers level_sets;    // of all its runs; each is made once
+  Case input_case;
+  LevelSetProvider level_sets;    // of all its runs; each is made once
   std::optional<Case> coarser;  // with the coarser mesh that it names
   std::vector<ScenePart> parts;
-  RunObserved scene, half_steps, other_mesh;
-  std::vector<RunObserved> toggled;  // one a part
+  ObservedRun scene, half_steps, other_mesh;
+  std::vector<ObservedRun> toggled;  // one a part
   size_t runs_left = 0;
-  OwnError own;
-  std::vector<PartJudged> judged;
+  DiscretisationError error;
+  std::vector<JudgedPart> judged_parts;
 };
 
 /// How much of the case's run is asked [s].
-double asked_end(const Case& shown) {
-  const double whole = shown.scene.schedule.end;
-  return shown.ablated_until > 0 ? std::min(whole, shown.ablated_until) : whole;
+double ablation_end(const Case& input_case) {
+  const double whole = input_case.scene.schedule.end;
+  return input_case.ablated_until > 0 ? std::min(whole, input_case.ablated_until) : whole;
 }
 
-Ablation planned(const std::string& file, const Options& options, const LevelSetMakers& level_sets) {
+Ablation plan_ablation(const std::string& file, const Options& options, const LevelSetProvider& level_sets) {
   Ablation plan{read_case(file, options.overrides), level_sets, {}, {}, {}, {}, {}, {}, 0, {}, {}};
-  const Case& shown = plan.shown;
-  build(shown.scene, level_sets);  // refuses now what cannot be built; its level sets serve every run
-  plan.parts = parts_of(shown.scene);
-  refuse_unknown_parts(shown, plan.parts);
+  const Case& input_case = plan.input_case;
+  build(input_case.scene, level_sets);  // refuses now what cannot be built; its level sets serve every run
+  plan.parts = parts_of(input_case.scene);
+  reject_unknown_parts(input_case, plan.parts);
   plan.toggled.resize(plan.parts.size());
-  plan.other_mesh.stopped = declared_for(shown, finer_mesh);
-  if (shown.coarser_mesh.empty()) return plan;
+  plan.other_mesh.stopped = declared_reason(input_case, finer_mesh);
+  if (input_case.coarser_mesh.empty()) return plan;
   if (!plan.other_mesh.stopped.empty())
     throw InputError(file + ": [ablation] does without a finer mesh, and names a coarser one");
   std::vector<std::string> overrides = options.overrides;
-  overrides.insert(overrides.end(), shown.coarser_mesh.begin(), shown.coarser_mesh.end());
+  overrides.insert(overrides.end(), input_case.coarser_mesh.begin(), input_case.coarser_mesh.end());
   plan.coarser = read_case(file, overrides);
   try {
-    coarseness(shown.scene.mesh, plan.coarser->scene.mesh);
+    coarseness(input_case.scene.mesh, plan.coarser->scene.mesh);
   } catch (const InputError& error) {
     throw InputError(
         fmt::format("{}: [ablation] coarser_mesh: {}, or --set 'ablation.coarser_mesh=\"\"' for a finer one",
@@ -74,17 +74,17 @@ Ablation planned(const std::string& file, const Options& options, const LevelSet
 /// What is done when a run is over; by one thread at a time.
 using AfterRun = std::function<void(Ablation&)>;
 
-/// The run of `shown`, which `one` asks for and finds in `into`.
-Job job_of(Ablation& one, double length, const Case& shown, std::function<Scene(const Scene&)> change,
-           RunObserved& into, const AfterRun& after) {
+/// The run of `input_case`, which `one` asks for and finds in `into`.
+Job job_of(Ablation& one, double length, const Case& input_case, std::function<Scene(const Scene&)> change,
+           ObservedRun& into, const AfterRun& after) {
   ++one.runs_left;
-  return {one.shown.scene.name, length,
-          [&one, &shown, change = std::move(change), &into, after](const Progress&) {
-            const int particles = shown.scene.mesh.particles();
+  return {one.input_case.scene.name, length,
+          [&one, &input_case, change = std::move(change), &into, after](const Progress&) {
+            const int particles = input_case.scene.mesh.particles();
             try {
-              Scene scene = change(shown.scene);
-              scene.schedule.end = asked_end(shown);
-              into = observed(with_scene(shown, std::move(scene)), one.level_sets, particles);
+              Scene scene = change(input_case.scene);
+              scene.schedule.end = ablation_end(input_case);
+              into = observe_run(with_scene(input_case, std::move(scene)), one.level_sets, particles);
             } catch (const std::exception& error) {
               into.stopped = error.what();
             }
@@ -98,16 +98,16 @@ std::vector<Job> jobs_of(std::vector<Ablation>& all, const AfterRun& after) {
   const auto as_it_is = [](const Scene& s) { return s; };
   std::vector<Job> jobs;
   for (Ablation& one : all) {
-    const Case& shown = one.shown;
+    const Case& input_case = one.input_case;
     const size_t earlier = jobs.size();
-    jobs.push_back(job_of(one, 1, shown, as_it_is, one.scene, after));
-    jobs.push_back(job_of(one, 2, shown, with_half_steps, one.half_steps, after));
+    jobs.push_back(job_of(one, 1, input_case, as_it_is, one.scene, after));
+    jobs.push_back(job_of(one, 2, input_case, with_half_steps, one.half_steps, after));
     if (one.coarser)
       jobs.push_back(job_of(one, 0.2, *one.coarser, as_it_is, one.other_mesh, after));
     else if (one.other_mesh.stopped.empty())
-      jobs.push_back(job_of(one, 10, shown, with_finer_mesh, one.other_mesh, after));
+      jobs.push_back(job_of(one, 10, input_case, with_finer_mesh, one.other_mesh, after));
     for (size_t k = 0; k < one.parts.size(); ++k)
-      jobs.push_back(job_of(one, 1.1, shown, one.parts[k].toggled, one.toggled[k], after));
+      jobs.push_back(job_of(one, 1.1, input_case, one.parts[k].toggled, one.toggled[k], after));
     for (size_t k = earlier; k < jobs.size(); ++k) jobs[k].group = int(&one - all.data());
   }
   return jobs;
@@ -117,28 +117,28 @@ double extent_of(const PerParticle3& x) {
   return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
 }
 
-OwnError own_error(const Ablation& one, const PerParticle& mass) {
-  const TriangleMesh& mesh = one.shown.scene.mesh;
-  OwnError own{nan, nan, 1e-6 * extent_of(mesh.rest)};
-  if (one.half_steps.stopped.empty()) own.time = position_difference(one.scene, one.half_steps, mass);
+DiscretisationError own_error(const Ablation& one, const PerParticle& mass) {
+  const TriangleMesh& mesh = one.input_case.scene.mesh;
+  DiscretisationError error{nan, nan, 1e-6 * extent_of(mesh.rest)};
+  if (one.half_steps.stopped.empty()) error.time = position_difference(one.scene, one.half_steps, mass);
   if (one.other_mesh.stopped.empty())
-    own.mesh = one.coarser ? error_from_coarser(one.scene, mesh, one.other_mesh, one.coarser->scene.mesh)
+    error.mesh = one.coarser ? error_from_coarser(one.scene, mesh, one.other_mesh, one.coarser->scene.mesh)
                            : position_difference(one.scene, one.other_mesh, mass);
-  return own;
+  return error;
 }
 
 /// Positions of all frames of all runs are half a gigabyte of a large case.
 void forget_positions(Ablation& one) {
-  for (RunObserved* run : {&one.scene, &one.half_steps, &one.other_mesh}) run->x = {};
-  for (PartJudged& part : one.judged) part.run.x = {};
+  for (ObservedRun* run : {&one.scene, &one.half_steps, &one.other_mesh}) run->x = {};
+  for (JudgedPart& part : one.judged_parts) part.run.x = {};
 }
 
 void judge(Ablation& one) {
-  const PerParticle mass = lumped_masses(one.shown.scene.mesh, one.shown.scene.density);
-  one.own = own_error(one, mass);
+  const PerParticle mass = lumped_masses(one.input_case.scene.mesh, one.input_case.scene.density);
+  one.error = own_error(one, mass);
   for (size_t k = 0; k < one.parts.size(); ++k) {
-    one.judged.push_back(judged(one.parts[k], one.scene, std::move(one.toggled[k]), one.own, mass));
-    one.judged.back().declared = declared_for(one.shown, one.parts[k].name);
+    one.judged_parts.push_back(judge_part(one.parts[k], one.scene, std::move(one.toggled[k]), one.error, mass));
+    one.judged_parts.back().declared = declared_reason(one.input_case, one.parts[k].name);
   }
   forget_positions(one);
 }
@@ -146,11 +146,11 @@ void judge(Ablation& one) {
 /// Why nothing can be said of the scene's parts: its own run is not what its author wants; "" if it is.
 std::string wrong_by_itself(const Ablation& one) {
   if (!one.scene.stopped.empty()) return "the scene itself does not come to its end: " + one.scene.stopped;
-  if (one.scene.failed.empty()) return "";
-  return fmt::format("expectations of the scene itself fail: {}", fmt::join(one.scene.failed, ", "));
+  if (one.scene.failed_keys.empty()) return "";
+  return fmt::format("expectations of the scene itself fail: {}", fmt::join(one.scene.failed_keys, ", "));
 }
 
-nlohmann::json told(const RunObserved& run) {
+nlohmann::json to_json(const ObservedRun& run) {
   const Work& work = run.work;
   return {{"seconds", run.seconds},
           {"steps", run.steps},
@@ -162,45 +162,45 @@ nlohmann::json told(const RunObserved& run) {
           {"deepest", run.deepest},
           {"crossings", run.crossings},
           {"stopped", run.stopped},
-          {"failed", run.failed}};
+          {"failed", run.failed_keys}};
 }
 
-nlohmann::json told(const Ablation& one, const std::vector<std::string>& overrides) {
+nlohmann::json to_json(const Ablation& one, const std::vector<std::string>& overrides) {
   nlohmann::json parts = nlohmann::json::array();
-  for (const PartJudged& part : one.judged)
+  for (const JudgedPart& part : one.judged_parts)
     parts.push_back({{"name", part.name},
                      {"present", part.is_present},
                      {"need", std::string(name_of(part.need))},
-                     {"because", part.because},
+                     {"because", part.reason},
                      {"declared", part.declared},
-                     {"as_it_should_be", part.is_as_it_should_be()},
+                     {"as_it_should_be", part.is_justified()},
                      {"position_difference", part.position_difference},
                      {"energy_difference", part.energy_difference},
-                     {"run", told(part.run)}});
-  return {{"case", one.shown.scene.name},
+                     {"run", to_json(part.run)}});
+  return {{"case", one.input_case.scene.name},
           {"overrides", overrides},
-          {"asked_end", asked_end(one.shown)},
-          {"end", one.shown.scene.schedule.end},
+          {"asked_end", ablation_end(one.input_case)},
+          {"end", one.input_case.scene.schedule.end},
           {"wrong", wrong_by_itself(one)},
-          {"size", extent_of(one.shown.scene.mesh.rest)},
+          {"size", extent_of(one.input_case.scene.mesh.rest)},
           {"own_error",
-           {{"time", one.own.time},
-            {"mesh", one.own.mesh},
-            {"floor", one.own.floor},
-            {"value", one.own.value()},
+           {{"time", one.error.time},
+            {"mesh", one.error.mesh},
+            {"floor", one.error.floor},
+            {"value", one.error.value()},
             {"without_time", one.half_steps.stopped},
             {"without_mesh", one.other_mesh.stopped},
-            {"coarser_mesh", one.shown.coarser_mesh}}},
-          {"run", told(one.scene)},
+            {"coarser_mesh", one.input_case.coarser_mesh}}},
+          {"run", to_json(one.scene)},
           {"parts", std::move(parts)}};
 }
 
 /// All cases whose runs are over.
-nlohmann::json told(const std::vector<Ablation>& all, const Options& options) {
+nlohmann::json to_json(const std::vector<Ablation>& all, const Options& options) {
   const Provenance p = provenance(options.command);
   nlohmann::json cases = nlohmann::json::array();
   for (const Ablation& one : all)
-    if (one.runs_left == 0) cases.push_back(told(one, options.overrides));
+    if (one.runs_left == 0) cases.push_back(to_json(one, options.overrides));
   return {{"schema", 1},
           {"program",
            {{"version", p.version},
@@ -220,10 +220,10 @@ nlohmann::json with_others_of(const std::string& path, nlohmann::json found) {
     std::ifstream file(path);
     const nlohmann::json before = nlohmann::json::parse(file);
     if (before.at("program").at("identity") != found["program"]["identity"]) return found;
-    std::set<std::string> asked;
-    for (const nlohmann::json& row : found["cases"]) asked.insert(row["case"]);
+    std::set<std::string> expected_keys;
+    for (const nlohmann::json& row : found["cases"]) expected_keys.insert(row["case"]);
     for (const nlohmann::json& row : before.at("cases"))
-      if (!asked.count(row.at("case"))) found["cases"].push_back(row);
+      if (!expected_keys.count(row.at("case"))) found["cases"].push_back(row);
   } catch (const nlohmann::json::exception&) {  // no file of ours: it is replaced
   }
   return found;
@@ -234,45 +234,45 @@ std::string error_text(double error, const std::string& why_unknown) {
 }
 
 void print(const Ablation& one) {
-  const double whole = one.shown.scene.schedule.end, asked = asked_end(one.shown);
-  const std::string first = asked < whole ? fmt::format(" (its first {:g} s of {:g})", asked, whole) : "";
-  fmt::print("{}{}: {:.2f} s; own error {:.2g} m (half the step {}; {} {})\n", one.shown.scene.name, first,
-             one.scene.seconds, one.own.value(), error_text(one.own.time, one.half_steps.stopped),
-             one.coarser ? fmt::format("from a coarser mesh, {},", fmt::join(one.shown.coarser_mesh, ", "))
+  const double whole = one.input_case.scene.schedule.end, expected_keys = ablation_end(one.input_case);
+  const std::string first = expected_keys < whole ? fmt::format(" (its first {:g} s of {:g})", expected_keys, whole) : "";
+  fmt::print("{}{}: {:.2f} s; own error {:.2g} m (half the step {}; {} {})\n", one.input_case.scene.name, first,
+             one.scene.seconds, one.error.value(), error_text(one.error.time, one.half_steps.stopped),
+             one.coarser ? fmt::format("from a coarser mesh, {},", fmt::join(one.input_case.coarser_mesh, ", "))
                          : "finer mesh",
-             error_text(one.own.mesh, one.other_mesh.stopped));
+             error_text(one.error.mesh, one.other_mesh.stopped));
   if (const std::string wrong = wrong_by_itself(one); !wrong.empty()) fmt::print("! {}\n", wrong);
-  for (const PartJudged& part : one.judged) {
-    fmt::print("{} {:<16} {:<30} {:5.0f} % of the time; {}\n", part.is_as_it_should_be() ? ' ' : '!',
+  for (const JudgedPart& part : one.judged_parts) {
+    fmt::print("{} {:<16} {:<30} {:5.0f} % of the time; {}\n", part.is_justified() ? ' ' : '!',
                name_of(part.need), (part.is_present ? "" : "with ") + part.name,
-               100 * part.run.seconds / one.scene.seconds, part.because);
+               100 * part.run.seconds / one.scene.seconds, part.reason);
     if (!part.declared.empty()) fmt::print("{:>20} {}\n", "declared:", part.declared);
   }
 }
 
-std::vector<Ablation> asked_of(const Options& options) {
+std::vector<Ablation> ablations_of(const Options& options) {
   std::vector<Ablation> all;
-  const LevelSetMakers level_sets = remembering(makers_of(options.cache));
+  const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
   std::vector<std::string> files = options.names;
   if (files.empty())
     for (const std::string& name : built_in_cases(tier_of(options)))
       files.push_back(shipped_case_file(name));
-  for (const std::string& file : files) all.push_back(planned(case_file(file), options, level_sets));
+  for (const std::string& file : files) all.push_back(plan_ablation(case_file(file), options, level_sets));
   return all;
 }
 
 /// Writes what is found so far: a run of hours that is cut off leaves the cases that it was through with.
 void write(const std::vector<Ablation>& all, const Options& options) {
   const std::string path = options.out + "/ablation.json";
-  write_text(path, json_text(with_others_of(path, told(all, options))) + "\n");
+  write_text(path, json_text(with_others_of(path, to_json(all, options))) + "\n");
 }
 
 }  // namespace
 
 int ablate(const Options& options) {
-  std::vector<Ablation> all = asked_of(options);
+  std::vector<Ablation> all = ablations_of(options);
   const OutFolder folder(options.out);
-  refuse_unless_replaceable(options.out + "/ablation.json");
+  require_replaceable(options.out + "/ablation.json");
   std::mutex one_at_a_time;
   const AfterRun after = [&](Ablation& one) {
     const std::lock_guard lock(one_at_a_time);
@@ -289,9 +289,9 @@ int ablate(const Options& options) {
   bool is_minimal = run.records.empty();  // which tell of runs that could not be judged
   for (const Ablation& one : all) {
     is_minimal &= wrong_by_itself(one).empty();
-    for (const PartJudged& part : one.judged) is_minimal &= part.is_as_it_should_be();
+    for (const JudgedPart& part : one.judged_parts) is_minimal &= part.is_justified();
   }
-  if (options.json) fmt::print("{}\n", json_text(told(all, options)));
+  if (options.json) fmt::print("{}\n", json_text(to_json(all, options)));
   for (const Ablation& one : all)
     if (!options.json && one.runs_left == 0) print(one);
   return is_minimal ? all_hold : some_fail;

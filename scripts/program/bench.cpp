@@ -29,7 +29,8 @@ struct Load {
 
 Load make_load(int cells) {
   constexpr double damping_ratio = 0.1, density = 0.2, young = 60, bending_stiffness = 3e-5;
-  Load load{scene_of(make_sheet({SheetPattern::alternating, 1, 1, cells, cells, 0, 1}), density), {}, {}, 0};
+  Load load{
+      scene_at_rest(make_sheet({SheetPattern::alternating, 1, 1, cells, cells, 0, 1}), density), {}, {}, 0};
   Scene& scene = load.scene;
   scene.stretch = StretchMaterial{young, 0, 1};
   scene.bending = BendingMaterial{bending_stiffness, 0, Weighting::rest, DampingFactor::edge, "sine"};

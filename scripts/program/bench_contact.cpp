@@ -30,7 +30,7 @@ OctreeSolid statue() {
 /// Lets each particle of a level sheet sink from above until it is within `near` [m] of the object, or back
 /// where it was.
 void drape(const Object& object, double near, PerParticle3& x) {
-  ObjectsDuring still({&object, 1}, {0, 0, 0});
+  ObjectsOverSpan still({&object, 1}, {0, 0, 0});
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     Vector3 p = x.col(i) + Vector3(0, 0, 1);
     for (double phi = 1; phi > near && p.z() > x(2, i);) {

@@ -26,7 +26,7 @@ Scene stack() {
     for (const Triangle& t : one.triangles)
       triangles.push_back({int(k * n) + t[0], int(k * n) + t[1], int(k * n) + t[2]});
   }
-  Scene scene = scene_of(make_triangle_mesh(std::move(rest), std::move(triangles)), 0.2);
+  Scene scene = scene_at_rest(make_triangle_mesh(std::move(rest), std::move(triangles)), 0.2);
   scene.gravity = Vector3(0, 0, -9.81);
   scene.stretch = StretchMaterial{20, 0.02, 1};
   scene.bending = BendingMaterial{};
@@ -34,7 +34,7 @@ Scene stack() {
   scene.bending->damping = 1e-6;
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   scene.self_collision = SelfCollisionSettings{0.002, 5, 0.3, 8, true};
-  for (int i = 0; i < int(n); ++i) scene.led.push_back({i, scene.x.col(i), Motion{}});
+  for (int i = 0; i < int(n); ++i) scene.prescribed.push_back({i, scene.x.col(i), Motion{}});
   return scene;
 }
 

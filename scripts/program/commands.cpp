@@ -9,7 +9,7 @@
 
 #include "convergence/studies.h"
 #include "reference/dynamics/integrator.h"
-#include "reference/bodies/makers.h"
+#include "reference/bodies/level_set_provider.h"
 #include "scripts/program/bench.h"
 #include "scripts/program/data_folder.h"
 #include "scripts/program/command_line/input_files.h"
@@ -45,7 +45,7 @@ RunRecord new_run(const Options& options) {
   const Subject subject = reference_subject();
   seed_shift = options.seed_shift;
   run.seed = options.seed_shift;
-  if (seed_shift > 0) say(fmt::format("the seeds of all samples are shifted by {}", seed_shift));
+  if (seed_shift > 0) log_line(fmt::format("the seeds of all samples are shifted by {}", seed_shift));
   run.subject = subject.name;
   run.subject_version = subject.version;
   return run;
@@ -69,9 +69,9 @@ int conclude(RunRecord& run, const Options& options, const std::string& file) {
 std::vector<std::string> names_of_case_findings() {
   std::vector<std::string> names;
   for (const std::string& name : built_in_cases(Tier::full)) {
-    const Case shown = built_in_case(name);
-    for (const Expectation& expectation : shown.expectations)
-      names.push_back(finding_name(shown.scene, expectation));
+    const Case input_case = built_in_case(name);
+    for (const Expectation& expectation : input_case.expectations)
+      names.push_back(finding_name(input_case.scene, expectation));
   }
   return names;
 }
@@ -79,31 +79,32 @@ std::vector<std::string> names_of_case_findings() {
 /// Judges all shipped cases; those that are shown leave their files in the folder.
 std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance& provenance) {
   constexpr double length = 60;
-  const LevelSetMakers makers = makers_of(options.cache);
+  const LevelSetProvider provider = provider_for(options.cache);
   std::vector<Job> jobs;
   for (const std::string& name : hard_cases())
     jobs.push_back({"case." + name, length, [name](const Progress& progress) {
                       RunRecord part;
-                      const BuiltCase of = built_case(built_in_case(name), computing_makers());
+                      const BuiltCase of = built_case(built_in_case(name), computing_provider());
                       part.records = judge_case(of, progress);
                       return part;
                     }});
   for (const std::string& name : shown_cases(tier_of(options)))
-    jobs.push_back(
-        {"case." + name, length, [name, makers, folder = options.out, provenance](const Progress& progress) {
-           CaseRun done = run_case(built_case(built_in_case(name), makers), folder, provenance, progress);
-           RunRecord part;
-           part.cases = {done.record};
-           part.records = std::move(done.findings);
-           return part;
-         }});
+    jobs.push_back({"case." + name, length,
+                    [name, provider, folder = options.out, provenance](const Progress& progress) {
+                      CaseRun done =
+                          run_case(built_case(built_in_case(name), provider), folder, provenance, progress);
+                      RunRecord part;
+                      part.cases = {done.record};
+                      part.records = std::move(done.findings);
+                      return part;
+                    }});
   return jobs;
 }
 
 /// Writes verdicts of a run that has not ended, so that one which never does is not taken for the one before.
 void announce(const std::vector<Job>& jobs, RunRecord begun, const std::string& folder) {
   for (const Job& job : jobs)
-    begun.records.push_back(unfinished(job.name, std::nullopt, "the run has not come to its end"));
+    begun.records.push_back(unfinished_record(job.name, std::nullopt, "the run has not come to its end"));
   write_verdicts(folder, begun);
 }
 
@@ -160,8 +161,8 @@ int run_studies(const Options& options) {
   const Tier tier = tier_of(options);
   run_selection(select({options.names, {"study"}}, tier), reference_subject(), tier, options.running, run);
   if (options.names.empty()) {
-    refuse_claims_of_lost_findings(claims, run);
-    refuse_faults_of_lost_findings(read_faults(faults_folder()), run);
+    reject_claims_of_lost_findings(claims, run);
+    reject_faults_of_lost_findings(read_faults(faults_folder()), run);
   }
   rule_covered_claims(claims, run);
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
@@ -205,7 +206,7 @@ int verify(const Options& options) {
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   rule_all_claims(claims, run);
   run.faults = read_faults(faults_folder());
-  refuse_faults_of_lost_findings(run.faults, run);
+  reject_faults_of_lost_findings(run.faults, run);
   name_faults(run.faults, run.records);
   write_run(options.out + "/run.h5", run);
   write_verdicts(options.out, run);

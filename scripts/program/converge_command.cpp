@@ -20,8 +20,8 @@ namespace {
 using nlohmann::json;
 
 /// The level's run as a job; the result is left in `into`.
-Job job_of(Level level, double length, const LevelSetMakers& level_sets, ResultStore& store, LevelRun& into) {
-  return {level.shown.scene.name, length,
+Job job_of(Level level, double length, const LevelSetProvider& level_sets, ResultStore& store, LevelRun& into) {
+  return {level.input_case.scene.name, length,
           [level = std::move(level), &level_sets, &store, &into, program = program_identity()](const Progress&) {
             into = stored_level(level, level_sets, store, program);
             return RunRecord{};
@@ -29,8 +29,8 @@ Job job_of(Level level, double length, const LevelSetMakers& level_sets, ResultS
 }
 
 /// The first level alone, since the others divide its steps; then all others at a time.
-std::vector<LevelRun> ladder_runs(const LadderPlan& plan, const LevelSetMakers& level_sets, ResultStore& store,
-                                  const Running& running) {
+std::vector<LevelRun> ladder_runs(const LadderPlan& plan, const LevelSetProvider& level_sets, ResultStore& store,
+                                  const JobSettings& running) {
   std::vector<LevelRun> runs(size_t(plan.levels));
   RunRecord unused;
   run_jobs({job_of(time_level(plan, 0, {}), 1, level_sets, store, runs[0])}, "the case as it is", running, unused);
@@ -58,8 +58,8 @@ void print(const LadderAnswer& answer) {
   for (const QuantityOverLevels& q : answer.quantities)
     fmt::print("{:<24} {:<10} {:<16} {:>12} {:>10.2g} {:>10.2g}  {}\n", q.name, q.unit, orders_in_words(q.bar),
                number(q.bar.limit), q.bar.half_width, q.first_error,
-               q.bar.because.empty() ? std::string(name_of(q.bar.reading))
-                                     : fmt::format("{}: {}", name_of(q.bar.reading), q.bar.because));
+               q.bar.reason.empty() ? std::string(name_of(q.bar.reading))
+                                     : fmt::format("{}: {}", name_of(q.bar.reading), q.bar.reason));
   fmt::print(
       "\nlimit: Richardson's value for steps of no length; +-: error bar of the finest level (grid convergence index);\n"
       "as it is: error of the case with its own step, bar included.\n");
@@ -72,7 +72,7 @@ json to_json(const QuantityOverLevels& q) {
           {"differences", q.differences},
           {"orders", q.bar.orders},
           {"reading", name_of(q.bar.reading)},
-          {"because", q.bar.because},
+          {"because", q.bar.reason},
           {"order", q.bar.order},
           {"limit", q.bar.limit},
           {"safety_factor", q.bar.safety},
@@ -81,22 +81,22 @@ json to_json(const QuantityOverLevels& q) {
 }
 
 json to_json(const LadderAnswer& answer) {
-  json told = {{"case", answer.scene},   {"method", answer.method}, {"in", answer.in},
+  json answer_json = {{"case", answer.scene},   {"method", answer.method}, {"in", answer.in},
                {"mean_step", answer.sizes}, {"work", answer.work},  {"seconds", answer.seconds},
                {"stopped", answer.stopped}, {"quantities", json::array()}};
-  for (const QuantityOverLevels& q : answer.quantities) told["quantities"].push_back(to_json(q));
-  return told;
+  for (const QuantityOverLevels& q : answer.quantities) answer_json["quantities"].push_back(to_json(q));
+  return answer_json;
 }
 
 }  // namespace
 
 int converge(const Options& options) {
-  const LevelSetMakers level_sets = remembering(makers_of(options.cache));
+  const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
   LadderPlan plan{read_case(case_file(options.file), options.overrides), options.levels, {}};
-  if (!options.methods.empty()) plan.shown.scene.integrator = options.methods.front();
-  if (options.until > 0) plan.shown.scene.schedule.end = std::min(options.until, plan.shown.scene.schedule.end);
-  plan.measurements = measurements_of(plan.shown);
-  build(plan.shown.scene, level_sets);  // refuses now what cannot be built
+  if (!options.methods.empty()) plan.input_case.scene.integrator = options.methods.front();
+  if (options.until > 0) plan.input_case.scene.schedule.end = std::min(options.until, plan.input_case.scene.schedule.end);
+  plan.measurements = measurements_of(plan.input_case);
+  build(plan.input_case.scene, level_sets);  // refuses now what cannot be built
   const OutFolder folder(options.out);
   ResultStore store(options.out + "/store");
   const LadderAnswer answer = time_answer(plan, ladder_runs(plan, level_sets, store, options.running));

@@ -14,35 +14,35 @@ namespace foldproof {
 
 namespace {
 
-struct FrameJudged {
+struct JudgedFrame {
   std::string file;
   std::size_t frame;
   double time;  // s
   std::vector<oracles::EdgeInTriangle> pairs;
 };
 
-FrameJudged judged(const std::string& file, std::size_t frame, double time, const PerParticle3& x,
-                   const std::vector<Triangle>& triangles) {
+JudgedFrame judge_frame(const std::string& file, std::size_t frame, double time, const PerParticle3& x,
+                        const std::vector<Triangle>& triangles) {
   if (!x.allFinite())
     throw InputError(fmt::format("{}: frame {} has positions that are not finite", file, frame));
   return {file, frame, time, oracles::exact_crossings(x, triangles)};
 }
 
-void judge_file(const std::string& file, std::vector<FrameJudged>& all) {
+void judge_file(const std::string& file, std::vector<JudgedFrame>& all) {
   require_input(file, file.ends_with(".obj") ? mesh_kind : run_kind);
   if (file.ends_with(".obj")) {
     const TriangleSoup mesh = read_obj_soup(file);
-    all.push_back(judged(file, 0, 0, mesh.rest, mesh.triangles));
+    all.push_back(judge_frame(file, 0, 0, mesh.rest, mesh.triangles));
     return;
   }
   const StoredFrames run = read_stored_frames(file);
   for (std::size_t k = 0; k < run.times.size(); ++k)
-    all.push_back(judged(file, k, run.times[k], run.frame(k), run.triangles));
+    all.push_back(judge_frame(file, k, run.times[k], run.frame(k), run.triangles));
 }
 
-void print(const std::vector<FrameJudged>& all) {
+void print(const std::vector<JudgedFrame>& all) {
   std::size_t crossed = 0;
-  for (const FrameJudged& frame : all) {
+  for (const JudgedFrame& frame : all) {
     if (frame.pairs.empty()) continue;
     ++crossed;
     const auto& [edge, triangle] = frame.pairs.front();
@@ -52,9 +52,9 @@ void print(const std::vector<FrameJudged>& all) {
   fmt::print("{} frames, {} of them with crossings\n", all.size(), crossed);
 }
 
-nlohmann::json told(const std::vector<FrameJudged>& all) {
+nlohmann::json to_json(const std::vector<JudgedFrame>& all) {
   nlohmann::json frames = nlohmann::json::array();
-  for (const FrameJudged& frame : all) {
+  for (const JudgedFrame& frame : all) {
     nlohmann::json row = {
         {"file", frame.file}, {"frame", frame.frame}, {"time", frame.time}, {"pairs", frame.pairs.size()}};
     if (!frame.pairs.empty())
@@ -67,13 +67,13 @@ nlohmann::json told(const std::vector<FrameJudged>& all) {
 }  // namespace
 
 int show_crossings(const Options& options) {
-  std::vector<FrameJudged> all;
+  std::vector<JudgedFrame> all;
   for (const std::string& file : options.names) judge_file(file, all);
   if (options.json)
-    fmt::print("{}\n", json_text(told(all)));
+    fmt::print("{}\n", json_text(to_json(all)));
   else
     print(all);
-  for (const FrameJudged& frame : all)
+  for (const JudgedFrame& frame : all)
     if (!frame.pairs.empty()) return some_fail;
   return all_hold;
 }

@@ -16,7 +16,7 @@ namespace {
 std::string point(const Vector3& p) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z()); }
 
 void print(const std::string& file, const MeshInspection& found) {
-  const bool is_solid = found.refusal.empty();
+  const bool is_solid = found.rejection.empty();
   fmt::print("{}: {} vertices, {} triangles\n", file, found.vertices, found.triangles);
   fmt::print("bounds: {} to {}, largest extent {:.4g} m\n", point(found.bounds.min()),
              point(found.bounds.max()), found.bounds.sizes().maxCoeff());
@@ -24,8 +24,8 @@ void print(const std::string& file, const MeshInspection& found) {
     fmt::print("a solid: closed, oriented, without intersections; pieces {}, volume {:.6g} m^3\n",
                found.pieces, found.volume);
   else
-    fmt::print("no solid: {}\n", found.refusal);
-  if (!found.no_repair.empty()) fmt::print("no repair: {}\n", found.no_repair);
+    fmt::print("no solid: {}\n", found.rejection);
+  if (!found.repair_failure.empty()) fmt::print("no repair: {}\n", found.repair_failure);
   if (found.nodes > 0)
     fmt::print(
         "second opinion: at {} of {} nodes rays deny what {} say of inside and outside; at {} they differ "
@@ -34,17 +34,17 @@ void print(const std::string& file, const MeshInspection& found) {
         found.against_sign, found.nodes, is_solid ? "normals" : "winding numbers", found.among_rays);
 }
 
-nlohmann::json told(const std::string& file, const MeshInspection& found) {
+nlohmann::json to_json(const std::string& file, const MeshInspection& found) {
   const Vector3 low = found.bounds.min(), high = found.bounds.max();
   return {{"file", file},
           {"vertices", found.vertices},
           {"triangles", found.triangles},
           {"low", {low.x(), low.y(), low.z()}},
           {"high", {high.x(), high.y(), high.z()}},
-          {"refusal", found.refusal},
+          {"refusal", found.rejection},
           {"pieces", found.pieces},
           {"volume", found.volume},
-          {"no_repair", found.no_repair},
+          {"no_repair", found.repair_failure},
           {"nodes", found.nodes},
           {"against_sign", found.against_sign},
           {"among_rays", found.among_rays}};
@@ -56,10 +56,10 @@ int inspect(const Options& options) {
   require_input(options.file, mesh_kind);
   const MeshInspection found = inspect_mesh(read_obj_soup(options.file), options.cells);
   if (options.json)
-    fmt::print("{}\n", json_text(told(options.file, found)));
+    fmt::print("{}\n", json_text(to_json(options.file, found)));
   else
     print(options.file, found);
-  return found.refusal.empty() && found.against_sign == 0 ? all_hold : some_fail;
+  return found.rejection.empty() && found.against_sign == 0 ? all_hold : some_fail;
 }
 
 }  // namespace foldproof

@@ -17,11 +17,11 @@ namespace foldproof {
 
 namespace {
 
-void say_unless_it_holds(const Record& record) {
+void log_unless_it_holds(const Record& record) {
   if (record.outcome == Outcome::holds) return;
   const Verdict& v = record.finding.verdict;
-  say(fmt::format("  {}: {} (measured {:.4g}, bound {:.4g} {}) {}", outcome_text(record), record.name,
-                  v.measured, v.bound, v.unit, record.finding.note));
+  log_line(fmt::format("  {}: {} (measured {:.4g}, bound {:.4g} {}) {}", outcome_text(record), record.name,
+                       v.measured, v.bound, v.unit, record.finding.note));
 }
 
 template <class T>
@@ -30,7 +30,7 @@ void append(std::vector<T>& from, std::vector<T>& to) {
 }
 
 /// Numbers of the jobs as they are to be taken, the first last.
-std::vector<size_t> taken_in(const std::vector<Job>& jobs, unsigned order) {
+std::vector<size_t> order_of_jobs(const std::vector<Job>& jobs, unsigned order) {
   std::vector<size_t> numbers(jobs.size());
   std::iota(numbers.begin(), numbers.end(), size_t(0));
   std::ranges::stable_sort(numbers, {}, [&](size_t i) { return std::pair(-jobs[i].group, jobs[i].length); });
@@ -44,7 +44,7 @@ class Queue {
  public:
   Queue(const std::vector<Job>& jobs, const std::string& label, unsigned order)
       : jobs_(jobs),
-        waiting_(taken_in(jobs, order)),
+        waiting_(order_of_jobs(jobs, order)),
         done_(jobs.size()),
         parts_(jobs.size()),
         progress_(label) {
@@ -58,12 +58,12 @@ class Queue {
         parts_[i] = jobs_[i].run([&, i](double part) { show(i, part); });
       } catch (const std::exception& error) {
         parts_[i] = {};
-        parts_[i].records = {
-            unfinished(jobs_[i].name, Outcome::fails, std::string("stopped by an error: ") + error.what())};
+        parts_[i].records = {unfinished_record(jobs_[i].name, Outcome::fails,
+                                               std::string("stopped by an error: ") + error.what())};
       }
       show(i, 1);
       const std::lock_guard held(mutex_);
-      for (const Record& record : parts_[i].records) say_unless_it_holds(record);
+      for (const Record& record : parts_[i].records) log_unless_it_holds(record);
     }
   }
 
@@ -102,7 +102,7 @@ class Queue {
 
 }  // namespace
 
-Record unfinished(const std::string& name, std::optional<Outcome> outcome, const std::string& note) {
+Record unfinished_record(const std::string& name, std::optional<Outcome> outcome, const std::string& note) {
   Record record;
   record.name = name;
   record.kind = "check";
@@ -112,10 +112,11 @@ Record unfinished(const std::string& name, std::optional<Outcome> outcome, const
   return record;
 }
 
-void run_jobs(const std::vector<Job>& jobs, const std::string& label, const Running& how, RunRecord& run) {
-  Queue queue(jobs, label, how.order);
+void run_jobs(const std::vector<Job>& jobs, const std::string& label, const JobSettings& settings,
+              RunRecord& run) {
+  Queue queue(jobs, label, settings.order);
   {
-    const size_t threads = how.threads > 0 ? how.threads : std::thread::hardware_concurrency();
+    const size_t threads = settings.threads > 0 ? settings.threads : std::thread::hardware_concurrency();
     std::vector<std::jthread> others;
     for (size_t k = 1; k < std::min(threads, jobs.size()); ++k) others.emplace_back([&] { queue.work(); });
     queue.work();

@@ -12,10 +12,10 @@ namespace foldproof {
 namespace {
 
 void add_ruled(const Claim& claim, RunRecord& run) {
-  run.claims.push_back(ruled(claim, run.records));
+  run.claims.push_back(rule_claim(claim, run.records));
   const ClaimRecord& record = run.claims.back();
   if (record.ruling != claim.recorded)
-    say(fmt::format("  claim {}: {}, where {} is recorded", claim.id, name_of(record.ruling),
+    log_line(fmt::format("  claim {}: {}, where {} is recorded", claim.id, name_of(record.ruling),
                     name_of(claim.recorded)));
 }
 
@@ -40,7 +40,7 @@ void rule_covered_claims(const std::vector<Claim>& claims, RunRecord& run) {
     if (is_covered(claim, run.records)) add_ruled(claim, run);
 }
 
-void refuse_claims_of_lost_findings(const std::vector<Claim>& claims, const RunRecord& run) {
+void reject_claims_of_lost_findings(const std::vector<Claim>& claims, const RunRecord& run) {
   for (const Claim& claim : claims)
     for (const std::string& finding : findings_named_in(claim))
       if (claim.recorded != Ruling::undecided && is_made_by_a_study(finding, run) && !is_in(finding, run))
@@ -48,7 +48,7 @@ void refuse_claims_of_lost_findings(const std::vector<Claim>& claims, const RunR
             fmt::format("claim {} names the finding '{}', which its study does not make", claim.id, finding));
 }
 
-void refuse_faults_of_lost_findings(const std::vector<Fault>& faults, const RunRecord& run) {
+void reject_faults_of_lost_findings(const std::vector<Fault>& faults, const RunRecord& run) {
   for (const Fault& fault : faults)
     for (const std::string& finding : fault.caught_by)
       if (is_made_by_a_study(finding, run) && !is_in(finding, run))

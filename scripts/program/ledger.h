@@ -16,10 +16,10 @@ void rule_covered_claims(const std::vector<Claim>& claims, RunRecord& run);
 
 /// For a run of all studies: throws InputError if a decided claim names a finding of a study that the study
 /// does not make.
-void refuse_claims_of_lost_findings(const std::vector<Claim>& claims, const RunRecord& run);
+void reject_claims_of_lost_findings(const std::vector<Claim>& claims, const RunRecord& run);
 
 /// For a run of all studies: throws InputError if a fault names a finding of a study that the study does not
 /// make. (Names of checks and cases are known without a run: scripts/tests/test_names.py.)
-void refuse_faults_of_lost_findings(const std::vector<Fault>& faults, const RunRecord& run);
+void reject_faults_of_lost_findings(const std::vector<Fault>& faults, const RunRecord& run);
 
 }  // namespace foldproof

@@ -50,7 +50,7 @@ void ProgressLine::show(double fraction) {
   std::fflush(stderr);
 }
 
-void say(const std::string& line) {
+void log_line(const std::string& line) {
   if (isatty(STDERR_FILENO)) std::fputs("\r\033[K", stderr);
   fmt::print(stderr, "{}\n", line);
 }

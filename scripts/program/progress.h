@@ -24,6 +24,6 @@ class ProgressLine {
 };
 
 /// A plain line on standard error.
-void say(const std::string& line);
+void log_line(const std::string& line);
 
 }  // namespace foldproof

@@ -11,7 +11,7 @@
 
 #include "convergence/contact/section_profile.h"
 #include "convergence/contact/wrinkle_measure.h"
-#include "reference/bodies/makers.h"
+#include "reference/bodies/level_set_provider.h"
 #include "reference/mesh/subdivision.h"
 #include "reference/post/fold_projection.h"
 #include "scripts/program/commands.h"
@@ -48,14 +48,14 @@ Source source_of(const Options& options) {
   source.run = read_stored_run(options.file);
   const Scene& scene = source.run.scene;
   if (scene.objects.empty()) throw InputError(options.file + ": its case names no object to project out of");
-  source.objects = build_objects(scene, makers_of(options.cache));
+  source.objects = build_objects(scene, provider_for(options.cache));
   const SubdivisionRule rule = options.rule == "loop" ? SubdivisionRule::loop : SubdivisionRule::midpoint;
   source.finer = subdivision(scene.mesh, rule, options.subdivisions);
   source.scene = scene;
   source.scene.mesh = make_triangle_mesh(source.finer.of(scene.mesh.rest), source.finer.triangles);
   source.scene.name += "_projected";
   source.scene.title += ", projected";
-  source.scene.led.clear();
+  source.scene.prescribed.clear();
   return source;
 }
 
@@ -64,7 +64,7 @@ double deepest_in(const Source& source) {
   double deepest = 0;
   for (std::size_t k = 0; k < source.run.times.size(); ++k) {
     const State s = source.frame(k);
-    ObjectsDuring now(source.objects, {s.time, s.time, 0});
+    ObjectsOverSpan now(source.objects, {s.time, s.time, 0});
     for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
       const Nearest nearest = nearest_of(now.at(s.x.col(i)));
       if (!nearest.pinched()) deepest = std::max(deepest, -nearest.first.phi);
@@ -113,9 +113,9 @@ struct Report {
 
 void count(const ProjectedCloth& cloth, Report& report) {
   ++report.frames;
-  report.moved += cloth.count(Fate::moved);
-  report.pinched += cloth.count(Fate::pinched);
-  report.unfinished += cloth.count(Fate::unfinished);
+  report.moved += cloth.count(ProjectionOutcome::moved);
+  report.pinched += cloth.count(ProjectionOutcome::pinched);
+  report.unfinished += cloth.count(ProjectionOutcome::unfinished);
 }
 
 void compare_last_frame(const Source& source, Report& report) {
@@ -174,7 +174,7 @@ void print(const Report& report, const std::string& folder) {
   fmt::print("{}/{}\n", folder, report.file);
 }
 
-nlohmann::json told(const Report& report, const std::string& folder) {
+nlohmann::json to_json(const Report& report, const std::string& folder) {
   const DepthBand& band = report.projection.band;
   nlohmann::json json = {{"file", folder + "/" + report.file},
                          {"map", report.projection.map},
@@ -201,7 +201,7 @@ int project_run(const Options& options) {
   const OutFolder folder(options.out);
   const Report report = project_all(source_of(options), options);
   if (options.json)
-    fmt::print("{}\n", json_text(told(report, options.out)));
+    fmt::print("{}\n", json_text(to_json(report, options.out)));
   else
     print(report, options.out);
   return report.unfinished == 0 ? all_hold : some_fail;

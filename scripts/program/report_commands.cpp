@@ -42,10 +42,10 @@ int run_report_script(const std::string& makes, const std::string& script,
   const bool has_ended = child > 0 && waitpid(child, &status, 0) > 0 && WIFEXITED(status);
   if (has_ended && WEXITSTATUS(status) == all_hold) return all_hold;
   if (has_ended && WEXITSTATUS(status) == bad_input) return bad_input;  // it said why
-  say("the " + makes + " could not be made: " +
-      (has_ended && WEXITSTATUS(status) == not_started
-           ? std::string(python) + " is missing; install the Debian package python3"
-           : path + " did not come to its end"));
+  log_line("the " + makes + " could not be made: " +
+           (has_ended && WEXITSTATUS(status) == not_started
+                ? std::string(python) + " is missing; install the Debian package python3"
+                : path + " did not come to its end"));
   return bad_input;
 }
 

@@ -28,7 +28,7 @@ bool is_named(const std::vector<std::string>& kinds, const char* kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-[[noreturn]] void refuse(const std::string& name, const std::vector<Check>& checks,
+[[noreturn]] void reject(const std::string& name, const std::vector<Check>& checks,
                          const std::vector<Study>& studies) {
   std::vector<std::string> known;
   const auto add = [&](const std::string& full) {
@@ -78,7 +78,7 @@ bool add_cases(const std::string& name, Tier tier, Selection& selection) {
 }
 
 /// Of the records those that are wanted: all, if none is named, and always that of `name` itself.
-std::vector<Record> wanted_of(std::vector<Record> records, const std::vector<std::string>& wanted,
+std::vector<Record> select_records(std::vector<Record> records, const std::vector<std::string>& wanted,
                               const std::string& name) {
   std::erase_if(records, [&](const Record& record) {
     const auto chosen = [&](const std::string& one) { return chooses(one, record.name); };
@@ -99,23 +99,23 @@ Job job_of(const Study& study, const Subject& subject, Tier tier, const std::vec
   return {study.name, 30, [study, &subject, tier, wanted](const Progress& progress) {
             auto [records, whole] = run_study(study, subject, tier, progress);
             RunRecord part;
-            part.records = wanted_of(std::move(records), wanted, study.name);
+            part.records = select_records(std::move(records), wanted, study.name);
             part.studies = {std::move(whole)};
             return part;
           }};
 }
 
-Job job_of(const Case& shown, const std::vector<std::string>& wanted) {
-  return {"case." + shown.scene.name, 60, [shown, wanted](const Progress& progress) {
+Job job_of(const Case& input_case, const std::vector<std::string>& wanted) {
+  return {"case." + input_case.scene.name, 60, [input_case, wanted](const Progress& progress) {
             RunRecord part;
-            part.records = wanted_of(judge_case(built_case(shown, computing_makers()), progress), wanted, "");
+            part.records = select_records(judge_case(built_case(input_case, computing_provider()), progress), wanted, "");
             return part;
           }};
 }
 
 }  // namespace
 
-Selection select(const Wanted& wanted, Tier tier) {
+Selection select(const NameFilter& wanted, Tier tier) {
   const std::vector<Check> checks = all_checks();
   const std::vector<Study> studies = all_studies();
   Selection selection;
@@ -125,7 +125,7 @@ Selection select(const Wanted& wanted, Tier tier) {
   }
   for (const std::string& name : wanted.names)
     if (!add_named(name, checks, studies, selection) && !add_cases(name, tier, selection))
-      refuse(name, checks, studies);
+      reject(name, checks, studies);
   return selection;
 }
 
@@ -134,14 +134,14 @@ std::vector<Job> jobs_of(const Selection& selection, const Subject& subject, Tie
   for (const Check& check : selection.checks) jobs.push_back(job_of(check, subject));
   for (const Study& study : selection.studies)
     jobs.push_back(job_of(study, subject, tier, selection.findings));
-  for (const Case& shown : selection.cases) jobs.push_back(job_of(shown, selection.findings));
+  for (const Case& input_case : selection.cases) jobs.push_back(job_of(input_case, selection.findings));
   return jobs;
 }
 
-void run_selection(const Selection& selection, const Subject& subject, Tier tier, const Running& how,
+void run_selection(const Selection& selection, const Subject& subject, Tier tier, const JobSettings& settings,
                    RunRecord& run) {
   run_jobs(jobs_of(selection, subject, tier), selection.studies.empty() ? "checks" : "checks and studies",
-           how, run);
+           settings, run);
   for (const std::string& name : selection.findings)
     if (std::none_of(run.records.begin(), run.records.end(),
                      [&](const Record& r) { return chooses(name, r.name) || r.outcome == Outcome::fails; }))

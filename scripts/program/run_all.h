@@ -24,17 +24,17 @@ struct Selection {
 /// begins with "bending."), "case.NAME" for what is expected of a shipped case, whatever its tier, and "case"
 /// for all shipped cases of the tier. No name: all of the kinds. Throws InputError for a name that chooses
 /// nothing, with the nearest known ones.
-struct Wanted {
+struct NameFilter {
   std::vector<std::string> names;
   std::vector<std::string> kinds;  // of "check", "study": what a missing name stands for
 };
-Selection select(const Wanted& wanted, Tier tier);
+Selection select(const NameFilter& wanted, Tier tier);
 
 /// A job for each check, study and case of the selection. The subject must outlive them.
 std::vector<Job> jobs_of(const Selection& selection, const Subject& subject, Tier tier);
 
 /// Runs the selection with progress, adds to the run, and says a line about each that does not hold.
-void run_selection(const Selection& selection, const Subject& subject, Tier tier, const Running& how,
+void run_selection(const Selection& selection, const Subject& subject, Tier tier, const JobSettings& settings,
                    RunRecord& run);
 
 /// "121 hold, 0 fail, 0 inconclusive, 0 not applicable", and the claims if any were ruled.

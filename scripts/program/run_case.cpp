@@ -12,7 +12,7 @@
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/cases/judge.h"
-#include "verification/files/kept_level_sets_file.h"
+#include "verification/files/level_set_folder.h"
 #include "verification/files/trajectory_file.h"
 
 namespace foldproof {
@@ -24,7 +24,7 @@ using Runner = std::function<RunResult(const Observer&)>;
 
 Runner from_the_start(const BuiltCase& of) {
   return [&of](const Observer& observer) {
-    const Scene& scene = of.shown.scene;
+    const Scene& scene = of.input_case.scene;
     return simulate(of.built.system, integrator_named(scene.integrator), of.built.start, scene.schedule,
                     observer);
   };
@@ -54,18 +54,18 @@ Runner from_checkpoints(const BuiltCase& of, const CheckpointFolder& checkpoints
       observer.frame(record.at.past.back());
       observer.checkpoint(record.at);
     };
-    if (start == Start::anew)
+    if (start == Start::fresh)
       checkpoints.remove_from(0);
     else
-      last = checkpoints.replay(replay, say);
+      last = checkpoints.replay(replay, log_line);
     if (start == Start::last_checkpoint)
-      say(last ? fmt::format("resumed from frame {}, t = {:.6g} s, after {} steps", last->frame,
-                             last->past.back().time, last->steps)
-               : "there is no checkpoint to resume from: started anew");
+      log_line(last ? fmt::format("resumed from frame {}, t = {:.6g} s, after {} steps", last->frame,
+                                  last->past.back().time, last->steps)
+                    : "there is no checkpoint to resume from: started anew");
     std::vector<Diagnostics> rows;
     const Observer all = writing_checkpoints(observer, checkpoints, rows);
     if (!last) return from_the_start(of)(all);
-    const Scene& scene = of.shown.scene;
+    const Scene& scene = of.input_case.scene;
     return resume(of.built.system, integrator_named(scene.integrator), *last, scene.schedule, all);
   };
 }
@@ -73,26 +73,26 @@ Runner from_checkpoints(const BuiltCase& of, const CheckpointFolder& checkpoints
 /// Runs the case; `also` watches beside the judge.
 std::vector<Record> judged_run(const BuiltCase& of, const Runner& run, const Observer& also,
                                const Progress& progress, RunResult& result) {
-  CaseJudge judge(of.shown, of.built.objects, of.level_sets);
+  CaseJudge judge(of.input_case, of.built.objects, of.level_sets);
   result = run({[&](const State& s) {
-                  judge.enter(s);
+                  judge.record(s);
                   if (also.frame) also.frame(s);
                 },
                 [&](const Diagnostics& row) {
-                  judge.enter(row);
+                  judge.record(row);
                   if (also.step) also.step(row);
-                  progress(row.time / of.shown.scene.schedule.end);
+                  progress(row.time / of.input_case.scene.schedule.end);
                 },
                 [&](const Checkpoint& now) {
-                  judge.enter(now);
+                  judge.record(now);
                   if (also.checkpoint) also.checkpoint(now);
                 }});
-  return judge.judged(result);
+  return judge.records(result);
 }
 
 CaseRun recorded_run(const BuiltCase& of, const Runner& run, TrajectoryFile& trajectory,
                      const Progress& progress) {
-  const Scene& scene = of.shown.scene;
+  const Scene& scene = of.input_case.scene;
   const auto start = std::chrono::steady_clock::now();
   CaseRun done;
   done.findings = judged_run(of, run,
@@ -102,23 +102,23 @@ CaseRun recorded_run(const BuiltCase& of, const Runner& run, TrajectoryFile& tra
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   done.record = {scene.name,  scene.name + ".h5",
                  scene.title, scene.about,
-                 seconds,     done.result.stop ? described(*done.result.stop) : ""};
+                 seconds,     done.result.stop ? describe(*done.result.stop) : ""};
   trajectory.finish(done.record.stopped, done.record.seconds, done.findings);
   return done;
 }
 
 TrajectoryFile trajectory_file(const BuiltCase& of, const std::string& folder, const Provenance& provenance) {
-  const Scene& scene = of.shown.scene;
+  const Scene& scene = of.input_case.scene;
   const std::string path = (std::filesystem::path(folder) / (scene.name + ".h5")).string();
   return TrajectoryFile(path, scene, of.built.system, of.built.objects, provenance);
 }
 
 }  // namespace
 
-BuiltCase built_case(Case shown, const LevelSetMakers& level_sets) {
-  const LevelSetMakers kept = remembering(level_sets);
-  Built built = build(shown.scene, kept);
-  return {std::move(shown), kept, std::move(built)};
+BuiltCase built_case(Case input_case, const LevelSetProvider& level_sets) {
+  const LevelSetProvider kept = memoizing_provider(level_sets);
+  BuiltScene built = build(input_case.scene, kept);
+  return {std::move(input_case), kept, std::move(built)};
 }
 
 CaseRun run_case(const BuiltCase& of, const std::string& folder, const Provenance& provenance,
@@ -137,7 +137,7 @@ CheckpointFolder checkpoint_folder(const Scene& scene, const std::string& folder
 
 CaseRun run_case_with_checkpoints(const BuiltCase& of, const std::string& folder, Start start,
                                   const Provenance& provenance, const Progress& progress) {
-  const CheckpointFolder checkpoints = checkpoint_folder(of.shown.scene, folder);
+  const CheckpointFolder checkpoints = checkpoint_folder(of.input_case.scene, folder);
   TrajectoryFile trajectory = trajectory_file(of, folder, provenance);
   CaseRun done = recorded_run(of, from_checkpoints(of, checkpoints, start), trajectory, progress);
   checkpoints.remove_from(0);
@@ -150,14 +150,14 @@ std::vector<Record> judge_case(const BuiltCase& of, const Progress& progress) {
 }
 
 std::vector<std::string> shown_cases(Tier tier) {
-  std::vector<std::string> shown = {"hinge",           "hanging_sheet", "flag_drop",      "rest_fold",
-                                    "stiff_statue",    "any_mesh",      "drape_sphere",   "drape_statue",
-                                    "spinning_sphere", "incline",       "incline_slides", "pinch",
-                                    "armpit",          "half_inside",   "stretched_body", "deforming_body",
-                                    "hard/fast",       "grab",          "garment"};
+  std::vector<std::string> input_case = {
+      "hinge",          "hanging_sheet", "flag_drop",    "rest_fold",       "stiff_statue",
+      "any_mesh",       "drape_sphere",  "drape_statue", "spinning_sphere", "incline",
+      "incline_slides", "pinch",         "armpit",       "half_inside",     "stretched_body",
+      "deforming_body", "hard/fast",     "grab",         "garment"};
   if (tier == Tier::full)
-    for (const std::string& name : long_cases()) shown.push_back(name);
-  return shown;
+    for (const std::string& name : long_cases()) input_case.push_back(name);
+  return input_case;
 }
 
 std::vector<std::string> hard_cases() {
@@ -185,8 +185,8 @@ Case built_in_case(const std::string& name) {
   return with_usual_expectations(read_case(shipped_case_file(name)));
 }
 
-LevelSetMakers makers_of(const std::string& cache) {
-  return cache.empty() ? computing_makers() : caching_makers(cache, say);
+LevelSetProvider provider_for(const std::string& cache) {
+  return cache.empty() ? computing_provider() : caching_provider(cache, log_line);
 }
 
 }  // namespace foldproof

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/bodies/makers.h"
+#include "reference/bodies/level_set_provider.h"
 #include "reference/dynamics/simulate.h"
 #include "verification/cases/expectations.h"
 #include "verification/files/checkpoint_file.h"
@@ -20,13 +20,13 @@ struct CaseRun {
 
 /// A case and what is built of it, once: it is described, judged and run by this.
 struct BuiltCase {
-  Case shown;
-  LevelSetMakers level_sets;  // of its bodies; each is made once
-  Built built;
+  Case input_case;
+  LevelSetProvider level_sets;  // of its bodies; each is made once
+  BuiltScene built;
 };
 
 /// level_sets: who makes those of its bodies.
-BuiltCase built_case(Case shown, const LevelSetMakers& level_sets);
+BuiltCase built_case(Case input_case, const LevelSetProvider& level_sets);
 
 /// Simulates the case and writes <folder>/<name>.h5 and .xdmf.
 CaseRun run_case(const BuiltCase& of, const std::string& folder, const Provenance& provenance,
@@ -38,7 +38,7 @@ CheckpointFolder checkpoint_folder(const Scene& scene, const std::string& folder
 
 /// How a run is kept from being lost.
 enum class Start {
-  anew,  // checkpoints of an earlier run are removed
+  fresh,  // checkpoints of an earlier run are removed
   last_checkpoint
 };
 
@@ -66,6 +66,6 @@ std::string shipped_case_file(const std::string& name);
 Case built_in_case(const std::string& name);
 
 /// Makers that keep level sets in a folder and say so; those that compute them if it has no name.
-LevelSetMakers makers_of(const std::string& cache);
+LevelSetProvider provider_for(const std::string& cache);
 
 }  // namespace foldproof

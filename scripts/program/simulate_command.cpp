@@ -40,13 +40,13 @@ void refuse_to_lose(const KeptRun& kept, const Scene& scene, const Options& opti
 void say_how_to_resume(const Scene& scene, const Options& options) {
   const std::optional<KeptRun> kept = checkpoint_folder(scene, options.out).kept_run();
   if (!kept || kept->frame < 0)
-    say("interrupted before the first frame: there is nothing to resume");
+    log_line("interrupted before the first frame: there is nothing to resume");
   else
-    say(fmt::format("interrupted at {} of {:.6g} s; resume with: {}", reached_text(*kept),
+    log_line(fmt::format("interrupted at {} of {:.6g} s; resume with: {}", reached_text(*kept),
                     scene.schedule.end, with_option(options.words, "--resume")));
 }
 
-nlohmann::json told(const CaseRun& run, const Options& options) {
+nlohmann::json to_json(const CaseRun& run, const Options& options) {
   const Work& work = run.result.work;
   nlohmann::json json = {{"case", run.record.name},
                          {"file", options.out + "/" + run.record.file},
@@ -71,22 +71,22 @@ int report(const CaseRun& run, const Options& options) {
   RunRecord expected;
   expected.records = run.findings;
   if (options.json)
-    fmt::print("{}\n", json_text(told(run, options)));
+    fmt::print("{}\n", json_text(to_json(run, options)));
   else
     fmt::print("{}{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n",
                listing(expected), options.out, run.record.file, run.result.last.time, run.result.steps,
                double(work.cg_iterations) / double(std::max(1L, work.solves)), run.record.seconds);
   if (work.unfinished_solves > 0)
-    say(fmt::format("warning: {} of {} solves hit the cap on iterations", work.unfinished_solves,
+    log_line(fmt::format("warning: {} of {} solves hit the cap on iterations", work.unfinished_solves,
                     work.solves));
-  if (!run.record.stopped.empty()) say("stopped: " + run.record.stopped);
+  if (!run.record.stopped.empty()) log_line("stopped: " + run.record.stopped);
   return run.record.stopped.empty() ? exit_code(expected) : some_fail;
 }
 
 CaseRun run_of(const BuiltCase& of, const Options& options) {
   const InterruptionWatch watch;
-  ProgressLine line("simulate " + of.shown.scene.name);
-  return run_case_with_checkpoints(of, options.out, options.resumes ? Start::last_checkpoint : Start::anew,
+  ProgressLine line("simulate " + of.input_case.scene.name);
+  return run_case_with_checkpoints(of, options.out, options.resumes ? Start::last_checkpoint : Start::fresh,
                                    provenance(options.command), [&](double part) {
                                      line.show(part);
                                      watch.check();
@@ -96,14 +96,14 @@ CaseRun run_of(const BuiltCase& of, const Options& options) {
 }  // namespace
 
 int simulate_case(const Options& options) {
-  Case shown = read_case(case_file(options.file), options.overrides);
+  Case input_case = read_case(case_file(options.file), options.overrides);
   const bool may_delete = options.resumes || options.restarts;
-  const std::optional<KeptRun> kept = checkpoint_folder(shown.scene, options.out).kept_run();
-  if (kept && !may_delete) refuse_to_lose(*kept, shown.scene, options);
+  const std::optional<KeptRun> kept = checkpoint_folder(input_case.scene, options.out).kept_run();
+  if (kept && !may_delete) refuse_to_lose(*kept, input_case.scene, options);
   const OutFolder folder(options.out);
-  const BuiltCase of = built_case(std::move(shown), makers_of(options.cache));
-  const Scene& scene = of.shown.scene;
-  say(fmt::format("{}: {}", scene.name, fmt::join(built_parts(scene, of.built.system), "; ")));
+  const BuiltCase of = built_case(std::move(input_case), provider_for(options.cache));
+  const Scene& scene = of.input_case.scene;
+  log_line(fmt::format("{}: {}", scene.name, fmt::join(describe_parts(scene, of.built.system), "; ")));
   try {
     return report(run_of(of, options), options);
   } catch (const Interrupted& interrupted) {

@@ -129,7 +129,7 @@ class FileTest(unittest.TestCase):
     def simulate(self, case: str, *arguments: str, out: str = "out", **how: object) -> subprocess.CompletedProcess[str]:
         return run("simulate", case, *arguments, "--out", str(self.path / out), **how)
 
-    def refused(self, done: subprocess.CompletedProcess[str], *mentions: str) -> None:
+    def assert_rejected(self, done: subprocess.CompletedProcess[str], *mentions: str) -> None:
         """The exit code is 2, and the last line of standard error is an error that mentions this."""
         self.assertEqual(done.returncode, 2, done.stderr)
         last = done.stderr.strip().splitlines()[-1] if done.stderr.strip() else ""

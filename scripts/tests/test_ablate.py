@@ -42,7 +42,7 @@ class AblateTest(FileTest):
     def ablate(self, *arguments: str) -> subprocess.CompletedProcess[str]:
         return run("ablate", *arguments, "--out", str(self.path / "out"))
 
-    def told(self) -> list[dict]:
+    def read_answer(self) -> list[dict]:
         return json.loads((self.path / "out" / "ablation.json").read_text())["cases"]
 
     def test_it_says_what_a_scene_needs(self) -> None:
@@ -51,10 +51,10 @@ class AblateTest(FileTest):
         self.assertEqual(self.ablate(undeclared, "--set", "time.end=0.2").returncode, 1)
         done = self.ablate(str(case), "--set", "time.end=0.2")
         self.assertEqual(done.returncode, 0, done.stderr)
-        told, *others = self.told()
+        read_answer, *others = self.read_answer()
         self.assertEqual([row["case"] for row in others], ["undeclared"])    # what is not asked again stays
-        self.assertEqual(told["overrides"], ["time.end=0.2"])
-        need = {part["name"]: part["need"] for part in told["parts"]}
+        self.assertEqual(read_answer["overrides"], ["time.end=0.2"])
+        need = {part["name"]: part["need"] for part in read_answer["parts"]}
         self.assertEqual(need["friction of objects"], "needed")
         self.assertEqual(need["object 'slope'"], "needed")
         self.assertEqual(need["self-collision"], "not missed here")
@@ -65,9 +65,9 @@ class AblateTest(FileTest):
     def test_a_coarser_mesh_says_the_error_that_a_finer_one_says(self) -> None:
         disc = self.write("disc.toml", DISC)
         self.ablate(disc)
-        coarser = self.told()[0]["own_error"]
+        coarser = self.read_answer()[0]["own_error"]
         done = self.ablate(disc, "--set", 'ablation.coarser_mesh=""')
-        finer = self.told()[0]["own_error"]
+        finer = self.read_answer()[0]["own_error"]
         self.assertEqual((coarser["coarser_mesh"], finer["coarser_mesh"]), (["cloth.rings=4"], []))
         self.assertRegex(done.stdout, r"finer mesh \d")
         self.assertEqual(coarser["time"], finer["time"])
@@ -79,28 +79,28 @@ class AblateTest(FileTest):
         disc = self.write("disc.toml", DISC)
         done = self.ablate(disc, "--set", "ablation.until=0.04")
         self.assertTrue(done.stdout.startswith("disc (its first 0.04 s of 0.1): "), done.stdout)
-        begun = self.told()[0]
+        begun = self.read_answer()[0]
         self.assertEqual((begun["asked_end"], begun["end"]), (0.04, 0.1))
         self.ablate(disc, "--set", "time.end=0.04", "--set", "ablation.until=7")
-        short = self.told()[0]
+        short = self.read_answer()[0]
         self.assertEqual((short["asked_end"], short["end"]), (0.04, 0.04))
         self.assertEqual([part["position_difference"] for part in begun["parts"]], [part["position_difference"] for part in short["parts"]])
 
     def test_what_cannot_be_is_refused(self) -> None:
         disc = self.write("disc.toml", DISC)
-        self.refused(self.ablate(disc, "--set", 'ablation.wind="it blows"'),
+        self.assert_rejected(self.ablate(disc, "--set", 'ablation.wind="it blows"'),
                      "[ablation] names a part 'wind' that cannot be toggled; known: finer mesh, gravity")
-        self.refused(self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.rings=9"'),
+        self.assert_rejected(self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.rings=9"'),
                      "disc.toml: [ablation] coarser_mesh: 486 triangles of 600; give one with sides at least 1.2 times as long")
-        self.refused(self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.ring=4"'), "unknown key 'ring'")
-        self.refused(self.ablate(disc, "--set", "ablation.coarser_mesh=4"), "must be a text")
-        self.refused(self.ablate(disc, "--set", "ablation.until=0"), "must be > 0 s")
-        self.refused(self.ablate(disc, "--set", 'ablation.coarser_mesh=["cloth.rings=4", "cloth.radius=0.2"]'), "give a mesh of the same surface")
+        self.assert_rejected(self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.ring=4"'), "unknown key 'ring'")
+        self.assert_rejected(self.ablate(disc, "--set", "ablation.coarser_mesh=4"), "must be a text")
+        self.assert_rejected(self.ablate(disc, "--set", "ablation.until=0"), "must be > 0 s")
+        self.assert_rejected(self.ablate(disc, "--set", 'ablation.coarser_mesh=["cloth.rings=4", "cloth.radius=0.2"]'), "give a mesh of the same surface")
         for reaching in ("cloth.mesh=/etc/passwd", "cloth.rings", "cloth.rings="):
-            self.refused(self.ablate(disc, "--set", f'ablation.coarser_mesh="{reaching}"'), "is not table.key=number")
+            self.assert_rejected(self.ablate(disc, "--set", f'ablation.coarser_mesh="{reaching}"'), "is not table.key=number")
         (self.path / "out" / "ablation.json").mkdir(parents=True)
-        self.refused(self.ablate(disc), "ablation.json")
-        self.refused(self.ablate(disc, "--set", 'ablation.finer mesh="a trial"'), "does without a finer mesh, and names a coarser one")
+        self.assert_rejected(self.ablate(disc), "ablation.json")
+        self.assert_rejected(self.ablate(disc, "--set", 'ablation.finer mesh="a trial"'), "does without a finer mesh, and names a coarser one")
 
     def test_a_run_that_is_killed_leaves_the_cases_that_it_was_through_with(self) -> None:
         soon = self.write("soon.toml", DISC.replace("end = 0.1", "end = 0.02"))
@@ -115,7 +115,7 @@ class AblateTest(FileTest):
         finally:
             running.kill()
             running.wait()
-        self.assertEqual([row["case"] for row in self.told()], ["soon"])
+        self.assertEqual([row["case"] for row in self.read_answer()], ["soon"])
 
 
 if __name__ == "__main__":

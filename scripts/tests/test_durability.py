@@ -47,7 +47,7 @@ class Kills(FileTest):
                                                "--set", "cloth.columns=8", "--set", "cloth.rows=8")),
                 (str(self.path / "reef_fold.toml"), ("--set", "time.end=0.02", "--set", "time.frames_per_second=900"))]
 
-    def uninterrupted(self, file: str, options: tuple[str, ...]) -> KilledCase:
+    def run_uninterrupted(self, file: str, options: tuple[str, ...]) -> KilledCase:
         name = Path(file).stem
         start = time.monotonic()
         done = self.simulate(file, *options, "--json", out=f"whole/{name}")
@@ -56,13 +56,13 @@ class Kills(FileTest):
         out = self.path / "whole" / name
         self.assertEqual(sorted(path.name for path in out.iterdir()), [f"{name}.h5", f"{name}.xdmf"])
         return KilledCase(file, options, content_of(out / f"{name}.h5"), (out / f"{name}.xdmf").read_text(),
-                          self.told_by(done.stdout), seconds)
+                          self.report_of(done.stdout), seconds)
 
-    def told_by(self, printed: str) -> dict:
+    def report_of(self, printed: str) -> dict:
         """What a run says of itself but its clock time and folder."""
         return {key: value for key, value in json.loads(printed).items() if key not in ("seconds", "file")}
 
-    def killed_run(self, case: KilledCase, out: Path, wait: float, *more: str) -> bool:
+    def run_and_kill(self, case: KilledCase, out: Path, wait: float, *more: str) -> bool:
         """Starts the run, kills it after `wait` seconds; whether it was still running."""
         command = [str(PROGRAM), "simulate", case.file, *case.options, "--out", str(out), *more]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -94,23 +94,23 @@ class Kills(FileTest):
         name = Path(case.file).stem
         done = run("simulate", case.file, *case.options, "--out", str(out), "--resume", "--json")
         self.assertIn(done.returncode, (0, 1), done.stderr)
-        self.assertEqual(self.told_by(done.stdout), case.told)
+        self.assertEqual(self.report_of(done.stdout), case.told)
         self.assertEqual(sorted(path.name for path in out.iterdir()), [f"{name}.h5", f"{name}.xdmf"])
         self.assertEqual(content_of(out / f"{name}.h5"), case.content)
         self.assertEqual((out / f"{name}.xdmf").read_text(), case.xdmf)
         return done.stderr
 
     def test_a_run_that_is_killed_at_any_moment_resumes_to_the_same_bits(self) -> None:
-        cases = [self.uninterrupted(*case) for case in self.cases()]
+        cases = [self.run_uninterrupted(*case) for case in self.cases()]
         moments = random.Random(SEED)
         hits = again = resumed = damaged = 0
         for number in range(KILLS):
             case, out = cases[number % len(cases)], self.path / f"trial{number}"
             with self.subTest(kill=number, case=case.file):
-                hits += self.killed_run(case, out, moments.uniform(0, 1.1 * case.seconds))
+                hits += self.run_and_kill(case, out, moments.uniform(0, 1.1 * case.seconds))
                 self.require_whole_files(case, out)
                 if moments.random() < 0.5:
-                    again += self.killed_run(case, out, moments.uniform(0, case.seconds), "--resume")
+                    again += self.run_and_kill(case, out, moments.uniform(0, case.seconds), "--resume")
                     self.require_whole_files(case, out)
                 said = self.finish(case, out)
                 resumed += "resumed from frame" in said
@@ -121,9 +121,9 @@ class Kills(FileTest):
         self.assertEqual(damaged, 0)
         self.assertGreater(resumed, KILLS // 8)
 
-    def stopped_short(self) -> tuple[KilledCase, Path]:
+    def stop_short(self) -> tuple[KilledCase, Path]:
         """A run that is killed when it has written a dozen checkpoints."""
-        case, out = self.uninterrupted(*self.cases()[0]), self.path / "out"
+        case, out = self.run_uninterrupted(*self.cases()[0]), self.path / "out"
         process = subprocess.Popen([str(PROGRAM), "simulate", case.file, "--out", str(out)],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         while process.poll() is None and not (out / "led.checkpoints/000012.h5").exists():
@@ -134,7 +134,7 @@ class Kills(FileTest):
         return case, out
 
     def test_a_damaged_checkpoint_is_named_and_the_one_before_is_taken(self) -> None:
-        case, out = self.stopped_short()
+        case, out = self.stop_short()
         last = sorted((out / "led.checkpoints").glob("*.h5"))[-1]
         with h5py.File(last, "r+") as file:
             file["past/0/numbers"][5] += 1e-9
@@ -143,9 +143,9 @@ class Kills(FileTest):
         self.assertIn(f"resumed from frame {int(last.stem) - 1},", said)
 
     def test_a_checkpoint_of_something_else_is_refused_and_stays(self) -> None:
-        case, out = self.stopped_short()
+        case, out = self.stop_short()
         before = {path.name: path.read_bytes() for path in (out / "led.checkpoints").glob("*.h5")}
-        self.refused(run("simulate", case.file, "--set", "gravity.acceleration=[0,-9,0]", "--out", str(out), "--resume"),
+        self.assert_rejected(run("simulate", case.file, "--set", "gravity.acceleration=[0,-9,0]", "--out", str(out), "--resume"),
                      "another case text", "--restart")
         with h5py.File(out / "led.checkpoints/000000.h5") as file:
             self.assertIn("code ", file.attrs["program"])
@@ -162,13 +162,13 @@ class Kills(FileTest):
         process.kill()
         process.wait()
         Path(mesh).write_text(TRIANGLES.replace("v 1 1 0", "v 1 1 0.01"))
-        self.refused(self.simulate(case, "--resume"), "other meshes")
+        self.assert_rejected(self.simulate(case, "--resume"), "other meshes")
 
     def test_a_restart_removes_checkpoints_and_leaves_other_files(self) -> None:
-        case, out = self.stopped_short()
+        case, out = self.stop_short()
         mine = out / "led.checkpoints/notes.txt"
         mine.write_text("mine")
-        self.refused(run("simulate", case.file, "--out", str(out)), "led.checkpoints", "--resume", "--restart")
+        self.assert_rejected(run("simulate", case.file, "--out", str(out)), "led.checkpoints", "--resume", "--restart")
         self.assertEqual(run("simulate", case.file, "--out", str(out), "--restart").returncode, 0)
         self.assertEqual([path.name for path in (out / "led.checkpoints").iterdir()], ["notes.txt"])
         self.assertEqual(content_of(out / "led.h5"), case.content)
@@ -189,7 +189,7 @@ class FullDisk(FileTest):
         for most in [0, 1, 700, 2048, 4096, size - 1, *(stops.randrange(size) for _ in range(12))]:
             with self.subTest(bytes=most):
                 done = self.simulate(case, "--set", "time.max_steps=1000", limits={resource.RLIMIT_FSIZE: most})
-                self.refused(done, "cannot be written")
+                self.assert_rejected(done, "cannot be written")
                 self.assertEqual(self.files_in(self.path / "out"), before)
                 self.assertEqual(self.simulate(case, "--set", "time.max_steps=1000", "--resume", out="out").returncode, 0)
                 again = content_of(self.path / "out/small.h5")
@@ -205,7 +205,7 @@ class FullDisk(FileTest):
         before = self.files_in(out)
         for most in (0, 500, 4000, len(before["run.h5"]) - 1):
             done = run("check", "bending.forces-sum-to-zero", "--out", str(out), limits={resource.RLIMIT_FSIZE: most})
-            self.refused(done, "run.h5", "cannot be written")
+            self.assert_rejected(done, "run.h5", "cannot be written")
             self.assertEqual(self.files_in(out), before)
             self.assertFalse(list(out.glob("*.partial")))
 
@@ -214,19 +214,19 @@ class FullDisk(FileTest):
         shutil.copy(ROOT / "cases/statue.obj", self.path)
         case = self.write("draped.toml", text)
         short = ("--set", "time.end=0.01", "--set", "object.cells=10", "--cache", str(self.path / "kept"))
-        self.refused(self.simulate(case, *short, limits={resource.RLIMIT_FSIZE: 1000}), "kept", "cannot be written")
+        self.assert_rejected(self.simulate(case, *short, limits={resource.RLIMIT_FSIZE: 1000}), "kept", "cannot be written")
         self.assertFalse(list((self.path / "kept").iterdir()))
         out = self.path / "out"
         self.assertIn(self.simulate(self.write("small.toml", SMALL_CASE)).returncode, (0, 1))
         (out / "report.html").write_text("as it was")
-        self.refused(run("report", str(out), limits={resource.RLIMIT_FSIZE: 3000}), "report could not be made")
+        self.assert_rejected(run("report", str(out), limits={resource.RLIMIT_FSIZE: 3000}), "report could not be made")
         self.assertEqual((out / "report.html").read_text(), "as it was")
         self.assertFalse(list(out.rglob("*.partial")))
 
     def test_standard_output_that_is_full_is_an_error(self) -> None:
         with open("/dev/full", "wb") as full:
             for command in (["golden", "springs", "--count", "9"], ["list"], ["list", "--json"]):
-                self.refused(run(*command, stdout=full.fileno()), "standard output cannot be written")
+                self.assert_rejected(run(*command, stdout=full.fileno()), "standard output cannot be written")
 
     def test_a_disk_that_is_really_full(self) -> None:
         if os.geteuid() != 0:
@@ -239,7 +239,7 @@ class FullDisk(FileTest):
         try:
             (disk / "small.h5").write_text("as it was")
             done = self.simulate(self.write("small.toml", SMALL_CASE), out="disk")
-            self.refused(done, "cannot be written")
+            self.assert_rejected(done, "cannot be written")
             self.assertEqual((disk / "small.h5").read_text(), "as it was")
             full = run("check", "bending", "--out", str(disk))
             self.assertIn(full.returncode, (0, 2))
@@ -262,10 +262,10 @@ class Rights(FileTest):
                                **({"user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else {}))
         if probe.returncode != 0:
             self.skip_and_say("an unprivileged user cannot reach the program here")
-        self.refused(self.as_nobody("simulate", case, "--out", str(out)), str(out))
-        self.refused(self.as_nobody("simulate", case, "--out", str(out / "new")), "new", "cannot make this folder")
-        self.refused(self.as_nobody("check", "bending.forces-sum-to-zero", "--out", str(out)), str(out))
-        self.refused(self.as_nobody("report", str(out)), "report")
+        self.assert_rejected(self.as_nobody("simulate", case, "--out", str(out)), str(out))
+        self.assert_rejected(self.as_nobody("simulate", case, "--out", str(out / "new")), "new", "cannot make this folder")
+        self.assert_rejected(self.as_nobody("check", "bending.forces-sum-to-zero", "--out", str(out)), str(out))
+        self.assert_rejected(self.as_nobody("report", str(out)), "report")
         self.assertEqual([path.name for path in out.iterdir()], ["small.h5"])
         self.assertEqual((out / "small.h5").read_text(), "as it was")
         out.chmod(0o755)
@@ -275,20 +275,20 @@ class Rights(FileTest):
             self.skip_and_say("only root runs as another user")
         case = self.write("secret.toml", SMALL_CASE)
         Path(case).chmod(0o600)
-        self.refused(self.as_nobody("simulate", case, "--out", "/tmp/never"), "secret.toml", "Permission denied")
+        self.assert_rejected(self.as_nobody("simulate", case, "--out", "/tmp/never"), "secret.toml", "Permission denied")
 
     def test_an_output_path_that_is_a_file_or_a_folder(self) -> None:
         case, taken = self.write("small.toml", SMALL_CASE), self.write("taken", "mine")
-        self.refused(run("simulate", case, "--out", taken), "taken", "cannot make this folder")
+        self.assert_rejected(run("simulate", case, "--out", taken), "taken", "cannot make this folder")
         (self.path / "out/small.h5").mkdir(parents=True)
-        self.refused(self.simulate(case), "small.h5", "what is there is no file")
+        self.assert_rejected(self.simulate(case), "small.h5", "what is there is no file")
         (self.path / "out/small.h5").rmdir()
         (self.path / "out/small.checkpoints").write_text("mine")
-        self.refused(self.simulate(case), "small.checkpoints")
+        self.assert_rejected(self.simulate(case), "small.checkpoints")
         self.assertEqual((self.path / "out/small.checkpoints").read_text(), "mine")
         self.assertEqual(Path(taken).read_text(), "mine")
         (self.path / "out2/run.h5").mkdir(parents=True)
-        self.refused(run("check", "bending.forces-sum-to-zero", "--out", str(self.path / "out2")), "run.h5")
+        self.assert_rejected(run("check", "bending.forces-sum-to-zero", "--out", str(self.path / "out2")), "run.h5")
 
 
 def main() -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from edits import applied, changes_of, place_of, sample, tokens_of  # noqa: E402
+from edits import apply, changes_of, place_of, sample, tokens_of  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 KERNEL = (ROOT / "reference/forces/springs.cpp").read_text(encoding="utf-8")
@@ -39,14 +39,14 @@ class EditsTest(unittest.TestCase):
         self.assertEqual(sample(changes, 7), sample(changes_of(KERNEL), 7))
         self.assertNotEqual(sample(changes, 7), sample(changes, 8))
         self.assertEqual(sorted(sample(changes, 7)), changes)
-        edited = [applied(KERNEL, change) for change in changes]
+        edited = [apply(KERNEL, change) for change in changes]
         self.assertEqual(len(edited), len(set(edited)))
         self.assertFalse(KERNEL in edited)
 
     def test_each_edit_changes_one_token_or_takes_out_one_statement(self) -> None:
         original = code_of(KERNEL)
         for change in changes_of(KERNEL):
-            edited = code_of(applied(KERNEL, change))
+            edited = code_of(apply(KERNEL, change))
             head = next(k for k, (a, b) in enumerate(zip([*original, ""], [*edited, None])) if a != b)
             tail = next(k for k, (a, b) in enumerate(zip([*original[head:][::-1], ""], [*edited[head:][::-1], None])) if a != b)
             gone = original[head:len(original) - tail]

@@ -21,7 +21,7 @@ sys.dont_write_bytecode = True
 from file_tests import CLOCK, LED_CASE, PROGRAM, ROOT, SEED, SMALL_CASE, TRIANGLES, FileTest, content_of, run  # noqa: E402
 
 
-def damaged(content: bytes, chance: random.Random) -> bytes:
+def damage(content: bytes, chance: random.Random) -> bytes:
     """The bytes cut off somewhere, or with some flipped, zeroed or turned into the largest number; structures, which lie at
     the start of an HDF5 file, are hit as often as data."""
     if chance.random() < 0.25:
@@ -52,13 +52,13 @@ class DamagedFiles(FileTest):
 
     def trials(self, source: Path, target: Path, commands: list[list[str]], count: int) -> None:
         chance = random.Random(SEED)
-        content, refused, runs = source.read_bytes(), 0, 0
+        content, assert_rejected, runs = source.read_bytes(), 0, 0
         for number in range(count):
-            target.write_bytes(damaged(content, chance))
+            target.write_bytes(damage(content, chance))
             for command in commands:
-                refused += self.judge(run(*command, limits={resource.RLIMIT_CORE: 0}), number) == 2
+                assert_rejected += self.judge(run(*command, limits={resource.RLIMIT_CORE: 0}), number) == 2
                 runs += 1
-        print(f"\n{source.name}: {count} damages, {runs} commands, {refused} refused, the others answered", flush=True)
+        print(f"\n{source.name}: {count} damages, {runs} commands, {assert_rejected} refused, the others answered", flush=True)
 
     def test_stored_runs(self) -> None:
         self.assertEqual(self.simulate(self.write("small.toml", SMALL_CASE)).returncode, 0)
@@ -100,7 +100,7 @@ class DamagedFiles(FileTest):
             shutil.rmtree(self.path / "out")
             shutil.copytree(self.path / "source", self.path / "out")
             hurt = self.path / f"out/led.checkpoints/{chance.randrange(21):06}.h5"
-            hurt.write_bytes(damaged(hurt.read_bytes(), chance))
+            hurt.write_bytes(damage(hurt.read_bytes(), chance))
             self.assertEqual(self.judge(self.simulate(case, "--resume"), number), 0)
             content = content or content_of(self.path / "out/led.h5")
             self.assertEqual(content_of(self.path / "out/led.h5"), content)
@@ -111,11 +111,11 @@ class Limits(FileTest):
 
     MOST = 2 << 30  # bytes of address space
 
-    def soon_refused(self, *arguments: str, mentions: tuple[str, ...]) -> None:
+    def assert_rejected_soon(self, *arguments: str, mentions: tuple[str, ...]) -> None:
         start = os.times()
         done = run(*arguments, limits={resource.RLIMIT_AS: self.MOST, resource.RLIMIT_CORE: 0})
         end = os.times()
-        self.refused(done, *mentions)
+        self.assert_rejected(done, *mentions)
         self.assertLess(end.children_user + end.children_system - start.children_user - start.children_system, 20)
 
     def long_file(self, name: str, line: bytes, lines: int, first: bytes = b"") -> str:
@@ -127,9 +127,9 @@ class Limits(FileTest):
 
     def test_a_case_of_100_megabytes(self) -> None:
         case = self.long_file("huge.toml", b"# nothing\n", 10_000_000)
-        self.soon_refused("simulate", case, mentions=("huge.toml", "1048576 bytes"))
+        self.assert_rejected_soon("simulate", case, mentions=("huge.toml", "1048576 bytes"))
         case = self.write("wide.toml", "# " + "x" * 70000 + "\n")
-        self.soon_refused("simulate", case, mentions=("wide.toml:1", "65536 bytes"))
+        self.assert_rejected_soon("simulate", case, mentions=("wide.toml:1", "65536 bytes"))
 
     def test_a_case_nested_without_end(self) -> None:
         for name, text in (("dots", "a" + ".a" * 30000 + " = 1\n"), ("lists", "a = " + "[" * 60000 + "\n"),
@@ -138,41 +138,41 @@ class Limits(FileTest):
                            ("digits", "1.1" + " . 1.1" * 9000 + " = 1\n"),
                            ("deepest", "[a" + ".a" * 2000 + "]\nb" + ".b" * 2000 + " = 1\nx\n")):
             with self.subTest(name):
-                self.soon_refused("simulate", self.write(f"{name}.toml", text), mentions=(f"{name}.toml",))
+                self.assert_rejected_soon("simulate", self.write(f"{name}.toml", text), mentions=(f"{name}.toml",))
 
     def test_a_mesh_of_ten_million_faces(self) -> None:
         mesh = self.long_file("faces.obj", b"f 1 2 3\n", 10_000_000, b"v 0 0 0\nv 1 0 0\nv 0 1 0\n")
-        self.soon_refused("inspect", mesh, mentions=("faces.obj:4000004", "more than 4000000 triangles"))
-        self.soon_refused("crossings", mesh, mentions=("faces.obj:4000004",))
+        self.assert_rejected_soon("inspect", mesh, mentions=("faces.obj:4000004", "more than 4000000 triangles"))
+        self.assert_rejected_soon("crossings", mesh, mentions=("faces.obj:4000004",))
         vertices = self.long_file("vertices.obj", b"v 0 0 0\n", 3_000_000)
-        self.soon_refused("inspect", vertices, mentions=("vertices.obj:2000001", "more than 2000000 vertices"))
+        self.assert_rejected_soon("inspect", vertices, mentions=("vertices.obj:2000001", "more than 2000000 vertices"))
         fan = self.write("fan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf " + "1 2 3 \\\n" * 1_500_000)
-        self.soon_refused("inspect", fan, mentions=("fan.obj", "more than 4000000 triangles"))
+        self.assert_rejected_soon("inspect", fan, mentions=("fan.obj", "more than 4000000 triangles"))
 
     def test_groups_without_end(self) -> None:
         names = " ".join(f"g{k}" for k in range(40))
-        self.soon_refused("inspect", self.write("groups.obj", f"g {names}\n{TRIANGLES}"), mentions=("groups.obj:1", "16 names of groups"))
+        self.assert_rejected_soon("inspect", self.write("groups.obj", f"g {names}\n{TRIANGLES}"), mentions=("groups.obj:1", "16 names of groups"))
 
     def test_lines_without_end(self) -> None:
         for name in ("endless.obj", "endless.csv"):
             self.long_file(name, b"1.0 " * 10, 2_500_000, b"\n")
-        self.soon_refused("inspect", str(self.path / "endless.obj"), mentions=("endless.obj:2", "65536 bytes"))
+        self.assert_rejected_soon("inspect", str(self.path / "endless.obj"), mentions=("endless.obj:2", "65536 bytes"))
         for kind in (("bending",), ("crossings", "--kind", "edge-edge")):
-            self.soon_refused("evaluate", *kind, str(self.path / "endless.csv"), mentions=("endless.csv:2", "65536 bytes"))
-        self.soon_refused("inspect", self.long_file("big.obj", b"# " + b"x" * 998 + b"\n", 300_000), mentions=("big.obj", "268435456 bytes"))
+            self.assert_rejected_soon("evaluate", *kind, str(self.path / "endless.csv"), mentions=("endless.csv:2", "65536 bytes"))
+        self.assert_rejected_soon("inspect", self.long_file("big.obj", b"# " + b"x" * 998 + b"\n", 300_000), mentions=("big.obj", "268435456 bytes"))
 
     def test_what_is_no_file(self) -> None:
         os.mkfifo(self.path / "pipe.obj")
         for name in ("/dev/zero", str(self.path / "pipe.obj"), str(self.path)):
-            self.soon_refused("inspect", name, mentions=(name,))
-            self.soon_refused("evaluate", "bending", name, mentions=(name,))
-            self.soon_refused("simulate", name, mentions=(name,))
-            self.soon_refused("simulate", str(ROOT / "cases/any_mesh.toml"), "--set", f"cloth.mesh={name}", mentions=(name,))
+            self.assert_rejected_soon("inspect", name, mentions=(name,))
+            self.assert_rejected_soon("evaluate", "bending", name, mentions=(name,))
+            self.assert_rejected_soon("simulate", name, mentions=(name,))
+            self.assert_rejected_soon("simulate", str(ROOT / "cases/any_mesh.toml"), "--set", f"cloth.mesh={name}", mentions=(name,))
 
     def test_rows_without_end(self) -> None:
         row = b"1,2,3,4,5,6,7,8,9,1,2,3,1,2,3,1,2,3,1,2,3,1,2,3,1,2,3\n"
         table = self.long_file("rows.csv", row, 1_010_000)
-        self.soon_refused("evaluate", "bending", table, mentions=("rows.csv:1000001", "1000000 rows"))
+        self.assert_rejected_soon("evaluate", "bending", table, mentions=("rows.csv:1000001", "1000000 rows"))
 
 
 class Names(FileTest):
@@ -181,7 +181,7 @@ class Names(FileTest):
     def test_names_of_cases_are_plain(self) -> None:
         for name in ("two words", "caf\u00e9", ".hidden", "-option", "dots..twice", "new\nline", "tab\there", "<b>", "quo'te", "x" * 101):
             with self.subTest(name=name):
-                self.refused(self.simulate(self.write(f"{name}.toml", SMALL_CASE)), "a case is named after its file")
+                self.assert_rejected(self.simulate(self.write(f"{name}.toml", SMALL_CASE)), "a case is named after its file")
         self.assertFalse((self.path / "out").exists() and list((self.path / "out").iterdir()))
         for name in ("a", "x" * 100, "Case_1.2-b"):
             self.assertEqual(self.simulate(self.write(f"{name}.toml", SMALL_CASE)).returncode, 0, name)
@@ -213,8 +213,8 @@ class Names(FileTest):
             self.assertEqual(self.simulate(self.case_with_mesh(mesh)).returncode, 0, mesh)
         for mesh in (outside, "../outside.obj", "sub/../beside.obj", "outer.obj", "up/outside.obj", "/etc/passwd", ".."):
             with self.subTest(mesh=mesh):
-                self.refused(self.simulate(self.case_with_mesh(mesh)), "own.toml:2", "case file's folder", "--set")
-        self.refused(self.simulate(self.case_with_mesh("none.obj")), "there is no mesh file")
+                self.assert_rejected(self.simulate(self.case_with_mesh(mesh)), "own.toml:2", "case file's folder", "--set")
+        self.assert_rejected(self.simulate(self.case_with_mesh("none.obj")), "there is no mesh file")
         self.assertEqual(self.simulate(self.case_with_mesh("beside.obj"), "--set", f"cloth.mesh={outside}").returncode, 0)
 
     def test_animations_too(self) -> None:
@@ -224,7 +224,7 @@ class Names(FileTest):
         (self.path / "case/linked/0.obj").symlink_to(self.path / "outside.obj")
         for frames in ("../frames", str(self.path / "frames"), "linked"):
             text = SMALL_CASE + f'[[object]]\nframes = "{frames}"\n'
-            self.refused(self.simulate(self.write("case/own.toml", text)), "case file's folder")
+            self.assert_rejected(self.simulate(self.write("case/own.toml", text)), "case file's folder")
 
     def test_what_is_printed_and_written_is_valid_whatever_the_names(self) -> None:
         out = os.fsencode(self.path) + b"/out \xff\xfe<&\"'>\x01"

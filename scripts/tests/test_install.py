@@ -26,7 +26,7 @@ HEADER_OF_CPP = re.compile(r"[a-z0-9_]+")        # <vector>; <unistd.h> is none
 LINK = re.compile(r"\]\((?!https?:)([^)#\s]+)")    # of Markdown, to a file
 
 
-def said(*words: str | Path, folder: Path | None = None) -> str:
+def output_of(*words: str | Path, folder: Path | None = None) -> str:
     """What a command prints. Its messages are the error if it fails."""
     done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode:
@@ -41,7 +41,7 @@ class Installation:
         self.prefix, self.work, self.nothing = folder / "moved here", folder / "work", folder / "nothing"
         for made in (self.work, self.nothing):
             made.mkdir()
-        said("cmake", "--install", BUILD, "--prefix", folder / "prefix")
+        output_of("cmake", "--install", BUILD, "--prefix", folder / "prefix")
         (folder / "prefix").rename(self.prefix)
         self.blind = self._blindfold()
 
@@ -125,7 +125,7 @@ class Program(Installed):
         program = self.here.prefix / "bin/foldproof"
         lines = [f"source '{self.here.prefix}/share/bash-completion/completions/foldproof'",
                  f"COMP_WORDS=('{program}' simulate garm) COMP_CWORD=2", "_foldproof", 'echo "${COMPREPLY[@]}"']
-        self.assertEqual(said("bash", "-c", "\n".join(lines), folder=self.here.work), "garment\n")
+        self.assertEqual(output_of("bash", "-c", "\n".join(lines), folder=self.here.work), "garment\n")
 
     def test_links_of_its_pages_lead_somewhere(self) -> None:
         pages = self.here.prefix / "share/doc/foldproof"
@@ -156,11 +156,11 @@ class Library(Installed):
         example = self.here.prefix / "share/doc/foldproof/reference/example"
         made = self.here.work / "example"
         self.cmake(example, made, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
-        said("cmake", "--build", made)
-        heights = [float(line.split()[2]) for line in said(made / "hung_sheet").splitlines()]
+        output_of("cmake", "--build", made)
+        heights = [float(line.split()[2]) for line in output_of(made / "hung_sheet").splitlines()]
         self.assertEqual((len(heights), heights[0]), (11, 1.0))
         self.assertTrue(1.005 < heights[-1] < 1.1, heights)  # it hangs, and stretches by its weight
-        linked = said("ldd", made / "hung_sheet")
+        linked = output_of("ldd", made / "hung_sheet")
         for name in ("gsl", "toml", "hdf5"):
             self.assertNotIn(name, linked)
 
@@ -194,18 +194,18 @@ class Package(Installed):
 
     @classmethod
     def setUpClass(cls) -> None:
-        said("cpack", "-G", "DEB", "--config", BUILD / "CPackConfig.cmake", "-B", cls.here.work / "package")
+        output_of("cpack", "-G", "DEB", "--config", BUILD / "CPackConfig.cmake", "-B", cls.here.work / "package")
         cls.package = next((cls.here.work / "package").glob("*.deb"))
 
     def test_it_names_its_version_and_needs(self) -> None:
-        architecture = said("dpkg", "--print-architecture").strip()
+        architecture = output_of("dpkg", "--print-architecture").strip()
         self.assertEqual(self.package.name, f"foldproof_{VERSION}_{architecture}.deb")
-        needs = said("dpkg-deb", "-f", self.package, "Depends")
+        needs = output_of("dpkg-deb", "-f", self.package, "Depends")
         for name in ("libc6", "libstdc++6", "libgsl", "libhdf5", "libfmt", "python3-matplotlib", "python3-h5py", "python3-jinja2"):
             self.assertRegex(needs, rf"(^|, ){re.escape(name)}")
 
     def test_it_holds_what_is_installed_and_all_of_it_belongs_to_root(self) -> None:
-        rows = [row.split(maxsplit=5) for row in said("dpkg-deb", "--contents", self.package).splitlines()]
+        rows = [row.split(maxsplit=5) for row in output_of("dpkg-deb", "--contents", self.package).splitlines()]
         self.assertEqual({row[1] for row in rows}, {"root/root"})
         held = {row[5].removeprefix("./usr/").rstrip("/") for row in rows} - {"", "./usr", "."}
         self.assertEqual(held, set(self.here.files()))
@@ -229,14 +229,14 @@ class Package(Installed):
         if os.geteuid() == 0:
             (root / "var/lib/dpkg").mkdir(parents=True)
             (root / "var/lib/dpkg/status").touch()
-            said("dpkg", f"--root={root}", "--force-depends", "--force-not-root", "--log=/dev/null", "-i", self.package)
-            self.assertIn("install ok installed", said("dpkg-query", f"--admindir={root}/var/lib/dpkg", "-s", "foldproof"))
+            output_of("dpkg", f"--root={root}", "--force-depends", "--force-not-root", "--log=/dev/null", "-i", self.package)
+            self.assertIn("install ok installed", output_of("dpkg-query", f"--admindir={root}/var/lib/dpkg", "-s", "foldproof"))
         else:
-            said("dpkg-deb", "-x", self.package, root)
+            output_of("dpkg-deb", "-x", self.package, root)
         done = self.here.run("simulate", "garment", "--set", "time.end=0.001", "--out", "of_package",
                              program=root / "usr/bin/foldproof")
         self.assertIn("t = 0.001 s", done.stdout, done.stderr)
-        self.assertNotIn(".symtab", said("readelf", "-S", root / "usr/bin/foldproof"))
+        self.assertNotIn(".symtab", output_of("readelf", "-S", root / "usr/bin/foldproof"))
 
 
 if __name__ == "__main__":

@@ -18,13 +18,13 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 
 from script_module import ROOT, script  # noqa: E402
-from edits import applied, changes_of  # noqa: E402
+from edits import apply, changes_of  # noqa: E402
 from mutants import PROGRAM, TESTS  # noqa: E402
 
 FAULTS = script("faults")
 
 
-def said(*words: str) -> str:
+def output_of(*words: str) -> str:
     return subprocess.run(words, capture_output=True, text=True, check=True).stdout
 
 
@@ -36,7 +36,7 @@ class Names(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        cls.listed = json.loads(said(str(PROGRAM), "list", "--json"))
+        cls.listed = json.loads(output_of(str(PROGRAM), "list", "--json"))
         cls.tests = set(subprocess.run([TESTS, "--list-test-names-only"], capture_output=True, text=True, check=False).stdout.splitlines())
         for file in sorted((ROOT / "scripts/tests").glob("test_*.py")):
             cls.tests |= set(re.findall(r"^    def (test_\w+)\(", file.read_text(encoding="utf-8"), re.M))
@@ -87,7 +87,7 @@ class Names(unittest.TestCase):
         """Is one of the edits of the text that change of a line?"""
         for change in changes_of(text):
             number = text.count("\n", 0, change.at)
-            if text.splitlines()[number].strip() == line and applied(text, change).splitlines()[number].strip() == becomes:
+            if text.splitlines()[number].strip() == line and apply(text, change).splitlines()[number].strip() == becomes:
                 return True
         return False
 

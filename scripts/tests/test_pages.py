@@ -75,7 +75,7 @@ class Keys(unittest.TestCase):
                            r'\*?\w+, "(\w+)"')
         keys = {a or b for path in (ROOT / "reference/scene").glob("read_*.cpp")
                 for a, b in asked.findall(path.read_text(encoding="utf-8"))}
-        for path in ("reference/scene/key_values.cpp", "reference/scene/shapes_of.cpp", "verification/cases/measurement.cpp"):
+        for path in ("reference/scene/key_values.cpp", "reference/scene/read_cloth_mesh.cpp", "verification/cases/measurement.cpp"):
             keys |= {a or b for a, b in asked.findall((ROOT / path).read_text(encoding="utf-8"))}
         self.assertGreater(len(keys), 90)
         self.assertEqual({key for key in keys if not re.search(rf"\b{key}\b", self.text)}, set())

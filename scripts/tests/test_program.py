@@ -92,9 +92,9 @@ step = 0.001
             x = file["frames/positions"][-1]
             self.assertEqual(len(x), 25 * 25)
             self.assertGreaterEqual(np.linalg.norm(x, axis=1).min(), 0.25)
-        refused = run("project", stored, "--map", "blend", "--tau", "-1", "--out", str(self.path / "out"))
-        self.assertEqual(refused.returncode, 2)
-        self.assertIn("0 <= eps < tau", refused.stderr)
+        assert_rejected = run("project", stored, "--map", "blend", "--tau", "-1", "--out", str(self.path / "out"))
+        self.assertEqual(assert_rejected.returncode, 2)
+        self.assertIn("0 <= eps < tau", assert_rejected.stderr)
 
     def test_a_body_of_ones_own_is_kept_deformed_and_projected_beside_its_case(self) -> None:
         shutil.copy(ROOT / "cases/statue.obj", self.path / "body.obj")
@@ -145,9 +145,9 @@ step = 0.001
         wrong = self.write("wrong.csv", "\n".join(row[:-1] + "1" for row in rows))
         self.assertEqual(run("evaluate", "crossings", wrong, "--kind", "vertex-face").returncode, 1)
         short = self.write("short.csv", "\n".join(rows[:-1]))
-        refused = run("evaluate", "crossings", short, "--kind", "vertex-face")
-        self.assertEqual(refused.returncode, 2)
-        self.assertIn("a query has 8", refused.stderr)
+        assert_rejected = run("evaluate", "crossings", short, "--kind", "vertex-face")
+        self.assertEqual(assert_rejected.returncode, 2)
+        self.assertIn("a query has 8", assert_rejected.stderr)
 
     def test_simulate_writes_frames_at_their_times(self) -> None:
         done = self.simulate(str(ROOT / "cases/hinge.toml"), "--set", "time.end=0.25", "--json")
@@ -181,21 +181,21 @@ step = 0.001
         self.assertIn("none.obj", done.stderr)
 
     def test_a_case_is_named_by_its_file_or_as_a_shipped_one(self) -> None:
-        def simulated(name: str) -> subprocess.CompletedProcess[str]:
+        def simulate_case(name: str) -> subprocess.CompletedProcess[str]:
             return run("simulate", name, "--set", "time.end=0.02", "--out", "out", folder=self.path)
 
         for name in ("hinge", "hinge.toml", "any_mesh", "hard/sharp_fold"):
-            done = simulated(name)
+            done = simulate_case(name)
             self.assertTrue((self.path / "out" / f"{Path(name).stem}.h5").is_file(), done.stderr)
         (self.path / "mine").mkdir()  # a folder is no case
         self.write("mine.toml", (ROOT / "cases/hinge.toml").read_text())
         self.write("any_mesh.toml", (ROOT / "cases/hinge.toml").read_text())
         for name in ("mine", "any_mesh", "any_mesh.toml"):
-            self.assertIn("4 particles, 2 triangles", simulated(name).stderr)
+            self.assertIn("4 particles, 2 triangles", simulate_case(name).stderr)
         done = run("converge", "hinge", "--until", "0.02", "--levels", "3", "--out", "out", folder=self.path)
         self.assertIn(done.returncode, (0, 1), done.stderr)
         for name in ("nowhere", "hard/../hinge", "needs", "/hinge"):
-            done = simulated(name)
+            done = simulate_case(name)
             self.assertEqual(done.returncode, 2)
             self.assertIn(f"{name}: there is no such case file, and no shipped case of that name", done.stderr)
 
@@ -339,14 +339,14 @@ step = 0.001
         self.assertIn("long.csv:1: a number has more than 1000 digits", done.stderr)
 
     def test_checks_measure_the_same_on_any_number_of_threads_and_in_any_order(self) -> None:
-        def measured(*how: str) -> dict[str, tuple[float, float, float]]:
+        def measure(*how: str) -> dict[str, tuple[float, float, float]]:
             told = json.loads(run("check", *how, "--json").stdout)
             rows = [row for row in told["findings"] if row["kind"] == "check" and row["name"] not in SECONDS]
             return {row["name"]: (row["measured"], row["uncertainty"], row["bound"]) for row in rows}
 
-        alone = measured("--threads", "1")
+        alone = measure("--threads", "1")
         self.assertGreater(len(alone), 300)
-        self.assertEqual(alone, measured("--threads", "2", "--order", "1"))
+        self.assertEqual(alone, measure("--threads", "2", "--order", "1"))
 
     def test_a_shift_of_seeds_gives_other_samples_and_is_recorded(self) -> None:
         told = [json.loads(run("check", "bending.forces-sum-to-zero", "--seed", seed, "--json", "--out",
@@ -357,23 +357,23 @@ step = 0.001
             self.assertEqual(file.attrs["seed"], 7)
 
     def test_the_shell_completes_commands_names_options_and_files(self) -> None:
-        def completed(*words: str) -> list[str]:
+        def complete(*words: str) -> list[str]:
             lines = ["source scripts/completion.bash", f"COMP_WORDS=({' '.join(map(repr, (str(PROGRAM), *words)))})",
                      f"COMP_CWORD={len(words)}", "_foldproof", 'printf "%s\\n" "${COMPREPLY[@]}"']
             return subprocess.run(["bash", "-c", "\n".join(lines)], cwd=ROOT, capture_output=True, text=True,
                                   check=True).stdout.split()
 
-        self.assertEqual(completed("abl"), ["ablate"])
-        self.assertEqual(completed("check", "bending.torq"), ["bending.torques-sum-to-zero"])
-        self.assertIn("time-order", completed("study", "time"))
-        self.assertEqual(completed("check", "case.tw"), ["case.twist"])
-        self.assertNotIn("bending", completed("study", "bend"))
-        self.assertEqual(completed("simulate", "--res"), ["--restart", "--resume"])
-        self.assertEqual(completed("simulate", "cases/garm"), ["cases/garment.toml"])
-        self.assertEqual(completed("simulate", "garm"), ["garment"])
-        self.assertEqual(completed("ablate", "hard/tw"), ["hard/twist"])
-        self.assertEqual(completed("inspect", "cas"), ["cases/"])
-        self.assertEqual(completed("golden", "fri"), ["friction"])
+        self.assertEqual(complete("abl"), ["ablate"])
+        self.assertEqual(complete("check", "bending.torq"), ["bending.torques-sum-to-zero"])
+        self.assertIn("time-order", complete("study", "time"))
+        self.assertEqual(complete("check", "case.tw"), ["case.twist"])
+        self.assertNotIn("bending", complete("study", "bend"))
+        self.assertEqual(complete("simulate", "--res"), ["--restart", "--resume"])
+        self.assertEqual(complete("simulate", "cases/garm"), ["cases/garment.toml"])
+        self.assertEqual(complete("simulate", "garm"), ["garment"])
+        self.assertEqual(complete("ablate", "hard/tw"), ["hard/twist"])
+        self.assertEqual(complete("inspect", "cas"), ["cases/"])
+        self.assertEqual(complete("golden", "fri"), ["friction"])
 
     def test_a_stored_run_becomes_files_pages_and_a_comparison(self) -> None:
         for folder, stiffness in (("one", "1e-4"), ("two", "2e-4")):
@@ -399,7 +399,7 @@ step = 0.001
         for typed, meant in (("bendnig", "bending"), ("case.twsit", "case.twist"), ("robes", "case.robe"), ("monotonicty", "monotonicity")):
             self.assertRegex(run("check", typed).stderr, rf"did you mean {re.escape(meant)}[?, ]")
 
-    def refused(self, *arguments: str) -> str:
+    def assert_rejected(self, *arguments: str) -> str:
         """The one line on standard error of a command that is refused and leaves nothing behind."""
         before = sorted(self.path.rglob("*"))
         done = run(*arguments, folder=self.path)
@@ -426,9 +426,9 @@ step = 0.001
             "simulate nowhere/at_all_like.toml": "list` shows the shipped ones",
             "inspect nowhere/at_all_like.obj": "there is no such file; check the path",
         }.items():
-            self.assertIn(said, self.refused(*typed.split()), typed)
+            self.assertIn(said, self.assert_rejected(*typed.split()), typed)
         self.write("flag.csv", "1,2")
-        self.assertIn("did you mean flag.csv?", self.refused("evaluate", "bending", "flg.csv"))
+        self.assertIn("did you mean flag.csv?", self.assert_rejected("evaluate", "bending", "flg.csv"))
 
     def test_wrong_input_is_refused_in_a_line_and_leaves_nothing(self) -> None:
         for name in ("empty.toml", "empty.obj", "empty.h5", "empty.csv"):
@@ -470,7 +470,7 @@ step = 0.001
             "project empty.h5 --map blend": "--tau is missing; usage: foldproof project RUN.h5 --map MAP --tau LENGTH",
             "project empty.h5 --map blend --tau nan": "'nan' is not a finite number",
         }.items():
-            self.assertIn(said, self.refused(*typed.split()), typed)
+            self.assertIn(said, self.assert_rejected(*typed.split()), typed)
 
     def test_a_command_shows_its_own_help(self) -> None:
         def commands_in(text: str) -> list[str]:
@@ -493,7 +493,7 @@ step = 0.001
                     self.assertTrue(not word.startswith("--") or f"{word} " in text, word)
         self.assertEqual(run("check", "--seed", "x", "--help").returncode, 0)
 
-    def interrupted(self, how: int) -> subprocess.CompletedProcess[str]:
+    def interrupt(self, how: int) -> subprocess.CompletedProcess[str]:
         """A run of the hinge that the signal reaches after its second frame."""
         out = self.path / "out"
         command = [str(PROGRAM), "simulate", "cases/hinge.toml", "--set", "time.end=3", "--out", str(out)]
@@ -506,7 +506,7 @@ step = 0.001
 
     def test_an_interrupted_run_says_how_to_resume_it(self) -> None:
         for how in (signal.SIGINT, signal.SIGTERM):
-            done = self.interrupted(how)
+            done = self.interrupt(how)
             self.assertEqual(done.returncode, -how, done.stderr)
             self.assertRegex(done.stderr, r"interrupted at frame \d+, t = \S+ s of 3 s; resume with: .* --resume\n$")
             command = done.stderr.splitlines()[-1].split("resume with: ")[1]
@@ -516,7 +516,7 @@ step = 0.001
             shutil.rmtree(self.path / "out")
 
     def test_an_interrupted_run_is_deleted_only_on_request(self) -> None:
-        command = self.interrupted(signal.SIGKILL).args
+        command = self.interrupt(signal.SIGKILL).args
         kept = {path.name: path.read_bytes() for path in (self.path / "out/hinge.checkpoints").glob("*.h5")}
         for more, mentions in (((), ("interrupted at frame", "--resume`")),
                                (("--set", "time.end=2"), ("another case text", "another --out"))):

@@ -45,7 +45,7 @@ def answer(command: str, folder: Path) -> str:
     return "".join(row + "\n" for row in lines)
 
 
-def prepared(folder: Path) -> None:
+def prepare(folder: Path) -> None:
     """What the tutorial finds where it is typed."""
     for name in ("build", "cases", "reports"):
         (folder / name).symlink_to(ROOT / name)
@@ -56,7 +56,7 @@ def main() -> int:
     wrong = ran = 0
     with tempfile.TemporaryDirectory(prefix="foldproof tutorial ") as name:
         folder = Path(name)
-        prepared(folder)
+        prepare(folder)
         for block in BLOCK.finditer(text):
             kind, content = block.groups()
             if kind == "toml":  # its first line is a comment that names the file

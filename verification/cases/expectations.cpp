@@ -10,7 +10,7 @@ namespace foldproof {
 
 namespace {
 
-[[noreturn]] void refuse_unknown(const std::string& where, const std::string& key) {
+[[noreturn]] void reject_unknown(const std::string& where, const std::string& key) {
   std::string known;
   for (const Quantity& quantity : quantities())
     known += (known.empty() ? "" : ", ") + std::string(quantity.key);
@@ -22,13 +22,13 @@ Expectation read_entry(const KeyTable& expect, const std::string& key, const Sce
                        const std::string& replaced) {
   const std::string where = expect.where(key);
   const Quantity* quantity = find_quantity(key);
-  if (!quantity) refuse_unknown(where, key);
+  if (!quantity) reject_unknown(where, key);
   const auto entry = expect.table(key);
   const char* bound = quantity->sense == Sense::at_most ? "at_most" : "at_least";
   const bool is_for_this_run = quantity->scope == Scope::any_cloth || is_override(entry->where(bound));
   const std::string not_asked = is_for_this_run ? "" : replaced;
-  const std::string refusal = quantity->refusal && not_asked.empty() ? quantity->refusal(scene) : "";
-  if (!refusal.empty()) throw InputError(where + ": '" + key + "' cannot be expected: " + refusal);
+  const std::string rejection = quantity->rejection && not_asked.empty() ? quantity->rejection(scene) : "";
+  if (!rejection.empty()) throw InputError(where + ": '" + key + "' cannot be expected: " + rejection);
   Expectation expectation{key, entry->number(bound), entry->text("why"), not_asked};
   if (quantity->sense == Sense::at_least && !(expectation.bound > 0))
     throw InputError(entry->where(bound) + ": at_least must be > 0, for nothing falls short of less");
@@ -37,8 +37,8 @@ Expectation read_entry(const KeyTable& expect, const std::string& key, const Sce
   return expectation;
 }
 
-Declared read_declared(const KeyTable& ablation, const std::string& part) {
-  const Declared declared{part, ablation.text(part)};
+DeclaredPart read_declared(const KeyTable& ablation, const std::string& part) {
+  const DeclaredPart declared{part, ablation.text(part)};
   if (declared.why.empty())
     throw InputError(ablation.where(part) + ": say why this part is there, or left out, in words");
   return declared;
@@ -59,18 +59,19 @@ std::vector<std::string> read_coarser_mesh(const KeyTable& ablation) {
   return overrides;
 }
 
-void read_ablation(const KeyTable& ablation, Case& shown) {
-  shown.coarser_mesh = read_coarser_mesh(ablation);
+void read_ablation(const KeyTable& ablation, Case& input_case) {
+  input_case.coarser_mesh = read_coarser_mesh(ablation);
   if (ablation.has("until")) {
-    shown.ablated_until = ablation.number("until");
-    if (!(shown.ablated_until > 0)) throw InputError(ablation.where("until") + ": 'until' must be > 0 s");
+    input_case.ablated_until = ablation.number("until");
+    if (!(input_case.ablated_until > 0))
+      throw InputError(ablation.where("until") + ": 'until' must be > 0 s");
   }
   for (const auto& [key, value] : ablation.entries)
-    if (key != "coarser_mesh" && key != "until") shown.declared.push_back(read_declared(ablation, key));
+    if (key != "coarser_mesh" && key != "until") input_case.declared.push_back(read_declared(ablation, key));
 }
 
 bool is_driven(const Scene& scene) {
-  for (const PrescribedParticle& p : scene.led)
+  for (const PrescribedParticle& p : scene.prescribed)
     if (p.motion.velocity.norm() > 0 || p.motion.amplitude.norm() > 0 || p.motion.angular_velocity.norm() > 0)
       return true;
   return false;
@@ -96,13 +97,13 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   if (const auto ablation = of.keys->table("ablation")) read_ablation(*ablation, result);
   for (const auto& quantity : of.keys->tables("quantity"))
     result.quantities.push_back(read_measurement(*quantity, result.scene));
-  of.keys->refuse_unused();
+  of.keys->reject_unused();
   return result;
 }
 
-Case with_usual_expectations(Case shown) {
-  const Scene& scene = shown.scene;
-  add_unless_stated({"runs_to_its_end", 0, "a shipped case must not stop early"}, shown.expectations);
+Case with_usual_expectations(Case input_case) {
+  const Scene& scene = input_case.scene;
+  add_unless_stated({"runs_to_its_end", 0, "a shipped case must not stop early"}, input_case.expectations);
   const bool has_energy = !scene.bending || scene.bending->weighting == Weighting::rest;
   if (has_energy && scene.objects.empty() && scene.sticky.empty() && !scene.strain_limits &&
       !scene.self_collision && !is_driven(scene))
@@ -111,19 +112,19 @@ Case with_usual_expectations(Case shown) {
          "schemes of second order at half the elastic limit: an oscillation of (omega h)^2/8 in "
          "energy where the stiffest modes carry a small part of it; one percent leaves no room "
          "for a force that is not the gradient of its energy"},
-        shown.expectations);
+        input_case.expectations);
   add_unless_stated(
       {"is_reproducible", 0, "the same numbers in the same order give the same bits, whoever asks"},
-      shown.expectations);
-  if (is_stated("tangle_does_not_grow", shown.expectations)) return shown;  // it starts crossed
+      input_case.expectations);
+  if (is_stated("tangle_does_not_grow", input_case.expectations)) return input_case;  // it starts crossed
   add_unless_stated(
       {"never_crosses_itself", 0,
        scene.self_collision ? "what starts free of crossings stays free of them: repulsion and impulses may "
                               "fail, impact zones may not"
                             : "no part of the scene keeps the cloth from itself, and none has to: cloth that "
                               "would pass through itself needs [self_collision]"},
-      shown.expectations);
-  return shown;
+      input_case.expectations);
+  return input_case;
 }
 
 std::string finding_name(const Scene& scene, const Expectation& expectation) {

@@ -21,7 +21,7 @@ struct Expectation {
 /// One entry of [ablation]: `"part" = "why"`. A part that is there though nothing that `foldproof ablate`
 /// measures needs it, or is left out though its presence would show; parts are named as
 /// convergence/any_case/ablation.h names them.
-struct Declared {
+struct DeclaredPart {
   std::string part, why;
 };
 
@@ -29,7 +29,7 @@ struct Declared {
 struct Case {
   Scene scene;
   std::vector<Expectation> expectations;
-  std::vector<Declared> declared = {};
+  std::vector<DeclaredPart> declared = {};
   std::vector<std::string> coarser_mesh = {};  // of [ablation]: overrides "a.b=number" that make it coarser
   double ablated_until = 0;  // of [ablation]: how much of the run is asked [s]; 0: all of it
   std::vector<Measurement> quantities = {};  // of [[quantity]]
@@ -46,7 +46,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
 /// Adds what is expected of every shipped case that does not say otherwise: that it runs to its end; where
 /// the forces have an energy and nothing is driven, that the energy is accounted for; that the run is
 /// reproducible; and that the cloth crosses itself in no frame, unless tangle_does_not_grow is stated.
-Case with_usual_expectations(Case shown);
+Case with_usual_expectations(Case input_case);
 
 /// The name of the finding: "case.<scene>.<key>", with hyphens.
 std::string finding_name(const Scene& scene, const Expectation& expectation);

@@ -9,48 +9,48 @@ namespace foldproof {
 namespace {
 
 /// A quantity to be reached is judged by what it lacks.
-Verdict verdict_of(const Quantity& quantity, const Expectation& expectation, double seen) {
-  if (quantity.sense == Sense::at_most) return {seen, expectation.bound, 0, quantity.unit, expectation.why};
+Verdict verdict_of(const Quantity& quantity, const Expectation& expectation, double value) {
+  if (quantity.sense == Sense::at_most) return {value, expectation.bound, 0, quantity.unit, expectation.why};
   const std::string unit = quantity.unit;
   const std::string lacks =
       fmt::format("{}short of {:.6g}", unit == "1" ? "" : unit + " ", expectation.bound);
-  return {expectation.bound - seen, 0, 0, lacks, expectation.why};
+  return {expectation.bound - value, 0, 0, lacks, expectation.why};
 }
 
-std::string note_of(const Quantity& quantity, const Expectation& expectation, double seen) {
+std::string note_of(const Quantity& quantity, const Expectation& expectation, double value) {
   if (quantity.sense == Sense::at_most) return "";
-  return fmt::format("reached {:.6g} {}; measured is what lacks of {:.6g}", seen, quantity.unit,
+  return fmt::format("reached {:.6g} {}; measured is what lacks of {:.6g}", value, quantity.unit,
                      expectation.bound);
 }
 
 }  // namespace
 
-void CaseJudge::enter(const State& frame) {
-  for (size_t k = 0; k < seen_.size(); ++k) {
+void CaseJudge::record(const State& frame) {
+  for (size_t k = 0; k < observed_.size(); ++k) {
     if (!case_.expectations[k].not_asked.empty()) continue;  // of this shape it may have no meaning
     if (const Quantity& quantity = *find_quantity(case_.expectations[k].key); !quantity.of_run)
-      seen_[k].see(value_at(quantity, case_.scene, objects_, frame));
+      observed_[k].observe(value_at(quantity, case_.scene, objects_, frame));
   }
 }
 
-Finding CaseJudge::finding_of(size_t k, const RunSeen& run) const {
+Finding CaseJudge::finding_of(size_t k, const RunView& run) const {
   const Expectation& expectation = case_.expectations[k];
   const Quantity& quantity = *find_quantity(expectation.key);
   if (!expectation.not_asked.empty())
     return {verdict_of(quantity, expectation, nan), {}, expectation.not_asked};
   const RunResult& result = run.result;
-  double seen = quantity.of_run ? quantity.of_run(run) : seen_[k].value();
-  std::string note = note_of(quantity, expectation, seen);
-  if (result.stop) note = "the run stopped: " + described(*result.stop);
+  double value = quantity.of_run ? quantity.of_run(run) : observed_[k].value();
+  std::string note = note_of(quantity, expectation, value);
+  if (result.stop) note = "the run stopped: " + describe(*result.stop);
   const bool is_end = expectation.key == "runs_to_its_end";
-  if (result.stop && !is_end) seen = std::numeric_limits<double>::quiet_NaN();
-  return {verdict_of(quantity, expectation, seen), {}, note};
+  if (result.stop && !is_end) value = std::numeric_limits<double>::quiet_NaN();
+  return {verdict_of(quantity, expectation, value), {}, note};
 }
 
-std::vector<Record> CaseJudge::judged(const RunResult& result) const {
+std::vector<Record> CaseJudge::records(const RunResult& result) const {
   std::vector<Record> records;
-  const RunSeen run{case_.scene, book_, result, repetition_, objects_};
-  for (size_t k = 0; k < seen_.size(); ++k) {
+  const RunView run{case_.scene, summary_, result, repetition_, objects_};
+  for (size_t k = 0; k < observed_.size(); ++k) {
     const Expectation& expectation = case_.expectations[k];
     Record record;
     record.name = finding_name(case_.scene, expectation);
@@ -65,7 +65,7 @@ std::vector<Record> CaseJudge::judged(const RunResult& result) const {
   return records;
 }
 
-std::string described(const Stop& stop) {
+std::string describe(const Stop& stop) {
   const std::string who = stop.particle < 0 ? "" : fmt::format(", particle {}", stop.particle);
   return fmt::format("{} (step {}, after t = {:.9g} s{})", stop.reason, stop.step, stop.time, who);
 }

@@ -14,33 +14,33 @@ class CaseJudge {
   /// of: must outlive it.
   ///   objects      of the system that runs, which must outlive it
   ///   level_sets   for a system built anew; they should remember those that were made
-  ///                (bodies/makers.h)
-  CaseJudge(const Case& of, std::span<const Object> objects, const LevelSetMakers& level_sets)
-      : case_(of), objects_(objects), repetition_(of.scene, level_sets), seen_(of.expectations.size()) {}
+  ///                (bodies/level_set_provider.h)
+  CaseJudge(const Case& of, std::span<const Object> objects, const LevelSetProvider& level_sets)
+      : case_(of), objects_(objects), repetition_(of.scene, level_sets), observed_(of.expectations.size()) {}
 
-  void enter(const Diagnostics& row) {
-    book_.enter(row, case_.scene.schedule.end);
-    repetition_.enter(row);
+  void record(const Diagnostics& row) {
+    summary_.record(row, case_.scene.schedule.end);
+    repetition_.record(row);
   }
-  void enter(const Checkpoint& at) { repetition_.enter(at); }
-  void enter(const State& frame);
+  void record(const Checkpoint& at) { repetition_.record(at); }
+  void record(const State& frame);
 
   /// One record for each expectation, named finding_name(...). Of a run that stopped, all but
   /// runs_to_its_end fail: nothing is known of what was to come. One that is not asked is not applicable, with
   /// the reason as its note.
-  std::vector<Record> judged(const RunResult& result) const;
+  std::vector<Record> records(const RunResult& result) const;
 
  private:
-  Finding finding_of(size_t k, const RunSeen& run) const;
+  Finding finding_of(size_t k, const RunView& run) const;
 
   const Case& case_;
   std::span<const Object> objects_;
-  RunBook book_;
+  DiagnosticsSummary summary_;
   Repetition repetition_;
-  std::vector<Worst> seen_;  // largest over the frames, one for each expectation
+  std::vector<Worst> observed_;  // largest over the frames, one for each expectation
 };
 
 /// "reason (step n, after t = ... s, particle i)".
-std::string described(const Stop& stop);
+std::string describe(const Stop& stop);
 
 }  // namespace foldproof

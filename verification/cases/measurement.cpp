@@ -22,14 +22,14 @@ Vector3 up(const Scene& scene) {
   return -scene.gravity->normalized();
 }
 
-std::vector<double> heights(const FrameSeen& frame, const std::vector<int>& of) {
+std::vector<double> heights(const FrameView& frame, const std::vector<int>& of) {
   std::vector<double> all;
   for (const int i : of) all.push_back(up(frame.scene).dot(frame.state.x.col(i)));
   return all;
 }
 
 /// Weighted with the particles' masses, so that it means the same on a finer mesh.
-Vector3 mean_position(const FrameSeen& frame, const std::vector<int>& of) {
+Vector3 mean_position(const FrameView& frame, const std::vector<int>& of) {
   Vector3 sum = Vector3::Zero();
   double mass = 0;
   for (const int i : of) {
@@ -39,29 +39,29 @@ Vector3 mean_position(const FrameSeen& frame, const std::vector<int>& of) {
   return sum / mass;
 }
 
-double mean_height(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+double mean_height(const FrameView& frame, const Measurement&, const std::vector<int>& of) {
   return up(frame.scene).dot(mean_position(frame, of));
 }
 
-double lowest(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+double lowest(const FrameView& frame, const Measurement&, const std::vector<int>& of) {
   return std::ranges::min(heights(frame, of));
 }
 
-double highest(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+double highest(const FrameView& frame, const Measurement&, const std::vector<int>& of) {
   return std::ranges::max(heights(frame, of));
 }
 
-double position_along(const FrameSeen& frame, const Measurement& m, const std::vector<int>& of) {
+double position_along(const FrameView& frame, const Measurement& m, const std::vector<int>& of) {
   const Vector3 along = m.along.norm() > 0 ? Vector3(m.along.normalized()) : up(frame.scene);
   return along.dot(mean_position(frame, of));
 }
 
-double distance(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+double distance(const FrameView& frame, const Measurement&, const std::vector<int>& of) {
   return (frame.state.x.col(of[1]) - frame.state.x.col(of[0])).norm();
 }
 
 /// At the second of three particles.
-double angle(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+double angle(const FrameView& frame, const Measurement&, const std::vector<int>& of) {
   const Vector3 a = frame.state.x.col(of[0]) - frame.state.x.col(of[1]);
   const Vector3 b = frame.state.x.col(of[2]) - frame.state.x.col(of[1]);
   return std::atan2(a.cross(b).norm(), a.dot(b)) * in_degrees;
@@ -69,7 +69,7 @@ double angle(const FrameSeen& frame, const Measurement&, const std::vector<int>&
 
 /// Of a surface bent along lines, curvature k across them: the angles of its hinges times their lengths sum up to k
 /// times its area, and |H| = k/2.
-double mean_curvature(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+double mean_curvature(const FrameView& frame, const Measurement&, const std::vector<int>&) {
   const PerParticle3& x = frame.state.x;
   const TriangleMesh& mesh = frame.scene.mesh;
   const std::vector<double> angles = hinge_angles(mesh, x);
@@ -83,14 +83,14 @@ double mean_curvature(const FrameSeen& frame, const Measurement&, const std::vec
   return turned / (2 * area);
 }
 
-double fastest(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+double fastest(const FrameView& frame, const Measurement&, const std::vector<int>& of) {
   Worst worst;
-  for (const int i : of) worst.see(frame.state.v.col(i).norm());
+  for (const int i : of) worst.observe(frame.state.v.col(i).norm());
   return worst.value();
 }
 
 /// Root mean square of how far the particles are from where they started, by mass.
-double displacement(const FrameSeen& frame, const Measurement&, const std::vector<int>& of) {
+double displacement(const FrameView& frame, const Measurement&, const std::vector<int>& of) {
   double squares = 0, mass = 0;
   for (const int i : of) {
     squares += frame.system.mass[i] * (frame.state.x.col(i) - frame.scene.x.col(i)).squaredNorm();
@@ -99,36 +99,36 @@ double displacement(const FrameSeen& frame, const Measurement&, const std::vecto
   return std::sqrt(squares / mass);
 }
 
-double kinetic(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+double kinetic(const FrameView& frame, const Measurement&, const std::vector<int>&) {
   return energies(frame.system, frame.state).kinetic;
 }
 
-double elastic(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+double elastic(const FrameView& frame, const Measurement&, const std::vector<int>&) {
   const Energies e = energies(frame.system, frame.state);
   return e.stretch + e.bending;
 }
 
-double gravitational(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+double gravitational(const FrameView& frame, const Measurement&, const std::vector<int>&) {
   return energies(frame.system, frame.state).gravity;
 }
 
-double total_energy(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+double total_energy(const FrameView& frame, const Measurement&, const std::vector<int>&) {
   return energies(frame.system, frame.state).total();
 }
 
-double momentum(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+double momentum(const FrameView& frame, const Measurement&, const std::vector<int>&) {
   return linear_momentum(frame.system, frame.state).norm();
 }
 
-double spin(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+double spin(const FrameView& frame, const Measurement&, const std::vector<int>&) {
   return angular_momentum(frame.system, frame.state).norm();
 }
 
-double contact_points(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+double contact_points(const FrameView& frame, const Measurement&, const std::vector<int>&) {
   return double(frame.contacts);
 }
 
-double depth(const FrameSeen& frame, const Measurement&, const std::vector<int>&) {
+double depth(const FrameView& frame, const Measurement&, const std::vector<int>&) {
   return frame.objects.empty()
              ? 0
              : value_at(*find_quantity("stays_outside"), frame.scene, frame.objects, frame.state);
@@ -157,7 +157,7 @@ ParticleRegion read_region(const KeyTable& keys, const Scene& scene) {
   if (!of) return {};
   ParticleRegion region;
   if (of->has("box")) {
-    in_box(*of, scene.x);  // refuses what is no box
+    select_in_box(*of, scene.x);  // refuses what is no box
     region.box = {of->vectors("box")[0], of->vectors("box")[1]};
   } else {
     region.particles = with_copies(numbered(*of, "particles", scene.x.cols()), scene.copy_of);
@@ -237,8 +237,8 @@ Measurement read_measurement(const KeyTable& keys, const Scene& scene) {
   const Quantity* quantity = find_quantity(m.what);
   if (!quantity)
     throw InputError(keys.where("what") + ": unknown quantity '" + m.what + "'; known: " + known_measurements());
-  const std::string refusal = quantity->refusal ? quantity->refusal(scene) : "";
-  if (!refusal.empty()) throw InputError(keys.where("what") + ": '" + m.what + "' makes no sense here: " + refusal);
+  const std::string rejection = quantity->rejection ? quantity->rejection(scene) : "";
+  if (!rejection.empty()) throw InputError(keys.where("what") + ": '" + m.what + "' makes no sense here: " + rejection);
   return m;
 }
 
@@ -253,13 +253,13 @@ std::vector<Measurement> usual_measurements(const Scene& scene, const std::vecto
   return usual;
 }
 
-Measurer::Measurer(const Scene& scene, const Built& built, const std::vector<Measurement>& measurements)
+Measurer::Measurer(const Scene& scene, const BuiltScene& built, const std::vector<Measurement>& measurements)
     : scene_(scene), built_(built), measurements_(measurements), values_(measurements.size(), nan) {
   for (const Measurement& m : measurements) particles_.push_back(particles_in(m.of, scene));
 }
 
 void Measurer::record(const Diagnostics& row) {
-  book_.enter(row, scene_.schedule.end);
+  summary_.record(row, scene_.schedule.end);
   contacts_ = row.work.object_contacts;
 }
 
@@ -292,11 +292,11 @@ void Measurer::record(const State& frame) {
 
 std::vector<double> Measurer::values(const RunResult& result) const {
   std::vector<double> all = values_;
-  const Repetition never_asked(scene_, computing_makers());
+  const Repetition never_asked(scene_, computing_provider());
   for (size_t k = 0; k < measurements_.size(); ++k) {
     const Quantity* quantity = find_measurable(measurements_[k].what) ? nullptr : find_quantity(measurements_[k].what);
     if (quantity && quantity->of_run)
-      all[k] = quantity->of_run({scene_, book_, result, never_asked, built_.objects});
+      all[k] = quantity->of_run({scene_, summary_, result, never_asked, built_.objects});
   }
   return all;
 }

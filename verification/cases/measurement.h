@@ -36,7 +36,7 @@ struct Measurement {
 };
 
 /// Every run as a measurement sees it at one frame.
-struct FrameSeen {
+struct FrameView {
   const Scene& scene;
   const System& system;
   std::span<const Object> objects;
@@ -48,7 +48,7 @@ struct FrameSeen {
 struct Measurable {
   const char *what, *unit, *meaning;
   int particles;  // how many it needs by number; 0: any region
-  double (*at)(const FrameSeen& frame, const Measurement& m, const std::vector<int>& of);
+  double (*at)(const FrameView& frame, const Measurement& m, const std::vector<int>& of);
 };
 
 const std::vector<Measurable>& measurable();
@@ -68,7 +68,7 @@ std::vector<Measurement> usual_measurements(const Scene& scene, const std::vecto
 class Measurer {
  public:
   /// All must outlive it.
-  Measurer(const Scene& scene, const Built& built, const std::vector<Measurement>& measurements);
+  Measurer(const Scene& scene, const BuiltScene& built, const std::vector<Measurement>& measurements);
 
   void record(const Diagnostics& row);
   void record(const State& frame);
@@ -80,10 +80,10 @@ class Measurer {
   double at_frame(size_t k, const State& frame) const;
 
   const Scene& scene_;
-  const Built& built_;
+  const BuiltScene& built_;
   const std::vector<Measurement>& measurements_;
   std::vector<std::vector<int>> particles_;  // of each measurement
-  RunBook book_;
+  DiagnosticsSummary summary_;
   long contacts_ = 0;
   std::vector<double> values_;  // of those that belong to frames
 };

@@ -15,42 +15,45 @@ constexpr double degrees_per_radian = 180 / pi;
 
 // ---- of the whole run
 
-double stops(const RunSeen& run) { return run.result.stop ? 1 : 0; }
+double stops(const RunView& run) { return run.result.stop ? 1 : 0; }
 
-double energy_unaccounted(const RunSeen& run) { return run.book.balance.value() / run.book.exchanged; }
+double energy_unaccounted(const RunView& run) {
+  return run.summary.balance.value() / run.summary.largest_exchange;
+}
 
-double energy_drift(const RunSeen& run) {
-  const RunBook& book = run.book;
-  return std::abs(book.late / book.late_time - book.early / book.early_time) / book.exchanged;
+double energy_drift(const RunView& run) {
+  const DiagnosticsSummary& summary = run.summary;
+  return std::abs(summary.late / summary.late_time - summary.early / summary.early_time) /
+         summary.largest_exchange;
 }
 
 /// An upper bound on sum m |v| at any time, by Cauchy and Schwarz from the kinetic energy [kg m/s].
-double momentum_scale(const RunSeen& run) {
-  return std::sqrt(2 * lumped_masses(run.scene.mesh, run.scene.density).sum() * run.book.largest_kinetic);
+double momentum_scale(const RunView& run) {
+  return std::sqrt(2 * lumped_masses(run.scene.mesh, run.scene.density).sum() * run.summary.largest_kinetic);
 }
 
-double linear_change(const RunSeen& run) { return run.book.linear.value() / momentum_scale(run); }
+double linear_change(const RunView& run) { return run.summary.linear.value() / momentum_scale(run); }
 
 /// An upper bound on sum m |x| |v| while the cloth is no farther from the origin than at its start or end.
-double angular_change(const RunSeen& run) {
+double angular_change(const RunView& run) {
   const double reach = std::sqrt(std::max(run.scene.x.colwise().squaredNorm().maxCoeff(),
                                           run.result.last.x.colwise().squaredNorm().maxCoeff()));  // m
-  return run.book.angular.value() / (reach * momentum_scale(run));
+  return run.summary.angular.value() / (reach * momentum_scale(run));
 }
 
-double steps(const RunSeen& run) { return double(run.result.steps); }
+double steps(const RunView& run) { return double(run.result.steps); }
 
-double contacts(const RunSeen& run) { return double(run.book.contacts); }
+double contacts(const RunView& run) { return double(run.summary.contacts); }
 
-double kinetic_at_end(const RunSeen& run) { return run.book.last_kinetic / run.book.largest_kinetic; }
+double kinetic_at_end(const RunView& run) { return run.summary.last_kinetic / run.summary.largest_kinetic; }
 
-double unfinished(const RunSeen& run) { return double(run.result.work.unfinished_solves); }
+double unfinished_solves(const RunView& run) { return double(run.result.work.unfinished_solves); }
 
 // ---- of one frame
 
 double distance_from_plane(const Scene& scene, const State& s) {
   Worst worst;
-  for (Eigen::Index i = 0; i < s.x.cols(); ++i) worst.see(std::abs(s.x(2, i) - scene.mesh.rest(2, 0)));
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i) worst.observe(std::abs(s.x(2, i) - scene.mesh.rest(2, 0)));
   return worst.value();
 }
 
@@ -58,7 +61,7 @@ double angle_change(const Scene& scene, const State& s) {
   const std::vector<double> angles = hinge_angles(scene.mesh, s.x);
   Worst worst;
   for (size_t h = 0; h < angles.size(); ++h)
-    worst.see(std::abs(std::remainder(angles[h] - scene.rest_angles[h], 2 * pi)) * degrees_per_radian);
+    worst.observe(std::abs(std::remainder(angles[h] - scene.rest_angles[h], 2 * pi)) * degrees_per_radian);
   return worst.value();
 }
 
@@ -71,7 +74,7 @@ double largest_angle(const Scene& scene, const State& s, double sign) {
   return largest;
 }
 
-double folded(const Scene& scene, const State& s) { return largest_angle(scene, s, 1); }
+double folded_forward(const Scene& scene, const State& s) { return largest_angle(scene, s, 1); }
 double folded_back(const Scene& scene, const State& s) { return largest_angle(scene, s, -1); }
 
 double length_change(const Scene& scene, const State& s) {
@@ -79,14 +82,14 @@ double length_change(const Scene& scene, const State& s) {
   Worst worst;
   for (size_t e = 0; e < scene.mesh.edges.size(); ++e) {
     const Edge& edge = scene.mesh.edges[e];
-    worst.see(std::abs((s.x.col(edge.b) - s.x.col(edge.a)).norm() / lengths[Eigen::Index(e)] - 1));
+    worst.observe(std::abs((s.x.col(edge.b) - s.x.col(edge.a)).norm() / lengths[Eigen::Index(e)] - 1));
   }
   return worst.value();
 }
 
 /// What the objects say about each particle in a frame.
 std::vector<Nearest> nearest_at(std::span<const Object> objects, const State& s) {
-  ObjectsDuring now(objects, {s.time, s.time, 0});
+  ObjectsOverSpan now(objects, {s.time, s.time, 0});
   std::vector<Nearest> nearest;
   for (Eigen::Index i = 0; i < s.x.cols(); ++i) nearest.push_back(nearest_of(now.at(s.x.col(i))));
   return nearest;
@@ -95,15 +98,15 @@ std::vector<Nearest> nearest_at(std::span<const Object> objects, const State& s)
 /// Of free particles. Pinched ones are inside by what pinches them, and not counted.
 double penetration(const Scene& scene, std::span<const Object> objects, const State& s) {
   std::vector<char> free(size_t(s.x.cols()), 1);
-  for (const PrescribedParticle& p : scene.led) free[size_t(p.particle)] = 0;
+  for (const PrescribedParticle& p : scene.prescribed) free[size_t(p.particle)] = 0;
   Worst worst;
   const std::vector<Nearest> nearest = nearest_at(objects, s);
   for (size_t i = 0; i < nearest.size(); ++i)
-    if (free[i] && !nearest[i].pinched()) worst.see(-nearest[i].first.phi);
+    if (free[i] && !nearest[i].pinched()) worst.observe(-nearest[i].first.phi);
   return worst.value();
 }
 
-double depth_at_end(const RunSeen& run) { return penetration(run.scene, run.objects, run.result.last); }
+double depth_at_end(const RunView& run) { return penetration(run.scene, run.objects, run.result.last); }
 
 /// How far a pinched particle is from the surface where its two objects are equally deep, at most.
 double off_centre(const Scene&, std::span<const Object> objects, const State& s) {
@@ -111,7 +114,7 @@ double off_centre(const Scene&, std::span<const Object> objects, const State& s)
   for (const Nearest& nearest : nearest_at(objects, s)) {
     if (!nearest.pinched()) continue;
     const double slope = (nearest.first.normal - nearest.second.normal).norm();
-    worst.see(std::abs(nearest.first.phi - nearest.second.phi) / slope);
+    worst.observe(std::abs(nearest.first.phi - nearest.second.phi) / slope);
   }
   return worst.value();
 }
@@ -124,7 +127,7 @@ double pinched_particles(const Scene&, std::span<const Object> objects, const St
 
 double fastest(const Scene&, const State& s) {
   Worst worst;
-  for (Eigen::Index i = 0; i < s.v.cols(); ++i) worst.see(s.v.col(i).norm());
+  for (Eigen::Index i = 0; i < s.v.cols(); ++i) worst.observe(s.v.col(i).norm());
   return worst.value();
 }
 
@@ -151,7 +154,7 @@ double shift_aside(const Scene& scene, const State& s) {
   return (moved - moved.dot(down) * down).norm();
 }
 
-double repeated(const RunSeen& run) { return run.repetition.steps_that_differ(); }
+double differing_steps(const RunView& run) { return run.repetition.count_differing_steps(); }
 
 // ---- refusals
 
@@ -176,20 +179,20 @@ std::string without_bending(const Scene& scene) { return scene.bending ? "" : "t
 
 std::string without_springs(const Scene& scene) { return scene.stretch ? "" : "the case has no [stretch]"; }
 
-void RunBook::enter(const Diagnostics& row, double end) {
+void DiagnosticsSummary::record(const Diagnostics& row, double end) {
   if (!is_begun_) start = row;
   is_begun_ = true;
   const auto balance_of = [](const Diagnostics& of) { return of.energy.total() - of.damping_work; };
-  balance.see(std::abs(balance_of(row) - balance_of(start)));
-  exchanged = std::max({exchanged, std::abs(row.energy.kinetic - start.energy.kinetic),
-                        std::abs(row.energy.stretch - start.energy.stretch),
-                        std::abs(row.energy.bending - start.energy.bending),
-                        std::abs(row.energy.gravity - start.energy.gravity)});
+  balance.observe(std::abs(balance_of(row) - balance_of(start)));
+  largest_exchange = std::max({largest_exchange, std::abs(row.energy.kinetic - start.energy.kinetic),
+                               std::abs(row.energy.stretch - start.energy.stretch),
+                               std::abs(row.energy.bending - start.energy.bending),
+                               std::abs(row.energy.gravity - start.energy.gravity)});
   largest_kinetic = std::max(largest_kinetic, row.energy.kinetic);
-  linear.see((row.linear_momentum - start.linear_momentum).norm());
+  linear.observe((row.linear_momentum - start.linear_momentum).norm());
   contacts = std::max(contacts, row.work.object_contacts);
   last_kinetic = row.energy.kinetic;
-  angular.see((row.angular_momentum - start.angular_momentum).norm());
+  angular.observe((row.angular_momentum - start.angular_momentum).norm());
   if (row.time <= 0.1 * end) {
     early += row.step * balance_of(row);
     early_time += row.step;
@@ -210,11 +213,11 @@ std::vector<Quantity> quantities_of_the_run() {
        "Ten steps after the start, after the middle frame and before the last have the same bits when they "
        "are taken again, "
        "in another thread.",
-       Sense::at_most, Scope::any_cloth, nullptr, repeated, nullptr},
+       Sense::at_most, Scope::any_cloth, nullptr, differing_steps, nullptr},
       {"takes_steps", "steps", "The run takes as many steps as it should.", Sense::at_least,
        Scope::this_shape, nullptr, steps, nullptr},
       {"solves_converge", "solves", "The linear solves keep their tolerance before their cap on iterations.",
-       Sense::at_most, Scope::any_cloth, nullptr, unfinished, nullptr},
+       Sense::at_most, Scope::any_cloth, nullptr, unfinished_solves, nullptr},
       {"energy_is_accounted_for", "1",
        "Kinetic, elastic and gravitational energy less the work of damping stays what it was, over the "
        "energy exchanged.",
@@ -240,7 +243,7 @@ std::vector<Quantity> quantities_of_shape_and_place() {
       {"keeps_its_angles", "degrees", "Every hinge stays near its rest angle.", Sense::at_most,
        Scope::this_shape, angle_change, nullptr, without_bending},
       {"folds_to", "degrees", "Some hinge folds this far to the positive side.", Sense::at_least,
-       Scope::this_shape, folded, nullptr, without_bending},
+       Scope::this_shape, folded_forward, nullptr, without_bending},
       {"folds_back_to", "degrees", "Some hinge folds this far to the negative side.", Sense::at_least,
        Scope::this_shape, folded_back, nullptr, without_bending},
       {"keeps_its_lengths", "1", "Every edge stays near its rest length.", Sense::at_most, Scope::this_shape,

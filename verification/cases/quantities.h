@@ -14,10 +14,10 @@
 namespace foldproof {
 
 /// What all rows of diagnostics say together.
-struct RunBook {
+struct DiagnosticsSummary {
   Diagnostics start;  // the first row
   Worst balance;      // |kinetic + elastic + gravitational energy - work of damping - that at the start| [J]
-  double exchanged = 0;                          // the largest change of one form of energy [J]
+  double largest_exchange = 0;                   // the largest change of one form of energy [J]
   double largest_kinetic = 0, last_kinetic = 0;  // J
   Worst linear, angular;                         // change of momentum since the start [kg m/s], [kg m^2/s]
   long contacts = 0;           // largest number of points whose motion objects corrected in one step
@@ -25,16 +25,16 @@ struct RunBook {
   double early_time = 0, late_time = 0;  // ... and how long these are [s]
 
   /// end: of the run [s].
-  void enter(const Diagnostics& row, double end);
+  void record(const Diagnostics& row, double end);
 
  private:
   bool is_begun_ = false;
 };
 
 /// A run as its quantities see it.
-struct RunSeen {
+struct RunView {
   const Scene& scene;
-  const RunBook& book;
+  const DiagnosticsSummary& summary;
   const RunResult& result;
   const Repetition& repetition;
   std::span<const Object> objects = {};
@@ -54,8 +54,8 @@ struct Quantity {
   /// At one frame's state; the largest over all frames counts. nullptr: the quantity belongs to the whole
   /// run, or asks the objects.
   double (*of_frame)(const Scene& scene, const State& frame);
-  double (*of_run)(const RunSeen& run);  // nullptr: the quantity belongs to frames
-  std::string (*refusal)(
+  double (*of_run)(const RunView& run);  // nullptr: the quantity belongs to frames
+  std::string (*rejection)(
       const Scene& scene);  // why it makes no sense for the scene, or ""; nullptr: always does
   /// As of_frame, of a quantity that asks the objects.
   double (*of_objects)(const Scene& scene, std::span<const Object> objects, const State& frame) = nullptr;

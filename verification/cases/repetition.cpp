@@ -14,7 +14,7 @@ constexpr std::size_t steps_each = 10;
 /// All numbers of a row but clock time.
 std::vector<double> numbers_of(const Diagnostics& row) {
   std::vector<double> all;
-  for_each_number_of_row(row, [&](auto number) { all.push_back(double(number)); });
+  for_each_value(row, [&](auto number) { all.push_back(double(number)); });
   return all;
 }
 
@@ -25,7 +25,7 @@ bool has_same_bits(const Diagnostics& a, const Diagnostics& b) {
 
 /// The rows of the next `count` steps.
 std::vector<Diagnostics> rows_after(const Checkpoint& from, const Scene& scene,
-                                    const LevelSetMakers& level_sets, std::size_t count) {
+                                    const LevelSetProvider& level_sets, std::size_t count) {
   std::vector<Diagnostics> rows;
   Schedule schedule = scene.schedule;
   schedule.max_steps = from.steps + long(count);
@@ -36,18 +36,18 @@ std::vector<Diagnostics> rows_after(const Checkpoint& from, const Scene& scene,
 
 }  // namespace
 
-void Repetition::enter(const Checkpoint& at) {
+void Repetition::record(const Checkpoint& at) {
   const Schedule& schedule = scene_.schedule;
   const long last = std::lround(std::ceil((schedule.end - at.start_time) / schedule.frame_interval));
   if (at.frame == 0 || at.frame == last / 2 || at.frame == last - 1) parts_.push_back({at, {}});
 }
 
-void Repetition::enter(const Diagnostics& row) {
+void Repetition::record(const Diagnostics& row) {
   if (parts_.empty() || parts_.back().rows.size() == steps_each) return;
   parts_.back().rows.push_back(row);
 }
 
-double Repetition::steps_that_differ() const {
+double Repetition::count_differing_steps() const {
   std::size_t differing = 0, seen = 0;
   for (const Part& part : parts_) {
     const auto again = std::async(std::launch::async, [&] {

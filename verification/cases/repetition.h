@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "reference/bodies/makers.h"
+#include "reference/bodies/level_set_provider.h"
 #include "reference/dynamics/simulate.h"
 #include "reference/scene/scene.h"
 
@@ -14,14 +14,15 @@ namespace foldproof {
 class Repetition {
  public:
   /// scene: must outlive it. level_sets: of the system built anew.
-  Repetition(const Scene& scene, const LevelSetMakers& level_sets) : scene_(scene), level_sets_(level_sets) {}
+  Repetition(const Scene& scene, const LevelSetProvider& level_sets)
+      : scene_(scene), level_sets_(level_sets) {}
 
-  void enter(const Checkpoint& at);
-  void enter(const Diagnostics& row);
+  void record(const Checkpoint& at);
+  void record(const Diagnostics& row);
 
   /// Goes on from the kept states anew, with a system built anew, and counts the steps whose diagnostics have
   /// other bits than before, clock time apart, and those that are missing. NaN if no step was seen.
-  double steps_that_differ() const;
+  double count_differing_steps() const;
 
  private:
   struct Part {
@@ -30,7 +31,7 @@ class Repetition {
   };
 
   const Scene& scene_;
-  LevelSetMakers level_sets_;
+  LevelSetProvider level_sets_;
   std::vector<Part> parts_;
 };
 

@@ -14,12 +14,12 @@ double height_of(const Scene& scene, const PerParticle3& x) {
   return heights.maxCoeff() - heights.minCoeff();
 }
 
-double height_left(const RunSeen& run) {
+double height_left(const RunView& run) {
   return height_of(run.scene, run.result.last.x) / height_of(run.scene, run.scene.x);
 }
 
 /// Root of the mean square over hinges [degrees].
-double mean_turn(const RunSeen& run) {
+double mean_turn(const RunView& run) {
   const std::vector<double> angles = hinge_angles(run.scene.mesh, run.result.last.x);
   double sum = 0;
   for (size_t h = 0; h < angles.size(); ++h) {

@@ -13,12 +13,12 @@ double stuck_particles(const Scene& scene, const State& s) {
   return double(Sticking{scene.sticky}.targets_at(s).size());
 }
 
-double stuck_at_end(const RunSeen& run) { return stuck_particles(run.scene, run.result.last); }
+double stuck_at_end(const RunView& run) { return stuck_particles(run.scene, run.result.last); }
 
 /// The largest distance of a stuck particle from its target.
 double slack(const Scene& scene, const State& s) {
   Worst worst;
-  for (const StickyTarget& target : Sticking{scene.sticky}.targets_at(s)) worst.see(target.distance);
+  for (const StickyTarget& target : Sticking{scene.sticky}.targets_at(s)) worst.observe(target.distance);
   return worst.value();
 }
 

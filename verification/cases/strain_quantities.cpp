@@ -22,15 +22,15 @@ std::vector<double> strains(const Scene& scene, const State& s) {
 double violation(const Scene& scene, const State& s) {
   Worst worst;
   for (const double strain : strains(scene, s)) {
-    worst.see(strain - scene.strain_limits->extension);
-    worst.see(-strain - scene.strain_limits->compression);
+    worst.observe(strain - scene.strain_limits->extension);
+    worst.observe(-strain - scene.strain_limits->compression);
   }
   return worst.value();
 }
 
 double largest_extension(const Scene& scene, const State& s) {
   Worst worst;
-  for (const double strain : strains(scene, s)) worst.see(strain);
+  for (const double strain : strains(scene, s)) worst.observe(strain);
   return worst.value();
 }
 

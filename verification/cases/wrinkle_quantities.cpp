@@ -60,7 +60,7 @@ Creases creases_of(const Scene& scene, const PerParticle3& x, int side) {
   return creases;
 }
 
-double creases_at_end(const RunSeen& run) {
+double creases_at_end(const RunView& run) {
   const PerParticle3& x = run.result.last.x;
   if (!x.allFinite()) return std::numeric_limits<double>::quiet_NaN();
   return creases_of(run.scene, x, 1).count + creases_of(run.scene, x, -1).count;
@@ -68,7 +68,7 @@ double creases_at_end(const RunSeen& run) {
 
 /// Twice the mean straight distance, in the rest shape, from a hinge in a crease to the nearest hinge in a crease to
 /// the other side [m]; NaN if there are none to one of them.
-double wavelength_at_end(const RunSeen& run) {
+double wavelength_at_end(const RunView& run) {
   const Creases ridges = creases_of(run.scene, run.result.last.x, 1),
                 valleys = creases_of(run.scene, run.result.last.x, -1);
   if (ridges.count == 0 || valleys.count == 0) return std::numeric_limits<double>::quiet_NaN();

@@ -101,7 +101,7 @@ Ruling ruling(const std::vector<Decider>& deciders, const std::vector<Record>& r
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& placeholder, const std::string& why) {
+[[noreturn]] void reject(const std::string& placeholder, const std::string& why) {
   throw std::runtime_error(fmt::format("placeholder {{{}}}: {}", placeholder, why));
 }
 
@@ -131,7 +131,7 @@ bool cut_off(std::string& text, const std::string& words) {
   return true;
 }
 
-Placeholder parsed(const std::string& text) {
+Placeholder parse_placeholder(const std::string& text) {
   std::string rest = text;
   Placeholder result{text, cut_off(rest, "bare: "), {}};
   if (!cut_off(rest, "largest of: ")) return {text, result.bare, {place_of(rest)}};
@@ -169,7 +169,7 @@ std::string number_text(double value) {
 }
 
 std::string text_of(const Placeholder& wanted, const Quantity& quantity) {
-  if (std::isnan(quantity.value)) refuse(wanted.text, "it is not a number");
+  if (std::isnan(quantity.value)) reject(wanted.text, "it is not a number");
   const bool without = wanted.bare || quantity.unit == "1" || quantity.unit.empty();
   return number_text(quantity.value) + (without ? "" : " " + quantity.unit);
 }
@@ -196,19 +196,19 @@ double extreme(const std::string& row, const std::vector<double>& values) {
 
 double entry_of(const Placeholder& wanted, const std::string& row, const std::vector<Column>& columns,
                 const std::vector<double>& values) {
-  if (values.empty()) refuse(wanted.text, "the column is empty");
+  if (values.empty()) reject(wanted.text, "the column is empty");
   if (row == "smallest" || row == "largest") return extreme(row, values);
   if (row == "first") return values.front();
   if (row == "last") return values.back();
   const bool is_number = !row.empty() && row.find_first_not_of("0123456789") == std::string::npos;
   const size_t index = is_number ? std::stoul(row) - 1 : row_of_text(columns, row);
-  if (!(index < values.size())) refuse(wanted.text, "there is no such row");
+  if (!(index < values.size())) reject(wanted.text, "there is no such row");
   return values[index];
 }
 
 Quantity quantity_at(const Placeholder& wanted, const Place& place, const std::vector<Record>& records) {
   const Record* record = record_named(place.finding, records);
-  if (!record) refuse(wanted.text, "the run has no such finding");
+  if (!record) reject(wanted.text, "the run has no such finding");
   const Verdict& verdict = record->finding.verdict;
   if (place.column.empty()) return {verdict.measured, verdict.unit};
   if (place.row.empty() && place.column == "bound") return {verdict.bound, verdict.unit};
@@ -218,14 +218,14 @@ Quantity quantity_at(const Placeholder& wanted, const Place& place, const std::v
     if (values && column.name == place.column)
       return {entry_of(wanted, place.row, columns, *values), column.unit};
   }
-  refuse(wanted.text, "the finding's evidence has no such column of numbers");
+  reject(wanted.text, "the finding's evidence has no such column of numbers");
 }
 
 std::string value_of(const Placeholder& wanted, const std::vector<Record>& records) {
   Quantity largest = quantity_at(wanted, wanted.places.front(), records);
   for (const Place& place : wanted.places) {
     const Quantity one = quantity_at(wanted, place, records);
-    if (one.unit != largest.unit) refuse(wanted.text, "its numbers have different units");
+    if (one.unit != largest.unit) reject(wanted.text, "its numbers have different units");
     if (!(one.value <= largest.value)) largest = one;
     if (std::isnan(largest.value)) break;
   }
@@ -239,8 +239,8 @@ std::string with_placeholders(const std::string& text, const Visit& visit) {
   size_t at = 0;
   for (size_t open = text.find('{'); open != std::string::npos; open = text.find('{', at)) {
     const size_t close = text.find('}', open);
-    if (close == std::string::npos) refuse(text.substr(open + 1), "the brace is not closed");
-    result += text.substr(at, open - at) + visit(parsed(text.substr(open + 1, close - open - 1)));
+    if (close == std::string::npos) reject(text.substr(open + 1), "the brace is not closed");
+    result += text.substr(at, open - at) + visit(parse_placeholder(text.substr(open + 1, close - open - 1)));
     at = close + 1;
   }
   return result + text.substr(at);
@@ -248,7 +248,7 @@ std::string with_placeholders(const std::string& text, const Visit& visit) {
 
 }  // namespace
 
-std::string filled(const std::string& text, const std::vector<Record>& records) {
+std::string fill_placeholders(const std::string& text, const std::vector<Record>& records) {
   return with_placeholders(text, [&](const Placeholder& wanted) { return value_of(wanted, records); });
 }
 
@@ -277,15 +277,15 @@ bool is_covered(const Claim& claim, const std::vector<Record>& records) {
                      [&](const std::string& name) { return record_named(name, records) != nullptr; });
 }
 
-ClaimRecord ruled(const Claim& claim, const std::vector<Record>& records) {
+ClaimRecord rule_claim(const Claim& claim, const std::vector<Record>& records) {
   ClaimRecord result{claim, {}, ruling(claim.decided_by, records)};
   for (const Decider& decider : claim.decided_by) {
     const Record* record = record_named(decider.finding, records);
     result.outcomes.push_back(record ? std::string(outcome_text(*record)) : "missing");
   }
   try {
-    result.claim.why = filled(claim.why, records);
-    result.claim.condition = filled(claim.condition, records);
+    result.claim.why = fill_placeholders(claim.why, records);
+    result.claim.condition = fill_placeholders(claim.condition, records);
   } catch (const std::runtime_error& error) {
     if (result.ruling != Ruling::undecided)
       throw std::runtime_error("claim " + claim.id + ": " + error.what());

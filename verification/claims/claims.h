@@ -60,7 +60,7 @@ Ruling ruling(const std::vector<Decider>& deciders, const std::vector<Record>& r
 ///   {largest of: a, b, ...}   the largest of several of these, which must have the same unit;
 ///                             also bare
 /// Throws std::runtime_error naming the placeholder if the run has no such number.
-std::string filled(const std::string& text, const std::vector<Record>& records);
+std::string fill_placeholders(const std::string& text, const std::vector<Record>& records);
 
 /// The findings whose numbers the placeholders of a text ask for. Throws std::runtime_error for a brace that
 /// is not closed.
@@ -74,7 +74,7 @@ bool is_covered(const Claim& claim, const std::vector<Record>& records);
 
 /// Rules a claim. The text of a claim that stays undecided keeps a placeholder whose number is missing.
 /// Throws std::runtime_error naming the claim for a placeholder that cannot be filled otherwise.
-ClaimRecord ruled(const Claim& claim, const std::vector<Record>& records);
+ClaimRecord rule_claim(const Claim& claim, const std::vector<Record>& records);
 
 /// holds if the ruling is the recorded one, fails if not; inconclusive if both are undecided.
 Outcome outcome_of(const ClaimRecord& record);

@@ -19,7 +19,7 @@ std::string written_text(const KeyTable& keys, const std::string& key) {
   return text;
 }
 
-/// A text with placeholders, see `filled`.
+/// A text with placeholders, see `fill_placeholders`.
 std::string text_with_numbers(const KeyTable& keys, const std::string& key) {
   const std::string text = written_text(keys, key);
   try {
@@ -125,7 +125,7 @@ std::vector<Claim> read_claims(const std::string& folder) {
         throw InputError(row->where("id") + ": the id '" + claims.back().id + "' is taken at " +
                          first->second);
     }
-    root->refuse_unused();
+    root->reject_unused();
   }
   return claims;
 }

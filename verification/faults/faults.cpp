@@ -57,7 +57,7 @@ std::vector<Fault> read_faults(const std::string& folder) {
         throw InputError(row->where("file") + ": a fault in '" + fault.file + "' belongs in " +
                          (room.empty() ? "no list" : room + ".toml"));
     }
-    root->refuse_unused();
+    root->reject_unused();
   }
   return faults;
 }

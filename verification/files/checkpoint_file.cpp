@@ -51,7 +51,7 @@ class Numbers64 {
 };
 
 void pass(Diagnostics& row, Numbers64& numbers) {
-  for_each_number_of_row(row, [&](auto& number) { numbers.pass(number); });
+  for_each_value(row, [&](auto& number) { numbers.pass(number); });
   numbers.pass(row.seconds);
 }
 
@@ -60,7 +60,7 @@ void pass(Checkpoint& c, Numbers64& numbers) {
   for (long* count : {&c.frame, &c.steps}) numbers.pass(*count);
   for (double* value : {&c.start_time, &c.size, &c.event_time, &c.damping_work, &c.damping_power, &c.seconds})
     numbers.pass(*value);
-  for_each_number_of_work(c.work, [&](auto& number) { numbers.pass(number); });
+  for_each_counter(c.work, [&](auto& number) { numbers.pass(number); });
 }
 
 std::vector<double> numbers_of(const CheckpointRecord& record) {
@@ -179,7 +179,7 @@ std::string difference(const RunIdentity& stored, const RunIdentity& mine) {
   return what;
 }
 
-void refuse_other(const std::string& path, const RunIdentity& stored, const RunIdentity& mine) {
+void reject_other(const std::string& path, const RunIdentity& stored, const RunIdentity& mine) {
   if (const std::string what = difference(stored, mine); !what.empty())
     throw InputError(path + ": this checkpoint is of " + what +
                      ". Resume with what it was made with, or start over with --restart, which deletes it");
@@ -232,24 +232,25 @@ void CheckpointFolder::write(const CheckpointRecord& record) const {
   write_hdf5(file(record.at.frame), [&](const Hdf5& made) { write_stored(made, stored); });
 }
 
-std::optional<Checkpoint> CheckpointFolder::replay(const std::function<void(const CheckpointRecord&)>& enter,
-                                                   const std::function<void(const std::string&)>& say) const {
+std::optional<Checkpoint> CheckpointFolder::replay(
+    const std::function<void(const CheckpointRecord&)>& visit,
+    const std::function<void(const std::string&)>& log_line) const {
   std::optional<Checkpoint> last;
   long frame = 0;
   for (; std::filesystem::exists(file(frame)); ++frame) {
     CheckpointRecord record;
     try {
       const StoredCheckpoint stored = read_stored(file(frame));
-      refuse_other(file(frame), stored.identity, identity_);
+      reject_other(file(frame), stored.identity, identity_);
       record = record_of(stored);
       if (record.at.frame != frame) throw std::runtime_error("it is that of another frame");
     } catch (const InputError&) {
       throw;
     } catch (const std::exception& error) {
-      say(file(frame) + ": this checkpoint is damaged and left out: " + error.what());
+      log_line(file(frame) + ": this checkpoint is damaged and left out: " + error.what());
       break;
     }
-    enter(record);
+    visit(record);
     last = std::move(record.at);
   }
   remove_from(frame);

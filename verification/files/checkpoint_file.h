@@ -46,12 +46,12 @@ class CheckpointFolder {
   /// Makes the folder if it is not there. Throws std::runtime_error naming the file.
   void write(const CheckpointRecord& record) const;
 
-  /// Reads the checkpoints in their order, hands each to `enter`, and returns the last one, or none if there
-  /// is none. Ends at the first that is missing, or is not what was written, of which `say` is told why;
+  /// Reads the checkpoints in their order, hands each to `visit`, and returns the last one, or none if there
+  /// is none. Ends at the first that is missing, or is not what was written, of which `log_line` is told why;
   /// later ones are removed. Throws InputError if they are of another case text, other meshes or another
   /// program, saying which.
-  std::optional<Checkpoint> replay(const std::function<void(const CheckpointRecord&)>& enter,
-                                   const std::function<void(const std::string&)>& say) const;
+  std::optional<Checkpoint> replay(const std::function<void(const CheckpointRecord&)>& visit,
+                                   const std::function<void(const std::string&)>& log_line) const;
 
   /// The run that was interrupted here; none if there is no checkpoint.
   std::optional<KeptRun> kept_run() const;

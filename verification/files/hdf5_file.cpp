@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "verification/files/apart_file.h"
-#include "verification/files/whole_file.h"
+#include "verification/files/isolated_reader.h"
+#include "verification/files/atomic_file.h"
 
 namespace foldproof {
 
@@ -33,7 +33,7 @@ void succeed(herr_t result, const std::string& what) {
   if (result < 0) throw std::runtime_error("HDF5: cannot write " + what);
 }
 
-void found(bool is_good, const std::string& what) {
+void require(bool is_good, const std::string& what) {
   if (!is_good) throw std::runtime_error("HDF5: cannot read " + what);
 }
 
@@ -82,7 +82,7 @@ void write_attribute(hid_t object, const std::string& name, hid_t type, const Sh
 }
 
 /// The identifier of a new dataset that holds these values.
-hid_t written(hid_t parent, const std::string& name, hid_t type, const Shape& shape, const void* data) {
+hid_t write_values(hid_t parent, const std::string& name, hid_t type, const Shape& shape, const void* data) {
   const Handle space = space_of(shape);
   const hid_t set =
       H5Dcreate2(parent, without_slash(name).c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
@@ -110,15 +110,15 @@ hid_t growing(hid_t parent, const std::string& name, const Shape& row) {
   return H5Dcreate2(parent, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, layout, H5P_DEFAULT);
 }
 
-Handle opened(hid_t parent, const std::string& name) {
+Handle open_object(hid_t parent, const std::string& name) {
   const hid_t set = H5Dopen2(parent, name.c_str(), H5P_DEFAULT);
-  found(set >= 0, name);
+  require(set >= 0, name);
   return {set, H5Dclose};
 }
 
 Shape shape_of_space(hid_t space) {
   const int rank = H5Sget_simple_extent_ndims(space);
-  found(rank >= 0, "the shape of a dataset");
+  require(rank >= 0, "the shape of a dataset");
   Shape shape(std::size_t(rank), 0);
   if (rank > 0) H5Sget_simple_extent_dims(space, shape.data(), nullptr);
   return shape;
@@ -133,7 +133,7 @@ unsigned long long most_values(hid_t set, std::size_t size_of_one) {
   if (H5Pget_nfilters(layout) != 0) return most_unpacked;
   const Handle file(H5Iget_file_id(set), H5Fclose);
   hsize_t bytes = 0;
-  found(H5Fget_filesize(file, &bytes) >= 0, "the size of the file");
+  require(H5Fget_filesize(file, &bytes) >= 0, "the size of the file");
   return bytes / size_of_one;
 }
 
@@ -141,7 +141,7 @@ unsigned long long most_values(hid_t set, std::size_t size_of_one) {
 unsigned long long count_of(const Shape& shape, unsigned long long most, const std::string& name) {
   unsigned long long count = 1;
   for (const auto length : shape) {
-    found(length == 0 || count <= most / length, name + ": it claims more than the file can hold");
+    require(length == 0 || count <= most / length, name + ": it claims more than the file can hold");
     count *= length;
   }
   return count;
@@ -150,13 +150,13 @@ unsigned long long count_of(const Shape& shape, unsigned long long most, const s
 /// All values of a dataset of this very type, row by row.
 template <class T>
 std::vector<T> read_values(hid_t parent, const std::string& name, hid_t type) {
-  const Handle set = opened(parent, name);
+  const Handle set = open_object(parent, name);
   const Handle stored(H5Dget_type(set), H5Tclose);
-  found(H5Tequal(stored, type) > 0, name + ": it has another type");
+  require(H5Tequal(stored, type) > 0, name + ": it has another type");
   const Shape shape = shape_of_space(Handle(H5Dget_space(set), H5Sclose));
   const auto count = count_of(shape, most_values(set, sizeof(T)), name);
   std::vector<T> values(count);
-  if (count > 0) found(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
+  if (count > 0) require(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
   return values;
 }
 
@@ -190,7 +190,7 @@ bool is_readable(hid_t set) {
 
 /// What the library calls back must not throw through it.
 template <class Act>
-herr_t guarded(const Act& act) {
+herr_t without_error_stack(const Act& act) {
   try {
     return act();
   } catch (const std::exception&) {
@@ -199,7 +199,7 @@ herr_t guarded(const Act& act) {
 }
 
 herr_t read_attribute(hid_t object, const char* name, const H5A_info_t*, void*) {
-  return guarded([&] {
+  return without_error_stack([&] {
     const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
     const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
     const hssize_t count = H5Sget_simple_extent_npoints(space);
@@ -210,7 +210,7 @@ herr_t read_attribute(hid_t object, const char* name, const H5A_info_t*, void*) 
 }
 
 herr_t read_object(hid_t file, const char* name, const H5O_info_t* about, void*) {
-  return guarded([&] {
+  return without_error_stack([&] {
     const Handle object(H5Oopen(file, name, H5P_DEFAULT), H5Oclose);
     if (H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, read_attribute, nullptr) < 0) return -1;
     return about->type != H5O_TYPE_DATASET || is_readable(object) ? 0 : -1;
@@ -280,38 +280,39 @@ Hdf5 Hdf5::dataset(const std::string& name, const std::vector<double>& values) c
 Hdf5 Hdf5::dataset(const std::string& name, const std::vector<std::string>& values) const {
   const std::lock_guard held(library);
   const std::vector<const char*> texts = pointers(values);
-  return {written(id_, name, text_type(), {texts.size()}, texts.empty() ? nullptr : texts.data()), H5Dclose,
-          name};
+  return {write_values(id_, name, text_type(), {texts.size()}, texts.empty() ? nullptr : texts.data()),
+          H5Dclose, name};
 }
 
 Hdf5 Hdf5::array(const std::string& name, const Shape& shape, const double* values) const {
   const std::lock_guard held(library);
-  return {written(id_, name, H5T_NATIVE_DOUBLE, shape, values), H5Dclose, name};
+  return {write_values(id_, name, H5T_NATIVE_DOUBLE, shape, values), H5Dclose, name};
 }
 
 Hdf5 Hdf5::array(const std::string& name, const Shape& shape, const int* values) const {
   const std::lock_guard held(library);
-  return {written(id_, name, H5T_NATIVE_INT, shape, values), H5Dclose, name};
+  return {write_values(id_, name, H5T_NATIVE_INT, shape, values), H5Dclose, name};
 }
 
 Hdf5 Hdf5::array(const std::string& name, const Shape& shape, const unsigned char* values) const {
   const std::lock_guard held(library);
-  return {written(id_, name, H5T_NATIVE_UCHAR, shape, values), H5Dclose, name};
+  return {write_values(id_, name, H5T_NATIVE_UCHAR, shape, values), H5Dclose, name};
 }
 
 Hdf5 Hdf5::open_file(const std::string& path) {
   const std::lock_guard held(library);
   begin();
-  const std::string fate = fate_apart(path, [&] { return all_is_readable(path); });
+  const std::string fate = failure_in_isolation(path, [&] { return all_is_readable(path); });
   const hid_t file = fate.empty() ? H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT) : -1;
-  found(file >= 0, path + (fate.empty() ? "" : " (" + fate + ")") + "; is it there, and a whole HDF5 file?");
+  require(file >= 0,
+          path + (fate.empty() ? "" : " (" + fate + ")") + "; is it there, and a whole HDF5 file?");
   return {file, H5Fclose, path};
 }
 
 Hdf5 Hdf5::open_group(const std::string& name) const {
   const std::lock_guard held(library);
   const hid_t group = H5Gopen2(id_, without_slash(name).c_str(), H5P_DEFAULT);
-  found(group >= 0, name);
+  require(group >= 0, name);
   return {group, H5Gclose, name};
 }
 
@@ -323,12 +324,12 @@ bool Hdf5::has(const std::string& name) const {
 std::string Hdf5::read_text(const std::string& attribute) const {
   const std::lock_guard held(library);
   const hid_t id = H5Aopen(id_, attribute.c_str(), H5P_DEFAULT);
-  found(id >= 0, attribute);
+  require(id >= 0, attribute);
   const Handle open(id, H5Aclose), space(H5Aget_space(id), H5Sclose), type(H5Aget_type(id), H5Tclose);
-  found(H5Sget_simple_extent_npoints(space) == 1 && H5Tis_variable_str(type) > 0,
-        attribute + ": it is no text");
+  require(H5Sget_simple_extent_npoints(space) == 1 && H5Tis_variable_str(type) > 0,
+          attribute + ": it is no text");
   char* text = nullptr;
-  found(H5Aread(open, text_type(), &text) >= 0 && text, attribute);
+  require(H5Aread(open, text_type(), &text) >= 0 && text, attribute);
   const std::string result = text;
   H5free_memory(text);
   return result;
@@ -356,7 +357,7 @@ void Hdf5::close() {
 
 void write_hdf5(const std::string& path, const std::function<void(const Hdf5& file)>& write) {
   const std::string partial = path + ".partial";
-  refuse_unless_replaceable(path);
+  require_replaceable(path);
   try {
     Hdf5 file = Hdf5::create_file(partial);
     write(file);
@@ -366,7 +367,7 @@ void write_hdf5(const std::string& path, const std::function<void(const Hdf5& fi
     std::remove(partial.c_str());
     throw std::runtime_error(path + ": cannot be written (" + error.what() + ")");
   }
-  rename_when_whole(partial, path);
+  durable_rename(partial, path);
 }
 
 GrowingDataset::GrowingDataset(const Hdf5& parent, const std::string& name, const std::string& unit,

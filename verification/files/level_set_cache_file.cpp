@@ -88,8 +88,8 @@ DeformingBody read_level_sets(const std::string& path, const std::string& origin
   for (std::size_t k = 0; k < times.size(); ++k)
     body.frames.push_back(read_frame(frames.open_group(std::to_string(k)), times[k], settings));
   require(content_key(body) == file.read_text("content"), path, "its content is not what was written");
-  require_sound(body);
-  for (DeformingFrame& frame : body.frames) set_starts(frame.field);
+  require_valid_content(body);
+  for (DeformingFrame& frame : body.frames) index_descent_starts(frame.field);
   return body;
 }
 

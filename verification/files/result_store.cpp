@@ -52,11 +52,11 @@ ResultStore::ResultStore(std::string folder) : folder_(std::move(folder)) {
   for (const auto& entry : fs::directory_iterator(folder_ + "/shards")) {
     std::ifstream shard(entry.path());
     for (std::string line; std::getline(shard, line);) {
-      const json told = json::parse(line, nullptr, false);
-      if (!told.is_object()) continue;  // torn
-      if (told.contains("start")) ++starts_[told["start"].get<std::string>()];
-      if (told.contains("result"))
-        texts_[told["result"].get<std::string>()] = told.value("texts", std::map<std::string, std::string>());
+      const json record = json::parse(line, nullptr, false);
+      if (!record.is_object()) continue;  // torn
+      if (record.contains("start")) ++starts_[record["start"].get<std::string>()];
+      if (record.contains("result"))
+        texts_[record["result"].get<std::string>()] = record.value("texts", std::map<std::string, std::string>());
     }
   }
 }

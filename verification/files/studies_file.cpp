@@ -59,7 +59,7 @@ void write_figure(const Hdf5& parent, const Figure& figure, int order) {
   write_curves(here, figure.curves);
 }
 
-void refuse_misshapen(const Map& map) {
+void reject_misshapen(const Map& map) {
   if (map.values.size() != map.x_values.size() * map.y_values.size())
     throw std::logic_error(
         fmt::format("map '{}': {} values for {} x {} points; give one for each, row by row", map.name,
@@ -67,7 +67,7 @@ void refuse_misshapen(const Map& map) {
 }
 
 void write_map(const Hdf5& parent, const Map& map, int order) {
-  refuse_misshapen(map);
+  reject_misshapen(map);
   const Hdf5 here = parent.group(map.name);
   here.attribute("order", order);
   here.attribute("title", map.title);

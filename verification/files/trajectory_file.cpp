@@ -8,7 +8,7 @@
 #include "verification/files/findings_file.h"
 #include "verification/files/hdf5_file.h"
 #include "verification/files/verdicts_file.h"
-#include "verification/files/whole_file.h"
+#include "verification/files/atomic_file.h"
 
 namespace foldproof {
 
@@ -160,7 +160,7 @@ struct TrajectoryFile::Content {
   /// Signed distance of each particle to the union of the objects.
   void add_distances(const State& s) {
     PerParticle phi(s.x.cols());
-    ObjectsDuring now(solids, {s.time, s.time, 0});
+    ObjectsOverSpan now(solids, {s.time, s.time, 0});
     for (Eigen::Index i = 0; i < s.x.cols(); ++i) phi[i] = nearest_of(now.at(s.x.col(i))).first.phi;
     for (GrowingDataset& rows : distances) rows.add(phi.data());
   }
@@ -219,7 +219,7 @@ void named(const std::string& path, const Write& write) {
 
 TrajectoryFile::TrajectoryFile(const std::string& path, const Scene& scene, const System& system,
                                std::span<const Object> objects, const Provenance& provenance)
-    : content_((refuse_unless_replaceable(path), std::make_unique<Content>(path, scene, objects))) {
+    : content_((require_replaceable(path), std::make_unique<Content>(path, scene, objects))) {
   const Hdf5& file = content_->file;
   write_provenance(file, provenance);
   file.attribute("case_name", scene.name);
@@ -229,7 +229,7 @@ TrajectoryFile::TrajectoryFile(const std::string& path, const Scene& scene, cons
   const std::filesystem::path here = std::filesystem::current_path();
   file.attribute("case_folder", scene.text.empty() ? "" : (here / scene.folder).string());
   file.attribute("integrator", scene.integrator);
-  file.attribute("built", built_parts(scene, system));
+  file.attribute("built", describe_parts(scene, system));
   file.attribute("frames_wanted",
                  int(std::lround(std::ceil(scene.schedule.end / scene.schedule.frame_interval - 1e-9))) + 1);
   write_mesh(file, scene, system);
@@ -275,7 +275,7 @@ void TrajectoryFile::finish(const std::string& stopped, double seconds, const st
     content_.reset();  // what is open in the file is closed before it
     file.close();
   });
-  rename_when_whole(path + ".partial", path);
+  durable_rename(path + ".partial", path);
   write_text(std::filesystem::path(path).replace_extension(".xdmf").string(), xdmf);
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "verification/files/whole_file.h"
+#include "verification/files/atomic_file.h"
 
 namespace foldproof {
 
@@ -15,7 +15,7 @@ nlohmann::json number(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }
 
-nlohmann::json as_json(const Record& record) {
+nlohmann::json to_json(const Record& record) {
   const Verdict& verdict = record.finding.verdict;
   return {{"name", record.name},
           {"kind", record.kind},
@@ -33,7 +33,7 @@ nlohmann::json as_json(const Record& record) {
           {"faults", record.faults}};
 }
 
-nlohmann::json as_json(const ClaimRecord& record) {
+nlohmann::json to_json(const ClaimRecord& record) {
   const Claim& claim = record.claim;
   nlohmann::json deciders = nlohmann::json::array();
   for (size_t k = 0; k < claim.decided_by.size(); ++k)
@@ -120,8 +120,8 @@ std::string verdicts_json(const RunRecord& run) {
                            {"seed", run.seed},
                            {"subject", run.subject}}},
                          {"findings", nlohmann::json::array()}};
-  for (const Record& record : run.records) json["findings"].push_back(as_json(record));
-  for (const ClaimRecord& claim : run.claims) json["findings"].push_back(as_json(claim));
+  for (const Record& record : run.records) json["findings"].push_back(to_json(record));
+  for (const ClaimRecord& claim : run.claims) json["findings"].push_back(to_json(claim));
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

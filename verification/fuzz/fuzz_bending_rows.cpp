@@ -14,8 +14,8 @@ namespace foldproof {
 
 namespace {
 
-void require_finite_rows(const std::string& told) {
-  std::istringstream lines(told);
+void require_finite_rows(const std::string& output) {
+  std::istringstream lines(output);
   std::string line;
   std::getline(lines, line);
   while (std::getline(lines, line)) {

@@ -11,7 +11,7 @@ namespace foldproof {
 
 namespace {
 
-void require_sound(const PerParticle3& rest, const std::vector<Triangle>& triangles) {
+void require_valid_content(const PerParticle3& rest, const std::vector<Triangle>& triangles) {
   require(rest.allFinite(), "the coordinates of a mesh are finite");
   for (const Triangle& triangle : triangles)
     for (const int v : triangle)
@@ -40,11 +40,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   size_t triangles = 0;
   const bool is_read = read_with(read_obj_soup_text, text, [&](const TriangleSoup& soup) {
     triangles = soup.triangles.size();
-    require_sound(soup.rest, soup.triangles);
+    require_valid_content(soup.rest, soup.triangles);
   });
   if (!is_read) return 0;  // the others refuse it for the same reason
   read_with(read_obj_text, text, [&](const TriangleMesh& mesh) {
-    require_sound(mesh.rest, mesh.triangles);
+    require_valid_content(mesh.rest, mesh.triangles);
     require(mesh.triangles.size() == triangles, "both readers see the same triangles");
     require(euler_characteristic(mesh) <= mesh.particles(), "a mesh has no more faces than edges");
   });

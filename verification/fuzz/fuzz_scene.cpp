@@ -42,7 +42,7 @@ bool names_other_files(const KeyTable& table) {
   return false;
 }
 
-void require_sound(const Scene& scene) {
+void require_valid_content(const Scene& scene) {
   const State start = start_state(scene);
   require(start.x.allFinite() && start.v.allFinite(), "places and velocities at the start are finite");
   require(scene.mesh.rest.allFinite(), "the rest shape is finite");
@@ -64,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string path = folder + "/fuzz.toml";
   try {
     if (names_other_files(*parse_keys(text, path))) return -1;
-    require_sound(read_scene_text(text, path, {}, small));
+    require_valid_content(read_scene_text(text, path, {}, small));
   } catch (const InputError& error) {
     require(std::string(error.what()).starts_with(folder), "a refusal names its place");
   }

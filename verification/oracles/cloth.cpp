@@ -58,7 +58,7 @@ void require_valid(const ClothDefinition& cloth) {
   require(!free_particles(cloth).empty(), "at least one particle must be free");
 }
 
-Quad<double> gathered(const Vectors& p, const std::array<int, 4>& corners) {
+Quad<double> gather(const Vectors& p, const std::array<int, 4>& corners) {
   return {p[index(corners[0])], p[index(corners[1])], p[index(corners[2])], p[index(corners[3])]};
 }
 
@@ -88,14 +88,14 @@ double damping_factor(const ClothMaterial& material, const HingeDefinition& hing
 void add_bending_forces(const ClothDefinition& cloth, const Vectors& x, const Vectors& v, Vectors& f) {
   const ClothMaterial& material = cloth.material;
   for (const HingeDefinition& hinge : cloth.hinges) {
-    const Quad<double> corners = gathered(x, hinge.corners);
+    const Quad<double> corners = gather(x, hinge.corners);
     const bool at_rest = material.elastic_geometry == Geometry::rest;
     const double anisotropy = at_rest ? hinge.rest_anisotropy : anisotropy_factor(corners);
     const double deflection = std::sin(hinge_angle(corners) / 2) - std::sin(hinge.rest_angle / 2);
     const Quad<double> elastic =
         bending_elastic_force(corners, material.bending_stiffness, anisotropy, deflection);
     const Quad<double> damping =
-        bending_damping_force(corners, gathered(v, hinge.corners), material.bending_damping,
+        bending_damping_force(corners, gather(v, hinge.corners), material.bending_damping,
                               damping_factor(material, hinge, corners));
     for (std::size_t i = 0; i < 4; ++i) {
       Triple<double>& force = f[index(hinge.corners[i])];
@@ -142,7 +142,7 @@ struct ClothEquation {
 
 }  // namespace
 
-Motion held_at(const Vector3& x) {
+Motion fixed_motion(const Vector3& x) {
   return {[x](double) { return x; }, [](double) { return Vector3(Vector3::Zero()); }};
 }
 
@@ -217,7 +217,7 @@ double mechanical_energy(const ClothDefinition& cloth, const ClothState& state) 
     energy += spring_energy(x[index(spring.a)], x[index(spring.b)], law(cloth.material, spring));
   }
   for (const HingeDefinition& hinge : cloth.hinges) {
-    energy += bending_energy(gathered(x, hinge.corners), cloth.material.bending_stiffness,
+    energy += bending_energy(gather(x, hinge.corners), cloth.material.bending_stiffness,
                              hinge.rest_anisotropy, hinge.rest_angle);
   }
   return energy;

@@ -71,7 +71,7 @@ struct ClothState {
   PerParticle3 x, v;
 };
 
-Motion held_at(const Vector3& x);
+Motion fixed_motion(const Vector3& x);
 Motion harmonic_motion(const Harmonic& harmonic);
 
 /// A hinge whose two factors are measured on the rest positions 3 x N [m].

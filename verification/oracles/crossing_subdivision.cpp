@@ -27,7 +27,7 @@ Corners doubled_middle(const Stretch& s) {
   return middle;
 }
 
-Corners doubled(const Corners& corners) {
+Corners double_corners(const Corners& corners) {
   Corners result;
   for (const Exact& d : corners) result.push_back(d + d);
   return result;
@@ -85,24 +85,24 @@ bool passes_through(const Stretch& s) {
   return false;
 }
 
-Seen seen(const Stretch& s, int halvings) {
-  if (is_parted(s)) return Seen::apart;
-  if (passes_through(s)) return Seen::meet;
-  if (halvings == 0) return Seen::unclear;
+MeetDecision decide(const Stretch& s, int halvings) {
+  if (is_parted(s)) return MeetDecision::apart;
+  if (passes_through(s)) return MeetDecision::meet;
+  if (halvings == 0) return MeetDecision::unclear;
   const Corners middle = doubled_middle(s);
-  const Seen first = seen({doubled(s.from), middle}, halvings - 1);
-  if (first == Seen::meet) return first;
-  const Seen second = seen({middle, doubled(s.to)}, halvings - 1);
-  if (second == Seen::meet) return second;
-  return first == Seen::apart ? second : first;
+  const MeetDecision first = decide({double_corners(s.from), middle}, halvings - 1);
+  if (first == MeetDecision::meet) return first;
+  const MeetDecision second = decide({middle, double_corners(s.to)}, halvings - 1);
+  if (second == MeetDecision::meet) return second;
+  return first == MeetDecision::apart ? second : first;
 }
 
 }  // namespace
 
-Seen seen_by_subdivision(Features features, const Motion& motion, int halvings) {
+MeetDecision decide_by_subdivision(Features features, const Motion& motion, int halvings) {
   Quad<Whole> end;
-  for (std::size_t i = 0; i < 4; ++i) end[i] = motion.start[i] + motion.way[i];
-  return seen({corners_of(features, motion.start), corners_of(features, end)}, halvings);
+  for (std::size_t i = 0; i < 4; ++i) end[i] = motion.start[i] + motion.displacement[i];
+  return decide({corners_of(features, motion.start), corners_of(features, end)}, halvings);
 }
 
 }  // namespace foldproof::oracles

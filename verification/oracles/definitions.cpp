@@ -76,7 +76,7 @@ void require_finite(const std::array<Vector3, N>& p, const std::string& quantity
 }
 
 /// The corners in 50 digits; refuses triangles without area and edges without length.
-Quad<Digits50> checked(const Corners& x, const std::string& quantity) {
+Quad<Digits50> check_finite(const Corners& x, const std::string& quantity) {
   require_finite(x, quantity);
   const Quad<Digits50> corners = lift<Digits50>(x);
   const HingeShape<Digits50> shape = hinge_shape(corners);
@@ -91,7 +91,7 @@ void require_material(const HingeInput& hinge) {
 
 /// The spring's constants in any scalar; refuses a spring without rest length.
 template <class Scalar>
-SpringLaw<Scalar> checked(const SpringInput& spring) {
+SpringLaw<Scalar> check_finite(const SpringInput& spring) {
   const SpringLaw<double>& law = spring.law;
   require_finite(spring.x, "SpringInput x");
   require_finite(spring.v, "SpringInput v");
@@ -111,21 +111,21 @@ double force_at_unit_deflection(const Quad<Digits50>& x, double ke, const Digits
 
 }  // namespace
 
-Estimate hinge_angle_50(const Corners& x) { return rounded(hinge_angle(checked(x, "x"))); }
+Estimate hinge_angle_50(const Corners& x) { return rounded(hinge_angle(check_finite(x, "x"))); }
 
 Estimate sin_half_angle_50(const Corners& x) {
-  Estimate result = rounded(sin_half_angle(checked(x, "x")));
+  Estimate result = rounded(sin_half_angle(check_finite(x, "x")));
   result.uncertainty += printed_half_angle_error;
   return result;
 }
 
-VectorsEstimate<4> bending_mode_50(const Corners& x) { return rounded(bending_mode(checked(x, "x"))); }
+VectorsEstimate<4> bending_mode_50(const Corners& x) { return rounded(bending_mode(check_finite(x, "x"))); }
 
 VectorsEstimate<4> bending_elastic_50(const HingeInput& hinge) {
   require_material(hinge);
-  const Quad<Digits50> x = checked(hinge.x, "HingeInput x");
+  const Quad<Digits50> x = check_finite(hinge.x, "HingeInput x");
   const bool at_rest = hinge.elastic_geometry == Geometry::rest;
-  const Digits50 factor = anisotropy_factor(at_rest ? checked(hinge.rest, "HingeInput rest") : x);
+  const Digits50 factor = anisotropy_factor(at_rest ? check_finite(hinge.rest, "HingeInput rest") : x);
   const Digits50 deflection = sin_half_angle(x) - sin(Digits50(hinge.theta0) / 2);
   VectorsEstimate<4> force = rounded(bending_elastic_force(x, Digits50(hinge.ke), factor, deflection));
   force.uncertainty += printed_half_angle_error * force_at_unit_deflection(x, hinge.ke, factor);
@@ -135,9 +135,9 @@ VectorsEstimate<4> bending_elastic_50(const HingeInput& hinge) {
 VectorsEstimate<4> bending_damping_50(const HingeInput& hinge) {
   require_material(hinge);
   require_finite(hinge.v, "HingeInput v");
-  const Quad<Digits50> x = checked(hinge.x, "HingeInput x");
+  const Quad<Digits50> x = check_finite(hinge.x, "HingeInput x");
   const bool at_rest = hinge.damping_geometry == Geometry::rest;
-  const Quad<Digits50> shape = at_rest ? checked(hinge.rest, "HingeInput rest") : x;
+  const Quad<Digits50> shape = at_rest ? check_finite(hinge.rest, "HingeInput rest") : x;
   const bool as_printed = hinge.damping_factor == DampingFactor::edge_length;
   const Digits50 factor = as_printed ? edge_length(shape) : anisotropy_factor(shape);
   return rounded(bending_damping_force(x, lift<Digits50>(hinge.v), Digits50(hinge.kd), factor));
@@ -145,20 +145,20 @@ VectorsEstimate<4> bending_damping_50(const HingeInput& hinge) {
 
 Estimate bending_energy_50(const HingeInput& hinge) {
   require_material(hinge);
-  const Digits50 factor = anisotropy_factor(checked(hinge.rest, "HingeInput rest"));
-  const Quad<Digits50> x = checked(hinge.x, "HingeInput x");
+  const Digits50 factor = anisotropy_factor(check_finite(hinge.rest, "HingeInput rest"));
+  const Quad<Digits50> x = check_finite(hinge.x, "HingeInput x");
   return rounded(bending_energy(x, Digits50(hinge.ke), factor, Digits50(hinge.theta0)));
 }
 
 VectorsEstimate<4> theta_gradient_autodiff(const Corners& x) {
-  checked(x, "x");
+  check_finite(x, "x");
   return rounded_gradient<4>(hinge_angle(lift_as_variables(x)));
 }
 
 // The error of a central difference is step^2/6 theta''' + rounding/step: at 1e-16 of the hinge's size both
 // are below 1e-30 of the gradient, far under the rounding of the result.
 VectorsEstimate<4> theta_gradient_differences(const Corners& x) {
-  const Quad<Digits50> corners = checked(x, "x");
+  const Quad<Digits50> corners = check_finite(x, "x");
   const Digits50 step = Digits50("1e-16") * edge_length(corners);
   Quad<Digits50> gradient;
   for (std::size_t corner = 0; corner < 4; ++corner) {
@@ -174,7 +174,7 @@ VectorsEstimate<4> theta_gradient_differences(const Corners& x) {
 }
 
 Estimate theta_rate_autodiff(const Corners& x, const Corners& v) {
-  checked(x, "x");
+  check_finite(x, "x");
   require_finite(v, "v");
   const Gradient<1> t = variable<Digits50, 1>(Digits50(0), 0);
   Quad<Gradient<1>> moving;
@@ -184,8 +184,8 @@ Estimate theta_rate_autodiff(const Corners& x, const Corners& v) {
 
 VectorsEstimate<4> energy_gradient_autodiff(const HingeInput& hinge) {
   require_material(hinge);
-  checked(hinge.x, "HingeInput x");
-  const Gradient<12> factor = anisotropy_factor(checked(hinge.rest, "HingeInput rest"));
+  check_finite(hinge.x, "HingeInput x");
+  const Gradient<12> factor = anisotropy_factor(check_finite(hinge.rest, "HingeInput rest"));
   const Gradient<12> ke = Digits50(hinge.ke), theta0 = Digits50(hinge.theta0);
   return rounded_gradient<4>(bending_energy(lift_as_variables(hinge.x), ke, factor, theta0));
 }
@@ -196,7 +196,7 @@ namespace {
 template <class Scalar>
 Quad<Scalar> smooth_elastic_force(const HingeInput& hinge, const Quad<Scalar>& x) {
   using std::sin;
-  const Digits50 factor = anisotropy_factor(checked(hinge.rest, "HingeInput rest"));
+  const Digits50 factor = anisotropy_factor(check_finite(hinge.rest, "HingeInput rest"));
   const Scalar deflection = sin(hinge_angle(x) / Scalar(2)) - Scalar(sin(Digits50(hinge.theta0) / 2));
   return bending_elastic_force(x, Scalar(Digits50(hinge.ke)), Scalar(factor), deflection);
 }
@@ -211,7 +211,7 @@ Scalar& component(Triple<Scalar>& triple, int a) {
 
 MatrixEstimate bending_elastic_derivative_autodiff(const HingeInput& hinge) {
   require_material(hinge);
-  checked(hinge.x, "HingeInput x");
+  check_finite(hinge.x, "HingeInput x");
   Quad<Gradient<12>> force = smooth_elastic_force(hinge, lift_as_variables(hinge.x));
   MatrixEstimate result;
   for (int row = 0; row < 12; ++row)
@@ -225,7 +225,7 @@ MatrixEstimate bending_elastic_derivative_autodiff(const HingeInput& hinge) {
 
 MatrixEstimate bending_elastic_derivative_differences(const HingeInput& hinge) {
   require_material(hinge);
-  const Quad<Digits50> x = checked(hinge.x, "HingeInput x");
+  const Quad<Digits50> x = check_finite(hinge.x, "HingeInput x");
   const Digits50 step = Digits50("1e-16") * edge_length(x);
   MatrixEstimate result;
   for (int column = 0; column < 12; ++column) {
@@ -244,14 +244,14 @@ MatrixEstimate bending_elastic_derivative_differences(const HingeInput& hinge) {
 }
 
 VectorsEstimate<2> spring_elastic_50(const SpringInput& spring) {
-  const SpringLaw<Digits50> law = checked<Digits50>(spring);
+  const SpringLaw<Digits50> law = check_finite<Digits50>(spring);
   const Triple<Digits50> on_a =
       spring_elastic_force(lift<Digits50>(spring.x[0]), lift<Digits50>(spring.x[1]), law);
   return rounded(std::array{on_a, -on_a});
 }
 
 VectorsEstimate<2> spring_damping_50(const SpringInput& spring) {
-  const SpringLaw<Digits50> law = checked<Digits50>(spring);
+  const SpringLaw<Digits50> law = check_finite<Digits50>(spring);
   const Triple<Digits50> difference = lift<Digits50>(spring.v[1]) - lift<Digits50>(spring.v[0]);
   const Triple<Digits50> on_a =
       spring_damping_force(lift<Digits50>(spring.x[0]), lift<Digits50>(spring.x[1]), difference, law);
@@ -259,12 +259,12 @@ VectorsEstimate<2> spring_damping_50(const SpringInput& spring) {
 }
 
 Estimate spring_energy_50(const SpringInput& spring) {
-  const SpringLaw<Digits50> law = checked<Digits50>(spring);
+  const SpringLaw<Digits50> law = check_finite<Digits50>(spring);
   return rounded(spring_energy(lift<Digits50>(spring.x[0]), lift<Digits50>(spring.x[1]), law));
 }
 
 VectorsEstimate<2> spring_energy_gradient_autodiff(const SpringInput& spring) {
-  const SpringLaw<Gradient<6>> law = checked<Gradient<6>>(spring);
+  const SpringLaw<Gradient<6>> law = check_finite<Gradient<6>>(spring);
   return rounded_gradient<2>(
       spring_energy(lift_as_variables<6>(spring.x[0], 0), lift_as_variables<6>(spring.x[1], 3), law));
 }

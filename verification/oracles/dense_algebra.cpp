@@ -28,11 +28,11 @@ SymmetricModes symmetric_modes(const Eigen::MatrixXd& K, const Eigen::VectorXd& 
   return modes;
 }
 
-Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+Eigen::VectorXd solve_linear(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   return A.partialPivLu().solve(b);
 }
 
-Eigen::MatrixXd solved_symmetric(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
   return A.ldlt().solve(B);
 }
 
@@ -41,7 +41,7 @@ SingularParts singular_parts(const Eigen::MatrixXd& matrix) {
   return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
 }
 
-Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d a = from.normalized(), b = to.normalized();
   const double half = std::sqrt((1 + a.dot(b)) / 2);  // cosine of half the angle
   if (!(half > 1e-8)) {                               // opposite: about any axis across

@@ -26,10 +26,10 @@ SymmetricModes symmetric_modes(const Eigen::MatrixXd& K);
 SymmetricModes symmetric_modes(const Eigen::MatrixXd& K, const Eigen::VectorXd& masses);
 
 /// x of A x = b, by LU with partial pivoting.
-Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+Eigen::VectorXd solve_linear(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 /// X of A X = B for symmetric A, by LDLT.
-Eigen::MatrixXd solved_symmetric(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
 /// matrix = U diag(values) V^T, values descending; U and V square.
 struct SingularParts {
@@ -40,6 +40,6 @@ struct SingularParts {
 SingularParts singular_parts(const Eigen::MatrixXd& matrix);
 
 /// The least turn that takes the direction `from` to `to`; neither needs to be of length one.
-Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace foldproof::oracles

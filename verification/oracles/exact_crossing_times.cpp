@@ -95,7 +95,7 @@ bool ever_holds_origin(const Polygon<Polynomial>& polygon) {
   for (const int end : {0, 1})
     if (holds_origin(polygon, [&](const Polynomial& p) { return sign_at(p, Dyadic{end, 0}); })) return true;
   for (const Polynomial& event : events(polygon)) {
-    if (plain_sign(event) != 0) continue;
+    if (definite_sign(event) != 0) continue;
     for (const Root& root : roots_within(event))
       if (holds_origin(polygon, [&](const Polynomial& p) { return sign_at(p, root); })) return true;
   }
@@ -103,7 +103,7 @@ bool ever_holds_origin(const Polygon<Polynomial>& polygon) {
 }
 
 /// Are all d_i on one side of a plane across an axis, at the start and at the end, and so throughout?
-bool parted_by_an_axis(const std::vector<Exact>& at_start, const std::vector<Exact>& at_end) {
+bool separated_by_an_axis(const std::vector<Exact>& at_start, const std::vector<Exact>& at_end) {
   for (const auto axis : {&Exact::x, &Exact::y, &Exact::z})
     for (const int side : {-1, 1}) {
       const auto is_there = [&](const Exact& d) { return (d.*axis).sign() == side; };
@@ -121,7 +121,7 @@ Quad<Whole> sum(const Quad<Whole>& p, const Quad<Whole>& q) {
 Quad<Polynomial> over_time(const Motion& motion) {
   Quad<Polynomial> x;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Exact &p = motion.start[i], &w = motion.way[i];
+    const Exact &p = motion.start[i], &w = motion.displacement[i];
     x[i] = {Polynomial({p.x, w.x}), Polynomial({p.y, w.y}), Polynomial({p.z, w.z})};
   }
   return x;
@@ -135,10 +135,10 @@ Quad<Whole> exact_points(const FourPoints& x, int exponent) {
 
 }  // namespace
 
-Motion exact_motion(const FourPoints& start, const FourPoints& way) {
-  const int k = common_exponent({start.col(0), start.col(1), start.col(2), start.col(3), way.col(0),
-                                 way.col(1), way.col(2), way.col(3)});
-  return {exact_points(start, k), exact_points(way, k)};
+Motion exact_motion(const FourPoints& start, const FourPoints& displacement) {
+  const int k = common_exponent({start.col(0), start.col(1), start.col(2), start.col(3), displacement.col(0),
+                                 displacement.col(1), displacement.col(2), displacement.col(3)});
+  return {exact_points(start, k), exact_points(displacement, k)};
 }
 
 // x = start + t end way; end = whole / 2^halvings
@@ -148,7 +148,7 @@ Motion until(const Motion& motion, double end) {
   Motion shorter;
   for (std::size_t i = 0; i < 4; ++i) {
     shorter.start[i] = denominator * motion.start[i];
-    shorter.way[i] = numerator * motion.way[i];
+    shorter.displacement[i] = numerator * motion.displacement[i];
   }
   return shorter;
 }
@@ -166,17 +166,17 @@ Motion motion_between(const std::array<std::array<Fraction, 3>, 8>& points) {
   Motion motion;
   for (std::size_t i = 0; i < 4; ++i) {
     motion.start[i] = whole_point(i);
-    motion.way[i] = whole_point(i + 4) - motion.start[i];
+    motion.displacement[i] = whole_point(i + 4) - motion.start[i];
   }
   return motion;
 }
 
 bool ever_meet(Features features, const Motion& motion) {
-  if (parted_by_an_axis(differences(features, motion.start),
-                        differences(features, sum(motion.start, motion.way))))
+  if (separated_by_an_axis(differences(features, motion.start),
+                           differences(features, sum(motion.start, motion.displacement))))
     return false;
   const std::vector<Triple<Polynomial>> d = differences(features, over_time(motion));
-  return plain_sign(dot(across(d), d[0])) == 0 && ever_holds_origin(polygon_of(d));
+  return definite_sign(dot(across(d), d[0])) == 0 && ever_holds_origin(polygon_of(d));
 }
 
 bool meet(Features features, const FourPoints& x) {

@@ -27,11 +27,11 @@ using FourPoints =
 
 /// Four points at start + t way, t in [0, 1], in whole numbers of some unit of length.
 struct Motion {
-  Quad<Whole> start, way;
+  Quad<Whole> start, displacement;
 };
 
 /// The doubles [m] taken as exact numbers.
-Motion exact_motion(const FourPoints& start, const FourPoints& way);
+Motion exact_motion(const FourPoints& start, const FourPoints& displacement);
 
 /// The motion up to the time `end` in [0, 1], slowed down to last from 0 to 1.
 Motion until(const Motion& motion, double end);

@@ -139,7 +139,7 @@ Crossings crossings(const TriangleSoup& surface, const std::vector<Bounds>& boun
 }
 
 Side side_within(const TriangleSoup& surface, const std::vector<Bounds>& bounds, const Vector3& p) {
-  std::mt19937_64 bits(shifted(4711));
+  std::mt19937_64 bits(shifted_seed(4711));
   for (int trial = 0; trial < 100; ++trial) {
     const Crossings seen = crossings(surface, bounds, p, far_point(surface, p, bits));
     if (seen == Crossings::on_surface) return Side::on_surface;

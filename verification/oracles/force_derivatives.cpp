@@ -36,7 +36,7 @@ Scalar& component(Triple<Scalar>& triple, int a) {
 
 /// Writes an entry of an estimate's matrix.
 template <class MatrixOf>
-void enter(MatrixOf& estimate, int row, int column, const Digits50& entry) {
+void record(MatrixOf& estimate, int row, int column, const Digits50& entry) {
   estimate.value(row, column) = rounded(entry).value;
   estimate.uncertainty = std::max(estimate.uncertainty, rounded(entry).uncertainty);
 }
@@ -68,7 +68,7 @@ MatrixEstimate bending_force_derivative_autodiff(const HingeInput& hinge) {
   MatrixEstimate result;
   for (int row = 0; row < 12; ++row)
     for (int column = 0; column < 12; ++column)
-      enter(result, row, column, component(force[size_t(row / 3)], row % 3).derivative[size_t(column)]);
+      record(result, row, column, component(force[size_t(row / 3)], row % 3).derivative[size_t(column)]);
   return result;
 }
 
@@ -84,7 +84,7 @@ MatrixEstimate bending_force_derivative_differences(const HingeInput& hinge) {
     component(behind[size_t(column / 3)], column % 3) -= step;
     Quad<Digits50> up = force_on_hinge(hinge, ahead), down = force_on_hinge(hinge, behind);
     for (int row = 0; row < 12; ++row)
-      enter(
+      record(
           result, row, column,
           (component(up[size_t(row / 3)], row % 3) - component(down[size_t(row / 3)], row % 3)) / (2 * step));
   }
@@ -102,7 +102,7 @@ SpringMatrixEstimate spring_force_derivative_autodiff(const SpringInput& spring)
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column < 6; ++column) {
       const Digits50 entry = component(on_a, row % 3).derivative[size_t(column)];
-      enter(result, row, column, row < 3 ? entry : Digits50(-entry));
+      record(result, row, column, row < 3 ? entry : Digits50(-entry));
     }
   return result;
 }

@@ -199,7 +199,7 @@ Eigen::Matrix3d relaxed_rigidity(const PeriodicMesh& mesh) {
   Eigen::Matrix3d R = energy.topLeftCorner<3, 3>();
   if (others == 0) return R;
   const Eigen::MatrixXd mixed = energy.bottomLeftCorner(others, 3);
-  return R - mixed.transpose() * solved_symmetric(energy.bottomRightCorner(others, others), mixed);
+  return R - mixed.transpose() * solve_symmetric(energy.bottomRightCorner(others, others), mixed);
 }
 
 double cylinder_rigidity(const Eigen::Matrix3d& R, double angle) {
@@ -209,7 +209,7 @@ double cylinder_rigidity(const Eigen::Matrix3d& R, double angle) {
 
 double strip_rigidity(const Eigen::Matrix3d& R, double angle) {
   const Eigen::Vector3d along = curvature_along(angle);
-  return 1 / along.dot(Eigen::Vector3d(solved_symmetric(R, along)));
+  return 1 / along.dot(Eigen::Vector3d(solve_symmetric(R, along)));
 }
 
 RigidityRange cylinder_range(const Eigen::Matrix3d& R) {

@@ -34,7 +34,7 @@ bool is_stable(int order, const std::vector<Complex>& rates, double h) {
 
 /// The border between a stable and an unstable step [s], by bisection to the last digits.
 template <class IsStable>
-Estimate bisected(double stable, double unstable, const IsStable& is_stable_at) {
+Estimate bisect(double stable, double unstable, const IsStable& is_stable_at) {
   for (int i = 0; i < 60; ++i) {
     const double middle = (stable + unstable) / 2;
     (is_stable_at(middle) ? stable : unstable) = middle;
@@ -81,7 +81,7 @@ Estimate largest_runge_kutta_step(int order, const std::vector<Complex>& rates) 
   for (int i = 1; i < 4000; ++i) {
     if (is_stable(order, rates, i * stride)) continue;
     if (i == 1) return {0, 0};
-    return bisected((i - 1) * stride, i * stride, [&](double h) { return is_stable(order, rates, h); });
+    return bisect((i - 1) * stride, i * stride, [&](double h) { return is_stable(order, rates, h); });
   }
   throw InputError("oracle stability: no limit of Runge-Kutta of order " + std::to_string(order));
 }
@@ -103,7 +103,7 @@ Estimate largest_variable_newmark_step(const Eigen::MatrixXd& K, const Eigen::Ma
   const double least = largest_leapfrog_step(K).value * (1 - 1e-9);
   double beyond = 2 * least;
   for (int i = 0; i < 60 && is_positive(beyond); ++i) beyond *= 2;
-  return bisected(least, beyond, is_positive);
+  return bisect(least, beyond, is_positive);
 }
 
 Estimate bdf2_largest_ratio() { return {1 + std::sqrt(2.0), epsilon}; }

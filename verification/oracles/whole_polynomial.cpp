@@ -132,13 +132,13 @@ std::vector<Root> roots_within(const Polynomial& p) {
 
 int sign_at(const Polynomial& q, const Root& root) {
   if (q.is_zero()) return 0;
-  if (const int sign = q.degree() <= 3 ? plain_sign(q) : 0) return sign;  // soon said
+  if (const int sign = q.degree() <= 3 ? definite_sign(q) : 0) return sign;  // soon said
   const std::vector<Polynomial> sequence = signed_remainders(root.of, q);
   return sign_changes(sequence, root.low) - sign_changes(sequence, root.high);
 }
 
 // The coefficients are b_i = sum_{k <= i} C(i, k) / C(d, k) c_k, here times 6.
-int plain_sign(const Polynomial& p) {
+int definite_sign(const Polynomial& p) {
   constexpr int choose[4][4] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 1, 0}, {1, 3, 3, 1}};
   const std::size_t d = p.c.size() - 1;
   if (p.is_zero()) return 0;

@@ -47,6 +47,6 @@ int sign_at(const Polynomial& q, const Root& root);
 
 /// +1 or -1 if that is plainly the sign on all of [0, 1], else 0: says the hull of the Bernstein
 /// coefficients. Degree at most 3.
-int plain_sign(const Polynomial& p);
+int definite_sign(const Polynomial& p);
 
 }  // namespace foldproof::oracles

@@ -13,14 +13,14 @@ namespace {
 constexpr double step = 0.013;  // s
 
 /// Where the body's point that is at p at the time t is after `h` [s].
-Vector3 carried(const Motion& motion, const Vector3& p, double t, double h) {
+Vector3 carry(const Motion& motion, const Vector3& p, double t, double h) {
   const Vector3 arm = p - motion.center - motion.velocity * t;
-  return motion.center + rotated(arm, motion.angular_velocity * h) + motion.velocity * (t + h);
+  return motion.center + rotate(arm, motion.angular_velocity * h) + motion.velocity * (t + h);
 }
 
 Vector3 mean_velocity(const Motion& motion, const Vector3& p, const Span& span) {
   const double h = span.end - span.start;
-  if (h > 0) return (carried(motion, p, span.start, h) - p) / h;
+  if (h > 0) return (carry(motion, p, span.start, h) - p) / h;
   return motion.velocity + motion.angular_velocity.cross(p - motion.center - motion.velocity * span.start);
 }
 
@@ -32,20 +32,21 @@ Motion bent_path() {
   return motion;
 }
 
-std::function<Known(const Vector3&, const Span&)> known_ball(const Vector3& centre, double radius,
-                                                             const Motion& motion) {
+std::function<KnownPoint(const Vector3&, const Span&)> known_ball(const Vector3& centre, double radius,
+                                                                  const Motion& motion) {
   return [=](const Vector3& p, const Span& span) {
-    const Vector3 away = p - carried(motion, centre, 0, span.start);
-    return Known{away.norm() - radius, away.normalized(), mean_velocity(motion, p, span)};
+    const Vector3 away = p - carry(motion, centre, 0, span.start);
+    return KnownPoint{away.norm() - radius, away.normalized(), mean_velocity(motion, p, span)};
   };
 }
 
-std::function<Known(const Vector3&, const Span&)> known_slope(const Vector3& origin, const Vector3& normal,
-                                                              const Motion& motion) {
+std::function<KnownPoint(const Vector3&, const Span&)> known_slope(const Vector3& origin,
+                                                                   const Vector3& normal,
+                                                                   const Motion& motion) {
   return [=](const Vector3& p, const Span& span) {
-    const Vector3 n = rotated(normal, motion.angular_velocity * span.start);
-    const Vector3 through = carried(motion, origin, 0, span.start);
-    return Known{n.dot(p - through), n, mean_velocity(motion, p, span)};
+    const Vector3 n = rotate(normal, motion.angular_velocity * span.start);
+    const Vector3 through = carry(motion, origin, 0, span.start);
+    return KnownPoint{n.dot(p - through), n, mean_velocity(motion, p, span)};
   };
 }
 
@@ -53,20 +54,20 @@ std::function<Known(const Vector3&, const Span&)> known_slope(const Vector3& ori
 /// velocity.
 void scatter(Contact& contact, Eigen::Index i, Random& random) {
   Vector3 p = contact.state.x.col(i);
-  const Known far = contact.known(p, contact.span);
-  p += (random.in(-0.04, 0.04) - far.phi) * far.normal;
+  const KnownPoint far = contact.known(p, contact.span);
+  p += (random.uniform(-0.04, 0.04) - far.phi) * far.normal;
   Vector3 v = random.vectors(1, 3);
   if (i % 20 < 2) {  // no sliding, or none at all
-    const Known here = contact.known(p, contact.span);
+    const KnownPoint here = contact.known(p, contact.span);
     v = here.velocity;
-    if (i % 20 == 0) v -= random.in(1, 5) * here.normal;
+    if (i % 20 == 0) v -= random.uniform(1, 5) * here.normal;
   }
   contact.state.x.col(i) = p;
   contact.state.v.col(i) = v;
 }
 
 Contact contact_of(const std::string& name, const SceneObject& part, double tau,
-                   const std::function<Known(const Vector3&, const Span&)>& known) {
+                   const std::function<KnownPoint(const Vector3&, const Span&)>& known) {
   Contact contact{name, loose_particles(20), {}, {0.61, 0.61 + step, step}, tau, part.object.friction, known};
   contact.scene.objects.push_back(part);
   contact.scene.collision.forecast_time = tau;
@@ -78,7 +79,7 @@ Contact contact_of(const std::string& name, const SceneObject& part, double tau,
 
 }  // namespace
 
-Vector3 rotated(const Vector3& x, const Vector3& turn) {
+Vector3 rotate(const Vector3& x, const Vector3& turn) {
   const double angle = turn.norm();
   if (angle == 0) return x;
   const Vector3 axis = turn / angle;
@@ -93,14 +94,14 @@ SceneObject object_at(const std::string& name, const Solid& solid, const Pose& p
   return part;
 }
 
-SceneObject moving(SceneObject part, const Motion& motion, double friction) {
+SceneObject with_motion(SceneObject part, const Motion& motion, double friction) {
   std::get<RigidObject>(part.object.body).motion = motion;
   part.object.friction = friction;
   return part;
 }
 
 Scene loose_particles(int n) {
-  return scene_of(make_sheet({SheetPattern::one_diagonal, 1, 1, n - 1, n - 1}), 0.37);
+  return scene_at_rest(make_sheet({SheetPattern::one_diagonal, 1, 1, n - 1, n - 1}), 0.37);
 }
 
 std::vector<Contact> known_contacts() {
@@ -112,14 +113,15 @@ std::vector<Contact> known_contacts() {
   const Eigen::AngleAxisd tilt(0.73, Vector3(0.3, -0.8, 0.5).normalized());
   for (const double times : {1.0, 2.7, 0.6}) {
     const std::string words = times == 1 ? "the step" : times > 1 ? "2.7 steps" : "0.6 steps";
-    all.push_back(contact_of(
-        "ball, forecast time " + words,
-        moving(object_at("ball", Sphere{0.43}, {Eigen::Quaterniond::Identity(), centre}), bent_path(), 0.37),
-        times * step, known_ball(centre, 0.43, bent_path())));
     all.push_back(
-        contact_of("slope, forecast time " + words,
-                   moving(object_at("slope", HalfSpace{}, {Eigen::Quaterniond(tilt), origin}), rising, 0.81),
-                   times * step, known_slope(origin, tilt * Vector3::UnitZ(), rising)));
+        contact_of("ball, forecast time " + words,
+                   with_motion(object_at("ball", Sphere{0.43}, {Eigen::Quaterniond::Identity(), centre}),
+                               bent_path(), 0.37),
+                   times * step, known_ball(centre, 0.43, bent_path())));
+    all.push_back(contact_of(
+        "slope, forecast time " + words,
+        with_motion(object_at("slope", HalfSpace{}, {Eigen::Quaterniond(tilt), origin}), rising, 0.81),
+        times * step, known_slope(origin, tilt * Vector3::UnitZ(), rising)));
   }
   return all;
 }
@@ -138,9 +140,9 @@ Pinch known_pinch() {
               0.21,
               0.34};
   pinch.scene.objects.push_back(
-      moving(object_at("left", Sphere{0.4}, {Eigen::Quaterniond::Identity(), left}), bent_path(), 0.21));
+      with_motion(object_at("left", Sphere{0.4}, {Eigen::Quaterniond::Identity(), left}), bent_path(), 0.21));
   pinch.scene.objects.push_back(
-      moving(object_at("right", Sphere{0.35}, {Eigen::Quaterniond::Identity(), right}), other, 0.34));
+      with_motion(object_at("right", Sphere{0.35}, {Eigen::Quaterniond::Identity(), right}), other, 0.34));
   Random random(23);
   pinch.state = {0, pinch.scene.x, random.vectors(pinch.scene.x.cols(), 2)};
   for (Eigen::Index i = 0; i < pinch.state.x.cols(); ++i) {
@@ -152,9 +154,10 @@ Pinch known_pinch() {
   return pinch;
 }
 
-PerParticle3 avoided(const Subject& subject, const Scene& scene, const Span& span, const State& state) {
-  const std::unique_ptr<Prepared> prepared = offered(subject.prepare, "prepare")(scene);
-  return offered(subject.avoid_objects, "avoid_objects")(*prepared, span, state, state.v);
+PerParticle3 corrected_by_objects(const Subject& subject, const Scene& scene, const Span& span,
+                                  const State& state) {
+  const std::unique_ptr<PreparedScene> prepared = require_offered(subject.prepare, "prepare")(scene);
+  return require_offered(subject.avoid_objects, "avoid_objects")(*prepared, span, state, state.v);
 }
 
 }  // namespace foldproof

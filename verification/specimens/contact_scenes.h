@@ -12,7 +12,7 @@
 namespace foldproof {
 
 /// What there is to know of an object at a point over a span.
-struct Known {
+struct KnownPoint {
   double phi;        // at the span's start [m]
   Vector3 normal;    // outward, at the span's start
   Vector3 velocity;  // mean over the span, at the span's time if it is one [m/s]
@@ -26,7 +26,7 @@ struct Contact {
   Span span;
   double tau;  // forecast time [s]
   double friction;
-  std::function<Known(const Vector3& p, const Span& span)> known;
+  std::function<KnownPoint(const Vector3& p, const Span& span)> known;
 };
 
 /// A ball on a bent path that turns as it goes, and a slope that rises and turns; each with forecast times of
@@ -40,13 +40,14 @@ struct Pinch {
   State state;
   Span span;
   double tau;
-  std::function<Known(const Vector3&p, const Span&span)> first, second;
+  std::function<KnownPoint(const Vector3&p, const Span&span)> first, second;
   double friction_first, friction_second;
 };
 Pinch known_pinch();
 
 /// What the subject makes of the velocities of `state`, 3 x N [m/s].
-PerParticle3 avoided(const Subject& subject, const Scene& scene, const Span& span, const State& state);
+PerParticle3 corrected_by_objects(const Subject& subject, const Scene& scene, const Span& span,
+                                  const State& state);
 
 /// Free particles, at rest in a plane sheet of n x n; nothing holds them together.
 Scene loose_particles(int n);
@@ -55,9 +56,9 @@ Scene loose_particles(int n);
 SceneObject object_at(const std::string& name, const Solid& solid, const Pose& pose);
 
 /// The object with a motion and a coefficient of friction.
-SceneObject moving(SceneObject part, const Motion& motion, double friction);
+SceneObject with_motion(SceneObject part, const Motion& motion, double friction);
 
 /// A rotation about an axis [rad], in the way of Rodrigues.
-Vector3 rotated(const Vector3& x, const Vector3& turn);
+Vector3 rotate(const Vector3& x, const Vector3& turn);
 
 }  // namespace foldproof

@@ -8,11 +8,11 @@ namespace foldproof {
 
 double largest_difference(const PerParticle3& a, const PerParticle3& b) {
   Worst worst;
-  for (Eigen::Index i = 0; i < a.cols(); ++i) worst.see((a.col(i) - b.col(i)).norm());
+  for (Eigen::Index i = 0; i < a.cols(); ++i) worst.observe((a.col(i) - b.col(i)).norm());
   return worst.value();
 }
 
-double numbers_that_differ(const PerParticle3& a, const PerParticle3& b) {
+double count_differing_entries(const PerParticle3& a, const PerParticle3& b) {
   return double((a.array() != b.array()).count());
 }
 

@@ -11,7 +11,7 @@ namespace foldproof {
 double largest_difference(const PerParticle3& a, const PerParticle3& b);
 
 /// How many numbers of two 3 x N arrays differ; NaN differs from everything.
-double numbers_that_differ(const PerParticle3& a, const PerParticle3& b);
+double count_differing_entries(const PerParticle3& a, const PerParticle3& b);
 
 /// Half the diagonal of the box around all positions, plus the distance of its centre from the origin [m].
 double extent(const PerParticle3& x);

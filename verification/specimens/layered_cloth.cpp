@@ -8,7 +8,7 @@
 
 namespace foldproof {
 
-Scene layered_scene(const Layered& wanted) {
+Scene layered_scene(const LayeredSheets& wanted) {
   Random random(wanted.seed);
   Sheet sheet;
   sheet.pattern = SheetPattern::jittered;
@@ -26,18 +26,20 @@ Scene layered_scene(const Layered& wanted) {
     for (const Triangle& t : one.triangles)
       triangles.push_back({int(k * n) + t[0], int(k * n) + t[1], int(k * n) + t[2]});
   }
-  Scene scene = scene_of(make_triangle_mesh(std::move(rest), std::move(triangles)), 0.17);
-  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) scene.x(2, i) += random.in(-wanted.height, wanted.height);
+  Scene scene = scene_at_rest(make_triangle_mesh(std::move(rest), std::move(triangles)), 0.17);
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
+    scene.x(2, i) += random.uniform(-wanted.height, wanted.height);
   scene.v = random.vectors(scene.x.cols(), wanted.speed);
   scene.self_collision = wanted.settings;
   return scene;
 }
 
-PerParticle3 kept_apart(const Subject& subject, const Scene& scene, const StepAsked& asked) {
-  const auto prepared = offered(subject.prepare, "prepare")(scene);
+PerParticle3 corrected_by_self_collision(const Subject& subject, const Scene& scene,
+                                         const StepRequest& request) {
+  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
   const State s = start_state(scene);
-  const Span span{0, asked.moves ? asked.step : 0, asked.step};
-  return offered(subject.avoid_itself, "avoid_itself")(*prepared, span, s, s.v);
+  const Span span{0, request.moves ? request.step : 0, request.step};
+  return require_offered(subject.avoid_itself, "avoid_itself")(*prepared, span, s, s.v);
 }
 
 std::vector<FeaturePair> all_pairs(const TriangleMesh& mesh) {
@@ -55,9 +57,9 @@ std::vector<FeaturePair> all_pairs(const TriangleMesh& mesh) {
   return all;
 }
 
-Vector3 momentum_of(const PerParticle& mass, const PerParticle3& v) { return v * mass; }
+Vector3 linear_momentum_of(const PerParticle& mass, const PerParticle3& v) { return v * mass; }
 
-Vector3 turn_of(const PerParticle& mass, const PerParticle3& x, const PerParticle3& v) {
+Vector3 angular_momentum_of(const PerParticle& mass, const PerParticle3& x, const PerParticle3& v) {
   const Vector3 middle = x.rowwise().mean();
   Vector3 sum = Vector3::Zero();
   for (Eigen::Index i = 0; i < x.cols(); ++i)
@@ -65,7 +67,7 @@ Vector3 turn_of(const PerParticle& mass, const PerParticle3& x, const PerParticl
   return sum;
 }
 
-double kinetic_of(const PerParticle& mass, const PerParticle3& v) {
+double kinetic_energy_of(const PerParticle& mass, const PerParticle3& v) {
   return 0.5 * v.colwise().squaredNorm().dot(mass.transpose());
 }
 

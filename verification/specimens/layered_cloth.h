@@ -8,7 +8,7 @@
 namespace foldproof {
 
 /// How sheets lie and move.
-struct Layered {
+struct LayeredSheets {
   int sheets = 3;
   double gap = 0.003;     // between two [m]; the thickness is .004
   double height = 0.001;  // of random bumps of each, less than half of the gap [m]
@@ -19,22 +19,23 @@ struct Layered {
 
 /// Sheets of 5 x 6 jittered cells of 2 cm, 42 particles each, one above the other; nothing but self-collision
 /// is named.
-Scene layered_scene(const Layered& wanted);
+Scene layered_scene(const LayeredSheets& wanted);
 
 /// What the subject's self-collision makes of the start's velocities over a step of `step` [s] from time 0:
 /// of the velocity that moves the cloth, or, with `moves` = false, of one that ends a step. 3 x N [m/s].
-struct StepAsked {
+struct StepRequest {
   double step;
   bool moves;
 };
-PerParticle3 kept_apart(const Subject& subject, const Scene& scene, const StepAsked& asked);
+PerParticle3 corrected_by_self_collision(const Subject& subject, const Scene& scene,
+                                         const StepRequest& request);
 
 /// All pairs of a vertex and a triangle and of two edges without a common particle, each once.
 std::vector<FeaturePair> all_pairs(const TriangleMesh& mesh);
 
 /// sum m v [kg m/s], sum m x x v about the mean [kg m^2/s] and sum m v^2/2 [J] of velocities v at x.
-Vector3 momentum_of(const PerParticle& mass, const PerParticle3& v);
-Vector3 turn_of(const PerParticle& mass, const PerParticle3& x, const PerParticle3& v);
-double kinetic_of(const PerParticle& mass, const PerParticle3& v);
+Vector3 linear_momentum_of(const PerParticle& mass, const PerParticle3& v);
+Vector3 angular_momentum_of(const PerParticle& mass, const PerParticle3& x, const PerParticle3& v);
+double kinetic_energy_of(const PerParticle& mass, const PerParticle3& v);
 
 }  // namespace foldproof

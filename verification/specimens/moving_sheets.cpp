@@ -17,7 +17,7 @@ Sheet irregular_sheet() {
   sheet.height = 0.55;
   sheet.columns = 5;
   sheet.rows = 4;
-  sheet.seed = shifted(31);
+  sheet.seed = shifted_seed(31);
   return sheet;
 }
 
@@ -28,7 +28,7 @@ Sheet jittered_sheet() {
   sheet.columns = 5;
   sheet.rows = 4;
   sheet.jitter = 0.27;
-  sheet.seed = shifted(17);
+  sheet.seed = shifted_seed(17);
   return sheet;
 }
 
@@ -37,16 +37,16 @@ Sheet jittered_sheet() {
 void crumple(Scene& scene, unsigned seed) {
   Random random(seed);
   const Eigen::Index count = scene.x.cols();
-  const double size = std::min(0.013, 0.2 * least_height(scene.mesh.triangles, scene.mesh.rest));  // m
+  const double size = std::min(0.013, 0.2 * smallest_height(scene.mesh.triangles, scene.mesh.rest));  // m
   PerParticle3 shift = random.vectors(count, size);
   shift.row(2) *= 3;
   scene.x += shift;
   scene.v = random.vectors(count, size / 0.042);
-  for (double& angle : scene.rest_angles) angle = random.in(-0.6, 0.7);
+  for (double& angle : scene.rest_angles) angle = random.uniform(-0.6, 0.7);
 }
 
 Scene sheet_of(const Sheet& sheet, unsigned seed) {
-  Scene scene = scene_of(make_sheet(sheet), 0.23);
+  Scene scene = scene_at_rest(make_sheet(sheet), 0.23);
   scene.stretch = StretchMaterial{37, 0.011, 0.97};
   scene.bending = BendingMaterial{3.1e-4, 2.3e-5, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
@@ -65,7 +65,7 @@ Scene undamped_sheet() {
   return scene;
 }
 
-Scene led_sheet() {
+Scene partly_prescribed_sheet() {
   Scene scene = sheet_of(jittered_sheet(), 7);
   scene.gravity = Vector3(0.7, -9.1, 1.9);
   Motion swing;
@@ -77,7 +77,7 @@ Scene led_sheet() {
   turn.velocity = Vector3(-0.05, 0.23, 0.03);
   turn.center = Vector3(0.37, -0.21, 0.15);
   turn.angular_velocity = Vector3(0.8, -1.3, 2.1);
-  scene.led = {{0, scene.x.col(0), Motion{}}, {4, scene.x.col(4), swing}, {13, scene.x.col(13), turn}};
+  scene.prescribed = {{0, scene.x.col(0), Motion{}}, {4, scene.x.col(4), swing}, {13, scene.x.col(13), turn}};
   return scene;
 }
 

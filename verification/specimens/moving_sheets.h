@@ -14,6 +14,6 @@ Scene undamped_sheet();
 
 /// A jittered sheet under gravity, damped, moving: one corner is held, two particles are led (an oscillation
 /// with drift, a rotation with drift), the others are free. Elastic limit about 2 ms, by the bound.
-Scene led_sheet();
+Scene partly_prescribed_sheet();
 
 }  // namespace foldproof

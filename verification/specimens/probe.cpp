@@ -3,18 +3,18 @@
 namespace foldproof {
 
 Probe::Probe(const Subject& subject, const Scene& scene)
-    : subject_(subject), prepared_(offered(subject.prepare, "prepare")(scene)) {}
+    : subject_(subject), prepared_(require_offered(subject.prepare, "prepare")(scene)) {}
 
 PerParticle3 Probe::elastic(const State& s) const {
-  return offered(subject_.elastic_forces, "elastic_forces")(*prepared_, s);
+  return require_offered(subject_.elastic_forces, "elastic_forces")(*prepared_, s);
 }
 
 PerParticle3 Probe::damping(const State& s, const PerParticle3& v) const {
-  return offered(subject_.damping_forces, "damping_forces")(*prepared_, s, v);
+  return require_offered(subject_.damping_forces, "damping_forces")(*prepared_, s, v);
 }
 
 double Probe::energy(const State& s) const {
-  return offered(subject_.potential_energy, "potential_energy")(*prepared_, s);
+  return require_offered(subject_.potential_energy, "potential_energy")(*prepared_, s);
 }
 
 Eigen::MatrixXd damping_matrix(const Probe& probe, const State& s) {

@@ -19,7 +19,7 @@ class Probe {
 
  private:
   const Subject& subject_;
-  std::unique_ptr<Prepared> prepared_;
+  std::unique_ptr<PreparedScene> prepared_;
 };
 
 /// The damping matrix D at s, column by column: 3N x 3N [N s/m], coordinates particle by particle.

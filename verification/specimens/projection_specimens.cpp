@@ -47,7 +47,7 @@ std::vector<ProjectionCase> solids_with_points() {
                                        {"torus", {moving("torus", Torus{0.37, 0.16})}, 0.37, {}}};
   for (ProjectionCase& one : cases) {
     const RigidObject& body = std::get<RigidObject>(one.objects[0].body);
-    one.x = points_around(one, placed(pose_at(body.motion, one.time), body.place.translation), 0.7);
+    one.x = points_around(one, to_world(pose_at(body.motion, one.time), body.place.translation), 0.7);
   }
   return cases;
 }
@@ -76,13 +76,13 @@ FoldProjection projection_by(const std::string& map) {
   return {map, {0.004, 0.03, 0.1}, PinchedPoints::left_alone, 1e-12, 60};
 }
 
-ProjectedCloth projected(const ProjectionCase& specimen, const FoldProjection& projection) {
+ProjectedCloth project_specimen(const ProjectionCase& specimen, const FoldProjection& projection) {
   return project_folds(specimen.objects, specimen.x, specimen.time, projection);
 }
 
 PerParticle distances(const ProjectionCase& specimen, const PerParticle3& x) {
   PerParticle phi(x.cols());
-  ObjectsDuring now(specimen.objects, {specimen.time, specimen.time, 0});
+  ObjectsOverSpan now(specimen.objects, {specimen.time, specimen.time, 0});
   for (Eigen::Index i = 0; i < x.cols(); ++i) phi[i] = nearest_of(now.at(x.col(i))).first.phi;
   return phi;
 }

@@ -29,7 +29,7 @@ ProjectionCase overlapping_balls();
 /// eps .004, tau .03, t^ .1 [m]; arrived within 1e-12 m.
 FoldProjection projection_by(const std::string& map);
 
-ProjectedCloth projected(const ProjectionCase& specimen, const FoldProjection& projection);
+ProjectedCloth project_specimen(const ProjectionCase& specimen, const FoldProjection& projection);
 
 /// Signed distance of each point to the union of the objects [m].
 PerParticle distances(const ProjectionCase& specimen, const PerParticle3& x);

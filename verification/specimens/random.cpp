@@ -4,11 +4,13 @@
 
 namespace foldproof {
 
-double Random::in_decades(double low, double high) { return std::exp(in(std::log(low), std::log(high))); }
+double Random::log_uniform(double low, double high) {
+  return std::exp(uniform(std::log(low), std::log(high)));
+}
 
 PerParticle3 Random::vectors(Eigen::Index count, double size) {
   PerParticle3 result(3, count);
-  for (double& component : result.reshaped()) component = in(-size, size);
+  for (double& component : result.reshaped()) component = uniform(-size, size);
   return result;
 }
 

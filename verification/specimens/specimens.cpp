@@ -15,14 +15,14 @@ namespace {
 
 std::vector<double> random_angles(Random& random, size_t count) {
   std::vector<double> angles(count);
-  for (double& angle : angles) angle = random.in(-0.9, 0.9);
+  for (double& angle : angles) angle = random.uniform(-0.9, 0.9);
   return angles;
 }
 
 /// The mesh displaced at random; `edge` [m] is the length that displacements are measured in.
-Specimen crumpled(const std::string& name, TriangleMesh mesh, double edge, unsigned seed) {
+Specimen crumple_specimen(const std::string& name, TriangleMesh mesh, double edge, unsigned seed) {
   Random random(seed);
-  Specimen specimen{name, scene_of(std::move(mesh), 0.23), {}};
+  Specimen specimen{name, scene_at_rest(std::move(mesh), 0.23), {}};
   Scene& scene = specimen.scene;
   const Eigen::Index count = scene.x.cols();
   scene.rest_angles = random_angles(random, scene.mesh.hinges.size());
@@ -44,12 +44,12 @@ Sheet sheet_of(SheetPattern pattern) {
   sheet.columns = 6;
   sheet.rows = 5;
   sheet.jitter = 0.24;
-  sheet.seed = shifted(71);
+  sheet.seed = shifted_seed(71);
   return sheet;
 }
 
 Specimen at_rest(const std::string& name, TriangleMesh mesh) {
-  Specimen specimen{name, scene_of(std::move(mesh), 0.31), {}};
+  Specimen specimen{name, scene_at_rest(std::move(mesh), 0.31), {}};
   specimen.scene.rest_angles = hinge_angles(specimen.scene.mesh, specimen.scene.mesh.rest);
   specimen.state = start_state(specimen.scene);
   return specimen;
@@ -59,10 +59,10 @@ TriangleMesh pleats() {
   Sheet sheet = sheet_of(SheetPattern::one_diagonal);
   sheet.columns = 9;
   const TriangleMesh flat = make_sheet(sheet);
-  return make_triangle_mesh(pleated(flat, 3, 2.3), flat.triangles);
+  return make_triangle_mesh(pleated_positions(flat, 3, 2.3), flat.triangles);
 }
 
-double thinness(const Vector3& a, const Vector3& b, const Vector3& c) {
+double aspect_ratio(const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 normal = (b - a).cross(c - a);
   const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
   return longest / normal.norm();
@@ -71,23 +71,23 @@ double thinness(const Vector3& a, const Vector3& b, const Vector3& c) {
 }  // namespace
 
 std::vector<Specimen> crumpled_sheets() {
-  return {crumpled("one_diagonal", make_sheet(sheet_of(SheetPattern::one_diagonal)), 0.066, 3),
-          crumpled("equilateral", make_sheet(sheet_of(SheetPattern::equilateral)), 0.066, 5),
-          crumpled("union_jack", make_sheet(sheet_of(SheetPattern::union_jack)), 0.066, 7),
-          crumpled("criss_cross", make_sheet(sheet_of(SheetPattern::criss_cross)), 0.044, 11),
-          crumpled("jittered", make_sheet(sheet_of(SheetPattern::jittered)), 0.066, 13),
-          crumpled("random_delaunay", make_sheet(sheet_of(SheetPattern::random_delaunay)), 0.05, 17),
-          crumpled("disc", make_disc(0.29, 4), 0.07, 19),
-          crumpled("icosphere", make_icosphere(0.17, 1), 0.1, 23)};
+  return {crumple_specimen("one_diagonal", make_sheet(sheet_of(SheetPattern::one_diagonal)), 0.066, 3),
+          crumple_specimen("equilateral", make_sheet(sheet_of(SheetPattern::equilateral)), 0.066, 5),
+          crumple_specimen("union_jack", make_sheet(sheet_of(SheetPattern::union_jack)), 0.066, 7),
+          crumple_specimen("criss_cross", make_sheet(sheet_of(SheetPattern::criss_cross)), 0.044, 11),
+          crumple_specimen("jittered", make_sheet(sheet_of(SheetPattern::jittered)), 0.066, 13),
+          crumple_specimen("random_delaunay", make_sheet(sheet_of(SheetPattern::random_delaunay)), 0.05, 17),
+          crumple_specimen("disc", make_disc(0.29, 4), 0.07, 19),
+          crumple_specimen("icosphere", make_icosphere(0.17, 1), 0.1, 23)};
 }
 
 std::vector<Specimen> small_crumpled_sheets() {
   Sheet even = sheet_of(SheetPattern::one_diagonal), irregular = sheet_of(SheetPattern::random_delaunay);
   even.columns = irregular.columns = 3;
   even.rows = irregular.rows = 2;
-  return {crumpled("one_diagonal", make_sheet(even), 0.14, 29),
-          crumpled("random_delaunay", make_sheet(irregular), 0.1, 31),
-          crumpled("icosahedron", make_icosphere(0.19, 0), 0.2, 37)};
+  return {crumple_specimen("one_diagonal", make_sheet(even), 0.14, 29),
+          crumple_specimen("random_delaunay", make_sheet(irregular), 0.1, 31),
+          crumple_specimen("icosahedron", make_icosphere(0.19, 0), 0.2, 37)};
 }
 
 const TriangleMesh& small_statue() {
@@ -101,14 +101,14 @@ std::vector<Specimen> curved_shapes() {
 }
 
 Corners random_corners(Random& random, double angle) {
-  const double edge = random.in(0.03, 0.2);
-  const double foot1 = random.in(-0.4, 1.4) * edge, foot2 = random.in(-0.4, 1.4) * edge;
-  const double height1 = random.in(0.4, 1.5) * edge, height2 = random.in(0.4, 1.5) * edge;
+  const double edge = random.uniform(0.03, 0.2);
+  const double foot1 = random.uniform(-0.4, 1.4) * edge, foot2 = random.uniform(-0.4, 1.4) * edge;
+  const double height1 = random.uniform(0.4, 1.5) * edge, height2 = random.uniform(0.4, 1.5) * edge;
   Corners corners = {Vector3(foot1, height1, 0),
                      Vector3(foot2, -height2 * std::cos(angle), -height2 * std::sin(angle)), Vector3(0, 0, 0),
                      Vector3(edge, 0, 0)};
   const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(random.in(-3, 3), random.vectors(1, 1).col(0).normalized()).matrix();
+      Eigen::AngleAxisd(random.uniform(-3, 3), random.vectors(1, 1).col(0).normalized()).matrix();
   const Vector3 shift = random.vectors(1, 0.3).col(0);
   for (Vector3& corner : corners) corner = (turn * corner + shift).eval();
   return corners;
@@ -116,8 +116,8 @@ Corners random_corners(Random& random, double angle) {
 
 Specimen random_hinge(unsigned seed, double angle) {
   Random random(seed);
-  const Corners rest = random_corners(random, random.in(-2.6, 2.6));
-  Specimen specimen{"hinge " + std::to_string(seed), hinge_scene(rest, random.in(-2.3, 2.3)), {}};
+  const Corners rest = random_corners(random, random.uniform(-2.6, 2.6));
+  Specimen specimen{"hinge " + std::to_string(seed), hinge_scene(rest, random.uniform(-2.3, 2.3)), {}};
   specimen.state = state_of(random_corners(random, angle));
   specimen.state.v = random.vectors(4, 1.7);
   return specimen;
@@ -134,12 +134,12 @@ std::vector<Specimen> hinges_of_all_angles() {
 }
 
 Scene hinge_scene(const Corners& rest, double rest_angle) {
-  Scene scene = scene_of(make_triangle_mesh(state_of(rest).x, {{0, 2, 3}, {1, 3, 2}}), 0.19);
+  Scene scene = scene_at_rest(make_triangle_mesh(state_of(rest).x, {{0, 2, 3}, {1, 3, 2}}), 0.19);
   scene.rest_angles = {rest_angle};
   return scene;
 }
 
-State still_at(PerParticle3 x) {
+State resting_state(PerParticle3 x) {
   PerParticle3 v = PerParticle3::Zero(3, x.cols());
   return {0, std::move(x), std::move(v)};
 }
@@ -173,7 +173,9 @@ oracles::HingeInput hinge_input(const Specimen& specimen, size_t hinge) {
   return input;
 }
 
-double thinness(const Corners& x) { return std::max(thinness(x[0], x[2], x[3]), thinness(x[1], x[3], x[2])); }
+double aspect_ratio(const Corners& x) {
+  return std::max(aspect_ratio(x[0], x[2], x[3]), aspect_ratio(x[1], x[3], x[2]));
+}
 
 std::vector<BendingMaterial> bending_variants() {
   return {{3.7e-4, 0, Weighting::rest, DampingFactor::edge, "sine"},
@@ -187,7 +189,7 @@ std::vector<BendingMaterial> damped_bending_variants() {
           {7.7e-3, 1.9e-5, Weighting::current, DampingFactor::edge_squared_over_area, "sine"}};
 }
 
-std::string described(const Specimen& specimen, const BendingMaterial& material) {
+std::string describe(const Specimen& specimen, const BendingMaterial& material) {
   const std::string weighting = material.weighting == Weighting::rest ? "rest" : "current";
   if (material.damping == 0) return specimen.name + ", " + weighting + ", " + std::string(material.law);
   return specimen.name + (material.damping_factor == DampingFactor::edge ? ", |E|" : ", |E|^2/(|N1|+|N2|)");

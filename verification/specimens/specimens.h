@@ -55,7 +55,7 @@ Scene hinge_scene(const Corners& rest, double rest_angle);
 State state_of(const Corners& x);
 
 /// The positions x (3 x N [m]) without motion.
-State still_at(PerParticle3 x);
+State resting_state(PerParticle3 x);
 
 Corners corners_of(const Hinge& hinge, const PerParticle3& x);
 
@@ -64,7 +64,7 @@ oracles::HingeInput hinge_input(const Specimen& specimen, size_t hinge);
 
 /// Longest side squared over twice the area, of the worse of the two triangles [1]: by how much rounding in
 /// the normals is magnified. 1.15 for equilateral triangles.
-double thinness(const Corners& x);
+double aspect_ratio(const Corners& x);
 
 /// Bending with rest and with current weighting by each law; constants pairwise distinct.
 std::vector<BendingMaterial> bending_variants();
@@ -73,6 +73,6 @@ std::vector<BendingMaterial> bending_variants();
 std::vector<BendingMaterial> damped_bending_variants();
 
 /// "jittered, current, cubic": a specimen with the material it got.
-std::string described(const Specimen& specimen, const BendingMaterial& material);
+std::string describe(const Specimen& specimen, const BendingMaterial& material);
 
 }  // namespace foldproof

@@ -11,15 +11,15 @@ namespace foldproof {
 Stepper::Stepper(const Subject& subject, Scene scene, const std::string& integrator)
     : subject_(subject), scene_(std::move(scene)) {
   scene_.integrator = integrator;
-  prepared_ = offered(subject.prepare, "prepare")(scene_);
+  prepared_ = require_offered(subject.prepare, "prepare")(scene_);
 }
 
 State Stepper::step(const State& s, double h) {
-  return offered(subject_.step, "step")(*prepared_, {&s, 1}, h, work_);
+  return require_offered(subject_.step, "step")(*prepared_, {&s, 1}, h, work_);
 }
 
 State Stepper::step_after(const std::vector<State>& past, double h) {
-  return offered(subject_.step, "step")(*prepared_, past, h, work_);
+  return require_offered(subject_.step, "step")(*prepared_, past, h, work_);
 }
 
 State Stepper::run(State s, double h, int steps) {
@@ -28,11 +28,11 @@ State Stepper::run(State s, double h, int steps) {
 }
 
 PerParticle3 Stepper::elastic_forces(const State& s) const {
-  return offered(subject_.elastic_forces, "elastic_forces")(*prepared_, s);
+  return require_offered(subject_.elastic_forces, "elastic_forces")(*prepared_, s);
 }
 
 PerParticle3 Stepper::damping_forces(const State& s, const PerParticle3& v) const {
-  return offered(subject_.damping_forces, "damping_forces")(*prepared_, s, v);
+  return require_offered(subject_.damping_forces, "damping_forces")(*prepared_, s, v);
 }
 
 double growth(Stepper& stepper, const State& start, double h, int steps) {
@@ -42,12 +42,12 @@ double growth(Stepper& stepper, const State& start, double h, int steps) {
   disturbed.x += random.vectors(start.x.cols(), small);
   disturbed.v += random.vectors(start.x.cols(), small / duration);
   Worst grown;
-  grown.see(1);
+  grown.observe(1);
   for (int n = 0; n < steps; ++n) {
     plain = stepper.step(plain, h);
     disturbed = stepper.step(disturbed, h);
-    grown.see(largest_difference(plain.x, disturbed.x) / small);
-    grown.see(largest_difference(plain.v, disturbed.v) * duration / small);
+    grown.observe(largest_difference(plain.x, disturbed.x) / small);
+    grown.observe(largest_difference(plain.v, disturbed.v) * duration / small);
   }
   return grown.value();
 }

@@ -26,7 +26,7 @@ class Stepper {
  private:
   const Subject& subject_;
   Scene scene_;
-  std::unique_ptr<Prepared> prepared_;
+  std::unique_ptr<PreparedScene> prepared_;
   Work work_;
 };
 

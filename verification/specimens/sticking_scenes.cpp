@@ -32,7 +32,7 @@ void stick(StuckSpecimen& specimen, int particle, const std::vector<int>& triang
   std::vector<int> particles = {particle};
   for (const int t : triangles) {
     const auto [a, b, c] = patch.triangles[size_t(t)];
-    const Vector3 place(random.in(-0.1, 0.7), random.in(-0.1, 0.6), random.in(-0.02, 0.03));
+    const Vector3 place(random.uniform(-0.1, 0.7), random.uniform(-0.1, 0.6), random.uniform(-0.02, 0.03));
     stuck.corners.push_back({y.col(a), y.col(b), y.col(c)});
     stuck.places.push_back(place);
     if (!patch.place) particles.insert(particles.end(), {a, b, c});
@@ -66,7 +66,7 @@ std::vector<StuckSpecimen> stuck_layers() {
     for (const size_t each : {size_t(1), size_t(2)}) {
       StuckSpecimen specimen;
       specimen.name = fmt::format("{} of far, {} triangles", part, each);
-      specimen.scene = scene_of(two_sheets(cells, 0.17, 0.013), 0.23);
+      specimen.scene = scene_at_rest(two_sheets(cells, 0.17, 0.013), 0.23);
       const Eigen::Index n = specimen.scene.x.cols() / 2;
       StickyPatch patch = layer_patch(specimen.scene.mesh);
       give_trial_values(patch);
@@ -86,7 +86,7 @@ std::vector<StuckSpecimen> stuck_layers() {
 StuckSpecimen stuck_to_turning_surface() {
   StuckSpecimen specimen;
   specimen.name = "a surface that turns and drifts";
-  specimen.scene = scene_of(make_sheet({SheetPattern::jittered, 0.2, 0.2, cells, cells, 0.2, 3}), 0.31);
+  specimen.scene = scene_at_rest(make_sheet({SheetPattern::jittered, 0.2, 0.2, cells, cells, 0.2, 3}), 0.31);
   StickyPatch patch;
   give_trial_values(patch);
   patch.triangles = specimen.scene.mesh.triangles;
@@ -96,12 +96,12 @@ StuckSpecimen stuck_to_turning_surface() {
   const Vector3 spin(0.7, -1.9, 1.1), drift(0.4, 0.2, -0.9);
   patch.place = [=](double t) {
     PerParticle3 x(3, X.cols());
-    for (Eigen::Index i = 0; i < X.cols(); ++i) x.col(i) = rotated(X.col(i), t * spin) + t * drift;
+    for (Eigen::Index i = 0; i < X.cols(); ++i) x.col(i) = rotate(X.col(i), t * spin) + t * drift;
     return x;
   };
   patch.velocity = [=](double t) {
     PerParticle3 v(3, X.cols());
-    for (Eigen::Index i = 0; i < X.cols(); ++i) v.col(i) = spin.cross(rotated(X.col(i), t * spin)) + drift;
+    for (Eigen::Index i = 0; i < X.cols(); ++i) v.col(i) = spin.cross(rotate(X.col(i), t * spin)) + drift;
     return v;
   };
   specimen.scene.sticky = {patch};

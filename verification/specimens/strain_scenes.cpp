@@ -29,8 +29,8 @@ Strains strains_of(const Scene& scene, const PerParticle3& x) {
   return strains;
 }
 
-LimitedCloth limited(const std::string& name, const Specimen& specimen, const PerParticle3& x,
-                     const StrainLimits& limits) {
+LimitedCloth limit(const std::string& name, const Specimen& specimen, const PerParticle3& x,
+                   const StrainLimits& limits) {
   LimitedCloth cloth{name, specimen.scene, {}, 0.009};
   cloth.scene.stretch = StretchMaterial{37, 0.011, 1};
   cloth.scene.x = x;
@@ -48,11 +48,11 @@ void limit_about(LimitedCloth& cloth) {
 
 /// The sheet displaced as the specimen is, or by a share of it: on a random mesh a short edge must not be
 /// more than halved nor doubled.
-LimitedCloth crumpled(const Specimen& specimen, const StrainLimits& limits) {
+LimitedCloth crumpled_cloth(const Specimen& specimen, const StrainLimits& limits) {
   const PerParticle3& rest = specimen.scene.mesh.rest;
   for (double share = 1;; share *= 0.7) {
     const PerParticle3 x = rest + share * (specimen.scene.x - rest);
-    LimitedCloth cloth = limited(specimen.name + ", crumpled", specimen, x, limits);
+    LimitedCloth cloth = limit(specimen.name + ", crumpled", specimen, x, limits);
     const Strains strains = strains_of(cloth.scene, x);
     if (strains.least < -0.5 || strains.largest > 1) continue;
     limit_about(cloth);
@@ -62,11 +62,11 @@ LimitedCloth crumpled(const Specimen& specimen, const StrainLimits& limits) {
 
 /// The sheet stretched by 5 %, with a share of its displacements that leaves all springs within their limits:
 /// of 6 %, unless that shortens a short edge of a random mesh by more than it is stretched.
-LimitedCloth stretched(const Specimen& specimen, const StrainLimits& limits) {
+LimitedCloth stretched_cloth(const Specimen& specimen, const StrainLimits& limits) {
   const PerParticle3& rest = specimen.scene.mesh.rest;
   for (double share = 0.06;; share *= 0.7) {
-    LimitedCloth cloth = limited(specimen.name + ", stretched", specimen,
-                                 1.05 * rest + share * (specimen.scene.x - rest), limits);
+    LimitedCloth cloth = limit(specimen.name + ", stretched", specimen,
+                               1.05 * rest + share * (specimen.scene.x - rest), limits);
     const double violation = strain_violation(cloth.scene, cloth.scene.x);
     if (!(violation > -10 * limits.tolerance)) return cloth;
   }
@@ -113,8 +113,8 @@ std::vector<LimitedCloth> limited_cloths(SweepOrder order) {
   limits.tolerance = 3e-4;
   std::vector<LimitedCloth> cloths;
   for (const Specimen& specimen : crumpled_sheets()) {
-    cloths.push_back(crumpled(specimen, limits));
-    cloths.push_back(stretched(specimen, limits));
+    cloths.push_back(crumpled_cloth(specimen, limits));
+    cloths.push_back(stretched_cloth(specimen, limits));
   }
   for (LimitedCloth& cloth : cloths) moderate(cloth);
   return cloths;
@@ -135,10 +135,11 @@ double strain_violation(const Scene& scene, const PerParticle3& x) {
   return std::isnan(over) ? over : std::max(over, under);
 }
 
-PerParticle3 strain_limited(const Subject& subject, const LimitedCloth& cloth, const PerParticle3& v) {
-  const auto prepared = offered(subject.prepare, "prepare")(cloth.scene);
-  return offered(subject.limit_strain, "limit_strain")(*prepared, {0, cloth.step, cloth.step}, cloth.state,
-                                                       v);
+PerParticle3 corrected_by_strain_limits(const Subject& subject, const LimitedCloth& cloth,
+                                        const PerParticle3& v) {
+  const auto prepared = require_offered(subject.prepare, "prepare")(cloth.scene);
+  return require_offered(subject.limit_strain, "limit_strain")(*prepared, {0, cloth.step, cloth.step},
+                                                               cloth.state, v);
 }
 
 }  // namespace foldproof

@@ -38,6 +38,7 @@ const std::vector<NamedOrder>& sweep_orders();
 double strain_violation(const Scene& scene, const PerParticle3& x);
 
 /// The velocities that the subject's strain limits make of v (3 x N [m/s]) for the cloth's step.
-PerParticle3 strain_limited(const Subject& subject, const LimitedCloth& cloth, const PerParticle3& v);
+PerParticle3 corrected_by_strain_limits(const Subject& subject, const LimitedCloth& cloth,
+                                        const PerParticle3& v);
 
 }  // namespace foldproof

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "reference/bodies/makers.h"
+#include "reference/bodies/level_set_provider.h"
 #include "reference/mesh/shapes.h"
 
 namespace foldproof {
@@ -29,25 +29,25 @@ double in_roundings(double difference, double size) { return std::abs(difference
 double infinite_unless(bool right) { return right ? 0 : INFINITY; }
 
 Finding judged_differences(const Table& differences, double bound, const std::string& why_bound) {
-  return judged_worst(
+  return judge_worst(
       differences, bound, why_bound,
       "Each difference is over the size of what is compared; a wrong statement counts as infinite.");
 }
 
-Finding refused_cases(const std::vector<Refused>& cases, const std::string& path) {
+Finding rejected_cases(const std::vector<RejectedCase>& cases, const std::string& path) {
   Table answers{{"message", ""}, {"lacks", ""}};
   double wrong = 0;
-  for (const Refused& refused : cases) {
+  for (const RejectedCase& rejected : cases) {
     std::string message;
     try {
-      build(trial_scene(refused.tables, {}, path), computing_makers());
+      build(trial_scene(rejected.tables, {}, path), computing_provider());
     } catch (const InputError& error) {
       message = error.what();
     }
     std::string lacks = message.starts_with(path + ":") ? "" : "file and line";
-    for (const std::string& word : refused.words)
+    for (const std::string& word : rejected.words)
       if (message.find(word) == std::string::npos) lacks += " '" + word + "'";
-    answers.row(message.empty() ? "accepted: " + refused.tables : message.substr(0, 200), lacks);
+    answers.row(message.empty() ? "accepted: " + rejected.tables : message.substr(0, 200), lacks);
     wrong += !lacks.empty();
   }
   return {{wrong, 0, 0, "cases", "each must be refused with file, line and what is known"}, answers, ""};

@@ -34,13 +34,13 @@ Scene trial_scene(const std::string& tables, const std::vector<std::string>& ove
                   const std::string& path = "trial.toml");
 
 /// Tables that have to be refused, and words of the message.
-struct Refused {
+struct RejectedCase {
   std::string tables;
   std::vector<std::string> words;
 };
 
 /// How many are accepted and built, or refused without file and line or one of the words.
-Finding refused_cases(const std::vector<Refused>& cases, const std::string& path = "trial.toml");
+Finding rejected_cases(const std::vector<RejectedCase>& cases, const std::string& path = "trial.toml");
 
 /// The positions of that sheet, 3 x N [m].
 PerParticle3 plain_positions();

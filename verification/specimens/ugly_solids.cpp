@@ -15,12 +15,12 @@ using oracles::WholePrism;
 const std::vector<Whole2> star = {{40, 1}, {2, 2}, {3, 31}, {-2, 3}, {-37, 2}, {-3, -2}, {-1, -29}, {2, -3}};
 
 // A shear with whole-number inverse:  X = x + 2 z, Y = y + x + 2 z, Z = z - Y
-Vector3 sheared(const Vector3& p) {
+Vector3 shear(const Vector3& p) {
   const double X = p.x() + 2 * p.z(), Y = p.y() + X;
   return {X, Y, p.z() - Y};
 }
 
-Whole3 unsheared(const Whole3& p) {
+Whole3 unshear(const Whole3& p) {
   const long z = p[2] + p[1], y = p[1] - p[0], x = p[0] - 2 * z;
   return {x, y, z};
 }
@@ -31,9 +31,9 @@ void add_prism(const WholePrism& prism, int shell, std::vector<Vector3>& vertice
                std::vector<Triangle>& triangles) {
   const int first = int(vertices.size()), n = int(prism.polygon.size());
   for (const long height : {prism.low, prism.high}) {
-    vertices.push_back(sheared({0, 0, double(height)}));
+    vertices.push_back(shear({0, 0, double(height)}));
     for (const Whole2& corner : prism.polygon)
-      vertices.push_back(sheared({double(corner[0]), double(corner[1]), double(height)}));
+      vertices.push_back(shear({double(corner[0]), double(corner[1]), double(height)}));
   }
   const auto add = [&](int a, int b, int c) {
     triangles.push_back(shell % 2 == 0 ? Triangle{a, b, c} : Triangle{a, c, b});
@@ -47,7 +47,7 @@ void add_prism(const WholePrism& prism, int shell, std::vector<Vector3>& vertice
   }
 }
 
-WholePrism scaled(long across, long low, long high) {
+WholePrism scaled_star(long across, long low, long high) {
   WholePrism prism{star, low, high};
   for (Whole2& corner : prism.polygon)
     for (long& coordinate : corner) coordinate *= across;
@@ -75,14 +75,16 @@ UglySolid make(const std::string& name, const std::vector<WholePrism>& prisms) {
 }  // namespace
 
 std::vector<UglySolid> ugly_solids() {
-  return {make("star", {scaled(1, -7, 12)}), make("fin", {scaled(1, 3, 4)}),
-          make("shells", {scaled(4, -16, 15), scaled(3, -12, 13), scaled(2, -9, 8), scaled(1, -3, 5)})};
+  return {make("star", {scaled_star(1, -7, 12)}), make("fin", {scaled_star(1, 3, 4)}),
+          make("shells", {scaled_star(4, -16, 15), scaled_star(3, -12, 13), scaled_star(2, -9, 8),
+                          scaled_star(1, -3, 5)})};
 }
 
 int inside_exactly(const UglySolid& solid, const Vector3& p) {
-  const Vector3 scaled = double(units) * p;
+  const Vector3 scaled_star = double(units) * p;
   return oracles::inside_nested(
-      solid.prisms, unsheared({std::lround(scaled.x()), std::lround(scaled.y()), std::lround(scaled.z())}));
+      solid.prisms,
+      unshear({std::lround(scaled_star.x()), std::lround(scaled_star.y()), std::lround(scaled_star.z())}));
 }
 
 }  // namespace foldproof

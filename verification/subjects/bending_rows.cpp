@@ -22,7 +22,7 @@ struct Row {
   std::vector<double> values;
 };
 
-double parsed(const std::string& field, const std::string& where) {
+double parse_number(const std::string& field, const std::string& where) {
   const size_t first = field.find_first_not_of(" \t\r"), last = field.find_last_not_of(" \t\r");
   const std::string trimmed = first == std::string::npos ? "" : field.substr(first, last - first + 1);
   const char* begin = trimmed.c_str() + (trimmed.starts_with('+') ? 1 : 0);
@@ -52,7 +52,8 @@ std::vector<Row> read_rows(const NamedText& named, size_t columns) {
     if (rows.size() == most_rows)
       throw InputError(fmt::format("{}: more than {} rows, the most that is read", row.where, most_rows));
     std::istringstream fields(line);
-    for (std::string field; std::getline(fields, field, ',');) row.values.push_back(parsed(field, row.where));
+    for (std::string field; std::getline(fields, field, ',');)
+      row.values.push_back(parse_number(field, row.where));
     if (row.values.size() != columns)
       throw InputError(fmt::format("{}: {} values, but a row has {}", row.where, row.values.size(), columns));
     rows.push_back(std::move(row));
@@ -65,7 +66,7 @@ PerParticle3 four_columns(const std::vector<double>& values, size_t from) {
   return Eigen::Map<const PerParticle3>(values.data() + from, 3, 4);
 }
 
-std::string told_row(const PerParticle3& elastic, const PerParticle3& damping) {
+std::string row_text(const PerParticle3& elastic, const PerParticle3& damping) {
   if (!elastic.allFinite() || !damping.allFinite())
     throw InputError("a force is more than a double holds; give smaller numbers");
   std::string line;
@@ -75,7 +76,7 @@ std::string told_row(const PerParticle3& elastic, const PerParticle3& damping) {
   return line + "\n";
 }
 
-std::string evaluated_row(const Row& row, const PerParticle3& rest, Weighting weighting) {
+std::string evaluate_row(const Row& row, const PerParticle3& rest, Weighting weighting) {
   BendingMaterial material;
   material.stiffness = row.values[24];
   material.damping = row.values[25];
@@ -89,7 +90,7 @@ std::string evaluated_row(const Row& row, const PerParticle3& rest, Weighting we
     DampingOperator terms;
     bending.prepare_damping(s, terms);
     terms.add_product(s.v, damping);
-    return told_row(elastic, damping);
+    return row_text(elastic, damping);
   } catch (const DegenerateElement& error) {
     throw InputError(row.where + ": " + error.what());
   } catch (const InputError& error) {
@@ -108,17 +109,17 @@ std::string bending_of_rows(const NamedText& named, const NamedText& rest_named)
       throw InputError(fmt::format("{}: {} rows, but {} has {}", rest_named.name, rest_rows.size(),
                                    named.name, rows.size()));
   }
-  std::string told;
+  std::string output;
   for (const char* kind : {"elastic", "damping"})
     for (int particle = 1; particle <= 4; ++particle)
       for (const char* axis : {"x", "y", "z"})
-        told += fmt::format("{}{}_{}{}", told.empty() ? "" : ",", kind, axis, particle);
-  told += "\n";
+        output += fmt::format("{}{}_{}{}", output.empty() ? "" : ",", kind, axis, particle);
+  output += "\n";
   for (size_t k = 0; k < rows.size(); ++k) {
     const PerParticle3 rest = four_columns(rest_rows.empty() ? rows[k].values : rest_rows[k].values, 0);
-    told += evaluated_row(rows[k], rest, rest_rows.empty() ? Weighting::current : Weighting::rest);
+    output += evaluate_row(rows[k], rest, rest_rows.empty() ? Weighting::current : Weighting::rest);
   }
-  return told;
+  return output;
 }
 
 void evaluate_bending(const std::string& file, const std::string& rest_file) {

@@ -30,7 +30,7 @@ struct FileQuery {
   std::string where;  // its first row
 };
 
-Whole parsed(const std::string& field, const std::string& where) {
+Whole parse_whole(const std::string& field, const std::string& where) {
   const std::size_t first = field.find_first_not_of(" \t\r"), last = field.find_last_not_of(" \t\r");
   const std::string text = first == std::string::npos ? "" : field.substr(first, last - first + 1);
   const std::string digits = text.starts_with('-') ? text.substr(1) : text;
@@ -49,7 +49,7 @@ std::array<Whole, 7> parsed_row(const std::string& line, const std::string& wher
   std::istringstream fields(line);
   std::size_t count = 0;
   for (std::string field; std::getline(fields, field, ','); ++count)
-    if (count < row.size()) row[count] = parsed(field, where);
+    if (count < row.size()) row[count] = parse_whole(field, where);
   if (count != row.size()) throw InputError(fmt::format("{}: {} values, but a row has 7", where, count));
   if (row[1] == 0 || row[3] == 0 || row[5] == 0) throw InputError(where + ": a denominator is 0");
   if (row[6] != 0 && row[6] != 1) throw InputError(where + ": the last value must be 0 or 1");
@@ -124,9 +124,9 @@ JudgedQueries judge_queries(const std::string& text, const std::string& name, co
   for (const FileQuery& query : queries) {
     judged.meetings += query.meets;
     const Corners4 start = corners_at(query, 0);
-    judged.reference.enter(query.meets,
-                           first_approach(pair, start, corners_at(query, 4) - start, keep).has_value());
-    judged.exact.enter(query.meets, oracles::ever_meet(features, oracles::motion_between(query.points)));
+    judged.reference.record(query.meets,
+                            first_approach(pair, start, corners_at(query, 4) - start, keep).has_value());
+    judged.exact.record(query.meets, oracles::ever_meet(features, oracles::motion_between(query.points)));
   }
   return judged;
 }

@@ -17,9 +17,9 @@ bool evaluate_crossings(const std::string& path, const std::string& kind, double
 struct CrossingAccount {
   long misses = 0, alarms = 0;
 
-  void enter(bool truth, bool said) {
-    misses += truth && !said;
-    alarms += !truth && said;
+  void record(bool truth, bool answer) {
+    misses += truth && !answer;
+    alarms += !truth && answer;
   }
 };
 

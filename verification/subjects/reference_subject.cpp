@@ -10,21 +10,22 @@ namespace foldproof {
 
 namespace {
 
-struct PreparedReference : Prepared {
+struct PreparedReferenceScene : PreparedScene {
   System system;
   const Integrator& integrator;
 
-  explicit PreparedReference(const Scene& scene)
+  explicit PreparedReferenceScene(const Scene& scene)
       : system(build_system(scene)), integrator(integrator_named(scene.integrator)) {}
 };
 
-const PreparedReference& own(const Prepared& prepared) {
-  return static_cast<const PreparedReference&>(prepared);
+const PreparedReferenceScene& own(const PreparedScene& prepared) {
+  return static_cast<const PreparedReferenceScene&>(prepared);
 }
 
 /// v as the filters of this kind make it.
 template <class Kind>
-PerParticle3 filtered(const Prepared& prepared, const Span& span, const State& s, PerParticle3 v) {
+PerParticle3 filter_velocity(const PreparedScene& prepared, const Span& span, const State& s,
+                             PerParticle3 v) {
   Work uncounted;
   for (const Filter& filter : own(prepared).system.filters)
     if (const auto* of_kind = std::get_if<Kind>(&filter)) of_kind->correct(span, s, v, uncounted);
@@ -43,26 +44,26 @@ Subject reference_subject() {
   Subject subject;
   subject.name = "foldproof reference";
   subject.version = "0.2.0";
-  subject.prepare = [](const Scene& scene) { return std::make_unique<PreparedReference>(scene); };
-  subject.elastic_forces = [](Prepared& prepared, const State& s) {
+  subject.prepare = [](const Scene& scene) { return std::make_unique<PreparedReferenceScene>(scene); };
+  subject.elastic_forces = [](PreparedScene& prepared, const State& s) {
     Work uncounted;
     return elastic_forces(own(prepared).system.forces, s, uncounted);
   };
-  subject.damping_forces = [](Prepared& prepared, const State& s, const PerParticle3& v) {
+  subject.damping_forces = [](PreparedScene& prepared, const State& s, const PerParticle3& v) {
     Work uncounted;
     PerParticle3 force = PerParticle3::Zero(3, s.x.cols());
     damping_at(own(prepared).system.forces, s, uncounted).add_product(v, force);
     return force;
   };
-  subject.potential_energy = [](Prepared& prepared, const State& s) {
+  subject.potential_energy = [](PreparedScene& prepared, const State& s) {
     const Energies e = energies(own(prepared).system, s);
     return e.total() - e.kinetic;
   };
-  subject.avoid_objects = filtered<ObjectCollision>;
-  subject.limit_strain = filtered<StrainLimiter>;
-  subject.avoid_itself = filtered<SelfCollision>;
-  subject.step = [](Prepared& prepared, std::span<const State> past, double dt, Work& work) {
-    const PreparedReference& reference = own(prepared);
+  subject.avoid_objects = filter_velocity<ObjectCollision>;
+  subject.limit_strain = filter_velocity<StrainLimiter>;
+  subject.avoid_itself = filter_velocity<SelfCollision>;
+  subject.step = [](PreparedScene& prepared, std::span<const State> past, double dt, Work& work) {
+    const PreparedReferenceScene& reference = own(prepared);
     if (!sticks(reference.system)) return reference.integrator.step(reference.system, past, dt, work);
     std::vector<State> begun(past.begin(), past.end());
     begin_step(reference.system, begun.back());

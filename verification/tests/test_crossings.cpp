@@ -31,14 +31,14 @@ FourPoints points(const Vector3& a, const Vector3& b, const Vector3& c, const Ve
   return x;
 }
 
-/// The first point moves by `way` [m] over a triangle in the plane z = 0 with corners (0, 0), (4, 0), (0, 4).
-Motion vertex_over_triangle(const Vector3& from, const Vector3& way) {
+/// The first point moves by `displacement` [m] over a triangle in the plane z = 0 with corners (0, 0), (4, 0), (0, 4).
+Motion vertex_over_triangle(const Vector3& from, const Vector3& displacement) {
   return exact_motion(points(from, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}),
-                      points(way, Vector3::Zero(), Vector3::Zero(), Vector3::Zero()));
+                      points(displacement, Vector3::Zero(), Vector3::Zero(), Vector3::Zero()));
 }
 
-bool vertex_hits(const Vector3& from, const Vector3& way) {
-  return ever_meet(Features::vertex_and_triangle, vertex_over_triangle(from, way));
+bool vertex_hits(const Vector3& from, const Vector3& displacement) {
+  return ever_meet(Features::vertex_and_triangle, vertex_over_triangle(from, displacement));
 }
 
 PerParticle3 columns(std::initializer_list<Vector3> list) {
@@ -102,14 +102,14 @@ TEST_CASE("roots and halved times agree on who ever meets") {
   std::mt19937 bits(31);
   int meetings = 0, unclear = 0;
   for (int k = 0; k < 4000; ++k) {
-    const FourPoints x = small_points(bits, 9), way = small_points(bits, k % 2 == 0 ? 9 : 3);
+    const FourPoints x = small_points(bits, 9), displacement = small_points(bits, k % 2 == 0 ? 9 : 3);
     for (const Features kind : kinds) {
-      const Motion motion = exact_motion(x, way);
+      const Motion motion = exact_motion(x, displacement);
       const bool ever = ever_meet(kind, motion);
-      const Seen seen = seen_by_subdivision(kind, motion, 8);
-      meetings += seen == Seen::meet;
-      unclear += seen == Seen::unclear;
-      if (seen != Seen::unclear) REQUIRE(ever == (seen == Seen::meet));
+      const MeetDecision seen = decide_by_subdivision(kind, motion, 8);
+      meetings += seen == MeetDecision::meet;
+      unclear += seen == MeetDecision::unclear;
+      if (seen != MeetDecision::unclear) REQUIRE(ever == (seen == MeetDecision::meet));
     }
   }
   CHECK(meetings > 300);

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "verification/oracles/exact_geometry.h"
-#include "verification/oracles/parted_triangles.h"
+#include "verification/oracles/separated_triangles.h"
 
 using namespace foldproof;
 using namespace foldproof::oracles;
@@ -33,7 +33,7 @@ TEST_CASE("triangles meet just where no direction parts them") {
     const Corners3 s = small_triangle(bits), t = small_triangle(bits);
     const bool meet = triangles_meet(s, t);
     meetings += meet;
-    REQUIRE(meet == !are_parted(s, t));
+    REQUIRE(meet == !are_separated(s, t));
     REQUIRE(meet == triangles_meet(t, s));
   }
   CHECK(meetings > 5000);

@@ -35,14 +35,14 @@ Case trial(const std::string& more) {
   return read_case(path);
 }
 
-std::vector<Record> judged(const Case& shown) {
-  const Scene& scene = shown.scene;
-  const Built built = build(scene, computing_makers());
-  CaseJudge judge(shown, built.objects, computing_makers());
-  const RunResult result =
-      simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule,
-               {[&](const State& s) { judge.enter(s); }, [&](const Diagnostics& row) { judge.enter(row); }});
-  return judge.judged(result);
+std::vector<Record> judge_trial(const Case& input_case) {
+  const Scene& scene = input_case.scene;
+  const BuiltScene built = build(scene, computing_provider());
+  CaseJudge judge(input_case, built.objects, computing_provider());
+  const RunResult result = simulate(
+      built.system, integrator_named(scene.integrator), built.start, scene.schedule,
+      {[&](const State& s) { judge.record(s); }, [&](const Diagnostics& row) { judge.record(row); }});
+  return judge.records(result);
 }
 
 /// A square of so many triangles a side, in the folder.
@@ -66,9 +66,9 @@ std::string written_mesh_case(const ScratchFolder& folder) {
 }
 
 /// "key: reason" of each bound that is not asked.
-std::vector<std::string> not_asked(const Case& shown) {
+std::vector<std::string> not_asked(const Case& input_case) {
   std::vector<std::string> found;
-  for (const Expectation& expectation : shown.expectations)
+  for (const Expectation& expectation : input_case.expectations)
     if (!expectation.not_asked.empty()) found.push_back(expectation.key + ": " + expectation.not_asked);
   return found;
 }
@@ -76,11 +76,11 @@ std::vector<std::string> not_asked(const Case& shown) {
 }  // namespace
 
 TEST_CASE("expect: bounds and reasons are read, and named after the case") {
-  const Case shown = trial("[expect.stays_flat]\nat_most = 2.5e-7\nwhy = \"words\"\n");
-  REQUIRE(shown.expectations.size() == 1);
-  CHECK(shown.expectations[0].bound == 2.5e-7);
-  CHECK(shown.expectations[0].why == "words");
-  CHECK(finding_name(shown.scene, shown.expectations[0]) == "case.trial.stays-flat");
+  const Case input_case = trial("[expect.stays_flat]\nat_most = 2.5e-7\nwhy = \"words\"\n");
+  REQUIRE(input_case.expectations.size() == 1);
+  CHECK(input_case.expectations[0].bound == 2.5e-7);
+  CHECK(input_case.expectations[0].why == "words");
+  CHECK(finding_name(input_case.scene, input_case.expectations[0]) == "case.trial.stays-flat");
 }
 
 TEST_CASE("expect: what is wrong is refused with its line") {
@@ -121,21 +121,21 @@ TEST_CASE(
 TEST_CASE("a case's level sets are made when it is built, each of them once") {
   const std::string statue = "[[object]]\nshape = \"statue\"\nheight = 0.1\nsubdivisions = 3\ncells = 9\n";
   const std::string twist = "[[object.deform]]\nkind = \"twist\"\namplitude = 3\nperiod = 0.1\n";
-  const Case shown = trial(statue + statue + statue + "field = \"octree\"\n" + statue + twist + statue +
-                           "interpolation = \"blended\"\n" + twist);
+  const Case input_case = trial(statue + statue + statue + "field = \"octree\"\n" + statue + twist + statue +
+                                "interpolation = \"blended\"\n" + twist);
   int grids = 0, bodies = 0;
-  const LevelSetMakers compute = computing_makers();
-  const LevelSetMakers kept =
-      remembering({[&](const TriangleSoup& soup, const GridMethod& method, Repair repair) {
-                     ++grids;
-                     return compute.make_level_set(soup, method, repair);
-                   },
-                   [&](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
-                     ++bodies;
-                     return compute.make_deforming_body(sequence, settings, between);
-                   }});
+  const LevelSetProvider compute = computing_provider();
+  const LevelSetProvider kept = memoizing_provider(
+      {[&](const TriangleSoup& soup, const GridMethod& method, Repair repair) {
+         ++grids;
+         return compute.make_level_set(soup, method, repair);
+       },
+       [&](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
+         ++bodies;
+         return compute.make_deforming_body(sequence, settings, between);
+       }});
   for (int times = 0; times < 2; ++times) {
-    const Built built = build(shown.scene, kept);
+    const BuiltScene built = build(input_case.scene, kept);
     const std::span<const Object> objects = built.objects;
     REQUIRE(objects.size() == 5);
     CHECK(std::get<DeformingObject>(objects[3].body).body->between == BetweenFrames::carried);
@@ -146,56 +146,57 @@ TEST_CASE("a case's level sets are made when it is built, each of them once") {
 }
 
 TEST_CASE("expect: what crosses is counted, and a case that keeps cloth from itself gives its own reason") {
-  Case shown = trial("[expect.never_crosses_itself]\nat_most = 1\nwhy = \"w\"\n");
-  CHECK(find_quantity("never_crosses_itself")->of_frame(shown.scene, start_state(shown.scene)) == 0);
-  State folded = start_state(shown.scene);
+  Case input_case = trial("[expect.never_crosses_itself]\nat_most = 1\nwhy = \"w\"\n");
+  CHECK(find_quantity("never_crosses_itself")->of_frame(input_case.scene, start_state(input_case.scene)) ==
+        0);
+  State folded = start_state(input_case.scene);
   folded.x.row(0) = (folded.x.row(0).array() - folded.x.row(0).mean()).abs();  // one half on the other
-  CHECK(find_quantity("never_crosses_itself")->of_frame(shown.scene, folded) > 10);
+  CHECK(find_quantity("never_crosses_itself")->of_frame(input_case.scene, folded) > 10);
   folded.x(0, 0) = NAN;
-  CHECK(std::isnan(find_quantity("never_crosses_itself")->of_frame(shown.scene, folded)));
-  shown.scene.self_collision = SelfCollisionSettings{0.01, 1, 0, 8, true};
-  shown.expectations.clear();
-  const Case usual = with_usual_expectations(shown);
+  CHECK(std::isnan(find_quantity("never_crosses_itself")->of_frame(input_case.scene, folded)));
+  input_case.scene.self_collision = SelfCollisionSettings{0.01, 1, 0, 8, true};
+  input_case.expectations.clear();
+  const Case usual = with_usual_expectations(input_case);
   REQUIRE(usual.expectations.size() == 3);
   CHECK(usual.expectations[2].key == "never_crosses_itself");
   CHECK_THAT(usual.expectations[2].why, Contains("impact zones"));
-  shown.expectations = {{"tangle_does_not_grow", 29, "it starts crossed"}};
-  CHECK(with_usual_expectations(shown).expectations.size() == 3);
+  input_case.expectations = {{"tangle_does_not_grow", 29, "it starts crossed"}};
+  CHECK(with_usual_expectations(input_case).expectations.size() == 3);
 }
 
 TEST_CASE("expect: what is left of a height and of angles is that of the end, over that of the start") {
-  const Case shown = trial("[bending]\nstiffness = 1\n");
+  const Case input_case = trial("[bending]\nstiffness = 1\n");
   RunResult result;
-  result.last = start_state(shown.scene);
-  const RunBook book;
-  const Repetition repetition(shown.scene, computing_makers());
-  const RunSeen run{shown.scene, book, result, repetition};
+  result.last = start_state(input_case.scene);
+  const DiagnosticsSummary summary;
+  const Repetition repetition(input_case.scene, computing_provider());
+  const RunView run{input_case.scene, summary, result, repetition};
   CHECK(find_quantity("keeps_its_height")->of_run(run) == 1);
   CHECK(find_quantity("crumples_by")->of_run(run) == 0);
   PerParticle3& x = result.last.x;
   x.row(1) *= 0.25;
   CHECK(find_quantity("collapses_to")->of_run(run) == Approx(0.25));
-  x = shown.scene.x;
+  x = input_case.scene.x;
   int turned = 0;  // the hinges on one grid line, by 45 degrees
-  for (const Hinge& hinge : shown.scene.mesh.hinges)
+  for (const Hinge& hinge : input_case.scene.mesh.hinges)
     turned +=
         std::abs(x(0, hinge.particles[2]) - 0.1) < 1e-9 && std::abs(x(0, hinge.particles[3]) - 0.1) < 1e-9;
   REQUIRE(turned == 2);
   x.row(2) = (x.row(0).array() - 0.1).max(0);
-  const double of_all = double(shown.scene.mesh.hinges.size());
+  const double of_all = double(input_case.scene.mesh.hinges.size());
   CHECK(find_quantity("keeps_most_angles")->of_run(run) == Approx(45 * std::sqrt(turned / of_all)));
 }
 
 TEST_CASE("expect: creases are counted line by line, and lie half a wavelength apart") {
-  Case shown = trial("[bending]\nstiffness = 1\n");
-  Scene& scene = shown.scene;
+  Case input_case = trial("[bending]\nstiffness = 1\n");
+  Scene& scene = input_case.scene;
   scene.mesh = make_sheet({.width = 0.24, .height = 0.05, .columns = 24, .rows = 5});
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   RunResult result;
   result.last = State{0, scene.mesh.rest, PerParticle3::Zero(3, scene.mesh.particles())};
-  const RunBook book;
-  const Repetition repetition(scene, computing_makers());
-  const RunSeen run{scene, book, result, repetition};
+  const DiagnosticsSummary summary;
+  const Repetition repetition(scene, computing_provider());
+  const RunView run{scene, summary, result, repetition};
   const Quantity &creases = *find_quantity("forms_creases"),
                  &wavelength = *find_quantity("wrinkles_stay_short");
   CHECK(creases.of_run(run) == 0);
@@ -214,16 +215,16 @@ TEST_CASE("expect: creases are counted line by line, and lie half a wavelength a
 TEST_CASE("expect: a bound that is kept holds, one that is not fails, and a run that stops says nothing") {
   const std::string flat = "[expect.stays_flat]\nat_most = 0\nwhy = \"w\"\n";
   const std::string leaves = "[expect.leaves_its_plane]\nat_least = 1e-9\nwhy = \"w\"\n";
-  CHECK(judged(trial(flat))[0].outcome == Outcome::holds);
-  CHECK(judged(trial(leaves))[0].outcome == Outcome::fails);
+  CHECK(judge_trial(trial(flat))[0].outcome == Outcome::holds);
+  CHECK(judge_trial(trial(leaves))[0].outcome == Outcome::fails);
   const std::string thrown = "[start]\nvelocity = [0, 0, 0.5]\n";
-  CHECK(judged(trial(thrown + flat))[0].outcome == Outcome::fails);
-  const Record reached = judged(trial(thrown + leaves))[0];
+  CHECK(judge_trial(trial(thrown + flat))[0].outcome == Outcome::fails);
+  const Record reached = judge_trial(trial(thrown + leaves))[0];
   CHECK(reached.outcome == Outcome::holds);
   CHECK(reached.finding.verdict.measured == Approx(1e-9 - 0.025));
   CHECK_THAT(reached.finding.note, Contains("reached 0.025 m"));
   const std::string capped = "max_steps = 1\nsafety = 0.01\n";
-  const Record stopped = judged(trial(capped + flat))[0];
+  const Record stopped = judge_trial(trial(capped + flat))[0];
   CHECK(stopped.outcome == Outcome::fails);
   CHECK_THAT(stopped.finding.note, Contains("cap"));
 }
@@ -234,7 +235,7 @@ TEST_CASE("expect: bounds of a shape are not asked where an override puts anothe
   const std::string reason = ": written for square.obj; this run uses " + other;
   const Case changed = read_case(path, {"cloth.mesh=" + other});
   CHECK(not_asked(changed) == std::vector<std::string>{"stays_flat" + reason, "takes_steps" + reason});
-  const std::vector<Record> records = judged(changed);
+  const std::vector<Record> records = judge_trial(changed);
   REQUIRE(records.size() == 3);
   CHECK(records[0].outcome == Outcome::holds);
   for (const size_t k : {1, 2}) {
@@ -242,7 +243,7 @@ TEST_CASE("expect: bounds of a shape are not asked where an override puts anothe
     CHECK(": " + records[k].finding.note == reason);
     CHECK(std::isnan(records[k].finding.verdict.measured));
   }
-  const std::vector<Record> as_written = judged(read_case(path));
+  const std::vector<Record> as_written = judge_trial(read_case(path));
   CHECK(as_written[1].outcome == Outcome::holds);
   CHECK(as_written[2].outcome == Outcome::fails);
 }
@@ -273,7 +274,7 @@ TEST_CASE(
   write_obj(folder.file("ball.obj"), upright.rest, upright.triangles);
   const Case ball = read_case(path, {"cloth.mesh=" + folder.file("ball.obj")});
   CHECK(not_asked(ball).size() == 2);
-  CHECK(judged(ball)[1].outcome == Outcome::not_applicable);
+  CHECK(judge_trial(ball)[1].outcome == Outcome::not_applicable);
   CHECK_THROWS_WITH(read_case(path, {"cloth.mesh=" + folder.file("ball.obj"), "expect.stays_flat.at_most=1"}),
                     Contains("plane of constant z"));
 }

@@ -45,7 +45,7 @@ TEST_CASE("a key that nobody asked for is refused with its line and what is know
   root->has("title");
   root->tables("hold")[0]->has("top");
   root->table("cloth")->number("width");
-  CHECK_THROWS_WITH(root->refuse_unused(), Contains("some.toml:4") && Contains("columns") &&
+  CHECK_THROWS_WITH(root->reject_unused(), Contains("some.toml:4") && Contains("columns") &&
                                                Contains("[cloth]") && Contains("known here: width"));
 }
 

@@ -75,11 +75,11 @@ TEST_CASE("a lattice whose nodes cannot be counted is refused") {
 }
 
 TEST_CASE("seeds are their own unless they are shifted, and shifts give different ones") {
-  CHECK(shifted(77) == 77);
+  CHECK(shifted_seed(77) == 77);
   seed_shift = 1;
-  const unsigned first = shifted(77);
+  const unsigned first = shifted_seed(77);
   seed_shift = 2;
   CHECK(first != 77);
-  CHECK(shifted(77) != first);
+  CHECK(shifted_seed(77) != first);
   seed_shift = 0;
 }

@@ -276,7 +276,7 @@ TEST_CASE("mesh: pleats keep every length and fold the pleat lines alone, up and
                                SheetPattern::union_jack, SheetPattern::criss_cross}) {
     const TriangleMesh sheet = make_sheet(sheet_of(pattern));
     TriangleMesh folded = sheet;
-    folded.rest = pleated(sheet, 3, 1.1);
+    folded.rest = pleated_positions(sheet, 3, 1.1);
     CHECK((rest_lengths(folded) - rest_lengths(sheet)).cwiseAbs().maxCoeff() < 8 * epsilon);
     std::map<double, int> folds;  // signed angle for E along +y, rounded to 1e-9
     for (const Hinge& hinge : sheet.hinges) {

@@ -175,9 +175,9 @@ TEST_CASE("the heavy cantilever's tip is the table's, and that of shooting from 
 namespace {
 
 /// A corner shaken, a corner pushed by a force of time, an edge of which one end is held: not autonomous.
-DrivenHinge driven(const HingeInput& hinge) {
+DrivenHinge drive(const HingeInput& hinge) {
   DrivenHinge problem{hinge, .23, 31, .017, Vector3(.4, -.9, -9.80665), {}, {}};
-  problem.prescribed[2] = held_at(hinge.x[2]);
+  problem.prescribed[2] = fixed_motion(hinge.x[2]);
   problem.prescribed[1] = harmonic_motion({hinge.x[1], .1 * (hinge.x[1] - hinge.x[2]), 1.9, .6});
   problem.external_force = [](int particle, double t) {
     return Vector3(1e-2 * std::sin(5 * t), 3e-3 * particle, 1e-2 * t);
@@ -225,7 +225,7 @@ TEST_CASE("a driven hinge accelerates as the 50-digit forces say, wherever the f
       hinge.elastic_geometry = variant & 1 ? Geometry::current : Geometry::rest;
       hinge.damping_geometry = variant & 2 ? Geometry::current : Geometry::rest;
       hinge.damping_factor = variant & 4 ? DampingFactor::anisotropy : DampingFactor::edge_length;
-      const DrivenHinge problem = driven(hinge);
+      const DrivenHinge problem = drive(hinge);
       const std::vector<double> y = driven_hinge_start(problem);
       std::vector<double> dy(y.size());
       cloth_rhs(driven_hinge(problem))(t, y, dy);
@@ -247,7 +247,7 @@ TEST_CASE("a driven hinge accelerates as the 50-digit forces say, wherever the f
 TEST_CASE("a hinge with all corners free accelerates as the 50-digit forces say") {
   constexpr double t = .17;
   for (const HingeInput& hinge : hinges()) {
-    DrivenHinge problem = driven(hinge);
+    DrivenHinge problem = drive(hinge);
     problem.prescribed.clear();
     std::vector<double> dy(24);
     cloth_rhs(driven_hinge(problem))(t, driven_hinge_start(problem), dy);
@@ -263,7 +263,7 @@ TEST_CASE("a hinge with all corners free accelerates as the 50-digit forces say"
 
 TEST_CASE("a free hinge falls with its centre of mass, keeps its spin, and loses what damping takes") {
   for (const HingeInput& hinge : hinges()) {
-    DrivenHinge problem = driven(hinge);
+    DrivenHinge problem = drive(hinge);
     problem.prescribed.clear();
     problem.external_force = nullptr;
     const double end_time = .07;  // the second hinge folds through pi at .077 s, where its energy jumps

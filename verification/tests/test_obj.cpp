@@ -37,7 +37,7 @@ TriangleMesh read_text(const std::string& text) {
 }
 
 template <class Action>
-std::string refusal(const Action& action) {
+std::string rejection_message(const Action& action) {
   try {
     action();
   } catch (const InputError& error) {
@@ -47,9 +47,9 @@ std::string refusal(const Action& action) {
 }
 
 /// The message with the file's name taken away: ":LINE: reason; what to do".
-std::string refusal_of(const std::string& text) {
+std::string rejection_of(const std::string& text) {
   const TemporaryFile file(text);
-  std::string message = refusal([&] { read_obj(file.path); });
+  std::string message = rejection_message([&] { read_obj(file.path); });
   if (message.starts_with(file.path)) message.erase(0, file.path.size());
   return message;
 }
@@ -139,43 +139,43 @@ TEST_CASE("obj: every refusal names the file, the line, the reason and a remedy"
       {square + "v 2 1 0\nv 2 2 0\nf 1 2 3 4\n\nf 3 5 6\n",
        ":3: its triangles form more than one fan (the face of line 7 and the face of line 9 meet in this "
        "vertex only); give each fan a vertex of its own, or, for cloth, set repair = \"split\""}};
-  for (const auto& [text, message] : cases) CHECK(refusal_of(text) == message);
+  for (const auto& [text, message] : cases) CHECK(rejection_of(text) == message);
 }
 
 TEST_CASE("obj: a file that cannot be opened, read or written is named") {
   const std::string folder = std::filesystem::temp_directory_path().string();
-  CHECK(refusal([] { read_obj("no_such_file.obj"); }) ==
+  CHECK(rejection_message([] { read_obj("no_such_file.obj"); }) ==
         "no_such_file.obj: cannot be opened (No such file or directory); check the path");
-  CHECK(refusal([&] { read_obj(folder); }) == folder + ": cannot be read; give a regular file");
-  CHECK(refusal([&] {
+  CHECK(rejection_message([&] { read_obj(folder); }) == folder + ": cannot be read; give a regular file");
+  CHECK(rejection_message([&] {
           write_obj(folder, five_points(), {{0, 1, 2}});
         }) == folder + ": cannot be written; check the folder and the space left");
-  CHECK(refusal([&] {
+  CHECK(rejection_message([&] {
           write_obj("unused.obj", five_points(), {{0, 1, 2}, {3, 4, 5}});
         }) == "write_obj: triangle 1: vertex index 5 is out of range; there are 5 positions");
 }
 
 TEST_CASE("mesh: what is no oriented manifold is refused, with the triangle or the vertex") {
-  const auto refusal_of = [](const PerParticle3& x, const std::vector<Triangle>& triangles) {
-    return refusal([&] { make_triangle_mesh(x, triangles); });
+  const auto rejection_of = [](const PerParticle3& x, const std::vector<Triangle>& triangles) {
+    return rejection_message([&] { make_triangle_mesh(x, triangles); });
   };
   PerParticle3 x = five_points();
-  CHECK(refusal_of(x, {}) == "mesh: no triangles; give at least one");
-  CHECK(
-      refusal_of(x, {{0, 1, 2}, {1, 3, 5}}).starts_with("mesh: triangle 1: vertex index 5 is out of range"));
-  CHECK(refusal_of(x, {{0, -1, 2}}).starts_with("mesh: triangle 0: vertex index -1 is out of range"));
-  CHECK(refusal_of(x, {{0, 1, 2}})
+  CHECK(rejection_of(x, {}) == "mesh: no triangles; give at least one");
+  CHECK(rejection_of(x, {{0, 1, 2}, {1, 3, 5}})
+            .starts_with("mesh: triangle 1: vertex index 5 is out of range"));
+  CHECK(rejection_of(x, {{0, -1, 2}}).starts_with("mesh: triangle 0: vertex index -1 is out of range"));
+  CHECK(rejection_of(x, {{0, 1, 2}})
             .starts_with("mesh: vertex 3: in no triangle, the first of 2 unused vertices"));
-  CHECK(refusal_of(x, {{0, 1, 2}, {3, 4, 3}}).starts_with("mesh: triangle 1: no area"));
-  CHECK(
-      refusal_of(x, {{0, 1, 2}, {0, 1, 3}, {3, 1, 4}}).starts_with("mesh: triangle 1: opposite orientation"));
-  CHECK(refusal_of(x, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}})
+  CHECK(rejection_of(x, {{0, 1, 2}, {3, 4, 3}}).starts_with("mesh: triangle 1: no area"));
+  CHECK(rejection_of(x, {{0, 1, 2}, {0, 1, 3}, {3, 1, 4}})
+            .starts_with("mesh: triangle 1: opposite orientation"));
+  CHECK(rejection_of(x, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}})
             .starts_with("mesh: triangle 2: the edge between vertex 0"));
-  CHECK(refusal_of(x, {{0, 1, 2}, {0, 3, 4}})
+  CHECK(rejection_of(x, {{0, 1, 2}, {0, 3, 4}})
             .starts_with("mesh: vertex 0: its triangles form more than one fan"));
   for (double bad : {not_a_number, infinity}) {
     x(1, 3) = bad;
-    CHECK(refusal_of(x, {{0, 1, 2}, {2, 3, 4}}).starts_with("mesh: vertex 3: a coordinate is not finite"));
+    CHECK(rejection_of(x, {{0, 1, 2}, {2, 3, 4}}).starts_with("mesh: vertex 3: a coordinate is not finite"));
   }
   // two closed fans about one vertex: no edge is wrong, and there is no border
   PerParticle3 seven(3, 7);
@@ -184,8 +184,8 @@ TEST_CASE("mesh: what is no oriented manifold is refused, with the triangle or t
       0, 0, 0, 1, 0, 0, -1;
   const std::vector<Triangle> two_tetrahedra = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3},
                                                 {0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}};
-  CHECK(
-      refusal_of(seven, two_tetrahedra).starts_with("mesh: vertex 0: its triangles form more than one fan"));
+  CHECK(rejection_of(seven, two_tetrahedra)
+            .starts_with("mesh: vertex 0: its triangles form more than one fan"));
   CHECK_THROWS_AS(make_triangle_mesh(x, {{0, 1, 2}, {2, 3, 4}}, {"a.obj", {1, 2}, {3}}), std::logic_error);
 }
 
@@ -203,50 +203,61 @@ TEST_CASE("mesh: zero area is judged by shape, not by size") {
 
 TEST_CASE("shapes: every bad argument is refused by name and value") {
   const Sheet good = {SheetPattern::jittered, 1.3, 0.9, 3, 4, 0.2, 7};
-  const auto refusal_with = [&good](const auto& change) {
+  const auto rejection_with = [&good](const auto& change) {
     Sheet sheet = good;
     change(sheet);
-    return refusal([&] { make_sheet(sheet); });
+    return rejection_message([&] { make_sheet(sheet); });
   };
-  CHECK(refusal_with([](Sheet& s) { s.width = -2; }).starts_with("make_sheet: width is -2"));
-  CHECK(refusal_with([](Sheet& s) { s.width = not_a_number; }).starts_with("make_sheet: width is nan"));
-  CHECK(refusal_with([](Sheet& s) { s.height = infinity; }).starts_with("make_sheet: height is inf"));
-  CHECK(refusal_with([](Sheet& s) {
+  CHECK(rejection_with([](Sheet& s) { s.width = -2; }).starts_with("make_sheet: width is -2"));
+  CHECK(rejection_with([](Sheet& s) { s.width = not_a_number; }).starts_with("make_sheet: width is nan"));
+  CHECK(rejection_with([](Sheet& s) { s.height = infinity; }).starts_with("make_sheet: height is inf"));
+  CHECK(rejection_with([](Sheet& s) {
           s.height = 0, s.pattern = SheetPattern::union_jack;
         }).starts_with("make_sheet: height"));
-  CHECK(refusal_with([](Sheet& s) { s.columns = 0; }).starts_with("make_sheet: columns is 0"));
-  CHECK(refusal_with([](Sheet& s) { s.rows = -3; }).starts_with("make_sheet: rows is -3"));
-  CHECK(refusal_with([](Sheet& s) {
+  CHECK(rejection_with([](Sheet& s) { s.columns = 0; }).starts_with("make_sheet: columns is 0"));
+  CHECK(rejection_with([](Sheet& s) { s.rows = -3; }).starts_with("make_sheet: rows is -3"));
+  CHECK(rejection_with([](Sheet& s) {
           s.columns = s.rows = 20000;
         }).starts_with("make_sheet: columns * rows is 4"));
-  CHECK(refusal_with([](Sheet& s) { s.jitter = 0.5; }).starts_with("make_sheet: jitter is 0.5"));
-  CHECK(refusal_with([](Sheet& s) { s.jitter = not_a_number; }).starts_with("make_sheet: jitter is nan"));
-  CHECK(
-      refusal_with([](Sheet& s) { s.pattern = SheetPattern(99); }).starts_with("make_sheet: pattern is 99"));
-  CHECK(refusal_with([](Sheet& s) {
+  CHECK(rejection_with([](Sheet& s) { s.jitter = 0.5; }).starts_with("make_sheet: jitter is 0.5"));
+  CHECK(rejection_with([](Sheet& s) { s.jitter = not_a_number; }).starts_with("make_sheet: jitter is nan"));
+  CHECK(rejection_with([](Sheet& s) {
+          s.pattern = SheetPattern(99);
+        }).starts_with("make_sheet: pattern is 99"));
+  CHECK(rejection_with([](Sheet& s) {
           s.pattern = SheetPattern::random_delaunay, s.width = 9;
         }).starts_with("make_sheet: cell width over cell height is 13"));
 
-  CHECK(refusal([] { make_disc(-0.5, 3); }).starts_with("make_disc: radius is -0.5"));
-  CHECK(refusal([] { make_disc(0.5, 0); }).starts_with("make_disc: rings is 0"));
-  CHECK(refusal([] { make_cylinder(not_a_number, 1, 5, 4); }).starts_with("make_cylinder: radius is nan"));
-  CHECK(refusal([] { make_cylinder(1, 0, 5, 4); }).starts_with("make_cylinder: height is 0"));
-  CHECK(refusal([] { make_cylinder(1, 3, 2, 4); }).starts_with("make_cylinder: around is 2"));
-  CHECK(refusal([] { make_cylinder(1, 3, 5, 0); }).starts_with("make_cylinder: along is 0"));
-  CHECK(refusal([] { make_icosphere(0, 3); }).starts_with("make_icosphere: radius is 0"));
-  CHECK(refusal([] { make_icosphere(1, 10); }).starts_with("make_icosphere: subdivisions is 10"));
-  CHECK(refusal([] { make_statue(infinity, 4); }).starts_with("make_statue: height is inf"));
-  CHECK(refusal([] { make_statue(1, 2); }).starts_with("make_statue: subdivisions is 2"));
-  CHECK(refusal([] { make_hinge(not_a_number, 1); }).starts_with("make_hinge: length is nan"));
-  CHECK(refusal([] { make_hinge(1, 3.2); }).starts_with("make_hinge: angle is 3.2"));
-  CHECK(refusal([] { lumped_masses(make_hinge(1, 1), -3); }).starts_with("lumped_masses: density is -3"));
+  CHECK(rejection_message([] { make_disc(-0.5, 3); }).starts_with("make_disc: radius is -0.5"));
+  CHECK(rejection_message([] { make_disc(0.5, 0); }).starts_with("make_disc: rings is 0"));
+  CHECK(rejection_message([] {
+          make_cylinder(not_a_number, 1, 5, 4);
+        }).starts_with("make_cylinder: radius is nan"));
+  CHECK(rejection_message([] { make_cylinder(1, 0, 5, 4); }).starts_with("make_cylinder: height is 0"));
+  CHECK(rejection_message([] { make_cylinder(1, 3, 2, 4); }).starts_with("make_cylinder: around is 2"));
+  CHECK(rejection_message([] { make_cylinder(1, 3, 5, 0); }).starts_with("make_cylinder: along is 0"));
+  CHECK(rejection_message([] { make_icosphere(0, 3); }).starts_with("make_icosphere: radius is 0"));
+  CHECK(rejection_message([] { make_icosphere(1, 10); }).starts_with("make_icosphere: subdivisions is 10"));
+  CHECK(rejection_message([] { make_statue(infinity, 4); }).starts_with("make_statue: height is inf"));
+  CHECK(rejection_message([] { make_statue(1, 2); }).starts_with("make_statue: subdivisions is 2"));
+  CHECK(rejection_message([] { make_hinge(not_a_number, 1); }).starts_with("make_hinge: length is nan"));
+  CHECK(rejection_message([] { make_hinge(1, 3.2); }).starts_with("make_hinge: angle is 3.2"));
+  CHECK(rejection_message([] {
+          lumped_masses(make_hinge(1, 1), -3);
+        }).starts_with("lumped_masses: density is -3"));
 
   const TriangleMesh sheet = make_sheet({SheetPattern::one_diagonal, 1.3, 0.9, 6, 4, 0, 0});
-  CHECK(refusal([&] { pleated(sheet, 0, 1); }).starts_with("pleated: columns_per_pleat is 0"));
-  CHECK(refusal([&] { pleated(sheet, 2, not_a_number); }).starts_with("pleated: angle is nan"));
-  CHECK(
-      refusal([&] { pleated(make_hinge(1, 1), 2, 1); }).starts_with("pleated: the sheet is empty or leaves"));
-  CHECK(refusal([&] { pleated(make_sheet(good), 2, 1); }).find("crosses a fold line") != std::string::npos);
+  CHECK(rejection_message([&] {
+          pleated_positions(sheet, 0, 1);
+        }).starts_with("pleated: columns_per_pleat is 0"));
+  CHECK(rejection_message([&] {
+          pleated_positions(sheet, 2, not_a_number);
+        }).starts_with("pleated: angle is nan"));
+  CHECK(rejection_message([&] {
+          pleated_positions(make_hinge(1, 1), 2, 1);
+        }).starts_with("pleated: the sheet is empty or leaves"));
+  CHECK(rejection_message([&] { pleated_positions(make_sheet(good), 2, 1); }).find("crosses a fold line") !=
+        std::string::npos);
 }
 
 TEST_CASE("delaunay: no point lies inside the circle through a triangle's corners") {
@@ -283,13 +294,16 @@ TEST_CASE("delaunay: points on common circles are triangulated too, and points o
 
 TEST_CASE("delaunay: too few, coincident, collinear and infinite points are refused") {
   Eigen::Matrix2Xd points = Eigen::Matrix2Xd::Random(2, 9);
-  CHECK(refusal([&] { delaunay(points.leftCols(2)); }) == "delaunay: 2 points; give at least three");
+  CHECK(rejection_message([&] { delaunay(points.leftCols(2)); }) ==
+        "delaunay: 2 points; give at least three");
   points.col(7) = points.col(3);
-  CHECK(refusal([&] { delaunay(points); }).starts_with("delaunay: points 3 and 7 coincide"));
+  CHECK(rejection_message([&] { delaunay(points); }).starts_with("delaunay: points 3 and 7 coincide"));
   points(1, 7) = not_a_number;
-  CHECK(refusal([&] { delaunay(points); }).starts_with("delaunay: point 7: a coordinate is not finite"));
+  CHECK(rejection_message([&] {
+          delaunay(points);
+        }).starts_with("delaunay: point 7: a coordinate is not finite"));
   points.setConstant(0.3);
-  CHECK(refusal([&] { delaunay(points); }).starts_with("delaunay: the points' extent is 0"));
+  CHECK(rejection_message([&] { delaunay(points); }).starts_with("delaunay: the points' extent is 0"));
   points.row(0).setLinSpaced(0.1, 1.7);
-  CHECK(refusal([&] { delaunay(points); }).starts_with("delaunay: all points lie on a line"));
+  CHECK(rejection_message([&] { delaunay(points); }).starts_with("delaunay: all points lie on a line"));
 }

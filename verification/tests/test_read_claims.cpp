@@ -49,7 +49,7 @@ std::vector<Claim> read(const std::string& text) {
 }
 
 /// The claims with one part of the claim replaced are refused at this line, with these words.
-void refused(const std::string& part, const std::string& other, int line, const std::string& words) {
+void rejected(const std::string& part, const std::string& other, int line, const std::string& words) {
   INFO(part << " -> " << other);
   CHECK_THROWS_AS(read(paper + with(claim, part, other)), InputError);
   CHECK_THROWS_WITH(read(paper + with(claim, part, other)),
@@ -98,8 +98,8 @@ TEST_CASE("papers come in the order of their files' names, claims in that of the
 }
 
 TEST_CASE("an unknown key of a claim, of a decider or of a paper is refused") {
-  refused("section =", "chapter = \"2\"\nsection =", 9, "unknown key 'chapter'");
-  refused("{role =", "{weight = 3, role =", 14, "unknown key 'weight'");
+  rejected("section =", "chapter = \"2\"\nsection =", 9, "unknown key 'chapter'");
+  rejected("{role =", "{weight = 3, role =", 14, "unknown key 'weight'");
   CHECK_THROWS_WITH(read(with(paper, "year", "pages = 9\nyear") + claim),
                     Contains("abc99.toml:5: unknown key 'pages'"));
   CHECK_THROWS_WITH(read("words = 3\n" + std::string(paper) + claim),
@@ -107,20 +107,20 @@ TEST_CASE("an unknown key of a claim, of a decider or of a paper is refused") {
 }
 
 TEST_CASE("an unknown role and an unknown ruling are refused, with those that are known") {
-  refused("\"limits\"", "\"limit\"", 15, "unknown role 'limit'; known: supports, limits, contradicts");
-  refused(
+  rejected("\"limits\"", "\"limit\"", 15, "unknown role 'limit'; known: supports, limits, contradicts");
+  rejected(
       "confirmed under a condition", "conditional", 17,
       "unknown recorded 'conditional'; known: confirmed, confirmed under a condition, refuted, undecided");
 }
 
 TEST_CASE("a text of a claim that is missing or empty is refused") {
-  refused("id = \"ABC-1\"\n", "", 7, "needs the key 'id'");
-  refused("\"ABC-1\"", "\"\"", 8, "'id' is empty");
-  refused("\"2.4\"", "\" \"", 9, "'section' is empty");
-  refused("Sums add \\\nup.", "", 10, "'statement' is empty");
-  refused("\"sums.add-up\"", "\"\"", 14, "'finding' is empty");
-  refused("\"below {sums.overflow|bound}\"", "\"\"", 18, "'condition' is empty");
-  refused("\"They add up to {sums.add-up}.\"", "\"\"", 19, "'why' is empty");
+  rejected("id = \"ABC-1\"\n", "", 7, "needs the key 'id'");
+  rejected("\"ABC-1\"", "\"\"", 8, "'id' is empty");
+  rejected("\"2.4\"", "\" \"", 9, "'section' is empty");
+  rejected("Sums add \\\nup.", "", 10, "'statement' is empty");
+  rejected("\"sums.add-up\"", "\"\"", 14, "'finding' is empty");
+  rejected("\"below {sums.overflow|bound}\"", "\"\"", 18, "'condition' is empty");
+  rejected("\"They add up to {sums.add-up}.\"", "\"\"", 19, "'why' is empty");
 }
 
 TEST_CASE("a paper without its key, title, authors or year is refused") {
@@ -136,15 +136,15 @@ TEST_CASE("a paper without its key, title, authors or year is refused") {
 }
 
 TEST_CASE("a condition is given if and only if the recorded ruling is conditional") {
-  refused("condition = \"below {sums.overflow|bound}\"\n", "", 17, "needs the key 'condition'");
-  refused("confirmed under a condition", "confirmed", 18, "is not recorded");
+  rejected("condition = \"below {sums.overflow|bound}\"\n", "", 17, "needs the key 'condition'");
+  rejected("confirmed under a condition", "confirmed", 18, "is not recorded");
 }
 
 TEST_CASE("a claim that nothing decides, or that names a finding twice, is refused") {
   const std::string deciders = with(claim, "  {role = \"supports\", finding = \"sums.add-up\"},\n", "");
   CHECK_THROWS_WITH(read(paper + with(deciders, "  {role = \"limits\", finding = \"sums.overflow\"},\n", "")),
                     Contains("abc99.toml:13: no finding decides this claim"));
-  refused("\"sums.overflow\"}", "\"sums.add-up\"}", 15, "the finding 'sums.add-up' is named twice");
+  rejected("\"sums.overflow\"}", "\"sums.add-up\"}", 15, "the finding 'sums.add-up' is named twice");
 }
 
 TEST_CASE("an id that is taken, in the same file or in another, and one that is no name are refused") {
@@ -154,12 +154,12 @@ TEST_CASE("an id that is taken, in the same file or in another, and one that is 
   for (const char* file : {"a.toml", "b.toml"}) std::ofstream(folder.file(file)) << paper << claim;
   CHECK_THROWS_WITH(read_claims(folder.file(".")),
                     Contains("b.toml:8: the id 'ABC-1' is taken at ") && Contains("a.toml:8"));
-  refused("ABC-1", "ABC/1", 8, "the id 'ABC/1'");
+  rejected("ABC-1", "ABC/1", 8, "the id 'ABC/1'");
 }
 
 TEST_CASE("a placeholder whose brace is not closed is refused when claims are read") {
-  refused("{sums.add-up}.", "{sums.add-up.", 19, "the brace is not closed");
-  refused("|bound}", "|bound", 18, "the brace is not closed");
+  rejected("{sums.add-up}.", "{sums.add-up.", 19, "the brace is not closed");
+  rejected("|bound}", "|bound", 18, "the brace is not closed");
 }
 
 TEST_CASE("a folder without claims is refused by its name") {

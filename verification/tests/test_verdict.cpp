@@ -43,10 +43,10 @@ TEST_CASE("NaN never holds, wherever it stands") {
 
 TEST_CASE("Worst keeps a NaN whatever comes after it") {
   Worst worst;
-  worst.see(3);
+  worst.observe(3);
   CHECK(worst.value() == 3);
-  worst.see(not_a_number);
-  worst.see(5);
+  worst.observe(not_a_number);
+  worst.observe(5);
   CHECK(worst.value() != worst.value());
 }
 
@@ -65,15 +65,15 @@ TEST_CASE("a table fills its columns row by row, numbers and texts") {
 
 TEST_CASE("a row of another length or type, a short column and an unknown name are refused by name") {
   Table table{"orders", "Observed orders", {{"scheme", "1"}, {"order", "1"}}};
-  const auto refusal = Catch::Contains("table 'orders' of columns [scheme, order]: ");
-  CHECK_THROWS_WITH(table.row("A"), refusal && Catch::Contains("a row of 1 for 2 columns"));
+  const auto rejection = Catch::Contains("table 'orders' of columns [scheme, order]: ");
+  CHECK_THROWS_WITH(table.row("A"), rejection && Catch::Contains("a row of 1 for 2 columns"));
   table.row("A", 2.0);
-  CHECK_THROWS_WITH(table.row(1, 2.0), refusal && Catch::Contains("'scheme' holds texts, and row 2"));
-  CHECK_THROWS_WITH(table.row("B", "two"), refusal && Catch::Contains("'order' holds numbers"));
+  CHECK_THROWS_WITH(table.row(1, 2.0), rejection && Catch::Contains("'scheme' holds texts, and row 2"));
+  CHECK_THROWS_WITH(table.row("B", "two"), rejection && Catch::Contains("'order' holds numbers"));
   CHECK(table.rows() == 1);
-  CHECK_THROWS_WITH(table.add({"floor", "1"}), refusal && Catch::Contains("0 values"));
-  CHECK_THROWS_WITH(table.numbers("error"), refusal && Catch::Contains("no column 'error'"));
-  CHECK_THROWS_WITH(table.numbers("scheme"), refusal && Catch::Contains("holds texts"));
+  CHECK_THROWS_WITH(table.add({"floor", "1"}), rejection && Catch::Contains("0 values"));
+  CHECK_THROWS_WITH(table.numbers("error"), rejection && Catch::Contains("no column 'error'"));
+  CHECK_THROWS_WITH(table.numbers("scheme"), rejection && Catch::Contains("holds texts"));
   CHECK_THROWS_AS((Table{{"a", "1", std::vector<double>{1, 2}}, {"b", "1", std::vector<double>{1}}}),
                   std::logic_error);
 }
@@ -100,7 +100,7 @@ TEST_CASE("the worst row is judged in its column's unit, with the largest uncert
   Table table{{"case", ""}, {"error", "m"}, {"steps", "1"}};
   table.row("one", Estimate{3, 0.5}, 8);
   table.row("two", Estimate{5, 0.25}, 16);
-  const Finding finding = judged_worst(table, "error", 6, "why", "note");
+  const Finding finding = judge_worst(table, "error", 6, "why", "note");
   CHECK(finding.verdict.measured == 5);
   CHECK(finding.verdict.uncertainty == 0.5);
   CHECK(finding.verdict.bound == 6);
@@ -108,9 +108,9 @@ TEST_CASE("the worst row is judged in its column's unit, with the largest uncert
   CHECK(finding.verdict.why_bound == "why");
   CHECK(finding.note == "note");
   CHECK(finding.evidence.numbers("error") == std::vector<double>{3, 5});
-  CHECK(judged_worst(table, 20, "why").verdict.measured == 16);
+  CHECK(judge_worst(table, 20, "why").verdict.measured == 16);
   table.row("three", Estimate{1, not_a_number}, 32);
-  CHECK(outcome_of(judged_worst(table, "error", 6, "why").verdict) == Outcome::fails);
+  CHECK(outcome_of(judge_worst(table, "error", 6, "why").verdict) == Outcome::fails);
 }
 
 TEST_CASE("a check that throws fails and says why; one that is not offered is not applicable") {
@@ -127,7 +127,7 @@ TEST_CASE("a check that throws fails and says why; one that is not offered is no
 TEST_CASE("an operation that a subject lacks is reported by name") {
   Subject subject = reference_subject();
   subject.step = nullptr;
-  CHECK_THROWS_AS(offered(subject.step, "step"), NotOffered);
+  CHECK_THROWS_AS(require_offered(subject.step, "step"), NotOffered);
 }
 
 TEST_CASE("verdicts as JSON: NaN becomes null, names stay") {

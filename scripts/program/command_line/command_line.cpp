@@ -108,7 +108,7 @@ std::string mismatch(const CLI::App& app, const std::string& what) {
 }
 
 /// What is wrong, in one line.
-std::string described(const CLI::App& app, const CLI::ParseError& error) {
+std::string describe(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = innermost(app);
   const std::string what = error.what(), kind = error.get_name();
   if (kind == "ValidationError") return what;
@@ -212,15 +212,15 @@ int end_parse(const CLI::App& app, const CLI::ParseError& error) {
     fmt::print("{}", command.help());
     return all_hold;
   }
-  say(fmt::format("foldproof: {} (see `{} --help`)", described(app, error), full_name(command)));
+  log_line(fmt::format("foldproof: {} (see `{} --help`)", describe(app, error), full_name(command)));
   return bad_input;
 }
 
-int refuse_missing_command(const CLI::App& app) {
+int reject_missing_command(const CLI::App& app) {
   const CLI::App& typed = innermost(app);
   std::vector<std::string> known;
   for (const CLI::App* command : commands_of(typed)) known.push_back(command->get_name());
-  say(fmt::format("foldproof: a command is missing, one of {} (see `{} --help`)", fmt::join(known, ", "),
+  log_line(fmt::format("foldproof: a command is missing, one of {} (see `{} --help`)", fmt::join(known, ", "),
                   full_name(typed)));
   return bad_input;
 }

@@ -29,6 +29,6 @@ CLI::Validator some_text(const std::string& wanted);
 int end_parse(const CLI::App& app, const CLI::ParseError& error);
 
 /// Says in one line that a command is missing, and which there are. Returns the exit code.
-int refuse_missing_command(const CLI::App& app);
+int reject_missing_command(const CLI::App& app);
 
 }  // namespace foldproof

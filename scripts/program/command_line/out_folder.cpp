@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 OutFolder::OutFolder(const std::string& path) : OutFolder() {  // so that what throws below is undone
   if (path.empty()) return;
-  const auto refuse = [&](const std::string& what, const std::error_code& why) {
+  const auto reject = [&](const std::string& what, const std::error_code& why) {
     throw InputError(path + ": " + what + ": " + why.message() + "; choose another --out");
   };
   std::error_code error;
@@ -21,12 +21,12 @@ OutFolder::OutFolder(const std::string& path) : OutFolder() {  // so that what t
   const auto is_taken = [&] { return fs::exists(part, error) && !fs::is_directory(part, error); };
   for (const fs::path& name : fs::path(path)) {
     part /= name;
-    if (is_taken()) refuse("cannot make this folder", std::make_error_code(std::errc::not_a_directory));
+    if (is_taken()) reject("cannot make this folder", std::make_error_code(std::errc::not_a_directory));
     if (fs::create_directory(part, error)) made_.push_back(part);
-    if (error) refuse("cannot make this folder", error);
+    if (error) reject("cannot make this folder", error);
   }
   if (access(path.c_str(), W_OK | X_OK) != 0)
-    refuse("cannot write into this folder", {errno, std::generic_category()});
+    reject("cannot write into this folder", {errno, std::generic_category()});
 }
 
 OutFolder::~OutFolder() {

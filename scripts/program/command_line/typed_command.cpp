@@ -11,7 +11,7 @@ bool is_plain(const std::string& word) {
   return !word.empty() && word.find_first_not_of(plain) == std::string::npos;
 }
 
-std::string quoted(const std::string& word) {
+std::string quote(const std::string& word) {
   if (is_plain(word)) return word;
   std::string text = "'";
   for (const char letter : word) text += letter == '\'' ? "'\\''" : std::string(1, letter);
@@ -23,7 +23,7 @@ std::string quoted(const std::string& word) {
 std::string with_option(const std::vector<std::string>& words, const std::string& option) {
   std::string line;
   for (const std::string& word : words)
-    if (word != "--resume" && word != "--restart") line += quoted(word) + " ";
+    if (word != "--resume" && word != "--restart") line += quote(word) + " ";
   return line + option;
 }
 

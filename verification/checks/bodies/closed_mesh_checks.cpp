@@ -13,7 +13,7 @@
 #include "verification/checks/bodies/body_checks.h"
 #include "verification/evidence.h"
 #include "verification/specimens/random.h"
-#include "verification/specimens/refusal.h"
+#include "verification/specimens/rejection.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/ugly_solids.h"
@@ -25,7 +25,7 @@ namespace {
 TriangleSoup soup_of(const TriangleMesh& mesh) { return {mesh.rest, mesh.triangles, {}}; }
 
 /// Both surfaces in one, the second moved.
-TriangleSoup joined(TriangleSoup first, const TriangleSoup& second, const Vector3& shift) {
+TriangleSoup join(TriangleSoup first, const TriangleSoup& second, const Vector3& shift) {
   const int before = int(first.rest.cols());
   PerParticle3 rest(3, first.rest.cols() + second.rest.cols());
   rest << first.rest, second.rest.colwise() + shift;
@@ -61,34 +61,33 @@ std::vector<BadSolid> bad_solids() {
   open.triangles.erase(open.triangles.begin() + 17);
   std::swap(flipped.triangles[133][1], flipped.triangles[133][2]);
   pierced.rest.col(5) *= -1.2;  // pulled out through the far side
-  return {
-      {"two holes", open, {"a hole", "6 such edges around 2 holes", "repair"}},
-      {"a flipped triangle", flipped, {"opposite orientation"}},
-      {"a vertex pulled through the far side", pierced, {"meets", "intersecting pairs", "repair"}},
-      {"two balls that overlap", joined(whole, whole, {0.5, 0.31, 0.22}), {"meets", "intersecting pairs"}},
-      {"a ball inside out", turned_round(whole), {line_of(whole, 0), "320 triangles", "inward"}},
-      {"a ball in a ball, both outward",
-       joined(whole, ball(0.3), {0.1, 0.05, 0}),
-       {":" + std::to_string(2 + 2 * 162 + 320) + ":", "within another piece"}},
-      {"a ball beside another, inside out",
-       joined(whole, turned_round(ball(0.3)), {1.7, 0.05, 0}),
-       {":" + std::to_string(2 + 2 * 162 + 320) + ":", "inward"}}};
+  return {{"two holes", open, {"a hole", "6 such edges around 2 holes", "repair"}},
+          {"a flipped triangle", flipped, {"opposite orientation"}},
+          {"a vertex pulled through the far side", pierced, {"meets", "intersecting pairs", "repair"}},
+          {"two balls that overlap", join(whole, whole, {0.5, 0.31, 0.22}), {"meets", "intersecting pairs"}},
+          {"a ball inside out", turned_round(whole), {line_of(whole, 0), "320 triangles", "inward"}},
+          {"a ball in a ball, both outward",
+           join(whole, ball(0.3), {0.1, 0.05, 0}),
+           {":" + std::to_string(2 + 2 * 162 + 320) + ":", "within another piece"}},
+          {"a ball beside another, inside out",
+           join(whole, turned_round(ball(0.3)), {1.7, 0.05, 0}),
+           {":" + std::to_string(2 + 2 * 162 + 320) + ":", "inward"}}};
 }
 
-Finding bad_solids_are_refused(const Subject&) {
+Finding bad_solids_are_rejected(const Subject&) {
   const ScratchFolder folder;
   const std::string path = folder.file("bad.obj");
   Table measured{{"case", ""}, {"file or words missing from the refusal", "1"}, {"message", ""}};
   for (const BadSolid& bad : bad_solids()) {
     write_obj(path, bad.soup.rest, bad.soup.triangles);
-    const std::string message = refusal([&] { make_closed_mesh(read_obj_soup(path)); });
+    const std::string message = rejection_message([&] { make_closed_mesh(read_obj_soup(path)); });
     int missing = message.starts_with(path + ":") ? 0 : 1;
     for (const std::string& part : bad.parts) missing += message.find(part) == std::string::npos;
     const size_t folder_size = path.size() - std::string("bad.obj").size();
     measured.row(bad.name, missing, message.substr(std::min(message.size(), folder_size)));
   }
-  return judged_worst(measured, "file or words missing from the refusal", 0,
-                      "each refusal must name the file, what is wrong, and how much of it");
+  return judge_worst(measured, "file or words missing from the refusal", 0,
+                     "each refusal must name the file, what is wrong, and how much of it");
 }
 
 Finding places_are_right(const Subject&) {
@@ -98,7 +97,7 @@ Finding places_are_right(const Subject&) {
   for (int t = 3; t < 320; t += 37) {
     TriangleSoup open = whole;
     open.triangles.erase(open.triangles.begin() + t);
-    const std::string message = refusal([&] { make_closed_mesh(open); });
+    const std::string message = rejection_message([&] { make_closed_mesh(open); });
     bool named = false;  // an edge of the missing triangle
     for (int k = 0; k < 3; ++k) {
       const auto [a, b] = std::minmax(whole.triangles[t][k], whole.triangles[t][(k + 1) % 3]);
@@ -108,7 +107,7 @@ Finding places_are_right(const Subject&) {
     if (!named) ++wrong;
   }
   measured.row("hole: an edge of the triangle that is missing", wrong);
-  return judged_worst(measured, 0, "the edge named must be one of the hole's");
+  return judge_worst(measured, 0, "the edge named must be one of the hole's");
 }
 
 Finding solids_are_accepted(const Subject&) {
@@ -116,13 +115,13 @@ Finding solids_are_accepted(const Subject&) {
   std::vector<std::pair<std::string, TriangleSoup>> good{
       {"ball", ball(0.7)},
       {"statue", soup_of(small_statue())},
-      {"two balls", joined(ball(0.7), ball(0.4), {1.3, 0.2, 0.1})},
+      {"two balls", join(ball(0.7), ball(0.4), {1.3, 0.2, 0.1})},
       {"ball with a cavity and a ball in it",
-       joined(joined(ball(0.7), turned_round(ball(0.5)), {0.02, 0.01, 0}), ball(0.3), {0.05, -0.02, 0.01})}};
+       join(join(ball(0.7), turned_round(ball(0.5)), {0.02, 0.01, 0}), ball(0.3), {0.05, -0.02, 0.01})}};
   for (const UglySolid& solid : ugly_solids()) good.emplace_back(solid.name, solid.soup);
   for (const auto& [name, soup] : good)
-    measured.row(name, refusal([&soup = soup] { make_closed_mesh(soup); }).empty() ? 0 : 1);
-  return judged_worst(measured, 0, "each of them parts inside from outside");
+    measured.row(name, rejection_message([&soup = soup] { make_closed_mesh(soup); }).empty() ? 0 : 1);
+  return judge_worst(measured, 0, "each of them parts inside from outside");
 }
 
 // ---- pairs of triangles whose answer is known by how they were made, in whole numbers
@@ -213,8 +212,8 @@ Finding intersections_are_found(const Subject&) {
     }
     measured.row(family.name, wrong);
   }
-  return judged_worst(measured, 0,
-                      "coordinates are whole numbers over 1024, and signs of determinants are exact");
+  return judge_worst(measured, 0,
+                     "coordinates are whole numbers over 1024, and signs of determinants are exact");
 }
 
 /// Triangles that share an edge or a vertex.
@@ -236,14 +235,14 @@ Finding neighbours_are_told_apart(const Subject&) {
   Table measured{{"case", ""}, {"wrong answers", "1"}};
   for (const auto& [name, triangle, meets] : cases)
     measured.row(name, (intersect(x, base, triangle) != meets) + (intersect(x, triangle, base) != meets));
-  return judged_worst(measured, 0, "what they share by number does not count, anything more does");
+  return judge_worst(measured, 0, "what they share by number does not count, anything more does");
 }
 
 /// The tree must find the pairs that a look at all of them finds.
 Finding pairs_are_complete(const Subject&) {
   Table measured{{"case", ""}, {"pairs missing or superfluous", "1"}};
   for (const double shift : {0.4, 1.1}) {
-    const TriangleSoup both = joined(ball(0.7), ball(0.7), {shift, 0.31, 0.22});
+    const TriangleSoup both = join(ball(0.7), ball(0.7), {shift, 0.31, 0.22});
     std::vector<std::pair<int, int>> all;
     for (int s = 0; s < int(both.triangles.size()); ++s)
       for (int t = s + 1; t < int(both.triangles.size()); ++t)
@@ -254,7 +253,7 @@ Finding pairs_are_complete(const Subject&) {
                                   std::back_inserter(differing));
     measured.row(std::to_string(all.size()) + " pairs", double(differing.size()) + (all.empty() ? 1 : 0));
   }
-  return judged_worst(measured, 0, "boxes that do not meet hold no triangles that do");
+  return judge_worst(measured, 0, "boxes that do not meet hold no triangles that do");
 }
 
 }  // namespace
@@ -262,7 +261,7 @@ Finding pairs_are_complete(const Subject&) {
 std::vector<Check> closed_mesh_checks() {
   return {{"level-set.invalid-solids-are-rejected",
            "Holes, flipped triangles, intersections and pieces inside out are refused by name and number.",
-           "ours", bad_solids_are_refused},
+           "ours", bad_solids_are_rejected},
           {"level-set.reported-edges-belong-to-holes", "The edge that a refusal names is one of the hole's.",
            "ours", places_are_right},
           {"level-set.valid-solids-are-accepted",

@@ -9,7 +9,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/checks/bodies/body_checks.h"
 #include "verification/evidence.h"
-#include "verification/specimens/refusal.h"
+#include "verification/specimens/rejection.h"
 #include "verification/specimens/ugly_solids.h"
 
 namespace foldproof {
@@ -26,8 +26,8 @@ struct Change {
 /// For each change alone: is the key of the original kept? It must not be. `key` of an unchanged copy must be
 /// the same.
 template <class T>
-Finding keys_kept(const T& original, const std::vector<Change<T>>& changes,
-                  const std::function<std::string(const T&)>& key) {
+Finding keys_are_distinct(const T& original, const std::vector<Change<T>>& changes,
+                          const std::function<std::string(const T&)>& key) {
   Table measured{{"case", ""}, {"keys that do not follow", "1"}};
   T copy = original;
   measured.row("nothing changed", key(copy) == key(original) && key(original).size() == 16 ? 0 : 1);
@@ -36,21 +36,23 @@ Finding keys_kept(const T& original, const std::vector<Change<T>>& changes,
     change.act(changed);
     measured.row(change.what, key(changed) != key(original) ? 0 : 1);
   }
-  return judged_worst(measured, 0, "a key is made of every bit that counts");
+  return judge_worst(measured, 0, "a key is made of every bit that counts");
 }
 
 template <class T>
-Finding refusals_of(const T& sound, const std::vector<Change<T>>& breaks) {
+Finding rejections_of(const T& sound, const std::vector<Change<T>>& breaks) {
   Table measured{{"case", ""}, {"accepted, or refused without the word", "1"}};
-  measured.row("sound content is accepted", refusal([&] { require_sound(sound); }).empty() ? 0 : 1);
+  measured.row("sound content is accepted",
+               rejection_message([&] { require_valid_content(sound); }).empty() ? 0 : 1);
   for (const Change<T>& breaking : breaks) {
     T broken = sound;
     breaking.act(broken);
     const std::string reason = breaking.what.substr(breaking.what.find(": ") + 2);
-    measured.row(breaking.what,
-                 refusal([&] { require_sound(broken); }).find(reason) != std::string::npos ? 0 : 1);
+    measured.row(
+        breaking.what,
+        rejection_message([&] { require_valid_content(broken); }).find(reason) != std::string::npos ? 0 : 1);
   }
-  return judged_worst(measured, 0, "content that no build made is refused before anything asks it");
+  return judge_worst(measured, 0, "content that no build made is refused before anything asks it");
 }
 
 double next_after(double value) { return std::nextafter(value, INFINITY); }
@@ -69,7 +71,7 @@ GridInput grid_input() {
 }
 
 Finding grid_origin_finding(const Subject&) {
-  return keys_kept<GridInput>(
+  return keys_are_distinct<GridInput>(
       grid_input(),
       {{"a coordinate, by a rounding",
         [](GridInput& of) { of.soup.rest(2, 7) = next_after(of.soup.rest(2, 7)); }},
@@ -81,7 +83,7 @@ Finding grid_origin_finding(const Subject&) {
        {"band", [](GridInput& of) { of.method.band = next_after(3); }},
        {"order", [](GridInput& of) { of.method.order = MarchingOrder::first; }},
        {"repair", [](GridInput& of) { of.repair = Repair::winding; }}},
-      [](const GridInput& of) { return origin_key(of.soup, of.method, of.repair); });
+      [](const GridInput& of) { return input_key(of.soup, of.method, of.repair); });
 }
 
 Grid small_grid() {
@@ -90,7 +92,7 @@ Grid small_grid() {
 }
 
 Finding grid_content_finding(const Subject&) {
-  return keys_kept<Grid>(
+  return keys_are_distinct<Grid>(
       small_grid(),
       {{"a value, by a rounding", [](Grid& grid) { grid.phi[17] = next_after(grid.phi[17]); }},
        {"two values exchanged", [](Grid& grid) { std::swap(grid.phi[16], grid.phi[17]); }},
@@ -102,7 +104,7 @@ Finding grid_content_finding(const Subject&) {
 }
 
 Finding grid_sound_finding(const Subject&) {
-  return refusals_of<Grid>(
+  return rejections_of<Grid>(
       small_grid(), {{"no place: place", [](Grid& grid) { grid.lattice.origin[0] = NAN; }},
                      {"infinitely far: place", [](Grid& grid) { grid.lattice.origin[2] = INFINITY; }},
                      {"no spacing: spacing", [](Grid& grid) { grid.lattice.spacing = 0; }},
@@ -149,8 +151,8 @@ Finding body_origin_finding(const Subject&) {
   setting("beyond", [](Settings& how) { how.beyond = next_after(how.beyond); });
   setting("reach", [](Settings& how) { how.reach = 1e-300; });
   setting("hanging nodes", [](Settings& how) { how.hanging = HangingNodes::free; });
-  return keys_kept<BodyInput>(body_input(), changes,
-                              [](const BodyInput& of) { return origin_key(of.sequence, of.settings); });
+  return keys_are_distinct<BodyInput>(
+      body_input(), changes, [](const BodyInput& of) { return input_key(of.sequence, of.settings); });
 }
 
 DeformingBody small_body() {
@@ -161,7 +163,7 @@ DeformingBody small_body() {
 using Body = DeformingBody;
 
 Finding body_content_finding(const Subject&) {
-  return keys_kept<Body>(
+  return keys_are_distinct<Body>(
       small_body(),
       {{"a value, by a rounding",
         [](Body& body) { body.frames[1].field.phi[3][7] = next_after(body.frames[1].field.phi[3][7]); }},
@@ -180,7 +182,7 @@ Finding body_content_finding(const Subject&) {
 }
 
 Finding body_sound_finding(const Subject&) {
-  return refusals_of<Body>(
+  return rejections_of<Body>(
       small_body(),
       {{"no frames: no frame", [](Body& body) { body.frames.clear(); }},
        {"times that do not rise: time is not later", [](Body& body) { body.frames[1].time = 0; }},

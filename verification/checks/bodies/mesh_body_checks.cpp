@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <string>
 
-#include "reference/bodies/makers.h"
+#include "reference/bodies/level_set_provider.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/bodies/body_checks.h"
 #include "verification/evidence.h"
 #include "verification/specimens/random.h"
-#include "verification/specimens/refusal.h"
+#include "verification/specimens/rejection.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/trial_cases.h"
 
@@ -37,7 +37,7 @@ Vector3 above_the_hole() {
 
 /// A ball of 1280 triangles; the first `missing` are left out, those from 100 to 100 + `flipped` turned
 /// round.
-std::string written(const ScratchFolder& folder, int missing, int flipped) {
+std::string write_ball(const ScratchFolder& folder, int missing, int flipped) {
   TriangleMesh ball = make_icosphere(radius, 3);
   for (int t = 100; t < 100 + flipped; ++t) std::swap(ball.triangles[t][0], ball.triangles[t][1]);
   ball.triangles.erase(ball.triangles.begin(), ball.triangles.begin() + missing);
@@ -46,35 +46,35 @@ std::string written(const ScratchFolder& folder, int missing, int flipped) {
   return path;
 }
 
-Finding open_bodies_are_refused(const Subject&) {
+Finding open_bodies_are_rejected(const Subject&) {
   const ScratchFolder folder;
   Table measured{{"case", ""}, {"file, reason or remedy missing from the refusal", "1"}};
-  const auto see = [&](const std::string& name, const std::string& file, const std::string& keys,
-                       const std::vector<std::string>& parts) {
-    const std::string message = refusal([&] { read_case_beside(file, keys); });
+  const auto observe = [&](const std::string& name, const std::string& file, const std::string& keys,
+                           const std::vector<std::string>& parts) {
+    const std::string message = rejection_message([&] { read_case_beside(file, keys); });
     int missing = 0;
     for (const std::string& part : parts) missing += message.find(part) == std::string::npos;
     measured.row(name, missing);
   };
-  see("hole", written(folder, 1, 0), "", {"ball.obj:", "a hole", "repair"});
-  see("hole, exact distance", written(folder, 1, 0), "field = \"exact\"", {"ball.obj:", "a hole"});
-  see("flipped triangles", written(folder, 0, 3), "", {"ball.obj:", "opposite orientation"});
-  see("exact distance and repair", written(folder, 1, 0), "field = \"exact\"\nrepair = \"winding\"",
-      {"repair", "grid"});
-  see("an unknown repair", written(folder, 1, 0), "repair = \"glue\"", {"glue", "winding"});
-  return judged_worst(measured, 0, "each refusal must name the file or the key, and the reason");
+  observe("hole", write_ball(folder, 1, 0), "", {"ball.obj:", "a hole", "repair"});
+  observe("hole, exact distance", write_ball(folder, 1, 0), "field = \"exact\"", {"ball.obj:", "a hole"});
+  observe("flipped triangles", write_ball(folder, 0, 3), "", {"ball.obj:", "opposite orientation"});
+  observe("exact distance and repair", write_ball(folder, 1, 0), "field = \"exact\"\nrepair = \"winding\"",
+          {"repair", "grid"});
+  observe("an unknown repair", write_ball(folder, 1, 0), "repair = \"glue\"", {"glue", "winding"});
+  return judge_worst(measured, 0, "each refusal must name the file or the key, and the reason");
 }
 
 /// Largest error of phi over points at distances 0.5 to 1.2 from the ball's centre, half of them below or
 /// above where triangles may be missing [cells].
 double error_of(const Scene& scene, double cell) {
-  const auto solid = std::get<RigidObject>(build_objects(scene, computing_makers()).at(0).body);
+  const auto solid = std::get<RigidObject>(build_objects(scene, computing_provider()).at(0).body);
   Random random(109);
   Worst worst;
   for (int i = 0; i < 500; ++i) {
     const Vector3 hole = i % 2 == 0 ? Vector3(Vector3::Zero()) : Vector3(5 * above_the_hole());
-    const Vector3 p = (hole + random.vectors(1, 1).col(0)).normalized() * random.in(0.5, 1.2);
-    worst.see(std::abs(solid.at(p, {0, 0, 1}).phi - (p.norm() - radius)) / cell);
+    const Vector3 p = (hole + random.vectors(1, 1).col(0)).normalized() * random.uniform(0.5, 1.2);
+    worst.observe(std::abs(solid.at(p, {0, 0, 1}).phi - (p.norm() - radius)) / cell);
   }
   return worst.value();
 }
@@ -83,11 +83,13 @@ Finding bodies_are_solid(const Subject&) {
   const ScratchFolder folder;
   constexpr double cell = 2 * radius / 32;
   Table measured{{"case", ""}, {"largest error of phi", "cells"}};
-  measured.row("whole, grid", error_of(read_case_beside(written(folder, 0, 0), "cells = 32"), cell));
-  measured.row("whole, exact", error_of(read_case_beside(written(folder, 0, 0), "field = \"exact\""), cell));
-  measured.row("four triangles missing, seven flipped",
-               error_of(read_case_beside(written(folder, 4, 7), "cells = 32\nrepair = \"winding\""), cell));
-  return judged_worst(
+  measured.row("whole, grid", error_of(read_case_beside(write_ball(folder, 0, 0), "cells = 32"), cell));
+  measured.row("whole, exact",
+               error_of(read_case_beside(write_ball(folder, 0, 0), "field = \"exact\""), cell));
+  measured.row(
+      "four triangles missing, seven flipped",
+      error_of(read_case_beside(write_ball(folder, 4, 7), "cells = 32\nrepair = \"winding\""), cell));
+  return judge_worst(
       measured, 1,
       "faces lie up to 0.15 cells within the ball; a hole of four triangles is three cells wide, "
       "and a membrane over it flatter than the ball by half a cell");
@@ -98,7 +100,7 @@ Finding bodies_are_solid(const Subject&) {
 std::vector<Check> mesh_body_checks() {
   return {{"level-set.cases-reject-open-bodies",
            "A case whose body has holes or flipped triangles is refused with the line of the body's file.",
-           "ours", open_bodies_are_refused},
+           "ours", open_bodies_are_rejected},
           {"level-set.bodies-from-obj-files-have-the-right-distance",
            "A body from an OBJ file, whole or repaired, has the distance of the ball that it was made of.",
            "ours", bodies_are_solid}};

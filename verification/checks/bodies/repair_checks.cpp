@@ -38,8 +38,8 @@ Finding parity_agrees(const Subject&) {
                                             1e-9 * grid->lattice.spacing);
     measured.row(name, double(found.with_sign.size() + found.among_rays.size()));
   }
-  return judged_worst(measured, 0,
-                      "on closed surfaces all three rays and the pseudonormal answer the same question");
+  return judge_worst(measured, 0,
+                     "on closed surfaces all three rays and the pseudonormal answer the same question");
 }
 
 /// What is said of meshes whose defects are known.
@@ -55,14 +55,14 @@ Finding inspection_tells(const Subject&) {
     return text.find(part) == std::string::npos;
   };
   Table measured{{"case", ""}, {"what is said wrongly", "1"}};
-  measured.row("a ball is a solid", !a.refusal.empty() || a.pieces != 1 || a.triangles != 1280);
+  measured.row("a ball is a solid", !a.rejection.empty() || a.pieces != 1 || a.triangles != 1280);
   measured.row("its volume, over 1 percent", std::abs(a.volume / (4 * EIGEN_PI / 3 * 0.343) - 1) > 0.01);
   measured.row("no opinion differs", double(a.against_sign + a.among_rays));
-  measured.row("a hole", lacks(b.refusal, "a hole") || !b.no_repair.empty());
+  measured.row("a hole", lacks(b.rejection, "a hole") || !b.repair_failure.empty());
   measured.row("rays differ behind it", b.among_rays > b.against_sign ? 0 : 1);
-  measured.row("a flipped triangle", lacks(c.refusal, "opposite orientation"));
-  measured.row("a triangle alone has no inside", lacks(d.no_repair, "no inside") || d.nodes != 0);
-  return judged_worst(measured, 0, "each defect must be told, and none made up");
+  measured.row("a flipped triangle", lacks(c.rejection, "opposite orientation"));
+  measured.row("a triangle alone has no inside", lacks(d.repair_failure, "no inside") || d.nodes != 0);
+  return judge_worst(measured, 0, "each defect must be told, and none made up");
 }
 
 Finding parity_shows_holes(const Subject&) {
@@ -76,26 +76,26 @@ Finding parity_shows_holes(const Subject&) {
     const Disagreement found = disagreement(*grid, ray_parity(open.rest, open.triangles, grid->lattice),
                                             1e-9 * grid->lattice.spacing);
     const double in_streaks = double(found.among_rays.size()), with_sign = double(found.with_sign.size());
-    streaks.see(in_streaks);
-    denied.see(with_sign);
+    streaks.observe(in_streaks);
+    denied.observe(with_sign);
     if (found.among_rays.empty()) ++unseen;
-    outvoting.see(with_sign / std::max(in_streaks, 1.0));
+    outvoting.observe(with_sign / std::max(in_streaks, 1.0));
   }
   Table measured{
       {"case", ""},
       {"holes of six triangles that no ray shows, and the largest share of streaks that wins the vote", "1"}};
   measured.row("unseen", unseen);
   measured.row("share", outvoting.value());
-  return judged_worst(measured, 0.25,
-                      "every hole lies across at least one row of nodes, and streaks along two axes "
-                      "meet in few of their nodes only",
-                      "nodes in streaks, and denied signs, of the worst hole: " +
-                          std::to_string(int(streaks.value())) + ", " + std::to_string(int(denied.value())));
+  return judge_worst(measured, 0.25,
+                     "every hole lies across at least one row of nodes, and streaks along two axes "
+                     "meet in few of their nodes only",
+                     "nodes in streaks, and denied signs, of the worst hole: " +
+                         std::to_string(int(streaks.value())) + ", " + std::to_string(int(denied.value())));
 }
 
 Vector3 about(Random& random, const Bounds& bounds) {
   Vector3 p;
-  for (int axis = 0; axis < 3; ++axis) p[axis] = random.in(-0.3, 1.3);
+  for (int axis = 0; axis < 3; ++axis) p[axis] = random.uniform(-0.3, 1.3);
   return bounds.min() + p.cwiseProduct(bounds.sizes());
 }
 
@@ -109,13 +109,14 @@ Finding winding_is_whole(const Subject&) {
           (about(random, bounds_of(solid.soup.rest)) * double(units)).array().round() / double(units);
       const int inside = inside_exactly(solid, p);
       if (inside == 0) continue;
-      worst.see(std::abs(winding_number(solid.soup.rest, solid.soup.triangles, p) - (inside > 0 ? 1 : 0)));
+      worst.observe(
+          std::abs(winding_number(solid.soup.rest, solid.soup.triangles, p) - (inside > 0 ? 1 : 0)));
     }
     measured.row(solid.name, worst.value());
   }
-  return judged_worst(measured, 1e-8,
-                      "solid angles add up to full turns; seen from close to a face's plane, one of them has "
-                      "lost its digits to cancellation, epsilon times the squared ratio of sizes");
+  return judge_worst(measured, 1e-8,
+                     "solid angles add up to full turns; seen from close to a face's plane, one of them has "
+                     "lost its digits to cancellation, epsilon times the squared ratio of sizes");
 }
 
 Finding tree_is_near(const Subject&) {
@@ -131,17 +132,17 @@ Finding tree_is_near(const Subject&) {
     Worst worst;
     for (int i = 0; i < 400; ++i) {
       const Vector3 p = about(random, bounds_of(mesh.rest));
-      worst.see(
+      worst.observe(
           std::abs(winding_number(distance, dipoles, p, far) - winding_number(mesh.rest, mesh.triangles, p)));
-      worst.see(std::abs(winding_number(open, open_dipoles, p, far) - winding_number(mesh.rest, part, p)));
+      worst.observe(
+          std::abs(winding_number(open, open_dipoles, p, far) - winding_number(mesh.rest, part, p)));
     }
     measured.row("far = " + std::to_string(far), far * far * worst.value());
   }
-  return judged_worst(
-      measured, 0.5,
-      "what is left out of a patch is its second moment, at most the square of radius over "
-      "distance of its own angle; the angles of all patches seen, sizes added, are about half "
-      "of the full turn that cancels");
+  return judge_worst(measured, 0.5,
+                     "what is left out of a patch is its second moment, at most the square of radius over "
+                     "distance of its own angle; the angles of all patches seen, sizes added, are about half "
+                     "of the full turn that cancels");
 }
 
 /// Nodes where the repaired grid is on the wrong side, and the mean error of the rest, against the whole
@@ -150,7 +151,7 @@ struct Mended {
   double wrong_sides, mean_error;  // 1; cells
 };
 
-Mended compared(const Grid& truth, const Grid& mended) {
+Mended compare(const Grid& truth, const Grid& mended) {
   Mended result{0, 0};
   for (size_t i = 0; i < truth.phi.size(); ++i) {
     const bool near = std::abs(truth.phi[i]) < truth.lattice.spacing;
@@ -199,15 +200,15 @@ Finding repair_mends(const Subject&) {
       {"twice the nodes on the wrong side more than a cell from the surface, and mean error in tenths of a "
        "cell",
        "1"}};
-  const auto see = [&](const std::string& name, const Mended& mended) {
+  const auto observe = [&](const std::string& name, const Mended& mended) {
     measured.row(name + ", wrong sides", 2 * mended.wrong_sides);
     measured.row(name + ", mean error", 10 * mended.mean_error);
   };
-  see("nothing to mend", compared(*truth, *make_repaired_grid(whole, method)));
-  see("thirteen holes of two triangles", compared(*truth, *make_repaired_grid(open, method)));
-  see("a seventh of the triangles flipped", compared(*truth, *make_repaired_grid(flipped, method)));
-  see("two balls that overlap", against_union(*make_repaired_grid(overlapping_balls(), method)));
-  return judged_worst(
+  observe("nothing to mend", compare(*truth, *make_repaired_grid(whole, method)));
+  observe("thirteen holes of two triangles", compare(*truth, *make_repaired_grid(open, method)));
+  observe("a seventh of the triangles flipped", compare(*truth, *make_repaired_grid(flipped, method)));
+  observe("two balls that overlap", against_union(*make_repaired_grid(overlapping_balls(), method)));
+  return judge_worst(
       measured, 1,
       "a start from sides alone would leave the surface off by 0.13 cells in the mean; exact "
       "distances where a triangle parts the sides must do better, though marching begins in first "

@@ -17,7 +17,7 @@ namespace {
 
 /// A waved sheet of cells x cells squares with springs and hinges, both damped.
 Scene waved_sheet(int cells) {
-  Scene scene = scene_of(make_sheet({SheetPattern::alternating, 1.3, 1.1, cells, cells}), 0.21);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::alternating, 1.3, 1.1, cells, cells}), 0.21);
   scene.stretch = StretchMaterial{31, 0.017, 1};
   scene.bending = BendingMaterial{0.0019, 0.00023, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0.03);
@@ -63,7 +63,7 @@ Finding time_finding(const Subject&) {
         least_seconds([&] { damping.add_product(s.v, f); },
                       [&] { damping_at(system.forces, s, work).add_product(s.v, f); }, repeats);
     times.row(s.x.cols(), with, without);
-    worst.see(with / without);
+    worst.observe(with / without);
   }
   return {{worst.value(), 0.5, 0, "1",
            "half: less would make the cache not worth its memory from the second product of a solve on"},
@@ -101,7 +101,7 @@ Finding memory_finding(const Subject&) {
                          particles;
     const double matrix = blocks_of(scene.mesh) * block_bytes / particles;
     sizes.row(particles, cache, matrix);
-    worst.see(cache / matrix);
+    worst.observe(cache / matrix);
   }
   return {{worst.value(), 1, 0, "1", "not assembling must not cost more memory than assembling"},
           sizes,

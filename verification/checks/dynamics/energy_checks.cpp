@@ -78,13 +78,13 @@ Sums sums_of(const Scene& scene, const State& s) {
   return sums;
 }
 
-struct Watched {
+struct RecordedRun {
   std::vector<State> frames;
   std::vector<Diagnostics> rows;
 };
 
-Watched watched(const Scene& scene, const std::string& integrator, double h, int steps) {
-  Watched run;
+RecordedRun record_run(const Scene& scene, const std::string& integrator, double h, int steps) {
+  RecordedRun run;
   const Observer observer{[&](const State& s) { run.frames.push_back(s); },
                           [&](const Diagnostics& row) { run.rows.push_back(row); }};
   const Schedule schedule{steps * h, h, {h, 0.5, 0.1}, 1000000};
@@ -95,29 +95,29 @@ Watched watched(const Scene& scene, const std::string& integrator, double h, int
 /// The largest error of a row, each quantity in epsilon of its own size.
 double row_error(const Diagnostics& row, const Sums& sums, double damping_work, double size_of_work) {
   Worst worst;
-  const auto see = [&](double error, double size) { worst.see(std::abs(error) / (epsilon * size)); };
-  see(row.energy.kinetic - sums.kinetic, sums.kinetic);
-  see(row.energy.stretch - sums.stretch, sums.stretch);
-  see(row.energy.bending - sums.bending, sums.bending);
-  see(row.energy.gravity - sums.gravity, std::abs(sums.gravity) + sums.kinetic);
-  see(row.energy.custom, sums.kinetic);
-  see(row.energy.total() - (sums.kinetic + sums.stretch + sums.bending + sums.gravity),
-      sums.kinetic + sums.stretch + sums.bending + std::abs(sums.gravity));
-  see((row.linear_momentum - sums.linear).norm(), sums.linear.norm());
-  see((row.angular_momentum - sums.angular).norm(), sums.angular.norm());
-  see(row.damping_work - damping_work, size_of_work);
+  const auto observe = [&](double error, double size) { worst.observe(std::abs(error) / (epsilon * size)); };
+  observe(row.energy.kinetic - sums.kinetic, sums.kinetic);
+  observe(row.energy.stretch - sums.stretch, sums.stretch);
+  observe(row.energy.bending - sums.bending, sums.bending);
+  observe(row.energy.gravity - sums.gravity, std::abs(sums.gravity) + sums.kinetic);
+  observe(row.energy.custom, sums.kinetic);
+  observe(row.energy.total() - (sums.kinetic + sums.stretch + sums.bending + sums.gravity),
+          sums.kinetic + sums.stretch + sums.bending + std::abs(sums.gravity));
+  observe((row.linear_momentum - sums.linear).norm(), sums.linear.norm());
+  observe((row.angular_momentum - sums.angular).norm(), sums.angular.norm());
+  observe(row.damping_work - damping_work, size_of_work);
   return worst.value();
 }
 
 Finding diagnostics_finding(const Subject&) {
   const double h = 1.7e-3;
-  const Scene scene = led_sheet();
-  const Watched run = watched(scene, "C", h, 9);
+  const Scene scene = partly_prescribed_sheet();
+  const RecordedRun run = record_run(scene, "C", h, 9);
   const System system = build_system(scene);
   Worst worst;
   Table errors{{"time", "s"}, {"error", "epsilon of the quantity"}};
   double damping_work = 0, power_before = 0;
-  if (run.rows.size() != run.frames.size() || run.rows.size() != 10) worst.see(NAN);
+  if (run.rows.size() != run.frames.size() || run.rows.size() != 10) worst.observe(NAN);
   for (size_t n = 0; n < std::min(run.rows.size(), run.frames.size()); ++n) {
     const Diagnostics& row = run.rows[n];
     const Sums sums = sums_of(scene, run.frames[n]);
@@ -126,13 +126,14 @@ Finding diagnostics_finding(const Subject&) {
     const double size_of_work = std::abs(damping_work) + h * std::abs(sums.damping_power);
     const double error = row_error(row, sums, damping_work, size_of_work);
     errors.row(row.time, error);
-    worst.see(error);
-    worst.see(std::abs(row.time - run.frames[n].time) / epsilon);
+    worst.observe(error);
+    worst.observe(std::abs(row.time - run.frames[n].time) / epsilon);
     const State& begun_at = run.frames[n - (n > 0)];
-    worst.see(std::abs(row.step_over_elastic_limit - row.step / elastic_limit(system, begun_at)) / epsilon);
-    worst.see(std::abs(row.step - (n == 0 ? 0 : h)) / (epsilon * 9 * h));
+    worst.observe(std::abs(row.step_over_elastic_limit - row.step / elastic_limit(system, begun_at)) /
+                  epsilon);
+    worst.observe(std::abs(row.step - (n == 0 ? 0 : h)) / (epsilon * 9 * h));
     const bool is_solved = row.work.cg_iterations > 0 && row.work.worst_residual <= scene.solver.tolerance;
-    if (n > 0 && !(is_solved && row.seconds >= 0)) worst.see(NAN);
+    if (n > 0 && !(is_solved && row.seconds >= 0)) worst.observe(NAN);
   }
   return {{worst.value(), 512, 0, "epsilon of the quantity",
            "up to a hundred terms of ten roundings each, which add up like a random walk to a hundred and "
@@ -145,13 +146,13 @@ Finding diagnostics_finding(const Subject&) {
 
 /// Largest departure of energy minus the work of damping from its start, over the first kinetic energy [1].
 double imbalance(const std::string& integrator, double h, int steps) {
-  Scene scene = led_sheet();
-  for (PrescribedParticle& p : scene.led) p.motion = Motion{};  // what is held does no work
-  const Watched run = watched(scene, integrator, h, steps);
+  Scene scene = partly_prescribed_sheet();
+  for (PrescribedParticle& p : scene.prescribed) p.motion = Motion{};  // what is held does no work
+  const RecordedRun run = record_run(scene, integrator, h, steps);
   Worst worst;
   for (const Diagnostics& row : run.rows)
-    worst.see(std::abs(row.energy.total() - row.damping_work - run.rows.front().energy.total()) /
-              run.rows.front().energy.kinetic);
+    worst.observe(std::abs(row.energy.total() - row.damping_work - run.rows.front().energy.total()) /
+                  run.rows.front().energy.kinetic);
   return worst.value();
 }
 

@@ -85,20 +85,20 @@ Finding order_holds(const Subject&) {
     const double coarse = error_at(system, integrator, 0.0041), fine = error_at(system, integrator, 0.00205);
     measured.row(std::string(integrator.name), std::abs(std::log2(coarse / fine) - integrator.order));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 0.2,
       "a step across an event would err by the first or second power of the step, so that an order of two "
       "or more would be off by 1 at least; at fiftieths of the decay the next term leaves a tenth");
 }
 
 /// The times after which a run made a step, and where the led particle was then.
-struct Visited {
+struct Visits {
   std::vector<double> times;
   std::vector<State> frames;
 };
 
-Visited visited(const System& system, const std::string& integrator, const Schedule& schedule) {
-  Visited run;
+Visits record_visits(const System& system, const std::string& integrator, const Schedule& schedule) {
+  Visits run;
   simulate(system, integrator_named(integrator), start_of_spring(), schedule,
            {[&](const State& s) { run.frames.push_back(s); },
             [&](const Diagnostics& row) { run.times.push_back(row.time); }});
@@ -109,14 +109,15 @@ Finding events_are_hit(const Subject&) {
   const System system = led_spring();
   Table measured{{"case", ""}, {"distance of an event from the nearest end of a step", "s"}};
   for (const Integrator& integrator : integrators()) {
-    const Visited run = visited(system, std::string(integrator.name), {end, 0.1, {0.013, 0.5, 0.1}, 100000});
+    const Visits run =
+        record_visits(system, std::string(integrator.name), {end, 0.1, {0.013, 0.5, 0.1}, 100000});
     for (const double event : {from, until}) {
       double nearest = INFINITY;
       for (const double time : run.times) nearest = std::min(nearest, std::abs(time - event));
       measured.row(std::string(integrator.name) + ", at " + std::to_string(event) + " s", nearest);
     }
   }
-  return judged_worst(measured, 0, "the state that ends at an event has its time to the bit");
+  return judge_worst(measured, 0, "the state that ends at an event has its time to the bit");
 }
 
 /// A ball, a led cube of keyframes and a ball that deforms, far from the spring, and the times at which they
@@ -154,27 +155,28 @@ Finding object_events_are_hit(const Subject&) {
   system.filters.push_back(objects.collision);
   Table measured{{"case", ""}, {"distance of an event from the nearest end of a step", "s"}};
   for (const char* integrator : {"A", "C", "BDF2", "RK4"}) {
-    const Visited run = visited(system, integrator, {end, 0.1, {0.013, 0.5, 0.1}, 100000});
+    const Visits run = record_visits(system, integrator, {end, 0.1, {0.013, 0.5, 0.1}, 100000});
     for (const double event : objects.times) {
       double nearest = INFINITY;
       for (const double time : run.times) nearest = std::min(nearest, std::abs(time - event));
       measured.row(std::string(integrator) + ", at " + std::to_string(event) + " s", nearest);
     }
   }
-  return judged_worst(measured, 0, "the state that ends at an event has its time to the bit");
+  return judge_worst(measured, 0, "the state that ends at an event has its time to the bit");
 }
 
 /// A motion that drifts and swings, between two times of which one is a frame's, but for a rounding.
 Finding path_is_kept(const Subject&) {
   System system = led_spring();
-  Motion& motion = system.led.front().motion;
+  Motion& motion = system.prescribed.front().motion;
   motion.amplitude = Vector3(0.07, -0.03, 0.05);
   motion.frequency = 1.9;
   motion.phase = 0.6;
   motion.from = 0.1 + 0.1 + 0.1;  // one rounding above 0.3
   Table measured{{"case", ""}, {"distance from the path, or of velocities, over the swing", "1"}};
   for (const Integrator& integrator : integrators()) {
-    const Visited run = visited(system, std::string(integrator.name), {end, 0.1, {0.013, 0.5, 0.1}, 100000});
+    const Visits run =
+        record_visits(system, std::string(integrator.name), {end, 0.1, {0.013, 0.5, 0.1}, 100000});
     Worst x, v;
     for (const State& s : run.frames) {
       const double acted = std::clamp(s.time + 1e-12, motion.from, until) - motion.from;
@@ -184,15 +186,15 @@ Finding path_is_kept(const Subject&) {
       const bool moves = s.time + 1e-12 >= motion.from && s.time < until;
       const Vector3 rate =
           motion.velocity + 2 * EIGEN_PI * motion.frequency * std::cos(angle) * motion.amplitude;
-      x.see((s.x.col(0) - place).norm());
-      v.see((s.v.col(0) - (moves ? rate : Vector3::Zero())).norm() / (2 * EIGEN_PI * motion.frequency));
+      x.observe((s.x.col(0) - place).norm());
+      v.observe((s.v.col(0) - (moves ? rate : Vector3::Zero())).norm() / (2 * EIGEN_PI * motion.frequency));
     }
     measured.row(std::string(integrator.name) + ", positions", x.value() / motion.amplitude.norm());
     measured.row(std::string(integrator.name) + ", velocities", v.value() / motion.amplitude.norm());
   }
-  return judged_worst(measured, 1e-9,
-                      "places are a frame's time apart from the formula's by up to 1e-12 s here, on which a "
-                      "swing of 2 Hz moves by 1e-11 of itself, and the drift by 1e-11 too");
+  return judge_worst(measured, 1e-9,
+                     "places are a frame's time apart from the formula's by up to 1e-12 s here, on which a "
+                     "swing of 2 Hz moves by 1e-11 of itself, and the drift by 1e-11 too");
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ State step_once(const std::string& integrator, const System& system, const State
 }
 
 Finding free_fall_finding(const Subject& subject, const std::string& integrator) {
-  Scene scene = led_sheet();
-  scene.led.clear();
+  Scene scene = partly_prescribed_sheet();
+  scene.prescribed.clear();
   scene.stretch.reset();
   scene.bending.reset();
   Stepper stepper(subject, scene, integrator);
@@ -36,10 +36,10 @@ Finding free_fall_finding(const Subject& subject, const std::string& integrator)
     const oracles::FallEstimate exact =
         oracles::free_fall({start.x.col(i), start.v.col(i), *scene.gravity}, s.time);
     const double speed = start.v.col(i).norm() + scene.gravity->norm() * s.time;
-    const double way = start.x.col(i).norm() + speed * s.time;
-    worst.see((s.x.col(i) - exact.x).norm() / (epsilon * way));
-    worst.see((s.v.col(i) - exact.v).norm() / (epsilon * speed));
-    uncertainty = std::max(uncertainty, 2 * exact.x_uncertainty / (epsilon * way));
+    const double path_length = start.x.col(i).norm() + speed * s.time;
+    worst.observe((s.x.col(i) - exact.x).norm() / (epsilon * path_length));
+    worst.observe((s.v.col(i) - exact.v).norm() / (epsilon * speed));
+    uncertainty = std::max(uncertainty, 2 * exact.x_uncertainty / (epsilon * path_length));
   }
   return {{worst.value(), 4.0 * steps, uncertainty, "epsilon of the way",
            "120 steps, each of which rounds the velocity three times, the position once and the time once"},
@@ -87,7 +87,7 @@ double deviation(const TurningPair& pair, const std::string& integrator, double 
   while (s.time < last * turn) {
     s = step_once(integrator, pair.system, s, h);
     const double length = (s.x.col(1) - s.x.col(0)).norm();
-    if (s.time > first * turn) worst.see(std::abs(length / pair.length - 1));
+    if (s.time > first * turn) worst.observe(std::abs(length / pair.length - 1));
   }
   return worst.value();
 }
@@ -99,7 +99,7 @@ Finding rotation_finding(const Subject&, const std::string& integrator) {
   double coarser = NAN;
   for (const double h : {8e-3, 4e-3, 2e-3, 1e-3}) {
     const double here = deviation(pair, integrator, h, 0, 6), order = std::log2(coarser / here);
-    if (deviations.rows() > 0) worst.see(std::abs(order - 2));
+    if (deviations.rows() > 0) worst.observe(std::abs(order - 2));
     deviations.row(h, here, order);
     coarser = here;
   }

@@ -26,13 +26,13 @@ double norm_of(const PerParticle3& momentum, const PerParticle& inverse_mass) {
 }
 
 /// A step that a method has made, and the states before it, the latest last.
-struct Made {
+struct MadeStep {
   std::vector<State> past;
   State next;
   double h() const { return next.time - past.back().time; }
 };
 
-Made made_by(Stepper& stepper, double h) {
+MadeStep step_made_by(Stepper& stepper, double h) {
   const State start = stepper.start();
   const State second = stepper.step(start, 0.7 * h);
   return {{start, second}, stepper.step_after({start, second}, h)};
@@ -46,7 +46,7 @@ struct Equation {
   PerParticle3 change;  // 3 x N [m/s]
 };
 
-Equation equation_of(std::string_view method, const Made& made) {
+Equation equation_of(std::string_view method, const MadeStep& made) {
   const State &now = made.past.back(), &next = made.next;
   const double h = made.h();
   if (method == "implicit-midpoint")
@@ -75,25 +75,26 @@ double residual_of(const Stepper& stepper, const Equation& equation, const PerPa
 
 /// Prescribed particles are where and as fast as they are at that time.
 void lead(const System& system, State& s) {
-  impose(velocities_at(system.led, s.time), s.v);
-  for (const PrescribedParticle& p : system.led) s.x.col(p.particle) = position_at(p.motion, p.start, s.time);
+  impose(velocities_at(system.prescribed, s.time), s.v);
+  for (const PrescribedParticle& p : system.prescribed)
+    s.x.col(p.particle) = position_at(p.motion, p.start, s.time);
 }
 
 Finding satisfies_its_equations(const Subject& subject, const std::string& method) {
   Table measured{{"case", ""}, {"residual over momentum and impulse", "1"}};
-  for (Scene scene : {free_sheet(), led_sheet()}) {
+  for (Scene scene : {free_sheet(), partly_prescribed_sheet()}) {
     scene.solver.tolerance = tolerance;
     const System system = build_system(scene);
     Stepper stepper(subject, scene, method);
     for (const double h : {0.0017, 0.0071}) {
-      const Made made = made_by(stepper, h);
+      const MadeStep made = step_made_by(stepper, h);
       Equation equation = equation_of(method, made);
       lead(system, equation.at);
-      measured.row((scene.led.empty() ? "free, h = " : "led, h = ") + std::to_string(h) + " s",
+      measured.row((scene.prescribed.empty() ? "free, h = " : "led, h = ") + std::to_string(h) + " s",
                    residual_of(stepper, equation, system.mass, system.inverse_mass));
     }
   }
-  return judged_worst(
+  return judge_worst(
       measured, 100 * tolerance,
       "the solver's tolerance is 1e-11 of the momentum at its guess, which may be some ten times what "
       "the step changes, and masses that differ by as much weigh it otherwise here");
@@ -122,12 +123,12 @@ Finding linearised_step(const Subject& subject) {
     const Eigen::VectorXd mass = system.mass.transpose().replicate(3, 1).reshaped();
     const Eigen::MatrixXd A = Eigen::MatrixXd(mass.asDiagonal()) - h * damping_matrix(probe, now) - h * h * K;
     const PerParticle3 momentum = now.v * system.mass.asDiagonal() + h * probe.elastic(now);
-    const Eigen::VectorXd v = oracles::solved_symmetric(A, momentum.reshaped());
+    const Eigen::VectorXd v = oracles::solve_symmetric(A, momentum.reshaped());
     const PerParticle3 next = stepper.step(now, h).v;
     measured.row("h = " + std::to_string(h) + " s",
                  largest_difference(next, v.reshaped(3, next.cols())) / largest_speed(next));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 1e-10,
       "the solver's tolerance is 1e-13 of the momentum, times the matrix's condition, at most some 1e3");
 }
@@ -145,7 +146,7 @@ std::vector<std::pair<std::string, Scene>> sheets_to_solve() {
   std::vector<std::pair<std::string, Scene>> sheets = {
       {"damped", free_sheet()},
       {"heavily damped", heavily_damped(free_sheet())},
-      {"heavily damped and led", heavily_damped(led_sheet())},
+      {"heavily damped and led", heavily_damped(partly_prescribed_sheet())},
       {"compressed", undamped_sheet()}};
   sheets.back().second.stretch->rest_length_scale = 1.4;
   for (auto& [name, scene] : sheets) scene.solver.tolerance = 1e-9;
@@ -207,7 +208,7 @@ Finding rest_is_found(const Subject& subject) {
       stepper.step(shape.state, 5 * limit);
       measured.row(shape.name + ", " + method, double(stepper.work().unfinished_solves));
     }
-  return judged_worst(
+  return judge_worst(
       measured, 0,
       "what is at rest but for the rounding of its place needs no solve, nor can one improve it");
 }
@@ -215,7 +216,7 @@ Finding rest_is_found(const Subject& subject) {
 /// Sheets that turn and crumple against damping a hundred times their usual.
 Finding newton_is_quick(const Subject& subject) {
   Table measured{{"case", ""}, {"Newton iterations of a step", "1"}};
-  for (Scene scene : {heavily_damped(free_sheet()), heavily_damped(led_sheet())}) {
+  for (Scene scene : {heavily_damped(free_sheet()), heavily_damped(partly_prescribed_sheet())}) {
     scene.solver.tolerance = 1e-9;
     for (const std::string method : {"backward-euler", "BDF2", "implicit-midpoint"}) {
       Stepper stepper(subject, scene, method);
@@ -224,13 +225,13 @@ Finding newton_is_quick(const Subject& subject) {
       for (const double over : {0.5, 2.0, 5.0}) {
         const long before = stepper.work().newton_iterations;
         stepper.step(start, over * limit);
-        measured.row((scene.led.empty() ? "free, " : "led, ") + method + ", " + std::to_string(over) +
+        measured.row((scene.prescribed.empty() ? "free, " : "led, ") + method + ", " + std::to_string(over) +
                          " times the elastic limit",
                      double(stepper.work().newton_iterations - before));
       }
     }
   }
-  return judged_worst(
+  return judge_worst(
       measured, 10,
       "solved to a thousandth, an exact step leaves a thousandth near the solution: three iterations for "
       "nine "
@@ -263,7 +264,7 @@ Finding damping_bound_is_a_bound(const Subject& subject) {
     specimen.scene.stretch.reset();
     measured.row(name + ", hinges", rate_over_bound(subject, specimen));
   }
-  return judged_worst(measured, 1, "an upper bound may not be exceeded");
+  return judge_worst(measured, 1, "an upper bound may not be exceeded");
 }
 
 /// Two equal masses joined by a damper: as fast as the bound says.
@@ -277,8 +278,8 @@ Finding damping_rate_is_reached(const Subject&) {
     measured.row(fmt::format("{} kg", mass),
                  std::abs(damping_rate_bound(damper, PerParticle::Constant(2, 1 / mass)) / rate - 1));
   }
-  return judged_worst(measured, 8 * epsilon,
-                      "one pair leaves nothing to be bounded: the same number in a few roundings");
+  return judge_worst(measured, 8 * epsilon,
+                     "one pair leaves nothing to be bounded: the same number in a few roundings");
 }
 
 /// Automatic steps of a sheet whose damping, not its elasticity, limits explicit methods.
@@ -294,10 +295,10 @@ Finding explicit_steps_respect_damping(const Subject&) {
   for (const Integrator& integrator : integrators()) {
     const bool limited = integrator.family == Family::fully_explicit;
     const double elastic = elastic_limit(system, s), limit = limited ? std::min(2 / rate, elastic) : elastic;
-    const double h = step_allowed(system, integrator, {&s, 1}, rule, elastic);
+    const double h = allowed_step(system, integrator, {&s, 1}, rule, elastic);
     measured.row(std::string(integrator.name), std::abs(h / (rule.safety * limit) - 1));
   }
-  return judged_worst(measured, 8 * epsilon, "the limit times the safety, in a few roundings");
+  return judge_worst(measured, 8 * epsilon, "the limit times the safety, in a few roundings");
 }
 
 /// After a step of a hundredth of what is allowed, the next one.
@@ -310,15 +311,14 @@ Finding growth_is_limited(const Subject&) {
   Table measured{{"case", ""}, {"growth over the largest allowed", "1"}};
   for (const Integrator& integrator : integrators()) {
     const std::array<State, 2> past = {before, now};
-    const double growth = step_allowed(system, integrator, past, rule, elastic_limit(system, now)) / 1e-5;
+    const double growth = allowed_step(system, integrator, past, rule, elastic_limit(system, now)) / 1e-5;
     const double allowed = integrator.name == "BDF2" ? zero_stable : 100;
     measured.row(std::string(integrator.name), growth / allowed);
     if (integrator.name != "BDF2")
       measured.row(std::string(integrator.name) + " unhindered", allowed / growth);
   }
-  return judged_worst(
-      measured, 1 + 1e-9,
-      "BDF2 is zero-stable for ratios below 1 + sqrt(2); one-step methods need no such limit");
+  return judge_worst(measured, 1 + 1e-9,
+                     "BDF2 is zero-stable for ratios below 1 + sqrt(2); one-step methods need no such limit");
 }
 
 /// Derivatives of the elastic forces that Newton's method asks for in an iteration, where they are definite:
@@ -337,8 +337,8 @@ Finding newton_asks_finding(const Subject&) {
               ? double(work.stiffness_preparations) / double(work.newton_iterations) - 2
               : NAN);
     }
-  return judged_worst(measured, 0,
-                      "the exact derivative, which proves symmetric, and that of conjugate gradients, once");
+  return judge_worst(measured, 0,
+                     "the exact derivative, which proves symmetric, and that of conjugate gradients, once");
 }
 
 }  // namespace

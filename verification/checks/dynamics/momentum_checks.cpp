@@ -55,9 +55,9 @@ Finding kept(const Subject& subject, const std::string& integrator, const Scene&
   for (int n = 1; n <= steps; ++n) {
     s = stepper.step(s, n % 2 == 0 ? 2.3e-3 : 0.7e-3);
     const Momenta now = momenta(mass, s.x, s.v);
-    size.see(which == Momentum::linear ? now.linear_size : now.angular_size);
+    size.observe(which == Momentum::linear ? now.linear_size : now.angular_size);
     const double drifted = drift(now, start, which, size.value());
-    worst.see(drifted);
+    worst.observe(drifted);
     if (n % 50 == 0) drifts.row(s.time, drifted);
   }
   const double bound = 16 * std::sqrt(double(steps));
@@ -91,24 +91,24 @@ Finding reversal_finding(const Subject& subject, const std::string& integrator) 
   const int steps = 150;
   Scene scene = undamped_sheet();
   scene.gravity = Vector3(0.7, -9.1, 1.9);
-  scene.led = {{3, scene.x.col(3), Motion{}}, {9, scene.x.col(9), Motion{}}};
+  scene.prescribed = {{3, scene.x.col(3), Motion{}}, {9, scene.x.col(9), Motion{}}};
   Stepper stepper(subject, scene, integrator);
   const State start = stepper.start();
   State s = stepper.run(start, h, steps);
-  const double way = largest_difference(s.x, start.x);
+  const double displacement = largest_difference(s.x, start.x);
   s.v = -s.v;
   s = stepper.run(s, h, steps);
   const double grown = growth(stepper, start, h, 2 * steps);
   const double off_x = largest_difference(s.x, start.x) / (epsilon * extent(start.x));
   const double off_v = largest_difference(-s.v, start.v) * 2 * steps * h / (epsilon * extent(start.x));
   Worst worst;
-  worst.see(off_x);
-  worst.see(off_v);
+  worst.observe(off_x);
+  worst.observe(off_v);
   const double bound = 16 * std::sqrt(2.0 * steps) * grown;
   return {{worst.value(), bound, 0, "epsilon of the extent",
            "16 roundings a step, 300 steps that add up like a random walk, each grown as much as a "
            "disturbance of the start grows at most (see the evidence)"},
-          Table{{"growth", "1"}, {"way there", "m"}}.with_row(grown, way),
+          Table{{"growth", "1"}, {"way there", "m"}}.with_row(grown, displacement),
           smallest_defect(bound, "extent")};
 }
 
@@ -119,7 +119,7 @@ struct Truncation {
 };
 
 /// Momentum changes of one solve on the crumpled sheet, in epsilon of the sums.
-std::pair<double, double> truncated(const Truncation& how, double h, unsigned seed) {
+std::pair<double, double> truncate(const Truncation& how, double h, unsigned seed) {
   const Scene scene = free_sheet();
   System system = build_system(scene);
   system.solver.tolerance = how.tolerance;
@@ -148,12 +148,12 @@ Finding truncated_finding(const Subject&) {
                 {"step", "s"},
                 {"linear", "epsilon of sum m |v|"},
                 {"angular", "epsilon of sum m |x| |v|"}};
-  for (const Truncation& way : ways)
+  for (const Truncation& displacement : ways)
     for (double h : {3.7e-4, 5.9e-3, 0.11}) {
-      const auto [p, l] = truncated(way, h, 77);
-      worst.see(p);
-      worst.see(l);
-      changes.row(way.name, h, p, l);
+      const auto [p, l] = truncate(displacement, h, 77);
+      worst.observe(p);
+      worst.observe(l);
+      changes.row(displacement.name, h, p, l);
     }
   return {{worst.value(), 64, 0, "epsilon of the sum",
            "an iteration rounds every velocity twice and every damping force about ten times; the tens of "

@@ -69,8 +69,8 @@ Finding verlet_finding(const Subject&, const std::string& integrator) {
       s = step_once(integrator, system, s, h);
       if (n % 9 != 1) continue;  // the 1,000th step included; 50 digits take their time
       const oracles::OscillatorEstimate exact = oracles::verlet_oscillator(oscillator, h, n);
-      here.see(std::abs(s.x(0, 0) - exact.x.value) / amplitude);
-      here.see(std::abs(s.v(0, 0) - exact.v.value) / (amplitude * speed));
+      here.observe(std::abs(s.x(0, 0) - exact.x.value) / amplitude);
+      here.observe(std::abs(s.v(0, 0) - exact.v.value) / (amplitude * speed));
     }
     errors.row(omega * h, here.value());
   }
@@ -97,14 +97,14 @@ Finding matrix_finding(const Subject&, const std::string& integrator) {
   Random random(12);
   Table errors{{"h c/2", "1"}, {"h^2 k/2", "1"}, {"error", "epsilon of the terms"}};
   for (int n = 0; n < 300; ++n) {
-    const double h = random.in_decades(1e-4, 0.7), a = random.in_decades(3e-3, 300),
-                 b = random.in_decades(2e-3, 9);
+    const double h = random.log_uniform(1e-4, 0.7), a = random.log_uniform(3e-3, 300),
+                 b = random.log_uniform(2e-3, 9);
     const Oscillator oscillator{2 * b / (h * h), 2 * a / h, 0, 0};
     const Eigen::Matrix2d error =
         stepped_matrix(integrator, oscillator, h) - oracles::step_matrix(scheme, oscillator, h);
     const Eigen::Matrix2d sizes = term_sizes(integrator, oscillator, h);
     Worst here;
-    for (int k = 0; k < 4; ++k) here.see(std::abs(error(k)) / (epsilon * sizes(k)));
+    for (int k = 0; k < 4; ++k) here.observe(std::abs(error(k)) / (epsilon * sizes(k)));
     errors.row(a, b, here.value());
   }
   return {{errors.worst("error"), 16, 0.5, "epsilon of the terms",
@@ -126,7 +126,7 @@ Finding stability_finding(const Subject&, const std::string& integrator) {
   double misjudged = 0;
   Table wrong{{"damping ratio", "1"}, {"steps misjudged", "1"}};
   for (int n = 0; n < 60; ++n) {
-    const double k = random.in_decades(0.3, 3000), ratio = n % 10 == 0 ? 0 : random.in_decades(0.003, 30);
+    const double k = random.log_uniform(0.3, 3000), ratio = n % 10 == 0 ? 0 : random.log_uniform(0.003, 30);
     const Oscillator oscillator{k, 2 * ratio * std::sqrt(k), 0, 0};
     const double limit = oracles::largest_stable_step(scheme, oscillator).value;
     int here = 0;
@@ -162,7 +162,7 @@ Finding pure_damping_finding(const Subject&, const std::string& integrator) {
       path += std::abs(s.x(0, 0) - before);
     }
     const double total = s.x(0, 0) / (v0 / c), scale = path / std::abs(v0 / c) * (1 + a);
-    worst.see(std::abs(total - expected) / (epsilon * steps * scale));
+    worst.observe(std::abs(total - expected) / (epsilon * steps * scale));
     totals.row(a, total);
   }
   return {{worst.value(), 4, 0, "epsilon of the path, a step",

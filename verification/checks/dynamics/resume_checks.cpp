@@ -47,11 +47,11 @@ void add(const State& s, Numbers& all) {
 
 /// All of a row but clock time.
 void add(const Diagnostics& row, Numbers& all) {
-  for_each_number_of_row(row, [&](auto number) { all.push_back(double(number)); });
+  for_each_value(row, [&](auto number) { all.push_back(double(number)); });
 }
 
 void add(const Work& w, Numbers& all) {
-  for_each_number_of_work(w, [&](auto number) { all.push_back(double(number)); });
+  for_each_counter(w, [&](auto number) { all.push_back(double(number)); });
 }
 
 void add(const RunResult& result, Numbers& all) {
@@ -109,7 +109,7 @@ double differences(const Interrupted& of) {
     Followed rest;
     rest.result =
         resume(build_system(of.scene), integrator, whole.checkpoints[k], of.scene.schedule, follower(rest));
-    worst.see(
+    worst.observe(
         bits_that_differ(numbers_after(whole, k + 1, whole.rows_at[k], k + 1), numbers_after(rest, 0, 0, 0)));
   }
   return worst.value();
@@ -118,12 +118,12 @@ double differences(const Interrupted& of) {
 /// Damped springs and hinges in automatic steps, led particles among them that start and stop on the way, one
 /// of them a rounding after a frame.
 Scene stopping_and_starting() {
-  Scene scene = led_sheet();
+  Scene scene = partly_prescribed_sheet();
   scene.schedule = {0.057, 0.0081, {0.0017, 0.5, 0.1}, 100000};
   const double at_frame = 2 * 0.0081;
-  scene.led.at(1).motion.from = std::nextafter(at_frame, 1.0);
-  scene.led.at(1).motion.until = 0.0431;
-  scene.led.at(2).motion.until = 0.0297;
+  scene.prescribed.at(1).motion.from = std::nextafter(at_frame, 1.0);
+  scene.prescribed.at(1).motion.until = 0.0431;
+  scene.prescribed.at(2).motion.until = 0.0297;
   return scene;
 }
 
@@ -147,7 +147,7 @@ Scene stuck_for_a_while() {
 }
 
 Scene layers_that_meet() {
-  Layered layers;
+  LayeredSheets layers;
   layers.settings = {0.004, 3.0, 0.3, 8, true};
   Scene scene = layered_scene(layers);
   scene.stretch = StretchMaterial{20, 0.01, 1};
@@ -181,7 +181,7 @@ Finding same_bits_finding(const Subject&) {
   Table measured{{"case", ""}, {"numbers that differ", "1"}};
   for (const Interrupted& run : interrupted_runs())
     measured.row(run.name + ", " + run.integrator, differences(run));
-  return judged_worst(
+  return judge_worst(
       measured, 0,
       "a checkpoint holds all that a run remembers: frames, diagnostics, later checkpoints, work and stop "
       "are the same bits, whichever frame the run goes on from");

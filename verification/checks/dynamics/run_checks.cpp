@@ -20,15 +20,15 @@ double count_false(const Table& statements) {
 namespace {
 
 /// A run with all that its observer saw.
-struct Watched {
+struct RecordedRun {
   std::vector<State> frames;
   std::vector<Diagnostics> rows;
   RunResult result;
 };
 
-Watched watched(const System& system, const std::string& integrator, const State& start,
-                const Schedule& schedule) {
-  Watched run;
+RecordedRun record_run(const System& system, const std::string& integrator, const State& start,
+                       const Schedule& schedule) {
+  RecordedRun run;
   const Observer observer{[&](const State& s) { run.frames.push_back(s); },
                           [&](const Diagnostics& row) { run.rows.push_back(row); }};
   run.result = simulate(system, integrator_named(integrator), start, schedule, observer);
@@ -38,9 +38,9 @@ Watched watched(const System& system, const std::string& integrator, const State
 /// What is wrong with the frames and steps of a run that should have `frames` frames: the largest error in
 /// time [s], of a product and a sum that may be rounded as one; NaN for a wrong count or a step longer than
 /// the one asked for.
-double frame_error(const Watched& run, const Schedule& schedule, size_t frames) {
+double frame_error(const RecordedRun& run, const Schedule& schedule, size_t frames) {
   Worst worst;
-  if (run.frames.size() != frames || run.result.stop) worst.see(NAN);
+  if (run.frames.size() != frames || run.result.stop) worst.observe(NAN);
   const double start = run.frames.front().time, fixed = schedule.step.fixed;
   for (size_t k = 0; k < run.frames.size(); ++k) {
     const volatile double whole =
@@ -48,18 +48,18 @@ double frame_error(const Watched& run, const Schedule& schedule, size_t frames) 
     const double apart = std::min(schedule.end, start + whole),
                  as_one = std::min(schedule.end, std::fma(double(k), schedule.frame_interval, start));
     const double time = run.frames[k].time;
-    worst.see(std::min(std::abs(time - apart), std::abs(time - as_one)));
+    worst.observe(std::min(std::abs(time - apart), std::abs(time - as_one)));
   }
   for (const Diagnostics& row : run.rows)
-    if (fixed > 0 && !(row.step <= fixed * (1 + 2e-9))) worst.see(NAN);
-  if (fixed == schedule.frame_interval && run.result.steps != long(frames) - 1) worst.see(NAN);
+    if (fixed > 0 && !(row.step <= fixed * (1 + 2e-9))) worst.observe(NAN);
+  if (fixed == schedule.frame_interval && run.result.steps != long(frames) - 1) worst.observe(NAN);
   return worst.value();
 }
 
 Finding frames_finding(const Subject&) {
   const double interval = 0.0113, length = 0.0517;  // four whole intervals and a rest
-  Scene scene = led_sheet();
-  scene.led.clear();  // their paths begin at time 0, these runs do not
+  Scene scene = partly_prescribed_sheet();
+  scene.prescribed.clear();  // their paths begin at time 0, these runs do not
   Table errors{{"start", "s"}, {"step asked for, 0: automatic", "s"}, {"error of the times", "s"}};
   for (double start_time : {0.21, -0.0171, -0.0083, -0.0231})
     for (double fixed : {0.0017, 0.0113, 0.0}) {
@@ -68,9 +68,9 @@ Finding frames_finding(const Subject&) {
       State start = start_state(scene);
       start.time = start_time;
       const Schedule schedule{start_time + length, interval, {fixed, 0.5, 0.1}, 100000};
-      errors.row(start_time, fixed, frame_error(watched(system, "A", start, schedule), schedule, 6));
+      errors.row(start_time, fixed, frame_error(record_run(system, "A", start, schedule), schedule, 6));
     }
-  return judged_worst(
+  return judge_worst(
       errors, 0,
       "frame times are set, not summed up; a step longer than asked for, or a wrong count, gives NaN");
 }
@@ -82,7 +82,7 @@ double strain_in(const Scene& scene, const State& s, double h) {
     const double rest =
         scene.stretch->rest_length_scale * (scene.mesh.rest.col(edge.b) - scene.mesh.rest.col(edge.a)).norm();
     const Vector3 d = s.x.col(edge.b) - s.x.col(edge.a), dv = s.v.col(edge.b) - s.v.col(edge.a);
-    worst.see(std::abs(d.normalized().dot(dv)) * h / rest);
+    worst.observe(std::abs(d.normalized().dot(dv)) * h / rest);
   }
   return worst.value();
 }
@@ -98,21 +98,22 @@ Finding limits_finding(const Subject&) {
       scene.schedule = {0.031, 0.0173, {0, 0.37, strain}, 100000};
       const System system = build_system(scene);
       State s = start_state(scene);
-      const Watched run = watched(system, "C", s, scene.schedule);
+      const RecordedRun run = record_run(system, "C", s, scene.schedule);
       Worst of_limit, of_strain;
       for (size_t n = 1; n < run.rows.size(); ++n) {  // the run again, step by step
         const double h = run.rows[n].step;
-        of_limit.see(h / (0.37 * elastic_limit(system, s)));
-        of_strain.see(strain_in(scene, s, h) / strain);
+        of_limit.observe(h / (0.37 * elastic_limit(system, s)));
+        of_strain.observe(strain_in(scene, s, h) / strain);
         Work work;
         s = integrator_named("C").step(system, {&s, 1}, h, work);
         s.time = run.rows[n].time;
       }
-      if (run.rows.size() <= least_steps || largest_difference(s.x, run.result.last.x) != 0) worst.see(NAN);
+      if (run.rows.size() <= least_steps || largest_difference(s.x, run.result.last.x) != 0)
+        worst.observe(NAN);
       used.row(speed, of_limit.value(), of_strain.value(),
                run.result.stop ? run.result.stop->reason : "the end");
-      worst.see(of_limit.value());
-      worst.see(of_strain.value());
+      worst.observe(of_limit.value());
+      worst.observe(of_strain.value());
     }
   return {{worst.value(), 1 + 2e-9, 0, "of the limit",
            "both limits hold at the start of every step; 1e-9 is the hair by which a step may be "
@@ -134,7 +135,7 @@ bool all_finite(const std::vector<State>& frames) {
   return true;
 }
 
-void add_common(Table& statements, const Watched& run) {
+void add_common(Table& statements, const RecordedRun& run) {
   statements.row("it stopped", run.result.stop.has_value());
   if (!run.result.stop) return;
   statements.row("the time is that of the last good state", run.result.stop->time == run.result.last.time);
@@ -149,7 +150,7 @@ Finding divergence_finding(const Subject&) {
   const System system = build_system(scene);
   const State start = start_state(scene);
   const double h = 3 * elastic_limit(system, start);
-  const Watched run = watched(system, "C", start, {400 * h, 2 * h, {h, 0.5, 0.1}, 100000});
+  const RecordedRun run = record_run(system, "C", start, {400 * h, 2 * h, {h, 0.5, 0.1}, 100000});
   Table statements = no_statements();
   add_common(statements, run);
   if (run.result.stop) {
@@ -164,7 +165,7 @@ Finding divergence_finding(const Subject&) {
     const double size = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();
     Worst leap;
     for (size_t k = 1; k < run.frames.size(); ++k)
-      leap.see(largest_difference(run.frames[k].x, run.frames[k - 1].x) / size);
+      leap.observe(largest_difference(run.frames[k].x, run.frames[k - 1].x) / size);
     statements.row("within a frame no particle moves more than 20 sizes in its two steps",
                    leap.value() <= 20);
     statements.row("earlier frames were delivered",
@@ -174,7 +175,7 @@ Finding divergence_finding(const Subject&) {
 }
 
 Finding nan_finding(const Subject&) {
-  Scene scene = led_sheet();
+  Scene scene = partly_prescribed_sheet();
   scene.stretch.reset();
   scene.bending.reset();
   System system = build_system(scene);
@@ -183,7 +184,8 @@ Finding nan_finding(const Subject&) {
     if (s.time > 0.0221) f(1, 5) = NAN;
   };
   system.forces.push_back(force);
-  const Watched run = watched(system, "C", start_state(scene), {0.1, 0.01, {0.0034, 0.5, 0.1}, 100000});
+  const RecordedRun run =
+      record_run(system, "C", start_state(scene), {0.1, 0.01, {0.0034, 0.5, 0.1}, 100000});
   Table statements = no_statements();
   add_common(statements, run);
   if (run.result.stop) {
@@ -197,14 +199,15 @@ Finding nan_finding(const Subject&) {
 
 Finding lost_triangle_finding(const Subject&) {
   const double length = 0.43, duration = 0.05;
-  Scene scene = scene_of(make_hinge(length, 0.31), 0.21);
+  Scene scene = scene_at_rest(make_hinge(length, 0.31), 0.21);
   scene.bending = BendingMaterial{3.7e-4, 1.9e-6, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles = {0.31};
   Motion squeeze;  // moves the first vertex into the shared edge
   squeeze.velocity = Vector3(0, -0.9 * length / duration, 0);
-  scene.led = {{0, scene.x.col(0), squeeze}, {2, scene.x.col(2), Motion{}}, {3, scene.x.col(3), Motion{}}};
-  const Watched run =
-      watched(build_system(scene), "C", start_state(scene), {0.2, 0.01, {0.0025, 0.5, 0.1}, 100000});
+  scene.prescribed = {
+      {0, scene.x.col(0), squeeze}, {2, scene.x.col(2), Motion{}}, {3, scene.x.col(3), Motion{}}};
+  const RecordedRun run =
+      record_run(build_system(scene), "C", start_state(scene), {0.2, 0.01, {0.0025, 0.5, 0.1}, 100000});
   Table statements = no_statements();
   add_common(statements, run);
   if (run.result.stop) {
@@ -223,8 +226,8 @@ Finding lost_triangle_finding(const Subject&) {
 
 Finding cap_finding(const Subject&) {
   const Scene scene = free_sheet();
-  const Watched run =
-      watched(build_system(scene), "B", start_state(scene), {0.1, 0.01, {0.002, 0.5, 0.1}, 13});
+  const RecordedRun run =
+      record_run(build_system(scene), "B", start_state(scene), {0.1, 0.01, {0.002, 0.5, 0.1}, 13});
   Table statements = no_statements();
   add_common(statements, run);
   statements.row("13 steps were made", run.result.steps == 13);
@@ -239,7 +242,7 @@ Finding standstill_finding(const Subject&) {
   const Scene scene = free_sheet();
   State start = start_state(scene);
   start.time = 1;
-  const Watched run = watched(build_system(scene), "B", start, {1.1, 0.01, {1e-17, 0.5, 0.1}, 20});
+  const RecordedRun run = record_run(build_system(scene), "B", start, {1.1, 0.01, {1e-17, 0.5, 0.1}, 20});
   Table statements = no_statements();
   add_common(statements, run);
   statements.row("no step was made", run.result.steps == 0);

@@ -33,14 +33,15 @@ Table residual_table() {
               {"returned", "1"},    {"recomputed", "1"}, {"operator times solution", "of the scale"}};
   for (const ResidualScale scale : {ResidualScale::momentum, ResidualScale::initial_residual})
     for (double s : {2.3e-4, 3.1e-3, 0.047}) {
-      Problem problem = make_problem(led_sheet(), 91);
+      Problem problem = make_problem(partly_prescribed_sheet(), 91);
       const DenseProblem dense = make_dense(problem, s);
       const double largest = largest_eigenvalue(dense);
       for (double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
         PerParticle3 w = problem.guess;
         Work work;
-        const Solve solve = solve_velocity(problem.damping, s, problem.system.mass,
-                                           problem.system.inverse_mass, {tolerance, 1000, scale}, w, work);
+        const SolveResult solve =
+            solve_velocity(problem.damping, s, problem.system.mass, problem.system.inverse_mass,
+                           {tolerance, 1000, scale}, w, work);
         const Eigen::VectorXd r = dense.b - dense.A * Eigen::VectorXd(w.reshaped()(dense.free));
         const Eigen::VectorXd momentum = dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)));
         const double size = scale_of(dense, scale);
@@ -55,7 +56,7 @@ Finding promise_finding(const Subject&) {
   const Table table = residual_table();
   const std::vector<double>&tolerance = table.numbers("tolerance"), &recomputed = table.numbers("recomputed");
   Worst worst;
-  for (size_t k = 0; k < table.rows(); ++k) worst.see(recomputed[k] / tolerance[k]);
+  for (size_t k = 0; k < table.rows(); ++k) worst.observe(recomputed[k] / tolerance[k]);
   return {{worst.value(), 1.05, 0, "of the tolerance",
            "the tolerance, and what the iteration's residual and the true one drift apart: some hundred "
            "epsilon, a twentieth of the smallest tolerance, 1e-12"},
@@ -69,7 +70,7 @@ Finding returned_finding(const Subject&) {
   const std::vector<double>& size = table.numbers("operator times solution");
   Worst worst;
   for (size_t k = 0; k < table.rows(); ++k)
-    worst.see(std::abs(returned[k] - recomputed[k]) / (epsilon * size[k]));
+    worst.observe(std::abs(returned[k] - recomputed[k]) / (epsilon * size[k]));
   return {{worst.value(), 8, 0, "epsilon of the operator's norm times the solution's",
            "each iteration rounds r in proportion to the operator times the iterate (Greenbaum 1997), and "
            "the first "
@@ -83,20 +84,20 @@ Finding cholesky_finding(const Subject&) {
   Table errors{{"half step", "s"}, {"tolerance", "1"}, {"error over the velocity", "1"}};
   for (double s : {2.3e-4, 3.1e-3, 0.047})
     for (double tolerance : {1e-3, 1e-11}) {
-      const Problem problem = make_problem(led_sheet(), 29);
+      const Problem problem = make_problem(partly_prescribed_sheet(), 29);
       const DenseProblem dense = make_dense(problem, s);
       PerParticle3 w = problem.guess;
       Work work;
       solve_velocity(problem.damping, s, problem.system.mass, problem.system.inverse_mass,
                      {tolerance, 1000, ResidualScale::momentum}, w, work);
-      const Eigen::VectorXd exact = oracles::solved_symmetric(dense.A, dense.b);
+      const Eigen::VectorXd exact = oracles::solve_symmetric(dense.A, dense.b);
       const Eigen::VectorXd error =
           dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)) - exact);
       const double size = weighted_norm(error, dense.mass) / scale_of(dense, ResidualScale::momentum);
       errors.row(s, tolerance, size);
-      worst.see(size / tolerance);
-      for (const PrescribedParticle& p : problem.system.led)
-        if (w.col(p.particle) != problem.guess.col(p.particle)) worst.see(INFINITY);
+      worst.observe(size / tolerance);
+      for (const PrescribedParticle& p : problem.system.prescribed)
+        if (w.col(p.particle) != problem.guess.col(p.particle)) worst.observe(INFINITY);
     }
   return {
       {worst.value(), 1.05, 0, "of the tolerance",
@@ -107,11 +108,11 @@ Finding cholesky_finding(const Subject&) {
 }
 
 /// Particles that are each damped at one of k rates: D has k distinct eigenvalues beside zero.
-Solve solve_with_rates(int k, unsigned seed) {
+SolveResult solve_with_rates(int k, unsigned seed) {
   const int particles = 23;
   Random random(seed);
   PerParticle mass(particles);
-  for (double& m : mass) m = random.in(0.13, 0.57);
+  for (double& m : mass) m = random.uniform(0.13, 0.57);
   System system = make_system(mass);
   CustomForce force;
   force.damping = [mass, k](const State&, const PerParticle3& v, PerParticle3& f) {
@@ -131,10 +132,10 @@ Finding eigenvalue_finding(const Subject&) {
   Worst worst;
   Table solves{{"distinct eigenvalues", "1"}, {"iterations", "1"}};
   for (int k = 1; k <= 7; ++k) {
-    const Solve solve = solve_with_rates(k, 50 + unsigned(k));
+    const SolveResult solve = solve_with_rates(k, 50 + unsigned(k));
     solves.row(k, solve.iterations);
-    worst.see(std::abs(solve.iterations - k));
-    if (!solve.converged) worst.see(1);
+    worst.observe(std::abs(solve.iterations - k));
+    if (!solve.converged) worst.observe(1);
   }
   return {{worst.value(), 0, 0, "iterations",
            "conjugate gradients are exact after as many iterations as there are distinct eigenvalues in "
@@ -153,9 +154,9 @@ Finding cap_finding(const Subject&) {
   PerParticle3 spoiled = problem.guess;
   spoiled(1, 6) = std::numeric_limits<double>::quiet_NaN();
   Work capped, finished, broken;
-  const Solve cap = solve({1e-13, 3, ResidualScale::momentum}, problem.guess, capped);
-  const Solve whole = solve({1e-6, 500, ResidualScale::momentum}, problem.guess, finished);
-  const Solve nan = solve({1e-6, 500, ResidualScale::momentum}, spoiled, broken);
+  const SolveResult cap = solve({1e-13, 3, ResidualScale::momentum}, problem.guess, capped);
+  const SolveResult whole = solve({1e-6, 500, ResidualScale::momentum}, problem.guess, finished);
+  const SolveResult nan = solve({1e-6, 500, ResidualScale::momentum}, spoiled, broken);
   Table holds = no_statements();
   holds.row("a capped solve is not converged", !cap.converged);
   holds.row("it took the cap's iterations", cap.iterations == 3 && capped.cg_iterations == 3);
@@ -188,8 +189,8 @@ Finding operator_finding(const Subject& subject) {
   const double asymmetry = (A - A.transpose()).cwiseAbs().maxCoeff() / (epsilon * largest);
   const double deficit = (1 - eigenvalues[0]) / (epsilon * eigenvalues[n - 1]);
   Worst worst;
-  worst.see(asymmetry);
-  worst.see(deficit);
+  worst.observe(asymmetry);
+  worst.observe(deficit);
   return {{worst.value(), 64, 0, "epsilon of the largest",
            "an entry sums some twenty dampers of five roundings, half an epsilon each: 50; the smallest "
            "eigenvalue, 1 but for "
@@ -211,11 +212,12 @@ Finding rigid_finding(const Subject&) {
   }
   const PerParticle3 before = v;
   Work work;
-  const Solve solve = solve_velocity(problem.damping, 0.047, problem.system.mass, problem.system.inverse_mass,
-                                     {1e-12, 100, ResidualScale::momentum}, v, work);
+  const SolveResult solve =
+      solve_velocity(problem.damping, 0.047, problem.system.mass, problem.system.inverse_mass,
+                     {1e-12, 100, ResidualScale::momentum}, v, work);
   Worst worst;
-  worst.see(solve.iterations);
-  worst.see(double((v.array() != before.array()).count()));
+  worst.observe(solve.iterations);
+  worst.observe(double((v.array() != before.array()).count()));
   return {{worst.value(), 0, 0, "iterations",
            "no damper resists a rigid motion: the explicit guess is the solution, and is not touched"},
           Table{{"residual", "1"}}.with_row(solve.residual),
@@ -239,7 +241,7 @@ Finding large_finding(const Subject&) {
   Table measured{{"case", ""}, {"residual left", "of the tolerance"}};
   for (const int cells :
        {20, 22, 31, 45}) {  // 441, 529, 1024 and 2116 particles: less than one block, more, two blocks, five
-    Scene scene = scene_of(make_sheet({SheetPattern::one_diagonal, 0.7, 0.6, cells, cells}), 0.2);
+    Scene scene = scene_at_rest(make_sheet({SheetPattern::one_diagonal, 0.7, 0.6, cells, cells}), 0.2);
     scene.stretch = StretchMaterial{41, 0.053, 1};
     scene.bending = BendingMaterial{0.0037, 0.00053, Weighting::rest, DampingFactor::edge, "sine"};
     scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
@@ -247,14 +249,14 @@ Finding large_finding(const Subject&) {
     PerParticle3 w = problem.guess;
     Work work;
     const SolverSettings settings{tolerance, 200, ResidualScale::momentum};
-    const Solve solve = solve_velocity(problem.damping, 3.1e-3, problem.system.mass,
-                                       problem.system.inverse_mass, settings, w, work);
+    const SolveResult solve = solve_velocity(problem.damping, 3.1e-3, problem.system.mass,
+                                             problem.system.inverse_mass, settings, w, work);
     measured.row(std::to_string(w.cols()) + " particles", residual_left(problem, 3.1e-3, w) / tolerance);
     measured.row(std::to_string(w.cols()) + " particles, as returned",
                  solve.converged ? solve.residual / tolerance : nan);
   }
-  return judged_worst(measured, 1.05,
-                      "the tolerance, and what the iteration's residual and the true one drift apart");
+  return judge_worst(measured, 1.05,
+                     "the tolerance, and what the iteration's residual and the true one drift apart");
 }
 
 }  // namespace

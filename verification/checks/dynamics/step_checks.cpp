@@ -38,7 +38,7 @@ Finding trapezoidal_finding(const Subject& subject, const std::string& integrato
     errors.row(h, mass_norm(defect, mass) / mass_norm(undamped, mass));
     now = next;
   }
-  return judged_worst(
+  return judge_worst(
       errors, 2 * tolerance,
       "the solve's tolerance, 1e-12 of the velocity before damping; as much again for rounding");
 }
@@ -84,10 +84,10 @@ Finding filter_finding(const Subject&, const std::string& integrator) {
             "a wrong number of calls"};
   const Call& move = step.calls.front();
   const PerParticle3 moved = step.now.x + h * move.left;
-  double differing = numbers_that_differ(step.next.x, moved);
+  double differing = count_differing_entries(step.next.x, moved);
   differing += (move.span.start != step.now.time) + (move.span.end != step.now.time + h);
   if (ends) {
-    differing += numbers_that_differ(step.next.v, step.calls[1].left);
+    differing += count_differing_entries(step.next.v, step.calls[1].left);
     differing += (step.calls[1].span.start != step.next.time) + (step.calls[1].span.end != step.next.time);
   }
   return {
@@ -133,13 +133,13 @@ Finding continues_finding(const std::string& integrator) {
         end_velocity(integrator, h, c, g, v, d) - printed_end_velocity(integrator, h, c, g, v, d);
     errors.row(a, std::abs(error) / (epsilon * size));
   }
-  return judged_worst(
+  return judge_worst(
       errors, 16, "some twenty roundings of half an epsilon each; the filter's change is 0.3 of the terms");
 }
 
 Scene held_scene() {
-  Scene scene = led_sheet();
-  for (PrescribedParticle& p : scene.led) p.motion = Motion{};
+  Scene scene = partly_prescribed_sheet();
+  for (PrescribedParticle& p : scene.prescribed) p.motion = Motion{};
   return scene;
 }
 
@@ -151,9 +151,9 @@ Finding held_finding(const Subject& subject) {
     double here = 0;
     for (int n = 0; n < 50; ++n) {
       s = stepper.step(s, n % 2 == 0 ? 1.9e-3 : 0.6e-3);
-      for (const PrescribedParticle& p : stepper.scene().led) {
-        here += numbers_that_differ(s.x.col(p.particle), p.start);
-        here += numbers_that_differ(s.v.col(p.particle), Vector3(Vector3::Zero()));
+      for (const PrescribedParticle& p : stepper.scene().prescribed) {
+        here += count_differing_entries(s.x.col(p.particle), p.start);
+        here += count_differing_entries(s.v.col(p.particle), Vector3(Vector3::Zero()));
       }
     }
     counts.row(integrator.name, here);
@@ -180,18 +180,18 @@ State led_point(const PrescribedParticle& p, double t) {
 }
 
 Finding led_finding(const Subject& subject, const std::string& integrator) {
-  Stepper stepper(subject, led_sheet(), integrator);
+  Stepper stepper(subject, partly_prescribed_sheet(), integrator);
   State s = stepper.start();
   Worst worst;
   for (int n = 0; n < 200; ++n) {
     s = stepper.step(s, n % 3 == 0 ? 2.1e-3 : 0.8e-3);
-    for (const PrescribedParticle& p : stepper.scene().led) {
+    for (const PrescribedParticle& p : stepper.scene().prescribed) {
       const State point = led_point(p, s.time);
       const double fastest = p.motion.velocity.norm() +
                              p.motion.angular_velocity.norm() * (p.start - p.motion.center).norm() +
                              2 * pi * p.motion.frequency * p.motion.amplitude.norm();
-      worst.see((s.x.col(p.particle) - point.x).norm() / epsilon);
-      if (fastest > 0) worst.see((s.v.col(p.particle) - point.v).norm() / (epsilon * fastest));
+      worst.observe((s.x.col(p.particle) - point.x).norm() / epsilon);
+      if (fastest > 0) worst.observe((s.v.col(p.particle) - point.v).norm() / (epsilon * fastest));
     }
   }
   return {{worst.value(), 16, 0, "epsilon of the size",
@@ -205,11 +205,11 @@ Finding counts_finding(const Subject& subject) {
   Table solves{{"integrator", "1"}, {"solves a step", "1"}};
   const int steps = 7;
   for (const Integrator& integrator : paper_schemes()) {
-    Stepper stepper(subject, led_sheet(), std::string(integrator.name));
+    Stepper stepper(subject, partly_prescribed_sheet(), std::string(integrator.name));
     stepper.run(stepper.start(), 1.3e-3, steps);
     const double counted = double(stepper.work().solves) / steps;
     solves.row(integrator.name, counted);
-    worst.see(std::abs(counted - (integrator.name == "C" ? 2 : 1)));
+    worst.observe(std::abs(counted - (integrator.name == "C" ? 2 : 1)));
   }
   return {{worst.value(), 0, 0, "solves a step",
            "counts are exact: the paper's lists have one implicit line in A and B, two in C"},
@@ -225,16 +225,16 @@ Finding once_finding(const Subject& subject) {
                {"iterations a step", "1"}};
   const int steps = 7;
   for (const Integrator& integrator : paper_schemes()) {
-    Stepper stepper(subject, led_sheet(), std::string(integrator.name));
+    Stepper stepper(subject, partly_prescribed_sheet(), std::string(integrator.name));
     stepper.run(stepper.start(), 1.3e-3, steps);
     const Work& work = stepper.work();
     counts.row(integrator.name, double(work.damping_preparations) / steps,
                double(work.damping_products) / steps, double(work.cg_iterations) / steps);
-    worst.see(std::abs(double(work.damping_preparations - 2 * steps)));
-    worst.see(std::abs(double(work.elastic_evaluations - 2 * steps)));
+    worst.observe(std::abs(double(work.damping_preparations - 2 * steps)));
+    worst.observe(std::abs(double(work.elastic_evaluations - 2 * steps)));
     // a product for each iteration, one for each solve's first residual, one for the explicit half step
-    worst.see(std::abs(double(work.damping_products - work.cg_iterations - work.solves - steps)));
-    if (work.cg_iterations < steps) worst.see(NAN);
+    worst.observe(std::abs(double(work.damping_products - work.cg_iterations - work.solves - steps)));
+    if (work.cg_iterations < steps) worst.observe(NAN);
   }
   return {
       {worst.value(), 0, 0, "evaluations",

@@ -18,7 +18,7 @@ struct Units {
   double length, mass, time;  // 1
 };
 
-Motion converted(const Motion& motion, const Units& u) {
+Motion convert(const Motion& motion, const Units& u) {
   Motion result = motion;
   result.velocity *= u.length / u.time;
   result.amplitude *= u.length;
@@ -29,7 +29,7 @@ Motion converted(const Motion& motion, const Units& u) {
 }
 
 /// The same scene in other units.
-Scene converted(Scene scene, const Units& u) {
+Scene convert(Scene scene, const Units& u) {
   scene.mesh.rest *= u.length;
   scene.x *= u.length;
   scene.v *= u.length / u.time;
@@ -39,20 +39,20 @@ Scene converted(Scene scene, const Units& u) {
   scene.stretch->damping *= u.mass / u.time;
   scene.bending->stiffness *= u.mass * u.length * u.length / (u.time * u.time);
   scene.bending->damping *= u.mass * u.length / u.time;
-  for (PrescribedParticle& p : scene.led) p = {p.particle, u.length * p.start, converted(p.motion, u)};
+  for (PrescribedParticle& p : scene.prescribed) p = {p.particle, u.length * p.start, convert(p.motion, u)};
   return scene;
 }
 
 /// Solved to the end: a solve that stops at a tolerance may stop an iteration later in other units.
 Scene solved_sheet() {
-  Scene scene = led_sheet();
+  Scene scene = partly_prescribed_sheet();
   scene.solver.tolerance = 1e-14;
   return scene;
 }
 
 /// The end of 20 steps in other units, converted back.
 State run_in(const Units& u, const Subject& subject, const std::string& integrator, double h, int steps) {
-  Stepper stepper(subject, converted(solved_sheet(), u), integrator);
+  Stepper stepper(subject, convert(solved_sheet(), u), integrator);
   State s = stepper.run(stepper.start(), h * u.time, steps);
   s.x /= u.length;
   s.v /= u.length / u.time;
@@ -63,8 +63,8 @@ State run_in(const Units& u, const Subject& subject, const std::string& integrat
 /// [epsilon].
 double distance(const State& a, const State& b, double size, double duration) {
   Worst worst;
-  worst.see(largest_difference(a.x, b.x) / (epsilon * size));
-  worst.see(largest_difference(a.v, b.v) * duration / (epsilon * size));
+  worst.observe(largest_difference(a.x, b.x) / (epsilon * size));
+  worst.observe(largest_difference(a.v, b.v) * duration / (epsilon * size));
   return worst.value();
 }
 
@@ -75,7 +75,7 @@ Finding powers_finding(const Subject& subject, const std::string& integrator) {
   for (const Units& u : {Units{8, 64, 1}, Units{1, 0.0625, 16}, Units{0.5, 256, 0.25}}) {
     const State other = run_in(u, subject, integrator, 1.3e-3, 20);
     differing.row(u.length, u.mass, u.time,
-                  numbers_that_differ(other.x, plain.x) + numbers_that_differ(other.v, plain.v));
+                  count_differing_entries(other.x, plain.x) + count_differing_entries(other.v, plain.v));
   }
   return {{differing.worst("numbers that differ"), 0, 0, "numbers that differ",
            "a power of two changes no digit of any number on the way"},
@@ -92,7 +92,7 @@ Finding units_finding(const Subject& subject, const std::string& integrator) {
   const State plain = run_in({1, 1, 1}, subject, integrator, h, steps);
   Worst worst;
   for (const Units& u : {Units{39.37, 1000, 1}, Units{0.3, 2.2046, 3600}, Units{1e3, 0.07, 0.011}})
-    worst.see(distance(run_in(u, subject, integrator, h, steps), plain, size, steps * h));
+    worst.observe(distance(run_in(u, subject, integrator, h, steps), plain, size, steps * h));
   const double bound = 64 * steps * grown;
   return {{worst.value(), bound, 0, "epsilon of the extent",
            "20 steps of 64 roundings, those of the converted constants included, each grown at most as a "
@@ -112,7 +112,8 @@ Finding twice_finding(const Subject& subject) {
   for (const Integrator& integrator : paper_schemes()) {
     const State& first = firsts[counts.rows()];
     const State second = run_in({1, 1, 1}, subject, std::string(integrator.name), 1.3e-3, 23);
-    const double here = numbers_that_differ(first.x, second.x) + numbers_that_differ(first.v, second.v);
+    const double here =
+        count_differing_entries(first.x, second.x) + count_differing_entries(first.v, second.v);
     counts.row(integrator.name, here);
     differing += here;
     if (!first.x.allFinite()) differing = NAN;

@@ -62,7 +62,7 @@ NewtonProblem make_newton_problem(Scene scene, double s, unsigned seed) {
   const ForceDifferential derivative = force_differential_at(system.forces, state, uncounted);
   NewtonProblem problem{std::move(system), damping, derivative, s, {}, {}, {}, {}, {}};
   problem.r = Random(seed).vectors(state.x.cols(), 0.013);
-  for (const PrescribedParticle& p : problem.system.led) problem.r.col(p.particle).setZero();
+  for (const PrescribedParticle& p : problem.system.prescribed) problem.r.col(p.particle).setZero();
   make_dense(problem);
   return problem;
 }
@@ -71,13 +71,14 @@ std::vector<std::pair<std::string, NewtonProblem>> newton_problems() {
   std::vector<std::pair<std::string, NewtonProblem>> problems;
   for (const double s : {3.1e-3, 0.012, 0.041}) {
     problems.emplace_back("free, s = " + std::to_string(s), make_newton_problem(free_sheet(), s, 53));
-    problems.emplace_back("led, s = " + std::to_string(s), make_newton_problem(led_sheet(), s, 59));
+    problems.emplace_back("led, s = " + std::to_string(s),
+                          make_newton_problem(partly_prescribed_sheet(), s, 59));
   }
   return problems;
 }
 
 /// M^{1/2} dw at the free coordinates.
-Eigen::VectorXd solved(const NewtonProblem& problem, double tolerance, Solve& solve) {
+Eigen::VectorXd solve_linear(const NewtonProblem& problem, double tolerance, SolveResult& solve) {
   PerParticle3 dw;
   Work work;
   solve = solve_unsymmetric_step(problem.matrix(), {tolerance, 2000, ResidualScale::momentum}, problem.r, dw,
@@ -89,13 +90,13 @@ Finding promise_is_kept(const Subject&) {
   Table measured{{"case", ""}, {"true residual over the tolerance", "1"}};
   for (const auto& [name, problem] : newton_problems())
     for (const double tolerance : {1e-1, 1e-3, 1e-6, 1e-9}) {
-      Solve solve{};
-      const Eigen::VectorXd dw = solved(problem, tolerance, solve);
+      SolveResult solve{};
+      const Eigen::VectorXd dw = solve_linear(problem, tolerance, solve);
       const double residual = (problem.scaled_r - problem.A * dw).norm() / problem.scaled_r.norm();
       measured.row(name + ", tolerance " + std::to_string(tolerance),
                    solve.converged ? residual / tolerance : INFINITY);
     }
-  return judged_worst(
+  return judge_worst(
       measured, 1.05,
       "the tolerance, and what the iteration's residual and the true one drift apart: epsilon "
       "times the largest residual on the way, far below a twentieth of the smallest tolerance");
@@ -104,29 +105,29 @@ Finding promise_is_kept(const Subject&) {
 Finding is_the_dense_solution(const Subject&) {
   Table measured{{"case", ""}, {"error over what the tolerance allows", "1"}};
   for (const auto& [name, problem] : newton_problems()) {
-    Solve solve{};
+    SolveResult solve{};
     const double tolerance = 1e-8;
     const Eigen::VectorXd error =
-        solved(problem, tolerance, solve) - oracles::solved(problem.A, problem.scaled_r);
+        solve_linear(problem, tolerance, solve) - oracles::solve_linear(problem.A, problem.scaled_r);
     const double least = oracles::singular_parts(problem.A).values.minCoeff();
     measured.row(name, error.norm() * least / (tolerance * problem.scaled_r.norm()));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 1.05,
       "an error is at most the residual over the matrix's least singular value; 5 % for rounding");
 }
 
 Finding unsymmetry_is_there(const Subject&) {
   Table measured{{"case", ""}, {"a thousandth over the asymmetry", "1"}};
-  const auto see = [&](const std::string& damped, const Scene& scene) {
+  const auto observe = [&](const std::string& damped, const Scene& scene) {
     const Eigen::MatrixXd A = make_newton_problem(scene, 0.012, 53).A;
     measured.row(damped, 1e-3 * A.cwiseAbs().maxCoeff() / (A - A.transpose()).cwiseAbs().maxCoeff());
   };
   Scene springs = free_sheet(), hinges = free_sheet();
   hinges.stretch->damping = springs.bending->damping = 0;
-  see("springs", springs);
-  see("hinges", hinges);
-  return judged_worst(
+  observe("springs", springs);
+  observe("hinges", hinges);
+  return judge_worst(
       measured, 1,
       "the checks of the solver beside this one would show little on a matrix that is symmetric: the "
       "largest entry of A - A^T is more than a thousandth of that of A");
@@ -136,9 +137,9 @@ Finding work_is_counted(const Subject&) {
   const NewtonProblem problem = make_newton_problem(free_sheet(), 0.012, 53);
   PerParticle3 dw;
   Work whole, capped;
-  const Solve finished =
+  const SolveResult finished =
       solve_unsymmetric_step(problem.matrix(), {1e-8, 2000, ResidualScale::momentum}, problem.r, dw, whole);
-  const Solve cap =
+  const SolveResult cap =
       solve_unsymmetric_step(problem.matrix(), {1e-13, 3, ResidualScale::momentum}, problem.r, dw, capped);
   const int twice = 2 * finished.iterations;
   Table holds = no_statements();

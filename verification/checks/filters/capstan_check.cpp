@@ -30,18 +30,20 @@ Vector3 on_path(double s, double wrap) {
 Scene wrapped_strip(double wrap, double friction) {
   const double length = 2 * straight + radius * wrap;
   const int rows = int(std::lround(length / width));
-  Scene scene = scene_of(make_sheet({SheetPattern::criss_cross, width, length / strained, 1, rows}), 0.2);
+  Scene scene =
+      scene_at_rest(make_sheet({SheetPattern::criss_cross, width, length / strained, 1, rows}), 0.2);
   scene.stretch = StretchMaterial{60, 0.1, 1};
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     const double across = scene.x(0, i) - width / 2, s = scene.x(1, i) * strained;
     scene.x.col(i) = on_path(s, wrap) + Vector3(across, 0, 0);
     Motion motion;
     motion.velocity = speed * Vector3(0, -std::sin(wrap), std::cos(wrap));
-    if (s < 1e-9) scene.led.push_back({int(i), scene.x.col(i), {}});
-    if (s > length - 1e-9) scene.led.push_back({int(i), scene.x.col(i), motion});
+    if (s < 1e-9) scene.prescribed.push_back({int(i), scene.x.col(i), {}});
+    if (s > length - 1e-9) scene.prescribed.push_back({int(i), scene.x.col(i), motion});
   }
-  SceneObject drum = object_at("drum", Capsule{radius, 1},
-                               {oracles::turn_between(Vector3::UnitZ(), Vector3::UnitX()), Vector3::Zero()});
+  SceneObject drum =
+      object_at("drum", Capsule{radius, 1},
+                {oracles::rotation_between(Vector3::UnitZ(), Vector3::UnitX()), Vector3::Zero()});
   drum.object.friction = friction;
   scene.objects.push_back(drum);
   return scene;
@@ -59,7 +61,7 @@ Pull pull_after(const Subject& subject, const Scene& scene, double seconds) {
   while (s.time < seconds) s = stepper.step(s, h);
   const PerParticle3 force = stepper.elastic_forces(s);
   Vector3 held = Vector3::Zero(), drawn = Vector3::Zero();
-  for (const PrescribedParticle& end : scene.led)
+  for (const PrescribedParticle& end : scene.prescribed)
     (end.motion.velocity.norm() > 0 ? drawn : held) += force.col(end.particle);
   return {held.norm(), drawn.norm(), std::acos(-held.dot(drawn) / (held.norm() * drawn.norm()))};
 }
@@ -71,7 +73,7 @@ Finding capstan_finding(const Subject& subject) {
     const Pull pull = pull_after(subject, wrapped_strip(wrap, mu), 0.5);
     const double ratio = pull.drawn / pull.held;
     pulls.row(mu, pull.turn, ratio, std::exp(mu * pull.turn));
-    worst.see(std::abs(std::log(ratio) / (mu * pull.turn) - 1));
+    worst.observe(std::abs(std::log(ratio) / (mu * pull.turn) - 1));
   }
   return {{worst.value(), 0.02, 0, "of the exponent",
            "the strip turns by 0.08 rad at a row, where (1 + mu tan(d/2))/(1 - mu tan(d/2)) differs from "

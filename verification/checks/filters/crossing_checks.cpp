@@ -22,7 +22,7 @@ Corners4 anywhere(Random& random) { return random.vectors(4, 1); }
 /// Few places, so that points, edges and planes coincide, edges are parallel or points, triangles lines.
 Corners4 on_a_lattice(Random& random) {
   Corners4 x;
-  for (double& c : x.reshaped()) c = std::floor(random.in(-2, 3));
+  for (double& c : x.reshaped()) c = std::floor(random.uniform(-2, 3));
   return x;
 }
 
@@ -52,17 +52,17 @@ Corners4 thin(Random& random, PairKind kind, double s) {
   Corners4 x = anywhere(random);
   const Vector3 d = x.col(1) - x.col(0), across = random.vectors(1, 1).col(0);
   const Vector3 n = d.cross(across).normalized();
-  const double height = random.in(0, 1) < 0.5 ? 0 : random.in_decades(1e-12, 1);
+  const double height = random.uniform(0, 1) < 0.5 ? 0 : random.log_uniform(1e-12, 1);
   if (kind == PairKind::edge_edge) {
     const Vector3 e = d + s * d.norm() * across;
-    x.col(2) = x.col(0) + random.in(0.2, 0.8) * d - random.in(0.2, 0.8) * e + height * n;
+    x.col(2) = x.col(0) + random.uniform(0.2, 0.8) * d - random.uniform(0.2, 0.8) * e + height * n;
     x.col(3) = x.col(2) + e;
     return x;
   }
   x.col(2) = x.col(0) + d;
-  x.col(3) = x.col(0) + random.in(-1, 2) * d + s * d.norm() * across;
+  x.col(3) = x.col(0) + random.uniform(-1, 2) * d + s * d.norm() * across;
   x.col(1) = x.col(0);
-  const double a = random.in(0, 1), b = random.in(0, 1 - a);
+  const double a = random.uniform(0, 1), b = random.uniform(0, 1 - a);
   x.col(0) = (1 - a - b) * x.col(1) + a * x.col(2) + b * x.col(3) + height * n;
   return x;
 }
@@ -78,15 +78,15 @@ Finding distance_is_exact(const Subject&) {
         const double scale = epsilon * x.cwiseAbs().maxCoeff();
         if (scale == 0) continue;  // all four in the origin
         const oracles::Estimate truth = true_distance(kind, x);
-        worst.see(std::abs(nearness(kind, x).distance - truth.value) / scale);
-        uncertainty.see(truth.uncertainty / scale);
+        worst.observe(std::abs(nearness(kind, x).distance - truth.value) / scale);
+        uncertainty.observe(truth.uncertainty / scale);
       }
       measured.row(name_of(kind) + ", " + maker.name, oracles::Estimate{worst.value(), uncertainty.value()});
     }
-  return judged_worst(measured, 16,
-                      "each coordinate of what is between the nearest points is a sum of four products, and "
-                      "errors of the weights move these points along their features, which changes their "
-                      "distance in second order");
+  return judge_worst(measured, 16,
+                     "each coordinate of what is between the nearest points is a sum of four products, and "
+                     "errors of the weights move these points along their features, which changes their "
+                     "distance in second order");
 }
 
 Finding thin_ones_are_as_good(const Subject&) {
@@ -96,16 +96,16 @@ Finding thin_ones_are_as_good(const Subject&) {
       Random random(29);
       Worst worst, uncertainty;
       for (int k = 0; k < 300; ++k) {
-        const Corners4 x = thin(random, kind, s * random.in(0.3, 3));
+        const Corners4 x = thin(random, kind, s * random.uniform(0.3, 3));
         const double extent = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
         const oracles::Estimate truth = true_distance(kind, x);
-        worst.see(std::abs(nearness(kind, x).distance - truth.value) / extent);
-        uncertainty.see(truth.uncertainty / extent);
+        worst.observe(std::abs(nearness(kind, x).distance - truth.value) / extent);
+        uncertainty.observe(truth.uncertainty / extent);
       }
       measured.row(name_of(kind) + fmt::format(", sine {:.0e}", s),
                    oracles::Estimate{worst.value(), uncertainty.value()});
     }
-  return judged_worst(
+  return judge_worst(
       measured, 1e-9,
       "features thinner or more parallel than that are asked at their sides and ends only, which "
       "hides as much of their extent");
@@ -115,9 +115,9 @@ Finding thin_ones_are_as_good(const Subject&) {
 double weight_error(PairKind kind, const Eigen::Vector4d& w) {
   const int first = kind == PairKind::vertex_triangle ? 1 : 2;
   Worst worst;
-  worst.see(std::abs(w.head(first).sum() - 1));
-  worst.see(std::abs(w.tail(4 - first).sum() + 1));
-  for (int k = 0; k < 4; ++k) worst.see(k < first ? -w[k] : w[k]);
+  worst.observe(std::abs(w.head(first).sum() - 1));
+  worst.observe(std::abs(w.tail(4 - first).sum() + 1));
+  for (int k = 0; k < 4; ++k) worst.observe(k < first ? -w[k] : w[k]);
   return worst.value();
 }
 
@@ -131,13 +131,13 @@ Finding weights_lead_across(const Subject&) {
         const Corners4 x = maker.make(random);
         const Nearness at = nearness(kind, x);
         const double scale = std::max(x.cwiseAbs().maxCoeff(), 1.0);
-        worst.see(weight_error(kind, at.weights) / epsilon);
-        worst.see((x * at.weights - at.distance * at.normal).norm() / (epsilon * scale));
-        worst.see(std::abs(at.normal.norm() - (at.distance > 0 ? 1 : 0)) / epsilon);
+        worst.observe(weight_error(kind, at.weights) / epsilon);
+        worst.observe((x * at.weights - at.distance * at.normal).norm() / (epsilon * scale));
+        worst.observe(std::abs(at.normal.norm() - (at.distance > 0 ? 1 : 0)) / epsilon);
       }
       measured.row(name_of(kind) + ", " + maker.name, worst.value());
     }
-  return judged_worst(measured, 8, "sums of four products, a root and a division");
+  return judge_worst(measured, 8, "sums of four products, a root and a division");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ Slope slope(double angle, double friction, const Vector3& velocity) {
   Slope result{
       loose_particles(3), {0, std::cos(angle), std::sin(angle)}, {0, -std::sin(angle), std::cos(angle)}};
   SceneObject part = object_at("slope", HalfSpace{},
-                               {oracles::turn_between(Vector3::UnitZ(), result.normal), Vector3::Zero()});
+                               {oracles::rotation_between(Vector3::UnitZ(), result.normal), Vector3::Zero()});
   part.object.friction = friction;
   std::get<Motion>(std::get<RigidObject>(part.object.body).motion).velocity = velocity;
   Scene& scene = result.scene;
@@ -43,7 +43,7 @@ Slope slope(double angle, double friction, const Vector3& velocity) {
 
 /// How far the particles have slid on the slope, seen from it [m], and how far from it they are at worst [m].
 struct Slid {
-  double way, off;
+  double distance, off;
 };
 
 Slid slid_on(const Subject& subject, const Slope& on, const Vector3& velocity, const std::string& integrator,
@@ -52,13 +52,13 @@ Slid slid_on(const Subject& subject, const Slope& on, const Vector3& velocity, c
   const State start = stepper.start();
   const State end = stepper.run(start, h, steps);
   Worst off;
-  double way = 0;
+  double distance = 0;
   for (Eigen::Index i = 0; i < start.x.cols(); ++i) {
     const Vector3 moved = end.x.col(i) - start.x.col(i) - (end.time - start.time) * velocity;
-    off.see(std::abs(moved.dot(on.normal)));
-    way += moved.dot(on.down) / double(start.x.cols());
+    off.observe(std::abs(moved.dot(on.normal)));
+    distance += moved.dot(on.down) / double(start.x.cols());
   }
-  return {way, off.value()};
+  return {distance, off.value()};
 }
 
 constexpr int steps = 240;
@@ -74,9 +74,9 @@ Finding slope_finding(const Subject& subject, const std::string& integrator, con
       const double time = h * steps;
       const double acceleration = std::max(0.0, g * (std::sin(al) - mu * std::cos(al)));
       const double expected = acceleration * time * time / 2;
-      ways.row(mu, al * 180 / pi, slid.way, expected);
-      worst.see(std::abs(slid.way - expected));
-      worst.see(slid.off);
+      ways.row(mu, al * 180 / pi, slid.distance, expected);
+      worst.observe(std::abs(slid.distance - expected));
+      worst.observe(slid.off);
     }
   return {{worst.value(), 4000 * epsilon * (1 + velocity.norm()), 0, "m",
            "240 steps of a motion that the schemes integrate exactly, of lengths up to 5 m: a few roundings "
@@ -109,7 +109,7 @@ Finding belt_finding(const Subject& subject, const std::string& integrator) {
     s = stepper.step(s, h);
     const double t = s.time;
     const double exact = t < sliding ? mu * g * t * t / 2 : speed * (t - sliding / 2);
-    worst.see(std::abs(s.x(0, 0) - x0 - exact));
+    worst.observe(std::abs(s.x(0, 0) - x0 - exact));
     if (n % 10 == 0) places.row(t, s.x(0, 0) - x0, exact);
   }
   return {{worst.value(), mu * g * h * h, 0, "m",
@@ -136,10 +136,10 @@ Finding turntable_finding(const Subject& subject, const std::string& integrator)
   const State end = stepper.run(start, coarse, 1200);
   Table drifts{{"radius", "m"}, {"off its place", "m"}};
   for (Eigen::Index i = 0; i < start.x.cols(); ++i) {
-    const Vector3 turned = rotated(start.x.col(i), motion.angular_velocity * end.time);
+    const Vector3 turned = rotate(start.x.col(i), motion.angular_velocity * end.time);
     drifts.row(Vector3(start.x.col(i)).norm(), (end.x.col(i) - turned).norm());
   }
-  return judged_worst(
+  return judge_worst(
       drifts, 20000 * epsilon,
       "1200 steps of 0.05 rad, each rounding positions of 0.7 m a few times; moving along the tangent would "
       "carry a particle outwards by a factor of sqrt(1 + (omega h)^2) a step, in these 20 s from 0.5 m to "

@@ -26,11 +26,12 @@ constexpr double span = 0.004;  // s
 
 /// Layers that would pass through each other in a step, answered by impulses or, with hardly any rounds of
 /// these, by zones.
-std::vector<std::pair<std::string, Layered>> fast_layers() {
-  std::vector<std::pair<std::string, Layered>> all;
+std::vector<std::pair<std::string, LayeredSheets>> fast_layers() {
+  std::vector<std::pair<std::string, LayeredSheets>> all;
   for (const int rounds : {8, 1}) {
     const bool zones = rounds == 1;
-    Layered wanted{3, 0.003, 0.001, zones ? 4.0 : 2.0, {0.002, 3, 0.2, rounds, true}, zones ? 12u : 11u};
+    LayeredSheets wanted{
+        3, 0.003, 0.001, zones ? 4.0 : 2.0, {0.002, 3, 0.2, rounds, true}, zones ? 12u : 11u};
     all.push_back({zones ? "zones" : "impulses", wanted});
   }
   return all;
@@ -62,10 +63,11 @@ Finding free_finding(const Subject& subject) {
   for (const auto& [name, wanted] : fast_layers()) {
     const Scene scene = layered_scene(wanted);
     const double unanswered = meetings(scene, scene.v);
-    measured.row(name + " (" + std::to_string(int(unanswered)) + " without)",
-                 unanswered > 20 ? meetings(scene, kept_apart(subject, scene, {span, true})) : NAN);
+    measured.row(
+        name + " (" + std::to_string(int(unanswered)) + " without)",
+        unanswered > 20 ? meetings(scene, corrected_by_self_collision(subject, scene, {span, true})) : NAN);
   }
-  return judged_worst(measured, 0, "all pairs of features, neighbours aside, asked in exact arithmetic");
+  return judge_worst(measured, 0, "all pairs of features, neighbours aside, asked in exact arithmetic");
 }
 
 /// Of pairs farther apart than a tenth of the thickness at the start, the least distance at the end over
@@ -75,14 +77,14 @@ Finding distance_finding(const Subject& subject) {
   for (const auto& [name, wanted] : fast_layers()) {
     const Scene scene = layered_scene(wanted);
     const double kept = 0.1 * wanted.settings.thickness;
-    const PerParticle3 end = scene.x + span * kept_apart(subject, scene, {span, true});
+    const PerParticle3 end = scene.x + span * corrected_by_self_collision(subject, scene, {span, true});
     double least = INFINITY;
     for (const FeaturePair& pair : all_pairs(scene.mesh))
       if (nearness(pair.kind, corners_of(pair, scene.x)).distance > kept)
         least = std::min(least, nearness(pair.kind, corners_of(pair, end)).distance);
     measured.row(name, kept / least);
   }
-  return judged_worst(
+  return judge_worst(
       measured, 1,
       "what starts farther apart than a tenth of the thickness stays so: that is the distance that "
       "the planes between two features keep");
@@ -94,10 +96,10 @@ Finding energy_finding(const Subject& subject) {
     wanted.settings.stiffness = 0;
     const Scene scene = layered_scene(wanted);
     const PerParticle mass = lumped_masses(scene.mesh, scene.density);
-    measured.row(name,
-                 kinetic_of(mass, kept_apart(subject, scene, {span, true})) / kinetic_of(mass, scene.v));
+    measured.row(name, kinetic_energy_of(mass, corrected_by_self_collision(subject, scene, {span, true})) /
+                           kinetic_energy_of(mass, scene.v));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 1,
       "without springs every answer takes away relative velocity and adds none: impulses stop, friction "
       "brakes, a zone's rigid motion is the least energy with its momentum");
@@ -120,17 +122,17 @@ struct Zone {
   double missed;
 };
 
-Zone zone_of(const PerParticle3& x, int led) {
+Zone zone_of(const PerParticle3& x, int prescribed) {
   Random random(22);
   Zone zone;
   zone.v = random.vectors(x.cols(), 1.3);
   zone.mass.resize(x.cols());
   for (int i = 0; i < int(x.cols()); ++i) {
     zone.members.push_back(i);
-    zone.mass[i] = random.in(0.001, 0.004);
+    zone.mass[i] = random.uniform(0.001, 0.004);
   }
   zone.inverse_mass = zone.mass.cwiseInverse();
-  for (int i = 0; i < led; ++i) {
+  for (int i = 0; i < prescribed; ++i) {
     zone.inverse_mass[i] = 0;
     zone.v.col(i) = Vector3(0.3, -0.2, 0.7) + Vector3(0.4, 1.1, -0.6).cross(Vector3(x.col(i)));
   }
@@ -146,10 +148,11 @@ Finding zone_momentum_finding(const Subject&) {
     const PerParticle3 change = zone.after - zone.v;
     const double scale = zone.v.colwise().norm().dot(zone.mass.transpose());
     const double size = (x.colwise() - Vector3(x.rowwise().mean())).colwise().norm().maxCoeff();
-    measured.row(name + ", linear", momentum_of(zone.mass, change).norm() / (epsilon * scale));
-    measured.row(name + ", angular", turn_of(zone.mass, x, change).norm() / (epsilon * scale * size));
+    measured.row(name + ", linear", linear_momentum_of(zone.mass, change).norm() / (epsilon * scale));
+    measured.row(name + ", angular",
+                 angular_momentum_of(zone.mass, x, change).norm() / (epsilon * scale * size));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 256,
       "normal equations of six unknowns solved by their eigenvectors: some tens of roundings, times "
       "the condition of the zone's inertia, below ten for these");
@@ -160,21 +163,21 @@ Finding zone_rigid_finding(const Subject&) {
   Table measured{{"case", ""},
                  {"rate of distance, or difference from the velocity led, over the largest velocity", "1"}};
   for (const auto& [name, x] : clouds())
-    for (const int led : {0, 1, 2}) {
-      const Zone zone = zone_of(x, led);
+    for (const int prescribed : {0, 1, 2}) {
+      const Zone zone = zone_of(x, prescribed);
       const double fastest = zone.v.colwise().norm().maxCoeff();
       Worst worst;
-      worst.see(zone.missed / fastest);
+      worst.observe(zone.missed / fastest);
       for (Eigen::Index i = 0; i < x.cols(); ++i) {
-        if (i < led) worst.see((zone.after.col(i) - zone.v.col(i)).norm() / fastest);
+        if (i < prescribed) worst.observe((zone.after.col(i) - zone.v.col(i)).norm() / fastest);
         for (Eigen::Index j = 0; j < i; ++j) {
           const Vector3 apart = x.col(i) - x.col(j), rate = zone.after.col(i) - zone.after.col(j);
-          worst.see(std::abs(apart.dot(rate)) / (apart.norm() * fastest));
+          worst.observe(std::abs(apart.dot(rate)) / (apart.norm() * fastest));
         }
       }
-      measured.row(name + ", " + std::to_string(led) + " led", worst.value());
+      measured.row(name + ", " + std::to_string(prescribed) + " led", worst.value());
     }
-  return judged_worst(
+  return judge_worst(
       measured, 256 * epsilon,
       "a rigid motion to some hundred roundings, of velocities led by a rigid motion themselves");
 }
@@ -185,16 +188,16 @@ Finding forced_finding(const Subject& subject) {
   for (int i = 0; i < 84; ++i) {
     Motion motion;
     motion.velocity = {0, 0, i < 42 ? 1.0 : -1.0};
-    scene.led.push_back({i, scene.x.col(i), motion});
+    scene.prescribed.push_back({i, scene.x.col(i), motion});
   }
   double accepted = 1;
   try {
-    kept_apart(subject, scene, {span, true});
+    corrected_by_self_collision(subject, scene, {span, true});
   } catch (const DegenerateElement&) {
     accepted = 0;
   }
   measured.row("two held sheets led through each other", accepted);
-  return judged_worst(
+  return judge_worst(
       measured, 0,
       "no velocity can keep apart what is led through each other: the run has to stop and say so");
 }
@@ -202,17 +205,17 @@ Finding forced_finding(const Subject& subject) {
 Finding same_bits_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"velocities that differ", "velocities"}};
   const Scene scene = layered_scene(fast_layers()[1].second);
-  const PerParticle3 alone = kept_apart(subject, scene, {span, true});
+  const PerParticle3 alone = corrected_by_self_collision(subject, scene, {span, true});
   std::vector<PerParticle3> answers(3);
   std::vector<std::thread> threads;
   for (PerParticle3& answer : answers)
-    threads.emplace_back([&] { answer = kept_apart(subject, scene, {span, true}); });
+    threads.emplace_back([&] { answer = corrected_by_self_collision(subject, scene, {span, true}); });
   for (std::thread& thread : threads) thread.join();
   double differ = 0;
   for (const PerParticle3& answer : answers) differ += double((answer.array() != alone.array()).count());
   measured.row("alone, and three at once", differ);
-  return judged_worst(measured, 0,
-                      "one order of pairs, fixed by the mesh and the boxes; no state but the arguments");
+  return judge_worst(measured, 0,
+                     "one order of pairs, fixed by the mesh and the boxes; no state but the arguments");
 }
 
 /// Pairs that one list has and the other has not, or has elsewhere.
@@ -235,7 +238,7 @@ void see_choices(Table& measured) {
     const PerParticle3 x = scene.x + random.vectors(scene.x.cols(), share * spare / 2);
     const PerParticle3 end = scene.x + random.vectors(scene.x.cols(), share * spare / 2);
     std::vector<char> marked(size_t(x.cols()));
-    for (char& one : marked) one = random.in(0, 1) < 0.2;
+    for (char& one : marked) one = random.uniform(0, 1) < 0.2;
     for (const std::vector<char>& moved : {std::vector<char>{}, marked}) {
       const auto chosen = pairs_from_cache(cache, x, end, margin, moved);
       const std::vector<FeaturePair> searched = near_pairs(cloth, x, end, margin, moved);
@@ -267,7 +270,7 @@ double numbers_that_the_cache_changes() {
     searched = integrator_named("C").step(searching, {&searched, 1}, 5e-4, uncounted);
   }
   return reused > 10 && !cache_of(searching)
-             ? numbers_that_differ(cached.x, searched.x) + numbers_that_differ(cached.v, searched.v)
+             ? count_differing_entries(cached.x, searched.x) + count_differing_entries(cached.v, searched.v)
              : NAN;
 }
 
@@ -275,9 +278,9 @@ Finding kept_pairs_finding(const Subject&) {
   Table measured{{"case", ""}, {"pairs or numbers that differ", "1"}};
   see_choices(measured);
   measured.row("a run of 60 steps, and one that forgets", numbers_that_the_cache_changes());
-  return judged_worst(measured, 0,
-                      "the pairs that were kept are a list to choose from: what is chosen is what a "
-                      "search finds, in its order");
+  return judge_worst(measured, 0,
+                     "the pairs that were kept are a list to choose from: what is chosen is what a "
+                     "search finds, in its order");
 }
 
 /// Two sheets that cross, pushed apart step by step: how many crossings are left.
@@ -294,8 +297,8 @@ Finding untangle_finding(const Subject& subject) {
   Stepper stepper(subject, scene, "C");
   const State end = stepper.run(stepper.start(), 0.001, 150);
   measured.row(std::to_string(int(start)) + " at the start", start > 5 ? count(end.x) / start : NAN);
-  return judged_worst(measured, 0,
-                      "the line on which they cross cuts off a corner: it can shrink to nothing there");
+  return judge_worst(measured, 0,
+                     "the line on which they cross cuts off a corner: it can shrink to nothing there");
 }
 
 }  // namespace

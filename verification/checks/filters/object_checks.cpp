@@ -25,7 +25,7 @@ RigidMotion swing() {
   return motion;
 }
 
-RigidMotion keyed() {
+RigidMotion keyframed_motion() {
   const auto pose = [](double angle, const Vector3& axis, const Vector3& place) {
     return Pose{Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized())), place};
   };
@@ -40,20 +40,20 @@ Finding velocity_finding(const Subject&) {
   const double small = 1e-4;
   Random random(3);
   for (const auto& [name, motion] :
-       {std::pair<const char*, RigidMotion>{"closed form", swing()}, {"keyframes", keyed()}}) {
+       {std::pair<const char*, RigidMotion>{"closed form", swing()}, {"keyframes", keyframed_motion()}}) {
     Worst worst;
     for (int k = 0; k < 60; ++k) {
-      const double t = random.in(0.35, 2);
+      const double t = random.uniform(0.35, 2);
       if (std::abs(t - 0.9) < 2 * small) continue;
       const Vector3 X = random.vectors(1, 0.8);
-      const Vector3 x = placed(pose_at(motion, t), X);
+      const Vector3 x = to_world(pose_at(motion, t), X);
       const Vector3 difference =
-          (placed(pose_at(motion, t + small), X) - placed(pose_at(motion, t - small), X)) / (2 * small);
-      worst.see((velocity_at(motion, x, t) - difference).norm() / (1 + difference.norm()));
+          (to_world(pose_at(motion, t + small), X) - to_world(pose_at(motion, t - small), X)) / (2 * small);
+      worst.observe((velocity_at(motion, x, t) - difference).norm() / (1 + difference.norm()));
     }
     measured.row(name, worst.value());
   }
-  return judged_worst(
+  return judge_worst(
       measured, 1e-6,
       "a central difference over 1e-4 s errs by omega^3 X (1e-4)^2/6, some 1e-7, and by rounding "
       "of some 1e-12");
@@ -62,28 +62,28 @@ Finding velocity_finding(const Subject&) {
 /// On the keys themselves, and outside them at rest.
 Finding keyframe_finding(const Subject&) {
   Table measured = roundings_of("length");
-  const RigidMotion motion = keyed();
+  const RigidMotion motion = keyframed_motion();
   const std::vector<Keyframe>& keys = std::get<Keyframes>(motion).keys;
   const Vector3 X(0.3, -0.5, 0.7);
   Worst at_keys, between, outside;
   for (const Keyframe& key : keys)
-    at_keys.see((placed(pose_at(motion, key.time), X) - placed(key.pose, X)).norm());
+    at_keys.observe((to_world(pose_at(motion, key.time), X) - to_world(key.pose, X)).norm());
   for (size_t k = 0; k + 1 < keys.size(); ++k) {  // half way: half the turn
     const Pose half = pose_at(motion, (keys[k].time + keys[k + 1].time) / 2);
     const Eigen::Quaterniond whole = keys[k + 1].pose.rotation * keys[k].pose.rotation.conjugate();
     const Eigen::Quaterniond first = half.rotation * keys[k].pose.rotation.conjugate();
-    between.see(std::min((whole.coeffs() - (first * first).coeffs()).norm(),
-                         (whole.coeffs() + (first * first).coeffs()).norm()));
+    between.observe(std::min((whole.coeffs() - (first * first).coeffs()).norm(),
+                             (whole.coeffs() + (first * first).coeffs()).norm()));
   }
   for (const double t : {-1.0, 0.1, 2.2, 9.0}) {
     const Keyframe& key = t < 1 ? keys.front() : keys.back();
-    outside.see((placed(pose_at(motion, t), X) - placed(key.pose, X)).norm());
-    outside.see(velocity_at(motion, X, t).norm());
+    outside.observe((to_world(pose_at(motion, t), X) - to_world(key.pose, X)).norm());
+    outside.observe(velocity_at(motion, X, t).norm());
   }
   measured.row("at its keyframes", at_keys.value() / epsilon);
   measured.row("half way between", between.value() / epsilon);
   measured.row("before and after", outside.value() / epsilon);
-  return judged_worst(measured, 40, "a dozen products of unit quaternions and lengths below 1 m");
+  return judge_worst(measured, 40, "a dozen products of unit quaternions and lengths below 1 m");
 }
 
 SceneObject with_motion(SceneObject part, const Vector3& velocity, const Vector3& turning) {
@@ -101,9 +101,9 @@ double depth(const std::vector<SceneObject>& objects, const Vector3& p, double t
   return deepest;
 }
 
-/// Points outside are shot, step after step, so that each moves by `way` [m] in a step in a random direction,
+/// Points outside are shot, step after step, so that each moves by `displacement` [m] in a step in a random direction,
 /// seen from the first object: how deep any of them has come in [m].
-double deepest_shot(const Subject& subject, std::vector<SceneObject> objects, double way) {
+double deepest_shot(const Subject& subject, std::vector<SceneObject> objects, double displacement) {
   const double h = 0.01;
   Scene scene = loose_particles(15);
   scene.objects = objects;
@@ -118,10 +118,10 @@ double deepest_shot(const Subject& subject, std::vector<SceneObject> objects, do
     for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
       const auto& body = std::get<RigidObject>(objects[0].object.body);
       const Vector3 with = body.at(s.x.col(i), {s.time, s.time + h, h}).velocity;
-      s.v.col(i) = with + way / h * Vector3(directions.col(i)).normalized();
+      s.v.col(i) = with + displacement / h * Vector3(directions.col(i)).normalized();
     }
     s = stepper.step(s, h);
-    for (Eigen::Index i = 0; i < s.x.cols(); ++i) deepest.see(depth(objects, s.x.col(i), s.time));
+    for (Eigen::Index i = 0; i < s.x.cols(); ++i) deepest.observe(depth(objects, s.x.col(i), s.time));
   }
   return deepest.value();
 }
@@ -137,14 +137,14 @@ Finding convex_finding(const Subject& subject) {
   const SceneObject second = with_motion(object_at("second board", thin, above), drift, Vector3::Zero());
   const SceneObject ball = with_motion(object_at("ball", Sphere{0.3}, at_rest), drift, Vector3::Zero());
   Table measured{{"case", ""}, {"depth", "m"}};
-  for (const double way : {0.005, 0.05, 0.7}) {
-    const std::string words = ", shots of " + std::to_string(way).substr(0, 5) + " m a step";
-    measured.row("ball" + words, deepest_shot(subject, {ball}, way));
-    measured.row("board 0.02 m thick" + words, deepest_shot(subject, {board}, way));
+  for (const double displacement : {0.005, 0.05, 0.7}) {
+    const std::string words = ", shots of " + std::to_string(displacement).substr(0, 5) + " m a step";
+    measured.row("ball" + words, deepest_shot(subject, {ball}, displacement));
+    measured.row("board 0.02 m thick" + words, deepest_shot(subject, {board}, displacement));
   }
   measured.row("two boards, 0.01 m apart, shots of 0.7 m", deepest_shot(subject, {board, second}, 0.7));
-  return judged_worst(measured, 1e-12,
-                      "rounding of positions of up to a metre in a frame that moves, over 60 steps");
+  return judge_worst(measured, 1e-12,
+                     "rounding of positions of up to a metre in a frame that moves, over 60 steps");
 }
 
 /// A point outside must move by half the object's thickness in a step, seen from it, to pass where it is
@@ -159,7 +159,7 @@ Finding limit_finding(const Subject& subject) {
     measured.row("ring" + words, deepest_shot(subject, {ring}, part * 0.1) / 0.1);
     measured.row("board" + words, deepest_shot(subject, {board}, part * 0.03) / 0.03);
   }
-  return judged_worst(
+  return judge_worst(
       measured, 0.9,
       "a point that was outside has moved by 0.9 of half the thickness at most, and one that was inside is "
       "on "

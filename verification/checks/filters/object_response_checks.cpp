@@ -14,16 +14,16 @@ namespace foldproof {
 namespace {
 
 /// v with `push` [m/s] along the normal, and Coulomb's friction against it.
-Vector3 answered(const Known& at, const Vector3& v, double push, double friction) {
+Vector3 expected_answer(const KnownPoint& at, const Vector3& v, double push, double friction) {
   const Vector3 relative = v - at.velocity, sliding = relative - relative.dot(at.normal) * at.normal;
   const double lost = std::min(sliding.norm(), friction * push);
   return v + push * at.normal - lost * sliding.normalized();
 }
 
 /// The push that a point with this velocity needs [m/s], 0 for none; NaN where roundings decide.
-using Push = std::function<double(const Contact&, const Known&, const Vector3& v)>;
+using Push = std::function<double(const Contact&, const KnownPoint&, const Vector3& v)>;
 
-double decided(double depth, double push) { return std::abs(depth) < 1e-12 ? NAN : depth > 0 ? push : 0; }
+double known_push(double depth, double push) { return std::abs(depth) < 1e-12 ? NAN : depth > 0 ? push : 0; }
 
 /// What a response makes of the particles of all contacts against what it should: `moves`: their
 /// velocity takes them through the step, or else it is the one that ends it.
@@ -33,50 +33,50 @@ Finding response_finding(const Subject& subject, const std::string& response, bo
     if (contact.tau != contact.span.step) continue;  // these responses do not look ahead
     contact.scene.collision.response = response;
     if (!moves) contact.span.end = contact.span.start;
-    const PerParticle3 after = avoided(subject, contact.scene, contact.span, contact.state);
+    const PerParticle3 after = corrected_by_objects(subject, contact.scene, contact.span, contact.state);
     const Span then{contact.span.end, contact.span.end, contact.span.step};
     Worst worst;
     int answers = 0, untouched = 0;
     for (Eigen::Index i = 0; i < after.cols(); ++i) {
       const Vector3 v = contact.state.v.col(i);
       const Vector3 place = contact.state.x.col(i) + (contact.span.end - contact.span.start) * v;
-      const Known at = contact.known(place, then);
+      const KnownPoint at = contact.known(place, then);
       const double needed = push(contact, at, v);
       if (std::isnan(needed)) continue;
       ++(needed > 0 ? answers : untouched);
-      const Vector3 expected = needed > 0 ? answered(at, v, needed, contact.friction) : v;
+      const Vector3 expected = needed > 0 ? expected_answer(at, v, needed, contact.friction) : v;
       const double speed = v.norm() + at.velocity.norm() + 1 / contact.span.step;
-      worst.see((after.col(i) - expected).norm() / (needed > 0 ? epsilon * speed : 1e-300));
+      worst.observe((after.col(i) - expected).norm() / (needed > 0 ? epsilon * speed : 1e-300));
     }
     measured.row(contact.name + ", " + std::to_string(answers) + " answered",
                  answers > 20 && untouched > 20 ? worst.value() : NAN);
   }
-  return judged_worst(measured, 40,
-                      "a few dozen roundings on the way through the object's frame and back, of lengths of a "
-                      "metre over the step; a point that needs no answer keeps its velocity bit for bit");
+  return judge_worst(measured, 40,
+                     "a few dozen roundings on the way through the object's frame and back, of lengths of a "
+                     "metre over the step; a point that needs no answer keeps its velocity bit for bit");
 }
 
 Finding projection_finding(const Subject& subject) {
   return response_finding(subject, "projection", true,
-                          [](const Contact& contact, const Known& at, const Vector3&) {
-                            return decided(-at.phi, -at.phi / contact.span.step);
+                          [](const Contact& contact, const KnownPoint& at, const Vector3&) {
+                            return known_push(-at.phi, -at.phi / contact.span.step);
                           });
 }
 
 /// The velocity that ends the step: a point that would reach the surface in a thousandth of it is on it.
 Finding stopping_finding(const Subject& subject) {
   return response_finding(
-      subject, "projection", false, [](const Contact& contact, const Known& at, const Vector3& v) {
+      subject, "projection", false, [](const Contact& contact, const KnownPoint& at, const Vector3& v) {
         const double inwards = -(v - at.velocity).dot(at.normal);
-        return decided(1e-3 * contact.span.step * inwards - at.phi, std::max(inwards, 0.0));
+        return known_push(1e-3 * contact.span.step * inwards - at.phi, std::max(inwards, 0.0));
       });
 }
 
 Finding push_out_finding(const Subject& subject) {
   return response_finding(
-      subject, "push_out", false, [](const Contact& contact, const Known& at, const Vector3& v) {
+      subject, "push_out", false, [](const Contact& contact, const KnownPoint& at, const Vector3& v) {
         const double forecast = at.phi / contact.span.step + (v - at.velocity).dot(at.normal);
-        return decided(-at.phi, std::max(-forecast, 0.0));
+        return known_push(-at.phi, std::max(-forecast, 0.0));
       });
 }
 
@@ -84,8 +84,8 @@ Finding no_push_finding(const Subject& subject) {
   double differ = 0;
   for (Contact contact : known_contacts()) {
     contact.scene.collision.response = "push_out";
-    differ +=
-        numbers_that_differ(avoided(subject, contact.scene, contact.span, contact.state), contact.state.v);
+    differ += count_differing_entries(
+        corrected_by_objects(subject, contact.scene, contact.span, contact.state), contact.state.v);
   }
   return {{differ, 0, 0, "numbers",
            "what moves a point in the step is not asked; only the velocity that ends it is"},

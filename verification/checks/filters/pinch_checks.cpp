@@ -16,52 +16,52 @@ namespace foldproof {
 namespace {
 
 /// d(psi)/dt = (v - v_a).N_a - (v - v_b).N_b for the difference psi of the two depths [m/s].
-double rate(const Known& a, const Known& b, const Vector3& v) {
+double rate(const KnownPoint& a, const KnownPoint& b, const Vector3& v) {
   return (v - a.velocity).dot(a.normal) - (v - b.velocity).dot(b.normal);
 }
 
 Finding equal_depth_finding(const Subject& subject) {
   const Pinch pinch = known_pinch();
-  const PerParticle3 after = avoided(subject, pinch.scene, pinch.span, pinch.state);
+  const PerParticle3 after = corrected_by_objects(subject, pinch.scene, pinch.span, pinch.state);
   Table measured = roundings_of("depth and speed times step");
   Worst worst;
   for (Eigen::Index i = 0; i < after.cols(); ++i) {
     const Vector3 p = pinch.state.x.col(i);
-    const Known a = pinch.first(p, pinch.span), b = pinch.second(p, pinch.span);
+    const KnownPoint a = pinch.first(p, pinch.span), b = pinch.second(p, pinch.span);
     const double psi = a.phi - b.phi + pinch.tau * rate(a, b, after.col(i));
     const double across = (a.normal - b.normal).norm();
-    worst.see(std::abs(psi) /
-              (epsilon * (1 + pinch.tau * Vector3(after.col(i)).norm()) / std::min(1.0, across)));
+    worst.observe(std::abs(psi) /
+                  (epsilon * (1 + pinch.tau * Vector3(after.col(i)).norm()) / std::min(1.0, across)));
   }
   measured.row("two balls, " + std::to_string(after.cols()) + " particles inside both", worst.value());
-  return judged_worst(measured, 40, "as many roundings as a forecast against one object takes, twice");
+  return judge_worst(measured, 40, "as many roundings as a forecast against one object takes, twice");
 }
 
 /// The velocity along the surface between is shortened by at most the sum of both Coulomb limits, not turned.
 Finding pinch_friction_finding(const Subject& subject) {
   const Pinch pinch = known_pinch();
-  const PerParticle3 after = avoided(subject, pinch.scene, pinch.span, pinch.state);
+  const PerParticle3 after = corrected_by_objects(subject, pinch.scene, pinch.span, pinch.state);
   Table measured = roundings_of("speed");
   Worst worst;
   double stuck = 0, slid = 0;
   for (Eigen::Index i = 0; i < after.cols(); ++i) {
     const Vector3 p = pinch.state.x.col(i), v = pinch.state.v.col(i), v_after = after.col(i);
-    const Known a = pinch.first(p, pinch.span), b = pinch.second(p, pinch.span);
+    const KnownPoint a = pinch.first(p, pinch.span), b = pinch.second(p, pinch.span);
     const Vector3 n = (a.normal - b.normal).normalized(), mean = (a.velocity + b.velocity) / 2;
     const auto tangent = [&](const Vector3& u) { return Vector3(u - u.dot(n) * n); };
     const Vector3 sliding = tangent(v - mean), still = tangent(v_after - mean);
-    const auto push = [&](const Known& k) {
+    const auto push = [&](const KnownPoint& k) {
       return std::max(0.0, -(k.phi / pinch.tau + (v - k.velocity).dot(k.normal)));
     };
     const double most = pinch.friction_first * push(a) + pinch.friction_second * push(b);
     const double wanted = std::max(0.0, sliding.norm() - most);
     (wanted > 0 ? slid : stuck) += 1;
-    worst.see((still - wanted * sliding.normalized()).norm() /
-              (epsilon * (1 / pinch.tau + v.norm() + mean.norm())));
+    worst.observe((still - wanted * sliding.normalized()).norm() /
+                  (epsilon * (1 / pinch.tau + v.norm() + mean.norm())));
   }
   measured.row("two balls",
                stuck > 20 && slid > 20 ? worst.value() : std::numeric_limits<double>::quiet_NaN());
-  return judged_worst(
+  return judge_worst(
       measured, 200,
       "roundings of positions near 1 m over the step, magnified by at most "
       "1/|N_a - N_b| where the normals of the two balls differ little",
@@ -71,7 +71,7 @@ Finding pinch_friction_finding(const Subject& subject) {
 /// A floor and a wall that meet in a corner, particles near it outside both.
 Scene corner() {
   Scene scene = loose_particles(20);
-  const Eigen::Quaterniond wall = oracles::turn_between(Vector3::UnitZ(), Vector3(1, 0.2, 0.1));
+  const Eigen::Quaterniond wall = oracles::rotation_between(Vector3::UnitZ(), Vector3(1, 0.2, 0.1));
   scene.objects.push_back(object_at("floor", HalfSpace{}, {}));
   scene.objects.push_back(object_at("wall", HalfSpace{}, {wall, Vector3::Zero()}));
   return scene;
@@ -85,14 +85,14 @@ Finding each_object_finding(const Subject& subject) {
   const Vector3 floor(0, 0, 1), wall = Vector3(1, 0.2, 0.1).normalized();
   State state{0, scene.x, random.vectors(scene.x.cols(), 20)};
   for (Eigen::Index i = 0; i < state.x.cols(); ++i)
-    state.x.col(i) =
-        random.in(0, 0.2) * wall + random.in(0.02, 0.2) * floor + Vector3(0, random.in(-1, 1), 0);
-  const PerParticle3 after = avoided(subject, scene, span, state);
+    state.x.col(i) = random.uniform(0, 0.2) * wall + random.uniform(0.02, 0.2) * floor +
+                     Vector3(0, random.uniform(-1, 1), 0);
+  const PerParticle3 after = corrected_by_objects(subject, scene, span, state);
   Worst deepest;
   double corrected_twice = 0;
   for (Eigen::Index i = 0; i < after.cols(); ++i) {
     const Vector3 p = state.x.col(i), end = p + h * after.col(i), free = p + h * state.v.col(i);
-    deepest.see(-std::min(end.dot(floor), end.dot(wall)));
+    deepest.observe(-std::min(end.dot(floor), end.dot(wall)));
     corrected_twice += free.dot(floor) < 0 && free.dot(wall) < 0;
   }
   const double few = std::numeric_limits<double>::quiet_NaN();
@@ -124,13 +124,15 @@ Finding closing_finding(const Subject& subject) {
     const double angle = degrees * pi / 180;
     const Vector3 a = Vector3::UnitZ(), b(std::sin(angle), 0, std::cos(angle));
     const Eigen::Matrix2d gram{{1, a.dot(b)}, {a.dot(b), 1}};
-    State state = still_at(scene.x);
+    State state = resting_state(scene.x);
     for (Eigen::Index i = 0; i < state.x.cols(); ++i) {
-      const Eigen::Vector2d inwards = gram.inverse() * -Eigen::Vector2d(random.in(10, 20), random.in(10, 20));
-      state.x.col(i) = random.in(0.01, 0.05) * (a + b).normalized() + Vector3(0, random.in(-1, 1), 0);
-      state.v.col(i) = inwards[0] * a + inwards[1] * b + Vector3(0, random.in(-1, 1), 0);
+      const Eigen::Vector2d inwards =
+          gram.inverse() * -Eigen::Vector2d(random.uniform(10, 20), random.uniform(10, 20));
+      state.x.col(i) =
+          random.uniform(0.01, 0.05) * (a + b).normalized() + Vector3(0, random.uniform(-1, 1), 0);
+      state.v.col(i) = inwards[0] * a + inwards[1] * b + Vector3(0, random.uniform(-1, 1), 0);
     }
-    const PerParticle3 after = avoided(subject, scene, {0, h, h}, state);
+    const PerParticle3 after = corrected_by_objects(subject, scene, {0, h, h}, state);
     Worst worst;
     for (Eigen::Index i = 0; i < after.cols(); ++i) {
       const Vector3 end = state.x.col(i) + h * after.col(i);
@@ -139,11 +141,11 @@ Finding closing_finding(const Subject& subject) {
       const bool held = degrees > 120;
       const bool told_apart = (held ? nearest : apart) > 1e-3;  // m
       const double size = Vector3(state.x.col(i)).norm() + h * Vector3(state.v.col(i)).norm();
-      worst.see(told_apart ? (held ? apart : nearest) / (epsilon * size) : nan);
+      worst.observe(told_apart ? (held ? apart : nearest) / (epsilon * size) : nan);
     }
     measured.row(std::to_string(int(degrees)) + " degrees", worst.value());
   }
-  return judged_worst(measured, 40, "as many roundings as a forecast against one object takes, twice");
+  return judge_worst(measured, 40, "as many roundings as a forecast against one object takes, twice");
 }
 
 /// Midpoints and centres get exactly the velocity of the response, by impulses that fall with the mass.
@@ -152,7 +154,8 @@ Finding shares_finding(const Subject&) {
   System system = build_system(contact.scene);
   PerParticle inverse_mass = system.inverse_mass;
   Random random(5);
-  for (Eigen::Index i = 0; i < inverse_mass.size(); ++i) inverse_mass[i] = i % 7 == 3 ? 0 : random.in(0.2, 3);
+  for (Eigen::Index i = 0; i < inverse_mass.size(); ++i)
+    inverse_mass[i] = i % 7 == 3 ? 0 : random.uniform(0.2, 3);
   Table measured = roundings_of("share");
   Worst mean, ratio, held;
   for (const CollisionPoint& point : collision_points(contact.scene.mesh, inverse_mass, PointKind::faces)) {
@@ -160,15 +163,15 @@ Finding shares_finding(const Subject&) {
     for (int k = 0; k < point.count; ++k) {
       sum += point.shares[k] / point.count;
       const double w = inverse_mass[point.particles[size_t(k)]], w0 = inverse_mass[point.particles[0]];
-      ratio.see(std::abs(point.shares[k] * w0 - point.shares[0] * w) / epsilon);
-      if (w == 0) held.see(std::abs(point.shares[k]) / epsilon);
+      ratio.observe(std::abs(point.shares[k] * w0 - point.shares[0] * w) / epsilon);
+      if (w == 0) held.observe(std::abs(point.shares[k]) / epsilon);
     }
-    mean.see(std::abs(sum - 1) / epsilon);
+    mean.observe(std::abs(sum - 1) / epsilon);
   }
   measured.row("the point takes the whole change", mean.value());
   measured.row("shares are as the inverse masses", ratio.value());
   measured.row("prescribed particles take none", held.value());
-  return judged_worst(measured, 40, "three divisions and sums of numbers near 1, shares up to 15 apart");
+  return judge_worst(measured, 40, "three divisions and sums of numbers near 1, shares up to 15 apart");
 }
 
 /// Triangles that lie across a ridge that none of their corners touches.
@@ -184,11 +187,11 @@ Finding centres_finding(const Subject& subject) {
                                    {"edges", PointKind::edges},
                                    {"faces", PointKind::faces}}) {
     scene.collision.points = kind;
-    const PerParticle3 x = state.x + h * avoided(subject, scene, {0, h, h}, state);
+    const PerParticle3 x = state.x + h * corrected_by_objects(subject, scene, {0, h, h}, state);
     Worst deepest;
     for (const Triangle& t : scene.mesh.triangles) {
       const Vector3 centre = (x.col(t[0]) + x.col(t[1]) + x.col(t[2])) / 3;
-      deepest.see(0.02 - (centre - Vector3(1. / 6, 1. / 12, -0.015)).norm());
+      deepest.observe(0.02 - (centre - Vector3(1. / 6, 1. / 12, -0.015)).norm());
     }
     depths.row(name, deepest.value());
   }
@@ -214,7 +217,7 @@ ComingDown coming_down() {
   centre.count = 3;
   centre.shares = Vector3(0.6, 1.5, 0.9);
   ComingDown made{{{ball.object}, {centre}},
-                  still_at(PerParticle3{{0.3, -0.2, -0.1}, {0.1, 0.3, -0.4}, {0.01, 0, -0.01}})};
+                  resting_state(PerParticle3{{0.3, -0.2, -0.1}, {0.1, 0.3, -0.4}, {0.01, 0, -0.01}})};
   made.state.v = PerParticle3{{0.7, -0.4, 0.2}, {0.3, 0.9, -0.6}, {-3.1, -2.6, -3.7}};
   return made;
 }
@@ -234,7 +237,7 @@ Finding change_finding(const Subject&) {
                  (of_corner - centre.shares[k] * of_centre).norm() / epsilon);
   }
   measured.row("the ball is met", of_centre.norm() > 0.1 ? 0 : nan);
-  return judged_worst(measured, 32, "velocities of a few m/s, a mean of three and a product");
+  return judge_worst(measured, 32, "velocities of a few m/s, a mean of three and a product");
 }
 
 Finding counts_finding(const Subject&) {
@@ -249,7 +252,7 @@ Finding counts_finding(const Subject&) {
   measured.row("a move into the ball", miscounted({0, 0.01, 0.01}, down.state.v, 1));
   measured.row("a velocity at the end of a step", miscounted({0.01, 0.01, 0.01}, down.state.v, 0));
   measured.row("a move away", miscounted({0, 0.01, 0.01}, -down.state.v, 0));
-  return judged_worst(measured, 0, "one point, asked once; a contact is a move that was changed");
+  return judge_worst(measured, 0, "one point, asked once; a contact is a move that was changed");
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ Scene over_triangle(const OverTriangle& wanted) {
   rest << 0, 0.05, 0.01, /**/ 0.018, 0.05, 0.02,  //
       0, 0, 0.06, /**/ 0.021, 0.03, 0.07,         //
       0, 0, 0, /**/ wanted.height, 0.08, 0.09;
-  Scene scene = scene_of(make_triangle_mesh(rest, {{0, 1, 2}, {3, 4, 5}}), 0.31);
+  Scene scene = scene_at_rest(make_triangle_mesh(rest, {{0, 1, 2}, {3, 4, 5}}), 0.31);
   scene.self_collision = SelfCollisionSettings{0.004, wanted.stiffness, wanted.friction, 8, true};
   scene.v.col(3) = Vector3(wanted.sliding, 0, wanted.parting);
   return scene;
@@ -43,11 +43,12 @@ Vector3 expected_change(const OverTriangle& wanted, const Scene& scene) {
   };
   const double whole = 0.05 * 0.06 / 2;
   const double w0 = area(1, 2, 0.018, 0.021) / whole, w1 = area(2, 0, 0.018, 0.021) / whole, w2 = 1 - w0 - w1;
-  const double yields = 1 / mass[3] + w0 * w0 / mass[0] + w1 * w1 / mass[1] + w2 * w2 / mass[2];  // 1/kg
+  const double pair_compliance =
+      1 / mass[3] + w0 * w0 / mass[0] + w1 * w1 / mass[1] + w2 * w2 / mass[2];  // 1/kg
   const double overlap = 0.004 - wanted.height, largest = overlap / (10 * step);
   const double inelastic = wanted.parting < 0 ? -wanted.parting : 0, left = wanted.parting + inelastic;
   const double spring =
-      left >= largest ? 0 : std::fmin(step * wanted.stiffness * overlap * yields, largest - left);
+      left >= largest ? 0 : std::fmin(step * wanted.stiffness * overlap * pair_compliance, largest - left);
   const double push = inelastic + spring;
   const double slide =
       std::copysign(std::fmin(std::abs(wanted.sliding), wanted.friction * push), wanted.sliding);
@@ -65,7 +66,7 @@ Finding law_finding(const Subject& subject) {
                                      {0.0023, 0.041, 0.1, 900, 0.3},
                                      {0.0023, 0.5, 0.1, 900, 0.3}}) {
     const Scene scene = over_triangle(wanted);
-    const PerParticle3 change = kept_apart(subject, scene, {step, false}) - scene.v;
+    const PerParticle3 change = corrected_by_self_collision(subject, scene, {step, false}) - scene.v;
     const Nearness at =
         nearness(PairKind::vertex_triangle, corners_of({PairKind::vertex_triangle, {3, 0, 1, 2}}, scene.x));
     const Vector3 relative = change(Eigen::all, {3, 0, 1, 2}) * at.weights;
@@ -75,20 +76,20 @@ Finding law_finding(const Subject& subject) {
                   wanted.height, wanted.parting, wanted.sliding, wanted.stiffness, wanted.friction);
     measured.row(name, (relative - expected_change(wanted, scene)).norm() / scale);
   }
-  return judged_worst(measured, 1e-12,
-                      "the same law from areas instead of normals: some tens of roundings, with heights a "
-                      "twentieth of the triangle's size");
+  return judge_worst(measured, 1e-12,
+                     "the same law from areas instead of normals: some tens of roundings, with heights a "
+                     "twentieth of the triangle's size");
 }
 
 struct MomentumCase {
   const char* name;
-  Layered layered;
+  LayeredSheets layered;
   bool moves;
 };
 
 std::vector<MomentumCase> momentum_cases() {
-  Layered still{3, 0.003, 0.001, 0.3, {0.004, 0, 0, 8, true}, 3}, springy = still, rubbing = still,
-                                                                  fast = still;
+  LayeredSheets still{3, 0.003, 0.001, 0.3, {0.004, 0, 0, 8, true}, 3}, springy = still, rubbing = still,
+                                                                        fast = still;
   springy.settings.stiffness = 7;
   springy.seed = 4;
   rubbing.settings.friction = 0.4;
@@ -115,12 +116,13 @@ Finding linear_finding(const Subject& subject) {
   for (const MomentumCase& of : momentum_cases()) {
     const Scene scene = layered_scene(of.layered);
     const PerParticle mass = lumped_masses(scene.mesh, scene.density);
-    const PerParticle3 after = kept_apart(subject, scene, {step, of.moves});
+    const PerParticle3 after = corrected_by_self_collision(subject, scene, {step, of.moves});
     const double changed = momentum_scale(mass, after - scene.v), size = momentum_scale(mass, scene.v);
-    measured.row(of.name,
-                 changed > 0.01 * size ? momentum_of(mass, after - scene.v).norm() / (epsilon * size) : NAN);
+    measured.row(of.name, changed > 0.01 * size
+                              ? linear_momentum_of(mass, after - scene.v).norm() / (epsilon * size)
+                              : NAN);
   }
-  return judged_worst(measured, 64, why_roundings);
+  return judge_worst(measured, 64, why_roundings);
 }
 
 Finding angular_finding(const Subject& subject) {
@@ -129,15 +131,14 @@ Finding angular_finding(const Subject& subject) {
     if (of.layered.settings.friction > 0) continue;
     const Scene scene = layered_scene(of.layered);
     const PerParticle mass = lumped_masses(scene.mesh, scene.density);
-    const PerParticle3 after = kept_apart(subject, scene, {step, of.moves});
+    const PerParticle3 after = corrected_by_self_collision(subject, scene, {step, of.moves});
     const double size = momentum_scale(mass, scene.v) * 0.1;
-    measured.row(of.name, turn_of(mass, scene.x, after - scene.v).norm() / (epsilon * size));
+    measured.row(of.name, angular_momentum_of(mass, scene.x, after - scene.v).norm() / (epsilon * size));
   }
-  return judged_worst(
-      measured, 64 * 8,
-      std::string(why_roundings) +
-          "; the normal is the line between the points to an epsilon times the features' size "
-          "over their distance, some eight here");
+  return judge_worst(measured, 64 * 8,
+                     std::string(why_roundings) +
+                         "; the normal is the line between the points to an epsilon times the features' size "
+                         "over their distance, some eight here");
 }
 
 /// Friction acts at two points a distance apart: it turns the cloth by that times the impulse, and no more.
@@ -145,17 +146,17 @@ Finding friction_turn_finding(const Subject& subject) {
   Table measured{{"case", ""},
                  {"change of angular momentum over thickness times friction times normal impulses", "1"}};
   for (const unsigned seed : {3u, 8u}) {
-    Layered wanted{2, 0.003, 0.001, 0.3, {0.004, 0, 0.4, 8, true}, seed};
+    LayeredSheets wanted{2, 0.003, 0.001, 0.3, {0.004, 0, 0.4, 8, true}, seed};
     const Scene rubbing = layered_scene(wanted);
     const PerParticle mass = lumped_masses(rubbing.mesh, rubbing.density);
-    const PerParticle3 change = kept_apart(subject, rubbing, {step, false}) - rubbing.v;
+    const PerParticle3 change = corrected_by_self_collision(subject, rubbing, {step, false}) - rubbing.v;
     const Eigen::Index half = change.cols() / 2;
     // normal impulses: at least what the upper sheet's momentum across the layers changed by, per particle
     const double normal = (change.row(2).rightCols(half).cwiseAbs() * mass.tail(half))[0];
     measured.row("seed " + std::to_string(seed),
-                 turn_of(mass, rubbing.x, change).norm() / (0.004 * 0.4 * normal));
+                 angular_momentum_of(mass, rubbing.x, change).norm() / (0.004 * 0.4 * normal));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 2,
       "a pair's friction impulse is at most mu times its normal one and acts with an arm of at most "
       "the thickness; impulses up and down on one particle cancel in part, so that their sum may be "
@@ -167,20 +168,22 @@ Finding untouched_finding(const Subject& subject) {
   const auto changed = [](const PerParticle3& a, const PerParticle3& b) {
     return double((a.array() != b.array()).colwise().any().count());
   };
-  Layered apart{3, 0.02, 0.001, 0.3, {0.004, 9, 0.3, 8, true}, 5};
+  LayeredSheets apart{3, 0.02, 0.001, 0.3, {0.004, 9, 0.3, 8, true}, 5};
   const Scene far = layered_scene(apart);
-  measured.row("layers too far apart", changed(kept_apart(subject, far, {step, true}), far.v));
+  measured.row("layers too far apart",
+               changed(corrected_by_self_collision(subject, far, {step, true}), far.v));
   Scene rising = layered_scene({3, 0.003, 0.0005, 0, {0.004, 0, 0.3, 8, true}, 5});
   for (Eigen::Index i = 0; i < rising.v.cols(); ++i) rising.v(2, i) = 0.4 * double(i / 42);
-  measured.row("layers that part", changed(kept_apart(subject, rising, {step, true}), rising.v));
-  Scene led = layered_scene({3, 0.003, 0.001, 2, {0.004, 9, 0.3, 8, true}, 6});
+  measured.row("layers that part",
+               changed(corrected_by_self_collision(subject, rising, {step, true}), rising.v));
+  Scene prescribed = layered_scene({3, 0.003, 0.001, 2, {0.004, 9, 0.3, 8, true}, 6});
   Motion onward;
   onward.velocity = {0.3, -0.2, 0.1};
-  for (int i = 42; i < 84; ++i) led.led.push_back({i, led.x.col(i), onward});
-  const State s = start_state(led);
-  const PerParticle3 after = kept_apart(subject, led, {step, true});
+  for (int i = 42; i < 84; ++i) prescribed.prescribed.push_back({i, prescribed.x.col(i), onward});
+  const State s = start_state(prescribed);
+  const PerParticle3 after = corrected_by_self_collision(subject, prescribed, {step, true});
   measured.row("particles that are led", changed(after.middleCols(42, 42), s.v.middleCols(42, 42)));
-  return judged_worst(measured, 0, "nothing is to be done about them: not a bit may change");
+  return judge_worst(measured, 0, "nothing is to be done about them: not a bit may change");
 }
 
 /// Every pair that comes nearer than the margin is among those found, once; found ones share no particle.
@@ -223,8 +226,8 @@ Finding pairs_finding(const Subject&) {
     measured.row("seed " + std::to_string(seed) + ", " + std::to_string(near) + " near",
                  near > 100 ? wrong : NAN);
   }
-  return judged_worst(measured, 0,
-                      "counted against all pairs of two sheets, looked at four times on their way");
+  return judge_worst(measured, 0,
+                     "counted against all pairs of two sheets, looked at four times on their way");
 }
 
 /// A stack of sheets on a slope. The lowest is larger, so that nothing hangs over its rim, and held;
@@ -238,7 +241,7 @@ std::vector<double> ways_on_slope(const Subject& subject, double friction, doubl
   const double angle = degrees * pi / 180;
   scene.gravity = Vector3(9.81 * std::sin(angle), 0, -9.81 * std::cos(angle));
   scene.stretch = StretchMaterial{20, 0.02, 1};
-  for (int i = 0; i < 42; ++i) scene.led.push_back({i, scene.x.col(i), Motion{}});
+  for (int i = 0; i < 42; ++i) scene.prescribed.push_back({i, scene.x.col(i), Motion{}});
   Stepper stepper(subject, scene, "C");
   const State end = stepper.run(stepper.start(), 0.001, 100);
   std::vector<double> ways;
@@ -267,7 +270,7 @@ Finding slope_finding(const Subject& subject) {
                        " on the one below",
                    std::abs(ways[k] - (k > 0 ? ways[k - 1] : 0)) / free);
   }
-  return judged_worst(
+  return judge_worst(
       measured, 0.1,
       "Coulomb's law; a tenth for the bumps of a sheet that its pairs answer one after the other, each for "
       "the "

@@ -15,7 +15,7 @@ namespace {
 
 /// One particle before and after the correction, in the object's terms.
 struct Answer {
-  Known known;
+  KnownPoint known;
   Vector3 before, after;           // velocities [m/s]
   double forecast;                 // phi + tau (v_p - v).N before [m]
   double push;                     // change of the normal velocity [m/s]
@@ -55,19 +55,19 @@ Finding worst_over(const Subject& subject, const std::function<bool(const Contac
                    const std::function<double(const Contact&, const Answer&)>& roundings) {
   Table measured = roundings_of("speed");
   for (const Contact& contact : known_contacts()) {
-    const PerParticle3 after = avoided(subject, contact.scene, contact.span, contact.state);
+    const PerParticle3 after = corrected_by_objects(subject, contact.scene, contact.span, contact.state);
     Worst worst;
-    long asked = 0;
+    long queries = 0;
     for (Eigen::Index i = 0; i < after.cols(); ++i) {
       const Answer a = answer_of(contact, after, i);
       if (!wanted(contact, a)) continue;
-      worst.see(roundings(contact, a));
-      ++asked;
+      worst.observe(roundings(contact, a));
+      ++queries;
     }
-    measured.row(contact.name + ", " + std::to_string(asked) + " particles",
-                 asked > 20 ? worst.value() : std::numeric_limits<double>::quiet_NaN());
+    measured.row(contact.name + ", " + std::to_string(queries) + " particles",
+                 queries > 20 ? worst.value() : std::numeric_limits<double>::quiet_NaN());
   }
-  return judged_worst(measured, 40, why_roundings);
+  return judge_worst(measured, 40, why_roundings);
 }
 
 bool is_treated(const Contact& contact, const Answer& a) { return a.forecast < -unsure(contact); }
@@ -113,12 +113,12 @@ Finding untouched_finding(const Subject& subject) {
   for (Contact contact : known_contacts())
     for (const char* const response : {"forecast", "forecast_deepest"}) {
       contact.scene.collision.response = response;
-      const PerParticle3 after = avoided(subject, contact.scene, contact.span, contact.state);
+      const PerParticle3 after = corrected_by_objects(subject, contact.scene, contact.span, contact.state);
       for (Eigen::Index i = 0; i < after.cols(); ++i) {
         const Answer a = answer_of(contact, after, i);
         if (!(a.forecast > unsure(contact))) continue;
         ++untreated;
-        differ += numbers_that_differ(after.col(i), contact.state.v.col(i));
+        differ += count_differing_entries(after.col(i), contact.state.v.col(i));
       }
     }
   const double few = std::numeric_limits<double>::quiet_NaN();
@@ -136,20 +136,20 @@ Finding turning_finding(const Subject& subject) {
   for (const Contact& contact : known_contacts()) {
     const double h = contact.span.end - contact.span.start;
     if (!contact.name.starts_with("slope") || contact.tau != contact.span.step) continue;
-    const PerParticle3 after = avoided(subject, contact.scene, contact.span, contact.state);
+    const PerParticle3 after = corrected_by_objects(subject, contact.scene, contact.span, contact.state);
     const Span end{contact.span.end, contact.span.end, contact.span.step};
     Worst worst;
     for (Eigen::Index i = 0; i < after.cols(); ++i) {
       const Answer a = answer_of(contact, after, i);
       if (!is_treated(contact, a)) continue;
-      const Known then = contact.known(contact.state.x.col(i) + h * a.after, end);
+      const KnownPoint then = contact.known(contact.state.x.col(i) + h * a.after, end);
       const double turned = a.known.normal.cross(then.normal).norm();
       const double depth = std::abs(a.known.phi) * (1 - a.known.normal.dot(then.normal));
-      worst.see(-then.phi / (h * a.still_sliding.norm() * turned + depth + unsure(contact)));
+      worst.observe(-then.phi / (h * a.still_sliding.norm() * turned + depth + unsure(contact)));
     }
     measured.row(contact.name, worst.value());
   }
-  return judged_worst(measured, 1, "geometry of a plane that turns, and roundings of lengths of a metre");
+  return judge_worst(measured, 1, "geometry of a plane that turns, and roundings of lengths of a metre");
 }
 
 Finding galilean_finding(const Subject& subject) {
@@ -162,13 +162,13 @@ Finding galilean_finding(const Subject& subject) {
     seen.state.v.colwise() += shared;
     auto& body = std::get<RigidObject>(seen.scene.objects[0].object.body);
     std::get<Motion>(body.motion).velocity += shared;
-    const PerParticle3 here = avoided(subject, contact.scene, contact.span, contact.state);
-    PerParticle3 there = avoided(subject, seen.scene, seen.span, seen.state);
+    const PerParticle3 here = corrected_by_objects(subject, contact.scene, contact.span, contact.state);
+    PerParticle3 there = corrected_by_objects(subject, seen.scene, seen.span, seen.state);
     there.colwise() -= shared;
     measured.row(contact.name, largest_difference(here, there) /
                                    (epsilon * (1 / contact.span.step + shared.norm() + largest_speed(here))));
   }
-  return judged_worst(measured, 40, why_roundings);
+  return judge_worst(measured, 40, why_roundings);
 }
 
 /// A sheet of particles through the middle of a body, row by row, each moving at random.
@@ -187,14 +187,14 @@ Crossing crossing(const std::vector<SceneObject>& parts) {
 }
 
 /// The same particles, each in a scene of its own.
-PerParticle3 avoided_alone(const Subject& subject, const Crossing& crossing, const Span& span) {
+PerParticle3 corrected_alone(const Subject& subject, const Crossing& crossing, const Span& span) {
   PerParticle3 all(3, crossing.state.x.cols());
   for (Eigen::Index i = 0; i < all.cols(); ++i) {
     Scene alone = loose_particles(2);
     alone.objects = crossing.scene.objects;
     const State state{0, crossing.state.x.col(i).replicate(1, alone.x.cols()),
                       crossing.state.v.col(i).replicate(1, alone.x.cols())};
-    all.col(i) = avoided(subject, alone, span, state).col(0);
+    all.col(i) = corrected_by_objects(subject, alone, span, state).col(0);
   }
   return all;
 }
@@ -209,19 +209,19 @@ Finding neighbours_finding(const Subject& subject) {
   Motion turning, flying;
   turning.angular_velocity = {0, 1, 3};
   flying.velocity = {0, 0, -20};  // by its diameter in a step: it is met from afar
-  const SceneObject flies =
-      moving(object_at("two balls, one flying", Sphere{0.1}, {{1, 0, 0, 0}, {0.25, 0, 0.25}}), flying, 0.3);
+  const SceneObject flies = with_motion(
+      object_at("two balls, one flying", Sphere{0.1}, {{1, 0, 0, 0}, {0.25, 0, 0.25}}), flying, 0.3);
   const SceneObject still = object_at("", Sphere{0.1}, {{1, 0, 0, 0}, {-0.3, 0, 0}});
   for (const std::vector<SceneObject>& parts :
-       {std::vector{moving(object_at("ball", Sphere{radius}, {}), turning, 0.3)},
-        std::vector{moving(object_at("octree", OctreeSolid{tree}, {}), turning, 0.3)},
-        std::vector{moving(object_at("pin", Capsule{0.03, 0.7}, {}), turning, 0.3)},
+       {std::vector{with_motion(object_at("ball", Sphere{radius}, {}), turning, 0.3)},
+        std::vector{with_motion(object_at("octree", OctreeSolid{tree}, {}), turning, 0.3)},
+        std::vector{with_motion(object_at("pin", Capsule{0.03, 0.7}, {}), turning, 0.3)},
         std::vector{flies, still}}) {
     const Crossing crossed = crossing(parts);
     const Span span{0, step, step};
-    const PerParticle3 together = avoided(subject, crossed.scene, span, crossed.state);
+    const PerParticle3 together = corrected_by_objects(subject, crossed.scene, span, crossed.state);
     const auto changed = (together - crossed.state.v).colwise().any().count();
-    const double differ = numbers_that_differ(together, avoided_alone(subject, crossed, span));
+    const double differ = count_differing_entries(together, corrected_alone(subject, crossed, span));
     answers.row(parts.front().object.name, changed, differ);
     worst = changed > 0 ? worst + differ : std::numeric_limits<double>::quiet_NaN();
   }

@@ -33,24 +33,24 @@ struct SpringDraw {
 };
 
 OneSpring one_spring(const SpringDraw& draw, Random& random) {
-  const double L = random.in(0.04, 0.09), h = random.in(0.003, 0.02), far = 30;
+  const double L = random.uniform(0.04, 0.09), h = random.uniform(0.003, 0.02), far = 30;
   PerParticle3 rest(3, 3);
   rest << 0, L, 0.4 * L, 0, 0, far * L, 0, 0, 0;
   const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(random.in(-3, 3), random.vectors(1, 1).col(0).normalized()).matrix();
-  Scene scene = scene_of(make_triangle_mesh(turn * rest, {{0, 1, 2}}), random.in(0.1, 0.4));
+      Eigen::AngleAxisd(random.uniform(-3, 3), random.vectors(1, 1).col(0).normalized()).matrix();
+  Scene scene = scene_at_rest(make_triangle_mesh(turn * rest, {{0, 1, 2}}), random.uniform(0.1, 0.4));
   scene.stretch = StretchMaterial{29, 0, 1};
   StrainLimits limits;
   limits.extension = 0.083;
   limits.compression = 0.037;
   scene.strain_limits = limits;
   const Vector3 along = turn.col(0), across = turn * Vector3(0, std::sin(0.7), std::cos(0.7));
-  scene.x.col(1) += (random.in(draw.now_low, draw.now_high) - 1) * L * along;
+  scene.x.col(1) += (random.uniform(draw.now_low, draw.now_high) - 1) * L * along;
   scene.v.colwise() = Vector3(0.31, -0.23, 0.17);
   scene.v.col(1) += L / h *
-                    (random.in(draw.along_low, draw.along_high) * along +
-                     random.in(draw.across_low, draw.across_high) * across);
-  if (draw.held >= 0) scene.led.push_back({draw.held, scene.x.col(draw.held), Motion{}});
+                    (random.uniform(draw.along_low, draw.along_high) * along +
+                     random.uniform(draw.across_low, draw.across_high) * across);
+  if (draw.held >= 0) scene.prescribed.push_back({draw.held, scene.x.col(draw.held), Motion{}});
   State state{0, scene.x, scene.v};  // what the filter is asked about: the velocity of a led particle too
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   const auto inverse = [&](int i) { return draw.held == i ? 0 : 1 / mass[i]; };
@@ -70,7 +70,7 @@ OneSpring one_spring(const SpringDraw& draw, Random& random) {
 /// Distance from the oracle's velocities, in roundings of what they are computed from; infinite if they are
 /// not the same at the far corner, bit for bit.
 double error_of(const Subject& subject, const OneSpring& spring) {
-  const PerParticle3 v = strain_limited(subject, spring.cloth, spring.cloth.state.v);
+  const PerParticle3 v = corrected_by_strain_limits(subject, spring.cloth, spring.cloth.state.v);
   if (!(v.col(2) == spring.cloth.state.v.col(2))) return INFINITY;
   const double error = std::max((v.col(0) - spring.answer.v_a).norm(), (v.col(1) - spring.answer.v_b).norm());
   const double d = (spring.input.x_b - spring.input.x_a).norm();
@@ -84,7 +84,7 @@ struct DrawKind {
   bool is_reachable;
 };
 
-Finding compared(const Subject& subject, const std::vector<DrawKind>& kinds) {
+Finding compare_draws(const Subject& subject, const std::vector<DrawKind>& kinds) {
   Table measured{{"case", ""}, {"error", "epsilon of |d|/h + |v|, times the answer's sensitivity"}};
   for (const DrawKind& kind : kinds) {
     Random random(91);
@@ -92,30 +92,30 @@ Finding compared(const Subject& subject, const std::vector<DrawKind>& kinds) {
     for (int k = 0; k < 40; ++k) {
       const OneSpring spring = one_spring(kind.draw, random);
       const bool is_meant = spring.answer.is_violated && spring.answer.is_reachable == kind.is_reachable;
-      worst.see(is_meant ? error_of(subject, spring) : NAN);
+      worst.observe(is_meant ? error_of(subject, spring) : NAN);
     }
     measured.row(kind.name, worst.value());
   }
-  return judged_worst(measured, 16,
-                      "d, d + h dv and their products are rounded about eight times, the impulse and the two "
-                      "velocities as often");
+  return judge_worst(measured, 16,
+                     "d, d + h dv and their products are rounded about eight times, the impulse and the two "
+                     "velocities as often");
 }
 
 Finding one_spring_finding(const Subject& subject) {
-  return compared(subject, {{"too long", {0.98, 1.06, 0.15, 0.9, -0.2, 0.2, -1}, true},
-                            {"too long by its turning", {1.01, 1.08, -0.01, 0.01, 0.45, 0.6, -1}, true},
-                            {"too long, turned round", {0.98, 1.06, -2.9, -2.3, -0.3, 0.3, -1}, true},
-                            {"too short", {0.98, 1.06, -0.7, -0.2, -0.2, 0.2, -1}, true},
-                            {"too short, turned round", {0.98, 1.06, -1.8, -1.3, -0.2, 0.2, -1}, true},
-                            {"beyond the upper limit now", {1.2, 1.9, -0.03, 0.2, -0.3, 0.3, -1}, true},
-                            {"beyond the lower limit now", {0.3, 0.8, -0.2, 0.05, -0.3, 0.3, -1}, true},
-                            {"one end held", {0.98, 1.06, 0.15, 0.9, -0.2, 0.2, 0}, true},
-                            {"the other end held", {0.98, 1.06, -0.7, -0.2, -0.2, 0.2, 1}, true}});
+  return compare_draws(subject, {{"too long", {0.98, 1.06, 0.15, 0.9, -0.2, 0.2, -1}, true},
+                                 {"too long by its turning", {1.01, 1.08, -0.01, 0.01, 0.45, 0.6, -1}, true},
+                                 {"too long, turned round", {0.98, 1.06, -2.9, -2.3, -0.3, 0.3, -1}, true},
+                                 {"too short", {0.98, 1.06, -0.7, -0.2, -0.2, 0.2, -1}, true},
+                                 {"too short, turned round", {0.98, 1.06, -1.8, -1.3, -0.2, 0.2, -1}, true},
+                                 {"beyond the upper limit now", {1.2, 1.9, -0.03, 0.2, -0.3, 0.3, -1}, true},
+                                 {"beyond the lower limit now", {0.3, 0.8, -0.2, 0.05, -0.3, 0.3, -1}, true},
+                                 {"one end held", {0.98, 1.06, 0.15, 0.9, -0.2, 0.2, 0}, true},
+                                 {"the other end held", {0.98, 1.06, -0.7, -0.2, -0.2, 0.2, 1}, true}});
 }
 
 Finding beyond_reach_finding(const Subject& subject) {
-  return compared(subject, {{"turns fast", {0.98, 1.06, -0.1, 0.3, 1.12, 1.7, -1}, false},
-                            {"turns fast, one end held", {0.98, 1.06, -0.1, 0.3, 1.12, 1.7, 1}, false}});
+  return compare_draws(subject, {{"turns fast", {0.98, 1.06, -0.1, 0.3, 1.12, 1.7, -1}, false},
+                                 {"turns fast, one end held", {0.98, 1.06, -0.1, 0.3, 1.12, 1.7, 1}, false}});
 }
 
 // ---- a cloth
@@ -125,14 +125,14 @@ Finding limits_finding(const Subject& subject, SweepOrder order) {
   std::vector<LimitedCloth> cloths = limited_cloths(order);
   for (size_t k = 0; k < cloths.size(); ++k) {
     LimitedCloth& cloth = cloths[k];
-    if (k % 2 == 1) cloth.scene.led.push_back({4, cloth.state.x.col(4), Motion{}});
-    const PerParticle3 v = strain_limited(subject, cloth, cloth.state.v);
+    if (k % 2 == 1) cloth.scene.prescribed.push_back({4, cloth.state.x.col(4), Motion{}});
+    const PerParticle3 v = corrected_by_strain_limits(subject, cloth, cloth.state.v);
     const double before = strain_violation(cloth.scene, cloth.state.x + cloth.step * cloth.state.v);
     const double after = strain_violation(cloth.scene, cloth.state.x + cloth.step * v);
     const double tolerance = cloth.scene.strain_limits->tolerance;
     measured.row(cloth.name, before > 100 * tolerance ? after / tolerance : NAN);
   }
-  return judged_worst(
+  return judge_worst(
       measured, 1 + 1e-9,
       "sweeps end within the tolerance, since velocities within the limits exist: none at all; a "
       "billionth for the roundings of another sum. Motions that break no limit count as NaN");
@@ -144,7 +144,7 @@ Finding momentum_finding(const Subject& subject) {
     for (LimitedCloth& cloth : limited_cloths(named.order)) {
       cloth.scene.strain_limits->sweeps = 12;
       cloth.state.x.colwise() += Vector3(0.31, -0.17, 0.23);
-      const PerParticle3 change = strain_limited(subject, cloth, cloth.state.v) - cloth.state.v;
+      const PerParticle3 change = corrected_by_strain_limits(subject, cloth, cloth.state.v) - cloth.state.v;
       const PerParticle mass = lumped_masses(cloth.scene.mesh, cloth.scene.density);
       Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();
       double linear_size = 0, angular_size = 0;
@@ -159,7 +159,7 @@ Finding momentum_finding(const Subject& subject) {
       measured.row(named.name + ", " + cloth.name, linear.norm() / (epsilon * linear_size));
       measured.row(named.name + ", " + cloth.name + ", angular", angular.norm() / (epsilon * angular_size));
     }
-  return judged_worst(
+  return judge_worst(
       measured, 8,
       "in each of 12 sweeps some six impulses meet at a particle, each a rounding of its velocity, half an "
       "epsilon at most: 72 of them add up like a random walk to 4, and the impulses' own to as much");
@@ -176,15 +176,15 @@ Finding held_finding(const Subject& subject) {
   for (const NamedOrder& named : sweep_orders())
     for (LimitedCloth& cloth : limited_cloths(named.order)) {
       cloth.scene.strain_limits->sweeps = 30;  // two neighbours are held: what they break stays broken
-      for (const int i : {0, 3, 7, 8}) cloth.scene.led.push_back({i, cloth.state.x.col(i), Motion{}});
+      for (const int i : {0, 3, 7, 8}) cloth.scene.prescribed.push_back({i, cloth.state.x.col(i), Motion{}});
       make_last_fast(cloth);
-      const PerParticle3 v = strain_limited(subject, cloth, cloth.state.v);
+      const PerParticle3 v = corrected_by_strain_limits(subject, cloth, cloth.state.v);
       double differing = 0;
-      for (const int i : {0, 3, 7, 8}) differing += numbers_that_differ(v.col(i), cloth.state.v.col(i));
-      const bool is_tried = numbers_that_differ(v, cloth.state.v) > 0;
+      for (const int i : {0, 3, 7, 8}) differing += count_differing_entries(v.col(i), cloth.state.v.col(i));
+      const bool is_tried = count_differing_entries(v, cloth.state.v) > 0;
       measured.row(named.name + ", " + cloth.name, is_tried ? differing : NAN);
     }
-  return judged_worst(measured, 0, "a prescribed velocity is known");
+  return judge_worst(measured, 0, "a prescribed velocity is known");
 }
 
 /// Slows a motion down until no spring leaves its limits.
@@ -202,19 +202,19 @@ Finding untouched_within_limits_finding(const Subject& subject) {
     for (LimitedCloth& cloth : limited_cloths(named.order)) {
       const PerParticle3 slow = gentle(cloth);
       const std::string name = named.name + ", " + cloth.name;
-      measured.row(name, numbers_that_differ(strain_limited(subject, cloth, slow), slow));
+      measured.row(name, count_differing_entries(corrected_by_strain_limits(subject, cloth, slow), slow));
       cloth.scene.strain_limits->sweeps = 1;
       PerParticle3 fast = slow;
       const Eigen::Index last = fast.cols() - 1;
       make_last_fast(cloth);
       fast.col(last) = cloth.state.v.col(last);
-      const PerParticle3 v = strain_limited(subject, cloth, fast);
+      const PerParticle3 v = corrected_by_strain_limits(subject, cloth, fast);
       const double after = strain_violation(cloth.scene, cloth.state.x + cloth.step * fast);
-      measured.row(name + ", one fast", after > 0 && numbers_that_differ(v.col(last), fast.col(last)) > 0
-                                            ? numbers_that_differ(v.col(0), fast.col(0))
+      measured.row(name + ", one fast", after > 0 && count_differing_entries(v.col(last), fast.col(last)) > 0
+                                            ? count_differing_entries(v.col(0), fast.col(0))
                                             : NAN);
     }
-  return judged_worst(
+  return judge_worst(
       measured, 0,
       "what no limit is broken by is not the filter's business; in one sweep a correction cannot get "
       "from the last particle of a sheet to the first, which lies at its other end");

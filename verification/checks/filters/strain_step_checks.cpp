@@ -40,7 +40,7 @@ LimitedCloth falling(LimitedCloth cloth) {
   StrainLimits& limits = *scene.strain_limits;
   if (limits.compression > 0) limits.compression += 0.001 + strain_violation(scene, scene.x);
   const int far = farthest(scene.mesh.rest);
-  scene.led = {{0, scene.x.col(0), Motion{}}, {far, scene.x.col(far), swing}};
+  scene.prescribed = {{0, scene.x.col(0), Motion{}}, {far, scene.x.col(far), swing}};
   const double limit = elastic_limit(build_system(scene), cloth.state);
   cloth.step = std::min({0.0031, 0.25 * limit, 0.0031 * 0.25 / relative_motion(cloth, 0.0031)});
   return cloth;
@@ -64,7 +64,7 @@ Finding steps_finding(const Subject& subject, const std::string& integrator) {
     tried += used > -5;
   }
   if (tried < 12) measured.row("few cloths come near their limits", NAN);
-  return judged_worst(
+  return judge_worst(
       measured, 1 + 1e-9,
       "x moves with the velocity that was limited, and nothing else moves it; a billionth for "
       "the roundings of another sum. Of 16 cloths 12 at least must come within five tolerances of "
@@ -84,7 +84,7 @@ Finding report_finding(const Subject& subject) {
     const bool plausible = sweeps == 2 || (sweeps == 1 && left == 0);
     measured.row(cloth.name + ", sweeps", plausible ? 0 : INFINITY);
   }
-  return judged_worst(
+  return judge_worst(
       measured, 64,
       "positions, up to ten times as far from the origin as a spring is long, are rounded, and their "
       "difference over the rest length; what counts as at the limit may be eight beyond it");
@@ -118,17 +118,17 @@ Chain random_chain(SweepOrder order, bool bundle, unsigned seed) {
   std::vector<double> place(count, 0.2),
       later(count, 0.23);  // on the line, now and after a step within limits [m]
   for (int i = 0; i < count; ++i) {
-    const double L = random.in(0.03, 0.07);
+    const double L = random.uniform(0.03, 0.07);
     if (i > 0) {
       const int other = bundle ? 0 : i - 1;
       springs.push_back({other, i, L, 0, 0});
-      place[size_t(i)] = place[size_t(other)] + L * random.in(0.935, 1.115);
-      later[size_t(i)] = later[size_t(other)] + L * random.in(0.935, 1.115);
+      place[size_t(i)] = place[size_t(other)] + L * random.uniform(0.935, 1.115);
+      later[size_t(i)] = later[size_t(other)] + L * random.uniform(0.935, 1.115);
     }
-    chain.mass[i] = random.in_decades(0.01, 1);
+    chain.mass[i] = random.log_uniform(0.01, 1);
     chain.x.col(i) = place[size_t(i)] * along;
     chain.within.col(i) = (later[size_t(i)] - place[size_t(i)]) / chain.step * along;
-    chain.v.col(i) = random.in(-3, 3) * along;
+    chain.v.col(i) = random.uniform(-3, 3) * along;
   }
   chain.limiter = make_strain_limiter(limits, springs, chain.mass.cwiseInverse());
   return chain;
@@ -161,7 +161,7 @@ Finding nearer_finding(const Subject&) {
       measured.row(name + ", distance", grown);
       measured.row(name + ", energy", energy);
     }
-  return judged_worst(
+  return judge_worst(
       measured, 16,
       "on a line each impulse is the shortest way, in the norm weighted with masses, to velocities "
       "within one spring's limits; no velocity within all limits, rest among them, gets farther. "
@@ -184,21 +184,21 @@ Finding colours_finding(const Subject&) {
     }
     measured.row(cloth.name + ", " + std::to_string(limiter.colours.size() - 1) + " colours", wrong);
   }
-  return judged_worst(measured, 0, "threads that share a colour would write to one particle");
+  return judge_worst(measured, 0, "threads that share a colour would write to one particle");
 }
 
 Finding threads_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"numbers that differ from those of one thread", "numbers"}};
   for (LimitedCloth& cloth : limited_cloths(SweepOrder::coloured)) {
     cloth.scene.strain_limits->sweeps = 5;
-    const PerParticle3 alone = strain_limited(subject, cloth, cloth.state.v);
+    const PerParticle3 alone = corrected_by_strain_limits(subject, cloth, cloth.state.v);
     for (const int threads : {2, 5}) {
       cloth.scene.strain_limits->threads = threads;
       measured.row(cloth.name + ", " + std::to_string(threads) + " threads",
-                   numbers_that_differ(strain_limited(subject, cloth, cloth.state.v), alone));
+                   count_differing_entries(corrected_by_strain_limits(subject, cloth, cloth.state.v), alone));
     }
   }
-  return judged_worst(measured, 0, "no two springs of a colour share a particle");
+  return judge_worst(measured, 0, "no two springs of a colour share a particle");
 }
 
 // ---- case files
@@ -234,7 +234,7 @@ Finding read_finding(const Subject&) {
   differences.row("without the table no filter is built",
                   infinite_unless(build_system(trial_scene(springs)).filters.empty()));
   const Scene scene = trial_scene(springs + "[strain_limits]\nextension = 0.25\n");
-  const std::vector<std::string> parts = built_parts(scene, build_system(scene));
+  const std::vector<std::string> parts = describe_parts(scene, build_system(scene));
   differences.row("a run says what was built",
                   infinite_unless(std::any_of(parts.begin(), parts.end(), [](const std::string& part) {
                     return part.find("limited to 1 to 1.25") != std::string::npos;
@@ -242,8 +242,8 @@ Finding read_finding(const Subject&) {
   return judged_differences(differences, 1, "a decimal is rounded once when it is read and once here");
 }
 
-Finding refused_finding(const Subject&) {
-  return refused_cases({
+Finding rejected_finding(const Subject&) {
+  return rejected_cases({
       {"[strain_limits]\n", {"[strain_limits]", "[stretch]"}},
       {springs + "[strain_limits]\nextension = -0.1\n", {"extension", "negative"}},
       {springs + "[strain_limits]\ncompression = -0.1\n", {"compression", "negative"}},
@@ -288,10 +288,11 @@ Finding orders_finding(const Subject&) {
       PerParticle3 expected = one_by_one(limiter, cloth, cloth.state.v);
       if (order == SweepOrder::alternating) std::ranges::reverse(limiter.springs);
       expected = one_by_one(limiter, cloth, expected);
-      measured.row(cloth.name + ", order " + std::to_string(int(order)), numbers_that_differ(v, expected));
+      measured.row(cloth.name + ", order " + std::to_string(int(order)),
+                   count_differing_entries(v, expected));
     }
   }
-  return judged_worst(
+  return judge_worst(
       measured, 0, "two sweeps are two times all springs, the second time backwards where sweeps alternate");
 }
 
@@ -326,7 +327,7 @@ std::vector<Check> strain_step_checks() {
             read_finding},
            {"scene.invalid-strain-limits-are-rejected",
             "Strain limits that make no sense are refused, with the line.", "cases/KEYS.md",
-            refused_finding}})
+            rejected_finding}})
     list.push_back(check);
   return list;
 }

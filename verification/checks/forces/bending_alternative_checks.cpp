@@ -44,7 +44,7 @@ Defects defects_of(const Corners& x, const std::array<Vector3, 4>& force) {
   corners << x[0], x[1], x[2], x[3];
   Worst work;
   for (const PerParticle3& motion : in_plane_motions(x))
-    work.see(std::abs(motion.cwiseProduct(f).sum()) / f.norm());
+    work.observe(std::abs(motion.cwiseProduct(f).sum()) / f.norm());
   return {epsilon * net_force(f), epsilon * net_torque(corners, f), work.value()};
 }
 
@@ -63,7 +63,7 @@ std::vector<FoldedHinge> folded_hinges(const Subject& subject) {
   Random random(613);
   std::vector<FoldedHinge> list;
   for (unsigned k = 0; k < tries; ++k) {
-    const double angle = random.in(-2.9, 2.9);
+    const double angle = random.uniform(-2.9, 2.9);
     if (!(std::abs(angle) > 0.2 && std::abs(std::cos(angle)) > 0.1)) continue;
     Specimen hinge = random_hinge(301 + k, angle);
     const Hinge& element = hinge.scene.mesh.hinges[0];
@@ -87,7 +87,7 @@ Finding acts_in_plane(const Subject& subject, const BendingAlternative& model) {
     const Defects defects = defects_of(hinge.x, model.force(hinge.x, hinge.rest));
     const double paper = hinge.of_the_paper.in_plane;
     found.row(hinge.name, defects.in_plane, paper, defects.force, defects.torque);
-    ratio.see(paper / defects.in_plane);
+    ratio.observe(paper / defects.in_plane);
   }
   return {{found.rows() == 0 ? NAN : ratio.value(), 1e-6, 0, "1",
            "a millionth: what a model puts in plane is then no rounding, on any of the hinges"},
@@ -103,12 +103,12 @@ Finding paper_keeps_all(const Subject& subject) {
   for (const FoldedHinge& hinge : folded_hinges(subject)) {
     Worst worst;
     for (double defect : {hinge.of_the_paper.force, hinge.of_the_paper.torque, hinge.of_the_paper.in_plane})
-      worst.see(defect / (epsilon * thinness(hinge.x)));
+      worst.observe(defect / (epsilon * aspect_ratio(hinge.x)));
     const auto shortcut = shortcut_gradient(hinge.x, EdgeLength::differentiated);
     measured.row(hinge.name, worst.value(),
-                 defects_of(hinge.x, shortcut).in_plane / (epsilon * thinness(hinge.x)));
+                 defects_of(hinge.x, shortcut).in_plane / (epsilon * aspect_ratio(hinge.x)));
   }
-  return judged_worst(
+  return judge_worst(
       measured, "measured", 32,
       "sums of four forces and products with twelve numbers take fewer than 32 roundings, magnified by "
       "thinness",

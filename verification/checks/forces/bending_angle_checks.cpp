@@ -39,7 +39,7 @@ Finding sine_is_accurate(const Subject&) {
       for (int repeat = 0; repeat < 3; ++repeat) {
         const Corners x = random_corners(random, angle);
         printed = oracles::sin_half_angle_50(x);
-        error.see(std::abs(sine_of(x) - printed.value) / (epsilon * thinness(x)));
+        error.observe(std::abs(sine_of(x) - printed.value) / (epsilon * aspect_ratio(x)));
       }
       measured.row(in_radians(angle), oracles::Estimate{error.value(), printed.uncertainty / epsilon});
     }
@@ -47,7 +47,7 @@ Finding sine_is_accurate(const Subject&) {
   const double flat = sine_of(planar_hinge(-0.17));
   measured.row("exactly flat (must be exactly zero)",
                flat == 0 ? 0 : std::numeric_limits<double>::infinity());
-  return judged_worst(
+  return judge_worst(
       measured, 16,
       "the normals, their products and one root: fewer than 16 roundings of 1, magnified by the thinness");
 }
@@ -57,13 +57,13 @@ Finding angle_is_accurate(const Subject&) {
   for (const Specimen& hinge : hinges_of_all_angles()) {
     const Corners x = corners_of(hinge.scene.mesh.hinges[0], hinge.state.x);
     const oracles::Estimate theta = oracles::hinge_angle_50(x);
-    const double unit = epsilon * pi * thinness(x);
+    const double unit = epsilon * pi * aspect_ratio(x);
     measured.row(in_radians(theta.value),
                  oracles::Estimate{std::abs(hinge_angle(x[0], x[1], x[2], x[3]) - theta.value) / unit,
                                    theta.uncertainty / unit});
   }
-  return judged_worst(
-      measured, 16, "sine and cosine of theta take fewer than 16 roundings of 1, magnified by the thinness");
+  return judge_worst(measured, 16,
+                     "sine and cosine of theta take fewer than 16 roundings of 1, magnified by the thinness");
 }
 
 /// The hinge of a sweep: axis-aligned, so that the angle is the only thing that changes.
@@ -79,8 +79,8 @@ double worst_unevenness(double first, double last, int count) {
   const double step = (last - first) / count;
   for (int i = 1; i <= count; ++i) {
     const double now = sine_of(swept(first + i * step));
-    worst.see((before - now) / epsilon);
-    worst.see((now - before - 0.5 * step) / epsilon);
+    worst.observe((before - now) / epsilon);
+    worst.observe((now - before - 0.5 * step) / epsilon);
     before = now;
   }
   return worst.value();
@@ -97,7 +97,7 @@ Finding sine_rises(const Subject&) {
   measured.row("whole range left out", std::abs(sine_of(swept(3.14159)) - sine_of(swept(-3.14159)) - 2) < 1e-9
                                            ? 0
                                            : std::numeric_limits<double>::infinity());
-  return judged_worst(
+  return judge_worst(
       measured, 16, "two neighbouring values carry fewer than 16 roundings of 1 between them",
       "Measured is by how much, at worst, a value of sin(theta/2) lies below the one before it or rises by "
       "more than half the step of theta, which is its steepest slope; exact values would give 0.");
@@ -144,13 +144,13 @@ Finding rest_angles_give_no_force(const Subject& subject) {
       const HingeShape at_rest = hinge_shape(x[0], x[1], x[2], x[3]);
       const double c = at_rest.edge * at_rest.edge / at_rest.area_sum;
       const Eigen::Vector4d u = bending_mode(at_rest).colwise().norm();
-      for (int k = 0; k < 4; ++k) scale[hinge.particles[k]] += c * u[k] * thinness(x);
+      for (int k = 0; k < 4; ++k) scale[hinge.particles[k]] += c * u[k] * aspect_ratio(x);
     }
     const PerParticle relative = f.colwise().norm().transpose().cwiseQuotient(scale);
     measured.row(shape.name,
                  relative.maxCoeff<Eigen::PropagateNaN>() / (epsilon * shape.scene.bending->stiffness));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 32,
       "sin(theta/2) by two routes, each good to fewer than 16 roundings of 1 times the thinness");
 }
@@ -206,7 +206,7 @@ Finding lost_triangles_are_reported(const Subject& subject) {
     }) + !is_reported(loss, [&] { probe.energy(s); });
     measured.row(loss.name, silent);
   }
-  return judged_worst(
+  return judge_worst(
       measured, 0,
       "forces, damping and energy each must throw DegenerateElement naming particles of the lost triangle");
 }

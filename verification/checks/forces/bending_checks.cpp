@@ -28,7 +28,7 @@ Table over_specimens(const Subject& subject, const std::vector<BendingMaterial>&
     for (const BendingMaterial& material : materials) {
       specimen.scene.bending = material;
       const PerParticle3 f = Probe(subject, specimen.scene).elastic(specimen.state);
-      measured.row(described(specimen, material), measure(specimen.state.x, f));
+      measured.row(describe(specimen, material), measure(specimen.state.x, f));
     }
   }
   return measured;
@@ -43,11 +43,11 @@ std::vector<BendingMaterial> paper_variants() {
 }
 
 Finding forces_sum_to_zero(const Subject& subject) {
-  return judged_worst(over_specimens(subject, paper_variants(), "sum |F_i|", net_force_of), 32, why_sums);
+  return judge_worst(over_specimens(subject, paper_variants(), "sum |F_i|", net_force_of), 32, why_sums);
 }
 
 Finding torques_sum_to_zero(const Subject& subject) {
-  return judged_worst(over_specimens(subject, paper_variants(), "sum |x_i||F_i|", net_torque), 32, why_sums);
+  return judge_worst(over_specimens(subject, paper_variants(), "sum |x_i||F_i|", net_torque), 32, why_sums);
 }
 
 Finding other_laws_keep_momentum(const Subject& subject) {
@@ -61,8 +61,8 @@ Finding other_laws_keep_momentum(const Subject& subject) {
   const Table forces = over_specimens(subject, variants, "sum |F_i|", net_force_of);
   const Table torques = over_specimens(subject, variants, "sum |x_i||F_i|", net_torque);
   Worst worst;
-  worst.see(forces.worst("measured"));
-  worst.see(torques.worst("measured"));
+  worst.observe(forces.worst("measured"));
+  worst.observe(torques.worst("measured"));
   return {{worst.value(), 32, 0, "epsilon of the sum of sizes", why_sums},
           {forces.column("case"),
            {"net force", "epsilon sum |F_i|", forces.numbers("measured")},
@@ -78,7 +78,7 @@ struct Expected {
   PerParticle uncertainty;  // N
 };
 
-oracles::Quad<double> lifted(const Corners& x) {
+oracles::Quad<double> as_quad(const Corners& x) {
   oracles::Quad<double> quad;
   for (int k = 0; k < 4; ++k) quad[k] = {x[k].x(), x[k].y(), x[k].z()};
   return quad;
@@ -90,11 +90,11 @@ Expected expected_elastic(const Specimen& specimen) {
   for (size_t h = 0; h < specimen.scene.mesh.hinges.size(); ++h) {
     const oracles::HingeInput input = hinge_input(specimen, h);
     const auto force = oracles::bending_elastic_50(input);
-    const oracles::Quad<double> u = oracles::bending_mode(lifted(input.x));
+    const oracles::Quad<double> u = oracles::bending_mode(as_quad(input.x));
     const Corners& weighed = input.elastic_geometry == oracles::Geometry::rest ? input.rest : input.x;
-    const double c = oracles::anisotropy_factor(lifted(weighed));
+    const double c = oracles::anisotropy_factor(as_quad(weighed));
     const double largest = std::max({length(u[0]), length(u[1]), length(u[2]), length(u[3])});
-    const double scale = input.ke * c * largest * std::max(thinness(input.x), thinness(weighed));
+    const double scale = input.ke * c * largest * std::max(aspect_ratio(input.x), aspect_ratio(weighed));
     for (int k = 0; k < 4; ++k) {
       const int i = specimen.scene.mesh.hinges[h].particles[k];
       expected.force.col(i) += force.value[k];
@@ -110,8 +110,8 @@ oracles::Estimate worst_difference(const PerParticle3& f, const Expected& expect
   Worst difference, uncertainty;
   for (Eigen::Index i = 0; i < f.cols(); ++i) {
     const double unit = epsilon * expected.scale[i];
-    difference.see((f.col(i) - expected.force.col(i)).norm() / unit);
-    uncertainty.see(expected.uncertainty[i] / unit);
+    difference.observe((f.col(i) - expected.force.col(i)).norm() / unit);
+    uncertainty.observe(expected.uncertainty[i] / unit);
   }
   return {difference.value(), uncertainty.value()};
 }
@@ -128,12 +128,12 @@ Finding force_is_as_defined(const Subject& subject) {
         continue;  // sheets take them in turn
       specimen.scene.bending = material;
       const PerParticle3 f = Probe(subject, specimen.scene).elastic(specimen.state);
-      measured.row(described(specimen, material), worst_difference(f, expected_elastic(specimen)));
+      measured.row(describe(specimen, material), worst_difference(f, expected_elastic(specimen)));
     }
   }
-  return judged_worst(measured, 64,
-                      "a hinge's force takes fewer than 64 roundings, and the normals magnify them by the "
-                      "triangles' thinness (longest side squared over twice the area)");
+  return judge_worst(measured, 64,
+                     "a hinge's force takes fewer than 64 roundings, and the normals magnify them by the "
+                     "triangles' thinness (longest side squared over twice the area)");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ std::vector<Damped> with_damping(const std::vector<Specimen>& specimens) {
   std::vector<Damped> cases;
   for (const Specimen& specimen : specimens) {
     for (const BendingMaterial& material : damped_bending_variants()) {
-      cases.push_back({described(specimen, material), specimen});
+      cases.push_back({describe(specimen, material), specimen});
       cases.back().specimen.scene.bending = material;
     }
   }
@@ -48,7 +48,7 @@ PerParticle damping_scale(const Specimen& specimen, const PerParticle3& v) {
     double rate = 0;
     for (int k = 0; k < 4; ++k) rate += u[k] * v.col(hinge.particles[k]).norm();
     for (int k = 0; k < 4; ++k)
-      scale[hinge.particles[k]] += material.damping * s * u.maxCoeff() * rate * thinness(x);
+      scale[hinge.particles[k]] += material.damping * s * u.maxCoeff() * rate * aspect_ratio(x);
   }
   return scale;
 }
@@ -73,7 +73,7 @@ Finding damping_is_as_defined(const Subject& subject) {
     measured.row(damped.name,
                  oracles::Estimate{error.maxCoeff<Eigen::PropagateNaN>(), uncertainty.cwiseQuotient(unit).maxCoeff()});
   }
-  return judged_worst(
+  return judge_worst(
       measured, 64,
       "a hinge's damping force takes fewer than 64 roundings, magnified by the triangles' thinness");
 }
@@ -82,7 +82,7 @@ Finding damping_dissipates(const Subject& subject) {
   Table powers = no_powers();
   for (const Damped& damped : with_damping(sheets_and_hinges())) {
     const auto [power, share] =
-        power_of_damping(Probe(subject, damped.specimen.scene), damped.specimen.state);
+        damping_power_of(Probe(subject, damped.specimen.scene), damped.specimen.state);
     powers.row(damped.name, share, power);
   }
   return dissipation(powers);
@@ -103,7 +103,7 @@ Finding leaves_rigid_motion_alone(const Subject& subject) {
     const PerParticle3 v = rigid_velocity(x, Vector3(0.4, -0.9, 0.3), Vector3(-3.1, 1.9, 4.7));
     measured.row(damped.name, force_in_roundings(Probe(subject, specimen.scene), specimen, v));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 32,
       "u.v of a rigid motion is a sum of fewer than 32 terms' roundings, magnified by the thinness");
 }
@@ -131,11 +131,11 @@ Finding leaves_in_plane_motion_alone(const Subject& subject) {
     for (const Damped& damped : cases) {
       const Specimen& hinge = damped.specimen;
       const Corners x = corners_of(hinge.scene.mesh.hinges[0], hinge.state.x);
-      worst.see(force_in_roundings(Probe(subject, hinge.scene), hinge, in_plane_velocity(x, rates)));
+      worst.observe(force_in_roundings(Probe(subject, hinge.scene), hinge, in_plane_velocity(x, rates)));
     }
     measured.row(names[motion], worst.value());
   }
-  return judged_worst(
+  return judge_worst(
       measured, 32,
       "u.v of an in-plane motion is a sum of fewer than 32 terms' roundings, magnified by the thinness",
       "The six rigid motions, which complete the eleven, have a check of their own.");
@@ -163,7 +163,7 @@ Finding keeps_momentum(const Subject& subject) {
     measured.row(damped.name + ", force", net_force(f));
     measured.row(damped.name + ", torque", net_torque(specimen.state.x, f));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 32,
       "each hinge's forces cancel to a few roundings and about 20 hinge forces are added to a particle, a "
       "rounding each",

@@ -22,7 +22,7 @@ std::vector<Specimen> specimens() {
 /// How far a path may lead from a specimen's state without folding a hinge through pi or losing a triangle
 /// [m].
 double excursion(const Specimen& specimen) {
-  return 0.08 * least_height(specimen.scene.mesh.triangles, specimen.state.x);
+  return 0.08 * smallest_height(specimen.scene.mesh.triangles, specimen.state.x);
 }
 
 Finding force_is_minus_gradient(const Subject& subject) {
@@ -32,10 +32,10 @@ Finding force_is_minus_gradient(const Subject& subject) {
       if (material.weighting != Weighting::rest) continue;
       specimen.scene.bending = material;
       const Path path = random_line(specimen.state.x, excursion(specimen), 77);
-      measured.row(described(specimen, material), energy_against_work(Probe(subject, specimen.scene), path));
+      measured.row(describe(specimen, material), energy_against_work(Probe(subject, specimen.scene), path));
     }
   }
-  return judged_worst(
+  return judge_worst(
       measured, 256,
       "80 to 640 forces and two energies enter the balance, each good to a few roundings of its scale times "
       "the thinness of crumpled triangles, about 3; the quadrature's own error is the uncertainty");
@@ -66,13 +66,13 @@ Finding energy_is_as_defined(const Subject& subject) {
         const double weight = input.ke * rest.edge * rest.edge / rest.area_sum;
         const double potential = potential_50(input, material.law, weight / input.ke);
         energy += weight * potential;
-        scale += weight * (1 + potential) * (thinness(input.x) + thinness(input.rest));
+        scale += weight * (1 + potential) * (aspect_ratio(input.x) + aspect_ratio(input.rest));
       }
       const double error = std::abs(Probe(subject, specimen.scene).energy(specimen.state) - energy);
-      measured.row(described(specimen, material), error / (epsilon * scale));
+      measured.row(describe(specimen, material), error / (epsilon * scale));
     }
   }
-  return judged_worst(
+  return judge_worst(
       measured, 64,
       "theta and c take about 16 roundings each, magnified by the thinness, and hinges are added one by one");
 }
@@ -90,7 +90,7 @@ std::vector<Loop> loops(const Subject& subject, Weighting weighting) {
       if (material.weighting != weighting) continue;
       specimen.scene.bending = material;
       const Path path = random_loop(specimen.state.x, excursion(specimen), 53);
-      list.push_back({described(specimen, material), round_trip(Probe(subject, specimen.scene), path)});
+      list.push_back({describe(specimen, material), round_trip(Probe(subject, specimen.scene), path)});
     }
   }
   return list;
@@ -102,7 +102,7 @@ Finding no_work_round_a_loop(const Subject& subject) {
     const double unit = epsilon * loop.trip.scale;
     measured.row(loop.name, oracles::Estimate{std::abs(loop.trip.work) / unit, loop.trip.uncertainty / unit});
   }
-  return judged_worst(
+  return judge_worst(
       measured, 64,
       "forces along the path are good to a few dozen roundings; the quadrature's error is the uncertainty");
 }
@@ -116,7 +116,7 @@ Finding work_round_a_loop(const Subject& subject) {
     measured.row(loop.name, (loop.trip.uncertainty + rounding) / std::abs(loop.trip.work),
                  loop.trip.work / loop.trip.scale);
   }
-  return judged_worst(
+  return judge_worst(
       measured, "uncertainty of the work over the work", 0.01,
       "a work of 100 times its uncertainty is not zero; the uncertainty is the quadrature's error and 64 "
       "roundings",

@@ -46,7 +46,7 @@ Eleven eleven_modes(const Corners& x) {
 
 Mode reference_mode(const Corners& x) { return bending_mode(hinge_shape(x[0], x[1], x[2], x[3])).reshaped(); }
 
-Mode stacked(const std::array<Vector3, 4>& vectors) {
+Mode stack(const std::array<Vector3, 4>& vectors) {
   Mode mode;
   for (int k = 0; k < 4; ++k) mode.segment<3>(3 * k) = vectors[k];
   return mode;
@@ -65,12 +65,12 @@ Finding mode_is_orthogonal(const Subject&) {
     const Eleven eleven = eleven_modes(x);
     const Mode u = reference_mode(x);
     for (int m = 0; m < 11; ++m) {
-      worst[m].see(std::abs(u.dot(eleven.modes.col(m))) / (epsilon * u.norm() * thinness(x)));
+      worst[m].observe(std::abs(u.dot(eleven.modes.col(m))) / (epsilon * u.norm() * aspect_ratio(x)));
     }
   }
   Table measured = roundings_of("|u| thinness");
   for (int m = 0; m < 11; ++m) measured.row(Eleven::names[m], worst[m].value());
-  return judged_worst(
+  return judge_worst(
       measured, 32,
       "u, a normalised motion and their scalar product take fewer than 32 roundings each of |u|, magnified "
       "by the triangles' thinness");
@@ -86,9 +86,9 @@ Finding mode_is_the_only_one(const Subject&) {
     const double sine = (u - u.dot(alone) * alone).norm();
     const bool several = !(smallest > 1e-4);  // the eleven would not be independent
     measured.row("hinge " + std::to_string(measured.rows() + 1),
-                 several ? std::nan("") : sine * smallest / (epsilon * thinness(x)), smallest);
+                 several ? std::nan("") : sine * smallest / (epsilon * aspect_ratio(x)), smallest);
   }
-  return judged_worst(
+  return judge_worst(
       measured, "measured", 64,
       "the null vector of the eleven moves by their roundings, fewer than 64, over their smallest singular "
       "value",
@@ -104,16 +104,16 @@ Finding mode_is_minus_gradient(const Subject&) {
   Random random(907);
   for (const Corners& x : shapes()) {
     const Mode u = reference_mode(x);
-    const double unit = epsilon * u.norm() * thinness(x);
+    const double unit = epsilon * u.norm() * aspect_ratio(x);
     const auto gradient = oracles::theta_gradient_autodiff(x);
     const auto differences = oracles::theta_gradient_differences(x);
-    const oracles::Estimate off{(u + stacked(gradient.value)).norm() / unit, 4 * gradient.uncertainty / unit};
+    const oracles::Estimate off{(u + stack(gradient.value)).norm() / unit, 4 * gradient.uncertainty / unit};
     const PerParticle3 v = random.vectors(4, 0.8);
     const auto rate = oracles::theta_rate_autodiff(x, {v.col(0), v.col(1), v.col(2), v.col(3)});
     measured.row("hinge " + std::to_string(measured.rows() + 1), off,
-                 (u + stacked(differences.value)).norm() / unit, rate.value, u.dot(v.reshaped()));
+                 (u + stack(differences.value)).norm() / unit, rate.value, u.dot(v.reshaped()));
   }
-  return judged_worst(
+  return judge_worst(
       measured, "measured", 32, "u takes fewer than 32 roundings, magnified by the triangles' thinness",
       "The printed line d(theta)/dt = u.v has the wrong sign: d(theta)/dt = -u.v, as the last two columns "
       "show. The printed forces are right.");
@@ -141,16 +141,16 @@ Finding weights_are_barycentric(const Subject& subject) {
     const Corners x = corners_of(hinge.scene.mesh.hinges[0], hinge.state.x);
     const double b1 = double(foot(x, x[0])), b2 = double(foot(x, x[1]));
     const Vector3 f3 = -(b1 * f.col(0) + b2 * f.col(1)), f4 = -((1 - b1) * f.col(0) + (1 - b2) * f.col(1));
-    const double unit = epsilon * f.norm() * thinness(x);
+    const double unit = epsilon * f.norm() * aspect_ratio(x);
     const double moment1 = f.col(0).norm() * height(x, x[0]), moment2 = f.col(1).norm() * height(x, x[1]);
     Worst worst;
-    worst.see((f.col(2) - f3).norm() / unit);
-    worst.see((f.col(3) - f4).norm() / unit);
-    worst.see(std::abs(moment1 - moment2) / (epsilon * thinness(x) * moment1));
+    worst.observe((f.col(2) - f3).norm() / unit);
+    worst.observe((f.col(3) - f4).norm() / unit);
+    worst.observe(std::abs(moment1 - moment2) / (epsilon * aspect_ratio(x) * moment1));
     measured.row(hinge.name, worst.value(), height(x, x[0]) / height(x, x[1]));
   }
-  return judged_worst(measured, "measured", 32,
-                      "weights, heights and forces take fewer than 32 roundings, magnified by the thinness");
+  return judge_worst(measured, "measured", 32,
+                     "weights, heights and forces take fewer than 32 roundings, magnified by the thinness");
 }
 
 }  // namespace

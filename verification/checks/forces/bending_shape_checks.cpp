@@ -37,13 +37,13 @@ Jacobian jacobian_of(const Law& law, const Vector12& v) {
     const Vector12 near_ahead = law(v + one), near_behind = law(v - one);
     const Vector12 far_ahead = law(v + two), far_behind = law(v - two);
     result.matrix.col(k) = (8 * (near_ahead - near_behind) - (far_ahead - far_behind)) / (12 * stencil);
-    for (const Vector12& f : {near_ahead, near_behind, far_ahead, far_behind}) largest.see(f.norm());
+    for (const Vector12& f : {near_ahead, near_behind, far_ahead, far_behind}) largest.observe(f.norm());
   }
   result.rounding = epsilon * largest.value() / stencil;
   return result;
 }
 
-Vector12 stacked(const std::array<Vector3, 4>& vectors) {
+Vector12 stack(const std::array<Vector3, 4>& vectors) {
   Vector12 result;
   for (int k = 0; k < 4; ++k) result.segment<3>(3 * k) = vectors[k];
   return result;
@@ -88,18 +88,18 @@ Finding nonlinear_damping_stays_symmetric(const Subject& subject) {
     hinge.scene.bending = damped_bending_variants()[0];
     const Probe probe(subject, hinge.scene);
     const Corners x = corners_of(hinge.scene.mesh.hinges[0], hinge.state.x);
-    const Vector12 gradient = stacked(oracles::theta_gradient_autodiff(x).value),
+    const Vector12 gradient = stack(oracles::theta_gradient_autodiff(x).value),
                    v = hinge.state.v.reshaped();
     const Jacobian together = jacobian_of(stiffened_together(probe, hinge.state, gradient), v);
-    const double unit = together.rounding * thinness(x);
+    const double unit = together.rounding * aspect_ratio(x);
     Worst worst;
-    worst.see(relative_asymmetry(together.matrix) * together.matrix.cwiseAbs().maxCoeff() / unit);
-    worst.see(largest_eigenvalue(together.matrix) / (12 * unit));  // negative where there is nothing to see
+    worst.observe(relative_asymmetry(together.matrix) * together.matrix.cwiseAbs().maxCoeff() / unit);
+    worst.observe(largest_eigenvalue(together.matrix) / (12 * unit));  // negative where there is nothing to see
     measured.row(
         hinge.name, worst.value(), std::pow(gradient.dot(v) / rate_scale, 2),
         relative_asymmetry(jacobian_of(stiffened_one_by_one(probe, hinge.state, gradient), v).matrix));
   }
-  return judged_worst(
+  return judge_worst(
       measured, "measured", 64,
       "an entry is a difference of forces of about forty roundings each, magnified by the triangles' thinness",
       "The law is the subject's damping times 1 + (rate/" + std::to_string(int(rate_scale)) +
@@ -111,8 +111,8 @@ Finding nonlinear_damping_stays_symmetric(const Subject& subject) {
 /// A flat sheet whose rest angles are those of pleats: unfolded, free, damped, without gravity.
 Scene unfolded_pleats(double rest_share) {
   constexpr double angle = 1.1;  // between neighbouring panels [rad]
-  Scene scene = scene_of(make_sheet({SheetPattern::union_jack, 0.24, 0.09, 8, 3}), 0.19);
-  scene.rest_angles = hinge_angles(scene.mesh, pleated(scene.mesh, 2, angle));
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::union_jack, 0.24, 0.09, 8, 3}), 0.19);
+  scene.rest_angles = hinge_angles(scene.mesh, pleated_positions(scene.mesh, 2, angle));
   for (double& rest : scene.rest_angles) rest *= rest_share;
   scene.stretch = StretchMaterial{7.3, 0.043, 1};
   scene.bending = BendingMaterial{0.0061, 0.0029, Weighting::rest, DampingFactor::edge, "sine"};
@@ -121,7 +121,7 @@ Scene unfolded_pleats(double rest_share) {
 }
 
 /// sqrt(sum over the hinges of (theta - theta0)^2) [rad].
-double unfolded_by(const Scene& scene, const PerParticle3& x, const std::vector<double>& angles) {
+double unfolding(const Scene& scene, const PerParticle3& x, const std::vector<double>& angles) {
   double sum = 0;
   for (size_t h = 0; h < scene.mesh.hinges.size(); ++h) {
     const double theta = oracles::hinge_angle_50(corners_of(scene.mesh.hinges[h], x)).value;
@@ -137,7 +137,7 @@ double left_after(const Subject& subject, const Scene& scene, const std::vector<
   const State start = stepper.start();
   const int steps = int(std::ceil(duration / (0.5 * elastic_limit(build_system(scene), start))));
   const State end = stepper.run(start, duration / steps, steps);
-  return unfolded_by(scene, end.x, angles) / unfolded_by(scene, start.x, angles);
+  return unfolding(scene, end.x, angles) / unfolding(scene, start.x, angles);
 }
 
 Finding unfolded_pleats_return(const Subject& subject) {

@@ -6,7 +6,7 @@
 
 namespace foldproof {
 
-PowerOfDamping power_of_damping(const Probe& probe, const State& s) {
+DampingPower damping_power_of(const Probe& probe, const State& s) {
   const PerParticle3 f = probe.damping(s, s.v);
   const double power = f.cwiseProduct(s.v).sum();
   return {power, power / f.colwise().norm().cwiseProduct(s.v.colwise().norm()).sum()};
@@ -29,7 +29,7 @@ Finding asymmetry(const Subject& subject, const std::vector<DampedScene>& cases)
     const double largest = (D - D.transpose()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     measured.row(damped.name, largest / (epsilon * D.cwiseAbs().maxCoeff()));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 32, "an entry of D is a product of two rounded components and a sum over about ten elements");
 }
 
@@ -45,7 +45,7 @@ Finding largest_eigenvalue(const Subject& subject, const std::vector<DampedScene
     measured.row(damped.name, values.maxCoeff() / (epsilon * double(D.rows()) * size), values.minCoeff(),
                  values.maxCoeff());
   }
-  return judged_worst(
+  return judge_worst(
       measured, "measured", 4,
       "the eigenvalue solver's backward error is about epsilon 3N times the largest eigenvalue");
 }

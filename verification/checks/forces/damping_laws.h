@@ -15,13 +15,13 @@ struct DampedScene {
   State state;
 };
 
-struct PowerOfDamping {
+struct DampingPower {
   double power;  // sum of v_i.F_i [W]; negative when the motion loses energy
   double share;  // power over sum |v_i||F_i| [1], from -1 to 1; NaN without any force
 };
 
 /// At the state's own velocities.
-PowerOfDamping power_of_damping(const Probe& probe, const State& s);
+DampingPower damping_power_of(const Probe& probe, const State& s);
 
 /// Columns for powers of damping, case by case: name, share and power.
 Table no_powers();

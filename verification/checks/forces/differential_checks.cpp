@@ -49,11 +49,11 @@ Finding hinge_is_second_derivative(const Subject&) {
     hinge.scene.bending = bending_by("sine", Weighting::rest);
     const oracles::MatrixEstimate exact = oracles::bending_elastic_derivative_autodiff(hinge_input(hinge, 0));
     const double scale = epsilon * largest_entry(exact.value) *
-                         std::pow(thinness(corners_of(hinge.scene.mesh.hinges[0], hinge.state.x)), 2);
+                         std::pow(aspect_ratio(corners_of(hinge.scene.mesh.hinges[0], hinge.state.x)), 2);
     const Matrix difference = stiffness_of(hinge, Definiteness::exact) - exact.value;
     measured.row(hinge.name, oracles::Estimate{largest_entry(difference) / scale, exact.uncertainty / scale});
   }
-  return judged_worst(
+  return judge_worst(
       measured, 16,
       "an entry is a sum of four products of a dozen factors: 48 roundings of either sign add up to some 7, "
       "twice that "
@@ -111,7 +111,7 @@ Finding matches_differences(const Subject& subject) {
     measured.row(specimen.name,
                  oracles::Estimate{largest_entry(difference) / scale, differences.uncertainty / scale});
   }
-  return judged_worst(
+  return judge_worst(
       measured, 1e-9,
       "rounding of differences at steps of 1e-4 of the cloth is epsilon over the step, 2e-12, "
       "magnified some hundredfold by thin triangles; how far two extrapolations disagree is added; a missing "
@@ -126,10 +126,9 @@ Finding is_symmetric(const Subject&) {
       const Matrix K = stiffness_of(specimen, definiteness);
       measured.row(specimen.name, largest_entry(K - K.transpose()) / (epsilon * largest_entry(K)));
     }
-  return judged_worst(
-      measured, 256,
-      "a hinge's rows and columns are summed by different formulas, each of a dozen roundings "
-      "magnified by crumpled triangles about ten times");
+  return judge_worst(measured, 256,
+                     "a hinge's rows and columns are summed by different formulas, each of a dozen roundings "
+                     "magnified by crumpled triangles about ten times");
 }
 
 /// How far P is from the nearest negative semidefinite matrix to A in the Frobenius norm, which alone has
@@ -137,9 +136,9 @@ Finding is_symmetric(const Subject&) {
 double projection_error(const Matrix& A, const Matrix& P) {
   const double scale = A.norm();
   Worst worst;
-  worst.see(oracles::symmetric_eigenvalues(P).maxCoeff() / scale);
-  worst.see(-oracles::symmetric_eigenvalues(A - P).minCoeff() / scale);
-  worst.see((P * (A - P)).norm() / (scale * scale));
+  worst.observe(oracles::symmetric_eigenvalues(P).maxCoeff() / scale);
+  worst.observe(-oracles::symmetric_eigenvalues(A - P).minCoeff() / scale);
+  worst.observe((P * (A - P)).norm() / (scale * scale));
   return worst.value() / epsilon;
 }
 
@@ -150,7 +149,7 @@ Finding projection_is_nearest(const Subject&) {
     const Matrix exact = stiffness_of(hinge, Definiteness::exact);
     measured.row(hinge.name, projection_error(exact, stiffness_of(hinge, Definiteness::semidefinite)));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 64,
       "the eigenvalue decomposition of a 12 x 12 matrix is good to a few dozen roundings of its norm");
 }
@@ -158,7 +157,7 @@ Finding projection_is_nearest(const Subject&) {
 /// Two particles and the one spring of their length, by the reference alone.
 double spring_error(double stretch) {
   StretchSprings springs{{{0, 1, 0.31, 23.0, 0}}};
-  State s = still_at(PerParticle3::Zero(3, 2));
+  State s = resting_state(PerParticle3::Zero(3, 2));
   s.x.col(1) = stretch * 0.31 * Vector3(2, -1, 2) / 3;
   ForceDifferential exact, projected;
   springs.add_elastic_differential(s, Definiteness::exact, exact);
@@ -170,7 +169,7 @@ Finding spring_projection_is_nearest(const Subject&) {
   Table measured = roundings_of("the matrix");
   for (const double stretch : {0.43, 0.97, 1.02, 1.7})
     measured.row("length over rest length " + std::to_string(stretch), spring_error(stretch));
-  return judged_worst(measured, 16, "a 3 x 3 matrix of a few products");
+  return judge_worst(measured, 16, "a 3 x 3 matrix of a few products");
 }
 
 Finding semidefinite_only_resists(const Subject&) {
@@ -180,8 +179,8 @@ Finding semidefinite_only_resists(const Subject&) {
     const Eigen::VectorXd values = oracles::symmetric_eigenvalues(0.5 * (K + K.transpose()));
     measured.row(specimen.name, values.maxCoeff() / (epsilon * largest_entry(K)));
   }
-  return judged_worst(measured, 256,
-                      "a sum of some hundred negative semidefinite blocks, each so to a few dozen roundings");
+  return judge_worst(measured, 256,
+                     "a sum of some hundred negative semidefinite blocks, each so to a few dozen roundings");
 }
 
 }  // namespace

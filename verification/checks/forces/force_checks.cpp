@@ -6,7 +6,7 @@
 #include "verification/oracles/dense_algebra.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
-#include "verification/specimens/refusal.h"
+#include "verification/specimens/rejection.h"
 #include "verification/specimens/specimens.h"
 #include <cmath>
 
@@ -46,7 +46,7 @@ Finding gravity_is_weight(const Subject& subject) {
         difference.colwise().norm().transpose().cwiseQuotient(epsilon * field.norm() * masses);
     measured.row(sheet.name, relative.maxCoeff<Eigen::PropagateNaN>());
   }
-  return judged_worst(measured, 32, "about eight areas of a few roundings each are added to a mass");
+  return judge_worst(measured, 32, "about eight areas of a few roundings each are added to a mass");
 }
 
 Finding gravity_energy(const Subject& subject) {
@@ -58,8 +58,8 @@ Finding gravity_energy(const Subject& subject) {
     const double error = std::abs(Probe(subject, sheet.scene).energy(sheet.state) - expected);
     measured.row(sheet.name, error / (epsilon * scale));
   }
-  return judged_worst(measured, 64,
-                      "masses take about 16 roundings, and about 40 particles are added one by one");
+  return judge_worst(measured, 64,
+                     "masses take about 16 roundings, and about 40 particles are added one by one");
 }
 
 /// The stiffness matrix by central differences of the forces, scaled with the masses: M^-1/2 K M^-1/2
@@ -140,7 +140,7 @@ Finding bound_is_a_bound(const Subject& subject) {
     measured.row(specimen.name, oracles::Estimate{largest.value / bound, largest.uncertainty / bound},
                  largest.value);
   }
-  return judged_worst(measured, "largest frequency over the bound", 1, "an upper bound may not be exceeded");
+  return judge_worst(measured, "largest frequency over the bound", 1, "an upper bound may not be exceeded");
 }
 
 /// Hinges far from their rest angles, whose forces change by their size more than by their angle: at half a
@@ -194,8 +194,8 @@ Finding rows_are_covered(const Subject&) {
     const PerParticle share = row_sums(specimen).cwiseQuotient(row_bounds(specimen));
     measured.row(specimen.name, share.maxCoeff<Eigen::PropagateNaN>());
   }
-  return judged_worst(measured, 1 + 1e-9,
-                      "an upper bound may not be exceeded, but for rounding in thin triangles");
+  return judge_worst(measured, 1 + 1e-9,
+                     "an upper bound may not be exceeded, but for rounding in thin triangles");
 }
 
 /// Hinges in their rest shape, where only the rank-one part is left: there the bound is the sum.
@@ -213,9 +213,9 @@ Finding rows_are_reached(const Subject&) {
     const PerParticle share = row_sums(specimen).cwiseQuotient(row_bounds(specimen));
     measured.row(specimen.name, (share.array() - 1).abs().maxCoeff<Eigen::PropagateNaN>());
   }
-  return judged_worst(measured, 1e-7,
-                      "a rest angle is met to a rounding, which thin triangles magnify; a missing term or a "
-                      "wrong factor is of order 1");
+  return judge_worst(measured, 1e-7,
+                     "a rest angle is met to a rounding, which thin triangles magnify; a missing term or a "
+                     "wrong factor is of order 1");
 }
 
 /// The same hinge seen from its other side: x1 and x2 in turn, and x3 and x4.
@@ -238,22 +238,22 @@ Finding rows_follow_their_particles(const Subject&) {
                    std::abs(other[same] / one[k] - 1) / epsilon);
     }
   }
-  return judged_worst(measured, 3000,
-                      "a bound has some thirty roundings, which thin triangles magnify by their shape, "
-                      "sides of up to ten to one twice; terms of the wrong particle differ by the sides");
+  return judge_worst(measured, 3000,
+                     "a bound has some thirty roundings, which thin triangles magnify by their shape, "
+                     "sides of up to ten to one twice; terms of the wrong particle differ by the sides");
 }
 
-Finding unknown_laws_are_refused(const Subject&) {
+Finding unknown_laws_are_rejected(const Subject&) {
   Table measured{{"case", ""}, {"names that are taken or refused wrongly", "1"}};
   for (const BendingLaw& law : bending_laws())
     measured.row(std::string(law.name), bending_law(law.name).magnitude == law.magnitude ? 0 : 1);
   for (const std::string name : {"square", "", "sin", "Sine"}) {
-    const std::string said = refusal([&] { bending_law(name); });
+    const std::string said = rejection_message([&] { bending_law(name); });
     const bool is_told =
         said.find("'" + name + "'") != std::string::npos && said.ends_with("known: sine, cubic");
     measured.row("'" + name + "'", is_told ? 0 : 1);
   }
-  return judged_worst(measured, 0, "a law is one of the list, or refused with its name and the list");
+  return judge_worst(measured, 0, "a law is one of the list, or refused with its name and the list");
 }
 
 }  // namespace
@@ -270,7 +270,7 @@ std::vector<Check> force_checks() {
        "Gershgorin's theorem; the automatic step rests on it", bound_is_a_bound},
       {"bending.unknown-laws-are-rejected",
        "A bending law that the reference does not know is refused by name.",
-       "a rule of this suite: bad input is refused in words", unknown_laws_are_refused},
+       "a rule of this suite: bad input is refused in words", unknown_laws_are_rejected},
       {"forces.row-bounds-cover-every-row",
        "What the reference's springs and hinges say of a particle's row of the stiffness matrix is not "
        "exceeded by "

@@ -82,12 +82,12 @@ Finding hinge_is_derivative(const Subject&) {
       hinge.scene.bending = material;
       const oracles::MatrixEstimate exact = oracles::bending_force_derivative_autodiff(hinge_input(hinge, 0));
       const double scale = epsilon * largest_entry(exact.value) *
-                           std::pow(thinness(corners_of(hinge.scene.mesh.hinges[0], hinge.state.x)), 2);
+                           std::pow(aspect_ratio(corners_of(hinge.scene.mesh.hinges[0], hinge.state.x)), 2);
       const Matrix difference = derivative_of(hinge) - exact.value;
-      measured.row(described(hinge, material),
+      measured.row(describe(hinge, material),
                    oracles::Estimate{largest_entry(difference) / scale, exact.uncertainty / scale});
     }
-  return judged_worst(
+  return judge_worst(
       measured, 16,
       "an entry is a sum of eight products of a dozen factors: a hundred roundings of either sign add up to "
       "some 10; a "
@@ -101,7 +101,7 @@ Finding spring_is_derivative(const Subject&) {
     // on the oracle's side Y A/L0^2 and kd A/L0^2
     const double area = 0.23, rest = 0.31, young = 7.9, damping = 0.59, shape = area / (rest * rest);
     const StretchSprings springs{{{0, 1, rest, young * shape, damping * shape}}};
-    State s = still_at(random.vectors(2, 0.4));
+    State s = resting_state(random.vectors(2, 0.4));
     s.x.col(1) = s.x.col(0) + stretch * rest * (s.x.col(1) - s.x.col(0)).normalized();
     s.v = random.vectors(2, 1.3);
     ForceDifferential differential;
@@ -113,8 +113,8 @@ Finding spring_is_derivative(const Subject&) {
                  oracles::Estimate{largest_entry(matrix_of(differential, 2) - exact.value) / scale,
                                    exact.uncertainty / scale});
   }
-  return judged_worst(measured, 32,
-                      "a 3 x 3 matrix of a dozen products; length less rest length loses a few roundings");
+  return judge_worst(measured, 32,
+                     "a 3 x 3 matrix of a dozen products; length less rest length loses a few roundings");
 }
 
 Finding matches_differences(const Subject& subject) {
@@ -125,13 +125,12 @@ Finding matches_differences(const Subject& subject) {
       sheet.scene.stretch = StretchMaterial{41, 0.31, 1.04};
       const Probe probe(subject, sheet.scene);
       const Matrix expected = differences_of_forces(probe, sheet.state, 1e-4 * extent(sheet.state.x));
-      measured.row(described(sheet, material),
+      measured.row(describe(sheet, material),
                    largest_entry(derivative_of(sheet) - expected) / largest_entry(expected));
     }
-  return judged_worst(
-      measured, 1e-9,
-      "rounding of differences at steps of 1e-4 of the cloth is epsilon over the step, 2e-12, "
-      "magnified some hundredfold by thin triangles; a missing or wrong term is of order 1");
+  return judge_worst(measured, 1e-9,
+                     "rounding of differences at steps of 1e-4 of the cloth is epsilon over the step, 2e-12, "
+                     "magnified some hundredfold by thin triangles; a missing or wrong term is of order 1");
 }
 
 /// Damping force and derivative of these springs at s, side by side: 3N x (3N + 1).
@@ -152,14 +151,14 @@ Finding springs_answer_for_themselves(const Subject&) {
   Random random(71);
   const StretchSprings all{{{0, 1, 0.31, 7.9, 0.59}, {1, 2, 0.23, 5.3, 0}, {2, 3, 0.37, 3.1, 0.83}}};
   for (int k = 0; k < 4; ++k) {
-    State s = still_at(random.vectors(4, 0.4));
+    State s = resting_state(random.vectors(4, 0.4));
     s.v = random.vectors(4, 1.3);
     Matrix sum = Matrix::Zero(12, 13);
     for (const Spring& one : all.springs) sum += damped_answers({{one}}, s);
     measured.row("three springs, place " + std::to_string(k + 1),
                  largest_entry(damped_answers(all, s) - sum) / (epsilon * largest_entry(sum)));
   }
-  return judged_worst(measured, 8, "the same terms, added in another order");
+  return judge_worst(measured, 8, "the same terms, added in another order");
 }
 
 struct Variant {
@@ -189,8 +188,8 @@ Finding flag_is_right(const Subject&) {
       const bool is_called = force_differential_at(system.forces, sheet.state, uncounted).symmetric;
       measured.row(sheet.name + ", " + variant.name, is_called == is_symmetric ? 0 : 1);
     }
-  return judged_worst(measured, 0,
-                      "which solver is taken hangs on it: conjugate gradients need a symmetric matrix");
+  return judge_worst(measured, 0,
+                     "which solver is taken hangs on it: conjugate gradients need a symmetric matrix");
 }
 
 }  // namespace

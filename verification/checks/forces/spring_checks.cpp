@@ -34,14 +34,14 @@ Finding forces_sum_to_zero(const Subject& subject) {
   Table measured = roundings_of("sum |F_i|");
   for (const Specimen& sheet : sprung_sheets())
     measured.row(sheet.name, net_force(Probe(subject, sheet.scene).elastic(sheet.state)));
-  return judged_worst(measured, 16, why_sums);
+  return judge_worst(measured, 16, why_sums);
 }
 
 Finding torques_sum_to_zero(const Subject& subject) {
   Table measured = roundings_of("sum |x_i||F_i|");
   for (const Specimen& sheet : sprung_sheets())
     measured.row(sheet.name, net_torque(sheet.state.x, Probe(subject, sheet.scene).elastic(sheet.state)));
-  return judged_worst(measured, 16, why_sums);
+  return judge_worst(measured, 16, why_sums);
 }
 
 /// One edge of a sheet as the oracles see it.
@@ -97,8 +97,8 @@ Finding force_is_as_defined(const Subject& subject) {
     const PerParticle3 f = Probe(subject, sheet.scene).elastic(sheet.state);
     measured.row(sheet.name, difference_from(sheet, f, oracles::spring_elastic_50, elastic_scale));
   }
-  return judged_worst(measured, 32,
-                      "lengths, areas and the product that is the force take fewer than 32 roundings");
+  return judge_worst(measured, 32,
+                     "lengths, areas and the product that is the force take fewer than 32 roundings");
 }
 
 Finding damping_is_as_defined(const Subject& subject) {
@@ -107,8 +107,8 @@ Finding damping_is_as_defined(const Subject& subject) {
     const PerParticle3 f = Probe(subject, sheet.scene).damping(sheet.state, sheet.state.v);
     measured.row(sheet.name, difference_from(sheet, f, oracles::spring_damping_50, damping_scale));
   }
-  return judged_worst(measured, 32,
-                      "lengths, areas and the product that is the force take fewer than 32 roundings");
+  return judge_worst(measured, 32,
+                     "lengths, areas and the product that is the force take fewer than 32 roundings");
 }
 
 Finding force_is_minus_gradient(const Subject& subject) {
@@ -118,7 +118,7 @@ Finding force_is_minus_gradient(const Subject& subject) {
     measured.row(sheet.name,
                  energy_against_work(Probe(subject, sheet.scene), random_line(sheet.state.x, size, 61)));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 64,
       "80 to 640 forces and two energies enter the balance, each good to a few roundings of its scale; the "
       "quadrature's own error is the uncertainty");
@@ -137,8 +137,8 @@ Finding energy_is_as_defined(const Subject& subject) {
     measured.row(sheet.name,
                  std::abs(Probe(subject, sheet.scene).energy(sheet.state) - energy) / (epsilon * scale));
   }
-  return judged_worst(measured, 32,
-                      "a spring's energy takes about ten roundings, and the springs are added one by one");
+  return judge_worst(measured, 32,
+                     "a spring's energy takes about ten roundings, and the springs are added one by one");
 }
 
 Finding rest_gives_no_force(const Subject& subject) {
@@ -150,7 +150,7 @@ Finding rest_gives_no_force(const Subject& subject) {
         410.0 * edge_areas(shape.scene.mesh).cwiseQuotient(rest_lengths(shape.scene.mesh)).maxCoeff();
     measured.row(shape.name, f.colwise().norm().maxCoeff<Eigen::PropagateNaN>() / (epsilon * scale));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 16, "two ways to a length differ by a few roundings; about eight springs meet in a particle");
 }
 
@@ -167,21 +167,21 @@ Finding rest_length_scale_is_kept(const Subject& subject) {
     const double force_scale = 530.0 * areas.cwiseQuotient(rest_lengths(sheet.scene.mesh)).maxCoeff();
     const std::string name = "rest lengths times " + std::to_string(scale);
     measured.row(name + ", force at ease",
-                 probe.elastic(still_at(at_ease)).colwise().norm().maxCoeff<Eigen::PropagateNaN>() /
+                 probe.elastic(resting_state(at_ease)).colwise().norm().maxCoeff<Eigen::PropagateNaN>() /
                      (epsilon * force_scale));
-    measured.row(
-        name + ", energy at the unscaled rest shape",
-        std::abs(probe.energy(still_at(sheet.scene.mesh.rest)) - energy) / (epsilon * 530.0 * areas.sum()));
+    measured.row(name + ", energy at the unscaled rest shape",
+                 std::abs(probe.energy(resting_state(sheet.scene.mesh.rest)) - energy) /
+                     (epsilon * 530.0 * areas.sum()));
   }
-  return judged_worst(measured, 32,
-                      "two ways to a length differ by a few roundings; springs are added one by one",
-                      "the size of a force is the largest Y A_e/L0, that of an energy sum Y A_e");
+  return judge_worst(measured, 32,
+                     "two ways to a length differ by a few roundings; springs are added one by one",
+                     "the size of a force is the largest Y A_e/L0, that of an energy sum Y A_e");
 }
 
 Finding damping_dissipates(const Subject& subject) {
   Table powers = no_powers();
   for (const Specimen& sheet : sprung_sheets()) {
-    const auto [power, share] = power_of_damping(Probe(subject, sheet.scene), sheet.state);
+    const auto [power, share] = damping_power_of(Probe(subject, sheet.scene), sheet.state);
     powers.row(sheet.name, share, power);
   }
   return dissipation(powers);
@@ -198,7 +198,7 @@ Finding damping_leaves_rigid_motion_alone(const Subject& subject) {
     const PerParticle3 f = Probe(subject, sheet.scene).damping(sheet.state, v);
     measured.row(sheet.name, f.colwise().norm().maxCoeff<Eigen::PropagateNaN>() / (epsilon * scale));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 16,
       "d.(v_b - v_a) of a rigid motion cancels to a few roundings; about eight springs meet in a particle");
 }
@@ -213,8 +213,8 @@ Finding damping_is_symmetric_negative(const Subject& subject) {
   Finding finding = largest_eigenvalue(subject, cases);
   finding.evidence.add({"asymmetry", "epsilon largest |D_ij|", symmetry.evidence.numbers("measured")});
   Worst worst;
-  worst.see(finding.verdict.measured);
-  worst.see(symmetry.verdict.measured);
+  worst.observe(finding.verdict.measured);
+  worst.observe(symmetry.verdict.measured);
   finding.verdict.measured = worst.value();
   finding.verdict.unit = "epsilon of the matrix's size";
   finding.note =

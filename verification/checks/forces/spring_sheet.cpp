@@ -51,7 +51,7 @@ double energy_density(const Probe& probe, const TriangleMesh& mesh, const Strain
   double sum = 0;
   for (const double sign : {1.0, -1.0}) {
     const PerParticle3 x = mesh.rest + sign * size * (shape * mesh.rest);
-    sum += probe.energy(still_at(x));
+    sum += probe.energy(resting_state(x));
   }
   return sum / (2 * area * size * size);
 }
@@ -70,13 +70,13 @@ oracles::Estimate stiffness(const Probe& probe, const TriangleMesh& mesh, const 
 }  // namespace
 
 Finding equilateral_moduli(const Subject& subject) {
-  Scene scene = scene_of(equilateral_parallelogram(), 0.21);
+  Scene scene = scene_at_rest(equilateral_parallelogram(), 0.21);
   scene.stretch = StretchMaterial{young, 0, 1};
   const Probe probe(subject, scene);
   const oracles::SheetModuli expected = oracles::equilateral_sheet_moduli(young);
 
-  const std::string judged = "worse relative error of the two";
-  Table measured{{"case", ""}, {judged, "1"}, {"Young's modulus", "N/m"}, {"Poisson ratio", "1"}};
+  const std::string finding = "worse relative error of the two";
+  Table measured{{"case", ""}, {finding, "1"}, {"Young's modulus", "N/m"}, {"Poisson ratio", "1"}};
   for (const double degrees : {0.0, 17.0, 30.0, 52.0, 90.0}) {
     const double direction = degrees * pi / 180;
     // energy per area: (C11 a^2 + 2 C12 a b + C22 b^2)/2 for strains a along and b across
@@ -86,13 +86,13 @@ Finding equilateral_moduli(const Subject& subject) {
     const double C11 = 2 * along.value, C22 = 2 * across.value, C12 = both.value - along.value - across.value;
     const double found_young = C11 - C12 * C12 / C22, found_poisson = C12 / C22;
     Worst error;
-    error.see(std::abs(found_young / expected.young.value - 1));
-    error.see(std::abs(found_poisson / expected.poisson.value - 1));
+    error.observe(std::abs(found_young / expected.young.value - 1));
+    error.observe(std::abs(found_poisson / expected.poisson.value - 1));
     const double uncertainty = (along.uncertainty + across.uncertainty + both.uncertainty) * 4 / young;
     measured.row(std::to_string(int(degrees)) + " degrees", oracles::Estimate{error.value(), uncertainty},
                  found_young, found_poisson);
   }
-  return judged_worst(measured, judged, 1e-8,
+  return judge_worst(measured, finding, 1e-8,
                       "strains of 1e-3 and 2e-3, extrapolated, leave errors of their fourth power times about "
                       "ten, 2e-10; rounding leaves epsilon over the strain squared, as much; what the "
                       "extrapolation of three strains adds is ten times that");

@@ -30,7 +30,7 @@ State begun(const Subject& subject, const Scene& scene, const State& s) {
 
 /// A crumpled lower layer and particles all about it, all of which may stick to it, its own corners too.
 Scene crumpled_layers() {
-  Scene scene = scene_of(two_sheets(4, 0.3, 0.02), 0.2);
+  Scene scene = scene_at_rest(two_sheets(4, 0.3, 0.02), 0.2);
   Random random(101);
   scene.x += random.vectors(scene.x.cols(), 0.03);
   StickyPatch patch = layer_patch(scene.mesh);
@@ -54,7 +54,7 @@ Finding forms_finding(const Subject& subject) {
     const auto [a, b, c] = patch.triangles[size_t(bond.triangle)];
     const oracles::StuckParticle stuck{
         scene.x.col(bond.particle), {{scene.x.col(a), scene.x.col(b), scene.x.col(c)}}, {bond.place}, 1, 1};
-    off.see((oracles::sticking_answer(stuck).target - stuck.x).norm() / (epsilon * extent(scene.x)));
+    off.observe((oracles::sticking_answer(stuck).target - stuck.x).norm() / (epsilon * extent(scene.x)));
   }
   double wrong = double(s.bonds.size() - found.size()), several = 0;
   for (int i = 0; i < int(scene.x.cols()); ++i) {
@@ -73,7 +73,7 @@ Finding forms_finding(const Subject& subject) {
   measured.row("pairs of particle and triangle that should stick and do not, or the reverse", wrong);
   measured.row("place at formation, in 1000 epsilon of the extent", off.value() / 1000);
   measured.row("few particles with several triangles", several >= 8 ? 0 : NAN);
-  return judged_worst(
+  return judge_worst(
       measured, 0.9, "counts are exact; a foot's weights are magnified by the triangles' thinness",
       fmt::format("{} bonds, {} particles of {} with several.", found.size(), several, scene.x.cols()));
 }
@@ -105,9 +105,9 @@ Finding again_finding(const Subject& subject) {
   Motion motion;
   motion.amplitude = {0, 0, 0.09};
   motion.frequency = 1.7;
-  Scene scene = scene_of(make_hinge(0.1, 0.3), 0.2);
+  Scene scene = scene_at_rest(make_hinge(0.1, 0.3), 0.2);
   scene.x.colwise() += Vector3(0, 0, 0.017);
-  for (int i = 0; i < 4; ++i) scene.led.push_back({i, scene.x.col(i), Motion{}});
+  for (int i = 0; i < 4; ++i) scene.prescribed.push_back({i, scene.x.col(i), Motion{}});
   StickyPatch patch = palm(scene, 1, motion);
   patch.stiffness = 30;
   patch.near = 0.011;
@@ -145,7 +145,7 @@ Finding again_finding(const Subject& subject) {
 }
 
 Scene timed_palm() {
-  Scene scene = scene_of(make_hinge(0.1, 0.4), 0.2);
+  Scene scene = scene_at_rest(make_hinge(0.1, 0.4), 0.2);
   scene.gravity = Vector3(0, 0, -0.3);
   StickyPatch patch = palm(scene, 1, Motion{});
   patch.stiffness = 30;
@@ -187,9 +187,9 @@ Finding timed_finding(const Subject& subject) {
     measured.row(fmt::format("force after {} of the release", part),
                  std::abs(pull(0.17 + 0.06 * part).norm() / full - share) / 1e-12);
   }
-  return judged_worst(measured, 0.9,
-                      "counts are exact; the force is that of k0 (1 - q^2)^2 to a thousand roundings, q the "
-                      "part of `release` that is over");
+  return judge_worst(measured, 0.9,
+                     "counts are exact; the force is that of k0 (1 - q^2)^2 to a thousand roundings, q the "
+                     "part of `release` that is over");
 }
 
 Finding events_finding(const Subject&) {
@@ -250,24 +250,25 @@ Finding memory_finding(const Subject& subject) {
     std::vector<State> past = {whole.start()};
     for (int n = 0; n < 2 * half; ++n) past = {past.back(), whole.step_after(past, h)};
     const State a = continued(cut).back(), b = past.back();
-    measured.row(name + ", cut in two", numbers_that_differ(a.x, b.x) + numbers_that_differ(a.v, b.v) +
+    measured.row(name + ", cut in two", count_differing_entries(a.x, b.x) +
+                                            count_differing_entries(a.v, b.v) +
                                             double(a.bonds.size() != b.bonds.size()));
     std::vector<State> forgetful = cut;
     for (State& s : forgetful) s.bonds = {};
     const State c = continued(forgetful).back();
-    measured.row(name + ", forgetting makes a difference", numbers_that_differ(c.x, b.x) > 0 ? 0 : 1);
+    measured.row(name + ", forgetting makes a difference", count_differing_entries(c.x, b.x) > 0 ? 0 : 1);
   }
-  return judged_worst(measured, 0, "a step is a function of its states: bonds are in them and nowhere else");
+  return judge_worst(measured, 0, "a step is a function of its states: bonds are in them and nowhere else");
 }
 
 /// A triangle that rests by itself, with particles about it, `distance` away on all six sides.
-struct Surrounded {
+struct SurroundedParticle {
   StickyPatch patch;
   State state;
 };
 
-Surrounded surrounded(double near, double distance) {
-  Surrounded made;
+SurroundedParticle surround(double near, double distance) {
+  SurroundedParticle made;
   made.patch.name = "triangle";
   made.patch.triangles = {{0, 1, 2}};
   made.patch.place = [](double) -> PerParticle3 {
@@ -277,9 +278,9 @@ Surrounded surrounded(double near, double distance) {
   made.patch.stiffness = 3.7;
   made.patch.near = near;
   made.patch.far = 0.3 * near;  // of what it sticks to where it is, a particle is no distance away
-  made.state = still_at(PerParticle3{{0.13 - distance, 0.93 + distance, 0.35, 0.13, 0.35, 0.35},
-                                     {0.41, 0.21, 0.21 - distance, 1.11 + distance, 0.41, 0.41},
-                                     {0.37, 0.37, 0.37, 0.37, 0.37 - distance, 0.37 + distance}});
+  made.state = resting_state(PerParticle3{{0.13 - distance, 0.93 + distance, 0.35, 0.13, 0.35, 0.35},
+                                          {0.41, 0.21, 0.21 - distance, 1.11 + distance, 0.41, 0.41},
+                                          {0.37, 0.37, 0.37, 0.37, 0.37 - distance, 0.37 + distance}});
   return made;
 }
 
@@ -287,16 +288,15 @@ Finding sides_finding(const Subject&) {
   Table measured{{"case", ""}, {"particles of six that stick wrongly", "1"}};
   for (const double near : {0.051, 0.43})
     for (const double part : {0.4, 0.99, 1.01}) {
-      Surrounded made = surrounded(near, part * near);
-      Sticking{{made.patch}}.renew_bonds(made.state);
+      SurroundedParticle made = surround(near, part * near);
+      Sticking{{made.patch}}.update_bonds(made.state);
       const double expected = part < 1 ? 6 : 0;
       measured.row(fmt::format("{} of near = {} m", part, near),
                    std::abs(double(made.state.bonds.size()) - expected));
     }
-  return judged_worst(
-      measured, 0,
-      "a particle sticks just where its distance is at most `near`, on whatever side, however "
-      "soon bonds break");
+  return judge_worst(measured, 0,
+                     "a particle sticks just where its distance is at most `near`, on whatever side, however "
+                     "soon bonds break");
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ Finding force_finding(const Subject& subject) {
     measured.row(specimen.name,
                  largest_difference(force, expected_elastic(specimen)) / force_rounding(specimen));
   }
-  return judged_worst(measured, 64, some_roundings);
+  return judge_worst(measured, 64, some_roundings);
 }
 
 Finding energy_finding(const Subject& subject) {
@@ -56,7 +56,7 @@ Finding energy_finding(const Subject& subject) {
     measured.row(specimen.name, std::abs(difference) / (force_rounding(specimen) * specimen.patch().far *
                                                         double(specimen.stuck.size())));
   }
-  return judged_worst(measured, 64, some_roundings);
+  return judge_worst(measured, 64, some_roundings);
 }
 
 Finding damping_finding(const Subject& subject) {
@@ -68,11 +68,11 @@ Finding damping_finding(const Subject& subject) {
                          specimen.patch().far * extent(specimen.state.x);
     measured.row(specimen.name, (D - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / scale);
   }
-  return judged_worst(measured, 64,
-                      "k depends on the distance, good to a rounding of positions over far; "
-                      "the matrix, G^T G, on frames as the "
-                      "force does",
-                      "The matrix that is expected is -k tau_s G^T G: symmetric, and it can only resist.");
+  return judge_worst(measured, 64,
+                     "k depends on the distance, good to a rounding of positions over far; "
+                     "the matrix, G^T G, on frames as the "
+                     "force does",
+                     "The matrix that is expected is -k tau_s G^T G: symmetric, and it can only resist.");
 }
 
 Finding resists_finding(const Subject& subject) {
@@ -85,8 +85,8 @@ Finding resists_finding(const Subject& subject) {
     measured.row(specimen.name + ", asymmetry",
                  (D - D.transpose()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / (epsilon * largest));
   }
-  return judged_worst(measured, 128,
-                      "a rounding of each of the 54 rows and columns that an eigenvalue sums over");
+  return judge_worst(measured, 128,
+                     "a rounding of each of the 54 rows and columns that an eigenvalue sums over");
 }
 
 Finding momentum_finding(const Subject& subject) {
@@ -96,7 +96,7 @@ Finding momentum_finding(const Subject& subject) {
     measured.row(specimen.name + ", elastic", net_force(probe.elastic(specimen.state)));
     measured.row(specimen.name + ", damping", net_force(probe.damping(specimen.state, specimen.state.v)));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 32,
       "weights sum to 1 and slopes to 0 within a rounding each, and a dozen products are summed");
 }
@@ -140,7 +140,7 @@ Finding torque_finding(const Subject& subject) {
                  (torque_of(x, damping) - expected_torque(specimen)).norm() / size(damping));
     torques.push_back(expected_torque(specimen).norm() / (size(damping) / epsilon));
   }
-  return judged_worst(
+  return judge_worst(
       measured, 64,
       "the torque's sum is rounded as the forces are; the frames turn with the corners, so that nothing else "
       "is left",
@@ -149,9 +149,9 @@ Finding torque_finding(const Subject& subject) {
 }
 
 /// A particle at rest that sticks to the origin, drawn away by d [m].
-StuckSpecimen drawn_away(double d) {
+StuckSpecimen stretched_bonds(double d) {
   StuckSpecimen specimen;
-  specimen.scene = scene_of(
+  specimen.scene = scene_at_rest(
       make_triangle_mesh((PerParticle3(3, 3) << 0, 1, 0, 0, 0, 1, 0, 0, 0).finished(), {{0, 1, 2}}), 0.3);
   StickyPatch patch = palm(specimen.scene, 0.2, Motion{});
   patch.stiffness = 23;
@@ -169,26 +169,26 @@ StuckSpecimen drawn_away(double d) {
 /// allow: the largest |k0 (1 - r^2)(1 - 5 r^2)| and |k0/far (20 r^3 - 12 r)| for r in [0, 1].
 Finding fade_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"change over what is allowed", "1"}};
-  const StuckSpecimen one = drawn_away(0);
+  const StuckSpecimen one = stretched_bonds(0);
   const Probe probe(subject, one.scene);
   const double far = one.patch().far, k = one.patch().stiffness;
-  const auto force = [&](double d) { return probe.elastic(drawn_away(d).state).col(0).norm(); };
+  const auto force = [&](double d) { return probe.elastic(stretched_bonds(d).state).col(0).norm(); };
   for (const double width : {1e-2, 1e-3, 1e-4}) {
     const double step = width * far;
     Worst first, second;
     for (double d = 0.9 * far; d < 1.05 * far; d += step) {
       const double f0 = force(d), f1 = force(d + step), f2 = force(d + 2 * step);
-      first.see(std::abs(f1 - f0) / (k * step));
-      second.see(std::abs(f2 - 2 * f1 + f0) / (8 * k / far * step * step));
+      first.observe(std::abs(f1 - f0) / (k * step));
+      second.observe(std::abs(f2 - 2 * f1 + f0) / (8 * k / far * step * step));
     }
     measured.row(fmt::format("force over {} of far", width), first.value());
     measured.row(fmt::format("slope over {} of far", width), second.value());
   }
   measured.row("force half way over its largest share .286 k far",
                std::abs(force(far / std::sqrt(5.0)) / (k * far * 16 / 25 / std::sqrt(5.0)) - 1) / 1e-12);
-  return judged_worst(measured, 1 + 1e-6,
-                      "a force whose slope never jumps changes so little over so short a way; a jump of "
-                      "the force or of its slope grows without bound as the way shrinks");
+  return judge_worst(measured, 1 + 1e-6,
+                     "a force whose slope never jumps changes so little over so short a way; a jump of "
+                     "the force or of its slope grows without bound as the way shrinks");
 }
 
 Finding surface_finding(const Subject& subject) {
@@ -212,7 +212,7 @@ Finding surface_finding(const Subject& subject) {
   const PerParticle3 force = probe.elastic(specimen.state) + probe.damping(specimen.state, specimen.state.v);
   Table measured = roundings_of("of k times the extent");
   measured.row(specimen.name, largest_difference(force, expected) / force_rounding(specimen));
-  return judged_worst(measured, 64, some_roundings);
+  return judge_worst(measured, 64, some_roundings);
 }
 
 Finding derivative_finding(const Subject& subject) {
@@ -228,9 +228,9 @@ Finding derivative_finding(const Subject& subject) {
       measured.row(fmt::format("{}, tau_s = {} s", specimen.name, tau),
                    difference.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / size);
     }
-  return judged_worst(measured, 1e-6,
-                      "differences over 1e-4 of far, extrapolated: their error is of fourth order, 1e-8 "
-                      "here with roundings of 1e-12 over the step; a missing term is of order 1");
+  return judge_worst(measured, 1e-6,
+                     "differences over 1e-4 of far, extrapolated: their error is of fourth order, 1e-8 "
+                     "here with roundings of 1e-12 over the step; a missing term is of order 1");
 }
 
 Finding bound_finding(const Subject& subject) {
@@ -254,9 +254,9 @@ Finding bound_finding(const Subject& subject) {
     measured.row(specimen.name + ", stiffness",
                  largest(force_derivative(specimen.scene, specimen.state)) / (omega * omega));
   }
-  return judged_worst(measured, 1 + 1e-12,
-                      "Gershgorin: no eigenvalue exceeds the largest row sum of the blocks' norms; where no "
-                      "particle shares a bond it is that sum, to roundings");
+  return judge_worst(measured, 1 + 1e-12,
+                     "Gershgorin: no eigenvalue exceeds the largest row sum of the blocks' norms; where no "
+                     "particle shares a bond it is that sum, to roundings");
 }
 
 Finding beyond_reach_finding(const Subject& subject) {
@@ -270,8 +270,8 @@ Finding beyond_reach_finding(const Subject& subject) {
     const Eigen::MatrixXd K = force_derivative(specimen.scene, specimen.state);
     measured.row(specimen.name + ", derivative", K.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   }
-  return judged_worst(measured, 0,
-                      "beyond the distance at which bonds break the spring is none, not a weak one");
+  return judge_worst(measured, 0,
+                     "beyond the distance at which bonds break the spring is none, not a weak one");
 }
 
 /// 0 if `act` throws DegenerateElement naming the particle, else 1.
@@ -303,9 +303,9 @@ Finding lost_triangles_finding(const Subject& subject) {
   line.stiffness = 3.7;
   line.near = 0.05;
   line.far = 0.09;
-  State s = still_at(PerParticle3{{0.2}, {0.01}, {0.02}});
-  measured.row("a bond about to form", is_silent(0, [&] { Sticking{{line}}.renew_bonds(s); }));
-  return judged_worst(
+  State s = resting_state(PerParticle3{{0.2}, {0.01}, {0.02}});
+  measured.row("a bond about to form", is_silent(0, [&] { Sticking{{line}}.update_bonds(s); }));
+  return judge_worst(
       measured, 0,
       "forces, energy and new bonds must throw DegenerateElement naming the particle that sticks");
 }

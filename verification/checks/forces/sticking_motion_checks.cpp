@@ -22,7 +22,7 @@ Scene over_the_palm(const RigidMotion& motion) {
   const PerParticle3 x =
       (PerParticle3(3, 3) << 0.05, 0.19, -0.11, -0.07, 0.06, 0.08, 0.004, 0.007, -0.003).finished();
   const TriangleMesh mesh = make_triangle_mesh(x, {{0, 1, 2}});
-  Scene scene = scene_of(mesh, 0.0063 / triangle_areas(mesh.triangles, mesh.rest)[0]);
+  Scene scene = scene_at_rest(mesh, 0.0063 / triangle_areas(mesh.triangles, mesh.rest)[0]);
   StickyPatch patch = palm(scene, 0.6, motion);
   patch.stiffness = 400;
   patch.near = 0.01;
@@ -74,16 +74,16 @@ Finding follows_finding(const Subject& subject) {
     Worst worst;
     for (int n = 0; n < 1500; ++n) {
       s = stepper.step(s, h);
-      if (s.bonds.size() < 3) worst.see(NAN);
+      if (s.bonds.size() < 3) worst.observe(NAN);
       for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
         // rigid motion of the particle's own start: its place in the palm's frame
-        const Vector3 place = placed(pose_at(motion, s.time), scene.x.col(i));
-        worst.see((s.x.col(i) - place).norm() / bound);
+        const Vector3 place = to_world(pose_at(motion, s.time), scene.x.col(i));
+        worst.observe((s.x.col(i) - place).norm() / bound);
       }
     }
     measured.row("scheme " + std::string(integrator.name), worst.value());
   }
-  return judged_worst(
+  return judge_worst(
       measured, 1 / std::pow(1 - part * part, 2) * (1 + 0.01),
       "overdamped (omega tau_s/2 = 6.5), a spring lags by no more than the largest m a/k, k less than k0 by "
       "(1 - (lag/far)^2)^2 at most; scheme C, which moves with the target's velocity of the step's start, by "
@@ -104,9 +104,9 @@ Finding lag_finding(const Subject& subject) {
     const double lag = (s.x - scene.x).colwise().norm().mean();
     measured.row(fmt::format("{} k far", pull), std::abs(lag / (r * patch.far) - 1));
   }
-  return judged_worst(measured, 1e-9,
-                      "3 s are thirty times 2/(omega^2 tau_s) at least, until when it creeps at e^-t; the "
-                      "solve's tolerance is 1e-10");
+  return judge_worst(measured, 1e-9,
+                     "3 s are thirty times 2/(omega^2 tau_s) at least, until when it creeps at e^-t; the "
+                     "solve's tolerance is 1e-10");
 }
 
 /// A surface of one triangle that is bent by its animation: what is stuck to it stays at its place in it.
@@ -137,12 +137,12 @@ Finding deforming_finding(const Subject& subject) {
     for (const Bond& bond : s.bonds) {
       stuck.corners = {{now.col(0), now.col(1), now.col(2)}};
       stuck.places = {bond.place};
-      worst.see((oracles::sticking_answer(stuck).target - s.x.col(bond.particle)).norm());
+      worst.observe((oracles::sticking_answer(stuck).target - s.x.col(bond.particle)).norm());
     }
     measured.row(fmt::format("{:.3f} s, {} bonds", s.time, s.bonds.size()),
                  s.bonds.size() == 3 ? worst.value() : NAN);
   }
-  return judged_worst(
+  return judge_worst(
       measured, 1e-4,
       "corners move at up to 0.2 m/s; at each frame's jump of it dv the overdamped spring lags by no more "
       "than "
@@ -162,7 +162,7 @@ Finding forecast_step_finding(const Subject&) {
     StepRule rule;
     rule.safety = 0.7;
     const auto step = [&](const char* name) {
-      return step_allowed(system, integrator_named(name), {&s, 1}, rule, elastic_limit(system, s));
+      return allowed_step(system, integrator_named(name), {&s, 1}, rule, elastic_limit(system, s));
     };
     for (const char* name : {"A", "B", "backward-euler"})
       measured.row(fmt::format("{}, tau_s = {} s", name, tau), std::abs(step(name) * omega / (0.7 * 2) - 1));
@@ -173,16 +173,16 @@ Finding forecast_step_finding(const Subject&) {
       measured.row(fmt::format("RK4, tau_s = {} s", tau), std::abs(step("RK4") / both - 1));
     }
   }
-  return judged_worst(measured, 1e-6,
-                      "an even part of 10^9 s, a hundred million steps or more, is as long as allowed to "
-                      "eight digits; the bounds are exact for particles that share no spring");
+  return judge_worst(measured, 1e-6,
+                     "an even part of 10^9 s, a hundred million steps or more, is as long as allowed to "
+                     "eight digits; the bounds are exact for particles that share no spring");
 }
 
 Finding nothing_sticks_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"numbers that differ, and counts", "1"}};
   for (const Integrator& integrator : integrators()) {
     const std::string name(integrator.name);
-    Scene with = led_sheet();
+    Scene with = partly_prescribed_sheet();
     StickyPatch far_away = palm(with, 0.4, Motion{.velocity = {0, 0.1, 0}});
     far_away.stiffness = 1e4;
     far_away.forecast_time = 0.02;
@@ -196,16 +196,16 @@ Finding nothing_sticks_finding(const Subject& subject) {
     of_cloth.triangles = {with.mesh.triangles.front()};
     of_cloth.particles = {with.mesh.particles() - 1};
     with.sticky = {far_away, of_cloth};
-    Stepper sticky(subject, with, name), plain(subject, led_sheet(), name);
+    Stepper sticky(subject, with, name), plain(subject, partly_prescribed_sheet(), name);
     const State a = sticky.run(sticky.start(), 1.1e-3, 12), b = plain.run(plain.start(), 1.1e-3, 12);
     const Work &one = sticky.work(), &other = plain.work();
-    measured.row(name + ", bits", numbers_that_differ(a.x, b.x) + numbers_that_differ(a.v, b.v));
+    measured.row(name + ", bits", count_differing_entries(a.x, b.x) + count_differing_entries(a.v, b.v));
     measured.row(name + ", iterations and products",
                  double(std::abs(one.cg_iterations - other.cg_iterations) +
                         std::abs(one.damping_products - other.damping_products) +
                         std::abs(one.newton_iterations - other.newton_iterations) + one.bonds));
   }
-  return judged_worst(measured, 0, "patches that hold nothing add nothing to any force or matrix");
+  return judge_worst(measured, 0, "patches that hold nothing add nothing to any force or matrix");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct Integral {
 };
 
 void add(const Probe& probe, const Path& path, double parameter, double weight, Integral& sum) {
-  const PerParticle3 f = probe.elastic(still_at(path.x(parameter))), slope = path.slope(parameter);
+  const PerParticle3 f = probe.elastic(resting_state(path.x(parameter))), slope = path.slope(parameter);
   sum.work += weight * f.cwiseProduct(slope).sum();
   sum.scale += weight * f.colwise().norm().cwiseProduct(slope.colwise().norm()).sum();
 }
@@ -44,14 +44,14 @@ Integral trapezoidal(const Probe& probe, const Path& loop, int points) {
   return sum;
 }
 
-struct Refined {
+struct Refinement {
   Integral sum;
   double change;  // from the rule with half as many points [J]
 };
 
 /// A rule with `parts` and twice as many, and so on until that changes no more than eight roundings of the
 /// scale, or `most` parts are reached.
-Refined refined(const std::function<Integral(int)>& rule, int parts, int most) {
+Refinement refine(const std::function<Integral(int)>& rule, int parts, int most) {
   Integral coarse = rule(parts);
   while (true) {
     parts *= 2;
@@ -79,14 +79,15 @@ Path random_loop(const PerParticle3& x, double size, unsigned seed) {
 }
 
 oracles::Estimate energy_against_work(const Probe& probe, const Path& path) {
-  const double before = probe.energy(still_at(path.x(0))), after = probe.energy(still_at(path.x(1)));
-  const Refined line = refined([&](int panels) { return gauss(probe, path, panels); }, 8, 128);
+  const double before = probe.energy(resting_state(path.x(0))),
+               after = probe.energy(resting_state(path.x(1)));
+  const Refinement line = refine([&](int panels) { return gauss(probe, path, panels); }, 8, 128);
   const double unit = epsilon * (line.sum.scale + std::abs(before) + std::abs(after));
   return {std::abs(after - before + line.sum.work) / unit, line.change / unit};
 }
 
 RoundTrip round_trip(const Probe& probe, const Path& loop) {
-  const Refined trip = refined([&](int points) { return trapezoidal(probe, loop, points); }, 64, 1024);
+  const Refinement trip = refine([&](int points) { return trapezoidal(probe, loop, points); }, 64, 1024);
   return {trip.sum.work, trip.change, trip.sum.scale};
 }
 

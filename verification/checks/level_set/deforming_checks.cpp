@@ -6,7 +6,7 @@
 #include "verification/checks/level_set/level_set_checks.h"
 #include "verification/evidence.h"
 #include "verification/seeds.h"
-#include "verification/specimens/refusal.h"
+#include "verification/specimens/rejection.h"
 #include "verification/specimens/scratch_folder.h"
 #include <Eigen/Geometry>
 #include <cmath>
@@ -27,17 +27,17 @@ OctreeSettings coarse_sampling() {
 
 Vector3 shift() { return {0.83, -0.24, 0.5}; }  // a direction, about 1 long
 
-/// A ball that has moved `way` along the shift by the first frame, and `way` on in each frame that follows.
-MeshSequence moving_ball(double way, std::vector<double> times) {
+/// A ball that has moved `displacement` along the shift by the first frame, and `displacement` on in each frame that follows.
+MeshSequence moving_ball(double displacement, std::vector<double> times) {
   const auto deformation = [=](const Vector3& X, double t) -> Vector3 {
-    return X + (way * t / 0.04 - 0.5 * way) * shift().normalized();
+    return X + (displacement * t / 0.04 - 0.5 * displacement) * shift().normalized();
   };
   return deformed_mesh(make_icosphere(radius, 3), deformation, std::move(times));
 }
 
 /// Points about the centre, no farther than `reach`.
 std::vector<Vector3> points_about(const Vector3& centre, double reach) {
-  std::mt19937 random(shifted(7741));
+  std::mt19937 random(shifted_seed(7741));
   std::uniform_real_distribution<double> along(-reach, reach);
   std::vector<Vector3> points;
   for (int i = 0; i < 2000; ++i) {
@@ -56,29 +56,30 @@ double carried_miss(const MeshSequence& ball, const DeformingBody& body, double 
   for (const Vector3& p : points_about(x.rowwise().mean(), 1.2 * radius)) {
     const double phi = exact.at(p).phi;
     if (std::abs(phi) > 0.03) continue;
-    worst.see(std::abs(deforming_at(body, p, part * ball.times[1]).phi - phi) / tolerance);
+    worst.observe(std::abs(deforming_at(body, p, part * ball.times[1]).phi - phi) / tolerance);
   }
   return worst.value();
 }
 
 Finding carried_ball_keeps_its_shape(const Subject&) {
   Table measured{{"case", ""}, {"largest miss", "tolerances"}};
-  for (const double way : {0.07, 0.41}) {
-    const MeshSequence ball = moving_ball(way, {0, 0.04});
+  for (const double displacement : {0.07, 0.41}) {
+    const MeshSequence ball = moving_ball(displacement, {0, 0.04});
     const DeformingBody body = make_deforming_body(ball, coarse_sampling(), BetweenFrames::carried);
     for (const double part : {0.25, 0.5, 0.9})
-      measured.row(std::to_string(way / (2 * radius)) + " diameters a frame, at " + std::to_string(part),
-                   carried_miss(ball, body, part));
+      measured.row(
+          std::to_string(displacement / (2 * radius)) + " diameters a frame, at " + std::to_string(part),
+          carried_miss(ball, body, part));
   }
-  return judged_worst(measured, 2,
-                      "a displacement that is the same everywhere adds nothing to what the octrees miss");
+  return judge_worst(measured, 2,
+                     "a displacement that is the same everywhere adds nothing to what the octrees miss");
 }
 
 /// The distance from the middle of the way at which the blended phi is zero, across the motion [m]; 0 if it
 /// is positive even there.
-double blended_radius(double way) {
+double blended_radius(double displacement) {
   const DeformingBody body =
-      make_deforming_body(moving_ball(way, {0, 0.04}), coarse_sampling(), BetweenFrames::blended);
+      make_deforming_body(moving_ball(displacement, {0, 0.04}), coarse_sampling(), BetweenFrames::blended);
   const Vector3 across = shift().unitOrthogonal();
   double low = 0, high = 2 * radius;
   if (deforming_at(body, Vector3::Zero(), 0.02).phi > 0) return 0;
@@ -95,15 +96,15 @@ double blended_radius(double way) {
 ///   a ---- + ---- b
 Finding blended_ball_shrinks(const Subject&) {
   Table measured{{"case", ""}, {"miss of the radius", "tolerances"}};
-  for (const double way : {0.05, 0.11, 0.17, 0.29}) {
-    const double derived = std::sqrt(std::max(0.0, radius * radius - way * way / 4));
+  for (const double displacement : {0.05, 0.11, 0.17, 0.29}) {
+    const double derived = std::sqrt(std::max(0.0, radius * radius - displacement * displacement / 4));
     const double slope = derived / radius;  // of the blended phi there, along r
-    const double miss = std::abs(blended_radius(way) - derived) * (slope > 0 ? slope : 1);
-    measured.row(std::to_string(way / (2 * radius)) + " diameters a frame", miss / tolerance);
+    const double miss = std::abs(blended_radius(displacement) - derived) * (slope > 0 ? slope : 1);
+    measured.row(std::to_string(displacement / (2 * radius)) + " diameters a frame", miss / tolerance);
   }
-  return judged_worst(measured, 3,
-                      "the two octrees miss by two tolerances, the ball of 1280 triangles misses the "
-                      "sphere by less than another");
+  return judge_worst(measured, 3,
+                     "the two octrees miss by two tolerances, the ball of 1280 triangles misses the "
+                     "sphere by less than another");
 }
 
 /// A ball that turns about an axis off its centre: neighbouring points are displaced differently.
@@ -128,7 +129,7 @@ double node_error(const DeformingFrame& frame, const MeshDistance& exact) {
       const double rounding = 16 * epsilon * tree.settings.width;
       const double more = (phi < 0 ? -1 : 1) * (kept - phi);
       const double beyond = std::max(0.0, std::abs(phi) - tree.settings.band);
-      worst.see(more > 0 ? more / (rounding + tree.settings.beyond / 2 * beyond) : -more / rounding);
+      worst.observe(more > 0 ? more / (rounding + tree.settings.beyond / 2 * beyond) : -more / rounding);
     }
   return worst.value();
 }
@@ -142,16 +143,16 @@ OctreeSettings free_sampling() {
 
 Finding kept_nodes_err_as_bounded(const Subject&) {
   Table measured{{"case", ""}, {"largest error", "of what is allowed"}};
-  for (const double way : {0.003, 0.02, 0.33}) {
-    const MeshSequence ball = moving_ball(way, {0, 0.02, 0.04});
+  for (const double displacement : {0.003, 0.02, 0.33}) {
+    const MeshSequence ball = moving_ball(displacement, {0, 0.02, 0.04});
     const DeformingBody body = make_deforming_body(ball, free_sampling(), BetweenFrames::carried);
     for (std::size_t k = 0; k < body.frames.size(); ++k)
-      measured.row(std::to_string(way) + " m a frame, frame " + std::to_string(k),
+      measured.row(std::to_string(displacement) + " m a frame, frame " + std::to_string(k),
                    node_error(body.frames[k], make_mesh_distance(ball.positions[k], ball.triangles)));
   }
-  return judged_worst(measured, 1,
-                      "a value is kept only if nothing lies nearer by more than half of what a cell may miss "
-                      "beyond the band, and the surface cannot have passed the node");
+  return judge_worst(measured, 1,
+                     "a value is kept only if nothing lies nearer by more than half of what a cell may miss "
+                     "beyond the band, and the surface cannot have passed the node");
 }
 
 Finding far_nodes_are_not_searched(const Subject&) {
@@ -172,9 +173,9 @@ Finding far_nodes_are_not_searched(const Subject&) {
     measured.row("frame " + std::to_string(k),
                  double(body.frames[k].searches) / double(body.frames[k].nodes) / (must + 0.1 * (1 - must)));
   }
-  return judged_worst(measured, 1,
-                      "what is in the band must be searched; a tenth of the rest is left to nodes that "
-                      "the frame before did not have");
+  return judge_worst(measured, 1,
+                     "what is in the band must be searched; a tenth of the rest is left to nodes that "
+                     "the frame before did not have");
 }
 
 Finding velocity_is_that_of_the_surface(const Subject&) {
@@ -190,11 +191,11 @@ Finding velocity_is_that_of_the_surface(const Subject&) {
       const Vector3 a = x.col(t[0]), b = x.col(t[1]), c = x.col(t[2]);
       const Vector3 middle = (a + b + c) / 3, normal = (b - a).cross(c - a).normalized();
       const Vector3 expected = (u.col(t[0]) + u.col(t[1]) + u.col(t[2])) / 3;
-      worst.see((deforming_at(body, middle + height * normal, 0).velocity - expected).norm() / scale);
+      worst.observe((deforming_at(body, middle + height * normal, 0).velocity - expected).norm() / scale);
     }
     measured.row(std::to_string(height) + " m along N", worst.value());
   }
-  return judged_worst(
+  return judge_worst(
       measured, 0.05,
       "a cell whose phi misses by the tolerance is h wide, h^2 = 4 tolerance r, and there a direction, whose "
       "second derivatives are below 1.5/r^2, misses by 2.25 tolerance/r; twice that at hanging "
@@ -209,13 +210,14 @@ Finding points_ride_along(const Subject&) {
   for (const double start : {-0.02, 0.0, 0.013, 0.05})
     for (const double duration : {0.007, 0.06, 0.2}) {
       const auto clock = [](double t) { return std::clamp(t, 0.0, 0.16); };
-      const Vector3 way = 0.06 * (clock(start + duration) - clock(start)) / 0.04 * shift().normalized();
+      const Vector3 displacement =
+          0.06 * (clock(start + duration) - clock(start)) / 0.04 * shift().normalized();
       const Vector3 mean = object.at({0.03, 0.05, 0.02}, {start, start + duration, duration}).velocity;
       measured.row("from " + std::to_string(start) + " s for " + std::to_string(duration) + " s",
-                   (duration * mean - way).norm() / epsilon);
+                   (duration * mean - displacement).norm() / epsilon);
     }
-  return judged_worst(measured, 64,
-                      "up to four intervals, each with a division by its duration and the sum of the way");
+  return judge_worst(measured, 64,
+                     "up to four intervals, each with a division by its duration and the sum of the way");
 }
 
 Finding rests_outside_its_frames(const Subject&) {
@@ -231,7 +233,7 @@ Finding rests_outside_its_frames(const Subject&) {
     }
     measured.row(between == BetweenFrames::blended ? "blended" : "carried", wrong);
   }
-  return judged_worst(measured, 0, "no arithmetic: the first frame's and the last one's own values");
+  return judge_worst(measured, 0, "no arithmetic: the first frame's and the last one's own values");
 }
 
 Finding sequences_are_read(const Subject&) {
@@ -241,24 +243,25 @@ Finding sequences_are_read(const Subject&) {
   const auto lacks = [](const std::string& message, const char* part) {
     return message.find(part) == std::string::npos;
   };
-  measured.row("no files",
-               lacks(refusal([&] { read_obj_sequence(folder.file("."), 0.04); }), "no folder with"));
+  measured.row("no files", lacks(rejection_message([&] { read_obj_sequence(folder.file("."), 0.04); }),
+                                 "no folder with"));
   write_obj(folder.file("b0001.obj"), ball.positions[1], ball.triangles);
   write_obj(folder.file("b0000.obj"), ball.positions[0], ball.triangles);
   const MeshSequence read = read_obj_sequence(folder.file("."), 0.04);
   measured.row("positions, bit for bit", !(read.positions == ball.positions && read.times == ball.times));
   measured.row("no interval",
-               lacks(refusal([&] { read_obj_sequence(folder.file("."), 0); }), "must be positive"));
+               lacks(rejection_message([&] { read_obj_sequence(folder.file("."), 0); }), "must be positive"));
   const TriangleMesh other = make_icosphere(radius, 2);
   write_obj(folder.file("b0002.obj"), other.rest, other.triangles);
   measured.row("other triangles",
-               lacks(refusal([&] { read_obj_sequence(folder.file("."), 0.04); }), "b0002.obj"));
+               lacks(rejection_message([&] { read_obj_sequence(folder.file("."), 0.04); }), "b0002.obj"));
   MeshSequence back = ball;
   back.times = {0.04, 0.04};
-  measured.row("times that do not rise",
-               lacks(refusal([&] { make_deforming_body(back, coarse_sampling(), BetweenFrames::carried); }),
-                     "must rise"));
-  return judged_worst(measured, 0, "17 digits keep every bit; each refusal must name its reason");
+  measured.row(
+      "times that do not rise",
+      lacks(rejection_message([&] { make_deforming_body(back, coarse_sampling(), BetweenFrames::carried); }),
+            "must rise"));
+  return judge_worst(measured, 0, "17 digits keep every bit; each refusal must name its reason");
 }
 
 }  // namespace

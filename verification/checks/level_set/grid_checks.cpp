@@ -25,7 +25,7 @@ Grid sampled(const Lattice& lattice, const std::function<double(const Vector3&)>
 Vector3 inside(Random& random, const Lattice& lattice, double inset) {
   Vector3 p;
   for (int axis = 0; axis < 3; ++axis)
-    p[axis] = lattice.spacing * random.in(inset, lattice.nodes[axis] - 1 - inset);
+    p[axis] = lattice.spacing * random.uniform(inset, lattice.nodes[axis] - 1 - inset);
   return lattice.origin + p;
 }
 
@@ -53,17 +53,17 @@ Finding cell_is_trilinear(const Subject&) {
     const Vector3 p = inside(random, odd_lattice, 0);
     const Distance found = grid.in_cell(p);
     const double exact = truth.value(p - origin);
-    value.see(std::abs(found.phi - exact) / epsilon);
-    at.see(std::abs(grid.at(p).phi - exact) / epsilon);
-    gradient.see((found.normal - truth.gradient(p - origin)).norm() / (epsilon / odd_lattice.spacing));
+    value.observe(std::abs(found.phi - exact) / epsilon);
+    at.observe(std::abs(grid.at(p).phi - exact) / epsilon);
+    gradient.observe((found.normal - truth.gradient(p - origin)).norm() / (epsilon / odd_lattice.spacing));
   }
   Table measured = roundings_of("(of values near 1, of their differences over h)");
   measured.row("value in the cell", value.value());
   measured.row("value of the blend", at.value());
   measured.row("gradient of the cell", gradient.value());
-  return judged_worst(measured, 32,
-                      "eight products of three weights, each with a few roundings of values near 1; "
-                      "differences of such values are divided by h");
+  return judge_worst(measured, 32,
+                     "eight products of three weights, each with a few roundings of values near 1; "
+                     "differences of such values are divided by h");
 }
 
 /// Differences over two cells are exact for quadratics, and so is their blend, which is linear.
@@ -80,12 +80,12 @@ Finding nodal_gradient_is_exact(const Subject&) {
   for (int i = 0; i < 1000; ++i) {
     const Vector3 p = inside(random, odd_lattice, 1);
     const Vector3 gradient = slope + curvature * (p - origin);
-    direction.see((grid.at(p).normal - gradient.normalized()).norm() / (epsilon / odd_lattice.spacing));
+    direction.observe((grid.at(p).normal - gradient.normalized()).norm() / (epsilon / odd_lattice.spacing));
   }
   Table measured = roundings_of("/h of values near 1");
   measured.row("direction", direction.value());
-  return judged_worst(measured, 32,
-                      "differences of values near 1 are divided by 2 h, blended and made a unit vector");
+  return judge_worst(measured, 32,
+                     "differences of values near 1 are divided by 2 h, blended and made a unit vector");
 }
 
 /// Outside its lattice a sphere's grid must still answer with the distance: never less than that but for the
@@ -101,12 +101,12 @@ Finding beyond_is_distance(const Subject&) {
     const Vector3 p = random.vectors(1, 3).col(0);
     if (lattice.bounds().contains(p)) continue;
     const Distance found = grid.at(p), exact = sphere.at(p);
-    below.see((exact.phi - found.phi) / (too_small * lattice.spacing));
-    above.see((found.phi - exact.phi) / (too_large * exact.phi));
-    normal.see((found.normal - exact.normal).norm() / turned);
+    below.observe((exact.phi - found.phi) / (too_small * lattice.spacing));
+    above.observe((found.phi - exact.phi) / (too_large * exact.phi));
+    normal.observe((found.normal - exact.normal).norm() / turned);
     const Vector3 edge = p.cwiseMax(lattice.bounds().min()).cwiseMin(lattice.bounds().max());
     const Vector3 out = edge + 1e-9 * (p - edge).normalized();
-    jump.see(std::abs(grid.at(out).phi - grid.at((1 - 1e-9) * edge).phi) / (jumps * lattice.spacing));
+    jump.observe(std::abs(grid.at(out).phi - grid.at((1 - 1e-9) * edge).phi) / (jumps * lattice.spacing));
   }
   Table measured{{"case", ""}, {"error over what is allowed", "1"}};
   measured.row("phi below the distance", below.value());
@@ -114,7 +114,7 @@ Finding beyond_is_distance(const Subject&) {
   measured.row("direction", normal.value());
   measured.row("jump at the border", jump.value());
   measured.row("no number where there is no point", std::isnan(grid.at({0.1, NAN, 0.2}).phi) ? 0 : 2);
-  return judged_worst(
+  return judge_worst(
       measured, 1,
       "below: h^2/(4 R) of trilinear values is a hundredth of a cell, one-sided differences add as "
       "much; above and direction: a round leaves 4/5 of the angle between the point found and "
@@ -146,8 +146,8 @@ Finding band_is_exact(const Subject&) {
     }
     measured.row(name, wrong);
   }
-  return judged_worst(measured, 0,
-                      "blocks and bounds leave out only what is farther away than the band is wide");
+  return judge_worst(measured, 0,
+                     "blocks and bounds leave out only what is farther away than the band is wide");
 }
 
 }  // namespace

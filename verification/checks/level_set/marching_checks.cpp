@@ -66,11 +66,11 @@ Finding planes_are_exact(const Subject&) {
                 order);
       Worst worst;
       for (long i = 0; i < lattice.size(); ++i)
-        worst.see(std::abs(grid.phi[i] - plane(lattice.position(lattice.node(i)))) / epsilon);
+        worst.observe(std::abs(grid.phi[i] - plane(lattice.position(lattice.node(i)))) / epsilon);
       measured.row(name_of(order) + (normal.x() > 0 ? ", oblique" : ", along an axis"), worst.value());
     }
   }
-  return judged_worst(
+  return judge_worst(
       measured, 200,
       "distances up to 0.9 are reached over at most thirty nodes, each with a square root whose "
       "few roundings add to those of the nodes before it");
@@ -106,10 +106,11 @@ Finding equation_is_solved(const Subject&) {
     Worst worst;
     for (long i = 0; i < lattice.size(); ++i)
       if (!is_seed[i])
-        worst.see(std::abs(residual(grid, i)) / (epsilon * (1 + std::abs(grid.phi[i])) / lattice.spacing));
+        worst.observe(std::abs(residual(grid, i)) /
+                      (epsilon * (1 + std::abs(grid.phi[i])) / lattice.spacing));
     measured.row("sphere of radius " + std::to_string(radius), worst.value());
   }
-  return judged_worst(
+  return judge_worst(
       measured, 64,
       "the root of a quadratic in T with a few roundings; differences of neighbouring distances "
       "are divided by h");
@@ -155,7 +156,7 @@ Finding sides_are_kept(const Subject&) {
     }
   }
   measured.row("plane through nodes that count as inside", wrong_below_the_plane());
-  return judged_worst(measured, 0, "sides spread from the seeds only, and seeds are never computed again");
+  return judge_worst(measured, 0, "sides spread from the seeds only, and seeds are never computed again");
 }
 
 /// A plane's own values as sides: crossings along the axes name the plane, and the distance to it is exact.
@@ -177,23 +178,23 @@ Finding crossings_are_exact(const Subject&) {
     const bool all = std::abs(exact) < lattice.spacing * oblique.cwiseAbs().minCoeff();
     if (is_border(lattice, node) || !all) continue;
     ++inner;
-    fine.see(std::abs(seeds.phi[k] - exact) / lattice.spacing);
-    half.see(std::abs(std::abs(coarse.phi[k]) / lattice.spacing - 0.5 / std::sqrt(3.0)));
+    fine.observe(std::abs(seeds.phi[k] - exact) / lattice.spacing);
+    half.observe(std::abs(std::abs(coarse.phi[k]) / lattice.spacing - 0.5 / std::sqrt(3.0)));
   }
   Table measured{{"case", ""}, {"error", "cells"}};
   measured.row("plane from its own values", fine.value());
   measured.row("plus and minus one: half a cell along each axis", half.value());
   measured.row("no node was looked at", inner > 100 ? 0 : 1);
-  return judged_worst(measured, 2e-4,
-                      "values are kept as float, 6e-8 of 1.1, which near a crossing is divided by the cell's "
-                      "share of phi, and again where crossings lie near the node");
+  return judge_worst(measured, 2e-4,
+                     "values are kept as float, 6e-8 of 1.1, which near a crossing is divided by the cell's "
+                     "share of phi, and again where crossings lie near the node");
 }
 
 /// How many of three misuses are not refused.
-Finding misuse_is_refused(const Subject&) {
+Finding misuse_is_rejected(const Subject&) {
   const Lattice lattice = about_unit_ball();
   Table measured{{"case", ""}, {"not refused", "1"}};
-  const auto refused = [](const std::function<void()>& act) {
+  const auto rejected = [](const std::function<void()>& act) {
     try {
       act();
     } catch (const std::exception&) {
@@ -201,8 +202,8 @@ Finding misuse_is_refused(const Subject&) {
     }
     return 1;
   };
-  measured.row("no seeds", refused([&] { march(lattice, {}, MarchingOrder::first); }));
-  measured.row("seeds that let inside meet outside", refused([&] {
+  measured.row("no seeds", rejected([&] { march(lattice, {}, MarchingOrder::first); }));
+  measured.row("seeds that let inside meet outside", rejected([&] {
                  const auto sphere = [](const Vector3& p) { return p.norm() - 0.77; };
                  const Seeds gappy = seeds_where(lattice, sphere, [&](const Node& node, double value) {
                    return std::abs(value) < 2.2 * lattice.spacing && (node[2] > 12 || node[1] > 12);
@@ -210,8 +211,8 @@ Finding misuse_is_refused(const Subject&) {
                  march(lattice, gappy, MarchingOrder::first);
                }));
   measured.row("a lattice of three cells",
-               refused([&] { lattice_about(Bounds(Vector3::Constant(-1), Vector3::Constant(1)), 3, 2); }));
-  return judged_worst(measured, 0, "each would give a field that is no distance");
+               rejected([&] { lattice_about(Bounds(Vector3::Constant(-1), Vector3::Constant(1)), 3, 2); }));
+  return judge_worst(measured, 0, "each would give a field that is no distance");
 }
 
 }  // namespace
@@ -233,7 +234,7 @@ std::vector<Check> marching_checks() {
        crossings_are_exact},
       {"level-set.misuse-of-marching-is-rejected",
        "No seeds, seeds that let inside meet outside, and too coarse a lattice are refused.", "ours",
-       misuse_is_refused}};
+       misuse_is_rejected}};
 }
 
 }  // namespace foldproof

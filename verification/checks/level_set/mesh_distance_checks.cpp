@@ -29,15 +29,15 @@ std::vector<NamedMesh> meshes() {
 Vector3 anywhere(Random& random, const MeshDistance& mesh) {
   const Bounds& bounds = mesh.tree.nodes[0].bounds;
   Vector3 p;
-  for (int axis = 0; axis < 3; ++axis) p[axis] = random.in(-0.2, 1.2);
+  for (int axis = 0; axis < 3; ++axis) p[axis] = random.uniform(-0.2, 1.2);
   return bounds.min() + p.cwiseProduct(bounds.sizes());
 }
 
 /// Within `reach` of a random point on a random vertex, edge or face.
 Vector3 near_surface(Random& random, const MeshDistance& mesh, double reach) {
-  const Corners3& corners = mesh.corners[size_t(random.in(0, double(mesh.corners.size())))];
+  const Corners3& corners = mesh.corners[size_t(random.uniform(0, double(mesh.corners.size())))];
   double weights[3];
-  for (double& weight : weights) weight = std::max(random.in(-0.5, 1), 0.0);
+  for (double& weight : weights) weight = std::max(random.uniform(-0.5, 1), 0.0);
   const double sum = weights[0] + weights[1] + weights[2];
   if (sum == 0) return corners[0] + random.vectors(1, reach).col(0);
   return (weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2]) / sum +
@@ -63,14 +63,14 @@ Finding distance_is_exact(const Subject&) {
     for (int i = 0; i < 300; ++i) {
       const Vector3 p = point(random, named.mesh, i);
       const oracles::Estimate truth = oracles::distance_to_triangles(named.mesh.x, named.mesh.triangles, p);
-      worst.see(std::abs(std::abs(named.mesh.at(p).phi) - truth.value) / scale_of(named.mesh, p));
-      uncertainty.see(truth.uncertainty / scale_of(named.mesh, p));
+      worst.observe(std::abs(std::abs(named.mesh.at(p).phi) - truth.value) / scale_of(named.mesh, p));
+      uncertainty.observe(truth.uncertainty / scale_of(named.mesh, p));
     }
     measured.row(named.name, oracles::Estimate{worst.value(), uncertainty.value()});
   }
-  return judged_worst(measured, 16,
-                      "the foot is a corner and two products of a weight and an edge, each with a handful of "
-                      "roundings of the coordinates; an error of the weights moves it along the surface");
+  return judge_worst(measured, 16,
+                     "the foot is a corner and two products of a weight and an edge, each with a handful of "
+                     "roundings of the coordinates; an error of the weights moves it along the surface");
 }
 
 Finding normal_leads_to_the_surface(const Subject&) {
@@ -82,14 +82,14 @@ Finding normal_leads_to_the_surface(const Subject&) {
       const Vector3 p = point(random, named.mesh, i);
       const Distance distance = named.mesh.at(p);
       const Vector3 on_surface = p - distance.phi * distance.normal;
-      foot.see(oracles::distance_to_triangles(named.mesh.x, named.mesh.triangles, on_surface).value /
-               scale_of(named.mesh, p));
-      length.see(std::abs(distance.normal.norm() - 1) / epsilon);
+      foot.observe(oracles::distance_to_triangles(named.mesh.x, named.mesh.triangles, on_surface).value /
+                   scale_of(named.mesh, p));
+      length.observe(std::abs(distance.normal.norm() - 1) / epsilon);
     }
     measured.row(named.name + ", foot", foot.value());
     measured.row(named.name + ", length of N", length.value());
   }
-  return judged_worst(
+  return judge_worst(
       measured, 16,
       "N is the way to the nearest point over its length, so that the foot is that point but for "
       "as many roundings as the distance has");
@@ -114,9 +114,9 @@ Finding sign_is_right(const Subject&) {
     }
     measured.row(solid.name, wrong, counted);
   }
-  return judged_worst(measured, "wrong signs", 0,
-                      "the pseudonormal's sign is a theorem on closed surfaces, and no point is closer to "
-                      "them than rounding");
+  return judge_worst(measured, "wrong signs", 0,
+                     "the pseudonormal's sign is a theorem on closed surfaces, and no point is closer to "
+                     "them than rounding");
 }
 
 Finding bound_is_kept(const Subject&) {
@@ -126,7 +126,7 @@ Finding bound_is_kept(const Subject&) {
     int wrong = 0;
     for (int i = 0; i < 2000; ++i) {
       const Vector3 p = point(random, named.mesh, i);
-      const double distance = std::abs(named.mesh.at(p).phi), bound = distance * random.in(0.5, 1.5);
+      const double distance = std::abs(named.mesh.at(p).phi), bound = distance * random.uniform(0.5, 1.5);
       const NearestFeature nearest = nearest_feature(named.mesh, p, bound);
       const bool agrees = nearest.triangle < 0 ? distance >= bound * (1 - 4 * epsilon)
                                                : std::abs(std::sqrt(nearest.squared_distance) - distance) <=
@@ -135,7 +135,7 @@ Finding bound_is_kept(const Subject&) {
     }
     measured.row(named.name, wrong);
   }
-  return judged_worst(measured, 0, "the bound only shortens the search; what it leaves out is no nearer");
+  return judge_worst(measured, 0, "the bound only shortens the search; what it leaves out is no nearer");
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include "verification/checks/level_set/octree_samples.h"
 #include "verification/evidence.h"
 #include "verification/seeds.h"
-#include "verification/specimens/refusal.h"
+#include "verification/specimens/rejection.h"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 /// Points of the cube, uniform at random; the seed is fixed.
 std::vector<Vector3> random_points(int count, double half_width) {
-  std::mt19937 random(shifted(90211));
+  std::mt19937 random(shifted_seed(90211));
   std::uniform_real_distribution<double> along(-half_width, half_width);
   std::vector<Vector3> points;
   for (int i = 0; i < count; ++i) {
@@ -49,7 +49,7 @@ Finding jumps_nowhere(const Subject&) {
       measured.row(body.name + ", depth " + std::to_string(depth), largest_jump(tree, 20000) / epsilon,
                    largest_jump(loose, 20000));
     }
-  return judged_worst(measured, "largest jump", 32,
+  return judge_worst(measured, "largest jump", 32,
                       "each side adds the products of its eight corners with six roundings; a place rounded "
                       "by epsilon/2 moves a trilinear value of slope 1 by as much, along three axes and on "
                       "both sides");
@@ -61,7 +61,7 @@ double worst_miss(const Body& body, const OctreeSettings& settings) {
   Worst worst;
   for (const Vector3& p : random_points(60000, 0.5)) {
     const double phi = body.distance(p).phi;
-    if (std::abs(phi) <= 0.5 * settings.band) worst.see(std::abs(tree.at(p).phi - phi) / settings.tolerance);
+    if (std::abs(phi) <= 0.5 * settings.band) worst.observe(std::abs(tree.at(p).phi - phi) / settings.tolerance);
   }
   return worst.value();
 }
@@ -72,7 +72,7 @@ Finding misses_by_its_tolerance(const Subject&) {
     for (const double tolerance : {1.1e-3, 2.3e-4})
       measured.row(body.name + " to " + std::to_string(tolerance) + " m",
                    worst_miss(body, sampling(9, tolerance, HangingNodes::constrained)));
-  return judged_worst(
+  return judge_worst(
       measured, 2,
       "a leaf misses by the tolerance where its own corners are exact, and by as much again where "
       "they are the interpolant of a coarse neighbour");
@@ -96,10 +96,10 @@ Finding neighbours_differ_by_one_level(const Subject&) {
     const Octree tree = make_octree({body.distance}, sampling(7, 3e-4, HangingNodes::constrained));
     Worst worst;
     for (const OctreePlace& place : branch_places(tree))
-      for (int n = 0; n < 27; ++n) worst.see(level_step(tree, node_position(tree.settings, place, n)));
+      for (int n = 0; n < 27; ++n) worst.observe(level_step(tree, node_position(tree.settings, place, n)));
     measured.row(body.name, worst.value());
   }
-  return judged_worst(measured, 1, "constraints reach one level only, across faces, edges and corners alike");
+  return judge_worst(measured, 1, "constraints reach one level only, across faces, edges and corners alike");
 }
 
 /// Angle between the tree's normals and the exact ones next to the surface, over the finest cell's angle h/R.
@@ -115,11 +115,11 @@ Finding normals_are_those_of_the_cells(const Subject&) {
       const Distance exact = tilted_torus(p);
       if (!(std::abs(exact.phi) <= h)) continue;
       const Vector3 n = tree.at(p).normal;
-      worst.see(std::atan2(n.cross(exact.normal).norm(), n.dot(exact.normal)) / (h / (radius - h)));
+      worst.observe(std::atan2(n.cross(exact.normal).norm(), n.dot(exact.normal)) / (h / (radius - h)));
     }
     measured.row("h = 1/" + std::to_string(1 << depth) + " m", worst.value());
   }
-  return judged_worst(
+  return judge_worst(
       measured, std::sqrt(3.0) / 2,
       "the slope of a cell is exact at its centre, half a diagonal away at most, and a normal turns "
       "by the way over the radius of curvature");
@@ -136,13 +136,13 @@ Finding goes_on_beyond_the_cube(const Subject&) {
       const Vector3 q = p.cwiseMax(-0.5).cwiseMin(0.5);
       if (p == q) continue;
       const double phi = tree.at(p).phi;
-      change.see(std::abs(phi - tree.at(q).phi) / (p - q).norm());
-      below.see((body.distance(p).phi - phi) / (2 * settings.tolerance));
+      change.observe(std::abs(phi - tree.at(q).phi) / (p - q).norm());
+      below.observe((body.distance(p).phi - phi) / (2 * settings.tolerance));
     }
     measured.row(body.name + ", change over the way", change.value() * (1 - 16 * epsilon));
     measured.row(body.name + ", below the distance over two tolerances", below.value());
   }
-  return judged_worst(
+  return judge_worst(
       measured, 1,
       "the distance to one point changes by the way at most, but for rounding; and it is no less "
       "than the distance to the surface, which that point misses as phi does");
@@ -151,9 +151,9 @@ Finding goes_on_beyond_the_cube(const Subject&) {
 /// An octree of a body that is led by keyframes: its answers against the body's own, and whether anything is
 /// asked of the body once the tree stands.
 Finding rides_with_its_body(const Subject&) {
-  long asked = 0;
-  const DistanceFunction counted = [&asked](const Vector3& p) {
-    ++asked;
+  long queries = 0;
+  const DistanceFunction counted = [&queries](const Vector3& p) {
+    ++queries;
     return tilted_torus(p);
   };
   const OctreeSettings settings = sampling(8, 4e-4, HangingNodes::constrained);
@@ -163,7 +163,7 @@ Finding rides_with_its_body(const Subject&) {
       make_keyframes({{0, {}}, {0.7, {turned, {0.3, -0.2, 0.9}}}, {1.6, {turned * turned, {1.3, 0.4, 0.1}}}});
   const RigidObject object{solid, {turned.conjugate(), {0.05, 0.1, -0.2}}, motion};
   Table measured{{"case", ""}, {"largest miss", "tolerances"}};
-  const long before = asked;
+  const long before = queries;
   for (const double time : {0.0, 0.4, 1.1, 2.0}) {
     const Pose pose = after(pose_at(motion, time), object.place);
     Worst worst;
@@ -171,15 +171,15 @@ Finding rides_with_its_body(const Subject&) {
       const double phi = tilted_torus(X).phi;
       if (std::abs(phi) > 0.5 * settings.band) continue;
       const Vector3 x = pose.rotation * X + pose.translation;
-      worst.see(std::abs(object.at(x, {time, time, 0}).phi - phi) / settings.tolerance);
+      worst.observe(std::abs(object.at(x, {time, time, 0}).phi - phi) / settings.tolerance);
     }
     measured.row("at " + std::to_string(time) + " s", worst.value());
   }
-  measured.row("distances asked for after it was built", double(asked - before));
-  return judged_worst(measured, 2, "as at rest: a rigid motion changes no distance");
+  measured.row("distances asked for after it was built", double(queries - before));
+  return judge_worst(measured, 2, "as at rest: a rigid motion changes no distance");
 }
 
-Finding refuses_bad_settings(const Subject&) {
+Finding rejects_bad_settings(const Subject&) {
   Table measured{{"case", ""}, {"refusals without the reason", "1"}};
   struct Bad {
     std::string name, keyword;
@@ -197,12 +197,12 @@ Finding refuses_bad_settings(const Subject&) {
   for (const Bad& bad : all) {
     OctreeSettings settings = sampling(5, 1e-3, HangingNodes::constrained);
     bad.spoil(settings);
-    const std::string message = refusal([&] { make_octree({ball}, settings); });
+    const std::string message = rejection_message([&] { make_octree({ball}, settings); });
     measured.row(bad.name, message.find(bad.keyword) == std::string::npos);
   }
-  const std::string message = refusal([] { make_octree({}, sampling(5, 1e-3, HangingNodes::constrained)); });
+  const std::string message = rejection_message([] { make_octree({}, sampling(5, 1e-3, HangingNodes::constrained)); });
   measured.row("no body", message.find("bodies") == std::string::npos);
-  return judged_worst(measured, 0, "each refusal must name its reason");
+  return judge_worst(measured, 0, "each refusal must name its reason");
 }
 
 }  // namespace
@@ -220,7 +220,7 @@ OctreeSettings sampling(int depth, double tolerance, HangingNodes hanging) {
 double largest_jump(const Octree& tree, int count, int deepest) {
   std::vector<OctreePlace> places = branch_places(tree);
   std::erase_if(places, [&](const OctreePlace& place) { return place.level == 0 || place.level > deepest; });
-  std::mt19937 random(shifted(41177));
+  std::mt19937 random(shifted_seed(41177));
   std::uniform_int_distribution<std::size_t> any_branch(0, places.size() - 1);
   std::uniform_int_distribution<int> any_axis(0, 2);
   std::uniform_real_distribution<double> along(0, 1);
@@ -235,7 +235,7 @@ double largest_jump(const Octree& tree, int count, int deepest) {
     above[axis] = low[axis];
     Vector3 below = above;
     below[axis] = std::nextafter(low[axis], -1e9);
-    worst.see(std::abs(tree.at(above).phi - tree.at(below).phi));
+    worst.observe(std::abs(tree.at(above).phi - tree.at(below).phi));
   }
   return worst.value();
 }
@@ -259,7 +259,7 @@ std::vector<Check> octree_checks() {
            "The octree of a rigid body, built once, answers for it wherever it is and however it is turned.",
            source, rides_with_its_body},
           {"octree.invalid-settings-are-rejected", "Settings that make no tree are refused with the reason.",
-           source, refuses_bad_settings}};
+           source, rejects_bad_settings}};
 }
 
 }  // namespace foldproof

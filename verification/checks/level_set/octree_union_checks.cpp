@@ -69,11 +69,11 @@ Finding nodes_know_their_part(const Subject&) {
   measured.row("nearest part", wrong_part);
   measured.row("pinch flag", wrong_flag);
   measured.row("fewer than 101 nodes are pinched", !(pinched > 100));
-  return judged_worst(measured, 0, "free nodes hold what the parts say: comparisons, no arithmetic");
+  return judge_worst(measured, 0, "free nodes hold what the parts say: comparisons, no arithmetic");
 }
 
 std::vector<Vector3> points_near(const std::vector<DistanceFunction>& parts, double within) {
-  std::mt19937 random(shifted(5309));
+  std::mt19937 random(shifted_seed(5309));
   std::uniform_real_distribution<double> along(-0.5, 0.5);
   std::vector<Vector3> points;
   while (points.size() < 20000) {
@@ -91,15 +91,15 @@ Finding union_misses_by_its_tolerance(const Subject&) {
     Worst nearest, second;
     for (const Vector3& p : points_near(parts, 0.03)) {
       const Exact exact = exact_union(parts, p);
-      const PartsAt at = parts_at(tree, p);
-      nearest.see(std::abs(tree.at(p).phi - exact.first) / tolerance);
-      nearest.see(std::abs(at.first.phi - exact.first) / tolerance);
-      if (exact.second < 0) second.see(std::abs(at.second.phi - exact.second) / tolerance);
+      const NearestParts at = nearest_parts(tree, p);
+      nearest.observe(std::abs(tree.at(p).phi - exact.first) / tolerance);
+      nearest.observe(std::abs(at.first.phi - exact.first) / tolerance);
+      if (exact.second < 0) second.observe(std::abs(at.second.phi - exact.second) / tolerance);
     }
     measured.row("nearest part, to " + std::to_string(tolerance) + " m", nearest.value());
     measured.row("second part of pinched points, to " + std::to_string(tolerance) + " m", second.value());
   }
-  return judged_worst(
+  return judge_worst(
       measured, 2,
       "as for one body: the parts are sampled each by itself, so that their crease costs nothing");
 }
@@ -112,7 +112,7 @@ Finding pinch_is_flagged(const Subject&) {
   for (const Vector3& p : points_near(parts, 0.03)) {
     const Exact exact = exact_union(parts, p);
     if (!(std::abs(exact.second) > 2 * tolerance && std::abs(exact.first) > 2 * tolerance)) continue;
-    const PartsAt at = parts_at(tree, p);
+    const NearestParts at = nearest_parts(tree, p);
     wrong_count += std::min(at.inside, 2) != std::min(exact.inside, 2);
     if (exact.inside < 2) continue;
     ++pinched;
@@ -123,13 +123,13 @@ Finding pinch_is_flagged(const Subject&) {
   measured.row("inside of two or more", wrong_count);
   measured.row("which two", wrong_parts);
   measured.row("fewer than 100 pinched points", pinched < 100);
-  return judged_worst(measured, 0, "points nearer to a decision than two tolerances are left out");
+  return judge_worst(measured, 0, "points nearer to a decision than two tolerances are left out");
 }
 
 /// Small balls far from each other: in the wide cells between them one may be nearest where none of the nodes
 /// is.
 std::vector<DistanceFunction> scattered_balls() {
-  std::mt19937 random(shifted(5));
+  std::mt19937 random(shifted_seed(5));
   std::uniform_real_distribution<double> along(-0.4, 0.4);
   std::vector<DistanceFunction> parts;
   for (int k = 0; k < 9; ++k) {
@@ -148,9 +148,9 @@ Finding union_jumps_nowhere(const Subject&) {
                               HangingNodes::constrained};
   measured.row("scattered balls, wide cells",
                largest_jump(make_octree(scattered_balls(), sparse), 200000, 3) / epsilon);
-  return judged_worst(measured, 32,
-                      "as for one body; a part that one side leaves out is behind another at all nodes of "
-                      "their common face, and so all over it");
+  return judge_worst(measured, 32,
+                     "as for one body; a part that one side leaves out is behind another at all nodes of "
+                     "their common face, and so all over it");
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ Sheet sheet_of(SheetPattern pattern) {
   sheet.columns = 7;
   sheet.rows = 5;
   sheet.jitter = 0.31;
-  sheet.seed = shifted(83);
+  sheet.seed = shifted_seed(83);
   return sheet;
 }
 
@@ -59,7 +59,7 @@ std::vector<Known> known_shapes() {
   shapes.push_back({"icosphere", make_icosphere(0.23, 3), 2, std::nan("")});
   shapes.push_back({"geodesic sphere", make_geodesic_sphere(0.23, 5), 2, std::nan("")});
   const TriangleMesh coarse = make_sheet(sheet_of(SheetPattern::random_delaunay));
-  shapes.push_back({"divided sheet", divided(coarse, 4), 1, width * height});
+  shapes.push_back({"divided sheet", divide_edges(coarse, 4), 1, width * height});
   shapes.push_back({"statue", small_statue(), 2, std::nan("")});
   shapes.push_back({"hinge", make_hinge(0.17, 2.1), 1, 0.5 * (0.9 + 0.6) * 0.17 * 0.17});
   return shapes;
@@ -76,9 +76,9 @@ Finding euler_characteristic_is_known(const Subject&) {
     measured.row(shape.name,
                  std::abs(euler_characteristic(shape.mesh) - shape.euler) + std::abs(counted - shape.euler));
   }
-  return judged_worst(measured, 0,
-                      "whole numbers: 1 for a sheet or a disc, 0 for an open cylinder, 2 for a closed "
-                      "surface without handles");
+  return judge_worst(measured, 0,
+                     "whole numbers: 1 for a sheet or a disc, 0 for an open cylinder, 2 for a closed "
+                     "surface without handles");
 }
 
 /// True if the triangle is (a, b, c) or the same begun elsewhere.
@@ -89,7 +89,7 @@ bool runs(const Triangle& triangle, int a, int b, int c) {
 Finding hinges_are_oriented(const Subject&) {
   Table measured{{"case", ""}, {"hinges otherwise", "1"}};
   for (const Known& shape : known_shapes()) {
-    int otherwise = 0;
+    int fallback = 0;
     for (const Hinge& hinge : shape.mesh.hinges) {
       const auto [x1, x2, x3, x4] = hinge.particles;
       const Edge& edge = shape.mesh.edges[hinge.edge];
@@ -98,11 +98,11 @@ Finding hinges_are_oriented(const Subject&) {
         first += runs(shape.mesh.triangles[t], x1, x3, x4);
         second += runs(shape.mesh.triangles[t], x2, x4, x3);
       }
-      otherwise += !(first == 1 && second == 1 && std::min(x3, x4) == edge.a && std::max(x3, x4) == edge.b);
+      fallback += !(first == 1 && second == 1 && std::min(x3, x4) == edge.a && std::max(x3, x4) == edge.b);
     }
-    measured.row(shape.name, otherwise);
+    measured.row(shape.name, fallback);
   }
-  return judged_worst(
+  return judge_worst(
       measured, 0,
       "every hinge must be (x1, x3, x4) and (x2, x4, x3) of its two triangles, as drawn in the paper");
 }
@@ -123,9 +123,9 @@ Finding every_inner_edge_is_one_hinge(const Subject&) {
     }
     measured.row(shape.name, wrong);
   }
-  return judged_worst(measured, 0,
-                      "edges and hinges are counted: one edge for each pair of neighbours, one hinge for "
-                      "each edge of two triangles");
+  return judge_worst(measured, 0,
+                     "edges and hinges are counted: one edge for each pair of neighbours, one hinge for "
+                     "each edge of two triangles");
 }
 
 Finding areas_and_masses_sum(const Subject&) {
@@ -135,13 +135,13 @@ Finding areas_and_masses_sum(const Subject&) {
     const double sum = triangle_areas(shape.mesh.triangles, shape.mesh.rest).sum();
     const double exact = std::isnan(shape.area) ? sum : shape.area;
     Worst worst;
-    worst.see(std::abs(sum - exact) / (epsilon * exact));
-    worst.see(std::abs(lumped_masses(shape.mesh, density).sum() - density * exact) /
-              (epsilon * density * exact));
-    worst.see(std::abs(edge_areas(shape.mesh).sum() - 3 * exact) / (epsilon * 3 * exact));
+    worst.observe(std::abs(sum - exact) / (epsilon * exact));
+    worst.observe(std::abs(lumped_masses(shape.mesh, density).sum() - density * exact) /
+                  (epsilon * density * exact));
+    worst.observe(std::abs(edge_areas(shape.mesh).sum() - 3 * exact) / (epsilon * 3 * exact));
     measured.row(shape.name, worst.value());
   }
-  return judged_worst(
+  return judge_worst(
       measured, 64, "about ten roundings an area, with errors of either sign, added one by one",
       "The exact value is the area, the mass, or three times the area for the edges' areas. Areas are those "
       "of plane geometry; for the round sphere and the statue the mesh's own area stands in, and only masses "
@@ -154,18 +154,18 @@ Finding obj_round_trip_is_exact(const Subject&) {
   Random random(311);
   for (Known& shape : known_shapes()) {
     PerParticle3 x = shape.mesh.rest + random.vectors(shape.mesh.rest.cols(), 1e-3);
-    x *= random.in_decades(1e-9, 1e7);
+    x *= random.log_uniform(1e-9, 1e7);
     const std::string path = folder.file(shape.name + ".obj");
     write_obj(path, x, shape.mesh.triangles);
     const TriangleMesh back = read_obj(path);
-    int otherwise = int(back.triangles != shape.mesh.triangles) + 1000 * int(back.rest.cols() != x.cols());
+    int fallback = int(back.triangles != shape.mesh.triangles) + 1000 * int(back.rest.cols() != x.cols());
     for (Eigen::Index k = 0; k < std::min(x.size(), back.rest.size()); ++k) {
-      otherwise +=
+      fallback +=
           std::bit_cast<uint64_t>(x.reshaped()[k]) != std::bit_cast<uint64_t>(back.rest.reshaped()[k]);
     }
-    measured.row(shape.name, otherwise);
+    measured.row(shape.name, fallback);
   }
-  return judged_worst(measured, 0, "17 significant digits hold a double, so every bit must come back");
+  return judge_worst(measured, 0, "17 significant digits hold a double, so every bit must come back");
 }
 
 Finding pleats_are_isometric(const Subject&) {
@@ -175,25 +175,25 @@ Finding pleats_are_isometric(const Subject&) {
       Sheet sheet = sheet_of(pattern);
       sheet.columns = 9;
       const TriangleMesh flat = make_sheet(sheet),
-                         folded = make_triangle_mesh(pleated(flat, 3, angle), flat.triangles);
+                         folded = make_triangle_mesh(pleated_positions(flat, 3, angle), flat.triangles);
       Worst length, fold;
-      length.see((rest_lengths(folded) - rest_lengths(flat)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
-                 (epsilon * width));
+      length.observe((rest_lengths(folded) - rest_lengths(flat)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
+                     (epsilon * width));
       int fold_lines = 0;
       for (const Hinge& hinge : flat.hinges) {
         const Corners x = corners_of(hinge, folded.rest);
         const double found = std::abs(hinge_angle(x[0], x[1], x[2], x[3]));
         const bool is_fold = found > 0.5 * std::abs(angle);
         fold_lines += is_fold;
-        fold.see(std::abs(found - (is_fold ? std::abs(angle) : 0)) / (epsilon * pi));
+        fold.observe(std::abs(found - (is_fold ? std::abs(angle) : 0)) / (epsilon * pi));
       }
-      fold.see(fold_lines == 2 * sheet.rows ? 0 : std::nan(""));
+      fold.observe(fold_lines == 2 * sheet.rows ? 0 : std::nan(""));
       const std::string name = (pattern == SheetPattern::union_jack ? "union_jack" : "one_diagonal");
       measured.row(name + " by " + std::to_string(angle) + " rad, lengths", length.value());
       measured.row(name + " by " + std::to_string(angle) + " rad, angles", fold.value());
     }
   }
-  return judged_worst(
+  return judge_worst(
       measured, 64,
       "a vertex is placed by adding up to nine columns; angles divide such errors by a cell, a ninth of the "
       "width",
@@ -207,7 +207,7 @@ Finding hinge_folds_by_its_angle(const Subject&) {
     const double found = hinge_angles(mesh, mesh.rest).at(0);
     measured.row(std::to_string(angle) + " rad", std::abs(found - angle) / (epsilon * pi));
   }
-  return judged_worst(measured, 16, "sine and cosine, placed and taken back, carry a few roundings of 1");
+  return judge_worst(measured, 16, "sine and cosine, placed and taken back, carry a few roundings of 1");
 }
 
 }  // namespace

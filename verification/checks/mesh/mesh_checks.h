@@ -7,9 +7,9 @@
 
 namespace foldproof {
 
-std::vector<Check> mesh_checks();          // what is built of triangles
-std::vector<Check> mesh_refusal_checks();  // meshes that are refused
-std::vector<Check> seam_checks();          // panels that are sewn together
-std::vector<Check> split_fan_checks();     // vertices of several fans that are split
+std::vector<Check> mesh_checks();            // what is built of triangles
+std::vector<Check> mesh_rejection_checks();  // meshes that are refused
+std::vector<Check> seam_checks();            // panels that are sewn together
+std::vector<Check> split_fan_checks();       // vertices of several fans that are split
 
 }  // namespace foldproof

@@ -17,7 +17,7 @@ namespace foldproof {
 namespace {
 
 /// Vertex by vertex, by its definition: the first of those that stay and are near. -1: it stays itself.
-std::vector<int> joined_by_trying(const PerParticle3& x, double distance) {
+std::vector<int> join_by_trying(const PerParticle3& x, double distance) {
   std::vector<int> becomes;
   for (Eigen::Index v = 0; v < x.cols(); ++v) {
     becomes.push_back(-1);
@@ -43,7 +43,7 @@ TriangleSoup random_soup(const std::vector<int>& becomes, PerParticle3 x, std::m
 }
 
 Finding seams_finding(const Subject&) {
-  std::mt19937 random(shifted(41));
+  std::mt19937 random(shifted_seed(41));
   std::uniform_real_distribution<double> inside(-0.5, 0.5);
   Table wrong{{"distance", "m"}, {"joined vertices", "1"}, {"wrong corners", "1"}};
   for (const double distance : {0.013, 0.07, 0.19, 0.31}) {
@@ -51,9 +51,9 @@ Finding seams_finding(const Subject&) {
     PerParticle3 x(3, 173);
     for (double& number : x.reshaped()) number = inside(random);
     x.colwise() += place;
-    const std::vector<int> becomes = joined_by_trying(x, distance);
+    const std::vector<int> becomes = join_by_trying(x, distance);
     const TriangleSoup soup = random_soup(becomes, x, random);
-    const TriangleSoup sewn = with_seams_closed(soup, distance);
+    const TriangleSoup sewn = close_seams(soup, distance);
     double bad = std::abs(double(sewn.rest.cols()) - double(std::ranges::count(becomes, -1)));
     for (size_t t = 0; t < soup.triangles.size(); ++t)
       for (size_t k = 0; k < 3; ++k) {
@@ -96,7 +96,7 @@ Finding panels_finding(const Subject&) {
     const std::string text = "[cloth]\nmesh = \"tube.obj\"\ndensity = 0.2\n" + seams;
     return read_scene_text(text + short_time, folder.file("trial.toml"));
   };
-  const auto refused = [&](const std::string& seams, const std::string& words) {
+  const auto rejected = [&](const std::string& seams, const std::string& words) {
     try {
       scene(seams);
     } catch (const InputError& error) {
@@ -116,9 +116,9 @@ Finding panels_finding(const Subject&) {
   differences.row("what is farther apart stays open",
                   infinite_unless(borders(open.mesh) == borders(apart.mesh)));
   differences.row("a distance of zero is refused",
-                  infinite_unless(refused("seams = 0\n", "'seams' must be")));
+                  infinite_unless(rejected("seams = 0\n", "'seams' must be")));
   differences.row("a triangle that would be lost is refused",
-                  infinite_unless(refused("seams = 0.11\n", "tube.obj:49: two corners")));
+                  infinite_unless(rejected("seams = 0.11\n", "tube.obj:49: two corners")));
   return judged_differences(differences, 0, "edges and particles are counted");
 }
 

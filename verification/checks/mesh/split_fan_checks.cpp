@@ -140,7 +140,7 @@ Expected expected_of(const TriangleSoup& soup) {
 // ---- findings
 
 Finding numbers_finding(const Subject&) {
-  std::mt19937 random(shifted(83));
+  std::mt19937 random(shifted_seed(83));
   Table wrong{{"split vertices", "1"}, {"particles", "1"}, {"wrong corners", "1"}};
   for (const int pairs : {0, 9, 40, 90}) {
     const TriangleSoup soup = random_hangings(random, pairs);
@@ -158,7 +158,7 @@ Finding numbers_finding(const Subject&) {
 }
 
 Finding places_finding(const Subject&) {
-  std::mt19937 random(shifted(89));
+  std::mt19937 random(shifted_seed(89));
   Worst off;
   Table moved{{"split vertices", "1"}, {"farthest moved", "m"}};
   for (const int pairs : {9, 60}) {
@@ -169,8 +169,8 @@ Finding places_finding(const Subject&) {
     Worst most;
     for (int i = 0; i < int(expected.copy_of.size()); ++i) {
       const Vector3 difference = found.mesh.rest.col(i) - expected.place.col(i);
-      off.see(difference.cwiseAbs().maxCoeff() / (epsilon * size));
-      most.see((expected.place.col(i) - soup.rest.col(expected.copy_of[size_t(i)])).norm());
+      off.observe(difference.cwiseAbs().maxCoeff() / (epsilon * size));
+      most.observe((expected.place.col(i) - soup.rest.col(expected.copy_of[size_t(i)])).norm());
     }
     moved.row(expected.split, most.value());
   }
@@ -264,8 +264,8 @@ class ThreeFans {
     return read_scene_text(head + cloth + tables + short_time, folder_.file("trial.toml"));
   }
 
-  bool is_refused(const std::string& cloth, const std::string& words,
-                  const std::string& mesh = "fans") const {
+  bool is_rejected(const std::string& cloth, const std::string& words,
+                   const std::string& mesh = "fans") const {
     try {
       scene(cloth, "", mesh);
     } catch (const InputError& error) {
@@ -280,7 +280,7 @@ class ThreeFans {
 
 std::set<int> held(const Scene& scene) {
   std::set<int> found;
-  for (const PrescribedParticle& p : scene.led) found.insert(p.particle);
+  for (const PrescribedParticle& p : scene.prescribed) found.insert(p.particle);
   return found;
 }
 
@@ -329,18 +329,18 @@ Finding scene_finding(const Subject&) {
   for (const auto& [particle, area] : {std::pair{0, 1.0}, {8, 1.0}, {9, 2.109}})
     differences.row("the mass of particle " + std::to_string(particle),
                     infinite_unless(std::abs(masses[particle] / (0.2 * area / 3) - 1) < 0.005));
-  const auto parts = built_parts(found, build_system(found));
+  const auto parts = describe_parts(found, build_system(found));
   differences.row("it is said", infinite_unless(std::ranges::find(parts, "1 vertex split into 3 particles") !=
                                                 parts.end()));
   see_particles(fans, differences);
   differences.row("seams join before",
                   infinite_unless(fans.scene("seams = 0.01\n" + split).mesh.particles() == 10));
   differences.row("refused without it, with a remedy",
-                  infinite_unless(fans.is_refused("", "for cloth, set repair = \"split\"")));
+                  infinite_unless(fans.is_rejected("", "for cloth, set repair = \"split\"")));
   differences.row("an edge of three triangles",
-                  infinite_unless(fans.is_refused(split, "cannot tell which two", "edge")));
+                  infinite_unless(fans.is_rejected(split, "cannot tell which two", "edge")));
   differences.row("another word",
-                  infinite_unless(fans.is_refused("repair = \"mend\"\n", "known: refuse, split")));
+                  infinite_unless(fans.is_rejected("repair = \"mend\"\n", "known: refuse, split")));
   return judged_differences(
       differences, 0,
       "particles are counted; the mass of a fan's particle is a third of its triangles, "

@@ -55,7 +55,7 @@ double largest_uncertainty(const Table& answers) {
   const std::vector<double>& uncertainty = answers.numbers("uncertainty of both");
   Worst worst;
   for (std::size_t i = 0; i < answers.rows(); ++i)
-    worst.see(uncertainty[i] / std::max({std::abs(one[i]), std::abs(other[i]), 1.0}));
+    worst.observe(uncertainty[i] / std::max({std::abs(one[i]), std::abs(other[i]), 1.0}));
   return answers.rows() == 0 ? nan : worst.value();
 }
 

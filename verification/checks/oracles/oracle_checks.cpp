@@ -116,9 +116,9 @@ Finding uncertainties_are_small(const Subject&) {
   Table largest{{"comparison", ""}, {"largest uncertainty of a pair, of its answer", "1"}};
   for (const Comparison& comparison : comparisons)
     largest.row(comparison.name, largest_uncertainty(comparison.answers()));
-  return judged_worst(largest, 1e-5,
-                      "two answers may agree because one promises little: the crudest, by differences in "
-                      "double precision, promises five digits");
+  return judge_worst(largest, 1e-5,
+                     "two answers may agree because one promises little: the crudest, by differences in "
+                     "double precision, promises five digits");
 }
 
 }  // namespace

@@ -25,18 +25,18 @@ std::vector<HingeInput> random_hinge_inputs() {
   Random random(811);
   std::vector<HingeInput> list;
   for (const double angle : {-2.9, -1.3, -.02, .4, 1.7, 3.05}) {
-    const double size = random.in_decades(1e-3, 1);
+    const double size = random.log_uniform(1e-3, 1);
     HingeInput hinge;
     hinge.x = random_corners(random, angle);
-    hinge.rest = random_corners(random, random.in(-1, 1));
+    hinge.rest = random_corners(random, random.uniform(-1, 1));
     for (std::size_t corner = 0; corner < 4; ++corner) {
       hinge.x[corner] *= size;
       hinge.rest[corner] *= size;
       hinge.v[corner] = random.vectors(1, 1.5).col(0);
     }
-    hinge.ke = random.in_decades(1e-6, 1e-2);
-    hinge.kd = random.in_decades(1e-7, 1e-3);
-    hinge.theta0 = random.in(-1.2, 1.2);
+    hinge.ke = random.log_uniform(1e-6, 1e-2);
+    hinge.kd = random.log_uniform(1e-7, 1e-3);
+    hinge.theta0 = random.uniform(-1.2, 1.2);
     list.push_back(hinge);
   }
   return list;
@@ -48,8 +48,8 @@ std::string numbered(const std::string& what, std::size_t number) {
 
 /// Corresponding components of vectors, each with its answer's uncertainty; `sign` turns the second.
 template <std::size_t N>
-Pairs paired(const std::array<Vector3, N>& one, double one_off, const std::array<Vector3, N>& other,
-             double other_off, double sign) {
+Pairs pair_up(const std::array<Vector3, N>& one, double one_off, const std::array<Vector3, N>& other,
+              double other_off, double sign) {
   Pairs pairs;
   for (std::size_t k = 0; k < N; ++k)
     for (int axis = 0; axis < 3; ++axis)
@@ -58,7 +58,7 @@ Pairs paired(const std::array<Vector3, N>& one, double one_off, const std::array
 }
 
 template <class Matrix>
-Pairs paired(const Matrix& one, double one_off, const Matrix& other, double other_off) {
+Pairs pair_up(const Matrix& one, double one_off, const Matrix& other, double other_off) {
   Pairs pairs;
   for (Eigen::Index i = 0; i < one.size(); ++i)
     pairs.push_back({{one.reshaped()[i], one_off}, {other.reshaped()[i], other_off}});
@@ -91,12 +91,12 @@ std::vector<oracles::SpringInput> springs() {
   Random random(821);
   std::vector<oracles::SpringInput> list;
   for (int i = 0; i < 5; ++i) {
-    const double size = random.in_decades(1e-3, 3);
+    const double size = random.log_uniform(1e-3, 3);
     const PerParticle3 x = random.vectors(2, size), v = random.vectors(2, 2.5);
     list.push_back({{x.col(0), x.col(1)},
                     {v.col(0), v.col(1)},
-                    {random.in_decades(3, 1e4), random.in_decades(1e-3, 2), random.in_decades(1e-6, 1),
-                     size * random.in(.4, 1.9)}});
+                    {random.log_uniform(3, 1e4), random.log_uniform(1e-3, 2), random.log_uniform(1e-6, 1),
+                     size * random.uniform(.4, 1.9)}});
   }
   return list;
 }
@@ -106,28 +106,28 @@ std::vector<oracles::StuckParticle> stuck_particles() {
   Random random(823);
   std::vector<oracles::StuckParticle> list;
   for (const std::size_t triangles : {1, 2, 1, 2}) {
-    const double size = random.in_decades(5e-3, 1);
+    const double size = random.log_uniform(5e-3, 1);
     oracles::StuckParticle stuck;
     for (std::size_t t = 0; t < triangles; ++t) {
       const PerParticle3 jitter = random.vectors(3, .2 * size);
       stuck.corners.push_back(
           {jitter.col(0), Vector3(size, 0, 0) + jitter.col(1), Vector3(0, size, 0) + jitter.col(2)});
-      stuck.places.push_back({random.in(.1, .5), random.in(.1, .4), .05 * size});
+      stuck.places.push_back({random.uniform(.1, .5), random.uniform(.1, .4), .05 * size});
     }
     stuck.x = Vector3(.3, .25, .2) * size + random.vectors(1, .05 * size).col(0);
-    stuck.stiffness = random.in_decades(1, 1e3);
+    stuck.stiffness = random.log_uniform(1, 1e3);
     stuck.far = 1.3 * size;
     list.push_back(stuck);
   }
   return list;
 }
 
-/// The stuck particle with coordinate k (the particle's, then the corners') moved by `way` [m].
-oracles::StuckParticle moved(oracles::StuckParticle stuck, Eigen::Index k, double way) {
+/// The stuck particle with coordinate k (the particle's, then the corners') moved by `displacement` [m].
+oracles::StuckParticle displace(oracles::StuckParticle stuck, Eigen::Index k, double displacement) {
   if (k < 3)
-    stuck.x[k] += way;
+    stuck.x[k] += displacement;
   else
-    stuck.corners[std::size_t(k - 3) / 9][std::size_t(k - 3) % 9 / 3][(k - 3) % 3] += way;
+    stuck.corners[std::size_t(k - 3) / 9][std::size_t(k - 3) % 9 / 3][(k - 3) % 3] += displacement;
   return stuck;
 }
 
@@ -177,10 +177,10 @@ Table bending_modes_agree() {
     const auto autodiff = oracles::theta_gradient_autodiff(hinges[i].x);
     const auto differences = oracles::theta_gradient_differences(hinges[i].x);
     compare_worst(answers, numbered("as printed and by autodiff, hinge", i),
-                  paired(u.value, u.uncertainty, autodiff.value, autodiff.uncertainty, -1));
+                  pair_up(u.value, u.uncertainty, autodiff.value, autodiff.uncertainty, -1));
     compare_worst(
         answers, numbered("by autodiff and by differences, hinge", i),
-        paired(autodiff.value, autodiff.uncertainty, differences.value, differences.uncertainty, 1));
+        pair_up(autodiff.value, autodiff.uncertainty, differences.value, differences.uncertainty, 1));
   }
   return answers;
 }
@@ -193,9 +193,9 @@ Table bending_forces_agree() {
                gradient = oracles::energy_gradient_autodiff(hinges[i]);
     const auto damping = oracles::bending_damping_50(hinges[i]), from_power = damping_from_power(hinges[i]);
     compare_worst(answers, numbered("elastic, hinge", i),
-                  paired(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
+                  pair_up(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
     compare_worst(answers, numbered("damping, hinge", i),
-                  paired(damping.value, damping.uncertainty, from_power.value, from_power.uncertainty, 1));
+                  pair_up(damping.value, damping.uncertainty, from_power.value, from_power.uncertainty, 1));
   }
   return answers;
 }
@@ -210,10 +210,10 @@ Table bending_derivatives_agree() {
                all_by_differences = oracles::bending_force_derivative_differences(hinges[i]);
     compare_worst(
         answers, numbered("elastic, hinge", i),
-        paired(elastic.value, elastic.uncertainty, by_differences.value, by_differences.uncertainty));
+        pair_up(elastic.value, elastic.uncertainty, by_differences.value, by_differences.uncertainty));
     compare_worst(
         answers, numbered("elastic and damping, hinge", i),
-        paired(all.value, all.uncertainty, all_by_differences.value, all_by_differences.uncertainty));
+        pair_up(all.value, all.uncertainty, all_by_differences.value, all_by_differences.uncertainty));
   }
   return answers;
 }
@@ -225,14 +225,14 @@ Table spring_forces_agree() {
     const auto force = oracles::spring_elastic_50(list[i]),
                gradient = oracles::spring_energy_gradient_autodiff(list[i]);
     compare_worst(answers, numbered("force and gradient of the energy, spring", i),
-                  paired(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
+                  pair_up(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
     const auto derivative = oracles::spring_force_derivative_autodiff(list[i]);
     Pairs pairs;
     for (Eigen::Index row = 0; row < 6; ++row)
       for (Eigen::Index column = 0; column < 6; ++column) {
-        const auto component = [&](double way) {
+        const auto component = [&](double displacement) {
           oracles::SpringInput spring = list[i];
-          spring.x[std::size_t(column / 3)][column % 3] += way;
+          spring.x[std::size_t(column / 3)][column % 3] += displacement;
           const std::size_t end = std::size_t(row / 3);
           return oracles::spring_elastic_50(spring).value[end][row % 3] +
                  oracles::spring_damping_50(spring).value[end][row % 3];
@@ -253,8 +253,8 @@ Table sticking_forces_agree() {
     const oracles::StickingAnswer answer = oracles::sticking_answer(list[i]);
     Pairs pairs;
     for (Eigen::Index k = 0; k < answer.force.size(); ++k) {
-      const auto energy = [&](double way) {
-        return -oracles::sticking_answer(moved(list[i], k, way)).energy;
+      const auto energy = [&](double displacement) {
+        return -oracles::sticking_answer(displace(list[i], k, displacement)).energy;
       };
       pairs.push_back({{answer.force[k], oracles::one_rounding(answer.force.norm())},
                        slope(energy, 1e-3 * list[i].far, answer.energy)});

@@ -10,7 +10,7 @@
 #include "verification/oracles/exact_crossings.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/oracles/feature_distance.h"
-#include "verification/oracles/parted_triangles.h"
+#include "verification/oracles/separated_triangles.h"
 #include "verification/oracles/solid_prisms.h"
 #include "verification/oracles/triangle_distance.h"
 #include "verification/oracles/whole_polynomial.h"
@@ -20,7 +20,7 @@ namespace foldproof {
 
 namespace {
 
-using oracles::are_parted;
+using oracles::are_separated;
 using oracles::Corners3;
 using oracles::Estimate;
 using oracles::Features;
@@ -33,7 +33,7 @@ constexpr std::array<std::pair<Features, const char*>, 2> features{
     {{Features::vertex_and_triangle, "vertex and triangle"}, {Features::edge_and_edge, "edge and edge"}}};
 
 /// Whole numbers from -largest to largest, each as likely as the others.
-double whole_in(Random& random, int largest) { return std::floor(random.in(-largest, largest + 1)); }
+double whole_in(Random& random, int largest) { return std::floor(random.uniform(-largest, largest + 1)); }
 
 /// Four points on a grid: many of them coincide, line up or lie in a plane.
 FourPoints grid_points(Random& random, int largest) {
@@ -120,12 +120,12 @@ Table crossing_times_agree() {
       int by_roots = 0, by_halving = 0, contradictions = 0;
       for (int k = 0; k < 600; ++k) {
         const auto motion = oracles::exact_motion(grid_points(random, 9), grid_points(random, largest));
-        const oracles::Seen seen = oracles::seen_by_subdivision(kind, motion, 8);
-        if (seen == oracles::Seen::unclear) continue;
+        const oracles::MeetDecision seen = oracles::decide_by_subdivision(kind, motion, 8);
+        if (seen == oracles::MeetDecision::unclear) continue;
         const bool ever = oracles::ever_meet(kind, motion);
         by_roots += ever;
-        by_halving += seen == oracles::Seen::meet;
-        contradictions += ever != (seen == oracles::Seen::meet);
+        by_halving += seen == oracles::MeetDecision::meet;
+        contradictions += ever != (seen == oracles::MeetDecision::meet);
       }
       const std::string point = std::string(name) + ", moved by up to " + std::to_string(largest);
       compare_exact(answers, point + ": meetings", by_roots, by_halving);
@@ -142,7 +142,7 @@ Table polynomial_roots_agree() {
     std::vector<Rational> roots;
     Polynomial product({1, 1, 1});
     for (int i = 0; i < 2 + k % 3; ++i) {
-      const Rational root{long(random.in(-30, 90)), long(random.in(35, 60))};
+      const Rational root{long(random.uniform(-30, 90)), long(random.uniform(35, 60))};
       roots.push_back(root);
       product = product * root.factor() * (i == 1 ? root.factor() : Polynomial({1}));
     }
@@ -180,7 +180,7 @@ Table crossings_agree() {
         for (int t = s + 1; t < 6; ++t) {
           const bool one = found_between(found, s, t),
                      two = oracles::triangles_meet(triangle(s), triangle(t)),
-                     three = !are_parted(triangle(s), triangle(t));
+                     three = !are_separated(triangle(s), triangle(t));
           by_sweep += one;
           by_pairs += two;
           by_parting += three;
@@ -227,7 +227,7 @@ Table distances_agree() {
   Table answers = no_answers();
   Random random(863);
   for (int k = 0; k < 12; ++k) {
-    FourPoints x = random.vectors(4, random.in_decades(1e-3, 10));
+    FourPoints x = random.vectors(4, random.log_uniform(1e-3, 10));
     if (k % 3 == 1) x.col(3) = x.col(2) + 1e-6 * (x.col(3) - x.col(2));          // thin
     if (k % 3 == 2) x.col(0) = .3 * x.col(1) + .7 * x.col(2) + 1e-5 * x.col(0);  // close to an edge
     const std::string name = " " + std::to_string(k + 1);

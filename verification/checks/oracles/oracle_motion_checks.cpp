@@ -82,10 +82,10 @@ std::vector<oracles::ForecastInput> forecast_inputs() {
     const Vector3 normal = random.vectors(1, 1).col(0).normalized();
     const Vector3 v_object = random.vectors(1, .7).col(0);
     // the first two leave, the others meet the object
-    const double towards = list.size() < 2 ? .9 : -random.in(.3, 3);
-    list.push_back({random.in(-.002, .004), normal, v_object,
+    const double towards = list.size() < 2 ? .9 : -random.uniform(.3, 3);
+    list.push_back({random.uniform(-.002, .004), normal, v_object,
                     v_object + towards * normal + random.vectors(1, 1).col(0).cross(normal),
-                    random.in(.01, .05), friction});
+                    random.uniform(.01, .05), friction});
   }
   return list;
 }
@@ -120,12 +120,12 @@ std::vector<oracles::LimitedSpringInput> limited_spring_inputs() {
   Random random(829);
   std::vector<oracles::LimitedSpringInput> list;
   for (const bool is_long : {true, true, false, false}) {
-    const double rest = random.in(.02, .3), h = random.in(.004, .02);
+    const double rest = random.uniform(.02, .3), h = random.uniform(.004, .02);
     const Vector3 x = random.vectors(1, .5).col(0), d = rest * random.vectors(1, 1).col(0).normalized();
     const Vector3 across = random.vectors(1, 1).col(0).cross(d);
     const Vector3 gain = (is_long ? .2 : -.2) * d / h + (is_long ? .3 : .02) * across / h;
-    list.push_back({x, x + d, Vector3(.3, -.2, .1), Vector3(.3, -.2, .1) + gain, random.in(20, 900),
-                    list.size() % 2 == 0 ? random.in(20, 900) : 0, h, .9 * rest, 1.1 * rest});
+    list.push_back({x, x + d, Vector3(.3, -.2, .1), Vector3(.3, -.2, .1) + gain, random.uniform(20, 900),
+                    list.size() % 2 == 0 ? random.uniform(20, 900) : 0, h, .9 * rest, 1.1 * rest});
   }
   return list;
 }

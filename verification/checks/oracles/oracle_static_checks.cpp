@@ -110,7 +110,7 @@ oracles::PlaneSheet patch_of(const oracles::SplitBlock& block) {
 }
 
 /// The slope of the map that climbs from eps at -t^ to tau at tau, integrated: y = f, or f and f'.
-double integrated(const oracles::RightHandSide& rhs, const std::vector<double>& start, double from, double to,
+double integrate(const oracles::RightHandSide& rhs, const std::vector<double>& start, double from, double to,
                   double& uncertainty) {
   const auto solution = oracles::reference_solution(rhs, start, from, std::array<double, 1>{to}, 1e-13);
   uncertainty = solution.uncertainty[0];
@@ -125,7 +125,7 @@ Estimate power_map_by_equation(const oracles::Band& band, double phi) {
     dy[0] = -p * (y[0] - band.nearest / whole) / (1 - s);
   };
   double off = 0;
-  const double f = integrated(rhs, {band.reach / whole}, 0, (band.reach - phi) / whole, off);
+  const double f = integrate(rhs, {band.reach / whole}, 0, (band.reach - phi) / whole, off);
   return {f * whole, off * whole};
 }
 
@@ -142,7 +142,7 @@ Estimate blend_map_by_equation(const oracles::Band& band, double phi) {
       dy[0] = y[1];
       dy[1] = (1 - m) / w;
     };
-    return integrated(rhs, {there, m}, bend, to, off);
+    return integrate(rhs, {there, m}, bend, to, off);
   };
   const Estimate m =
       oracles::bracketed_root([&](double slope) { return climbed(slope, 1) - band.reach / whole; }, -3, 3, 0);
@@ -234,7 +234,7 @@ Table dense_algebra_agrees() {
     compare_worst(answers, "second differences of " + std::to_string(n), pairs);
     const Eigen::MatrixXd A = K + .1 * Eigen::MatrixXd::Ones(n, n);
     const Eigen::VectorXd x = random.vectors(n, 1).row(0).transpose();
-    const Eigen::VectorXd found = oracles::solved(A, A * x), again = oracles::solved_symmetric(A, A * x);
+    const Eigen::VectorXd found = oracles::solve_linear(A, A * x), again = oracles::solve_symmetric(A, A * x);
     pairs.clear();  // the condition of these is below 50
     for (int k = 0; k < n; ++k) {
       pairs.push_back({{found[k], 200 * n * epsilon}, {x[k], 0}});
@@ -256,7 +256,7 @@ Table dense_algebra_agrees() {
   }
   for (const Vector3& values : {Vector3(3.7, 1.1, .2), Vector3(41, 6, 5)}) {
     const Vector3 from = random.vectors(1, 1).col(0), to = random.vectors(1, 1).col(0);
-    const Eigen::Matrix3d U = oracles::turn_between(from, to).toRotationMatrix();
+    const Eigen::Matrix3d U = oracles::rotation_between(from, to).toRotationMatrix();
     // the axis of a turn by nearly half a circle is known as well as its half angle's cosine is large
     const double half = std::sqrt((1 + from.normalized().dot(to.normalized())) / 2);
     const Eigen::Matrix3d V = Eigen::AngleAxisd(1.1, from.normalized()).toRotationMatrix();

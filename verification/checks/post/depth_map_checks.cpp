@@ -21,8 +21,9 @@ std::vector<DepthBand> bands() {
   Random random(307);
   std::vector<DepthBand> all;
   for (int k = 0; k < 40; ++k) {
-    const double reach = random.in_decades(1e-4, 1);
-    all.push_back({k % 3 == 0 ? 0 : random.in(0.01, 0.4) * reach, reach, random.in(0.3, 6) * reach});
+    const double reach = random.log_uniform(1e-4, 1);
+    all.push_back(
+        {k % 3 == 0 ? 0 : random.uniform(0.01, 0.4) * reach, reach, random.uniform(0.3, 6) * reach});
   }
   return all;
 }
@@ -38,12 +39,12 @@ Finding is_as_defined(const Subject&) {
         const double phi = -band.deepest + (band.reach + band.deepest) * (k / 200.0);
         const oracles::Band same{band.nearest, band.reach, band.deepest};
         const double exact = (map.name == "power" ? oracles::power_map : oracles::blend_map)(same, phi).value;
-        worst.see(std::abs(map.at(band, phi) - exact) / (epsilon * (band.reach + band.deepest)));
+        worst.observe(std::abs(map.at(band, phi) - exact) / (epsilon * (band.reach + band.deepest)));
       }
     }
     measured.row(std::string(map.name), worst.value());
   }
-  return judged_worst(measured, 16, roundings_reason);
+  return judge_worst(measured, 16, roundings_reason);
 }
 
 Finding ends_are_right(const Subject&) {
@@ -52,22 +53,24 @@ Finding ends_are_right(const Subject&) {
     Worst deepest, at_reach;
     for (const DepthBand& band : bands()) {
       for (const double below : {1.0, 1.7, 40.0})
-        deepest.see(std::abs(map.at(band, -below * band.deepest) - band.nearest) / (epsilon * band.reach));
+        deepest.observe(std::abs(map.at(band, -below * band.deepest) - band.nearest) /
+                        (epsilon * band.reach));
       for (const double beyond : {1.0, 1.3, 900.0}) {  // those are not moved: not by a bit
         const double phi = beyond * band.reach;  // divided, for a fused difference has the product's rounding
-        at_reach.see(std::abs(map.at(band, phi) / phi - 1) * beyond / epsilon);
+        at_reach.observe(std::abs(map.at(band, phi) / phi - 1) * beyond / epsilon);
       }
     }
     measured.row(std::string(map.name) + ", from -t^ down", deepest.value());
     measured.row(std::string(map.name) + ", from tau up", at_reach.value());
   }
-  return judged_worst(measured, 8, "phi + t^ at -t^ is off by a rounding of t^, at most 6 tau");
+  return judge_worst(measured, 8, "phi + t^ at -t^ is off by a rounding of t^, at most 6 tau");
 }
 
 /// A convex map misses the slope 1 over the last h by its second derivative, largest at tau, times h/2.
 double bend_at_reach(const DepthMap& map, const DepthBand& band) {
-  const double depths = band.reach + band.deepest, room = band.reach - band.nearest, w = room / 2;
-  return map.name == "power" ? (depths / room - 1) / depths : (1 - (room - w / 2) / (depths - w / 2)) / w;
+  const double depths = band.reach + band.deepest, band_width = band.reach - band.nearest, w = band_width / 2;
+  return map.name == "power" ? (depths / band_width - 1) / depths
+                             : (1 - (band_width - w / 2) / (depths - w / 2)) / w;
 }
 
 Finding meets_the_identity_smoothly(const Subject&) {
@@ -76,11 +79,11 @@ Finding meets_the_identity_smoothly(const Subject&) {
     Worst worst;
     for (const DepthBand& band : bands()) {
       const double h = 1e-4 * band.reach, slope = (band.reach - map.at(band, band.reach - h)) / h;
-      worst.see(std::abs(slope - 1) / (bend_at_reach(map, band) * h / 2));
+      worst.observe(std::abs(slope - 1) / (bend_at_reach(map, band) * h / 2));
     }
     measured.row(std::string(map.name), worst.value());
   }
-  return judged_worst(
+  return judge_worst(
       measured, 1.001,
       "Taylor's remainder over the last ten-thousandth of tau, and a rounding over that length, "
       "1e-12 of a slope of 1 against 1e-5");
@@ -104,7 +107,7 @@ Finding order_is_kept(const Subject&) {
     for (const DepthBand& band : bands()) wrong += disorder(map, band, map.name == "blend");
     measured.row(std::string(map.name), wrong);
   }
-  return judged_worst(
+  return judge_worst(
       measured, 0,
       "f rises; of 500 steps over the band not one may fall, and for the blend none "
       "may stay",
@@ -114,8 +117,9 @@ Finding order_is_kept(const Subject&) {
 Finding compression_is_bounded(const Subject&) {
   Table measured{{"case", ""}, {"compression over its bound", "1"}, {"compression by the power law", "1"}};
   for (const DepthBand& band : bands()) {
-    const double depths = band.reach + band.deepest, room = band.reach - band.nearest, w = room / 2;
-    const double bound = (depths - w / 2) / (room - w / 2);
+    const double depths = band.reach + band.deepest, band_width = band.reach - band.nearest,
+                 w = band_width / 2;
+    const double bound = (depths - w / 2) / (band_width - w / 2);
     Worst worst, power;
     for (int k = 0; k < 100; ++k) {
       const double phi = -band.deepest + depths * (k / 100.0), step = depths / 100;
@@ -123,17 +127,17 @@ Finding compression_is_bounded(const Subject&) {
         const DepthMap& map = depth_map_named(name);
         return step / (map.at(band, phi + step) - map.at(band, phi));
       };
-      worst.see(compression("blend") / bound);
-      power.see(compression("power"));
+      worst.observe(compression("blend") / bound);
+      power.observe(compression("power"));
     }
     measured.row(std::to_string(bound) + " is the bound", worst.value(), power.value());
   }
-  return judged_worst(measured, "compression over its bound", 1 + 1e-12,
-                      "by construction the slope is nowhere below m; 1e-12 for roundings of differences a "
-                      "hundredth of the band apart");
+  return judge_worst(measured, "compression over its bound", 1 + 1e-12,
+                     "by construction the slope is nowhere below m; 1e-12 for roundings of differences a "
+                     "hundredth of the band apart");
 }
 
-Finding senseless_bands_are_refused(const Subject&) {
+Finding senseless_bands_are_rejected(const Subject&) {
   const double infinite = std::numeric_limits<double>::infinity();
   const std::vector<DepthBand> senseless = {{-0.01, 0.2, 1}, {0.2, 0.2, 1},    {0.3, 0.2, 1},
                                             {0, 0.2, -1e-3}, {0, infinite, 1}, {0, 0.2, infinite},
@@ -150,7 +154,7 @@ Finding senseless_bands_are_refused(const Subject&) {
     }
     measured.row(name, accepted);
   }
-  return judged_worst(measured, 0, "0 <= eps < tau and t^ >= 0, all finite, or there is no such map");
+  return judge_worst(measured, 0, "0 <= eps < tau and t^ >= 0, all finite, or there is no such map");
 }
 
 }  // namespace
@@ -169,7 +173,7 @@ std::vector<Check> depth_map_checks() {
            "The blend presses no depths together by more than (tau + t^ - w/2)/(tau - eps - w/2).", source,
            compression_is_bounded},
           {"projection.impossible-bands-are-rejected", "A band that no map can have is refused.", source,
-           senseless_bands_are_refused}};
+           senseless_bands_are_rejected}};
 }
 
 }  // namespace foldproof

@@ -10,7 +10,7 @@
 #include "verification/specimens/differences.h"
 #include "verification/evidence.h"
 #include "verification/specimens/projection_specimens.h"
-#include "verification/specimens/refusal.h"
+#include "verification/specimens/rejection.h"
 
 namespace foldproof {
 
@@ -36,22 +36,22 @@ Finding lands_where_the_map_says(const Subject&) {
   for (const ProjectionCase& specimen : unpinched_cases()) {
     for (const DepthMap& map : depth_maps()) {
       const FoldProjection projection = projection_by(std::string(map.name));
-      const ProjectedCloth cloth = projected(specimen, projection);
+      const ProjectedCloth cloth = project_specimen(specimen, projection);
       const PerParticle before = distances(specimen, specimen.x), after = distances(specimen, cloth.x);
       Worst worst;
       for (Eigen::Index i = 0; i < before.size(); ++i)
-        worst.see(std::abs(after[i] - map.at(projection.band, before[i])));
+        worst.observe(std::abs(after[i] - map.at(projection.band, before[i])));
       measured.row(with(specimen, map), worst.value());
     }
   }
-  return judged_worst(measured, twice, tolerance_reason);
+  return judge_worst(measured, twice, tolerance_reason);
 }
 
 /// How far outside [eps, tau] the points are that began short of tau [m].
 double outside_band(const PerParticle& before, const PerParticle& after, const DepthBand& band) {
   Worst worst;
   for (Eigen::Index i = 0; i < before.size(); ++i)
-    if (before[i] <= band.reach) worst.see(std::max(band.nearest - after[i], after[i] - band.reach));
+    if (before[i] <= band.reach) worst.observe(std::max(band.nearest - after[i], after[i] - band.reach));
   return worst.value();
 }
 
@@ -60,12 +60,12 @@ Finding ends_in_the_band(const Subject&) {
   for (const ProjectionCase& specimen : unpinched_cases()) {
     for (const DepthMap& map : depth_maps()) {
       const FoldProjection projection = projection_by(std::string(map.name));
-      const ProjectedCloth cloth = projected(specimen, projection);
+      const ProjectedCloth cloth = project_specimen(specimen, projection);
       measured.row(with(specimen, map), outside_band(distances(specimen, specimen.x),
                                                      distances(specimen, cloth.x), projection.band));
     }
   }
-  return judged_worst(measured, twice, tolerance_reason);
+  return judge_worst(measured, twice, tolerance_reason);
 }
 
 Finding no_point_is_left_inside(const Subject&) {
@@ -74,39 +74,41 @@ Finding no_point_is_left_inside(const Subject&) {
     for (const DepthMap& map : depth_maps()) {
       FoldProjection projection = projection_by(std::string(map.name));
       projection.band.nearest = 0;
-      const ProjectedCloth cloth = projected(specimen, projection);
+      const ProjectedCloth cloth = project_specimen(specimen, projection);
       measured.row(with(specimen, map), double((distances(specimen, cloth.x).array() < 0).count()));
     }
   }
-  return judged_worst(
+  return judge_worst(
       measured, 0,
       "with eps = 0 too: arrived points lie on the outer side of f, so that not even a rounding "
       "leaves one inside");
 }
 
 /// What must be said of a point that was at phi and is now at `after` [m].
-Fate expected_fate(const DepthMap& map, const FoldProjection& projection, double phi, double after) {
+ProjectionOutcome expected_fate(const DepthMap& map, const FoldProjection& projection, double phi,
+                                double after) {
   const double f = map.at(projection.band, phi);
-  if (!(f > phi)) return Fate::untouched;
-  return f <= after && after <= f + projection.tolerance ? Fate::moved : Fate::unfinished;
+  if (!(f > phi)) return ProjectionOutcome::untouched;
+  return f <= after && after <= f + projection.tolerance ? ProjectionOutcome::moved
+                                                         : ProjectionOutcome::unfinished;
 }
 
-Finding senseless_ones_are_refused(const Subject&) {
+Finding senseless_ones_are_rejected(const Subject&) {
   Table measured{{"case", ""}, {"projections that mean nothing and are not refused", "1"}};
   const ProjectionCase specimen = two_balls();
-  const auto see = [&](const std::string& name, const std::function<void(FoldProjection&)>& spoil) {
+  const auto observe = [&](const std::string& name, const std::function<void(FoldProjection&)>& spoil) {
     FoldProjection projection = projection_by("plain");
     spoil(projection);
-    measured.row(name, refusal([&] { projected(specimen, projection); }).empty() ? 1 : 0);
+    measured.row(name, rejection_message([&] { project_specimen(specimen, projection); }).empty() ? 1 : 0);
   };
   for (const double wrong : {0.0, -1e-9, double(NAN), double(INFINITY)})
-    see("tolerance " + std::to_string(wrong), [&](FoldProjection& p) { p.tolerance = wrong; });
+    observe("tolerance " + std::to_string(wrong), [&](FoldProjection& p) { p.tolerance = wrong; });
   for (const int wrong : {0, -3})
-    see(std::to_string(wrong) + " moves", [&](FoldProjection& p) { p.max_moves = wrong; });
-  see("tau below eps", [](FoldProjection& p) { p.band.reach = 0.5 * p.band.nearest; });
-  see("tau NaN", [](FoldProjection& p) { p.band.reach = NAN; });
-  see("no such map", [](FoldProjection& p) { p.map = "flat"; });
-  return judged_worst(measured, 0, "a tolerance and a cap above 0, a band and a map are needed");
+    observe(std::to_string(wrong) + " moves", [&](FoldProjection& p) { p.max_moves = wrong; });
+  observe("tau below eps", [](FoldProjection& p) { p.band.reach = 0.5 * p.band.nearest; });
+  observe("tau NaN", [](FoldProjection& p) { p.band.reach = NAN; });
+  observe("no such map", [](FoldProjection& p) { p.map = "flat"; });
+  return judge_worst(measured, 0, "a tolerance and a cap above 0, a band and a map are needed");
 }
 
 Finding one_move_is_enough(const Subject&) {
@@ -116,13 +118,14 @@ Finding one_move_is_enough(const Subject&) {
     FoldProjection projection = projection_by(std::string(map.name));
     projection.max_moves = 1;
     projection.tolerance = 1e-9;
-    const ProjectedCloth cloth = projected(specimen, projection);
-    measured.row(with(specimen, map), cloth.count(Fate::unfinished));
-    measured.row(with(specimen, map) + ", questions",
-                 std::abs(double(cloth.object_queries - cloth.x.cols() - cloth.count(Fate::moved))));
+    const ProjectedCloth cloth = project_specimen(specimen, projection);
+    measured.row(with(specimen, map), cloth.count(ProjectionOutcome::unfinished));
+    measured.row(
+        with(specimen, map) + ", questions",
+        std::abs(double(cloth.object_queries - cloth.x.cols() - cloth.count(ProjectionOutcome::moved))));
   }
-  return judged_worst(measured, 0,
-                      "along the normal of an exact distance the first move arrives, and it is allowed");
+  return judge_worst(measured, 0,
+                     "along the normal of an exact distance the first move arrives, and it is allowed");
 }
 
 Finding fates_are_true(const Subject&) {
@@ -132,15 +135,15 @@ Finding fates_are_true(const Subject&) {
   for (const ProjectionCase& specimen : unpinched_cases()) {
     for (const DepthMap& map : depth_maps()) {
       const FoldProjection projection = projection_by(std::string(map.name));
-      const ProjectedCloth cloth = projected(specimen, projection);
-      double wrong = cloth.count(Fate::unfinished);
+      const ProjectedCloth cloth = project_specimen(specimen, projection);
+      double wrong = cloth.count(ProjectionOutcome::unfinished);
       for (Eigen::Index i = 0; i < cloth.before.size(); ++i)
-        wrong += cloth.fates[size_t(i)] != expected_fate(map, projection, cloth.before[i], cloth.after[i]);
+        wrong += cloth.outcomes[size_t(i)] != expected_fate(map, projection, cloth.before[i], cloth.after[i]);
       measured.row(with(specimen, map), wrong);
     }
   }
-  return judged_worst(measured, 0,
-                      "where there is room every point is moved to the end, and what is told of it is true");
+  return judge_worst(measured, 0,
+                     "where there is room every point is moved to the end, and what is told of it is true");
 }
 
 /// Pairs, neighbours in depth, that changed their order by more than the tolerance.
@@ -157,14 +160,14 @@ Finding order_of_depths_is_kept(const Subject&) {
   Table measured{{"case", ""}, {"neighbours in depth out of order", "1"}};
   for (const ProjectionCase& specimen : unpinched_cases()) {
     for (const DepthMap& map : depth_maps()) {
-      const ProjectedCloth cloth = projected(specimen, projection_by(std::string(map.name)));
+      const ProjectedCloth cloth = project_specimen(specimen, projection_by(std::string(map.name)));
       measured.row(with(specimen, map),
                    disorder(distances(specimen, specimen.x), distances(specimen, cloth.x)));
     }
   }
-  return judged_worst(measured, 0,
-                      "the deeper of two points stays the deeper, or comes to lie as far out, within the "
-                      "tolerance of 1e-12 m");
+  return judge_worst(measured, 0,
+                     "the deeper of two points stays the deeper, or comes to lie as far out, within the "
+                     "tolerance of 1e-12 m");
 }
 
 Finding moves_along_the_normal(const Subject&) {
@@ -173,19 +176,19 @@ Finding moves_along_the_normal(const Subject&) {
     if (specimen.name != "sphere" && specimen.name != "half space") continue;
     const RigidObject& body = std::get<RigidObject>(specimen.objects[0].body);
     const Pose pose = after(pose_at(body.motion, specimen.time), body.place);
-    const ProjectedCloth cloth = projected(specimen, projection_by("blend"));
+    const ProjectedCloth cloth = project_specimen(specimen, projection_by("blend"));
     Worst worst;
     for (Eigen::Index i = 0; i < cloth.x.cols(); ++i) {
-      const Vector3 p = unplaced(pose, specimen.x.col(i)), q = unplaced(pose, cloth.x.col(i));
+      const Vector3 p = to_body(pose, specimen.x.col(i)), q = to_body(pose, cloth.x.col(i));
       const bool is_ball = specimen.name == "sphere";
       const double phi = is_ball ? p.norm() - 0.41 : p.z();
       const double move = depth_map_named("blend").at(projection_by("blend").band, phi) - phi;
-      worst.see((q - p - move * (is_ball ? Vector3(p.normalized()) : Vector3(0, 0, 1))).norm());
+      worst.observe((q - p - move * (is_ball ? Vector3(p.normalized()) : Vector3(0, 0, 1))).norm());
     }
     measured.row(specimen.name, worst.value());
   }
-  return judged_worst(measured, twice,
-                      "a point goes straight out by f - phi, nowhere else; " + tolerance_reason);
+  return judge_worst(measured, twice,
+                     "a point goes straight out by f - phi, nowhere else; " + tolerance_reason);
 }
 
 Finding far_points_are_untouched(const Subject&) {
@@ -193,39 +196,39 @@ Finding far_points_are_untouched(const Subject&) {
   for (const ProjectionCase& specimen : unpinched_cases()) {
     for (const DepthMap& map : depth_maps()) {
       const FoldProjection projection = projection_by(std::string(map.name));
-      const ProjectedCloth cloth = projected(specimen, projection);
+      const ProjectedCloth cloth = project_specimen(specimen, projection);
       const PerParticle before = distances(specimen, specimen.x);
       double changed = 0;
       for (Eigen::Index i = 0; i < before.size(); ++i) {
         if (before[i] >= projection.band.reach)
-          changed += numbers_that_differ(cloth.x.col(i), specimen.x.col(i)) +
-                     (cloth.fates[size_t(i)] != Fate::untouched);
+          changed += count_differing_entries(cloth.x.col(i), specimen.x.col(i)) +
+                     (cloth.outcomes[size_t(i)] != ProjectionOutcome::untouched);
       }
       measured.row(with(specimen, map), changed);
     }
   }
-  return judged_worst(measured, 0,
-                      "not a bit of a point from tau up may change, and it is reported as untouched");
+  return judge_worst(measured, 0,
+                     "not a bit of a point from tau up may change, and it is reported as untouched");
 }
 
 Finding pinched_points_are_left_alone(const Subject&) {
   Table measured{{"case", ""}, {"numbers changed", "1"}};
   const ProjectionCase specimen = overlapping_balls();
   for (const DepthMap& map : depth_maps()) {
-    const ProjectedCloth cloth = projected(specimen, projection_by(std::string(map.name)));
+    const ProjectedCloth cloth = project_specimen(specimen, projection_by(std::string(map.name)));
     double changed = 0;
     int pinched = 0;
     for (Eigen::Index i = 0; i < cloth.x.cols(); ++i) {
       const bool is_pinched = (specimen.x.col(i) - Vector3(-0.19, 0.03, 0.02)).norm() < 0.31 &&
                               (specimen.x.col(i) - Vector3(0.17, -0.02, 0.05)).norm() < 0.27;
       pinched += is_pinched;
-      changed += (cloth.fates[size_t(i)] == Fate::pinched) != is_pinched;
-      if (is_pinched) changed += numbers_that_differ(cloth.x.col(i), specimen.x.col(i));
+      changed += (cloth.outcomes[size_t(i)] == ProjectionOutcome::pinched) != is_pinched;
+      if (is_pinched) changed += count_differing_entries(cloth.x.col(i), specimen.x.col(i));
     }
     measured.row(std::string(map.name) + ", " + std::to_string(pinched) + " pinched",
                  pinched > 0 ? changed : NAN);
   }
-  return judged_worst(
+  return judge_worst(
       measured, 0,
       "not a bit of a point inside both balls may change, and just those are reported as pinched");
 }
@@ -234,12 +237,12 @@ Finding plain_is_idempotent(const Subject&) {
   Table measured{{"case", ""}, {"numbers changed by the second projection", "1"}};
   for (ProjectionCase specimen : unpinched_cases()) {
     const FoldProjection projection = projection_by("plain");
-    specimen.x = projected(specimen, projection).x;
-    const ProjectedCloth again = projected(specimen, projection);
-    measured.row(specimen.name, numbers_that_differ(again.x, specimen.x));
+    specimen.x = project_specimen(specimen, projection).x;
+    const ProjectedCloth again = project_specimen(specimen, projection);
+    measured.row(specimen.name, count_differing_entries(again.x, specimen.x));
   }
-  return judged_worst(measured, 0,
-                      "what lies at eps or beyond is where plain projection wants it: not a bit moves");
+  return judge_worst(measured, 0,
+                     "what lies at eps or beyond is where plain projection wants it: not a bit moves");
 }
 
 Finding projecting_twice_compresses(const Subject&) {
@@ -251,19 +254,19 @@ Finding projecting_twice_compresses(const Subject&) {
     const RigidObject& body = std::get<RigidObject>(line.objects[0].body);
     const Pose pose = after(pose_at(body.motion, line.time), body.place);
     line.x.resize(3, 2);
-    line.x.col(0) = placed(pose, Vector3(0.41 - projection.band.deepest / 2, 0, 0));
-    line.x.col(1) = placed(pose, Vector3(0.41, 0, 0));
+    line.x.col(0) = to_world(pose, Vector3(0.41 - projection.band.deepest / 2, 0, 0));
+    line.x.col(1) = to_world(pose, Vector3(0.41, 0, 0));
     double room[2];
     for (double& here : room) {
-      line.x = projected(line, projection).x;
+      line.x = project_specimen(line, projection).x;
       const PerParticle phi = distances(line, line.x);
       here = phi[1] - phi[0];
     }
     measured.row(map, room[1] / room[0]);
   }
-  return judged_worst(measured, 0.95,
-                      "f(phi) = phi at tau alone, so a second projection presses together what the first one "
-                      "left: by a twentieth at least, or the map would hardly move anything");
+  return judge_worst(measured, 0.95,
+                     "f(phi) = phi at tau alone, so a second projection presses together what the first one "
+                     "left: by a twentieth at least, or the map would hardly move anything");
 }
 
 Finding gaps_without_room_are_reported(const Subject&) {
@@ -273,9 +276,9 @@ Finding gaps_without_room_are_reported(const Subject&) {
   specimen.x = PerParticle3(left + (right - left) * ((0.31 + gap / 2) / apart));
   FoldProjection projection = projection_by("plain");
   projection.band = {0.12, 0.2, 0.1};
-  const ProjectedCloth cloth = projected(specimen, projection);
+  const ProjectedCloth cloth = project_specimen(specimen, projection);
   const double before = distances(specimen, specimen.x)[0], reached = distances(specimen, cloth.x)[0];
-  return {{cloth.fates[0] == Fate::unfinished ? before - reached : NAN, tolerance, 0, "m",
+  return {{cloth.outcomes[0] == ProjectionOutcome::unfinished ? before - reached : NAN, tolerance, 0, "m",
            "a point that cannot get where the map wants it is reported, and is no deeper than it was, within "
            "1e-12 m"},
           Table{{"gap", "m"},
@@ -299,7 +302,7 @@ std::vector<Check> projection_checks() {
        source, no_point_is_left_inside},
       {"projection.meaningless-settings-are-rejected",
        "A projection without a tolerance, a move, a band or a map is refused in words.",
-       "a rule of this suite: bad input is refused in words", senseless_ones_are_refused},
+       "a rule of this suite: bad input is refused in words", senseless_ones_are_rejected},
       {"projection.one-move-is-enough",
        "Where distances are exact, a point needs one move, and as many are made as are allowed.", source,
        one_move_is_enough},

@@ -27,7 +27,7 @@ Object ball_at(const Vector3& centre) {
 TriangleMesh small_sheet(double side, int cells) {
   Sheet sheet{SheetPattern::jittered, side, side, cells, cells};
   sheet.jitter = 0.2;
-  sheet.seed = shifted(29);
+  sheet.seed = shifted_seed(29);
   TriangleMesh mesh = make_sheet(sheet);
   mesh.rest.colwise() -= Vector3(side / 2, side / 2, 0);
   return mesh;
@@ -37,7 +37,7 @@ TriangleMesh small_sheet(double side, int cells) {
 double largest_stretch(const TriangleMesh& mesh, const PerParticle3& before, const PerParticle3& after) {
   Worst worst;
   for (const Edge& edge : mesh.edges)
-    worst.see((after.col(edge.a) - after.col(edge.b)).norm() /
+    worst.observe((after.col(edge.a) - after.col(edge.b)).norm() /
               (before.col(edge.a) - before.col(edge.b)).norm());
   return worst.value();
 }
@@ -52,22 +52,22 @@ ProjectionCase pinched_cloth(const TriangleMesh& mesh, double ripple) {
 
 Finding pinched_points_would_tear(const Subject&) {
   const TriangleMesh mesh = small_sheet(0.25, 20);
-  const std::string judged = "stretch when left alone over stretch when projected";
+  const std::string finding = "stretch when left alone over stretch when projected";
   Table measured{
-      {"case", ""}, {judged, "1"}, {"stretch when left alone", "1"}, {"stretch when projected", "1"}};
+      {"case", ""}, {finding, "1"}, {"stretch when left alone", "1"}, {"stretch when projected", "1"}};
   for (const double ripple : {0.001, 0.004}) {
     for (const DepthMap& map : depth_maps()) {
       const ProjectionCase specimen = pinched_cloth(mesh, ripple);
       FoldProjection projection = projection_by(std::string(map.name));
-      const double alone = largest_stretch(mesh, specimen.x, projected(specimen, projection).x);
+      const double alone = largest_stretch(mesh, specimen.x, project_specimen(specimen, projection).x);
       projection.pinched = PinchedPoints::projected;
-      const double moved = largest_stretch(mesh, specimen.x, projected(specimen, projection).x);
+      const double moved = largest_stretch(mesh, specimen.x, project_specimen(specimen, projection).x);
       measured.row(std::string(map.name) + ", ripple " + std::to_string(ripple) + " m", alone / moved, alone,
                    moved);
     }
   }
-  return judged_worst(
-      measured, judged, 0.2,
+  return judge_worst(
+      measured, finding, 0.2,
       "neighbours on different sides of the middle leave by different balls, each a tenth of a metre away, "
       "where edges are an eightieth: a fifth leaves room for edges that a few particles' fate spares");
 }
@@ -103,7 +103,7 @@ BroughtOut out_of_the_ball(const std::vector<Triangle>& triangles, const PerPart
     out.eps = 1.05 * enough(out.x);
     FoldProjection projection = projection_by("blend");
     projection.band = {out.eps, out.eps + 0.03, 0.05};
-    out.x = projected({"ball", {ball_at(Vector3::Zero())}, 0, x}, projection).x;
+    out.x = project_specimen({"ball", {ball_at(Vector3::Zero())}, 0, x}, projection).x;
   }
   return out;
 }
@@ -127,7 +127,7 @@ Finding serves_the_subdivided_cloth(const Subject&) {
                    left_inside(finer.triangles, out.x), left_inside(finer.triangles, fine), out.eps);
     }
   }
-  return judged_worst(measured, "triangles left inside", 0,
+  return judge_worst(measured, "triangles left inside", 0,
                       "vertices at L^2/(6 R) or farther from a ball of radius R keep triangles with edges "
                       "of L clear of it; decided in whole numbers");
 }
@@ -141,11 +141,11 @@ Finding subdividing_afterwards_spoils_it(const Subject&) {
     FoldProjection projection = projection_by("blend");
     const double eps = out_of_the_ball(finer.triangles, finer.of(x)).eps;
     projection.band = {eps, eps + 0.03, 0.05};
-    const ProjectedCloth coarse = projected({"ball", {ball_at(Vector3::Zero())}, 0, x}, projection);
+    const ProjectedCloth coarse = project_specimen({"ball", {ball_at(Vector3::Zero())}, 0, x}, projection);
     const std::size_t inside = left_inside(finer.triangles, finer.of(coarse.x));
     measured.row(std::to_string(levels) + " levels after the projection", inside == 0, inside);
   }
-  return judged_worst(measured, "cloths without a triangle inside", 0,
+  return judge_worst(measured, "cloths without a triangle inside", 0,
                       "the same eps, but the coarse cloth is projected: smoothing draws its points towards "
                       "the ball, and new ones lie on edges that cut into it");
 }
@@ -160,13 +160,13 @@ Finding midpoints_keep_the_surface(const Subject&) {
     const Subdivision finer = subdivision(mesh, SubdivisionRule::midpoint, levels);
     const PerParticle3 fine = finer.of(x);
     Worst worst;
-    worst.see(largest_difference(fine.leftCols(x.cols()), x) / (epsilon * extent(x)));
+    worst.observe(largest_difference(fine.leftCols(x.cols()), x) / (epsilon * extent(x)));
     const double area = triangle_areas(mesh.triangles, x).sum(),
                  same = triangle_areas(finer.triangles, fine).sum();
-    worst.see(std::abs(same - area) / (epsilon * area * 4));
+    worst.observe(std::abs(same - area) / (epsilon * area * 4));
     measured.row(std::to_string(levels) + " levels", worst.value());
   }
-  return judged_worst(measured, 16,
+  return judge_worst(measured, 16,
                       "halves of sums are rounded once a level; the area adds some thousands of terms whose "
                       "roundings mostly cancel");
 }
@@ -188,7 +188,7 @@ Finding loop_is_affine(const Subject&) {
       1 - (5.0 / 8 - std::pow(3.0 / 8 + std::cos(2 * pi / 5) / 4, 2));
   measured.row("weight of a point of degree 5", std::abs(once.weights.coeff(0, 0) - expected5) / epsilon);
   measured.row("weight of a point of degree 6", std::abs(once.weights.coeff(20, 20) - 10.0 / 16) / epsilon);
-  return judged_worst(
+  return judge_worst(
       measured, 32,
       "weights of a row sum to 1, so that subdividing and moving commute to the roundings of some "
       "twenty terms");

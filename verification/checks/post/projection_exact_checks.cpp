@@ -27,7 +27,7 @@ struct Sunk {
 Sunk sunk_sheet(double height, unsigned seed) {
   Sheet sheet{SheetPattern::jittered, 0.9, 0.8, 22, 22};
   sheet.jitter = 0.3;
-  sheet.seed = shifted(seed);
+  sheet.seed = shifted_seed(seed);
   Sunk sunk{make_sheet(sheet), {}};
   sunk.x = sunk.mesh.rest;
   for (Eigen::Index i = 0; i < sunk.x.cols(); ++i) {
@@ -70,15 +70,15 @@ std::vector<Target> targets() {
 }
 
 /// The sheet projected with eps enough for the edges that it has afterwards, or with eps = 0.
-PerParticle3 brought_out(const Target& target, const Sunk& sunk, const std::string& map, bool has_room) {
+PerParticle3 project_out(const Target& target, const Sunk& sunk, const std::string& map, bool has_clearance) {
   const ProjectionCase specimen{target.name, {body(target.solid)}, 0, sunk.x};
   double eps = 0;
   PerParticle3 x = sunk.x;
   for (int k = 0; k < 4; ++k) {
     FoldProjection projection = projection_by(map);
     projection.band = {eps, 2 * eps + 0.03, 0.04};  // the deepest points all go to eps
-    x = projected(specimen, projection).x;
-    if (!has_room || eps >= target.enough(longest_edge(sunk.mesh, x))) break;
+    x = project_specimen(specimen, projection).x;
+    if (!has_clearance || eps >= target.enough(longest_edge(sunk.mesh, x))) break;
     eps = 1.01 * target.enough(longest_edge(sunk.mesh, x));
   }
   return x;
@@ -86,13 +86,13 @@ PerParticle3 brought_out(const Target& target, const Sunk& sunk, const std::stri
 
 /// What is counted of each sheet, over targets, maps and depths.
 template <class Count>
-Table over_sheets(bool has_room, const std::string& counted, const Count& count) {
+Table over_sheets(bool has_clearance, const std::string& counted, const Count& count) {
   Table measured{{"case", ""}, {counted, "1"}};
   unsigned seed = 61;
   for (const Target& target : targets()) {
     for (const DepthMap& map : depth_maps()) {
       const Sunk sunk = sunk_sheet(target.top - 0.05, ++seed);
-      const PerParticle3 x = brought_out(target, sunk, std::string(map.name), has_room);
+      const PerParticle3 x = project_out(target, sunk, std::string(map.name), has_clearance);
       measured.row(target.name + ", " + std::string(map.name), count(target, sunk, x));
     }
   }
@@ -104,7 +104,7 @@ Finding no_triangle_is_left_inside(const Subject&) {
     const bool began_inside = target.inside(soup_of(sunk.mesh, sunk.x)) > 0;
     return began_inside ? double(target.inside(soup_of(sunk.mesh, x))) : NAN;
   };
-  return judged_worst(
+  return judge_worst(
       over_sheets(true, "triangles left inside", inside), 0,
       "vertices eps from a ball of radius R keep edges of length L clear of it from eps = L^2/(6 R) on; "
       "whatever the body, no point of a triangle is farther than L/sqrt(3) from all its corners, and phi "
@@ -116,8 +116,8 @@ Finding no_eps_is_too_little(const Subject&) {
   const auto is_clear = [](const Target& target, const Sunk& sunk, const PerParticle3& x) {
     return target.inside(soup_of(sunk.mesh, x)) == 0 ? 1.0 : 0.0;
   };
-  return judged_worst(over_sheets(false, "sheets without a triangle inside", is_clear), 0,
-                      "with eps = 0 edges between points of a convex surface run below it");
+  return judge_worst(over_sheets(false, "sheets without a triangle inside", is_clear), 0,
+                     "with eps = 0 edges between points of a convex surface run below it");
 }
 
 }  // namespace

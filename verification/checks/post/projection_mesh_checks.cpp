@@ -42,7 +42,7 @@ struct Worn {
 Worn sheet_through(const KnownStatue& statue) {
   Sheet sheet{SheetPattern::jittered, 0.4, 0.4, 40, 40};
   sheet.jitter = 0.25;
-  sheet.seed = shifted(97);
+  sheet.seed = shifted_seed(97);
   Worn worn{make_sheet(sheet), {}};
   const PerParticle3& body = small_statue().rest;
   const Vector3 low = body.rowwise().minCoeff(), high = body.rowwise().maxCoeff(), middle = (low + high) / 2;
@@ -61,7 +61,7 @@ ProjectedCloth out_of(const Worn& worn, const std::string& map, double eps) {
   FoldProjection projection = projection_by(map);
   projection.band = {eps, eps + 0.01, 0.05};
   projection.tolerance = 1e-10;
-  return projected(worn.specimen, projection);
+  return project_specimen(worn.specimen, projection);
 }
 
 double count_inside(const PerParticle3& x) {
@@ -82,13 +82,13 @@ Finding no_particle_is_left_inside(const Subject&) {
     for (const char* map : {"plain", "blend"}) {
       const ProjectedCloth cloth = out_of(worn, map, statue.margin);
       measured.row(statue.name + ", " + map, count_inside(cloth.x), count_inside(worn.specimen.x),
-                   cloth.count(Fate::unfinished));
+                   cloth.count(ProjectionOutcome::unfinished));
     }
   }
-  return judged_worst(measured, "particles left inside", 0,
-                      "decided in whole numbers against the mesh: eps is a nanometre over exact distances, "
-                      "and a cell of the grid, by which a trilinear value next to an edge of the body may be "
-                      "too large");
+  return judge_worst(measured, "particles left inside", 0,
+                     "decided in whole numbers against the mesh: eps is a nanometre over exact distances, "
+                     "and a cell of the grid, by which a trilinear value next to an edge of the body may be "
+                     "too large");
 }
 
 double longest_edge(const TriangleMesh& mesh, const PerParticle3& x) {
@@ -111,11 +111,11 @@ Finding no_triangle_is_left_inside(const Subject&) {
       cloth = out_of(worn, "plain", enough);
     }
     const auto inside = oracles::triangles_in_body({cloth.x, worn.mesh.triangles}, surface);
-    measured.row(statue.name, inside.size(), enough, cloth.count(Fate::unfinished));
+    measured.row(statue.name, inside.size(), enough, cloth.count(ProjectionOutcome::unfinished));
   }
-  return judged_worst(measured, "triangles left inside", 0,
-                      "no point of a triangle is farther than L/sqrt(3) from all its corners, and phi falls "
-                      "by no more than the way");
+  return judge_worst(measured, "triangles left inside", 0,
+                     "no point of a triangle is farther than L/sqrt(3) from all its corners, and phi falls "
+                     "by no more than the way");
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <functional>
 
-#include "reference/bodies/makers.h"
+#include "reference/bodies/level_set_provider.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
@@ -36,7 +36,7 @@ Scene read_case_in(const ScratchFolder& folder, const std::string& tables) {
 }
 
 /// The first object as it is built.
-Object first_object(const Scene& scene) { return build_objects(scene, computing_makers()).at(0); }
+Object first_object(const Scene& scene) { return build_objects(scene, computing_provider()).at(0); }
 
 Octree octree_of(const Scene& scene) {
   return *std::get<OctreeSolid>(std::get<RigidObject>(first_object(scene).body).solid).tree;
@@ -49,8 +49,8 @@ double octree_miss(const Octree& tree) {
   Random random(4451);
   Worst worst;
   for (int i = 0; i < 2000; ++i) {
-    const Vector3 p = random.vectors(1, 1).col(0).normalized() * radius * random.in(0.9, 1.1);
-    worst.see(std::abs(tree.at(p).phi - exact.at(p).phi) / tree.settings.tolerance);
+    const Vector3 p = random.vectors(1, 1).col(0).normalized() * radius * random.uniform(0.9, 1.1);
+    worst.observe(std::abs(tree.at(p).phi - exact.at(p).phi) / tree.settings.tolerance);
   }
   return worst.value();
 }
@@ -73,21 +73,21 @@ Finding octree_finding(const Subject&) {
   measured.row("tolerance as written", given.settings.tolerance == 5e-4 ? 0 : INFINITY);
   measured.row("distances", octree_miss(coarse));
   measured.row("distances, tolerance as written", octree_miss(given));
-  return judged_worst(measured, 2, "an octree keeps its tolerance, to which hanging nodes add another");
+  return judge_worst(measured, 2, "an octree keeps its tolerance, to which hanging nodes add another");
 }
 
 /// Where the point X of the body goes, by another road than the reference takes: about the
 /// centre of the arc, at R = height/angle beside the base.
-Vector3 bent(const Vector3& X, double angle, double height) {
+Vector3 bend_point(const Vector3& X, double angle, double height) {
   const double R = height / angle, phi = X.y() / R;
   return {R - (R - X.x()) * std::cos(phi), (R - X.x()) * std::sin(phi), X.z()};
 }
 
-Vector3 twisted(const Vector3& X, double angle, double height) {
+Vector3 twist_point(const Vector3& X, double angle, double height) {
   return Eigen::AngleAxisd(angle * X.y() / height, Vector3::UnitY()) * X;
 }
 
-Vector3 breathed(const Vector3& X, double growth, double height) {
+Vector3 breathe_point(const Vector3& X, double growth, double height) {
   const double from_middle = 2 * X.y() / height - 1;
   const double factor = 1 + growth * (1 - from_middle * from_middle);
   return {factor * X.x(), X.y(), factor * X.z()};
@@ -109,7 +109,7 @@ double surface_miss(const Scene& scene, const Shaping& shaping, double period, d
   const PerParticle3 seen = surface_at(scene.objects.at(0), t);
   Worst worst;
   for (int i = 0; i < ball.particles(); ++i)
-    worst.see((shaping(x.col(i) - base, share, (high - low).y()) + base - seen.col(i)).norm());
+    worst.observe((shaping(x.col(i) - base, share, (high - low).y()) + base - seen.col(i)).norm());
   return worst.value();
 }
 
@@ -124,7 +124,7 @@ Finding deformation_finding(const Subject&) {
   const ScratchFolder folder;
   const std::string keys = place + "cells = 12\ninterval = 0.05\n";
   Table differences = no_differences();
-  const auto see = [&](const std::string& what, const std::string& parts, const Shaping& shaping,
+  const auto observe = [&](const std::string& what, const std::string& parts, const Shaping& shaping,
                        double period) {
     const Scene scene = read_case_in(folder, ball_body(folder, keys + parts));
     for (const double t : {0.0, 0.05, 0.2, 0.3})
@@ -134,24 +134,24 @@ Finding deformation_finding(const Subject&) {
     differences.row(what + " between frames",
                     in_roundings((surface_at(scene.objects[0], 0.125) - between).cwiseAbs().maxCoeff(), 1));
   };
-  see(
+  observe(
       "bend", deform("bend", 70, 0.47),
       [](const Vector3& X, double share, double height) {
-        return share == 0 ? X : bent(X, 70 * degree * share, height);
+        return share == 0 ? X : bend_point(X, 70 * degree * share, height);
       },
       0.47);
-  see(
+  observe(
       "twist", deform("twist", -130, 0.31),
-      [](const Vector3& X, double share, double height) { return twisted(X, -130 * degree * share, height); },
+      [](const Vector3& X, double share, double height) { return twist_point(X, -130 * degree * share, height); },
       0.31);
-  see(
+  observe(
       "breathe", deform("breathe", 0.35, 0.61),
-      [](const Vector3& X, double share, double height) { return breathed(X, 0.35 * share, height); }, 0.61);
-  see(
+      [](const Vector3& X, double share, double height) { return breathe_point(X, 0.35 * share, height); }, 0.61);
+  observe(
       "twist, then bend", deform("twist", 55, 0.4) + deform("bend", -40, 0.4),
       [](const Vector3& X, double share, double height) {
-        const Vector3 x = twisted(X, 55 * degree * share, height);
-        return share == 0 ? x : bent(x, -40 * degree * share, height);
+        const Vector3 x = twist_point(X, 55 * degree * share, height);
+        return share == 0 ? x : bend_point(x, -40 * degree * share, height);
       },
       0.4);
   return judged_differences(
@@ -209,11 +209,11 @@ Finding surface_finding(const Subject&) {
     for (const double t : {0.0, 0.02, 0.05, 0.23, 0.3}) {
       const PerParticle3 x = surface_at(scene.objects[0], t);
       for (Eigen::Index i = 0; i < x.cols(); ++i)
-        worst.see(std::abs(body.at(x.col(i), {t, t, 0}).phi) / tolerance);
+        worst.observe(std::abs(body.at(x.col(i), {t, t, 0}).phi) / tolerance);
     }
     measured.row(kind, worst.value());
   }
-  return judged_worst(measured, 2,
+  return judge_worst(measured, 2,
                       "octrees miss by their tolerance, to which hanging nodes add another; carried "
                       "along, phi between frames errs "
                       "by the square of the turn in a frame, 0.02 rad, of a displacement of 5 mm: 1e-6 m, "
@@ -228,7 +228,7 @@ std::string too_many_frames(const ScratchFolder& folder) {
   return "many";
 }
 
-std::vector<Refused> refusals(const ScratchFolder& folder) {
+std::vector<RejectedCase> rejections(const ScratchFolder& folder) {
   const auto body = [&](const std::string& keys) { return ball_body(folder, "cells = 8\n" + keys); };
   const std::string twist = deform("twist", 20, 0.5),
                     sphere = "[[object]]\nshape = \"sphere\"\nradius = 0.3\n";
@@ -257,9 +257,9 @@ std::vector<Refused> refusals(const ScratchFolder& folder) {
       {"[[object]]\nframes = \"nowhere\"\n", {"no folder with"}}};
 }
 
-Finding refusal_finding(const Subject&) {
+Finding rejection_finding(const Subject&) {
   const ScratchFolder folder;
-  return refused_cases(refusals(folder), folder.file("trial.toml"));
+  return rejected_cases(rejections(folder), folder.file("trial.toml"));
 }
 
 }  // namespace
@@ -281,7 +281,7 @@ std::vector<Check> scene_body_checks() {
           {"scene.invalid-bodies-are-rejected",
            "What a case must not say of octrees and deforming bodies is refused with file, line and what is "
            "known.",
-           source, refusal_finding}};
+           source, rejection_finding}};
 }
 
 }  // namespace foldproof

@@ -36,9 +36,9 @@ Finding absent_finding(const Subject&) {
   differences.row("forces of a case with three, less 3", in_roundings(forces(zeros) - 3, 1));
   differences.row(
       "filters and led particles",
-      in_roundings(double(build_system(zeros).filters.size() + build_system(zeros).led.size()), 1));
+      in_roundings(double(build_system(zeros).filters.size() + build_system(zeros).prescribed.size()), 1));
   differences.row("parts named, less 2",
-                  in_roundings(double(built_parts(falls, build_system(falls)).size()) - 2, 1));
+                  in_roundings(double(describe_parts(falls, build_system(falls)).size()) - 2, 1));
   differences.row("positions with gravity alone and with zero stiffnesses",
                   in_roundings(largest_difference(end_of(falls), end_of(zeros)), extent(plain_positions())));
   differences.row(
@@ -94,7 +94,7 @@ Finding overrides_finding(const Subject&) {
   const auto with = [&](std::vector<std::string> overrides) { return trial_scene(tables, overrides); };
   Table differences = no_differences();
   const auto is = [&](const std::string& what, bool right) { differences.row(what, infinite_unless(right)); };
-  const auto refused = [&](const std::string& assignment, const std::string& mention) {
+  const auto rejected = [&](const std::string& assignment, const std::string& mention) {
     try {
       with({assignment});
     } catch (const InputError& error) {
@@ -107,15 +107,15 @@ Finding overrides_finding(const Subject&) {
   is("a text without quotes", with({"time.integrator=C"}).integrator == "C");
   is("a missing table is made", *with({"gravity.acceleration=[1, 2, 4]"}).gravity == Vector3(1, 2, 4));
   const Scene picked = with({"hold.1.particles=[5, 7]"});
-  is("an entry of a list", picked.led.size() == 3 && picked.led[0].particle == 0 &&
-                               picked.led[1].particle == 5 && picked.led[2].particle == 7);
+  is("an entry of a list", picked.prescribed.size() == 3 && picked.prescribed[0].particle == 0 &&
+                               picked.prescribed[1].particle == 5 && picked.prescribed[2].particle == 7);
   is("it is written into the case's text",
      with({"stretch.stiffness=53.25"}).text.find("--set stretch.stiffness=53.25") != std::string::npos);
-  is("an unknown key is refused", refused("stretch.stifness=53", "--set stretch.stifness=53: unknown key 'stifness'"));
-  is("a wrong value is refused", refused("stretch.stiffness=-3", "--set"));
-  is("a missing '=' is refused", refused("stretch.stiffness", "table.key=value"));
-  is("a path through a value is refused", refused("stretch.stiffness.x=3", "'stiffness' is not a table"));
-  is("an entry that is not there is refused", refused("hold.2.particles=[5]", "no hold.2"));
+  is("an unknown key is refused", rejected("stretch.stifness=53", "--set stretch.stifness=53: unknown key 'stifness'"));
+  is("a wrong value is refused", rejected("stretch.stiffness=-3", "--set"));
+  is("a missing '=' is refused", rejected("stretch.stiffness", "table.key=value"));
+  is("a path through a value is refused", rejected("stretch.stiffness.x=3", "'stiffness' is not a table"));
+  is("an entry that is not there is refused", rejected("hold.2.particles=[5]", "no hold.2"));
   return judged_differences(differences, 0, "an override acts as if it stood in the file, or is refused");
 }
 

@@ -22,7 +22,7 @@ Scene sheet_case(const std::string& keys, const std::string& tables = "") {
 }
 
 bool has_part(const Scene& scene, const std::string& words) {
-  const std::vector<std::string> parts = built_parts(scene, build_system(scene));
+  const std::vector<std::string> parts = describe_parts(scene, build_system(scene));
   return std::ranges::any_of(parts, [&](const auto& part) { return part.find(words) != std::string::npos; });
 }
 
@@ -140,20 +140,21 @@ Finding copies_finding(const Subject&) {
     arm.row(0) = -turned.row(1);
     arm.row(1) = turned.row(0);
   }
-  const Scene pleated = sheet_case("[cloth.pleats]\ncolumns = 2\nangle = 40\n"),
-              folded = sheet_case("[cloth.pleats]\ncolumns = 2\nangle = 40\nstart_flat = false\n");
-  differences.row("pleats start flat", in_roundings(largest_difference(pleated.x, one), 1));
+  const Scene pleated_positions = sheet_case("[cloth.pleats]\ncolumns = 2\nangle = 40\n"),
+              folded_case = sheet_case("[cloth.pleats]\ncolumns = 2\nangle = 40\nstart_flat = false\n");
+  differences.row("pleats start flat", in_roundings(largest_difference(pleated_positions.x, one), 1));
   differences.row("and are folded at rest",
-                  infinite_unless(pleated.mesh.rest.row(2).cwiseAbs().maxCoeff() > 0.05));
-  differences.row("or start as they rest", in_roundings(largest_difference(folded.x, folded.mesh.rest), 1));
+                  infinite_unless(pleated_positions.mesh.rest.row(2).cwiseAbs().maxCoeff() > 0.05));
+  differences.row("or start as they rest",
+                  in_roundings(largest_difference(folded_case.x, folded_case.mesh.rest), 1));
   differences.row("the same rest shape",
-                  in_roundings(largest_difference(folded.mesh.rest, pleated.mesh.rest), 1));
+                  in_roundings(largest_difference(folded_case.mesh.rest, pleated_positions.mesh.rest), 1));
   return judged_differences(differences, 32,
                             "turned and moved twice with a few roundings of lengths below 2 m");
 }
 
-Finding shapes_refused_finding(const Subject&) {
-  const auto refused = [](const std::string& text, const std::string& words) {
+Finding shapes_rejected_finding(const Subject&) {
+  const auto rejected = [](const std::string& text, const std::string& words) {
     try {
       read_scene_text(text + short_time, "trial.toml");
     } catch (const InputError& error) {
@@ -180,7 +181,7 @@ Finding shapes_refused_finding(const Subject&) {
       {small_sheet + "fit = 0\n", "'fit' must be > 0"},
       {small_sheet + "fit = 2\n[cloth.pleats]\ncolumns = 2\nangle = 40\n", "'fit' does not go with pleats"},
       {small_sheet + "[cloth.copies]\ncount = 1000000\nmove = [0, 0, 1]\n", "count"}};
-  for (const auto& [text, words] : cases) differences.row(words, infinite_unless(refused(text, words)));
+  for (const auto& [text, words] : cases) differences.row(words, infinite_unless(rejected(text, words)));
   return judged_differences(differences, 0, "each must be refused with file, line and what is known");
 }
 
@@ -188,7 +189,7 @@ Finding shapes_refused_finding(const Subject&) {
 
 constexpr double gap = 0.03;  // m
 
-std::string folded(int layers, const std::string& more = "") {
+std::string folded_case(int layers, const std::string& more = "") {
   return "[start.folded]\nlayers = " + std::to_string(layers) + "\ngap = 0.03\nup = [0, 0, 1]\n" + more;
 }
 
@@ -215,13 +216,13 @@ Finding folded_finding(const Subject&) {
   const auto start = [](const std::string& tables) {
     return cloth_case("shape = \"sheet\"\nwidth = 0.6\nheight = 0.1\ncolumns = 31\nrows = 2\n", tables).x;
   };
-  const PerParticle3 x = start(folded(3));
+  const PerParticle3 x = start(folded_case(3));
   Worst miss;
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const Eigen::Vector2d place = in_three_layers(flat(0, i) - flat.row(0).minCoeff(), 0.6);
-    miss.see((x.col(i) - Vector3(flat.row(0).minCoeff() + place[0], flat(1, i), place[1])).norm());
+    miss.observe((x.col(i) - Vector3(flat.row(0).minCoeff() + place[0], flat(1, i), place[1])).norm());
   }
-  const PerParticle3 dipped = start(folded(3, "dip = 0.007\n")) - x;
+  const PerParticle3 dipped = start(folded_case(3, "dip = 0.007\n")) - x;
   Eigen::Index deepest = 0;
   const double dip = dipped.row(2).minCoeff(&deepest);
   Table differences = no_differences();
@@ -238,16 +239,16 @@ Finding folded_finding(const Subject&) {
                             "an arc length of some ten roundings, its sine and cosine, of lengths below 1 m");
 }
 
-Finding folded_refused_finding(const Subject&) {
-  return refused_cases({{folded(1), {"layers", "2 .. 1000"}},
-                        {folded(1001), {"layers", "2 .. 1000"}},
-                        {"[start.folded]\nlayers = 3\ngap = 0\n", {"gap"}},
-                        {folded(3, "along = [0, 0, 1]\n"), {"'up' must be square to 'along'"}},
-                        {folded(3, "along = [0, 0, 0]\n"), {"and both be directions"}},
-                        {"[start.folded]\nlayers = 3\ngap = 0.03\n", {"must lie flat, square to 'up'"}},
-                        {folded(40), {"too short for so many layers"}},
-                        {"[start]\nstretch = [1, 0, 1]\n", {"'stretch' must be > 0"}},
-                        {"[start]\nstretch = -1\n", {"stretch"}}});
+Finding folded_rejected_finding(const Subject&) {
+  return rejected_cases({{folded_case(1), {"layers", "2 .. 1000"}},
+                         {folded_case(1001), {"layers", "2 .. 1000"}},
+                         {"[start.folded]\nlayers = 3\ngap = 0\n", {"gap"}},
+                         {folded_case(3, "along = [0, 0, 1]\n"), {"'up' must be square to 'along'"}},
+                         {folded_case(3, "along = [0, 0, 0]\n"), {"and both be directions"}},
+                         {"[start.folded]\nlayers = 3\ngap = 0.03\n", {"must lie flat, square to 'up'"}},
+                         {folded_case(40), {"too short for so many layers"}},
+                         {"[start]\nstretch = [1, 0, 1]\n", {"'stretch' must be > 0"}},
+                         {"[start]\nstretch = -1\n", {"stretch"}}});
 }
 
 // ---- self-collision
@@ -285,12 +286,12 @@ Finding self_collision_finding(const Subject&) {
                             "a number is read as it is written; what is not named is not built");
 }
 
-Finding self_collision_refused_finding(const Subject&) {
+Finding self_collision_rejected_finding(const Subject&) {
   // the least height of the sheet's triangles: of legs .15 and .1433 m
   const double least = 0.15 * (0.43 / 3) / std::hypot(0.15, 0.43 / 3);
   char half[40];
   std::snprintf(half, sizeof half, "%.4g m", least / 2);
-  Finding finding = refused_cases(
+  Finding finding = rejected_cases(
       {{"[self_collision]\n", {"thickness"}},
        {"[self_collision]\nthickness = 0\n", {"thickness"}},
        {"[self_collision]\nthickness = 0.06\n", {"'thickness' is 0.06 m", "half the least height", half}},
@@ -298,13 +299,13 @@ Finding self_collision_refused_finding(const Subject&) {
        {"[self_collision]\nthickness = 0.001\nfriction = -1\n", {"friction"}},
        {"[self_collision]\nthickness = 0.001\nrounds = 0\n", {"rounds"}},
        {"[self_collision]\nthickness = 0.001\nthicknes = 1\n", {"unknown key 'thicknes'"}}});
-  bool is_refused = false;
+  bool is_rejected = false;
   try {
     sheet_case(crossed, "[self_collision]\nthickness = 0.001\nuntangle = false\n");
   } catch (const InputError& error) {
-    is_refused = std::string(error.what()).find("crosses itself at the start") != std::string::npos;
+    is_rejected = std::string(error.what()).find("crosses itself at the start") != std::string::npos;
   }
-  if (!is_refused) finding.verdict.measured += 1;
+  if (!is_rejected) finding.verdict.measured += 1;
   return finding;
 }
 
@@ -322,20 +323,20 @@ std::vector<Check> scene_cloth_checks() {
        "Copies are turned and moved on one from the other, and pleats are folded.", source, copies_finding},
       {"scene.invalid-cloth-is-rejected",
        "Shapes, patterns and copies that make no sense are refused, with the line.", source,
-       shapes_refused_finding},
+       shapes_rejected_finding},
       {"scene.folded-start-is-read",
        "Cloth that starts folded lies in a serpentine whose lengths are the cloth's own.", source,
        folded_finding},
       {"scene.invalid-folded-start-is-rejected",
        "Folds that the cloth is too short for, or that have no direction, are refused.", source,
-       folded_refused_finding},
+       folded_rejected_finding},
       {"scene.self-collision-is-read",
        "What a case says of cloth meeting itself is read as written, and built.", source,
        self_collision_finding},
       {"scene.invalid-self-collision-is-rejected",
        "Self-collision with a thickness that the mesh cannot resolve, or of cloth that starts crossed, is "
        "refused.",
-       source, self_collision_refused_finding},
+       source, self_collision_rejected_finding},
   };
 }
 

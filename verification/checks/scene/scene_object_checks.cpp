@@ -47,25 +47,25 @@ double distance_of(const SceneObject& part, const Vector3& p, double t) {
   return std::get<RigidObject>(part.object.body).at(p, {t, t, 0}).phi;
 }
 
-Vector3 turned(double degrees, const Vector3& axis, const Vector3& x) {
+Vector3 rotate(double degrees, const Vector3& axis, const Vector3& x) {
   return Eigen::AngleAxisd(degrees * pi / 180, axis.normalized()) * x;
 }
 
 /// Distances that the solids must have at a time, worked out by hand from the text.
 void see_places(const Scene& scene, Table& differences) {
-  const Vector3 tip = turned(41, {1, -2, 0.5}, {0, 0, 0.35}) + Vector3(0.2, -0.3, 0.5);
-  const Vector3 out = turned(41, {1, -2, 0.5}, {0, 0, 1});
+  const Vector3 tip = rotate(41, {1, -2, 0.5}, {0, 0, 0.35}) + Vector3(0.2, -0.3, 0.5);
+  const Vector3 out = rotate(41, {1, -2, 0.5}, {0, 0, 1});
   differences.row("capsule, off its end",
                   in_roundings(distance_of(scene.objects[0], tip + 0.4 * out, 0) - 0.27, 1));
   const double t = 0.6;
   const Vector3 rate(30, 0, -50), center(0.1, 0.7, 0.2);
-  const Vector3 later = turned(rate.norm() * t, rate, tip - center) + center + t * Vector3(0.4, 0.1, -0.2);
-  const Vector3 later_out = turned(rate.norm() * t, rate, out);
+  const Vector3 later = rotate(rate.norm() * t, rate, tip - center) + center + t * Vector3(0.4, 0.1, -0.2);
+  const Vector3 later_out = rotate(rate.norm() * t, rate, out);
   differences.row("capsule, moved",
                   in_roundings(distance_of(scene.objects[0], later + 0.4 * later_out, t) - 0.27, 1));
   differences.row("board at rest",
                   in_roundings(distance_of(scene.objects[1], {0.1, 0.1, 0.31}, 0.1) - 0.3, 1));
-  const Vector3 half = turned(30, {0, 0, 1}, {0.8, 0, 0}) + 0.5 * Vector3(0.3, 0.5, -0.1);
+  const Vector3 half = rotate(30, {0, 0, 1}, {0.8, 0, 0}) + 0.5 * Vector3(0.3, 0.5, -0.1);
   differences.row("board half way", in_roundings(distance_of(scene.objects[1], half, 0.5) - 0.5, 1));
   differences.row("ring", in_roundings(distance_of(scene.objects[2], {0.5, 0, 0.3}, 0) - 0.2, 1));
 }
@@ -101,7 +101,7 @@ Finding surface_finding(const Subject&) {
   double outward = 0, triangles = 0;
   for (const SceneObject& part : scene.objects) {
     for (Eigen::Index i = 0; i < part.vertices.cols(); ++i)
-      off.see(std::abs(distance_of(part, part.vertices.col(i), 0)));
+      off.observe(std::abs(distance_of(part, part.vertices.col(i), 0)));
     for (const Triangle& t : part.triangles) {
       const Vector3 a = part.vertices.col(t[0]), b = part.vertices.col(t[1]), c = part.vertices.col(t[2]);
       const Vector3 middle = (a + b + c) / 3;
@@ -120,7 +120,7 @@ Finding surface_finding(const Subject&) {
           "triangles that face inwards, if there are any, are counted instead"};
 }
 
-std::vector<Refused> refusals() {
+std::vector<RejectedCase> rejections() {
   const std::string ball = "[[object]]\nshape = \"sphere\"\nradius = 0.3\n";
   return {{"[[object]]\nshape = \"sphere\"\n", {"radius"}},
           {"[[object]]\nshape = \"sphere\"\nradius = 0\n", {"'radius' must be > 0"}},
@@ -144,8 +144,8 @@ std::vector<Refused> refusals() {
           {"[collision]\npoints = \"edges\"\n", {"needs an [[object]]"}}};
 }
 
-Finding refusal_finding(const Subject&) {
-  return refused_cases(refusals());
+Finding rejection_finding(const Subject&) {
+  return rejected_cases(rejections());
 }
 
 }  // namespace
@@ -159,7 +159,7 @@ std::vector<Check> scene_object_checks() {
            surface_finding},
           {"scene.invalid-objects-are-rejected",
            "What a case must not say of objects is refused with file, line and what is known.",
-           "cases/KEYS.md", refusal_finding}};
+           "cases/KEYS.md", rejection_finding}};
 }
 
 }  // namespace foldproof

@@ -14,9 +14,10 @@ namespace {
 
 constexpr double degree = pi / 180;
 
-std::vector<int> held_by(const std::string& table) {
+std::vector<int> particles_held_by(const std::string& table) {
   std::vector<int> particles;
-  for (const PrescribedParticle& p : trial_scene("[[hold]]\n" + table).led) particles.push_back(p.particle);
+  for (const PrescribedParticle& p : trial_scene("[[hold]]\n" + table).prescribed)
+    particles.push_back(p.particle);
   return particles;
 }
 
@@ -29,16 +30,18 @@ Finding hold_finding(const Subject&) {
   }
   Table differences = no_differences();
   const auto is = [&](const std::string& what, bool right) { differences.row(what, infinite_unless(right)); };
-  is("particles", held_by("particles = [7, 2]") == std::vector<int>{7, 2});
-  is("box", left.size() == 8 && held_by("box = [[-0.01, -0.01, -0.01], [0.16, 1.0, 0.01]]") == left);
-  is("top", top.size() == 10 && held_by("top = 0.35") == top);
+  is("particles", particles_held_by("particles = [7, 2]") == std::vector<int>{7, 2});
+  is("box",
+     left.size() == 8 && particles_held_by("box = [[-0.01, -0.01, -0.01], [0.16, 1.0, 0.01]]") == left);
+  is("top", top.size() == 10 && particles_held_by("top = 0.35") == top);
   const Scene scene = trial_scene(
       "[[hold]]\nparticles = [7]\nvelocity = [0.1, 0.2, 0.4]\namplitude = [0.3, 0.5, 0.7]\nfrequency = "
       "1.7\nphase = 33\n"
       "center = [0.6, 0.9, 1.1]\nangular_velocity = [10, -20, 35]\n");
-  const Motion timed = trial_scene("[[hold]]\nparticles = [7]\nfrom = 0.13\nuntil = 0.29\n").led.at(0).motion;
-  is("from, until", timed.from == 0.13 && timed.until == 0.29);
-  const PrescribedParticle& p = scene.led.at(0);
+  const Motion timed_motion =
+      trial_scene("[[hold]]\nparticles = [7]\nfrom = 0.13\nuntil = 0.29\n").prescribed.at(0).motion;
+  is("from, until", timed_motion.from == 0.13 && timed_motion.until == 0.29);
+  const PrescribedParticle& p = scene.prescribed.at(0);
   is("start", p.start == Vector3(rest.col(7)));
   is("velocity, amplitude, center", p.motion.velocity == Vector3(0.1, 0.2, 0.4) &&
                                         p.motion.amplitude == Vector3(0.3, 0.5, 0.7) &&
@@ -70,10 +73,10 @@ Finding start_finding(const Subject&) {
   Worst x, v, size, speed;
   for (Eigen::Index i = 0; i < rest.cols(); ++i) {
     const Vector3 arm = 1.07 * (rest.col(i) - center);
-    size.see(arm.norm() + center.norm());
-    speed.see(spin.norm() * arm.norm() + Vector3(0.3, -0.5, 0.9).norm());
-    x.see((scene.x.col(i) - center - arm).norm());
-    v.see((scene.v.col(i) - Vector3(0.3, -0.5, 0.9) - spin.cross(arm)).norm());
+    size.observe(arm.norm() + center.norm());
+    speed.observe(spin.norm() * arm.norm() + Vector3(0.3, -0.5, 0.9).norm());
+    x.observe((scene.x.col(i) - center - arm).norm());
+    v.observe((scene.v.col(i) - Vector3(0.3, -0.5, 0.9) - spin.cross(arm)).norm());
   }
   const PerParticle3 shaken = trial_scene("[start]\nnoise = 0.004\nseed = 5\n").x - rest;
   Table differences = no_differences();
@@ -110,7 +113,7 @@ Finding placed_finding(const Subject&) {
     const Vector3 x = 1.3 / 0.6 * rest.col(i), along = axis.dot(x) * axis;
     const Vector3 turned =
         along + std::cos(37 * degree) * (x - along) + std::sin(37 * degree) * axis.cross(x);
-    worst.see((scene.x.col(i) - turned - move).norm());
+    worst.observe((scene.x.col(i) - turned - move).norm());
   }
   Table differences = no_differences();
   differences.row("start", in_roundings(worst.value(), 1.3 + move.norm()));

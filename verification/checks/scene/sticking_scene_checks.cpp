@@ -57,9 +57,9 @@ Finding regions_finding(const Subject&) {
                                                     lists.release == 0.03 && lists.name == "seam"));
   const StickyPatch box = patch_of("{ of = \"cloth\", box = [[0, 0, -1], [0.31, 0.2, 1]] }",
                                    "{ box = [[0.29, 0.1, -1], [1, 1, 1]] }");
-  const auto in_box = [](const Vector3& p) { return p.x() <= 0.31 && p.y() <= 0.2; };
+  const auto select_in_box = [](const Vector3& p) { return p.x() <= 0.31 && p.y() <= 0.2; };
   differences.row("box of centres", infinite_unless(!box.triangles.empty() &&
-                                                    box.triangles == chosen_triangles(sheet, in_box)));
+                                                    box.triangles == chosen_triangles(sheet, select_in_box)));
   const StickyPatch round = patch_of("{ of = \"cloth\", sphere = { center = [0.1, 0.1, 0], radius = 0.17 } }",
                                      "{ sphere = { center = [0.6, 0.43, 0], radius = 0.16 } }");
   const auto in_ball = [](const Vector3& p) { return (p - Vector3(0.1, 0.1, 0)).norm() <= 0.17; };
@@ -83,11 +83,11 @@ Finding carried_finding(const Subject&) {
     const PerParticle3 x = cap.place(t), v = cap.velocity(t);
     Worst off, above, slow;
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
-      off.see(std::abs((x.col(i) - Vector3(0.3, 0.2 + 0.3 * t, -0.25 - 0.2 * t)).norm() - 0.2));
-      slow.see((v.col(i) - Vector3(0, 0.3, -0.2)).norm());
+      off.observe(std::abs((x.col(i) - Vector3(0.3, 0.2 + 0.3 * t, -0.25 - 0.2 * t)).norm() - 0.2));
+      slow.observe((v.col(i) - Vector3(0, 0.3, -0.2)).norm());
     }
     for (const auto& [a, b, c] : cap.triangles)
-      above.see(std::max(0.0, -0.12 - 0.2 * t - (x(2, a) + x(2, b) + x(2, c)) / 3));
+      above.observe(std::max(0.0, -0.12 - 0.2 * t - (x(2, a) + x(2, b) + x(2, c)) / 3));
     differences.row("vertices on the ball", in_roundings(off.value(), 1));
     differences.row("velocity", in_roundings(slow.value(), 1));
     differences.row("centres in the box at the start", in_roundings(above.value(), 1));
@@ -135,10 +135,10 @@ Finding groups_finding(const Subject&) {
 
 std::string sticky(const std::string& keys) { return ball + "[[sticky]]\n" + keys; }
 
-Finding refusals_finding(const Subject&) {
+Finding rejections_finding(const Subject&) {
   const std::string regions = "surface = { of = \"ball\" }\nparticles = {}\n",
                     cloth = "surface = { of = \"cloth\" }\n";
-  return refused_cases({
+  return rejected_cases({
       {sticky("surface = { of = \"ball\" }\n" + values), {"'surface'", "'particles'"}},
       {sticky("surface = { of = \"bell\" }\nparticles = {}\n" + values), {"'bell'", "cloth, ball"}},
       {sticky(regions + "stiffness = 41\nforecast_time = 0.013\nnear = 0.009\n"), {"'far'"}},
@@ -175,7 +175,7 @@ std::vector<Check> sticking_scene_checks() {
            groups_finding},
           {"scene.invalid-sticky-tables-are-rejected",
            "The reference refuses wrong tables [[sticky]] with file, line and what is known.", source,
-           refusals_finding}};
+           rejections_finding}};
 }
 
 }  // namespace foldproof

@@ -1,20 +1,20 @@
-#include "reference/mesh/mesh_places.h"
+#include "reference/mesh/mesh_locations.h"
 
 #include <sstream>
 
 namespace foldproof {
 
-std::string at_triangle(const MeshOrigin& origin, int t) {
+std::string triangle_location(const MeshOrigin& origin, int t) {
   if (origin.file.empty()) return "mesh: triangle " + std::to_string(t) + ": ";
   return origin.file + ":" + std::to_string(origin.triangle_lines[t]) + ": ";
 }
 
-std::string at_vertex(const MeshOrigin& origin, int v) {
+std::string vertex_location(const MeshOrigin& origin, int v) {
   if (origin.file.empty()) return "mesh: vertex " + std::to_string(v) + ": ";
   return origin.file + ":" + std::to_string(origin.vertex_lines[v]) + ": ";
 }
 
-std::string at_mesh(const MeshOrigin& origin) { return (origin.file.empty() ? "mesh" : origin.file) + ": "; }
+std::string mesh_location(const MeshOrigin& origin) { return (origin.file.empty() ? "mesh" : origin.file) + ": "; }
 
 std::string vertex_name(const MeshOrigin& origin, int v) {
   if (origin.file.empty()) return "vertex " + std::to_string(v);

@@ -7,6 +7,6 @@
 namespace foldproof {
 
 /// The message with which `act` refuses; empty if it does not, or by anything but InputError.
-std::string refusal(const std::function<void()>& act);
+std::string rejection_message(const std::function<void()>& act);
 
 }  // namespace foldproof

@@ -6,7 +6,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/checks/mesh/mesh_checks.h"
 #include "verification/evidence.h"
-#include "verification/specimens/refusal.h"
+#include "verification/specimens/rejection.h"
 #include "verification/specimens/scratch_folder.h"
 
 namespace foldproof {
@@ -66,17 +66,17 @@ std::string without_folder(const std::string& message) {
 /// Adds a row for each bad file: what its refusal leaves out.
 void try_bad_files(Table& measured) {
   const ScratchFolder folder;
-  const auto see = [&](const std::string& name, const std::string& path, std::vector<std::string> parts) {
-    const std::string message = refusal([&] { read_obj(path); });
+  const auto observe = [&](const std::string& name, const std::string& path, std::vector<std::string> parts) {
+    const std::string message = rejection_message([&] { read_obj(path); });
     measured.row("file with " + name, left_out(message, parts), without_folder(message));
   };
   for (const BadFile& bad : bad_files()) {
     const std::string path = folder.file("bad.obj");
     std::ofstream(path, std::ios::binary) << bad.text;
-    see(bad.name, path, {path + ":" + std::to_string(bad.line) + ":", bad.keyword});
+    observe(bad.name, path, {path + ":" + std::to_string(bad.line) + ":", bad.keyword});
   }
   const std::string missing = folder.file("missing.obj");
-  see("a file that is not there", missing, {missing, "cannot be opened"});
+  observe("a file that is not there", missing, {missing, "cannot be opened"});
 }
 
 /// A mesh made by code that no one should accept.
@@ -104,14 +104,14 @@ std::vector<BadMesh> bad_meshes() {
       {"opposite orientations", rest, {{0, 1, 2}, {0, 3, 2}}, {"triangle 1", "orientation"}}};
 }
 
-Finding bad_meshes_are_refused(const Subject&) {
+Finding bad_meshes_are_rejected(const Subject&) {
   Table measured{{"case", ""}, {"file, line or keyword not named", "1"}, {"message", ""}};
   try_bad_files(measured);
   for (const BadMesh& bad : bad_meshes()) {
-    const std::string message = refusal([&] { make_triangle_mesh(bad.rest, bad.triangles); });
+    const std::string message = rejection_message([&] { make_triangle_mesh(bad.rest, bad.triangles); });
     measured.row("mesh with " + bad.name, left_out(message, bad.parts), message);
   }
-  return judged_worst(
+  return judge_worst(
       measured, "file, line or keyword not named", 0,
       "each refusal must name the place, file and line or triangle or vertex, and the reason");
 }
@@ -126,21 +126,21 @@ Finding small_and_large_meshes_are_accepted(const Subject&) {
   sheet.rows = 3;
   const TriangleMesh mesh = make_sheet(sheet);
   for (const double size : {1e-150, 1e-9, 3.0, 1e9, 1e150}) {
-    const std::string message = refusal([&] { make_triangle_mesh(size * mesh.rest, mesh.triangles); });
+    const std::string message = rejection_message([&] { make_triangle_mesh(size * mesh.rest, mesh.triangles); });
     char name[32];
     std::snprintf(name, sizeof name, "size %g m", size);
     measured.row(name, message.empty() ? 0 : 1);
   }
-  return judged_worst(measured, 0, "whether a triangle has an area does not depend on the unit of length");
+  return judge_worst(measured, 0, "whether a triangle has an area does not depend on the unit of length");
 }
 
 }  // namespace
 
-std::vector<Check> mesh_refusal_checks() {
+std::vector<Check> mesh_rejection_checks() {
   return {{"mesh.invalid-meshes-are-rejected",
            "The reference refuses what is no oriented manifold, and every malformed OBJ file, naming the "
            "place and the reason.",
-           "a rule of this suite: nothing fails in silence", bad_meshes_are_refused},
+           "a rule of this suite: nothing fails in silence", bad_meshes_are_rejected},
           {"mesh.good-meshes-of-any-size-are-accepted",
            "The reference accepts a good mesh whatever its size, from 1e-150 m to 1e150 m.",
            "a rule of this suite: no hidden scale", small_and_large_meshes_are_accepted}};

@@ -1,4 +1,4 @@
-#include "verification/files/whole_file.h"
+#include "verification/files/atomic_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -57,7 +57,7 @@ void sync_folder_of(const std::string& path) {
 
 }  // namespace
 
-void rename_when_whole(const std::string& from, const std::string& to) {
+void durable_rename(const std::string& from, const std::string& to) {
   {
     const Descriptor written(from, O_RDONLY);
     if (written.id() < 0 || fsync(written.id()) != 0) cannot_write(to, errno);
@@ -72,10 +72,10 @@ void write_text(const std::string& path, const std::string& text) {
     std::remove(partial.c_str());
     cannot_write(path, error);
   }
-  rename_when_whole(partial, path);
+  durable_rename(partial, path);
 }
 
-void refuse_unless_replaceable(const std::string& path) {
+void require_replaceable(const std::string& path) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))

@@ -4,13 +4,13 @@
 #include <functional>
 #include <string>
 
-#include "reference/bodies/makers.h"
+#include "reference/bodies/level_set_provider.h"
 
 namespace foldproof {
 
 /// Makers that keep what they make in the folder, one file each, named after the key of all that it is
-/// computed from. `say` is told of every file that is loaded, written, or refused and replaced, and why. A
+/// computed from. `log_line` is told of every file that is loaded, written, or refused and replaced, and why. A
 /// folder or file that cannot be written throws.
-LevelSetMakers caching_makers(const std::string& folder, std::function<void(const std::string&)> say);
+LevelSetProvider caching_provider(const std::string& folder, std::function<void(const std::string&)> log_line);
 
 }  // namespace foldproof

@@ -5,7 +5,7 @@
 
 namespace foldproof {
 
-NamedFinding runs_with_kept_level_sets_are_the_same();
-NamedFinding unfit_grids_are_refused();
+NamedFinding runs_with_cached_level_sets_agree();
+NamedFinding unfit_grids_are_rejected();
 
 }  // namespace foldproof

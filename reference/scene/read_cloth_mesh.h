@@ -27,6 +27,6 @@ std::string mesh_file(const KeyTable& keys, const std::string& folder, const std
 double fit_factor(const KeyTable& keys, const PerParticle3& x);
 
 /// Scales the positions x (3 x N [m]) so that their largest extent is 'fit', if that is given.
-void fit(const KeyTable& keys, PerParticle3& x);
+void scale_to_fit(const KeyTable& keys, PerParticle3& x);
 
 }  // namespace foldproof

@@ -1,4 +1,4 @@
-#include "reference/bodies/makers.h"
+#include "reference/bodies/level_set_provider.h"
 
 #include <map>
 #include <mutex>
@@ -29,30 +29,30 @@ class Remembered {
 
 }  // namespace
 
-LevelSetMakers remembering(const LevelSetMakers& makers) {
+LevelSetProvider memoizing_provider(const LevelSetProvider& provider) {
   const auto grids = std::make_shared<Remembered<Grid>>();
   const auto bodies = std::make_shared<Remembered<DeformingBody>>();
   return {[=](const TriangleSoup& soup, const GridMethod& method, Repair repair) {
-            return grids->get(origin_key(soup, method, repair),
-                              [&] { return makers.make_level_set(soup, method, repair); });
+            return grids->get(input_key(soup, method, repair),
+                              [&] { return provider.make_level_set(soup, method, repair); });
           },
           [=](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
-            return bodies->get(origin_key(sequence, settings) + std::to_string(int(between)),
-                               [&] { return makers.make_deforming_body(sequence, settings, between); });
+            return bodies->get(input_key(sequence, settings) + std::to_string(int(between)),
+                               [&] { return provider.make_deforming_body(sequence, settings, between); });
           }};
 }
 
-LevelSetMakers computing_makers() {
+LevelSetProvider computing_provider() {
   return {make_level_set,
           [](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
             return std::make_shared<const DeformingBody>(make_deforming_body(sequence, settings, between));
           }};
 }
 
-std::shared_ptr<const Octree> make_octree(const LevelSetMakers& makers, const PerParticle3& x,
+std::shared_ptr<const Octree> make_octree(const LevelSetProvider& provider, const PerParticle3& x,
                                           const std::vector<Triangle>& triangles,
                                           const OctreeSettings& settings) {
-  const auto body = makers.make_deforming_body({triangles, {0}, {x}}, settings, BetweenFrames::blended);
+  const auto body = provider.make_deforming_body({triangles, {0}, {x}}, settings, BetweenFrames::blended);
   return {body, &body->frames.front().field};
 }
 

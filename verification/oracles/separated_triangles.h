@@ -10,6 +10,6 @@ Vector3 normal_of(const Corners3& t);
 
 /// Two triangles with an area are apart if and only if one of seventeen directions parts them: normals, edges
 /// within the planes turned by a right angle, and products of edges. Exact for small whole numbers.
-bool are_parted(const Corners3& s, const Corners3& t);
+bool are_separated(const Corners3& s, const Corners3& t);
 
 }  // namespace foldproof::oracles

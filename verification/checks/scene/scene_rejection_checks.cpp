@@ -45,50 +45,50 @@ max_iterations = 30
 )";
 
 /// One edit of the case above that has to be refused.
-struct Refusal {
+struct Rejection {
   std::string find, replace;          // the last line of `replace` is the one that is wrong
   std::vector<std::string> mentions;  // what the message has to contain beside file and line
 };
 
-std::string edited(const Refusal& refusal) {
+std::string edit(const Rejection& rejection) {
   std::string text = trial_case;
-  const size_t place = text.find(refusal.find);
-  if (place == std::string::npos) throw InputError("the trial case has no '" + refusal.find + "'");
-  return text.replace(place, refusal.find.size(), refusal.replace);
+  const size_t place = text.find(rejection.find);
+  if (place == std::string::npos) throw InputError("the trial case has no '" + rejection.find + "'");
+  return text.replace(place, rejection.find.size(), rejection.replace);
 }
 
 /// "trial.toml:LINE: " of the line that is wrong.
-std::string expected_place(const Refusal& refusal) {
-  const std::string text = edited(refusal);
-  const size_t end = trial_case.find(refusal.find) + refusal.replace.size();
+std::string expected_place(const Rejection& rejection) {
+  const std::string text = edit(rejection);
+  const size_t end = trial_case.find(rejection.find) + rejection.replace.size();
   long line = 1;
   for (size_t k = 0; k < end; ++k) line += text[k] == '\n' ? 1 : 0;
   return "trial.toml:" + std::to_string(line) + ": ";
 }
 
 /// What is missing in the refusal's message; empty if nothing is.
-std::string missing(const Refusal& refusal, std::string& message) {
+std::string missing(const Rejection& rejection, std::string& message) {
   try {
-    read_scene_text(edited(refusal), "trial.toml");
+    read_scene_text(edit(rejection), "trial.toml");
     return "it was accepted";
   } catch (const InputError& error) {
     message = error.what();
   }
-  if (message.rfind(expected_place(refusal), 0) != 0) return expected_place(refusal);
-  for (const std::string& word : refusal.mentions)
+  if (message.rfind(expected_place(rejection), 0) != 0) return expected_place(rejection);
+  for (const std::string& word : rejection.mentions)
     if (message.find(word) == std::string::npos) return word;
   return "";
 }
 
-Finding refused(const std::vector<Refusal>& refusals) {
+Finding rejected(const std::vector<Rejection>& rejections) {
   read_scene_text(trial_case, "trial.toml");  // the unedited case is understood
   double wrong = 0;
   Table answers{{"edit", "1"}, {"message", "1"}, {"lacking", "1"}};
-  for (const Refusal& refusal : refusals) {
+  for (const Rejection& rejection : rejections) {
     std::string message;
-    const std::string lacking = missing(refusal, message);
+    const std::string lacking = missing(rejection, message);
     wrong += lacking.empty() ? 0 : 1;
-    answers.row(refusal.replace, message, lacking);
+    answers.row(rejection.replace, message, lacking);
   }
   return {{wrong, 0, 0, "cases",
            "each wrong case is refused with file and line, the key, and what is known or wanted"},
@@ -97,28 +97,28 @@ Finding refused(const std::vector<Refusal>& refusals) {
 }
 
 /// A line after another one.
-Refusal added(const std::string& after, const std::string& line, std::vector<std::string> mentions) {
+Rejection add_line(const std::string& after, const std::string& line, std::vector<std::string> mentions) {
   return {after, after + "\n" + line, std::move(mentions)};
 }
 
 Finding unknown_finding(const Subject&) {
-  return refused({
-      added("title = \"Trial\"", "titel = \"Trial\"", {"'titel'", "the file", "known here", "title"}),
-      added("density = 0.23", "densty = 0.2", {"'densty'", "[cloth]", "density"}),
+  return rejected({
+      add_line("title = \"Trial\"", "titel = \"Trial\"", {"'titel'", "the file", "known here", "title"}),
+      add_line("density = 0.23", "densty = 0.2", {"'densty'", "[cloth]", "density"}),
       {"angle = 37 }", "angle = 37, anle = 5 }", {"'anle'", "[cloth.turn]", "axis"}},
-      added("stretch = 1.02", "strech = 1.1", {"'strech'", "[start]", "noise"}),
-      added("[gravity]", "accelration = [0, 0, 1]", {"'accelration'", "[gravity]", "acceleration"}),
-      added("damping = 0.011", "dampng = 0.2", {"'dampng'", "[stretch]", "rest_length_scale"}),
-      added("damping = 2.3e-5", "stifness = 2.0", {"'stifness'", "[bending]", "damping_factor"}),
-      added("particles = [0, 4]", "velocty = [0, 0, 1]", {"'velocty'", "[hold]", "velocity"}),
-      added("end = 0.3", "ende = 3", {"'ende'", "[time]", "frames_per_second"}),
+      add_line("stretch = 1.02", "strech = 1.1", {"'strech'", "[start]", "noise"}),
+      add_line("[gravity]", "accelration = [0, 0, 1]", {"'accelration'", "[gravity]", "acceleration"}),
+      add_line("damping = 0.011", "dampng = 0.2", {"'dampng'", "[stretch]", "rest_length_scale"}),
+      add_line("damping = 2.3e-5", "stifness = 2.0", {"'stifness'", "[bending]", "damping_factor"}),
+      add_line("particles = [0, 4]", "velocty = [0, 0, 1]", {"'velocty'", "[hold]", "velocity"}),
+      add_line("end = 0.3", "ende = 3", {"'ende'", "[time]", "frames_per_second"}),
       {"[gravity]", "[gravity.wind]", {"'wind'", "[gravity]", "acceleration"}},
-      added("tolerance = 1e-8", "tolerence = 1e-5", {"'tolerence'", "[solver]", "relative_to"}),
+      add_line("tolerance = 1e-8", "tolerence = 1e-5", {"'tolerence'", "[solver]", "relative_to"}),
   });
 }
 
 Finding types_finding(const Subject&) {
-  return refused({
+  return rejected({
       {"title = \"Trial\"", "title = 3", {"'title'", "text"}},
       {"columns = 5", "columns = 5.0", {"'columns'", "[cloth]", "whole number"}},
       {"density = 0.23", "density = \"0.23\"", {"'density'", "finite number"}},
@@ -139,7 +139,7 @@ Finding types_finding(const Subject&) {
 }
 
 Finding values_finding(const Subject&) {
-  return refused({
+  return rejected({
       {"density = 0.23", "density = -0.23", {"'density'", "> 0"}},
       {"density = 0.23", "density = 0", {"'density'", "> 0"}},
       {"shape = \"sheet\"", "shape = \"shet\"", {"'shet'", "known", "sheet", "statue"}},
@@ -182,7 +182,7 @@ Finding values_finding(const Subject&) {
 
 }  // namespace
 
-std::vector<Check> scene_refusal_checks() {
+std::vector<Check> scene_rejection_checks() {
   const std::string source = "good practice";
   return {
       {"scene.unknown-keys-are-rejected",

@@ -1,4 +1,4 @@
-#include "reference/scene/shapes_of.h"
+#include "reference/scene/read_cloth_mesh.h"
 
 #include <cmath>
 #include <filesystem>
@@ -50,7 +50,7 @@ TriangleMesh read_sheet(const KeyTable& keys, const SceneLimits& limits) {
   sheet.columns = count(keys, "columns");
   sheet.rows = count(keys, "rows");
   const double in_a_cell = sheet.pattern == SheetPattern::criss_cross ? 4 : 3;  // three at most in the others
-  refuse_many_triangles(keys, "columns", in_a_cell * sheet.columns * sheet.rows, limits);
+  reject_many_triangles(keys, "columns", in_a_cell * sheet.columns * sheet.rows, limits);
   sheet.jitter = keys.number_or("jitter", 0);
   const long seed = keys.integer_or("seed", 1);
   if (!(seed >= 0 && seed <= 4294967295))
@@ -62,14 +62,14 @@ TriangleMesh read_sheet(const KeyTable& keys, const SceneLimits& limits) {
 
 TriangleMesh read_disc(const KeyTable& keys, const SceneLimits& limits) {
   const int rings = count(keys, "rings");
-  refuse_many_triangles(keys, "rings", 6.0 * rings * rings, limits);
+  reject_many_triangles(keys, "rings", 6.0 * rings * rings, limits);
   return make_disc(keys.number("radius"), rings);
 }
 
 TriangleMesh read_cylinder(const KeyTable& keys, const SceneLimits& limits) {
-  const int around = count(keys, "around"), along = count(keys, "along");
-  refuse_many_triangles(keys, "around", 2.0 * around * along, limits);
-  return make_cylinder(keys.number("radius"), keys.number("height"), around, along);
+  const int context = count(keys, "around"), along = count(keys, "along");
+  reject_many_triangles(keys, "around", 2.0 * context * along, limits);
+  return make_cylinder(keys.number("radius"), keys.number("height"), context, along);
 }
 
 /// How finely an icosahedron is divided: its edges are halved `subdivisions` times, or are in `divisions`
@@ -83,11 +83,11 @@ Fineness read_fineness(const KeyTable& keys, const SceneLimits& limits) {
     if (keys.has("subdivisions"))
       throw InputError(keys.where("divisions") + ": give 'subdivisions' or 'divisions', not both");
     const int divisions = count(keys, "divisions");
-    refuse_many_triangles(keys, "divisions", 20.0 * divisions * divisions, limits);
+    reject_many_triangles(keys, "divisions", 20.0 * divisions * divisions, limits);
     return {0, divisions};
   }
   const int subdivisions = count(keys, "subdivisions");
-  refuse_many_triangles(keys, "subdivisions", std::ldexp(20.0, 2 * subdivisions), limits);
+  reject_many_triangles(keys, "subdivisions", std::ldexp(20.0, 2 * subdivisions), limits);
   return {subdivisions, 0};
 }
 
@@ -125,7 +125,7 @@ SplitMesh read_mesh(const KeyTable& keys, const std::string& folder) {
   const auto repair =
       choice<ClothRepair>(keys, "repair", {{"refuse", ClothRepair::refuse}, {"split", ClothRepair::split}});
   TriangleSoup soup = read_obj_soup(file);
-  if (keys.has("seams")) soup = with_seams_closed(std::move(soup), positive(keys, "seams"));
+  if (keys.has("seams")) soup = close_seams(std::move(soup), positive(keys, "seams"));
   if (repair == ClothRepair::refuse)
     return {make_triangle_mesh(std::move(soup.rest), std::move(soup.triangles), soup.origin), {}};
   const Eigen::Index vertices = soup.rest.cols();
@@ -139,21 +139,21 @@ PlacedMesh read_or_make(const KeyTable& cloth, const std::string& folder, const 
     SplitMesh read = read_mesh(cloth, folder);
     return {std::move(read.mesh), {}, std::move(read.copy_of)};
   }
-  return {placed_refusal(cloth.where("shape"), [&] { return make_shape(cloth, limits); }), {}};
+  return {with_error_location(cloth.where("shape"), [&] { return make_shape(cloth, limits); }), {}};
 }
 
 /// Scales, turns and moves the positions, in this order.
 void place(const KeyTable& keys, PerParticle3& x) {
-  fit(keys, x);
+  scale_to_fit(keys, x);
   if (keys.has("turn")) {
-    const PerParticle3 turned = read_turn(keys).toRotationMatrix() * x;
-    x = turned;
+    const PerParticle3 rotated = read_turn(keys).toRotationMatrix() * x;
+    x = rotated;
   }
   x.colwise() += keys.vector_or("move", Vector3::Zero());
 }
 
 /// The positions (3 x n [m]) and copies of them, each turned and moved on from the one before.
-PerParticle3 repeated(const PerParticle3& x, int copies, const Eigen::Matrix3d& turn, const Vector3& move) {
+PerParticle3 repeat(const PerParticle3& x, int copies, const Eigen::Matrix3d& turn, const Vector3& move) {
   const Eigen::Index n = x.cols();
   PerParticle3 all(3, n * copies);
   all.leftCols(n) = x;
@@ -168,15 +168,15 @@ PerParticle3 repeated(const PerParticle3& x, int copies, const Eigen::Matrix3d& 
 /// So many pieces of the cloth in place of one; rest shapes are moved, too, so that they lie apart.
 void copy(const KeyTable& keys, const SceneLimits& limits, PlacedMesh& cloth) {
   const int copies = count(keys, "count"), n = cloth.mesh.particles();
-  refuse_many_triangles(keys, "count", double(copies) * double(cloth.mesh.triangles.size()), limits);
+  reject_many_triangles(keys, "count", double(copies) * double(cloth.mesh.triangles.size()), limits);
   const Vector3 move = keys.vector("move");
   const Eigen::Matrix3d turn = read_turn(keys).toRotationMatrix();
   std::vector<Triangle> triangles;
   for (int c = 0; c < copies; ++c)
     for (const Triangle& t : cloth.mesh.triangles)
       triangles.push_back({c * n + t[0], c * n + t[1], c * n + t[2]});
-  cloth.mesh = make_triangle_mesh(repeated(cloth.mesh.rest, copies, turn, move), std::move(triangles));
-  cloth.start = repeated(cloth.start, copies, turn, move);
+  cloth.mesh = make_triangle_mesh(repeat(cloth.mesh.rest, copies, turn, move), std::move(triangles));
+  cloth.start = repeat(cloth.start, copies, turn, move);
   const std::vector<int> of_one = cloth.copy_of;
   for (int c = 1; c < copies; ++c)
     for (const int v : of_one) cloth.copy_of.push_back(c * n + v);
@@ -201,7 +201,7 @@ double fit_factor(const KeyTable& keys, const PerParticle3& x) {
   return wanted / size;
 }
 
-void fit(const KeyTable& keys, PerParticle3& x) { x *= fit_factor(keys, x); }
+void scale_to_fit(const KeyTable& keys, PerParticle3& x) { x *= fit_factor(keys, x); }
 
 PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder, const SceneLimits& limits) {
   if (cloth.has("shape") == cloth.has("mesh"))
@@ -212,15 +212,15 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder, con
   const auto pleats = cloth.table("pleats");
   result.start = result.mesh.rest;
   if (pleats) {
-    result.mesh.rest = placed_refusal(cloth.where("pleats"), [&] {
-      return pleated(result.mesh, count(*pleats, "columns"), pleats->number("angle") * radians_per_degree);
+    result.mesh.rest = with_error_location(cloth.where("pleats"), [&] {
+      return pleated_positions(result.mesh, count(*pleats, "columns"), pleats->number("angle") * radians_per_degree);
     });
     if (!pleats->flag_or("start_flat", true)) result.start = result.mesh.rest;
   }
   place(cloth, result.start);
   if (!pleats) result.mesh.rest = result.start;
   if (const auto copies = cloth.table("copies"))
-    placed_refusal(cloth.where("copies"), [&] { copy(*copies, limits, result); });
+    with_error_location(cloth.where("copies"), [&] { copy(*copies, limits, result); });
   if (pleats && cloth.has("fit")) throw InputError(cloth.where("fit") + ": 'fit' does not go with pleats");
   return result;
 }

@@ -13,6 +13,6 @@ struct StepVelocities {
 /// The state after a step of h [s]: prescribed particles are put on their paths, the filters correct the
 /// velocity that moves the cloth, the one that ends the step takes up the change that they made, and is then
 /// corrected itself.
-State end_of_step(const System& system, const State& now, double h, StepVelocities v, Work& work);
+State finish_step(const System& system, const State& now, double h, StepVelocities v, Work& work);
 
 }  // namespace foldproof

@@ -1,4 +1,4 @@
-#include "verification/files/apart_file.h"
+#include "verification/files/isolated_reader.h"
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -48,7 +48,7 @@ std::uintmax_t memory_in_use() {
 
 }  // namespace
 
-std::string fate_apart(const std::string& path, const std::function<bool()>& read) {
+std::string failure_in_isolation(const std::string& path, const std::function<bool()>& read) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) return "it is not there";

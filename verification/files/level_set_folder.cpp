@@ -1,4 +1,4 @@
-#include "verification/files/kept_level_sets_file.h"
+#include "verification/files/level_set_folder.h"
 
 #include <filesystem>
 #include <mutex>
@@ -43,7 +43,7 @@ std::shared_ptr<const Grid> read_grid(const std::string& path, const std::string
   const Lattice lattice{{corner[0], corner[1], corner[2]}, spacing[0], {nodes[0], nodes[1], nodes[2]}};
   auto grid = std::make_shared<const Grid>(Grid{lattice, file.read_doubles("phi")});
   require(content_key(*grid) == file.read_text("content"), "its content is not what was written");
-  require_sound(*grid);
+  require_valid_content(*grid);
   return grid;
 }
 
@@ -53,48 +53,48 @@ std::mutex one_at_a_time;
 /// What the file holds, or else what is made and then written; `read` throws std::runtime_error for a file
 /// that it refuses.
 template <class Read, class Make, class Write>
-auto kept(const std::string& path, const std::function<void(const std::string&)>& say, const Read& read,
+auto kept(const std::string& path, const std::function<void(const std::string&)>& log_line, const Read& read,
           const Make& make, const Write& write) {
   const std::lock_guard held(one_at_a_time);
   if (std::filesystem::exists(path)) {
     try {
       auto loaded = read();
-      say("level sets loaded from " + path);
+      log_line("level sets loaded from " + path);
       return loaded;
     } catch (const std::runtime_error& error) {
-      say(std::string("level sets computed anew, for a file is refused: ") + error.what());
+      log_line(std::string("level sets computed anew, for a file is refused: ") + error.what());
     }
   }
   auto made = make();
   write(*made);
-  say("level sets kept in " + path);
+  log_line("level sets kept in " + path);
   return made;
 }
 
 }  // namespace
 
-LevelSetMakers caching_makers(const std::string& folder, std::function<void(const std::string&)> say) {
+LevelSetProvider caching_provider(const std::string& folder, std::function<void(const std::string&)> log_line) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError(folder + ": cannot make this folder for level sets: " + error.message() + "; choose another --cache");
   const auto file = [folder](const std::string& key) {
     return (std::filesystem::path(folder) / (key + ".h5")).string();
   };
-  const LevelSetMakers compute = computing_makers();
+  const LevelSetProvider compute = computing_provider();
   return {[=](const TriangleSoup& soup, const GridMethod& method, Repair repair) {
-            const std::string origin = origin_key(soup, method, repair), path = file(origin);
+            const std::string origin = input_key(soup, method, repair), path = file(origin);
             return kept(
-                path, say, [&] { return read_grid(path, origin); },
+                path, log_line, [&] { return read_grid(path, origin); },
                 [&] { return compute.make_level_set(soup, method, repair); },
                 [&](const Grid& grid) { write_grid(path, grid, origin); });
           },
           [=](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
-            const std::string origin = origin_key(sequence, settings), path = file(origin);
+            const std::string origin = input_key(sequence, settings), path = file(origin);
             const auto read = [&] {
               return std::make_shared<const DeformingBody>(read_level_sets(path, origin, settings, between));
             };
             return kept(
-                path, say, read, [&] { return compute.make_deforming_body(sequence, settings, between); },
+                path, log_line, read, [&] { return compute.make_deforming_body(sequence, settings, between); },
                 [&](const DeformingBody& body) { write_level_sets(path, body, origin); });
           }};
 }

@@ -1,4 +1,4 @@
-#include "verification/oracles/parted_triangles.h"
+#include "verification/oracles/separated_triangles.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -18,15 +18,15 @@ bool parted_along(const Vector3& d, const Corners3& s, const Corners3& t) {
 
 Vector3 normal_of(const Corners3& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
-bool are_parted(const Corners3& s, const Corners3& t) {
+bool are_separated(const Corners3& s, const Corners3& t) {
   const Vector3 m = normal_of(s), n = normal_of(t);
-  bool parted = parted_along(m, s, t) || parted_along(n, s, t);
+  bool is_separated = parted_along(m, s, t) || parted_along(n, s, t);
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3 edge = s[(i + 1) % 3] - s[i], other = t[(i + 1) % 3] - t[i];
-    parted |= parted_along(m.cross(edge), s, t) || parted_along(n.cross(other), s, t);
-    for (std::size_t j = 0; j < 3; ++j) parted |= parted_along(edge.cross(t[(j + 1) % 3] - t[j]), s, t);
+    is_separated |= parted_along(m.cross(edge), s, t) || parted_along(n.cross(other), s, t);
+    for (std::size_t j = 0; j < 3; ++j) is_separated |= parted_along(edge.cross(t[(j + 1) % 3] - t[j]), s, t);
   }
-  return parted;
+  return is_separated;
 }
 
 }  // namespace foldproof::oracles

@@ -1,10 +1,10 @@
-#include "verification/specimens/refusal.h"
+#include "verification/specimens/rejection.h"
 
 #include "reference/types.h"
 
 namespace foldproof {
 
-std::string refusal(const std::function<void()>& act) {
+std::string rejection_message(const std::function<void()>& act) {
   try {
     act();
   } catch (const InputError& error) {

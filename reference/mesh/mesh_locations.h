@@ -9,9 +9,9 @@
 namespace foldproof {
 
 // To begin a message: "body.obj:17: ", or "mesh: triangle 4: ", "mesh: vertex 3: ", "mesh: ".
-std::string at_triangle(const MeshOrigin& origin, int t);
-std::string at_vertex(const MeshOrigin& origin, int v);
-std::string at_mesh(const MeshOrigin& origin);
+std::string triangle_location(const MeshOrigin& origin, int t);
+std::string vertex_location(const MeshOrigin& origin, int v);
+std::string mesh_location(const MeshOrigin& origin);
 
 // Inside a sentence: "vertex 4 (line 4)", "the face of line 17"; files count vertices from 1, as OBJ does.
 std::string vertex_name(const MeshOrigin& origin, int v);

@@ -1,6 +1,6 @@
 // level-set-cache, as a case uses it: runs with and without a folder of level sets, and grids that must not
 // be trusted.
-#include "convergence/level_sets/kept_level_sets.h"
+#include "convergence/level_sets/cached_level_sets.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -13,7 +13,7 @@
 #include "reference/scene/scene.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/files/hdf5_file.h"
-#include "verification/files/kept_level_sets_file.h"
+#include "verification/files/level_set_folder.h"
 
 namespace foldproof {
 
@@ -36,9 +36,9 @@ std::string case_text(const ScratchFolder& folder) {
          "interval = 0.05\n[[object.deform]]\nkind = \"breathe\"\namplitude = 0.4\nperiod = 0.3\n";
 }
 
-State end_of_run(const std::string& text, const std::string& path, const LevelSetMakers& makers) {
+State end_of_run(const std::string& text, const std::string& path, const LevelSetProvider& provider) {
   const Scene scene = read_scene_text(text, path);
-  const Built built = build(scene, makers);
+  const BuiltScene built = build(scene, provider);
   return simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule, {}).last;
 }
 
@@ -75,15 +75,15 @@ bool is_same(const Grid& a, const Grid& b) { return content_key(a) == content_ke
 
 }  // namespace
 
-NamedFinding runs_with_kept_level_sets_are_the_same() {
+NamedFinding runs_with_cached_level_sets_agree() {
   const ScratchFolder folder;
   const std::string text = case_text(folder), path = folder.file("case.toml");
   int loaded = 0;
   const auto listen = [&](const std::string& line) { loaded += line.find("loaded") != std::string::npos; };
-  const State without = end_of_run(text, path, computing_makers());
-  const State first = end_of_run(text, path, caching_makers(folder.file("kept"), listen));
+  const State without = end_of_run(text, path, computing_provider());
+  const State first = end_of_run(text, path, caching_provider(folder.file("kept"), listen));
   const int early = loaded;
-  const State second = end_of_run(text, path, caching_makers(folder.file("kept"), listen));
+  const State second = end_of_run(text, path, caching_provider(folder.file("kept"), listen));
   const auto differs = [&](const State& s) { return s.x == without.x && s.v == without.v ? 0.0 : 1.0; };
   return {"level-set-cache.runs-are-bitwise-equal",
           "A run whose bodies come from kept level sets ends as one that computes them, bit for bit.",
@@ -95,17 +95,17 @@ NamedFinding runs_with_kept_level_sets_are_the_same() {
            "a grid, an octree and a body that deforms under a falling cloth"}};
 }
 
-NamedFinding unfit_grids_are_refused() {
+NamedFinding unfit_grids_are_rejected() {
   const ScratchFolder folder;
   std::vector<std::string> said;
-  const LevelSetMakers makers =
-      caching_makers(folder.file("kept"), [&](const std::string& line) { said.push_back(line); });
+  const LevelSetProvider provider =
+      caching_provider(folder.file("kept"), [&](const std::string& line) { said.push_back(line); });
   const GridMethod method{14, 4, 3, MarchingOrder::second};
   const auto file_of = [&](const TriangleSoup& soup) {
-    return folder.file("kept/" + origin_key(soup, method, Repair::refuse) + ".h5");
+    return folder.file("kept/" + input_key(soup, method, Repair::refuse) + ".h5");
   };
   const auto make = [&](const TriangleSoup& soup) {
-    return makers.make_level_set(soup, method, Repair::refuse);
+    return provider.make_level_set(soup, method, Repair::refuse);
   };
   const auto good = make(ball(2));
   make(ball(1));
@@ -117,15 +117,15 @@ NamedFinding unfit_grids_are_refused() {
     said.clear();
     const bool is_rebuilt = is_same(*make(ball(2)), *good);
     const std::string reason = said.empty() ? "" : said.front();
-    const bool is_refused =
+    const bool is_rejected =
         reason.find("refused") != std::string::npos && reason.find(spoiling.reason) != std::string::npos;
     const bool is_good_again =
         is_same(*make(ball(2)), *good) && !said.empty() && said.back().find("loaded") != std::string::npos;
     names.push_back(spoiling.name);
     reasons.push_back(reason.substr(0, reason.find('/')) +
                       reason.substr(std::min(reason.size(), reason.rfind('/'))));
-    wrong.push_back((is_rebuilt ? 0 : 1) + (is_refused ? 0 : 1) + (is_good_again ? 0 : 1));
-    worst.see(wrong.back());
+    wrong.push_back((is_rebuilt ? 0 : 1) + (is_rejected ? 0 : 1) + (is_good_again ? 0 : 1));
+    worst.observe(wrong.back());
   }
   return {"level-set-cache.invalid-grids-are-rejected",
           "A kept grid that is cut, damaged, foreign or of another mesh is refused with the reason, and "

@@ -12,7 +12,7 @@ namespace foldproof {
 
 /// Each answers what the function of its name makes of the same arguments, bit for bit, and throws what that
 /// throws.
-struct LevelSetMakers {
+struct LevelSetProvider {
   std::function<std::shared_ptr<const Grid>(const TriangleSoup&, const GridMethod&, Repair)> make_level_set;
   std::function<std::shared_ptr<const DeformingBody>(const MeshSequence&, const OctreeSettings&,
                                                      BetweenFrames)>
@@ -20,14 +20,14 @@ struct LevelSetMakers {
 };
 
 /// Those that compute whatever they are asked for.
-LevelSetMakers computing_makers();
+LevelSetProvider computing_provider();
 
-/// Those that ask `makers` once for the same thing, and hand out what they made to all who ask again, in any
+/// Those that ask `provider` once for the same thing, and hand out what they made to all who ask again, in any
 /// thread. They and their copies share what they keep, as long as one of them lives.
-LevelSetMakers remembering(const LevelSetMakers& makers);
+LevelSetProvider memoizing_provider(const LevelSetProvider& provider);
 
 /// The octree of one mesh: that of an animation of one frame.
-std::shared_ptr<const Octree> make_octree(const LevelSetMakers& makers, const PerParticle3& x,
+std::shared_ptr<const Octree> make_octree(const LevelSetProvider& provider, const PerParticle3& x,
                                           const std::vector<Triangle>& triangles,
                                           const OctreeSettings& settings);
 
