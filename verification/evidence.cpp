@@ -18,12 +18,12 @@ bool holds_texts(const Column& column) { return column.values.index() == 1; }
 const char* kind_of(bool texts) { return texts ? "texts" : "numbers"; }
 
 void append_to(Column& column, const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell.value)) {
-    if (length_of(column) == 0) column.values = std::vector<std::string>();
-    std::get<std::vector<std::string>>(column.values).push_back(*text);
-    return;
-  }
-  std::get<std::vector<double>>(column.values).push_back(std::get<double>(cell.value));
+  const auto append = [&](const auto& value) {
+    using Values = std::vector<std::decay_t<decltype(value)>>;
+    if (length_of(column) == 0) column.values = Values();
+    std::get<Values>(column.values).push_back(value);
+  };
+  std::visit(append, cell.value);
   if (!std::isnan(column.uncertainty) && !(cell.uncertainty <= column.uncertainty))
     column.uncertainty = cell.uncertainty;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -67,6 +68,14 @@ class Table {
   template <class... Cells>
   void row(const Cells&... cells) {
     append({Cell(cells)...});
+  }
+
+  /// This table with one more row, for evidence of one row:
+  ///   Table{{"growth", "1"}, {"way there", "m"}}.with_row(growth, way)
+  template <class... Cells>
+  Table with_row(const Cells&... cells) && {
+    row(cells...);
+    return std::move(*this);
   }
 
   /// Adds a column, as long as those that are there.

@@ -24,26 +24,23 @@ void write_cases(const Hdf5& file, const std::vector<CaseRecord>& cases) {
   }
 }
 
+/// A column that holds texts even where there is no row.
+Column texts(const char* name) { return {name, "", std::vector<std::string>()}; }
+
 void write_faults(const Hdf5& file, const std::vector<Fault>& faults) {
-  std::vector<std::string> name, path, find, replace, law, caught_by, caught_by_tests, outcome;
-  for (const Fault& fault : faults) {
-    name.push_back(fault.name);
-    path.push_back(fault.file);
-    find.push_back(fault.find);
-    replace.push_back(fault.replace);
-    law.push_back(fault.law);
-    caught_by.push_back(fmt::format("{}", fmt::join(fault.caught_by, ", ")));
-    caught_by_tests.push_back(fmt::format("{}", fmt::join(fault.caught_by_tests, "\n")));
-    outcome.push_back(fault.outcome);
-  }
-  write_columns(file.group("faults"), {{"name", "", name},
-                                       {"file", "", path},
-                                       {"find", "", find},
-                                       {"replace", "", replace},
-                                       {"law", "", law},
-                                       {"caught_by", "", caught_by},
-                                       {"caught_by_tests", "", caught_by_tests},
-                                       {"outcome", "", outcome}});
+  Table table{texts("name"),
+              texts("file"),
+              texts("find"),
+              texts("replace"),
+              texts("law"),
+              texts("caught_by"),
+              texts("caught_by_tests"),
+              texts("outcome")};
+  for (const Fault& fault : faults)
+    table.row(fault.name, fault.file, fault.find, fault.replace, fault.law,
+              fmt::format("{}", fmt::join(fault.caught_by, ", ")),
+              fmt::format("{}", fmt::join(fault.caught_by_tests, "\n")), fault.outcome);
+  write_columns(file.group("faults"), table.columns());
 }
 
 /// `/claims/<id>`: the ruling and what it rests on; the claim's findings and their roles in the same order.

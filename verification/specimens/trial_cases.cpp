@@ -1,6 +1,6 @@
 #include "verification/specimens/trial_cases.h"
 
-#include <algorithm>
+#include <cmath>
 
 #include "reference/bodies/makers.h"
 #include "reference/mesh/shapes.h"
@@ -22,8 +22,21 @@ PerParticle3 plain_positions() {
   return make_sheet(sheet).rest;
 }
 
+Table no_differences() { return {{"what", "1"}, {"difference", "epsilon of the size"}}; }
+
+double in_roundings(double difference, double size) { return std::abs(difference) / (epsilon * size); }
+
+double infinite_unless(bool right) { return right ? 0 : INFINITY; }
+
+Finding judged_differences(const Table& differences, double bound, const std::string& why_bound) {
+  return judged_worst(
+      differences, bound, why_bound,
+      "Each difference is over the size of what is compared; a wrong statement counts as infinite.");
+}
+
 Finding refused_cases(const std::vector<Refused>& cases, const std::string& path) {
-  std::vector<std::string> messages, faults;
+  Table answers{{"message", ""}, {"lacks", ""}};
+  double wrong = 0;
   for (const Refused& refused : cases) {
     std::string message;
     try {
@@ -31,17 +44,13 @@ Finding refused_cases(const std::vector<Refused>& cases, const std::string& path
     } catch (const InputError& error) {
       message = error.what();
     }
-    messages.push_back(message.empty() ? "accepted: " + refused.tables : message.substr(0, 200));
     std::string lacks = message.starts_with(path + ":") ? "" : "file and line";
     for (const std::string& word : refused.words)
       if (message.find(word) == std::string::npos) lacks += " '" + word + "'";
-    faults.push_back(lacks);
+    answers.row(message.empty() ? "accepted: " + refused.tables : message.substr(0, 200), lacks);
+    wrong += !lacks.empty();
   }
-  const double wrong =
-      double(std::count_if(faults.begin(), faults.end(), [](const auto& f) { return !f.empty(); }));
-  return {{wrong, 0, 0, "cases", "each must be refused with file, line and what is known"},
-          {{"message", "", messages}, {"lacks", "", faults}},
-          ""};
+  return {{wrong, 0, 0, "cases", "each must be refused with file, line and what is known"}, answers, ""};
 }
 
 }  // namespace foldproof

@@ -1,7 +1,6 @@
 // Small case files, written on the spot, and what differs between what they say and what is read.
 #pragma once
 
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -46,29 +45,16 @@ Finding refused_cases(const std::vector<Refused>& cases, const std::string& path
 /// The positions of that sheet, 3 x N [m].
 PerParticle3 plain_positions();
 
-/// Differences between what was read and what was written, each in its own words and over its own size.
-class Differences {
- public:
-  /// size: the difference's scale, in the same unit.
-  void see(const std::string& what, double difference, double size) {
-    names_.push_back(what);
-    values_.push_back(std::abs(difference) / (epsilon * size));
-    worst_.see(values_.back());
-  }
+/// For differences between what was read and what was written, a row each: in words, and in roundings of the
+/// size of what is compared.
+Table no_differences();
 
-  /// A statement without a size: 0 if it is right, else infinite.
-  void is(const std::string& what, bool right) { see(what, right ? 0 : INFINITY, 1); }
+/// |difference| over epsilon times its size, which is in the same unit.
+double in_roundings(double difference, double size);
 
-  Finding finding(double bound, const std::string& why) const {
-    return {{names_.empty() ? NAN : worst_.value(), bound, 0, "epsilon of the size", why},
-            {{"what", "1", names_}, {"difference", "epsilon of the size", values_}},
-            "Each difference is over the size of what is compared; a wrong statement counts as infinite."};
-  }
+/// A statement without a size: 0 if it is right, else infinite.
+double infinite_unless(bool right);
 
- private:
-  std::vector<std::string> names_;
-  std::vector<double> values_;
-  Worst worst_;
-};
+Finding judged_differences(const Table& differences, double bound, const std::string& why_bound);
 
 }  // namespace foldproof

@@ -1,6 +1,7 @@
 // Verdicts: what holds, what fails, and that nothing that is NaN or stopped ever passes.
 #include <catch2/catch.hpp>
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -47,6 +48,69 @@ TEST_CASE("Worst keeps a NaN whatever comes after it") {
   worst.see(not_a_number);
   worst.see(5);
   CHECK(worst.value() != worst.value());
+}
+
+TEST_CASE("a table fills its columns row by row, numbers and texts") {
+  Table table{{"case", ""}, {"steps", "1"}, {"error", "m"}};
+  table.row("coarse", 8, 0.25);
+  table.row(std::string("fine"), 16L, 0.0625F);
+  CHECK(table.rows() == 2);
+  CHECK(table.texts("case") == std::vector<std::string>{"coarse", "fine"});
+  CHECK(table.numbers("steps") == std::vector<double>{8, 16});
+  CHECK(table.numbers("error") == std::vector<double>{0.25, 0.0625});
+  CHECK(table.column("error").unit == "m");
+  table.add({"order", "1", std::vector<double>{not_a_number, 2}});
+  CHECK(table.columns().back().name == "order");
+}
+
+TEST_CASE("a row of another length or type, a short column and an unknown name are refused by name") {
+  Table table{"orders", "Observed orders", {{"scheme", "1"}, {"order", "1"}}};
+  const auto refusal = Catch::Contains("table 'orders' of columns [scheme, order]: ");
+  CHECK_THROWS_WITH(table.row("A"), refusal && Catch::Contains("a row of 1 for 2 columns"));
+  table.row("A", 2.0);
+  CHECK_THROWS_WITH(table.row(1, 2.0), refusal && Catch::Contains("'scheme' holds texts, and row 2"));
+  CHECK_THROWS_WITH(table.row("B", "two"), refusal && Catch::Contains("'order' holds numbers"));
+  CHECK(table.rows() == 1);
+  CHECK_THROWS_WITH(table.add({"floor", "1"}), refusal && Catch::Contains("0 values"));
+  CHECK_THROWS_WITH(table.numbers("error"), refusal && Catch::Contains("no column 'error'"));
+  CHECK_THROWS_WITH(table.numbers("scheme"), refusal && Catch::Contains("holds texts"));
+  CHECK_THROWS_AS((Table{{"a", "1", std::vector<double>{1, 2}}, {"b", "1", std::vector<double>{1}}}),
+                  std::logic_error);
+}
+
+TEST_CASE("the worst of a column keeps NaN, and is not a number where there is no row") {
+  Table table{{"case", ""}, {"error", "1"}};
+  CHECK(std::isnan(table.worst("error")));
+  table.row("below", -3.0);
+  CHECK(table.worst("error") == 0);
+  table.row("largest", 7.0);
+  table.row("small", 2.0);
+  CHECK(table.worst("error") == 7);
+  CHECK(table.worst_row("error") == 1);
+  table.row("none", not_a_number);
+  table.row("larger", 11.0);
+  CHECK(std::isnan(table.worst("error")));
+  CHECK(table.worst_row("error") == 3);
+}
+
+TEST_CASE("the worst row is judged in its column's unit, with the largest uncertainty of any row") {
+  struct Estimate {
+    double value, uncertainty;
+  };
+  Table table{{"case", ""}, {"error", "m"}, {"steps", "1"}};
+  table.row("one", Estimate{3, 0.5}, 8);
+  table.row("two", Estimate{5, 0.25}, 16);
+  const Finding finding = judged_worst(table, "error", 6, "why", "note");
+  CHECK(finding.verdict.measured == 5);
+  CHECK(finding.verdict.uncertainty == 0.5);
+  CHECK(finding.verdict.bound == 6);
+  CHECK(finding.verdict.unit == "m");
+  CHECK(finding.verdict.why_bound == "why");
+  CHECK(finding.note == "note");
+  CHECK(finding.evidence.numbers("error") == std::vector<double>{3, 5});
+  CHECK(judged_worst(table, 20, "why").verdict.measured == 16);
+  table.row("three", Estimate{1, not_a_number}, 32);
+  CHECK(outcome_of(judged_worst(table, "error", 6, "why").verdict) == Outcome::fails);
 }
 
 TEST_CASE("a check that throws fails and says why; one that is not offered is not applicable") {

@@ -78,20 +78,17 @@ std::vector<BadSolid> bad_solids() {
 Finding bad_solids_are_refused(const Subject&) {
   const ScratchFolder folder;
   const std::string path = folder.file("bad.obj");
-  Table measured{{"case", ""}, {"file or words missing from the refusal", "1"}};
-  std::vector<std::string> messages;
+  Table measured{{"case", ""}, {"file or words missing from the refusal", "1"}, {"message", ""}};
   for (const BadSolid& bad : bad_solids()) {
     write_obj(path, bad.soup.rest, bad.soup.triangles);
     const std::string message = refusal([&] { make_closed_mesh(read_obj_soup(path)); });
     int missing = message.starts_with(path + ":") ? 0 : 1;
     for (const std::string& part : bad.parts) missing += message.find(part) == std::string::npos;
-    measured.row(bad.name, missing);
-    messages.push_back(message.substr(std::min(message.size(), path.size() - std::string("bad.obj").size())));
+    const size_t folder_size = path.size() - std::string("bad.obj").size();
+    measured.row(bad.name, missing, message.substr(std::min(message.size(), folder_size)));
   }
-  Finding finding =
-      judged_worst(measured, 0, "each refusal must name the file, what is wrong, and how much of it");
-  finding.evidence.add({"message", "", messages});
-  return finding;
+  return judged_worst(measured, "file or words missing from the refusal", 0,
+                      "each refusal must name the file, what is wrong, and how much of it");
 }
 
 Finding places_are_right(const Subject&) {

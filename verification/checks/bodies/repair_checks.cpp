@@ -68,32 +68,29 @@ Finding inspection_tells(const Subject&) {
 Finding parity_shows_holes(const Subject&) {
   const TriangleSoup whole = statue();
   const auto grid = grid_of(whole);
-  std::vector<double> streaks, denied;
   int unseen = 0;
-  Worst outvoting;
+  Worst streaks, denied, outvoting;
   for (int t = 11; t < 1280; t += 97) {
     TriangleSoup open = whole;
     open.triangles.erase(open.triangles.begin() + t, open.triangles.begin() + t + 6);
     const Disagreement found = disagreement(*grid, ray_parity(open.rest, open.triangles, grid->lattice),
                                             1e-9 * grid->lattice.spacing);
-    streaks.push_back(double(found.among_rays.size()));
-    denied.push_back(double(found.with_sign.size()));
+    const double in_streaks = double(found.among_rays.size()), with_sign = double(found.with_sign.size());
+    streaks.see(in_streaks);
+    denied.see(with_sign);
     if (found.among_rays.empty()) ++unseen;
-    outvoting.see(denied.back() / std::max(streaks.back(), 1.0));
+    outvoting.see(with_sign / std::max(in_streaks, 1.0));
   }
   Table measured{
       {"case", ""},
       {"holes of six triangles that no ray shows, and the largest share of streaks that wins the vote", "1"}};
   measured.row("unseen", unseen);
   measured.row("share", outvoting.value());
-  Finding finding =
-      judged_worst(measured, 0.25,
-                   "every hole lies across at least one row of nodes, and streaks along two axes "
-                   "meet in few of their nodes only");
-  finding.note = "nodes in streaks, and denied signs, of the worst hole: " +
-                 std::to_string(int(signed_largest(streaks))) + ", " +
-                 std::to_string(int(signed_largest(denied)));
-  return finding;
+  return judged_worst(measured, 0.25,
+                      "every hole lies across at least one row of nodes, and streaks along two axes "
+                      "meet in few of their nodes only",
+                      "nodes in streaks, and denied signs, of the worst hole: " +
+                          std::to_string(int(streaks.value())) + ", " + std::to_string(int(denied.value())));
 }
 
 Vector3 about(Random& random, const Bounds& bounds) {

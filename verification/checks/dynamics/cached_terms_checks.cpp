@@ -49,7 +49,8 @@ std::array<double, 2> least_seconds(const std::function<void()>& one, const std:
 
 Finding time_finding(const Subject&) {
   constexpr int repeats = 40;
-  std::vector<double> particles, cached, anew;
+  Table times{
+      {"particles", "1"}, {"product with cached terms", "s"}, {"product with terms computed anew", "s"}};
   Worst worst;
   for (int cells : {20, 40, 80}) {
     const Scene scene = waved_sheet(cells);
@@ -58,19 +59,15 @@ Finding time_finding(const Subject&) {
     Work work;
     PerParticle3 f = PerParticle3::Zero(3, s.x.cols());
     const DampingOperator damping = damping_at(system.forces, s, work);
-    particles.push_back(double(s.x.cols()));
     const auto [with, without] =
         least_seconds([&] { damping.add_product(s.v, f); },
                       [&] { damping_at(system.forces, s, work).add_product(s.v, f); }, repeats);
-    cached.push_back(with);
-    anew.push_back(without);
-    worst.see(cached.back() / anew.back());
+    times.row(s.x.cols(), with, without);
+    worst.see(with / without);
   }
   return {{worst.value(), 0.5, 0, "1",
            "half: less would make the cache not worth its memory from the second product of a solve on"},
-          {{"particles", "1", particles},
-           {"product with cached terms", "s", cached},
-           {"product with terms computed anew", "s", anew}},
+          times,
           "the least times of 40 runs of each in turns, in processor time; a ratio, so that the machine's "
           "speed and load "
           "matter little"};
@@ -89,24 +86,25 @@ double blocks_of(const TriangleMesh& mesh) {
 
 Finding memory_finding(const Subject&) {
   constexpr double block_bytes = 9 * sizeof(double) + sizeof(int);  // nine entries and a column's number
-  std::vector<double> particles, cache, matrix;
+  Table sizes{{"particles", "1"},
+              {"cached terms", "bytes a particle"},
+              {"half of the matrix's blocks", "bytes a particle"}};
   Worst worst;
   for (int cells : {10, 30}) {
     const Scene scene = waved_sheet(cells);
     const System system = build_system(scene);
     Work work;
     const DampingOperator damping = damping_at(system.forces, start_state(scene), work);
-    particles.push_back(double(scene.x.cols()));
-    cache.push_back(double(damping.pairs.capacity() * sizeof(PairDamper) +
-                           damping.hinges.capacity() * sizeof(HingeDamper)) /
-                    particles.back());
-    matrix.push_back(blocks_of(scene.mesh) * block_bytes / particles.back());
-    worst.see(cache.back() / matrix.back());
+    const double particles = double(scene.x.cols());
+    const double cache = double(damping.pairs.capacity() * sizeof(PairDamper) +
+                                damping.hinges.capacity() * sizeof(HingeDamper)) /
+                         particles;
+    const double matrix = blocks_of(scene.mesh) * block_bytes / particles;
+    sizes.row(particles, cache, matrix);
+    worst.see(cache / matrix);
   }
   return {{worst.value(), 1, 0, "1", "not assembling must not cost more memory than assembling"},
-          {{"particles", "1", particles},
-           {"cached terms", "bytes a particle", cache},
-           {"half of the matrix's blocks", "bytes a particle", matrix}},
+          sizes,
           "blocks of 3 x 3 on and above the diagonal, nine numbers and an index each: the least that an "
           "assembled, "
           "symmetric matrix needs"};

@@ -21,4 +21,10 @@ std::vector<Check> event_checks();               // motions that start and stop
 std::vector<Check> method_checks();              // the methods that the paper's schemes are compared with
 std::vector<Check> energy_checks();              // diagnostics and the balance of energy
 
+/// For statements that are true or false, a row each.
+Table no_statements();
+
+/// How many statements are false; NaN without any.
+double count_false(const Table& statements);
+
 }  // namespace foldproof

@@ -94,30 +94,32 @@ double deviation(const TurningPair& pair, const std::string& integrator, double 
 
 Finding rotation_finding(const Subject&, const std::string& integrator) {
   const TurningPair pair = turning_pair();
-  const std::vector<double> steps = {8e-3, 4e-3, 2e-3, 1e-3};
-  std::vector<double> deviations, orders = {NAN};
-  for (double h : steps) deviations.push_back(deviation(pair, integrator, h, 0, 6));
+  Table deviations{{"step", "s"}, {"deviation of the length", "1"}, {"observed order", "1"}};
   Worst worst;
-  for (size_t k = 1; k < steps.size(); ++k) {
-    orders.push_back(std::log2(deviations[k - 1] / deviations[k]));
-    worst.see(std::abs(orders.back() - 2));
+  double coarser = NAN;
+  for (const double h : {8e-3, 4e-3, 2e-3, 1e-3}) {
+    const double here = deviation(pair, integrator, h, 0, 6), order = std::log2(coarser / here);
+    if (deviations.rows() > 0) worst.see(std::abs(order - 2));
+    deviations.row(h, here, order);
+    coarser = here;
   }
-  return {
-      {worst.value(), 0.1, 0, "1",
-       "second order, two-sided; the next term is of fourth order, (omega h)^2 < 0.03 of the first"},
-      {{"step", "s", steps}, {"deviation of the length", "1", deviations}, {"observed order", "1", orders}},
-      "over six turns"};
+  return {{worst.value(), 0.1, 0, "1",
+           "second order, two-sided; the next term is of fourth order, (omega h)^2 < 0.03 of the first"},
+          deviations,
+          "over six turns"};
 }
 
 Finding no_drift_finding(const Subject&, const std::string& integrator) {
   const TurningPair pair = turning_pair();
   const double early = deviation(pair, integrator, 8e-3, 0, 6),
                late = deviation(pair, integrator, 8e-3, 54, 60);
+  Table deviations{{"turns", "1"}, {"deviation of the length", "1"}};
+  deviations.row("0 to 6", early);
+  deviations.row("54 to 60", late);
   return {{late / early - 1, 0.02, 0, "1",
            "the length swings about a steady one for ever; 2 % is what the sampling of the swing's extremes "
            "by steps allows"},
-          {{"turns", "1", std::vector<std::string>{"0 to 6", "54 to 60"}},
-           {"deviation of the length", "1", std::vector<double>{early, late}}},
+          deviations,
           ""};
 }
 

@@ -154,8 +154,7 @@ std::vector<std::pair<std::string, Scene>> sheets_to_solve() {
 
 /// How many of 36 solves missed their tolerance, at steps up to 50 times the elastic limit.
 Finding large_steps_finding(const Subject& subject) {
-  std::vector<std::string> cases;
-  std::vector<double> missed;
+  Table missed{{"case", ""}, {"solves that missed their tolerance", "solves"}};
   for (const auto& [name, scene] : sheets_to_solve())
     for (const std::string method : {"backward-euler", "BDF2", "implicit-midpoint"}) {
       Stepper stepper(subject, scene, method);
@@ -164,17 +163,18 @@ Finding large_steps_finding(const Subject& subject) {
       for (const double over : {0.5, 5.0, 50.0}) {
         const long before = stepper.work().unfinished_solves;
         stepper.step(start, over * limit);
-        cases.push_back(name + ", " + method + ", " + std::to_string(over) + " times the elastic limit");
-        missed.push_back(double(stepper.work().unfinished_solves - before));
+        missed.row(name + ", " + method + ", " + std::to_string(over) + " times the elastic limit",
+                   stepper.work().unfinished_solves - before);
       }
     }
+  const std::vector<double>& counts = missed.numbers("solves that missed their tolerance");
   return {
-      {std::accumulate(missed.begin(), missed.end(), 0.0), 2, 0, "solves",
+      {std::accumulate(counts.begin(), counts.end(), 0.0), 2, 0, "solves",
        "one in eighteen: a line search may end where no part of the step lowers the residual. A hinge's "
        "force "
        "jumps where it folds through half a circle, so that an equation far beyond the limit need not have a "
        "solution; a solve that ends without one says so"},
-      {{"case", "", cases}, {"solves that missed their tolerance", "solves", missed}},
+      missed,
       ""};
 }
 

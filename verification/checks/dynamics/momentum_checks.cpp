@@ -51,23 +51,20 @@ Finding kept(const Subject& subject, const std::string& integrator, const Scene&
   State s = stepper.start();
   const Momenta start = momenta(mass, s.x, s.v);
   Worst worst, size;
-  Column times{"time", "s", std::vector<double>{}},
-      drifts{"drift", "epsilon of the sum", std::vector<double>{}};
+  Table drifts{{"time", "s"}, {"drift", "epsilon of the sum"}};
   for (int n = 1; n <= steps; ++n) {
     s = stepper.step(s, n % 2 == 0 ? 2.3e-3 : 0.7e-3);
     const Momenta now = momenta(mass, s.x, s.v);
     size.see(which == Momentum::linear ? now.linear_size : now.angular_size);
     const double drifted = drift(now, start, which, size.value());
     worst.see(drifted);
-    if (n % 50 != 0) continue;
-    std::get<0>(times.values).push_back(s.time);
-    std::get<0>(drifts.values).push_back(drifted);
+    if (n % 50 == 0) drifts.row(s.time, drifted);
   }
   const double bound = 16 * std::sqrt(double(steps));
   return {{worst.value(), bound, 0, "epsilon of the sum",
            "a step rounds the momentum that a particle has or is given about 16 times, and 1,000 steps add "
            "up like a random walk; a defect of the scheme would show at the order of h^2"},
-          {times, drifts},
+          drifts,
           smallest_defect(bound, "sum of the momenta's sizes, over all steps")};
 }
 
@@ -111,7 +108,7 @@ Finding reversal_finding(const Subject& subject, const std::string& integrator) 
   return {{worst.value(), bound, 0, "epsilon of the extent",
            "16 roundings a step, 300 steps that add up like a random walk, each grown as much as a "
            "disturbance of the start grows at most (see the evidence)"},
-          {{"growth", "1", std::vector<double>{grown}}, {"way there", "m", std::vector<double>{way}}},
+          Table{{"growth", "1"}, {"way there", "m"}}.with_row(grown, way),
           smallest_defect(bound, "extent")};
 }
 
@@ -147,23 +144,21 @@ Finding truncated_finding(const Subject&) {
                                         {"tolerance 0.5", 0.5, 1000},
                                         {"tolerance 1e-8", 1e-8, 1000}};
   Worst worst;
-  Column names{"stopped after", "1", std::vector<std::string>{}}, steps{"step", "s", std::vector<double>{}};
-  Column linear{"linear", "epsilon of sum m |v|", std::vector<double>{}},
-      angular{"angular", "epsilon of sum m |x| |v|", std::vector<double>{}};
+  Table changes{{"stopped after", "1"},
+                {"step", "s"},
+                {"linear", "epsilon of sum m |v|"},
+                {"angular", "epsilon of sum m |x| |v|"}};
   for (const Truncation& way : ways)
     for (double h : {3.7e-4, 5.9e-3, 0.11}) {
       const auto [p, l] = truncated(way, h, 77);
       worst.see(p);
       worst.see(l);
-      std::get<1>(names.values).push_back(way.name);
-      std::get<0>(steps.values).push_back(h);
-      std::get<0>(linear.values).push_back(p);
-      std::get<0>(angular.values).push_back(l);
+      changes.row(way.name, h, p, l);
     }
   return {{worst.value(), 64, 0, "epsilon of the sum",
            "an iteration rounds every velocity twice and every damping force about ten times; the tens of "
            "iterations of the tight solves add up at random and in falling size"},
-          {names, steps, linear, angular},
+          changes,
           "The momenta are those at the positions for which the damping was prepared."};
 }
 

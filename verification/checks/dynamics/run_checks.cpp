@@ -9,6 +9,14 @@
 
 namespace foldproof {
 
+Table no_statements() { return {{"statement", "1"}, {"true", "1"}}; }
+
+double count_false(const Table& statements) {
+  double wrong = statements.rows() == 0 ? NAN : 0;
+  for (const double one : statements.numbers("true")) wrong += 1 - one;
+  return wrong;
+}
+
 namespace {
 
 /// A run with all that its observer saw.
@@ -52,8 +60,7 @@ Finding frames_finding(const Subject&) {
   const double interval = 0.0113, length = 0.0517;  // four whole intervals and a rest
   Scene scene = led_sheet();
   scene.led.clear();  // their paths begin at time 0, these runs do not
-  Worst worst;
-  std::vector<double> starts, steps, errors;
+  Table errors{{"start", "s"}, {"step asked for, 0: automatic", "s"}, {"error of the times", "s"}};
   for (double start_time : {0.21, -0.0171, -0.0083, -0.0231})
     for (double fixed : {0.0017, 0.0113, 0.0}) {
       System system = build_system(scene);
@@ -61,18 +68,11 @@ Finding frames_finding(const Subject&) {
       State start = start_state(scene);
       start.time = start_time;
       const Schedule schedule{start_time + length, interval, {fixed, 0.5, 0.1}, 100000};
-      const double error = frame_error(watched(system, "A", start, schedule), schedule, 6);
-      worst.see(error);
-      starts.push_back(start_time);
-      steps.push_back(fixed);
-      errors.push_back(error);
+      errors.row(start_time, fixed, frame_error(watched(system, "A", start, schedule), schedule, 6));
     }
-  return {{worst.value(), 0, 0, "s",
-           "frame times are set, not summed up; a step longer than asked for, or a wrong count, gives NaN"},
-          {{"start", "s", starts},
-           {"step asked for, 0: automatic", "s", steps},
-           {"error of the times", "s", errors}},
-          ""};
+  return judged_worst(
+      errors, 0,
+      "frame times are set, not summed up; a step longer than asked for, or a wrong count, gives NaN");
 }
 
 /// Largest relative change of an edge's length over its rest length in a step h, by its present rate [1].
@@ -90,8 +90,7 @@ double strain_in(const Scene& scene, const State& s, double h) {
 Finding limits_finding(const Subject&) {
   constexpr size_t least_steps = 4;  // fewer say nothing of how a step follows the cloth
   Worst worst;
-  std::vector<double> speeds, used_limit, used_strain;
-  std::vector<std::string> ends;
+  Table used{{"speed", "1"}, {"of the elastic limit", "1"}, {"of the strain allowed", "1"}, {"came to", "1"}};
   for (double speed : {0.01, 0.4, 9.0, 25.0})
     for (double strain : {0.013, 0.09}) {
       Scene scene = free_sheet();
@@ -110,42 +109,24 @@ Finding limits_finding(const Subject&) {
         s.time = run.rows[n].time;
       }
       if (run.rows.size() <= least_steps || largest_difference(s.x, run.result.last.x) != 0) worst.see(NAN);
-      ends.push_back(run.result.stop ? run.result.stop->reason : "the end");
-      speeds.push_back(speed);
-      used_limit.push_back(of_limit.value());
-      used_strain.push_back(of_strain.value());
+      used.row(speed, of_limit.value(), of_strain.value(),
+               run.result.stop ? run.result.stop->reason : "the end");
       worst.see(of_limit.value());
       worst.see(of_strain.value());
     }
   return {{worst.value(), 1 + 2e-9, 0, "of the limit",
            "both limits hold at the start of every step; 1e-9 is the hair by which a step may be "
            "stretched to divide an interval evenly"},
-          {{"speed", "1", speeds},
-           {"of the elastic limit", "1", used_limit},
-           {"of the strain allowed", "1", used_strain},
-           {"came to", "1", ends}},
+          used,
           "The run is repeated step by step with the steps it reported, and must end with the same bits. "
           "One in which a triangle loses its area, as may be at 25 m/s, is judged up to there."};
 }
 
-/// Statements about a stopped run, each true or false; the measured number is how many are false.
-struct Statements {
-  std::vector<std::string> names;
-  std::vector<double> holds;
-
-  void add(const std::string& name, bool is_true) {
-    names.push_back(name);
-    holds.push_back(is_true ? 1 : 0);
-  }
-
-  Finding finding(const std::string& note) const {
-    double wrong = names.empty() ? NAN : 0;
-    for (double one : holds) wrong += 1 - one;
-    return {{wrong, 0, 0, "false statements", "a statement is true or false"},
-            {{"statement", "1", names}, {"true", "1", holds}},
-            note};
-  }
-};
+/// About a stopped run.
+Finding judged_statements(const Table& statements, const std::string& note) {
+  return {
+      {count_false(statements), 0, 0, "false statements", "a statement is true or false"}, statements, note};
+}
 
 bool all_finite(const std::vector<State>& frames) {
   for (const State& s : frames)
@@ -153,14 +134,14 @@ bool all_finite(const std::vector<State>& frames) {
   return true;
 }
 
-void add_common(Statements& statements, const Watched& run) {
-  statements.add("it stopped", run.result.stop.has_value());
+void add_common(Table& statements, const Watched& run) {
+  statements.row("it stopped", run.result.stop.has_value());
   if (!run.result.stop) return;
-  statements.add("the time is that of the last good state", run.result.stop->time == run.result.last.time);
-  statements.add("the step is the one after the last good one",
+  statements.row("the time is that of the last good state", run.result.stop->time == run.result.last.time);
+  statements.row("the step is the one after the last good one",
                  run.result.stop->step == run.result.steps + 1);
-  statements.add("all frames delivered are finite", all_finite(run.frames));
-  statements.add("the last good state is finite", all_finite({run.result.last}));
+  statements.row("all frames delivered are finite", all_finite(run.frames));
+  statements.row("the last good state is finite", all_finite({run.result.last}));
 }
 
 Finding divergence_finding(const Subject&) {
@@ -169,7 +150,7 @@ Finding divergence_finding(const Subject&) {
   const State start = start_state(scene);
   const double h = 3 * elastic_limit(system, start);
   const Watched run = watched(system, "C", start, {400 * h, 2 * h, {h, 0.5, 0.1}, 100000});
-  Statements statements;
+  Table statements = no_statements();
   add_common(statements, run);
   if (run.result.stop) {
     const Stop& stop = *run.result.stop;
@@ -178,18 +159,18 @@ Finding divergence_finding(const Subject&) {
     const State next = integrator_named("C").step(system, {&last, 1}, h, work);
     Eigen::Index farthest = 0;
     (next.x - last.x).colwise().norm().maxCoeff(&farthest);
-    statements.add("the reason says divergence", stop.reason.find("divergence") != std::string::npos);
-    statements.add("the particle is the one that moved farthest", stop.particle == farthest);
+    statements.row("the reason says divergence", stop.reason.find("divergence") != std::string::npos);
+    statements.row("the particle is the one that moved farthest", stop.particle == farthest);
     const double size = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();
     Worst leap;
     for (size_t k = 1; k < run.frames.size(); ++k)
       leap.see(largest_difference(run.frames[k].x, run.frames[k - 1].x) / size);
-    statements.add("within a frame no particle moves more than 20 sizes in its two steps",
+    statements.row("within a frame no particle moves more than 20 sizes in its two steps",
                    leap.value() <= 20);
-    statements.add("earlier frames were delivered",
+    statements.row("earlier frames were delivered",
                    run.frames.size() >= 2 && long(run.frames.size()) == run.result.steps / 2 + 1);
   }
-  return statements.finding("fixed steps of three times the elastic limit");
+  return judged_statements(statements, "fixed steps of three times the elastic limit");
 }
 
 Finding nan_finding(const Subject&) {
@@ -203,15 +184,15 @@ Finding nan_finding(const Subject&) {
   };
   system.forces.push_back(force);
   const Watched run = watched(system, "C", start_state(scene), {0.1, 0.01, {0.0034, 0.5, 0.1}, 100000});
-  Statements statements;
+  Table statements = no_statements();
   add_common(statements, run);
   if (run.result.stop) {
-    statements.add("the reason says NaN", run.result.stop->reason.find("NaN") != std::string::npos);
-    statements.add("the particle is 5", run.result.stop->particle == 5);
-    statements.add("the step is 7", run.result.stop->step == 7);
-    statements.add("three frames were delivered", run.frames.size() == 3);
+    statements.row("the reason says NaN", run.result.stop->reason.find("NaN") != std::string::npos);
+    statements.row("the particle is 5", run.result.stop->particle == 5);
+    statements.row("the step is 7", run.result.stop->step == 7);
+    statements.row("three frames were delivered", run.frames.size() == 3);
   }
-  return statements.finding("a force becomes NaN after 0.0221 s, in the seventh step");
+  return judged_statements(statements, "a force becomes NaN after 0.0221 s, in the seventh step");
 }
 
 Finding lost_triangle_finding(const Subject&) {
@@ -224,33 +205,34 @@ Finding lost_triangle_finding(const Subject&) {
   scene.led = {{0, scene.x.col(0), squeeze}, {2, scene.x.col(2), Motion{}}, {3, scene.x.col(3), Motion{}}};
   const Watched run =
       watched(build_system(scene), "C", start_state(scene), {0.2, 0.01, {0.0025, 0.5, 0.1}, 100000});
-  Statements statements;
+  Table statements = no_statements();
   add_common(statements, run);
   if (run.result.stop) {
     const std::string& reason = run.result.stop->reason;
-    statements.add("the reason says what was lost",
+    statements.row("the reason says what was lost",
                    reason.find("triangle") != std::string::npos && reason.find("area") != std::string::npos);
-    statements.add("the reason names the four particles",
+    statements.row("the reason names the four particles",
                    reason.find("particles 0 1 2 3") != std::string::npos);
-    statements.add("a particle is named", run.result.stop->particle == 0);
-    statements.add("the step is 20", run.result.stop->step == 20);
-    statements.add("five frames were delivered", run.frames.size() == 5);
+    statements.row("a particle is named", run.result.stop->particle == 0);
+    statements.row("the step is 20", run.result.stop->step == 20);
+    statements.row("five frames were delivered", run.frames.size() == 5);
   }
-  return statements.finding("a vertex is led into the opposite edge, which it reaches at the end of step 20");
+  return judged_statements(statements,
+                           "a vertex is led into the opposite edge, which it reaches at the end of step 20");
 }
 
 Finding cap_finding(const Subject&) {
   const Scene scene = free_sheet();
   const Watched run =
       watched(build_system(scene), "B", start_state(scene), {0.1, 0.01, {0.002, 0.5, 0.1}, 13});
-  Statements statements;
+  Table statements = no_statements();
   add_common(statements, run);
-  statements.add("13 steps were made", run.result.steps == 13);
+  statements.row("13 steps were made", run.result.steps == 13);
   if (run.result.stop) {
-    statements.add("the reason says cap", run.result.stop->reason.find("cap") != std::string::npos);
-    statements.add("no particle is blamed", run.result.stop->particle == -1);
+    statements.row("the reason says cap", run.result.stop->reason.find("cap") != std::string::npos);
+    statements.row("no particle is blamed", run.result.stop->particle == -1);
   }
-  return statements.finding("a cap of 13 steps");
+  return judged_statements(statements, "a cap of 13 steps");
 }
 
 Finding standstill_finding(const Subject&) {
@@ -258,13 +240,14 @@ Finding standstill_finding(const Subject&) {
   State start = start_state(scene);
   start.time = 1;
   const Watched run = watched(build_system(scene), "B", start, {1.1, 0.01, {1e-17, 0.5, 0.1}, 20});
-  Statements statements;
+  Table statements = no_statements();
   add_common(statements, run);
-  statements.add("no step was made", run.result.steps == 0);
+  statements.row("no step was made", run.result.steps == 0);
   if (run.result.stop)
-    statements.add("the reason says too short",
+    statements.row("the reason says too short",
                    run.result.stop->reason.find("too short") != std::string::npos);
-  return statements.finding("fixed steps of 1e-17 s from t = 1 s on, where doubles lie 2e-16 s apart");
+  return judged_statements(statements,
+                           "fixed steps of 1e-17 s from t = 1 s on, where doubles lie 2e-16 s apart");
 }
 
 }  // namespace

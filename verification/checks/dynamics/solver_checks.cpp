@@ -156,7 +156,7 @@ Finding cap_finding(const Subject&) {
   const Solve cap = solve({1e-13, 3, ResidualScale::momentum}, problem.guess, capped);
   const Solve whole = solve({1e-6, 500, ResidualScale::momentum}, problem.guess, finished);
   const Solve nan = solve({1e-6, 500, ResidualScale::momentum}, spoiled, broken);
-  Table holds{{"statement", "1"}, {"true", "1"}};
+  Table holds = no_statements();
   holds.row("a capped solve is not converged", !cap.converged);
   holds.row("it took the cap's iterations", cap.iterations == 3 && capped.cg_iterations == 3);
   holds.row("its residual is above the tolerance", cap.residual > 1e-13);
@@ -167,9 +167,7 @@ Finding cap_finding(const Subject&) {
   holds.row("NaN is not converged", !nan.converged);
   holds.row("NaN is counted as unfinished", broken.unfinished_solves == 1);
   holds.row("NaN is recorded", std::isnan(broken.worst_residual));
-  double wrong = 0;
-  for (const double one : holds.numbers("true")) wrong += 1 - one;
-  return {{wrong, 0, 0, "false reports", "a report is true or false"}, holds, ""};
+  return {{count_false(holds), 0, 0, "false reports", "a report is true or false"}, holds, ""};
 }
 
 Finding operator_finding(const Subject& subject) {
@@ -196,9 +194,10 @@ Finding operator_finding(const Subject& subject) {
            "an entry sums some twenty dampers of five roundings, half an epsilon each: 50; the smallest "
            "eigenvalue, 1 but for "
            "rounding, is found to about the square root of the matrix' size, 10, in epsilon of the largest"},
-          {{"asymmetry", "epsilon of the largest entry", std::vector<double>{asymmetry}},
-           {"smallest eigenvalue below 1", "epsilon of the largest", std::vector<double>{deficit}},
-           {"largest eigenvalue", "1", std::vector<double>{eigenvalues[n - 1]}}},
+          Table{{"asymmetry", "epsilon of the largest entry"},
+                {"smallest eigenvalue below 1", "epsilon of the largest"},
+                {"largest eigenvalue", "1"}}
+              .with_row(asymmetry, deficit, eigenvalues[n - 1]),
           "the operator is I - s M^{-1/2} D M^{-1/2}"};
 }
 
@@ -219,7 +218,7 @@ Finding rigid_finding(const Subject&) {
   worst.see(double((v.array() != before.array()).count()));
   return {{worst.value(), 0, 0, "iterations",
            "no damper resists a rigid motion: the explicit guess is the solution, and is not touched"},
-          {{"residual", "1", std::vector<double>{solve.residual}}},
+          Table{{"residual", "1"}}.with_row(solve.residual),
           ""};
 }
 

@@ -27,24 +27,20 @@ Finding trapezoidal_finding(const Subject& subject, const std::string& integrato
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   Stepper stepper(subject, scene, integrator);
   State now = stepper.start();
-  Worst worst;
-  std::vector<double> steps, errors;
+  Table errors{{"step", "s"}, {"defect of the trapezoidal rule over that velocity", "1"}};
   for (double h : {2.1e-3, 3.7e-4, 1.3e-3, 4.9e-3}) {
     const State next = stepper.step(now, h);
     const PerParticle3 here = stepper.elastic_forces(now) + stepper.damping_forces(now, now.v);
     const PerParticle3 there = stepper.elastic_forces(next) + stepper.damping_forces(next, next.v);
     const PerParticle3 defect = next.v - now.v - h / 2 * (here + there) * mass.cwiseInverse().asDiagonal();
-    steps.push_back(h);
     const PerParticle3 undamped =
         next.v - h / 2 * stepper.damping_forces(next, next.v) * mass.cwiseInverse().asDiagonal();
-    errors.push_back(mass_norm(defect, mass) / mass_norm(undamped, mass));
-    worst.see(errors.back());
+    errors.row(h, mass_norm(defect, mass) / mass_norm(undamped, mass));
     now = next;
   }
-  return {{worst.value(), 2 * tolerance, 0, "1",
-           "the solve's tolerance, 1e-12 of the velocity before damping; as much again for rounding"},
-          {{"step", "s", steps}, {"defect of the trapezoidal rule over that velocity", "1", errors}},
-          ""};
+  return judged_worst(
+      errors, 2 * tolerance,
+      "the solve's tolerance, 1e-12 of the velocity before damping; as much again for rounding");
 }
 
 /// What a filter was called with and what it left.
@@ -129,21 +125,16 @@ double printed_end_velocity(const std::string& integrator, double h, double c, d
 }
 
 Finding continues_finding(const std::string& integrator) {
-  Worst worst;
-  std::vector<double> as, errors;
+  Table errors{{"h c/2", "1"}, {"error", "epsilon of the terms"}};
   for (double c : {0.7, 11.0, 170.0}) {
     const double h = 0.037, g = -9.3, v = 1.3, d = 0.59, a = h * c / 2;
     const double size = (1 + a) * (v + d) + h * std::abs(g);
     const double error =
         end_velocity(integrator, h, c, g, v, d) - printed_end_velocity(integrator, h, c, g, v, d);
-    as.push_back(a);
-    errors.push_back(std::abs(error) / (epsilon * size));
-    worst.see(errors.back());
+    errors.row(a, std::abs(error) / (epsilon * size));
   }
-  return {{worst.value(), 16, 0, "epsilon of the terms",
-           "some twenty roundings of half an epsilon each; the filter's change is 0.3 of the terms"},
-          {{"h c/2", "1", as}, {"error", "epsilon of the terms", errors}},
-          ""};
+  return judged_worst(
+      errors, 16, "some twenty roundings of half an epsilon each; the filter's change is 0.3 of the terms");
 }
 
 Scene held_scene() {
@@ -153,9 +144,7 @@ Scene held_scene() {
 }
 
 Finding held_finding(const Subject& subject) {
-  Worst worst;
-  std::vector<std::string> names;
-  std::vector<double> counts;
+  Table counts{{"integrator", "1"}, {"numbers that differ", "1"}};
   for (const Integrator& integrator : paper_schemes()) {
     Stepper stepper(subject, held_scene(), std::string(integrator.name));
     State s = stepper.start();
@@ -167,13 +156,11 @@ Finding held_finding(const Subject& subject) {
         here += numbers_that_differ(s.v.col(p.particle), Vector3(Vector3::Zero()));
       }
     }
-    names.emplace_back(integrator.name);
-    counts.push_back(here);
-    worst.see(here);
+    counts.row(integrator.name, here);
   }
-  return {{worst.value(), 0, 0, "numbers that differ",
+  return {{counts.worst("numbers that differ"), 0, 0, "numbers that differ",
            "what is held has the velocity 0 and keeps every bit of its place"},
-          {{"integrator", "1", names}, {"numbers that differ", "1", counts}},
+          counts,
           ""};
 }
 
@@ -215,35 +202,34 @@ Finding led_finding(const Subject& subject, const std::string& integrator) {
 
 Finding counts_finding(const Subject& subject) {
   Worst worst;
-  std::vector<std::string> names;
-  std::vector<double> solves;
+  Table solves{{"integrator", "1"}, {"solves a step", "1"}};
   const int steps = 7;
   for (const Integrator& integrator : paper_schemes()) {
     Stepper stepper(subject, led_sheet(), std::string(integrator.name));
     stepper.run(stepper.start(), 1.3e-3, steps);
-    names.emplace_back(integrator.name);
-    solves.push_back(double(stepper.work().solves) / steps);
-    worst.see(std::abs(solves.back() - (integrator.name == "C" ? 2 : 1)));
+    const double counted = double(stepper.work().solves) / steps;
+    solves.row(integrator.name, counted);
+    worst.see(std::abs(counted - (integrator.name == "C" ? 2 : 1)));
   }
   return {{worst.value(), 0, 0, "solves a step",
            "counts are exact: the paper's lists have one implicit line in A and B, two in C"},
-          {{"integrator", "1", names}, {"solves a step", "1", solves}},
+          solves,
           ""};
 }
 
 Finding once_finding(const Subject& subject) {
   Worst worst;
-  std::vector<std::string> names;
-  std::vector<double> preparations, products, iterations;
+  Table counts{{"integrator", "1"},
+               {"preparations a step", "1"},
+               {"products a step", "1"},
+               {"iterations a step", "1"}};
   const int steps = 7;
   for (const Integrator& integrator : paper_schemes()) {
     Stepper stepper(subject, led_sheet(), std::string(integrator.name));
     stepper.run(stepper.start(), 1.3e-3, steps);
     const Work& work = stepper.work();
-    names.emplace_back(integrator.name);
-    preparations.push_back(double(work.damping_preparations) / steps);
-    products.push_back(double(work.damping_products) / steps);
-    iterations.push_back(double(work.cg_iterations) / steps);
+    counts.row(integrator.name, double(work.damping_preparations) / steps,
+               double(work.damping_products) / steps, double(work.cg_iterations) / steps);
     worst.see(std::abs(double(work.damping_preparations - 2 * steps)));
     worst.see(std::abs(double(work.elastic_evaluations - 2 * steps)));
     // a product for each iteration, one for each solve's first residual, one for the explicit half step
@@ -253,10 +239,7 @@ Finding once_finding(const Subject& subject) {
   return {
       {worst.value(), 0, 0, "evaluations",
        "counts are exact: a step sees two sets of positions, and every product uses what was prepared there"},
-      {{"integrator", "1", names},
-       {"preparations a step", "1", preparations},
-       {"products a step", "1", products},
-       {"iterations a step", "1", iterations}},
+      counts,
       ""};
 }
 

@@ -70,23 +70,16 @@ double distance(const State& a, const State& b, double size, double duration) {
 
 Finding powers_finding(const Subject& subject, const std::string& integrator) {
   const State plain = run_in({1, 1, 1}, subject, integrator, 1.3e-3, 20);
-  Worst worst;
-  std::vector<double> lengths, masses, times, differing;
+  Table differing{{"length", "1"}, {"mass", "1"}, {"time", "1"}, {"numbers that differ", "1"}};
   // even powers of mass and time, so that square roots are scaled by powers of two as well
   for (const Units& u : {Units{8, 64, 1}, Units{1, 0.0625, 16}, Units{0.5, 256, 0.25}}) {
     const State other = run_in(u, subject, integrator, 1.3e-3, 20);
-    lengths.push_back(u.length);
-    masses.push_back(u.mass);
-    times.push_back(u.time);
-    differing.push_back(numbers_that_differ(other.x, plain.x) + numbers_that_differ(other.v, plain.v));
-    worst.see(differing.back());
+    differing.row(u.length, u.mass, u.time,
+                  numbers_that_differ(other.x, plain.x) + numbers_that_differ(other.v, plain.v));
   }
-  return {{worst.value(), 0, 0, "numbers that differ",
+  return {{differing.worst("numbers that differ"), 0, 0, "numbers that differ",
            "a power of two changes no digit of any number on the way"},
-          {{"length", "1", lengths},
-           {"mass", "1", masses},
-           {"time", "1", times},
-           {"numbers that differ", "1", differing}},
+          differing,
           ""};
 }
 
@@ -106,27 +99,26 @@ Finding units_finding(const Subject& subject, const std::string& integrator) {
            "disturbance of the start grows; solves end at 1e-14 of the velocity, 45 epsilon, and in C there "
            "are two a "
            "step: the growth, ten and more, covers them"},
-          {{"growth", "1", std::vector<double>{grown}}},
+          Table{{"growth", "1"}}.with_row(grown),
           smallest_defect(bound, "extent")};
 }
 
 Finding twice_finding(const Subject& subject) {
   double differing = 0;
-  std::vector<std::string> names;
-  std::vector<double> counts;
+  Table counts{{"integrator", "1"}, {"numbers that differ", "1"}};
   std::vector<State> firsts;
   for (const Integrator& integrator : paper_schemes())
     firsts.push_back(run_in({1, 1, 1}, subject, std::string(integrator.name), 1.3e-3, 23));
   for (const Integrator& integrator : paper_schemes()) {
-    const State& first = firsts[names.size()];
+    const State& first = firsts[counts.rows()];
     const State second = run_in({1, 1, 1}, subject, std::string(integrator.name), 1.3e-3, 23);
-    names.emplace_back(integrator.name);
-    counts.push_back(numbers_that_differ(first.x, second.x) + numbers_that_differ(first.v, second.v));
-    differing += counts.back();
+    const double here = numbers_that_differ(first.x, second.x) + numbers_that_differ(first.v, second.v);
+    counts.row(integrator.name, here);
+    differing += here;
     if (!first.x.allFinite()) differing = NAN;
   }
   return {{differing, 0, 0, "numbers that differ", "a run is a function of its input"},
-          {{"integrator", "1", names}, {"numbers that differ", "1", counts}},
+          counts,
           "each second run is made after the first runs of all methods"};
 }
 
@@ -153,7 +145,7 @@ Finding frame_finding(const Subject& subject, const std::string& integrator) {
   return {{distance(moved, expected, size, steps * h), bound, 0, "epsilon of the extent",
            "12 steps of 64 roundings, each grown at most as a disturbance of the start grows; solves end at "
            "1e-14 of the velocity, 45 epsilon"},
-          {{"growth", "1", std::vector<double>{grown}}},
+          Table{{"growth", "1"}}.with_row(grown),
           smallest_defect(bound, "extent")};
 }
 

@@ -140,23 +140,15 @@ Finding work_is_counted(const Subject&) {
       solve_unsymmetric_step(problem.matrix(), {1e-8, 2000, ResidualScale::momentum}, problem.r, dw, whole);
   const Solve cap =
       solve_unsymmetric_step(problem.matrix(), {1e-13, 3, ResidualScale::momentum}, problem.r, dw, capped);
-  const std::vector<std::string> statements = {"two products with the damping an iteration",
-                                               "two products with the derivative an iteration",
-                                               "two counted iterations an iteration",
-                                               "a whole solve is converged",
-                                               "a capped solve is not converged",
-                                               "it took the cap's iterations"};
-  const std::vector<double> holds = {double(whole.damping_products == 2 * finished.iterations),
-                                     double(whole.stiffness_products == 2 * finished.iterations),
-                                     double(whole.cg_iterations == 2 * finished.iterations),
-                                     double(finished.converged && finished.residual <= 1e-8),
-                                     double(!cap.converged && cap.residual > 1e-13),
-                                     double(cap.iterations == 3 && capped.damping_products == 6)};
-  double wrong = 0;
-  for (const double one : holds) wrong += 1 - one;
-  return {{wrong, 0, 0, "false reports", "a report is true or false"},
-          {{"statement", "1", statements}, {"true", "1", holds}},
-          ""};
+  const int twice = 2 * finished.iterations;
+  Table holds = no_statements();
+  holds.row("two products with the damping an iteration", whole.damping_products == twice);
+  holds.row("two products with the derivative an iteration", whole.stiffness_products == twice);
+  holds.row("two counted iterations an iteration", whole.cg_iterations == twice);
+  holds.row("a whole solve is converged", finished.converged && finished.residual <= 1e-8);
+  holds.row("a capped solve is not converged", !cap.converged && cap.residual > 1e-13);
+  holds.row("it took the cap's iterations", cap.iterations == 3 && capped.damping_products == 6);
+  return {{count_false(holds), 0, 0, "false reports", "a report is true or false"}, holds, ""};
 }
 
 }  // namespace

@@ -65,15 +65,13 @@ Pull pull_after(const Subject& subject, const Scene& scene, double seconds) {
 }
 
 Finding capstan_finding(const Subject& subject) {
-  std::vector<double> friction, turn, ratio, expected;
+  Table pulls{{"friction", "1"}, {"turn", "rad"}, {"ratio of tensions", "1"}, {"e^(mu turn)", "1"}};
   Worst worst;
   for (const auto& [mu, wrap] : {std::pair{0.17, 2.9}, std::pair{0.43, 1.3}, std::pair{0.34, 2.2}}) {
     const Pull pull = pull_after(subject, wrapped_strip(wrap, mu), 0.5);
-    friction.push_back(mu);
-    turn.push_back(pull.turn);
-    ratio.push_back(pull.drawn / pull.held);
-    expected.push_back(std::exp(mu * pull.turn));
-    worst.see(std::abs(std::log(ratio.back()) / (mu * pull.turn) - 1));
+    const double ratio = pull.drawn / pull.held;
+    pulls.row(mu, pull.turn, ratio, std::exp(mu * pull.turn));
+    worst.see(std::abs(std::log(ratio) / (mu * pull.turn) - 1));
   }
   return {{worst.value(), 0.02, 0, "of the exponent",
            "the strip turns by 0.08 rad at a row, where (1 + mu tan(d/2))/(1 - mu tan(d/2)) differs from "
@@ -81,10 +79,7 @@ Finding capstan_finding(const Subject& subject) {
            "d^2/12 of the exponent, 0.0005; inertia of the sliding strip, rho v^2 over its tension, is "
            "smaller; two "
            "percent are left for vibrations that damping has not yet taken"},
-          {{"friction", "1", friction},
-           {"turn", "rad", turn},
-           {"ratio of tensions", "1", ratio},
-           {"e^(mu turn)", "1", expected}},
+          pulls,
           ""};
 }
 

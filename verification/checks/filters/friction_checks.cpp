@@ -65,7 +65,7 @@ constexpr int steps = 240;
 
 /// tan(angle) a little below and a little above mu: at rest, and sliding by (sin - mu cos) g t^2/2.
 Finding slope_finding(const Subject& subject, const std::string& integrator, const Vector3& velocity) {
-  std::vector<double> friction, angle, ways, expected;
+  Table ways{{"friction", "1"}, {"slope", "degrees"}, {"slid", "m"}, {"expected", "m"}};
   Worst worst;
   for (const double mu : {0.23, 0.71})
     for (const double over : {0.5, 0.999, 1.001, 1.4, 3.0}) {
@@ -73,21 +73,16 @@ Finding slope_finding(const Subject& subject, const std::string& integrator, con
       const Slid slid = slid_on(subject, slope(al, mu, velocity), velocity, integrator, steps);
       const double time = h * steps;
       const double acceleration = std::max(0.0, g * (std::sin(al) - mu * std::cos(al)));
-      friction.push_back(mu);
-      angle.push_back(al * 180 / pi);
-      ways.push_back(slid.way);
-      expected.push_back(acceleration * time * time / 2);
-      worst.see(std::abs(ways.back() - expected.back()));
+      const double expected = acceleration * time * time / 2;
+      ways.row(mu, al * 180 / pi, slid.way, expected);
+      worst.see(std::abs(slid.way - expected));
       worst.see(slid.off);
     }
   return {{worst.value(), 4000 * epsilon * (1 + velocity.norm()), 0, "m",
            "240 steps of a motion that the schemes integrate exactly, of lengths up to 5 m: a few roundings "
            "a step, "
            "and those of the velocity add up over the steps that follow"},
-          {{"friction", "1", friction},
-           {"slope", "degrees", angle},
-           {"slid", "m", ways},
-           {"expected", "m", expected}},
+          ways,
           ""};
 }
 
@@ -109,23 +104,19 @@ Finding belt_finding(const Subject& subject, const std::string& integrator) {
   State s = stepper.start();
   const double x0 = s.x(0, 0), sliding = speed / (mu * g);  // m, s
   Worst worst;
-  std::vector<double> times, places, expected;
+  Table places{{"time", "s"}, {"way", "m"}, {"exact", "m"}};
   for (int n = 1; n <= 120; ++n) {
     s = stepper.step(s, h);
     const double t = s.time;
     const double exact = t < sliding ? mu * g * t * t / 2 : speed * (t - sliding / 2);
     worst.see(std::abs(s.x(0, 0) - x0 - exact));
-    if (n % 10 == 0) {
-      times.push_back(t);
-      places.push_back(s.x(0, 0) - x0);
-      expected.push_back(exact);
-    }
+    if (n % 10 == 0) places.row(t, s.x(0, 0) - x0, exact);
   }
   return {{worst.value(), mu * g * h * h, 0, "m",
            "exact while it slides; in the step in which it comes to be carried, friction may act a step too "
            "long or "
            "too short, which is worth mu g h^2 at most"},
-          {{"time", "s", times}, {"way", "m", places}, {"exact", "m", expected}},
+          places,
           ""};
 }
 
@@ -143,21 +134,16 @@ Finding turntable_finding(const Subject& subject, const std::string& integrator)
   Stepper stepper(subject, scene, integrator);
   const State start = stepper.start();
   const State end = stepper.run(start, coarse, 1200);
-  Worst drift;
-  std::vector<double> radii, drifts;
+  Table drifts{{"radius", "m"}, {"off its place", "m"}};
   for (Eigen::Index i = 0; i < start.x.cols(); ++i) {
     const Vector3 turned = rotated(start.x.col(i), motion.angular_velocity * end.time);
-    radii.push_back(Vector3(start.x.col(i)).norm());
-    drifts.push_back((end.x.col(i) - turned).norm());
-    drift.see(drifts.back());
+    drifts.row(Vector3(start.x.col(i)).norm(), (end.x.col(i) - turned).norm());
   }
-  return {
-      {drift.value(), 20000 * epsilon, 0, "m",
-       "1200 steps of 0.05 rad, each rounding positions of 0.7 m a few times; moving along the tangent would "
-       "carry "
-       "a particle outwards by a factor of sqrt(1 + (omega h)^2) a step, in these 20 s from 0.5 m to 2.5 m"},
-      {{"radius", "m", radii}, {"off its place", "m", drifts}},
-      ""};
+  return judged_worst(
+      drifts, 20000 * epsilon,
+      "1200 steps of 0.05 rad, each rounding positions of 0.7 m a few times; moving along the tangent would "
+      "carry a particle outwards by a factor of sqrt(1 + (omega h)^2) a step, in these 20 s from 0.5 m to "
+      "2.5 m");
 }
 
 }  // namespace

@@ -159,14 +159,12 @@ Finding limit_finding(const Subject& subject) {
     measured.row("ring" + words, deepest_shot(subject, {ring}, part * 0.1) / 0.1);
     measured.row("board" + words, deepest_shot(subject, {board}, part * 0.03) / 0.03);
   }
-  Finding finding = judged_worst(
+  return judged_worst(
       measured, 0.9,
       "a point that was outside has moved by 0.9 of half the thickness at most, and one that was inside is "
       "on "
-      "its way out; at 1, where the object is deepest, it would be pushed out on the other side");
-  finding.note =
-      "the limit: a point must not move, seen from the object, by more than half its thickness in a step";
-  return finding;
+      "its way out; at 1, where the object is deepest, it would be pushed out on the other side",
+      "the limit: a point must not move, seen from the object, by more than half its thickness in a step");
 }
 
 }  // namespace

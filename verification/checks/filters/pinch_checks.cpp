@@ -61,11 +61,11 @@ Finding pinch_friction_finding(const Subject& subject) {
   }
   measured.row("two balls",
                stuck > 20 && slid > 20 ? worst.value() : std::numeric_limits<double>::quiet_NaN());
-  Finding finding = judged_worst(measured, 200,
-                                 "roundings of positions near 1 m over the step, magnified by at most "
-                                 "1/|N_a - N_b| where the normals of the two balls differ little");
-  finding.note = std::to_string(int(stuck)) + " particles stick, " + std::to_string(int(slid)) + " slide";
-  return finding;
+  return judged_worst(
+      measured, 200,
+      "roundings of positions near 1 m over the step, magnified by at most "
+      "1/|N_a - N_b| where the normals of the two balls differ little",
+      std::to_string(int(stuck)) + " particles stick, " + std::to_string(int(slid)) + " slide");
 }
 
 /// A floor and a wall that meet in a corner, particles near it outside both.
@@ -100,7 +100,7 @@ Finding each_object_finding(const Subject& subject) {
            "the second push leads out of the first object too, since the normals enclose less than a right "
            "angle: "
            "what remains is rounding of positions within 1 m and steps of 0.2 m"},
-          {{"particles that would enter both", "1", std::vector<double>{corrected_twice}}},
+          Table{{"particles that would enter both", "1"}}.with_row(corrected_twice),
           ""};
 }
 
@@ -179,9 +179,10 @@ Finding centres_finding(const Subject& subject) {
   State state{0, scene.x, PerParticle3::Zero(3, scene.x.cols())};
   const double h = 0.01;
   state.v.row(2).setConstant(-1);
-  std::vector<std::string> kinds = {"particles", "edges", "faces"};
-  std::vector<double> depth;
-  for (const PointKind kind : {PointKind::particles, PointKind::edges, PointKind::faces}) {
+  Table depths{{"points", ""}, {"depth of a centre", "m"}};
+  for (const auto& [name, kind] : {std::pair{"particles", PointKind::particles},
+                                   {"edges", PointKind::edges},
+                                   {"faces", PointKind::faces}}) {
     scene.collision.points = kind;
     const PerParticle3 x = state.x + h * avoided(subject, scene, {0, h, h}, state);
     Worst deepest;
@@ -189,12 +190,13 @@ Finding centres_finding(const Subject& subject) {
       const Vector3 centre = (x.col(t[0]) + x.col(t[1]) + x.col(t[2])) / 3;
       deepest.see(0.02 - (centre - Vector3(1. / 6, 1. / 12, -0.015)).norm());
     }
-    depth.push_back(deepest.value());
+    depths.row(name, deepest.value());
   }
+  const std::vector<double>& depth = depths.numbers("depth of a centre");
   const double too_easy = std::numeric_limits<double>::quiet_NaN();
   return {{depth[0] > 1e-3 ? depth[2] : too_easy, 20 * epsilon, 0, "m",
            "the centre comes down on the spike's top and is held there, but for roundings"},
-          {{"points", "", kinds}, {"depth of a centre", "m", depth}},
+          depths,
           "not a number if the particles alone keep the centre out"};
 }
 

@@ -124,7 +124,7 @@ Finding untouched_finding(const Subject& subject) {
   const double few = std::numeric_limits<double>::quiet_NaN();
   return {{untreated > 100 ? differ : few, 0, 0, "numbers",
            "a point that is forecast to be outside must keep its velocity, bit for bit"},
-          {{"untreated particles", "1", std::vector<double>{untreated}}},
+          Table{{"untreated particles", "1"}}.with_row(untreated),
           ""};
 }
 
@@ -204,8 +204,7 @@ Finding neighbours_finding(const Subject& subject) {
   const DistanceFunction ball = [](const Vector3& p) { return Sphere{radius}.at(p); };
   const auto tree = std::make_shared<const Octree>(make_octree(
       {ball}, {Vector3::Constant(-0.5), 1, 6, 3, 1e-3, 0.05, 0.25, 0, HangingNodes::constrained}));
-  std::vector<std::string> bodies;
-  std::vector<double> changed, differ;
+  Table answers{{"body", "1"}, {"particles answered", "1"}, {"numbers that differ", "1"}};
   double worst = 0;
   Motion turning, flying;
   turning.angular_velocity = {0, 1, 3};
@@ -221,14 +220,14 @@ Finding neighbours_finding(const Subject& subject) {
     const Crossing crossed = crossing(parts);
     const Span span{0, step, step};
     const PerParticle3 together = avoided(subject, crossed.scene, span, crossed.state);
-    bodies.push_back(parts.front().object.name);
-    changed.push_back(double((together - crossed.state.v).colwise().any().count()));
-    differ.push_back(numbers_that_differ(together, avoided_alone(subject, crossed, span)));
-    worst = changed.back() > 0 ? worst + differ.back() : std::numeric_limits<double>::quiet_NaN();
+    const auto changed = (together - crossed.state.v).colwise().any().count();
+    const double differ = numbers_that_differ(together, avoided_alone(subject, crossed, span));
+    answers.row(parts.front().object.name, changed, differ);
+    worst = changed > 0 ? worst + differ : std::numeric_limits<double>::quiet_NaN();
   }
   return {{worst, 0, 0, "numbers",
            "what is known of a neighbour may spare a question, but only where the answer cannot matter"},
-          {{"body", "1", bodies}, {"particles answered", "1", changed}, {"numbers that differ", "1", differ}},
+          answers,
           "625 particles in rows through the middle of each body, together and one at a time"};
 }
 

@@ -78,24 +78,20 @@ std::vector<FoldedHinge> folded_hinges(const Subject& subject) {
 
 Finding acts_in_plane(const Subject& subject, const BendingAlternative& model) {
   Worst ratio;
-  std::vector<std::string> names;
-  std::vector<double> force, torque, in_plane, paper;
+  Table found{{"hinge", ""},
+              {"in plane", "1"},
+              {"in plane, the paper's element", "1"},
+              {"net force", "1"},
+              {"net torque", "1"}};
   for (const FoldedHinge& hinge : folded_hinges(subject)) {
     const Defects defects = defects_of(hinge.x, model.force(hinge.x, hinge.rest));
-    names.push_back(hinge.name);
-    force.push_back(defects.force);
-    torque.push_back(defects.torque);
-    in_plane.push_back(defects.in_plane);
-    paper.push_back(hinge.of_the_paper.in_plane);
-    ratio.see(paper.back() / defects.in_plane);
+    const double paper = hinge.of_the_paper.in_plane;
+    found.row(hinge.name, defects.in_plane, paper, defects.force, defects.torque);
+    ratio.see(paper / defects.in_plane);
   }
-  return {{names.empty() ? NAN : ratio.value(), 1e-6, 0, "1",
+  return {{found.rows() == 0 ? NAN : ratio.value(), 1e-6, 0, "1",
            "a millionth: what a model puts in plane is then no rounding, on any of the hinges"},
-          {{"hinge", "", names},
-           {"in plane", "1", in_plane},
-           {"in plane, the paper's element", "1", paper},
-           {"net force", "1", force},
-           {"net torque", "1", torque}},
+          found,
           "in plane: the largest work on an in-plane motion over the product of lengths, 1 if the force were "
           "that motion; measured is the paper's over the model's, at worst"};
 }
@@ -103,23 +99,21 @@ Finding acts_in_plane(const Subject& subject, const BendingAlternative& model) {
 /// The paper's element under the same measures, and the shortcut that spoils nothing.
 Finding paper_keeps_all(const Subject& subject) {
   Table measured = roundings_of("the forces, thinness");
-  std::vector<double> shortcuts;
+  measured.add({"in plane, normals alone taken as constant", "epsilon thinness"});
   for (const FoldedHinge& hinge : folded_hinges(subject)) {
     Worst worst;
     for (double defect : {hinge.of_the_paper.force, hinge.of_the_paper.torque, hinge.of_the_paper.in_plane})
       worst.see(defect / (epsilon * thinness(hinge.x)));
-    measured.row(hinge.name, worst.value());
-    shortcuts.push_back(defects_of(hinge.x, shortcut_gradient(hinge.x, EdgeLength::differentiated)).in_plane /
-                        (epsilon * thinness(hinge.x)));
+    const auto shortcut = shortcut_gradient(hinge.x, EdgeLength::differentiated);
+    measured.row(hinge.name, worst.value(),
+                 defects_of(hinge.x, shortcut).in_plane / (epsilon * thinness(hinge.x)));
   }
-  Finding finding = judged_worst(measured, 32,
-                                 "sums of four forces and products with twelve numbers take fewer than 32 "
-                                 "roundings, magnified by thinness");
-  finding.evidence.add({"in plane, normals alone taken as constant", "epsilon thinness", shortcuts});
-  finding.note =
+  return judged_worst(
+      measured, "measured", 32,
+      "sums of four forces and products with twelve numbers take fewer than 32 roundings, magnified by "
+      "thinness",
       "With the normals' lengths alone taken as constant nothing is lost: in d(theta) = cos d(sin) - sin "
-      "d(cos) their changes cancel. It is the edge's length that must not be.";
-  return finding;
+      "d(cos) their changes cancel. It is the edge's length that must not be.");
 }
 
 }  // namespace

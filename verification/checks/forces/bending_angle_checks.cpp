@@ -97,17 +97,14 @@ Finding sine_rises(const Subject&) {
   measured.row("whole range left out", std::abs(sine_of(swept(3.14159)) - sine_of(swept(-3.14159)) - 2) < 1e-9
                                            ? 0
                                            : std::numeric_limits<double>::infinity());
-  Finding finding =
-      judged_worst(measured, 16, "two neighbouring values carry fewer than 16 roundings of 1 between them");
-  finding.note =
+  return judged_worst(
+      measured, 16, "two neighbouring values carry fewer than 16 roundings of 1 between them",
       "Measured is by how much, at worst, a value of sin(theta/2) lies below the one before it or rises by "
-      "more than half the step of theta, which is its steepest slope; exact values would give 0.";
-  return finding;
+      "more than half the step of theta, which is its steepest slope; exact values would give 0.");
 }
 
 Finding sharp_folds_stay_finite(const Subject& subject) {
-  std::vector<std::string> names;
-  std::vector<double> ratios, excesses;
+  Table ratios{{"case", ""}, {"|F| over its limit", "1"}};
   BendingMaterial material = damped_bending_variants()[0];
   std::vector<std::pair<std::string, Corners>> cases = {{"pi exactly", planar_hinge(0.17)}};
   for (const double degrees : {179.0, -179.0, 179.99, -179.99, 179.9999, -179.9999}) {
@@ -124,15 +121,14 @@ Finding sharp_folds_stay_finite(const Subject& subject) {
     const double edge = (x[3] - x[2]).norm();
     const double areas = (x[0] - x[2]).cross(x[0] - x[3]).norm() + (x[1] - x[2]).cross(x[1] - x[3]).norm();
     const double limit = material.stiffness * edge * edge / areas * (1 + std::sin(0.83 / 2)) * u.norm();
-    names.push_back(name);
-    ratios.push_back(damping.allFinite() ? f.norm() / limit : std::nan(""));
-    excesses.push_back((ratios.back() - 1) / epsilon);
+    ratios.row(name, damping.allFinite() ? f.norm() / limit : std::nan(""));
   }
+  const double excess = signed_largest(ratios.numbers("|F| over its limit")) - 1;
   return {
-      {signed_largest(excesses), 256, 0, "epsilon of the limit",
+      {excess / epsilon, 256, 0, "epsilon of the limit",
        "|sin(theta/2)| is at most 1, however sharp the fold, so |F| is at most the limit ke c (1 + "
        "sin(theta0/2)) |u|, but for the roundings of the dozen products in each"},
-      {{"case", "", names}, {"|F| over its limit", "1", ratios}},
+      ratios,
       "Measured is the largest |F| less its limit: negative where it stays below. A force or a damping force "
       "that is not finite gives NaN."};
 }

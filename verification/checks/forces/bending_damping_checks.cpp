@@ -79,13 +79,13 @@ Finding damping_is_as_defined(const Subject& subject) {
 }
 
 Finding damping_dissipates(const Subject& subject) {
-  std::vector<std::string> names;
-  std::vector<PowerOfDamping> powers;
+  Table powers = no_powers();
   for (const Damped& damped : with_damping(sheets_and_hinges())) {
-    names.push_back(damped.name);
-    powers.push_back(power_of_damping(Probe(subject, damped.specimen.scene), damped.specimen.state));
+    const auto [power, share] =
+        power_of_damping(Probe(subject, damped.specimen.scene), damped.specimen.state);
+    powers.row(damped.name, share, power);
   }
-  return dissipation(names, powers);
+  return dissipation(powers);
 }
 
 /// The worst particle's force over epsilon times its scale.
@@ -135,11 +135,10 @@ Finding leaves_in_plane_motion_alone(const Subject& subject) {
     }
     measured.row(names[motion], worst.value());
   }
-  Finding finding = judged_worst(
+  return judged_worst(
       measured, 32,
-      "u.v of an in-plane motion is a sum of fewer than 32 terms' roundings, magnified by the thinness");
-  finding.note = "The six rigid motions, which complete the eleven, have a check of their own.";
-  return finding;
+      "u.v of an in-plane motion is a sum of fewer than 32 terms' roundings, magnified by the thinness",
+      "The six rigid motions, which complete the eleven, have a check of their own.");
 }
 
 std::vector<DampedScene> dense_cases() {
@@ -164,12 +163,11 @@ Finding keeps_momentum(const Subject& subject) {
     measured.row(damped.name + ", force", net_force(f));
     measured.row(damped.name + ", torque", net_torque(specimen.state.x, f));
   }
-  Finding finding = judged_worst(
+  return judged_worst(
       measured, 32,
       "each hinge's forces cancel to a few roundings and about 20 hinge forces are added to a particle, a "
-      "rounding each");
-  finding.note = "the sum of sizes is sum |F_i| for the net force, sum |x_i||F_i| for the net torque";
-  return finding;
+      "rounding each",
+      "the sum of sizes is sum |F_i| for the net force, sum |x_i||F_i| for the net torque");
 }
 
 }  // namespace

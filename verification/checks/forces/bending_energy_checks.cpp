@@ -108,21 +108,20 @@ Finding no_work_round_a_loop(const Subject& subject) {
 }
 
 Finding work_round_a_loop(const Subject& subject) {
-  Table measured{{"case", ""}, {"uncertainty of the work over the work", "of the work"}};
-  std::vector<double> works;
+  Table measured{{"case", ""},
+                 {"uncertainty of the work over the work", "of the work"},
+                 {"work over integral |F||dx|", "1"}};
   for (const Loop& loop : loops(subject, Weighting::current)) {
     const double rounding = 64 * epsilon * loop.trip.scale;
-    measured.row(loop.name, (loop.trip.uncertainty + rounding) / std::abs(loop.trip.work));
-    works.push_back(loop.trip.work / loop.trip.scale);
+    measured.row(loop.name, (loop.trip.uncertainty + rounding) / std::abs(loop.trip.work),
+                 loop.trip.work / loop.trip.scale);
   }
-  Finding finding = judged_worst(measured, 0.01,
-                                 "a work of 100 times its uncertainty is not zero; the uncertainty is the "
-                                 "quadrature's error and 64 roundings");
-  finding.evidence.add({"work over integral |F||dx|", "1", works});
-  finding.note =
+  return judged_worst(
+      measured, "uncertainty of the work over the work", 0.01,
+      "a work of 100 times its uncertainty is not zero; the uncertainty is the quadrature's error and 64 "
+      "roundings",
       "The paper does not say where |E|^2/(|N1| + |N2|) is taken. Only at rest is the force the gradient of "
-      "an energy.";
-  return finding;
+      "an energy.");
 }
 
 }  // namespace

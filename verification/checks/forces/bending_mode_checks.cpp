@@ -78,52 +78,45 @@ Finding mode_is_orthogonal(const Subject&) {
 
 Finding mode_is_the_only_one(const Subject&) {
   Table measured = roundings_of("thinness over the eleventh singular value");
-  std::vector<double> gaps;
+  measured.add({"smallest over largest singular value", "1"});
   for (const Corners& x : shapes()) {
     const oracles::SingularParts parts = oracles::singular_parts(eleven_modes(x).modes.transpose());
     const double smallest = parts.values[10] / parts.values[0];
     const Mode u = reference_mode(x).normalized(), alone = parts.V.col(11);
     const double sine = (u - u.dot(alone) * alone).norm();
     const bool several = !(smallest > 1e-4);  // the eleven would not be independent
-    gaps.push_back(smallest);
-    measured.row("hinge " + std::to_string(gaps.size()),
-                 several ? std::nan("") : sine * smallest / (epsilon * thinness(x)));
+    measured.row("hinge " + std::to_string(measured.rows() + 1),
+                 several ? std::nan("") : sine * smallest / (epsilon * thinness(x)), smallest);
   }
-  Finding finding = judged_worst(measured, 64,
-                                 "the null vector of the eleven moves by their roundings, fewer than 64, "
-                                 "over their smallest singular value");
-  finding.evidence.add({"smallest over largest singular value", "1", gaps});
-  finding.note =
+  return judged_worst(
+      measured, "measured", 64,
+      "the null vector of the eleven moves by their roundings, fewer than 64, over their smallest singular "
+      "value",
       "A smallest singular value of 1e-4 or less would mean that the eleven are not independent: it counts "
-      "as NaN.";
-  return finding;
+      "as NaN.");
 }
 
 Finding mode_is_minus_gradient(const Subject&) {
   Table measured = roundings_of("|u| thinness");
-  std::vector<double> by_differences, rates, products;
+  measured.add({"the same against 50-digit differences", "epsilon |u| thinness"});
+  measured.add({"d(theta)/dt of a random motion", "rad/s"});
+  measured.add({"u.v of the same motion", "rad/s"});
   Random random(907);
   for (const Corners& x : shapes()) {
     const Mode u = reference_mode(x);
     const double unit = epsilon * u.norm() * thinness(x);
     const auto gradient = oracles::theta_gradient_autodiff(x);
     const auto differences = oracles::theta_gradient_differences(x);
-    measured.row("hinge " + std::to_string(rates.size() + 1),
-                 oracles::Estimate{(u + stacked(gradient.value)).norm() / unit, 4 * gradient.uncertainty / unit});
-    by_differences.push_back((u + stacked(differences.value)).norm() / unit);
+    const oracles::Estimate off{(u + stacked(gradient.value)).norm() / unit, 4 * gradient.uncertainty / unit};
     const PerParticle3 v = random.vectors(4, 0.8);
-    rates.push_back(oracles::theta_rate_autodiff(x, {v.col(0), v.col(1), v.col(2), v.col(3)}).value);
-    products.push_back(u.dot(v.reshaped()));
+    const auto rate = oracles::theta_rate_autodiff(x, {v.col(0), v.col(1), v.col(2), v.col(3)});
+    measured.row("hinge " + std::to_string(measured.rows() + 1), off,
+                 (u + stacked(differences.value)).norm() / unit, rate.value, u.dot(v.reshaped()));
   }
-  Finding finding =
-      judged_worst(measured, 32, "u takes fewer than 32 roundings, magnified by the triangles' thinness");
-  finding.evidence.add({"the same against 50-digit differences", "epsilon |u| thinness", by_differences});
-  finding.evidence.add({"d(theta)/dt of a random motion", "rad/s", rates});
-  finding.evidence.add({"u.v of the same motion", "rad/s", products});
-  finding.note =
+  return judged_worst(
+      measured, "measured", 32, "u takes fewer than 32 roundings, magnified by the triangles' thinness",
       "The printed line d(theta)/dt = u.v has the wrong sign: d(theta)/dt = -u.v, as the last two columns "
-      "show. The printed forces are right.";
-  return finding;
+      "show. The printed forces are right.");
 }
 
 /// Where along the edge the foot of p lies: 1 at x3, 0 at x4.
@@ -141,7 +134,7 @@ double height(const Corners& x, const Vector3& p) {
 
 Finding weights_are_barycentric(const Subject& subject) {
   Table measured = roundings_of("|f| thinness");
-  std::vector<double> heights;
+  measured.add({"height of x1 over height of x2", "1"});
   for (Specimen& hinge : hinges_of_all_angles()) {
     hinge.scene.bending = bending_variants()[0];
     const PerParticle3 f = Probe(subject, hinge.scene).elastic(hinge.state);
@@ -154,13 +147,10 @@ Finding weights_are_barycentric(const Subject& subject) {
     worst.see((f.col(2) - f3).norm() / unit);
     worst.see((f.col(3) - f4).norm() / unit);
     worst.see(std::abs(moment1 - moment2) / (epsilon * thinness(x) * moment1));
-    measured.row(hinge.name, worst.value());
-    heights.push_back(height(x, x[0]) / height(x, x[1]));
+    measured.row(hinge.name, worst.value(), height(x, x[0]) / height(x, x[1]));
   }
-  Finding finding = judged_worst(
-      measured, 32, "weights, heights and forces take fewer than 32 roundings, magnified by the thinness");
-  finding.evidence.add({"height of x1 over height of x2", "1", heights});
-  return finding;
+  return judged_worst(measured, "measured", 32,
+                      "weights, heights and forces take fewer than 32 roundings, magnified by the thinness");
 }
 
 }  // namespace

@@ -82,7 +82,8 @@ double largest_eigenvalue(const Matrix12& J) {
 
 Finding nonlinear_damping_stays_symmetric(const Subject& subject) {
   Table measured = roundings_of("largest |F| over the differences' width, thinness");
-  std::vector<double> nonlinear, one_by_one;
+  measured.add({"cubic part over the linear one", "1"});
+  measured.add({"corner by corner", "1"});
   for (Specimen& hinge : hinges_of_all_angles()) {
     hinge.scene.bending = damped_bending_variants()[0];
     const Probe probe(subject, hinge.scene);
@@ -94,22 +95,17 @@ Finding nonlinear_damping_stays_symmetric(const Subject& subject) {
     Worst worst;
     worst.see(relative_asymmetry(together.matrix) * together.matrix.cwiseAbs().maxCoeff() / unit);
     worst.see(largest_eigenvalue(together.matrix) / (12 * unit));  // negative where there is nothing to see
-    measured.row(hinge.name, worst.value());
-    nonlinear.push_back(std::pow(gradient.dot(v) / rate_scale, 2));
-    one_by_one.push_back(
+    measured.row(
+        hinge.name, worst.value(), std::pow(gradient.dot(v) / rate_scale, 2),
         relative_asymmetry(jacobian_of(stiffened_one_by_one(probe, hinge.state, gradient), v).matrix));
   }
-  Finding finding = judged_worst(measured, 64,
-                                 "an entry is a difference of forces of about forty roundings each, "
-                                 "magnified by the triangles' thinness");
-  finding.evidence.add({"cubic part over the linear one", "1", nonlinear});
-  finding.evidence.add({"corner by corner", "1", one_by_one});
-  finding.note =
+  return judged_worst(
+      measured, "measured", 64,
+      "an entry is a difference of forces of about forty roundings each, magnified by the triangles' thinness",
       "The law is the subject's damping times 1 + (rate/" + std::to_string(int(rate_scale)) +
       " rad/s)^2, the rate by exact differentiation: symmetric only if the forces point along its gradient. "
       "Corner by corner: asymmetry over the largest entry when each corner is stiffened by its own share of "
-      "the rate. Positive eigenvalues, where there are any, count as asymmetry does.";
-  return finding;
+      "the rate. Positive eigenvalues, where there are any, count as asymmetry does.");
 }
 
 /// A flat sheet whose rest angles are those of pleats: unfolded, free, damped, without gravity.
@@ -146,17 +142,14 @@ double left_after(const Subject& subject, const Scene& scene, const std::vector<
 
 Finding unfolded_pleats_return(const Subject& subject) {
   const Scene scene = unfolded_pleats(1);
-  std::vector<double> times = {0.1, 0.3, 1.0}, left, without;
-  for (double time : times) {
-    left.push_back(left_after(subject, scene, scene.rest_angles, time));
-    without.push_back(left_after(subject, unfolded_pleats(0), scene.rest_angles, time));
-  }
-  return {{left.back(), 0.01, 0, "1",
+  Table left{{"time", "s"}, {"left of the unfolding", "1"}, {"left with rest angles of zero", "1"}};
+  for (const double time : {0.1, 0.3, 1.0})
+    left.row(time, left_after(subject, scene, scene.rest_angles, time),
+             left_after(subject, unfolded_pleats(0), scene.rest_angles, time));
+  return {{left.numbers("left of the unfolding").back(), 0.01, 0, "1",
            "what is left decays exponentially and would vanish; a hundredth tells a shape that returns from "
            "one that stays (all is left) or goes elsewhere"},
-          {{"time", "s", times},
-           {"left of the unfolding", "1", left},
-           {"left with rest angles of zero", "1", without}},
+          left,
           "The sheet starts flat and free; its rest angles are those of pleats. Measured over all hinges, as "
           "the root of the sum of squares of theta - theta0, over that at the start."};
 }

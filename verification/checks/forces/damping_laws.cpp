@@ -12,16 +12,13 @@ PowerOfDamping power_of_damping(const Probe& probe, const State& s) {
   return {power, power / f.colwise().norm().cwiseProduct(s.v.colwise().norm()).sum()};
 }
 
-Finding dissipation(const std::vector<std::string>& names, const std::vector<PowerOfDamping>& powers) {
-  std::vector<double> watts, shares;
-  for (const PowerOfDamping& power : powers) {
-    watts.push_back(power.power);
-    shares.push_back(power.share);
-  }
-  return {{signed_largest(shares), 0, 0, "sum |v_i||F_i|",
+Table no_powers() { return {{"case", ""}, {"power", "sum |v_i||F_i|"}, {"power in watts", "W"}}; }
+
+Finding dissipation(const Table& powers) {
+  return {{signed_largest(powers.numbers("power")), 0, 0, "sum |v_i||F_i|",
            "each element takes a square out of the motion, at random velocities far more than roundings: the "
            "power is negative, and the largest is that nearest to 0"},
-          {{"case", "", names}, {"power", "sum |v_i||F_i|", shares}, {"power in watts", "W", watts}},
+          powers,
           "measured is the largest power of the damping forces with its sign"};
 }
 
@@ -38,21 +35,19 @@ Finding asymmetry(const Subject& subject, const std::vector<DampedScene>& cases)
 
 Finding largest_eigenvalue(const Subject& subject, const std::vector<DampedScene>& cases) {
   Table measured = roundings_of("3N times the largest |eigenvalue|");
-  std::vector<double> lowest, highest;
+  measured.add({"lowest eigenvalue", "N s/m"});
+  measured.add({"highest eigenvalue", "N s/m"});
   for (const DampedScene& damped : cases) {
     const Eigen::MatrixXd D = damping_matrix(Probe(subject, damped.scene), damped.state);
     const Eigen::MatrixXd symmetric_part = 0.5 * (D + D.transpose());
     const Eigen::VectorXd values = oracles::symmetric_eigenvalues(symmetric_part);
-    lowest.push_back(values.minCoeff());
-    highest.push_back(values.maxCoeff());
     const double size = values.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    measured.row(damped.name, highest.back() / (epsilon * double(D.rows()) * size));
+    measured.row(damped.name, values.maxCoeff() / (epsilon * double(D.rows()) * size), values.minCoeff(),
+                 values.maxCoeff());
   }
-  Finding finding = judged_worst(
-      measured, 4, "the eigenvalue solver's backward error is about epsilon 3N times the largest eigenvalue");
-  finding.evidence.add({"lowest eigenvalue", "N s/m", lowest});
-  finding.evidence.add({"highest eigenvalue", "N s/m", highest});
-  return finding;
+  return judged_worst(
+      measured, "measured", 4,
+      "the eigenvalue solver's backward error is about epsilon 3N times the largest eigenvalue");
 }
 
 }  // namespace foldproof

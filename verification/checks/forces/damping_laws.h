@@ -23,8 +23,11 @@ struct PowerOfDamping {
 /// At the state's own velocities.
 PowerOfDamping power_of_damping(const Probe& probe, const State& s);
 
-/// The largest of the powers, with its sign: negative when every motion loses energy.
-Finding dissipation(const std::vector<std::string>& names, const std::vector<PowerOfDamping>& powers);
+/// Columns for powers of damping, case by case: name, share and power.
+Table no_powers();
+
+/// The largest of the powers' shares, with its sign: negative when every motion loses energy.
+Finding dissipation(const Table& powers);
 
 /// Largest entry of D - D^T, over epsilon times the largest entry of D.
 Finding asymmetry(const Subject& subject, const std::vector<DampedScene>& cases);

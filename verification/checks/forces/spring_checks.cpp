@@ -173,20 +173,18 @@ Finding rest_length_scale_is_kept(const Subject& subject) {
         name + ", energy at the unscaled rest shape",
         std::abs(probe.energy(still_at(sheet.scene.mesh.rest)) - energy) / (epsilon * 530.0 * areas.sum()));
   }
-  Finding finding = judged_worst(
-      measured, 32, "two ways to a length differ by a few roundings; springs are added one by one");
-  finding.note = "the size of a force is the largest Y A_e/L0, that of an energy sum Y A_e";
-  return finding;
+  return judged_worst(measured, 32,
+                      "two ways to a length differ by a few roundings; springs are added one by one",
+                      "the size of a force is the largest Y A_e/L0, that of an energy sum Y A_e");
 }
 
 Finding damping_dissipates(const Subject& subject) {
-  std::vector<std::string> names;
-  std::vector<PowerOfDamping> powers;
+  Table powers = no_powers();
   for (const Specimen& sheet : sprung_sheets()) {
-    names.push_back(sheet.name);
-    powers.push_back(power_of_damping(Probe(subject, sheet.scene), sheet.state));
+    const auto [power, share] = power_of_damping(Probe(subject, sheet.scene), sheet.state);
+    powers.row(sheet.name, share, power);
   }
-  return dissipation(names, powers);
+  return dissipation(powers);
 }
 
 Finding damping_leaves_rigid_motion_alone(const Subject& subject) {

@@ -75,8 +75,8 @@ Finding equilateral_moduli(const Subject& subject) {
   const Probe probe(subject, scene);
   const oracles::SheetModuli expected = oracles::equilateral_sheet_moduli(young);
 
-  Table measured{{"case", ""}, {"worse relative error of the two", "1"}};
-  std::vector<double> youngs, poissons;
+  const std::string judged = "worse relative error of the two";
+  Table measured{{"case", ""}, {judged, "1"}, {"Young's modulus", "N/m"}, {"Poisson ratio", "1"}};
   for (const double degrees : {0.0, 17.0, 30.0, 52.0, 90.0}) {
     const double direction = degrees * pi / 180;
     // energy per area: (C11 a^2 + 2 C12 a b + C22 b^2)/2 for strains a along and b across
@@ -84,22 +84,18 @@ Finding equilateral_moduli(const Subject& subject) {
     const oracles::Estimate across = stiffness(probe, scene.mesh, {0, 1}, direction);
     const oracles::Estimate both = stiffness(probe, scene.mesh, {1, 1}, direction);
     const double C11 = 2 * along.value, C22 = 2 * across.value, C12 = both.value - along.value - across.value;
-    youngs.push_back(C11 - C12 * C12 / C22);
-    poissons.push_back(C12 / C22);
+    const double found_young = C11 - C12 * C12 / C22, found_poisson = C12 / C22;
     Worst error;
-    error.see(std::abs(youngs.back() / expected.young.value - 1));
-    error.see(std::abs(poissons.back() / expected.poisson.value - 1));
+    error.see(std::abs(found_young / expected.young.value - 1));
+    error.see(std::abs(found_poisson / expected.poisson.value - 1));
     const double uncertainty = (along.uncertainty + across.uncertainty + both.uncertainty) * 4 / young;
-    measured.row(std::to_string(int(degrees)) + " degrees", oracles::Estimate{error.value(), uncertainty});
+    measured.row(std::to_string(int(degrees)) + " degrees", oracles::Estimate{error.value(), uncertainty},
+                 found_young, found_poisson);
   }
-  Finding finding = judged_worst(measured, 1e-8,
-                                 "strains of 1e-3 and 2e-3, extrapolated, leave errors of their fourth "
-                                 "power times about ten, 2e-10; rounding "
-                                 "leaves epsilon over the strain squared, as much; what the extrapolation "
-                                 "of three strains adds is ten times that");
-  finding.evidence.add({"Young's modulus", "N/m", youngs});
-  finding.evidence.add({"Poisson ratio", "1", poissons});
-  return finding;
+  return judged_worst(measured, judged, 1e-8,
+                      "strains of 1e-3 and 2e-3, extrapolated, leave errors of their fourth power times about "
+                      "ten, 2e-10; rounding leaves epsilon over the strain squared, as much; what the "
+                      "extrapolation of three strains adds is ten times that");
 }
 
 }  // namespace foldproof

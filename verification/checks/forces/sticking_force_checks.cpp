@@ -68,12 +68,11 @@ Finding damping_finding(const Subject& subject) {
                          specimen.patch().far * extent(specimen.state.x);
     measured.row(specimen.name, (D - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / scale);
   }
-  Finding finding = judged_worst(measured, 64,
-                                 "k depends on the distance, good to a rounding of positions over far; "
-                                 "the matrix, G^T G, on frames as the "
-                                 "force does");
-  finding.note = "The matrix that is expected is -k tau_s G^T G: symmetric, and it can only resist.";
-  return finding;
+  return judged_worst(measured, 64,
+                      "k depends on the distance, good to a rounding of positions over far; "
+                      "the matrix, G^T G, on frames as the "
+                      "force does",
+                      "The matrix that is expected is -k tau_s G^T G: symmetric, and it can only resist.");
 }
 
 Finding resists_finding(const Subject& subject) {
@@ -141,14 +140,12 @@ Finding torque_finding(const Subject& subject) {
                  (torque_of(x, damping) - expected_torque(specimen)).norm() / size(damping));
     torques.push_back(expected_torque(specimen).norm() / (size(damping) / epsilon));
   }
-  Finding finding = judged_worst(
+  return judged_worst(
       measured, 64,
       "the torque's sum is rounded as the forces are; the frames turn with the corners, so that nothing else "
-      "is left");
-  finding.note =
+      "is left",
       fmt::format("The damping's torque k tau_s (x - x_t) x (v_t - v) is up to {:.2g} of the sum of |x||F|.",
-                  signed_largest(torques));
-  return finding;
+                  signed_largest(torques)));
 }
 
 /// A particle at rest that sticks to the origin, drawn away by d [m].

@@ -141,13 +141,11 @@ Finding areas_and_masses_sum(const Subject&) {
     worst.see(std::abs(edge_areas(shape.mesh).sum() - 3 * exact) / (epsilon * 3 * exact));
     measured.row(shape.name, worst.value());
   }
-  Finding finding =
-      judged_worst(measured, 64, "about ten roundings an area, with errors of either sign, added one by one");
-  finding.note =
+  return judged_worst(
+      measured, 64, "about ten roundings an area, with errors of either sign, added one by one",
       "The exact value is the area, the mass, or three times the area for the edges' areas. Areas are those "
       "of plane geometry; for the round sphere and the statue the mesh's own area stands in, and only masses "
-      "and edge areas are compared with it.";
-  return finding;
+      "and edge areas are compared with it.");
 }
 
 Finding obj_round_trip_is_exact(const Subject&) {
@@ -195,12 +193,11 @@ Finding pleats_are_isometric(const Subject&) {
       measured.row(name + " by " + std::to_string(angle) + " rad, angles", fold.value());
     }
   }
-  Finding finding = judged_worst(
+  return judged_worst(
       measured, 64,
       "a vertex is placed by adding up to nine columns; angles divide such errors by a cell, a ninth of the "
-      "width");
-  finding.note = "the size is the sheet's width for lengths, pi for angles";
-  return finding;
+      "width",
+      "the size is the sheet's width for lengths, pi for angles");
 }
 
 Finding hinge_folds_by_its_angle(const Subject&) {

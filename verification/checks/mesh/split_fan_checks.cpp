@@ -141,8 +141,7 @@ Expected expected_of(const TriangleSoup& soup) {
 
 Finding numbers_finding(const Subject&) {
   std::mt19937 random(shifted(83));
-  Worst wrong;
-  std::vector<double> split, particles, bad;
+  Table wrong{{"split vertices", "1"}, {"particles", "1"}, {"wrong corners", "1"}};
   for (const int pairs : {0, 9, 40, 90}) {
     const TriangleSoup soup = random_hangings(random, pairs);
     const Expected expected = expected_of(soup);
@@ -151,20 +150,17 @@ Finding numbers_finding(const Subject&) {
                    (found.copy_of == expected.copy_of ? 0 : 1);
     for (size_t t = 0; t < std::min(found.mesh.triangles.size(), expected.triangles.size()); ++t)
       for (size_t k = 0; k < 3; ++k) count += found.mesh.triangles[t][k] == expected.triangles[t][k] ? 0 : 1;
-    wrong.see(count);
-    split.push_back(expected.split);
-    particles.push_back(double(expected.copy_of.size()));
-    bad.push_back(count);
+    wrong.row(expected.split, expected.copy_of.size(), count);
   }
-  return {{wrong.value(), 0, 0, "corners", "particles are numbered, not computed"},
-          {{"split vertices", "1", split}, {"particles", "1", particles}, {"wrong corners", "1", bad}},
+  return {{wrong.worst("wrong corners"), 0, 0, "corners", "particles are numbered, not computed"},
+          wrong,
           "A wrong list of copies counts as one wrong corner."};
 }
 
 Finding places_finding(const Subject&) {
   std::mt19937 random(shifted(89));
   Worst off;
-  std::vector<double> split, farthest;
+  Table moved{{"split vertices", "1"}, {"farthest moved", "m"}};
   for (const int pairs : {9, 60}) {
     const TriangleSoup soup = random_hangings(random, pairs);
     const Expected expected = expected_of(soup);
@@ -176,14 +172,13 @@ Finding places_finding(const Subject&) {
       off.see(difference.cwiseAbs().maxCoeff() / (epsilon * size));
       most.see((expected.place.col(i) - soup.rest.col(expected.copy_of[size_t(i)])).norm());
     }
-    split.push_back(expected.split);
-    farthest.push_back(most.value());
+    moved.row(expected.split, most.value());
   }
   return {
       {off.value(), 4, 0, "epsilon of the size",
        "a mean of a few middles, a thousandth of it, and a sum: one rounding of the largest coordinate for "
        "each of the two ways to write it, and two to spare"},
-      {{"split vertices", "1", split}, {"farthest moved", "m", farthest}},
+      moved,
       ""};
 }
 
@@ -224,16 +219,17 @@ std::vector<TriangleSoup> touching_fans() {
 
 Finding touching_finding(const Subject&) {
   double count = 0;
-  std::vector<double> before, after;
+  Table touching{{"pairs that touch where they were", "1"}, {"pairs that touch when apart", "1"}};
   for (const TriangleSoup& soup : touching_fans()) {
     const SplitMesh found = split_fans(soup);
     const PerParticle3 together = soup.rest(Eigen::all, found.copy_of);
-    before.push_back(double(oracles::exact_crossings(together, found.mesh.triangles).size()));
-    after.push_back(double(oracles::exact_crossings(found.mesh.rest, found.mesh.triangles).size()));
-    count += after.back() + (before.back() > 0 ? 0 : 1);
+    const auto before = oracles::exact_crossings(together, found.mesh.triangles).size();
+    const auto after = oracles::exact_crossings(found.mesh.rest, found.mesh.triangles).size();
+    touching.row(before, after);
+    count += double(after) + (before > 0 ? 0 : 1);
   }
   return {{count, 0, 0, "pairs", "touching is decided exactly"},
-          {{"pairs that touch where they were", "1", before}, {"pairs that touch when apart", "1", after}},
+          touching,
           "A specimen that touches nowhere to begin with counts as a pair."};
 }
 
@@ -296,49 +292,57 @@ std::string sticky(const std::string& of, const std::string& particles) {
 
 const std::string split = "repair = \"split\"\n";
 
-void see_particles(const ThreeFans& fans, Differences& differences) {
+void see_particles(const ThreeFans& fans, Table& differences) {
   using Set = std::set<int>;
   const auto hold = [&](const std::string& which, const std::string& cloth = split) {
     return held(fans.scene(cloth, "[[hold]]\n" + which));
   };
-  differences.is("the vertex is held in all fans", hold("particles = [0]\n") == Set{0, 8, 9});
-  differences.is("the last copy alone", hold("particles = [9]\n") == Set{9});
-  differences.is("both at once", hold("particles = [0, 9]\n") == Set{0, 8, 9});
-  differences.is("another vertex alone", hold("particles = [3]\n") == Set{3});
-  differences.is("by a box", hold("box = [[-0.1, -0.1, -0.1], [0.1, 0.1, 0.1]]\n") == Set{0, 8, 9});
-  differences.is(
+  differences.row("the vertex is held in all fans",
+                  infinite_unless(hold("particles = [0]\n") == Set{0, 8, 9}));
+  differences.row("the last copy alone", infinite_unless(hold("particles = [9]\n") == Set{9}));
+  differences.row("both at once", infinite_unless(hold("particles = [0, 9]\n") == Set{0, 8, 9}));
+  differences.row("another vertex alone", infinite_unless(hold("particles = [3]\n") == Set{3}));
+  differences.row("by a box",
+                  infinite_unless(hold("box = [[-0.1, -0.1, -0.1], [0.1, 0.1, 0.1]]\n") == Set{0, 8, 9}));
+  differences.row(
       "in the second of two pieces",
-      hold("particles = [10]\n", split + "copies = { count = 2, move = [0, 0, 9] }\n") == Set{10, 18, 19});
+      infinite_unless(hold("particles = [10]\n", split + "copies = { count = 2, move = [0, 0, 9] }\n") ==
+                      Set{10, 18, 19}));
   const auto stuck = [&](const std::string& particles) {
     return fans.scene(split, sticky("group = \"left\"\n", particles)).sticky.front();
   };
-  differences.is("a group has the copy of its fan",
-                 stuck("group = \"right\"\n").particles == std::vector{3, 4, 8});
-  differences.is("and its triangles", stuck("").triangles == std::vector<Triangle>{{0, 2, 1}});
-  differences.is("what sticks by number does so in all fans",
-                 stuck("particles = [0, 3]\n").particles == std::vector{0, 3, 8, 9});
+  differences.row("a group has the copy of its fan",
+                  infinite_unless(stuck("group = \"right\"\n").particles == std::vector{3, 4, 8}));
+  differences.row("and its triangles",
+                  infinite_unless(stuck("").triangles == std::vector<Triangle>{{0, 2, 1}}));
+  differences.row("what sticks by number does so in all fans",
+                  infinite_unless(stuck("particles = [0, 3]\n").particles == std::vector{0, 3, 8, 9}));
 }
 
 Finding scene_finding(const Subject&) {
   const ThreeFans fans;
-  Differences differences;
+  Table differences = no_differences();
   const Scene found = fans.scene(split);
-  differences.is("ten particles of eight vertices", found.mesh.particles() == 10);
-  differences.is("four triangles", found.mesh.triangles.size() == 4);
+  differences.row("ten particles of eight vertices", infinite_unless(found.mesh.particles() == 10));
+  differences.row("four triangles", infinite_unless(found.mesh.triangles.size() == 4));
   const PerParticle masses = lumped_masses(found.mesh, found.density);
   for (const auto& [particle, area] : {std::pair{0, 1.0}, {8, 1.0}, {9, 2.109}})
-    differences.is("the mass of particle " + std::to_string(particle),
-                   std::abs(masses[particle] / (0.2 * area / 3) - 1) < 0.005);
+    differences.row("the mass of particle " + std::to_string(particle),
+                    infinite_unless(std::abs(masses[particle] / (0.2 * area / 3) - 1) < 0.005));
   const auto parts = built_parts(found, build_system(found));
-  differences.is("it is said", std::ranges::find(parts, "1 vertex split into 3 particles") != parts.end());
+  differences.row("it is said", infinite_unless(std::ranges::find(parts, "1 vertex split into 3 particles") !=
+                                                parts.end()));
   see_particles(fans, differences);
-  differences.is("seams join before", fans.scene("seams = 0.01\n" + split).mesh.particles() == 10);
-  differences.is("refused without it, with a remedy",
-                 fans.is_refused("", "for cloth, set repair = \"split\""));
-  differences.is("an edge of three triangles", fans.is_refused(split, "cannot tell which two", "edge"));
-  differences.is("another word", fans.is_refused("repair = \"mend\"\n", "known: refuse, split"));
-  return differences.finding(
-      0,
+  differences.row("seams join before",
+                  infinite_unless(fans.scene("seams = 0.01\n" + split).mesh.particles() == 10));
+  differences.row("refused without it, with a remedy",
+                  infinite_unless(fans.is_refused("", "for cloth, set repair = \"split\"")));
+  differences.row("an edge of three triangles",
+                  infinite_unless(fans.is_refused(split, "cannot tell which two", "edge")));
+  differences.row("another word",
+                  infinite_unless(fans.is_refused("repair = \"mend\"\n", "known: refuse, split")));
+  return judged_differences(
+      differences, 0,
       "particles are counted; the mass of a fan's particle is a third of its triangles, "
       "less a thousandth of their height");
 }

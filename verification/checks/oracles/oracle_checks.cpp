@@ -8,7 +8,7 @@ namespace {
 
 struct Comparison {
   const char *name, *claim;
-  Agreement (*agreement)();
+  Table (*answers)();
 };
 
 constexpr Comparison comparisons[] = {
@@ -113,19 +113,12 @@ constexpr Comparison comparisons[] = {
      distances_agree}};
 
 Finding uncertainties_are_small(const Subject&) {
-  std::vector<std::string> names;
-  std::vector<double> largest;
-  Worst worst;
-  for (const Comparison& comparison : comparisons) {
-    names.push_back(comparison.name);
-    largest.push_back(comparison.agreement().largest_uncertainty());
-    worst.see(largest.back());
-  }
-  return {{worst.value(), 1e-5, 0, "1",
-           "two answers may agree because one promises little: the crudest, by differences in double "
-           "precision, promises five digits"},
-          {{"comparison", "", names}, {"largest uncertainty of a pair, of its answer", "1", largest}},
-          ""};
+  Table largest{{"comparison", ""}, {"largest uncertainty of a pair, of its answer", "1"}};
+  for (const Comparison& comparison : comparisons)
+    largest.row(comparison.name, largest_uncertainty(comparison.answers()));
+  return judged_worst(largest, 1e-5,
+                      "two answers may agree because one promises little: the crudest, by differences in "
+                      "double precision, promises five digits");
 }
 
 }  // namespace
@@ -134,7 +127,7 @@ std::vector<Check> oracle_checks() {
   std::vector<Check> list;
   for (const Comparison& comparison : comparisons)
     list.push_back({comparison.name, comparison.claim, "verification/oracles/README.md",
-                    [agreement = comparison.agreement](const Subject&) { return agreement().judged(); }});
+                    [answers = comparison.answers](const Subject&) { return judged_agreement(answers()); }});
   list.push_back({"oracle.uncertainties-are-small",
                   "Each two answers that are compared leave a small part of the answer open.",
                   "verification/oracles/README.md", uncertainties_are_small});

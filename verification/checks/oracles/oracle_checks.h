@@ -9,39 +9,39 @@
 namespace foldproof {
 
 // oracle_force_checks.cpp
-Agreement hinge_angles_agree();
-Agreement bending_modes_agree();
-Agreement bending_forces_agree();
-Agreement bending_derivatives_agree();
-Agreement spring_forces_agree();
-Agreement sticking_forces_agree();
-Agreement sheet_moduli_agree();
+Table hinge_angles_agree();
+Table bending_modes_agree();
+Table bending_forces_agree();
+Table bending_derivatives_agree();
+Table spring_forces_agree();
+Table sticking_forces_agree();
+Table sheet_moduli_agree();
 
 // oracle_motion_checks.cpp
-Agreement oscillators_agree();
-Agreement verlet_oscillators_agree();
-Agreement step_matrices_agree();
-Agreement stable_steps_agree();
-Agreement falls_agree();
-Agreement rotation_lengths_agree();
-Agreement amplification_factors_agree();
-Agreement runge_kutta_limits_agree();
-Agreement forecasts_agree();
-Agreement limited_springs_agree();
+Table oscillators_agree();
+Table verlet_oscillators_agree();
+Table step_matrices_agree();
+Table stable_steps_agree();
+Table falls_agree();
+Table rotation_lengths_agree();
+Table amplification_factors_agree();
+Table runge_kutta_limits_agree();
+Table forecasts_agree();
+Table limited_springs_agree();
 
 // oracle_static_checks.cpp
-Agreement heavy_cantilevers_agree();
-Agreement loaded_tips_agree();
-Agreement rigidities_agree();
-Agreement depth_maps_agree();
-Agreement dense_algebra_agrees();
+Table heavy_cantilevers_agree();
+Table loaded_tips_agree();
+Table rigidities_agree();
+Table depth_maps_agree();
+Table dense_algebra_agrees();
 
 // oracle_geometry_checks.cpp
-Agreement crossing_times_agree();
-Agreement polynomial_roots_agree();
-Agreement crossings_agree();
-Agreement sides_agree();
-Agreement distances_agree();
+Table crossing_times_agree();
+Table polynomial_roots_agree();
+Table crossings_agree();
+Table sides_agree();
+Table distances_agree();
 
 std::vector<Check> oracle_checks();
 

@@ -157,75 +157,75 @@ Estimate modulus(double young, double side, const Eigen::Vector2d& strain) {
 
 }  // namespace
 
-Agreement hinge_angles_agree() {
-  Agreement agreement;
+Table hinge_angles_agree() {
+  Table answers = no_answers();
   const std::vector<HingeInput> hinges = random_hinge_inputs();
   for (std::size_t i = 0; i < hinges.size(); ++i) {
     const Estimate theta = oracles::hinge_angle_50(hinges[i].x);
     const double sine = std::sin(theta.value / 2);
-    agreement.see(numbered("hinge", i), oracles::sin_half_angle_50(hinges[i].x),
-                  {sine, theta.uncertainty / 2 + 2 * oracles::one_rounding(sine)});
+    compare(answers, numbered("hinge", i), oracles::sin_half_angle_50(hinges[i].x),
+            {sine, theta.uncertainty / 2 + 2 * oracles::one_rounding(sine)});
   }
-  return agreement;
+  return answers;
 }
 
-Agreement bending_modes_agree() {
-  Agreement agreement;
+Table bending_modes_agree() {
+  Table answers = no_answers();
   const std::vector<HingeInput> hinges = random_hinge_inputs();
   for (std::size_t i = 0; i < hinges.size(); ++i) {
     const auto u = oracles::bending_mode_50(hinges[i].x);
     const auto autodiff = oracles::theta_gradient_autodiff(hinges[i].x);
     const auto differences = oracles::theta_gradient_differences(hinges[i].x);
-    agreement.see_worst(numbered("as printed and by autodiff, hinge", i),
-                        paired(u.value, u.uncertainty, autodiff.value, autodiff.uncertainty, -1));
-    agreement.see_worst(
-        numbered("by autodiff and by differences, hinge", i),
+    compare_worst(answers, numbered("as printed and by autodiff, hinge", i),
+                  paired(u.value, u.uncertainty, autodiff.value, autodiff.uncertainty, -1));
+    compare_worst(
+        answers, numbered("by autodiff and by differences, hinge", i),
         paired(autodiff.value, autodiff.uncertainty, differences.value, differences.uncertainty, 1));
   }
-  return agreement;
+  return answers;
 }
 
-Agreement bending_forces_agree() {
-  Agreement agreement;
+Table bending_forces_agree() {
+  Table answers = no_answers();
   const std::vector<HingeInput> hinges = random_hinge_inputs();
   for (std::size_t i = 0; i < hinges.size(); ++i) {
     const auto force = oracles::bending_elastic_50(hinges[i]),
                gradient = oracles::energy_gradient_autodiff(hinges[i]);
     const auto damping = oracles::bending_damping_50(hinges[i]), from_power = damping_from_power(hinges[i]);
-    agreement.see_worst(numbered("elastic, hinge", i),
-                        paired(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
-    agreement.see_worst(numbered("damping, hinge", i), paired(damping.value, damping.uncertainty,
-                                                              from_power.value, from_power.uncertainty, 1));
+    compare_worst(answers, numbered("elastic, hinge", i),
+                  paired(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
+    compare_worst(answers, numbered("damping, hinge", i),
+                  paired(damping.value, damping.uncertainty, from_power.value, from_power.uncertainty, 1));
   }
-  return agreement;
+  return answers;
 }
 
-Agreement bending_derivatives_agree() {
-  Agreement agreement;
+Table bending_derivatives_agree() {
+  Table answers = no_answers();
   const std::vector<HingeInput> hinges = random_hinge_inputs();
   for (std::size_t i = 0; i < hinges.size(); ++i) {
     const auto elastic = oracles::bending_elastic_derivative_autodiff(hinges[i]),
                by_differences = oracles::bending_elastic_derivative_differences(hinges[i]);
     const auto all = oracles::bending_force_derivative_autodiff(hinges[i]),
                all_by_differences = oracles::bending_force_derivative_differences(hinges[i]);
-    agreement.see_worst(
-        numbered("elastic, hinge", i),
+    compare_worst(
+        answers, numbered("elastic, hinge", i),
         paired(elastic.value, elastic.uncertainty, by_differences.value, by_differences.uncertainty));
-    agreement.see_worst(
-        numbered("elastic and damping, hinge", i),
+    compare_worst(
+        answers, numbered("elastic and damping, hinge", i),
         paired(all.value, all.uncertainty, all_by_differences.value, all_by_differences.uncertainty));
   }
-  return agreement;
+  return answers;
 }
 
-Agreement spring_forces_agree() {
-  Agreement agreement;
+Table spring_forces_agree() {
+  Table answers = no_answers();
   const std::vector<oracles::SpringInput> list = springs();
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto force = oracles::spring_elastic_50(list[i]),
                gradient = oracles::spring_energy_gradient_autodiff(list[i]);
-    agreement.see_worst(numbered("force and gradient of the energy, spring", i),
-                        paired(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
+    compare_worst(answers, numbered("force and gradient of the energy, spring", i),
+                  paired(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
     const auto derivative = oracles::spring_force_derivative_autodiff(list[i]);
     Pairs pairs;
     for (Eigen::Index row = 0; row < 6; ++row)
@@ -241,13 +241,13 @@ Agreement spring_forces_agree() {
         pairs.push_back({{derivative.value(row, column), derivative.uncertainty},
                          slope(component, 1e-3 * length, derivative.value.norm() * length)});
       }
-    agreement.see_worst(numbered("derivative by autodiff and by differences, spring", i), pairs);
+    compare_worst(answers, numbered("derivative by autodiff and by differences, spring", i), pairs);
   }
-  return agreement;
+  return answers;
 }
 
-Agreement sticking_forces_agree() {
-  Agreement agreement;
+Table sticking_forces_agree() {
+  Table answers = no_answers();
   const std::vector<oracles::StuckParticle> list = stuck_particles();
   for (std::size_t i = 0; i < list.size(); ++i) {
     const oracles::StickingAnswer answer = oracles::sticking_answer(list[i]);
@@ -259,23 +259,24 @@ Agreement sticking_forces_agree() {
       pairs.push_back({{answer.force[k], oracles::one_rounding(answer.force.norm())},
                        slope(energy, 1e-3 * list[i].far, answer.energy)});
     }
-    agreement.see_worst(numbered("force and energy, particle", i), pairs);
+    compare_worst(answers, numbered("force and energy, particle", i), pairs);
   }
-  return agreement;
+  return answers;
 }
 
-Agreement sheet_moduli_agree() {
-  Agreement agreement;
+Table sheet_moduli_agree() {
+  Table answers = no_answers();
   for (const auto& [young, side] : {std::pair{7.9, .31}, std::pair{430., 1.7}}) {
     const oracles::SheetModuli moduli = oracles::equilateral_sheet_moduli(young);
     const double nu = moduli.poisson.value;
     const std::string name = "Y " + std::to_string(young);
-    agreement.see(name + ", pulled one way", moduli.young, modulus(young, side, {1, -nu}));
+    compare(answers, name + ", pulled one way", moduli.young, modulus(young, side, {1, -nu}));
     // equal strains both ways store E/(1 - nu) e^2
     const Estimate both = modulus(young, side, {1, 1});
-    agreement.see(name + ", pulled both ways", moduli.young, {both.value * (1 - nu) / 2, both.uncertainty});
+    compare(answers, name + ", pulled both ways", moduli.young,
+            {both.value * (1 - nu) / 2, both.uncertainty});
   }
-  return agreement;
+  return answers;
 }
 
 }  // namespace foldproof

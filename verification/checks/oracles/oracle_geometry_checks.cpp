@@ -112,8 +112,8 @@ Estimate edge_distance(const FourPoints& x) {
 
 }  // namespace
 
-Agreement crossing_times_agree() {
-  Agreement agreement;
+Table crossing_times_agree() {
+  Table answers = no_answers();
   for (const auto& [kind, name] : features)
     for (const int largest : {3, 9}) {
       Random random(unsigned(841 + largest));
@@ -128,15 +128,15 @@ Agreement crossing_times_agree() {
         contradictions += ever != (seen == oracles::Seen::meet);
       }
       const std::string point = std::string(name) + ", moved by up to " + std::to_string(largest);
-      agreement.see_exact(point + ": meetings", by_roots, by_halving);
-      agreement.see_exact(point + ": contradictions, and none", contradictions, 0);
+      compare_exact(answers, point + ": meetings", by_roots, by_halving);
+      compare_exact(answers, point + ": contradictions, and none", contradictions, 0);
     }
-  return agreement;
+  return answers;
 }
 
 // Products of factors whose roots are known, of one without a real root, and of one squared.
-Agreement polynomial_roots_agree() {
-  Agreement agreement;
+Table polynomial_roots_agree() {
+  Table answers = no_answers();
   Random random(853);
   for (int k = 0; k < 12; ++k) {
     std::vector<Rational> roots;
@@ -153,7 +153,7 @@ Agreement polynomial_roots_agree() {
     within.erase(std::unique(within.begin(), within.end()), within.end());
     const std::vector<oracles::Root> found = oracles::roots_within(product);
     const std::string name = "product " + std::to_string(k + 1);
-    agreement.see_exact(name + ": roots between 0 and 1", double(found.size()), double(within.size()));
+    compare_exact(answers, name + ": roots between 0 and 1", double(found.size()), double(within.size()));
     int signs = 0, expected = 0;  // of all factors at all roots
     for (std::size_t i = 0; i < std::min(found.size(), within.size()); ++i)
       for (std::size_t j = 0; j < roots.size(); ++j) {
@@ -161,13 +161,13 @@ Agreement polynomial_roots_agree() {
         signs += int(weight) * oracles::sign_at(roots[j].factor(), found[i]);
         expected += int(weight) * ((apart > 0) - (apart < 0));
       }
-    agreement.see_exact(name + ": signs of its factors there", signs, expected);
+    compare_exact(answers, name + ": signs of its factors there", signs, expected);
   }
-  return agreement;
+  return answers;
 }
 
-Agreement crossings_agree() {
-  Agreement agreement;
+Table crossings_agree() {
+  Table answers = no_answers();
   for (const unsigned seed : {857U, 859U}) {
     Random random(seed);
     int by_sweep = 0, by_pairs = 0, by_parting = 0, contradictions = 0;
@@ -188,15 +188,15 @@ Agreement crossings_agree() {
         }
     }
     const std::string name = "seed " + std::to_string(seed);
-    agreement.see_exact(name + ": by a sweep and pair by pair", by_sweep, by_pairs);
-    agreement.see_exact(name + ": pair by pair and by parting directions", by_pairs, by_parting);
-    agreement.see_exact(name + ": contradictions, and none", contradictions, 0);
+    compare_exact(answers, name + ": by a sweep and pair by pair", by_sweep, by_pairs);
+    compare_exact(answers, name + ": pair by pair and by parting directions", by_pairs, by_parting);
+    compare_exact(answers, name + ": contradictions, and none", contradictions, 0);
   }
-  return agreement;
+  return answers;
 }
 
-Agreement sides_agree() {
-  Agreement agreement;
+Table sides_agree() {
+  Table answers = no_answers();
   for (const oracles::WholePrism& prism :
        {oracles::WholePrism{{{0, 0}, {12, 0}, {12, 8}, {6, 2}, {0, 8}}, -3, 2},
         oracles::WholePrism{{{-2, 1}, {7, 0}, {9, 9}, {3, 3}, {-1, 7}}, 1, 5}}) {
@@ -214,29 +214,30 @@ Agreement sides_agree() {
           contradictions += one != other;
         }
     const std::string name = "prism from " + std::to_string(prism.low) + " to " + std::to_string(prism.high);
-    agreement.see_exact(name + ": points inside", by_segments[2], by_turns[2]);
-    agreement.see_exact(name + ": points on the surface", by_segments[1], by_turns[1]);
-    agreement.see_exact(name + ": contradictions, and none", contradictions, 0);
+    compare_exact(answers, name + ": points inside", by_segments[2], by_turns[2]);
+    compare_exact(answers, name + ": points on the surface", by_segments[1], by_turns[1]);
+    compare_exact(answers, name + ": contradictions, and none", contradictions, 0);
   }
-  return agreement;
+  return answers;
 }
 
 // A vertex and a triangle in 50 digits and in extended precision; two edges in 50 digits and by cutting in
 // thirds.
-Agreement distances_agree() {
-  Agreement agreement;
+Table distances_agree() {
+  Table answers = no_answers();
   Random random(863);
   for (int k = 0; k < 12; ++k) {
     FourPoints x = random.vectors(4, random.in_decades(1e-3, 10));
     if (k % 3 == 1) x.col(3) = x.col(2) + 1e-6 * (x.col(3) - x.col(2));          // thin
     if (k % 3 == 2) x.col(0) = .3 * x.col(1) + .7 * x.col(2) + 1e-5 * x.col(0);  // close to an edge
     const std::string name = " " + std::to_string(k + 1);
-    agreement.see("vertex and triangle" + name, oracles::feature_distance(Features::vertex_and_triangle, x),
-                  oracles::distance_to_triangles(x.rightCols(3), {{0, 1, 2}}, x.col(0)));
-    agreement.see("edge and edge" + name, oracles::feature_distance(Features::edge_and_edge, x),
-                  edge_distance(x));
+    compare(answers, "vertex and triangle" + name,
+            oracles::feature_distance(Features::vertex_and_triangle, x),
+            oracles::distance_to_triangles(x.rightCols(3), {{0, 1, 2}}, x.col(0)));
+    compare(answers, "edge and edge" + name, oracles::feature_distance(Features::edge_and_edge, x),
+            edge_distance(x));
   }
-  return agreement;
+  return answers;
 }
 
 }  // namespace foldproof

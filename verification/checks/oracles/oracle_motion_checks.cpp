@@ -141,8 +141,8 @@ double length_error(const oracles::LimitedSpringInput& s, double impulse) {
 
 }  // namespace
 
-Agreement oscillators_agree() {
-  Agreement agreement;
+Table oscillators_agree() {
+  Table answers = no_answers();
   const std::array<double, 2> times{.37, 2.9};
   for (const auto& [name, o] : oscillators()) {
     const oracles::RightHandSide rhs = [&o = o](double, std::span<const double> y, std::span<double> dy) {
@@ -153,43 +153,44 @@ Agreement oscillators_agree() {
     const oracles::ReferenceSolution solution = oracles::reference_solution(rhs, start, 0, times, 1e-13);
     for (const std::size_t i : {0, 1}) {
       const oracles::OscillatorEstimate exact = oracles::oscillator_at(o, times[i]);
-      agreement.see_worst(name, {{exact.x, {solution.values[i][0], solution.uncertainty[i]}},
-                                 {exact.v, {solution.values[i][1], solution.uncertainty[i]}}});
+      compare_worst(answers, name,
+                    {{exact.x, {solution.values[i][0], solution.uncertainty[i]}},
+                     {exact.v, {solution.values[i][1], solution.uncertainty[i]}}});
     }
   }
-  return agreement;
+  return answers;
 }
 
-Agreement verlet_oscillators_agree() {
-  Agreement agreement;
+Table verlet_oscillators_agree() {
+  Table answers = no_answers();
   for (const auto& [o, h] :
        {std::pair{Oscillator{29, 0, .7, -1.3}, .041}, std::pair{Oscillator{3.1, 0, -2.3, .6}, .93}}) {
     const oracles::OscillatorEstimate closed = oracles::verlet_oscillator(o, h, 1000);
     for (const auto& [scheme, name] : schemes) {
       std::array<oracles::Digits50, 2> state{o.x0, o.v0};
       for (int i = 0; i < 1000; ++i) state = step_by_lines(scheme, o, h, state);
-      agreement.see_worst(std::string(name) + ", thousand steps of " + std::to_string(h) + " s",
-                          {{closed.x, oracles::rounded(state[0])}, {closed.v, oracles::rounded(state[1])}});
+      compare_worst(answers, std::string(name) + ", thousand steps of " + std::to_string(h) + " s",
+                    {{closed.x, oracles::rounded(state[0])}, {closed.v, oracles::rounded(state[1])}});
     }
   }
-  return agreement;
+  return answers;
 }
 
-Agreement step_matrices_agree() {
-  Agreement agreement;
+Table step_matrices_agree() {
+  Table answers = no_answers();
   for (const auto& [o, h] :
        {std::pair{Oscillator{37.3, 2.9, .7, -1.9}, .11}, std::pair{Oscillator{.83, 7.1, 2.3, .4}, 1.7}})
     for (const auto& [scheme, name] : schemes) {
       const oracles::OscillatorEstimate stepped = oracles::stepped_oscillator(scheme, o, h);
       const auto lines = step_by_lines<oracles::Digits50>(scheme, o, h, {o.x0, o.v0});
-      agreement.see_worst(std::string(name) + ", h " + std::to_string(h),
-                          {{stepped.x, oracles::rounded(lines[0])}, {stepped.v, oracles::rounded(lines[1])}});
+      compare_worst(answers, std::string(name) + ", h " + std::to_string(h),
+                    {{stepped.x, oracles::rounded(lines[0])}, {stepped.v, oracles::rounded(lines[1])}});
     }
-  return agreement;
+  return answers;
 }
 
-Agreement stable_steps_agree() {
-  Agreement agreement;
+Table stable_steps_agree() {
+  Table answers = no_answers();
   for (const Oscillator& o : {Oscillator{37.3, 2.9, 0, 0}, Oscillator{2.1, 1.7, 0, 0}}) {
     const Eigen::MatrixXd K = Eigen::MatrixXd::Constant(1, 1, o.stiffness),
                           C = Eigen::MatrixXd::Constant(1, 1, o.damping);
@@ -202,17 +203,17 @@ Agreement stable_steps_agree() {
       Estimate root = oracles::bracketed_root(determinant, .7 * closed.value, 1.4 * closed.value, 0);
       root.uncertainty += 32 * epsilon * root.value;
       const std::string point = std::string(name) + ", k " + std::to_string(o.stiffness);
-      agreement.see(point + ", closed form and lines of the scheme", closed, root);
-      agreement.see(point + ", closed form and eigenvalues", closed,
-                    scheme == Scheme::variable_step_newmark ? oracles::largest_variable_newmark_step(K, C)
-                                                            : oracles::largest_leapfrog_step(K));
+      compare(answers, point + ", closed form and lines of the scheme", closed, root);
+      compare(answers, point + ", closed form and eigenvalues", closed,
+              scheme == Scheme::variable_step_newmark ? oracles::largest_variable_newmark_step(K, C)
+                                                      : oracles::largest_leapfrog_step(K));
     }
   }
-  return agreement;
+  return answers;
 }
 
-Agreement falls_agree() {
-  Agreement agreement;
+Table falls_agree() {
+  Table answers = no_answers();
   for (const double t : {.41, 1.3}) {
     const oracles::Launch launch{{.3, -2, 5}, {1.1, .4, -.7}, {.2, .5, -9.80665}};
     const oracles::FallEstimate fall = oracles::free_fall(launch, t);
@@ -231,13 +232,13 @@ Agreement falls_agree() {
       pairs.push_back({{fall.v[k], fall.v_uncertainty},
                        {solution.values[0][std::size_t(k + 3)], solution.uncertainty[0] + 1e-14}});
     }
-    agreement.see_worst("t " + std::to_string(t), pairs);
+    compare_worst(answers, "t " + std::to_string(t), pairs);
   }
-  return agreement;
+  return answers;
 }
 
-Agreement rotation_lengths_agree() {
-  Agreement agreement;
+Table rotation_lengths_agree() {
+  Table answers = no_answers();
   for (const auto& [pair, omega] : {std::pair{oracles::SpringPair{41, .13, .7, .05, .09}, 7.3},
                                     std::pair{oracles::SpringPair{9, 2.1, 1.6, .4, .23}, 1.9}}) {
     const double mass = pair.mass_a * pair.mass_b / (pair.mass_a + pair.mass_b);
@@ -248,14 +249,14 @@ Agreement rotation_lengths_agree() {
     };
     Estimate root = oracles::bracketed_root(surplus, pair.rest_length, 50 * pair.rest_length, 0);
     root.uncertainty += 32 * epsilon * root.value;
-    agreement.see("omega " + std::to_string(omega), oracles::steady_rotation_length(pair, omega), root);
+    compare(answers, "omega " + std::to_string(omega), oracles::steady_rotation_length(pair, omega), root);
   }
-  return agreement;
+  return answers;
 }
 
 // The product of the two factors is exp(-c h), and their sum is the trace of the step from two starts.
-Agreement amplification_factors_agree() {
-  Agreement agreement;
+Table amplification_factors_agree() {
+  Table answers = no_answers();
   for (const auto& [name, o] : oscillators()) {
     const double h = .3 / std::sqrt(o.stiffness);
     const oracles::Factors exact = oracles::exact_factors(o, h);
@@ -263,23 +264,24 @@ Agreement amplification_factors_agree() {
     const double trace = oracles::oscillator_at({o.stiffness, o.damping, 1, 0}, h).x.value +
                          oracles::oscillator_at({o.stiffness, o.damping, 0, 1}, h).v.value;
     const double off = 20 * epsilon;
-    agreement.see_worst(name + ", exact", {{{sum.real(), off}, {trace, off}},
-                                           {{product.real(), off}, {std::exp(-o.damping * h), off}},
-                                           {{sum.imag(), off}, {0, off}}});
+    compare_worst(answers, name + ", exact",
+                  {{{sum.real(), off}, {trace, off}},
+                   {{product.real(), off}, {std::exp(-o.damping * h), off}},
+                   {{sum.imag(), off}, {0, off}}});
     for (const auto& [method, order] :
          {std::pair{"forward-euler", 1}, {"RK2", 2}, {"SSP-RK3", 3}, {"RK4", 4}}) {
       const oracles::Factors factors = oracles::step_factors(method, o, h);
       Pairs pairs;
       for (const std::size_t i : {0, 1})
         pairs.push_back({{std::abs(factors[i]), off}, {growth_by_stages(order, std::log(exact[i])), off}});
-      agreement.see_worst(name + ", " + method, pairs);
+      compare_worst(answers, name + ", " + method, pairs);
     }
   }
-  return agreement;
+  return answers;
 }
 
-Agreement runge_kutta_limits_agree() {
-  Agreement agreement;
+Table runge_kutta_limits_agree() {
+  Table answers = no_answers();
   for (const double zeta : {.31, .74, 2.3})
     for (const int order : {1, 2, 3, 4}) {
       const double omega = 5.3;
@@ -293,13 +295,13 @@ Agreement runge_kutta_limits_agree() {
       };
       Estimate root = oracles::bracketed_root(excess, .6 * limit.value, 1.3 * limit.value, 0);
       root.uncertainty += 1e3 * epsilon * root.value;
-      agreement.see("order " + std::to_string(order) + ", zeta " + std::to_string(zeta), limit, root);
+      compare(answers, "order " + std::to_string(order) + ", zeta " + std::to_string(zeta), limit, root);
     }
-  return agreement;
+  return answers;
 }
 
-Agreement forecasts_agree() {
-  Agreement agreement;
+Table forecasts_agree() {
+  Table answers = no_answers();
   const std::vector<oracles::ForecastInput> inputs = forecast_inputs();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const oracles::ForecastAnswer answer = oracles::forecast_answer(inputs[i]);
@@ -309,14 +311,14 @@ Agreement forecasts_agree() {
     Pairs pairs;  // the angle is found to a rounding of the turn, the normal is 1 to a rounding
     for (int k = 0; k < 3; ++k)
       pairs.push_back({{answer.v[k], oracles::one_rounding(answer.v[k])}, {other[k], 32 * epsilon * speeds}});
-    agreement.see_worst("particle " + std::to_string(i + 1) + ", mu " + std::to_string(inputs[i].friction),
-                        pairs);
+    compare_worst(answers, "particle " + std::to_string(i + 1) + ", mu " + std::to_string(inputs[i].friction),
+                  pairs);
   }
-  return agreement;
+  return answers;
 }
 
-Agreement limited_springs_agree() {
-  Agreement agreement;
+Table limited_springs_agree() {
+  Table answers = no_answers();
   const std::vector<oracles::LimitedSpringInput> inputs = limited_spring_inputs();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const oracles::LimitedSpringInput& s = inputs[i];
@@ -339,9 +341,9 @@ Agreement limited_springs_agree() {
       pairs.push_back({{answer.v_a[k], oracles::one_rounding(answer.v_a[k])}, {v_a[k], off}});
       pairs.push_back({{answer.v_b[k], oracles::one_rounding(answer.v_b[k])}, {v_b[k], off}});
     }
-    agreement.see_worst("spring " + std::to_string(i + 1), pairs);
+    compare_worst(answers, "spring " + std::to_string(i + 1), pairs);
   }
-  return agreement;
+  return answers;
 }
 
 }  // namespace foldproof

@@ -152,33 +152,34 @@ Estimate blend_map_by_equation(const oracles::Band& band, double phi) {
 
 }  // namespace
 
-Agreement heavy_cantilevers_agree() {
-  Agreement agreement;
+Table heavy_cantilevers_agree() {
+  Table answers = no_answers();
   for (const double gamma : {.37, 1., 5., 11.}) {
     const oracles::CantileverTip tip = oracles::heavy_cantilever(gamma);
     const BentTip other = bent_strip(gamma, 0);
-    agreement.see_worst("gamma " + std::to_string(gamma), {{tip.drop, other.drop}, {tip.reach, other.reach}});
+    compare_worst(answers, "gamma " + std::to_string(gamma),
+                  {{tip.drop, other.drop}, {tip.reach, other.reach}});
   }
-  return agreement;
+  return answers;
 }
 
-Agreement loaded_tips_agree() {
-  Agreement agreement;
+Table loaded_tips_agree() {
+  Table answers = no_answers();
   for (const double alpha : {.23, 1., 4., 9.}) {
     const oracles::LoadedTip elliptic = oracles::tip_load(alpha),
                              shooting = oracles::tip_load_by_shooting(alpha);
     const BentTip series = bent_strip(0, alpha);
     const std::string name = "alpha " + std::to_string(alpha);
-    agreement.see_worst(name + ", elliptic integrals and shooting",
-                        {{elliptic.drop, shooting.drop}, {elliptic.reach, shooting.reach}});
-    agreement.see_worst(name + ", elliptic integrals and series",
-                        {{elliptic.drop, series.drop}, {elliptic.reach, series.reach}});
+    compare_worst(answers, name + ", elliptic integrals and shooting",
+                  {{elliptic.drop, shooting.drop}, {elliptic.reach, shooting.reach}});
+    compare_worst(answers, name + ", elliptic integrals and series",
+                  {{elliptic.drop, series.drop}, {elliptic.reach, series.reach}});
   }
-  return agreement;
+  return answers;
 }
 
-Agreement rigidities_agree() {
-  Agreement agreement;
+Table rigidities_agree() {
+  Table answers = no_answers();
   const std::array<std::pair<const char*, oracles::SplitBlock>, 4> blocks{
       {{"one diagonal", {.8, .5, 1, 1, [](int, int) { return true; }}},
        {"alternating", {.7, .7, 1, 2, [](int, int j) { return j % 2 == 0; }}},
@@ -189,37 +190,37 @@ Agreement rigidities_agree() {
     const Eigen::Matrix3d periodic = oracles::forced_rigidity(oracles::split_rectangles(block));
     const oracles::PlaneSheet patch = patch_of(block);
     for (const double angle : {.1, 1.3, 2.2})
-      agreement.see(std::string(name) + ", cell and patch, at " + std::to_string(angle),
-                    {oracles::cylinder_rigidity(periodic, angle), off},
-                    {oracles::forced_cylinder_rigidity(patch, angle), off});
+      compare(answers, std::string(name) + ", cell and patch, at " + std::to_string(angle),
+              {oracles::cylinder_rigidity(periodic, angle), off},
+              {oracles::forced_cylinder_rigidity(patch, angle), off});
   }
   const auto jack = oracles::split_rectangles({1, 1, 2, 2, [](int i, int j) { return (i + j) % 2 == 0; }});
   for (const double angle : {.1, .9, 2.2})  // criss-cross is union jack, turned by 45 degrees
-    agreement.see("relaxed union jack and criss-cross, at " + std::to_string(angle),
-                  {oracles::cylinder_rigidity(oracles::relaxed_rigidity(jack), angle), off},
-                  {oracles::cylinder_rigidity(oracles::relaxed_rigidity(oracles::crossed_squares(1)),
-                                              angle + pi / 4),
-                   off});
-  return agreement;
+    compare(answers, "relaxed union jack and criss-cross, at " + std::to_string(angle),
+            {oracles::cylinder_rigidity(oracles::relaxed_rigidity(jack), angle), off},
+            {oracles::cylinder_rigidity(oracles::relaxed_rigidity(oracles::crossed_squares(1)),
+                                        angle + pi / 4),
+             off});
+  return answers;
 }
 
-Agreement depth_maps_agree() {
-  Agreement agreement;
+Table depth_maps_agree() {
+  Table answers = no_answers();
   for (const oracles::Band& band : {oracles::Band{.001, .02, .05}, oracles::Band{.003, .011, .004}})
     for (const double part : {.12, .55, .93}) {
       const double phi = -band.deepest + part * (band.reach + band.deepest);
       const std::string name = "t^ " + std::to_string(band.deepest) + ", phi " + std::to_string(phi);
-      agreement.see("power, " + name, oracles::power_map(band, phi), power_map_by_equation(band, phi));
-      agreement.see("blend, " + name, oracles::blend_map(band, phi), blend_map_by_equation(band, phi));
+      compare(answers, "power, " + name, oracles::power_map(band, phi), power_map_by_equation(band, phi));
+      compare(answers, "blend, " + name, oracles::blend_map(band, phi), blend_map_by_equation(band, phi));
     }
-  return agreement;
+  return answers;
 }
 
 // The matrix of second differences, whose eigenvalues are 2 - 2 cos(k pi/(n + 1)); a companion matrix, whose
 // are the roots chosen; a system whose solution is chosen; a matrix made of two turns and chosen singular
 // values.
-Agreement dense_algebra_agrees() {
-  Agreement agreement;
+Table dense_algebra_agrees() {
+  Table answers = no_answers();
   Random random(839);
   for (const int n : {5, 9}) {
     Eigen::MatrixXd K = 2 * Eigen::MatrixXd::Identity(n, n);
@@ -230,7 +231,7 @@ Agreement dense_algebra_agrees() {
     for (int k = 1; k <= n; ++k)
       pairs.push_back({{values[k - 1], 20 * n * epsilon},
                        {2 - 2 * std::cos(k * pi / (n + 1)), 4 * epsilon}});
-    agreement.see_worst("second differences of " + std::to_string(n), pairs);
+    compare_worst(answers, "second differences of " + std::to_string(n), pairs);
     const Eigen::MatrixXd A = K + .1 * Eigen::MatrixXd::Ones(n, n);
     const Eigen::VectorXd x = random.vectors(n, 1).row(0).transpose();
     const Eigen::VectorXd found = oracles::solved(A, A * x), again = oracles::solved_symmetric(A, A * x);
@@ -239,7 +240,7 @@ Agreement dense_algebra_agrees() {
       pairs.push_back({{found[k], 200 * n * epsilon}, {x[k], 0}});
       pairs.push_back({{again[k], 200 * n * epsilon}, {x[k], 0}});
     }
-    agreement.see_worst("chosen solution of " + std::to_string(n), pairs);
+    compare_worst(answers, "chosen solution of " + std::to_string(n), pairs);
   }
   for (const std::array<double, 3>& roots :
        {std::array<double, 3>{-.7, .4, 1.9}, std::array<double, 3>{-3.1, -1.2, .6}}) {
@@ -251,7 +252,7 @@ Agreement dense_algebra_agrees() {
     std::sort(found.begin(), found.end());
     std::vector<std::pair<Estimate, Estimate>> pairs;
     for (int k = 0; k < 3; ++k) pairs.push_back({{found[k], 300 * epsilon}, {roots[std::size_t(k)], 0}});
-    agreement.see_worst("companion of root " + std::to_string(roots[0]), pairs);
+    compare_worst(answers, "companion of root " + std::to_string(roots[0]), pairs);
   }
   for (const Vector3& values : {Vector3(3.7, 1.1, .2), Vector3(41, 6, 5)}) {
     const Vector3 from = random.vectors(1, 1).col(0), to = random.vectors(1, 1).col(0);
@@ -266,9 +267,9 @@ Agreement dense_algebra_agrees() {
       pairs.push_back(
           {{(U * from.normalized())[k], 10 * epsilon / half}, {to.normalized()[k], 10 * epsilon}});
     }
-    agreement.see_worst("singular value " + std::to_string(values[0]), pairs);
+    compare_worst(answers, "singular value " + std::to_string(values[0]), pairs);
   }
-  return agreement;
+  return answers;
 }
 
 }  // namespace foldproof

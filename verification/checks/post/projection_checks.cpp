@@ -278,10 +278,11 @@ Finding gaps_without_room_are_reported(const Subject&) {
   return {{cloth.fates[0] == Fate::unfinished ? before - reached : NAN, tolerance, 0, "m",
            "a point that cannot get where the map wants it is reported, and is no deeper than it was, within "
            "1e-12 m"},
-          {{"gap", "m", std::vector<double>{gap}},
-           {"least distance asked for", "m", std::vector<double>{projection.band.nearest}},
-           {"distance before", "m", std::vector<double>{before}},
-           {"distance reached", "m", std::vector<double>{reached}}},
+          Table{{"gap", "m"},
+                {"least distance asked for", "m"},
+                {"distance before", "m"},
+                {"distance reached", "m"}}
+              .with_row(gap, projection.band.nearest, before, reached),
           "measured is by how much the point came to lie deeper"};
 }
 

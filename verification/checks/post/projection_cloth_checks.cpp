@@ -52,26 +52,24 @@ ProjectionCase pinched_cloth(const TriangleMesh& mesh, double ripple) {
 
 Finding pinched_points_would_tear(const Subject&) {
   const TriangleMesh mesh = small_sheet(0.25, 20);
-  Table measured{{"case", ""}, {"stretch when left alone over stretch when projected", "1"}};
-  std::vector<double> alone, moved;
+  const std::string judged = "stretch when left alone over stretch when projected";
+  Table measured{
+      {"case", ""}, {judged, "1"}, {"stretch when left alone", "1"}, {"stretch when projected", "1"}};
   for (const double ripple : {0.001, 0.004}) {
     for (const DepthMap& map : depth_maps()) {
       const ProjectionCase specimen = pinched_cloth(mesh, ripple);
       FoldProjection projection = projection_by(std::string(map.name));
-      alone.push_back(largest_stretch(mesh, specimen.x, projected(specimen, projection).x));
+      const double alone = largest_stretch(mesh, specimen.x, projected(specimen, projection).x);
       projection.pinched = PinchedPoints::projected;
-      moved.push_back(largest_stretch(mesh, specimen.x, projected(specimen, projection).x));
-      measured.row(std::string(map.name) + ", ripple " + std::to_string(ripple) + " m",
-                   alone.back() / moved.back());
+      const double moved = largest_stretch(mesh, specimen.x, projected(specimen, projection).x);
+      measured.row(std::string(map.name) + ", ripple " + std::to_string(ripple) + " m", alone / moved, alone,
+                   moved);
     }
   }
-  Finding finding = judged_worst(
-      measured, 0.2,
+  return judged_worst(
+      measured, judged, 0.2,
       "neighbours on different sides of the middle leave by different balls, each a tenth of a metre away, "
       "where edges are an eightieth: a fifth leaves room for edges that a few particles' fate spares");
-  finding.evidence.add({"stretch when left alone", "1", alone});
-  finding.evidence.add({"stretch when projected", "1", moved});
-  return finding;
 }
 
 /// A wavy sheet that cuts through the ball about the origin, 5 cm below its top.
@@ -117,8 +115,8 @@ std::size_t left_inside(const std::vector<Triangle>& triangles, const PerParticl
 Finding serves_the_subdivided_cloth(const Subject&) {
   const TriangleMesh mesh = small_sheet(0.4, 12);
   const PerParticle3 x = sunk(mesh);
-  Table measured{{"case", ""}, {"triangles left inside", "1"}};
-  std::vector<double> before, eps;
+  Table measured{
+      {"case", ""}, {"triangles left inside", "1"}, {"triangles inside before", "1"}, {"eps", "m"}};
   for (const auto& [name, rule] :
        {std::pair{"midpoint", SubdivisionRule::midpoint}, {"loop", SubdivisionRule::loop}}) {
     for (const int levels : {1, 2, 3}) {
@@ -126,40 +124,30 @@ Finding serves_the_subdivided_cloth(const Subject&) {
       const PerParticle3 fine = finer.of(x);
       const BroughtOut out = out_of_the_ball(finer.triangles, fine);
       measured.row(std::string(name) + ", " + std::to_string(levels) + " levels",
-                   double(left_inside(finer.triangles, out.x)));
-      before.push_back(double(left_inside(finer.triangles, fine)));
-      eps.push_back(out.eps);
+                   left_inside(finer.triangles, out.x), left_inside(finer.triangles, fine), out.eps);
     }
   }
-  Finding finding =
-      judged_worst(measured, 0,
-                   "vertices at L^2/(6 R) or farther from a ball of radius R keep triangles with "
-                   "edges of L clear of it; decided in whole numbers");
-  finding.evidence.add({"triangles inside before", "1", before});
-  finding.evidence.add({"eps", "m", eps});
-  return finding;
+  return judged_worst(measured, "triangles left inside", 0,
+                      "vertices at L^2/(6 R) or farther from a ball of radius R keep triangles with edges "
+                      "of L clear of it; decided in whole numbers");
 }
 
 Finding subdividing_afterwards_spoils_it(const Subject&) {
   const TriangleMesh mesh = small_sheet(0.4, 12);
   const PerParticle3 x = sunk(mesh);
-  Table measured{{"case", ""}, {"cloths without a triangle inside", "1"}};
-  std::vector<double> inside;
+  Table measured{{"case", ""}, {"cloths without a triangle inside", "1"}, {"triangles left inside", "1"}};
   for (const int levels : {1, 2, 3}) {
     const Subdivision finer = subdivision(mesh, SubdivisionRule::loop, levels);
     FoldProjection projection = projection_by("blend");
     const double eps = out_of_the_ball(finer.triangles, finer.of(x)).eps;
     projection.band = {eps, eps + 0.03, 0.05};
     const ProjectedCloth coarse = projected({"ball", {ball_at(Vector3::Zero())}, 0, x}, projection);
-    inside.push_back(double(left_inside(finer.triangles, finer.of(coarse.x))));
-    measured.row(std::to_string(levels) + " levels after the projection", inside.back() == 0 ? 1 : 0);
+    const std::size_t inside = left_inside(finer.triangles, finer.of(coarse.x));
+    measured.row(std::to_string(levels) + " levels after the projection", inside == 0, inside);
   }
-  Finding finding =
-      judged_worst(measured, 0,
-                   "the same eps, but the coarse cloth is projected: smoothing draws its points "
-                   "towards the ball, and new ones lie on edges that cut into it");
-  finding.evidence.add({"triangles left inside", "1", inside});
-  return finding;
+  return judged_worst(measured, "cloths without a triangle inside", 0,
+                      "the same eps, but the coarse cloth is projected: smoothing draws its points towards "
+                      "the ball, and new ones lie on edges that cut into it");
 }
 
 /// |x fine - x| at the old particles and on the line between the ends of each edge, over epsilon and the

@@ -73,25 +73,22 @@ double count_inside(const PerParticle3& x) {
 }
 
 Finding no_particle_is_left_inside(const Subject&) {
-  Table measured{{"case", ""}, {"particles left inside", "1"}};
-  std::vector<double> before, without_room;
+  Table measured{{"case", ""},
+                 {"particles left inside", "1"},
+                 {"particles inside before", "1"},
+                 {"particles without room", "1"}};
   for (const KnownStatue& statue : statues()) {
     const Worn worn = sheet_through(statue);
     for (const char* map : {"plain", "blend"}) {
       const ProjectedCloth cloth = out_of(worn, map, statue.margin);
-      measured.row(statue.name + ", " + map, count_inside(cloth.x));
-      before.push_back(count_inside(worn.specimen.x));
-      without_room.push_back(cloth.count(Fate::unfinished));
+      measured.row(statue.name + ", " + map, count_inside(cloth.x), count_inside(worn.specimen.x),
+                   cloth.count(Fate::unfinished));
     }
   }
-  Finding finding =
-      judged_worst(measured, 0,
-                   "decided in whole numbers against the mesh: eps is a nanometre over exact distances, "
-                   "and a cell of the grid, "
-                   "by which a trilinear value next to an edge of the body may be too large");
-  finding.evidence.add({"particles inside before", "1", before});
-  finding.evidence.add({"particles without room", "1", without_room});
-  return finding;
+  return judged_worst(measured, "particles left inside", 0,
+                      "decided in whole numbers against the mesh: eps is a nanometre over exact distances, "
+                      "and a cell of the grid, by which a trilinear value next to an edge of the body may be "
+                      "too large");
 }
 
 double longest_edge(const TriangleMesh& mesh, const PerParticle3& x) {
@@ -101,8 +98,7 @@ double longest_edge(const TriangleMesh& mesh, const PerParticle3& x) {
 }
 
 Finding no_triangle_is_left_inside(const Subject&) {
-  Table measured{{"case", ""}, {"triangles left inside", "1"}};
-  std::vector<double> eps, without_room;
+  Table measured{{"case", ""}, {"triangles left inside", "1"}, {"eps", "m"}, {"particles without room", "1"}};
   const oracles::TriangleSoup surface = statue_surface();
   for (const KnownStatue& statue : statues()) {
     const Worn worn = sheet_through(statue);
@@ -114,18 +110,12 @@ Finding no_triangle_is_left_inside(const Subject&) {
       enough = 1.02 * needed;
       cloth = out_of(worn, "plain", enough);
     }
-    measured.row(statue.name,
-                 double(oracles::triangles_in_body({cloth.x, worn.mesh.triangles}, surface).size()));
-    eps.push_back(enough);
-    without_room.push_back(cloth.count(Fate::unfinished));
+    const auto inside = oracles::triangles_in_body({cloth.x, worn.mesh.triangles}, surface);
+    measured.row(statue.name, inside.size(), enough, cloth.count(Fate::unfinished));
   }
-  Finding finding =
-      judged_worst(measured, 0,
-                   "no point of a triangle is farther than L/sqrt(3) from all its corners, and phi "
-                   "falls by no more than the way");
-  finding.evidence.add({"eps", "m", eps});
-  finding.evidence.add({"particles without room", "1", without_room});
-  return finding;
+  return judged_worst(measured, "triangles left inside", 0,
+                      "no point of a triangle is farther than L/sqrt(3) from all its corners, and phi falls "
+                      "by no more than the way");
 }
 
 }  // namespace

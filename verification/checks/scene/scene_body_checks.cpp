@@ -123,15 +123,16 @@ std::string deform(const std::string& kind, double amplitude, double period) {
 Finding deformation_finding(const Subject&) {
   const ScratchFolder folder;
   const std::string keys = place + "cells = 12\ninterval = 0.05\n";
-  Differences differences;
+  Table differences = no_differences();
   const auto see = [&](const std::string& what, const std::string& parts, const Shaping& shaping,
                        double period) {
     const Scene scene = read_case_in(folder, ball_body(folder, keys + parts));
     for (const double t : {0.0, 0.05, 0.2, 0.3})
-      differences.see(what + " at " + std::to_string(t) + " s", surface_miss(scene, shaping, period, t), 1);
+      differences.row(what + " at " + std::to_string(t) + " s",
+                      in_roundings(surface_miss(scene, shaping, period, t), 1));
     const PerParticle3 between = (surface_at(scene.objects[0], 0.1) + surface_at(scene.objects[0], 0.15)) / 2;
-    differences.see(what + " between frames",
-                    (surface_at(scene.objects[0], 0.125) - between).cwiseAbs().maxCoeff(), 1);
+    differences.row(what + " between frames",
+                    in_roundings((surface_at(scene.objects[0], 0.125) - between).cwiseAbs().maxCoeff(), 1));
   };
   see(
       "bend", deform("bend", 70, 0.47),
@@ -153,8 +154,9 @@ Finding deformation_finding(const Subject&) {
         return share == 0 ? x : bent(x, -40 * degree * share, height);
       },
       0.4);
-  return differences.finding(
-      100, "sines, cosines and products of lengths below 1 m, with a few dozen roundings in either way");
+  return judged_differences(
+      differences, 100,
+      "sines, cosines and products of lengths below 1 m, with a few dozen roundings in either way");
 }
 
 /// Two frames of a ball in a folder, whose name is returned.
@@ -181,14 +183,16 @@ Finding frames_finding(const Subject&) {
   const auto between = [](const Scene& scene) {
     return std::get<DeformingObject>(first_object(scene).body).body->between;
   };
-  Differences differences;
-  differences.see("first frame", (surface_at(part, 0) - first).cwiseAbs().maxCoeff(), 1);
-  differences.see("second frame", (surface_at(part, 0.07) - last).cwiseAbs().maxCoeff(), 1);
-  differences.see("rests after it", (surface_at(part, 0.2) - last).cwiseAbs().maxCoeff(), 1);
-  differences.see("half way", (surface_at(part, 0.035) - (first + last) / 2).cwiseAbs().maxCoeff(), 1);
-  differences.is("carried by default", between(carried) == BetweenFrames::carried);
-  differences.is("blended if written", between(blended) == BetweenFrames::blended);
-  return differences.finding(32, "scaled, moved and averaged with a few roundings of lengths below 1 m");
+  Table differences = no_differences();
+  differences.row("first frame", in_roundings((surface_at(part, 0) - first).cwiseAbs().maxCoeff(), 1));
+  differences.row("second frame", in_roundings((surface_at(part, 0.07) - last).cwiseAbs().maxCoeff(), 1));
+  differences.row("rests after it", in_roundings((surface_at(part, 0.2) - last).cwiseAbs().maxCoeff(), 1));
+  differences.row("half way",
+                  in_roundings((surface_at(part, 0.035) - (first + last) / 2).cwiseAbs().maxCoeff(), 1));
+  differences.row("carried by default", infinite_unless(between(carried) == BetweenFrames::carried));
+  differences.row("blended if written", infinite_unless(between(blended) == BetweenFrames::blended));
+  return judged_differences(differences, 32,
+                            "scaled, moved and averaged with a few roundings of lengths below 1 m");
 }
 
 /// The drawn surface lies on the level sets that the cloth meets, at frames and between.

@@ -25,24 +25,29 @@ PerParticle3 end_of(const Scene& scene) {
 }
 
 Finding absent_finding(const Subject&) {
-  Differences differences;
+  Table differences = no_differences();
   const Scene nothing = trial_scene(""), falls = trial_scene("[gravity]\n");
   const Scene zeros = trial_scene("[gravity]\n[stretch]\nstiffness = 0\n[bending]\nstiffness = 0\n");
   const auto forces = [](const Scene& scene) { return double(build_system(scene).forces.size()); };
-  differences.see("forces of a case without any", forces(nothing), 1);
-  differences.see("forces of a case with gravity, less 1", forces(falls) - 1, 1);
-  differences.is("that force is gravity", std::holds_alternative<Gravity>(build_system(falls).forces[0]));
-  differences.see("forces of a case with three, less 3", forces(zeros) - 3, 1);
-  differences.see("filters and led particles",
-                  double(build_system(zeros).filters.size() + build_system(zeros).led.size()), 1);
-  differences.see("parts named, less 2", double(built_parts(falls, build_system(falls)).size()) - 2, 1);
-  differences.see("positions with gravity alone and with zero stiffnesses",
-                  largest_difference(end_of(falls), end_of(zeros)), extent(plain_positions()));
-  differences.see("positions without force and at rest",
-                  largest_difference(end_of(nothing), plain_positions()), extent(plain_positions()));
-  differences.see("default gravity", (*falls.gravity - Vector3(0, -9.80665, 0)).norm(), 9.80665);
-  return differences.finding(
-      0, "what is absent is not built; a stiffness of zero adds zeros, which change no digit");
+  differences.row("forces of a case without any", in_roundings(forces(nothing), 1));
+  differences.row("forces of a case with gravity, less 1", in_roundings(forces(falls) - 1, 1));
+  differences.row("that force is gravity",
+                  infinite_unless(std::holds_alternative<Gravity>(build_system(falls).forces[0])));
+  differences.row("forces of a case with three, less 3", in_roundings(forces(zeros) - 3, 1));
+  differences.row(
+      "filters and led particles",
+      in_roundings(double(build_system(zeros).filters.size() + build_system(zeros).led.size()), 1));
+  differences.row("parts named, less 2",
+                  in_roundings(double(built_parts(falls, build_system(falls)).size()) - 2, 1));
+  differences.row("positions with gravity alone and with zero stiffnesses",
+                  in_roundings(largest_difference(end_of(falls), end_of(zeros)), extent(plain_positions())));
+  differences.row(
+      "positions without force and at rest",
+      in_roundings(largest_difference(end_of(nothing), plain_positions()), extent(plain_positions())));
+  differences.row("default gravity",
+                  in_roundings((*falls.gravity - Vector3(0, -9.80665, 0)).norm(), 9.80665));
+  return judged_differences(
+      differences, 0, "what is absent is not built; a stiffness of zero adds zeros, which change no digit");
 }
 
 Finding numbers_finding(const Subject&) {
@@ -56,8 +61,8 @@ Finding numbers_finding(const Subject&) {
                                           "max_steps = 53\n[solver]\ntolerance = 3e-7\nmax_iterations = "
                                           "17\nrelative_to = \"initial_residual\"\n",
                                       "folder/trial.toml");
-  Differences differences;
-  const auto is = [&](const std::string& what, bool right) { differences.is(what, right); };
+  Table differences = no_differences();
+  const auto is = [&](const std::string& what, bool right) { differences.row(what, infinite_unless(right)); };
   is("name, title, about", scene.name == "trial" && scene.title == "Trial" && scene.about == "Words");
   is("density", scene.density == 0.23);
   is("gravity", *scene.gravity == Vector3(0.3, -0.7, 1.1));
@@ -80,15 +85,15 @@ Finding numbers_finding(const Subject&) {
   is("defaults of bending",
      trial_scene("[bending]\nstiffness = 1e-4\n").bending->weighting == Weighting::rest &&
          trial_scene("[bending]\nstiffness = 1e-4\n").bending->law == "sine");
-  return differences.finding(0, "a number is read as it is written");
+  return judged_differences(differences, 0, "a number is read as it is written");
 }
 
 Finding overrides_finding(const Subject&) {
   const std::string tables =
       "[stretch]\nstiffness = 37.5\n[[hold]]\nparticles = [0]\n[[hold]]\nparticles = [3]\n";
   const auto with = [&](std::vector<std::string> overrides) { return trial_scene(tables, overrides); };
-  Differences differences;
-  const auto is = [&](const std::string& what, bool right) { differences.is(what, right); };
+  Table differences = no_differences();
+  const auto is = [&](const std::string& what, bool right) { differences.row(what, infinite_unless(right)); };
   const auto refused = [&](const std::string& assignment, const std::string& mention) {
     try {
       with({assignment});
@@ -111,7 +116,7 @@ Finding overrides_finding(const Subject&) {
   is("a missing '=' is refused", refused("stretch.stiffness", "table.key=value"));
   is("a path through a value is refused", refused("stretch.stiffness.x=3", "'stiffness' is not a table"));
   is("an entry that is not there is refused", refused("hold.2.particles=[5]", "no hold.2"));
-  return differences.finding(0, "an override acts as if it stood in the file, or is refused");
+  return judged_differences(differences, 0, "an override acts as if it stood in the file, or is refused");
 }
 
 }  // namespace

@@ -83,17 +83,16 @@ std::string missing(const Refusal& refusal, std::string& message) {
 Finding refused(const std::vector<Refusal>& refusals) {
   read_scene_text(trial_case, "trial.toml");  // the unedited case is understood
   double wrong = 0;
-  std::vector<std::string> edits, messages, lacking;
+  Table answers{{"edit", "1"}, {"message", "1"}, {"lacking", "1"}};
   for (const Refusal& refusal : refusals) {
     std::string message;
-    lacking.push_back(missing(refusal, message));
-    wrong += lacking.back().empty() ? 0 : 1;
-    edits.push_back(refusal.replace);
-    messages.push_back(message);
+    const std::string lacking = missing(refusal, message);
+    wrong += lacking.empty() ? 0 : 1;
+    answers.row(refusal.replace, message, lacking);
   }
   return {{wrong, 0, 0, "cases",
            "each wrong case is refused with file and line, the key, and what is known or wanted"},
-          {{"edit", "1", edits}, {"message", "1", messages}, {"lacking", "1", lacking}},
+          answers,
           ""};
 }
 
