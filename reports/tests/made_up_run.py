@@ -145,7 +145,8 @@ def put_run(folder: Path) -> None:
         put_finding(file, 3, NAMES[2], "check", outcome="inconclusive", why_bound=HOSTILE)
         put_finding(file, 4, NAMES[3], "study", study="time-order")
         put_finding(file, 5, NAMES[4], "bench", outcome="measured", better="higher", bound=1e7, measured=2e7)
-        put_finding(file, 6, NAMES[5], "study", study="one that was not run", outcome="not applicable")
+        put_finding(file, 6, NAMES[5], "study", study="one that was not run", outcome="not applicable",
+                    note="written for another mesh", measured=np.nan)
         put_finding(file, 7, NAMES[6], "check", source=HOSTILE)
         put_finding(file, 8, NAMES[7], "check", source="A sharp fold", uncertainty=1.0)
         put_study(file)

@@ -67,6 +67,11 @@ class Order(MadeUpPage):
         places = [self.text.index(f'<section id="{name}"') for name in SECTIONS]
         self.assertEqual(places, sorted(places))
 
+    def test_what_was_not_asked_shows_its_reason_and_no_numbers(self) -> None:
+        row = re.search(r'<span class="claim">(?:(?!<span class="claim">).)*?written for another mesh</span></span>', self.text, re.DOTALL)
+        self.assertIsNotNone(row)
+        self.assertNotIn("NaN", row.group())
+
     def test_the_first_screen_counts_and_answers(self) -> None:
         opening = self.text[:self.text.index("<main")]
         for word in ("Claims", "Checks", "Studies", "Cases", "What of the paper holds?", "Which integrator should I use?"):

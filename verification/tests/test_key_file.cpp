@@ -69,7 +69,7 @@ TEST_CASE("overrides change, add, and reach into lists") {
   CHECK(root->table("cloth")->number("width") == 3);
   CHECK(root->table("time")->text("step") == "automatic");
   CHECK(root->tables("hold")[1]->number("top") == 0.125);
-  CHECK(root->table("cloth")->where("width") == "--set");
+  CHECK(root->table("cloth")->where("width") == "--set cloth.width=3");
   CHECK_THROWS_WITH(set_key(*root, "cloth.width"), Contains("table.key=value"));
   CHECK_THROWS_WITH(set_key(*root, "title.more=1"), Contains("not a table"));
   CHECK_THROWS_WITH(set_key(*root, "hold.7.top=1"), Contains("no hold.7"));
