@@ -14,7 +14,7 @@ from make_film import film_of, picture_bytes
 from make_report import make_report
 from pages.chromium import Browser
 from pictures.camera import up_against, upright_axes
-from pictures.case_pictures import shown_frames
+from pictures.case_pictures import select_frames
 from pictures.cloth_picture import picture_of
 from tests.made_up_case import WithCase, put_whole_case
 
@@ -88,7 +88,7 @@ class Upright(WithCase):
 
     def test_pictures_and_films_of_a_case_that_is_turned_are_the_same(self) -> None:
         def drawn(path: Path) -> tuple[np.ndarray, np.ndarray]:
-            _, scene = shown_frames(load_case(path))
+            _, scene = select_frames(load_case(path))
             film = film_of(scene.case, argparse.Namespace(field=None, size=(320, 240), fps=5))
             frame = np.frombuffer(picture_bytes(film, 2), dtype=np.uint8)
             return picture_of(scene.cloth(2), scene.camera, scene.scenery(2)), frame
@@ -98,7 +98,7 @@ class Upright(WithCase):
                 self.assert_alike(seen, like)
 
     def test_the_camera_stands_upright_on_a_slope(self) -> None:
-        camera, sloping = (shown_frames(load_case(path))[1].camera
+        camera, sloping = (select_frames(load_case(path))[1].camera
                            for path in (self.plain, put_turned_case(self.root / "aslant", ASLANT)))
         for axis, turned in zip((camera.right, camera.up, camera.toward), (sloping.right, sloping.up, sloping.toward)):
             np.testing.assert_allclose(turned, ASLANT @ axis, atol=1e-12)
