@@ -15,7 +15,8 @@ void require_valid(const Convergence& convergence) {
   const std::vector<double>& steps = convergence.steps;
   if (steps.size() != convergence.errors.size() || steps.size() < 2)
     throw InputError("convergence: " + std::to_string(steps.size()) + " steps and " +
-                     std::to_string(convergence.errors.size()) + " errors; give two or more of each");
+                     std::to_string(convergence.errors.size()) +
+                     " errors; give two or more of each");
   for (size_t i = 0; i < steps.size(); ++i)
     if (!(steps[i] > 0) || (i > 0 && !(steps[i] < steps[i - 1])))
       throw InputError("convergence: step " + std::to_string(i) +
@@ -23,7 +24,9 @@ void require_valid(const Convergence& convergence) {
 }
 
 /// log e, NaN for errors that have no logarithm.
-double log_of(double error) { return error > 0 ? std::log(error) : std::numeric_limits<double>::quiet_NaN(); }
+double log_of(double error) {
+  return error > 0 ? std::log(error) : std::numeric_limits<double>::quiet_NaN();
+}
 
 /// How far log e can move when e may be off by `floor`; the side towards zero is the farther one.
 double log_uncertainty(double error, double floor) {
@@ -38,7 +41,8 @@ std::vector<double> pair_orders(const Convergence& convergence) {
   const auto& [steps, errors, floor] = convergence;
   std::vector<double> orders;
   for (size_t i = 0; i + 1 < steps.size(); ++i)
-    orders.push_back((log_of(errors[i]) - log_of(errors[i + 1])) / std::log(steps[i] / steps[i + 1]));
+    orders.push_back((log_of(errors[i]) - log_of(errors[i + 1])) /
+                     std::log(steps[i] / steps[i + 1]));
   return orders;
 }
 

@@ -9,7 +9,8 @@ namespace foldproof {
 /// `count` >= 2 values from low to high, all in the same ratio to the next; 0 < low < high.
 inline std::vector<double> geometric_range(double low, double high, int count) {
   std::vector<double> values;
-  for (int i = 0; i < count; ++i) values.push_back(low * std::pow(high / low, double(i) / (count - 1)));
+  for (int i = 0; i < count; ++i)
+    values.push_back(low * std::pow(high / low, double(i) / (count - 1)));
   return values;
 }
 

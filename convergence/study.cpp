@@ -2,8 +2,8 @@
 
 namespace foldproof {
 
-std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const Subject& subject, Tier tier,
-                                                      const Progress& progress) {
+std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const Subject& subject,
+                                                      Tier tier, const Progress& progress) {
   StudyRecord whole{study.name, study.claim, study.source, study.about, 0, {}, {}, {}};
   std::vector<Record> records;
   const Record blank{study.name, "study", study.name, study.claim, study.source, {}, {}, "", 0, {}};

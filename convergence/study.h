@@ -1,4 +1,5 @@
-// A study measures a rate or a cost over a range: its findings are judged like checks, its curves are evidence.
+// A study measures a rate or a cost over a range: its findings are judged like checks, its
+// curves are evidence.
 #pragma once
 
 #include <functional>
@@ -29,8 +30,9 @@ struct Study {
   std::function<StudyResult(const Subject&, Tier, const Progress&)> run;
 };
 
-/// Runs a study: one record for each of its findings; one that failed, with the message, if it threw.
-std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const Subject& subject, Tier tier,
-                                                      const Progress& progress);
+/// Runs a study: one record for each of its findings; one that failed, with the
+/// message, if it threw.
+std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const Subject& subject,
+                                                      Tier tier, const Progress& progress);
 
 }  // namespace foldproof

@@ -1,7 +1,7 @@
 // The words everything else is written in: state, work, and the unit convention.
 //
-// Units are SI throughout: m, s, kg, N, J. Angles are in radians in code, in degrees in case files (each key
-// says so).
+// Units are SI throughout: m, s, kg, N, J. Angles are in radians in code, in degrees in case files
+// (each key says so).
 #pragma once
 
 #include <Eigen/Core>
@@ -36,20 +36,25 @@ struct State {
 
 /// Counted work: what a method costs, whatever the machine. Returned or added to, never global.
 struct Work {
-  long elastic_evaluations = 0;     // evaluations of all elastic and external forces of the system
-  long damping_preparations = 0;    // times the position-dependent terms of the damping forces were computed
+  long elastic_evaluations = 0;  // evaluations of all elastic and external forces of the system
+  // times the position-dependent terms of the damping forces were computed
+  long damping_preparations = 0;
   long damping_products = 0;        // products D(x) v
   long stiffness_preparations = 0;  // times the forces' derivative by the positions was computed
   long stiffness_products = 0;      // products of it with a displacement
   long newton_iterations = 0;       // over all nonlinear systems
   long solves = 0;                  // linear systems solved for a velocity
-  long cg_iterations = 0;    // over all solves; an unsymmetric system's count two, as their products do
-  long object_queries = 0;   // points that were asked where they are to the collision objects
-  long object_contacts = 0;  // of those that were to be moved, how many had their velocity corrected
-  long strain_sweeps = 0;    // of strain limiting over all springs
-  double strain_left = 0;    // largest violation of a strain limit that a call left, over the rest length [1]
-  long close_pairs = 0;      // pairs of cloth features nearer than the thickness that were answered
-  long crossing_queries = 0;   // pairs of cloth features asked whether their motion takes them together
+  // over all solves; an unsymmetric system's count two, as their products do
+  long cg_iterations = 0;
+  long object_queries = 0;  // points that were asked where they are to the collision objects
+  // of those that were to be moved, how many had their velocity corrected
+  long object_contacts = 0;
+  long strain_sweeps = 0;  // of strain limiting over all springs
+  // largest violation of a strain limit that a call left, over the rest length [1]
+  double strain_left = 0;
+  long close_pairs = 0;  // pairs of cloth features nearer than the thickness that were answered
+  // pairs of cloth features asked whether their motion takes them together
+  long crossing_queries = 0;
   long crossings = 0;          // of those, pairs that were kept apart by an impulse
   long zones = 0;              // rigid impact zones
   long zone_particles = 0;     // particles in them
@@ -80,8 +85,8 @@ inline constexpr long Work::*summed_counters[] = {&Work::elastic_evaluations,
 inline constexpr double Work::*worst_counters[] = {&Work::strain_left, &Work::worst_residual};
 
 // Whoever adds a number is stopped here until it is in one of the lists.
-static_assert(sizeof(Work) ==
-              std::size(summed_counters) * sizeof(long) + std::size(worst_counters) * sizeof(double));
+static_assert(sizeof(Work) == std::size(summed_counters) * sizeof(long) +
+                                  std::size(worst_counters) * sizeof(double));
 
 /// Shows `visit` every number of a Work, const or not: counts as long, the rest as double.
 template <class SomeWork, class Visit>

@@ -35,7 +35,8 @@ struct CommandText {
 };
 
 /// A command that runs `run` when it was typed.
-CLI::App* add_command(CLI::App& app, Options& options, const CommandText& text, int (*run)(const Options&)) {
+CLI::App* add_command(CLI::App& app, Options& options, const CommandText& text,
+                      int (*run)(const Options&)) {
   CLI::App* command = app.add_subcommand(text.name, text.what);
   command->footer(text.below);
   command->group("Commands");
@@ -44,21 +45,26 @@ CLI::App* add_command(CLI::App& app, Options& options, const CommandText& text, 
 }
 
 void add_json(CLI::App* command, Options& options) {
-  command->add_flag("--json", options.json, "Print JSON on standard output")->disable_flag_override();
+  command->add_flag("--json", options.json, "Print JSON on standard output")
+      ->disable_flag_override();
 }
 
-CLI::Option* add_switch(CLI::App* command, const std::string& name, bool& value, const std::string& what) {
+CLI::Option* add_switch(CLI::App* command, const std::string& name, bool& value,
+                        const std::string& what) {
   return command->add_flag(name, value, what)->disable_flag_override();
 }
 
 /// Input files that a command needs.
 template <class Files>
-CLI::Option* add_input(CLI::App* command, const std::string& name, Files& files, const std::string& what) {
+CLI::Option* add_input(CLI::App* command, const std::string& name, Files& files,
+                       const std::string& what) {
   return command->add_option(name, files, what)->check(some_text("a file or folder"))->required();
 }
 
 CLI::Option* add_folder(CLI::App* command, Options& options, const std::string& what) {
-  return command->add_option("--out", options.out, what)->type_name("DIR")->check(some_text("a folder"));
+  return command->add_option("--out", options.out, what)
+      ->type_name("DIR")
+      ->check(some_text("a folder"));
 }
 
 void add_tier(CLI::App* command, Options& options) {
@@ -77,12 +83,13 @@ void add_overrides(CLI::App* command, Options& options) {
       ->allow_extra_args(false);
 }
 
-/// Level sets are kept only where a folder is named: a run leaves nothing behind that it was not asked for.
+/// Level sets are kept only where a folder is named: a run leaves nothing behind that it
+/// was not asked for.
 void add_cache(CLI::App* command, Options& options) {
   command
-      ->add_option(
-          "--cache", options.cache,
-          "Keep the level sets of meshes in this folder for later runs; the results are the same to the bit")
+      ->add_option("--cache", options.cache,
+                   "Keep the level sets of meshes in this folder for later runs; the results are "
+                   "the same to the bit")
       ->type_name("DIR")
       ->check(some_text("a folder"));
 }
@@ -96,8 +103,9 @@ void add_threads(CLI::App* command, Options& options) {
 /// How checks, studies and cases are run, and on which samples.
 void add_running(CLI::App* command, Options& options) {
   command
-      ->add_option("--seed", options.seed_shift,
-                   "Shifts the seeds of all random samples, 0 to 1000000000; the project is judged by 0")
+      ->add_option(
+          "--seed", options.seed_shift,
+          "Shifts the seeds of all random samples, 0 to 1000000000; the project is judged by 0")
       ->type_name("N")
       ->check(whole_number(0, 1'000'000'000))
       ->capture_default_str();
@@ -120,11 +128,13 @@ void add_out_if_typed(CLI::App* command, Options& options, const std::string& wh
 /// check and study: they write files only if a folder is named.
 void add_selections(CLI::App& app, Options& options) {
   for (CLI::App* command :
-       {add_command(app, options, {"check", "Run checks (all, or those named)", help::check}, run_checks),
+       {add_command(app, options, {"check", "Run checks (all, or those named)", help::check},
+                    run_checks),
         add_command(app, options, {"study", "Run studies (all, or those named)", help::study},
                     run_studies)}) {
     command->add_option("NAME", options.names, "Names or groups, as `foldproof list` shows them");
-    add_out_if_typed(command, options, "Also write run.h5, verdicts.json and junit.xml into this folder");
+    add_out_if_typed(command, options,
+                     "Also write run.h5, verdicts.json and junit.xml into this folder");
     add_running(command, options);
     add_tier(command, options);
     add_json(command, options);
@@ -137,10 +147,11 @@ void add_simulate(CLI::App& app, Options& options) {
       simulate_case);
   add_input(simulate, "CASE", options.file, case_words);
   add_overrides(simulate, options);
-  CLI::Option* resume =
-      add_switch(simulate, "--resume", options.resumes,
-                 "Go on from the last checkpoint of an interrupted run; the results are the same to the bit");
-  add_switch(simulate, "--restart", options.restarts, "Start over; deletes checkpoints of an interrupted run")
+  CLI::Option* resume = add_switch(
+      simulate, "--resume", options.resumes,
+      "Go on from the last checkpoint of an interrupted run; the results are the same to the bit");
+  add_switch(simulate, "--restart", options.restarts,
+             "Start over; deletes checkpoints of an interrupted run")
       ->excludes(resume);
   add_cache(simulate, options);
   add_folder(simulate, options, "Folder for results")->capture_default_str();
@@ -149,15 +160,17 @@ void add_simulate(CLI::App& app, Options& options) {
 
 void add_runs(CLI::App& app, Options& options) {
   add_simulate(app, options);
-  CLI::App* everything = add_command(
-      app, options, {"verify", "Run all checks, studies and cases; rule the claims, write the report", help::verify},
-      verify);
+  CLI::App* everything =
+      add_command(app, options,
+                  {"verify", "Run all checks, studies and cases; rule the claims, write the report",
+                   help::verify},
+                  verify);
   add_switch(everything, "--no-report", options.no_report, "Write the results only");
   add_switch(everything, "--no-bench", options.no_bench, "Measure no speeds");
   add_running(everything, options);
   add_tier(everything, options);
-  CLI::App* speed = add_command(app, options,
-                                {"bench", "Measure speed and memory; writes bench.h5", help::bench}, run_bench);
+  CLI::App* speed = add_command(
+      app, options, {"bench", "Measure speed and memory; writes bench.h5", help::bench}, run_bench);
   add_switch(speed, "--quick", options.quick, "Up to 100k particles instead of a million");
   add_cache(everything, options);
   for (CLI::App* command : {everything, speed}) {
@@ -167,12 +180,15 @@ void add_runs(CLI::App& app, Options& options) {
 }
 
 void add_ablate(CLI::App& app, Options& options) {
-  CLI::App* ablate = add_command(app, options,
-                                 {"ablate",
-                                  "Which of its parts does a case need, and which does it lack? Adds to ablation.json",
-                                  help::ablate},
-                                 ::foldproof::ablate);
-  ablate->add_option("CASE", options.names, "Case files, or names of shipped cases (default: all of the tier)")
+  CLI::App* ablate = add_command(
+      app, options,
+      {"ablate",
+       "Which of its parts does a case need, and which does it lack? Adds to ablation.json",
+       help::ablate},
+      ::foldproof::ablate);
+  ablate
+      ->add_option("CASE", options.names,
+                   "Case files, or names of shipped cases (default: all of the tier)")
       ->check(some_text("a case file"));
   add_tier(ablate, options);
   add_overrides(ablate, options);
@@ -185,11 +201,14 @@ void add_ablate(CLI::App& app, Options& options) {
 void add_converge(CLI::App& app, Options& options) {
   CLI::App* converge = add_command(
       app, options,
-      {"converge", "How large is the error that a case owes to its step? Order, limit and error bar",
+      {"converge",
+       "How large is the error that a case owes to its step? Order, limit and error bar",
        help::converge},
       ::foldproof::converge);
   add_input(converge, "CASE", options.file, case_words);
-  converge->add_option("--levels", options.levels, "Runs, 3 to 12, each with half the steps of the one before")
+  converge
+      ->add_option("--levels", options.levels,
+                   "Runs, 3 to 12, each with half the steps of the one before")
       ->type_name("N")
       ->check(whole_number(3, 12))
       ->capture_default_str();
@@ -197,36 +216,45 @@ void add_converge(CLI::App& app, Options& options) {
       ->type_name("METHOD")
       ->check(some_text("an integrator"))
       ->allow_extra_args(false);
-  converge->add_option("--until", options.until, "Ask only the beginning of the run, up to this time [s]")
+  converge
+      ->add_option("--until", options.until,
+                   "Ask only the beginning of the run, up to this time [s]")
       ->type_name("TIME")
       ->check(positive_number());
   add_overrides(converge, options);
-  add_folder(converge, options, "Folder whose store/ keeps every run; a second call makes only what is missing")
+  add_folder(converge, options,
+             "Folder whose store/ keeps every run; a second call makes only what is missing")
       ->capture_default_str();
   add_cache(converge, options);
   add_threads(converge, options);
   add_json(converge, options);
 }
 
-CLI::Option* add_length(CLI::App* command, const std::string& name, double& value, const std::string& what) {
+CLI::Option* add_length(CLI::App* command, const std::string& name, double& value,
+                        const std::string& what) {
   return command->add_option(name, value, what)->type_name("LENGTH")->check(finite_number());
 }
 
 void add_project(CLI::App& app, Options& options) {
   CLI::App* project = add_command(
       app, options,
-      {"project", "Bring the cloth of a stored run out of its objects; writes NAME_projected.h5", help::project},
+      {"project", "Bring the cloth of a stored run out of its objects; writes NAME_projected.h5",
+       help::project},
       project_run);
   add_input(project, "RUN.h5", options.file, "What `foldproof simulate` wrote");
   project->add_option("--map", options.map, "Map of depth: plain, power or blend")
       ->type_name("MAP")
       ->check(one_of({"plain", "power", "blend"}))
       ->required();
-  add_length(project, "--tau", options.reach, "Points up to so far outside are moved [m]")->required();
-  add_length(project, "--eps", options.eps, "How far out the deepest points come to lie [m]")->capture_default_str();
+  add_length(project, "--tau", options.reach, "Points up to so far outside are moved [m]")
+      ->required();
+  add_length(project, "--eps", options.eps, "How far out the deepest points come to lie [m]")
+      ->capture_default_str();
   add_length(project, "--deepest", options.deepest,
              "Depths [m] beyond this are treated alike (default: the deepest in the run)");
-  project->add_option("--subdivide", options.subdivisions, "Levels of subdivision before the projection, 0 to 8")
+  project
+      ->add_option("--subdivide", options.subdivisions,
+                   "Levels of subdivision before the projection, 0 to 8")
       ->type_name("N")
       ->check(whole_number(0, 8))
       ->capture_default_str();
@@ -241,10 +269,12 @@ void add_project(CLI::App& app, Options& options) {
 
 void add_film(CLI::App& app, Options& options) {
   CLI::App* film = add_command(
-      app, options, {"film", "Make a film of a stored run (MP4 and GIF, by ffmpeg)", help::film}, make_film);
+      app, options, {"film", "Make a film of a stored run (MP4 and GIF, by ffmpeg)", help::film},
+      make_film);
   add_input(film, "RUN.h5", options.file, "What `foldproof simulate` wrote");
   film->add_option("--field", options.field,
-                   "Colour the cloth by strain [1], angle [rad], phi [m] or speed [m/s] (default: by its sides)")
+                   "Colour the cloth by strain [1], angle [rad], phi [m] or speed [m/s] (default: "
+                   "by its sides)")
       ->type_name("FIELD")
       ->check(one_of({"strain", "angle", "phi", "speed"}));
   film->add_option("--size", options.size, "Width and height in pixels (default: 1280x720)")
@@ -261,18 +291,21 @@ void add_film(CLI::App& app, Options& options) {
 void add_pages(CLI::App& app, Options& options) {
   CLI::App* report = add_command(
       app, options,
-      {"report", "Make DIR/report.html from stored results; of two folders, say what differs", help::report},
+      {"report", "Make DIR/report.html from stored results; of two folders, say what differs",
+       help::report},
       make_report);
-  add_input(report, "DIR", options.names, "Folder with run.h5 or case files; two of them are compared")
+  add_input(report, "DIR", options.names,
+            "Folder with run.h5 or case files; two of them are compared")
       ->expected(1, 2);
   add_switch(report, "--pdf", options.pdf, "Also DIR/report.pdf, printed by chromium");
   add_switch(report, "--papers", options.papers,
              "Figures and pictures also as PDF and PNG files, in DIR/figures");
   add_film(app, options);
-  CLI::App* files = add_command(
-      app, options,
-      {"export", "Write the frames of a stored run as files for other programs", help::export_frames},
-      export_frames);
+  CLI::App* files =
+      add_command(app, options,
+                  {"export", "Write the frames of a stored run as files for other programs",
+                   help::export_frames},
+                  export_frames);
   add_input(files, "RUN.h5", options.file, "What `foldproof simulate` wrote");
   files->add_option("--format", options.kind, "obj, ply or xdmf")
       ->type_name("FORMAT")
@@ -282,12 +315,12 @@ void add_pages(CLI::App& app, Options& options) {
 }
 
 void add_golden(CLI::App& app, Options& options) {
-  CLI::App* golden = add_command(app, options,
-                                 {"golden",
-                                  "Print inputs and outputs of a formula, right to the last digit, for unit tests "
-                                  "of yours",
-                                  help::golden},
-                                 print_golden_values);
+  CLI::App* golden = add_command(
+      app, options,
+      {"golden",
+       "Print inputs and outputs of a formula, right to the last digit, for unit tests of yours",
+       help::golden},
+      print_golden_values);
   golden
       ->add_option("TABLE", options.file,
                    "bending, springs, integrator, forecast, friction, projection or sticking")
@@ -309,41 +342,52 @@ void add_evaluate(CLI::App& app, Options& options) {
   evaluate->group("Commands");
   evaluate->require_subcommand(0, 1);
   evaluate->footer(help::evaluate);
-  CLI::App* bending = add_command(
-      *evaluate, options, {"bending", "Forces of single hinges from a CSV file", help::evaluate_bending},
-      evaluate_hinges);
+  CLI::App* bending =
+      add_command(*evaluate, options,
+                  {"bending", "Forces of single hinges from a CSV file", help::evaluate_bending},
+                  evaluate_hinges);
   add_input(bending, "FILE", options.file, "CSV, 27 columns");
-  bending->add_option("--rest", options.rest_file, "CSV, 12 columns: rest positions [m], for rest weighting")
+  bending
+      ->add_option("--rest", options.rest_file,
+                   "CSV, 12 columns: rest positions [m], for rest weighting")
       ->type_name("FILE")
       ->check(some_text("a file"));
   CLI::App* queries = add_command(
       *evaluate, options,
-      {"crossings", "Moving features that meet, or not: the reference and the exact judge against a file's word",
+      {"crossings",
+       "Moving features that meet, or not: the reference and the exact judge against a file's word",
        help::evaluate_crossings},
       evaluate_queries);
   add_input(queries, "FILE,--ccd-data", options.file,
             "CSV, 7 columns, 8 rows a query, or a folder of such files")
       ->type_name("FILE");
-  queries->add_option("--kind", options.kind, "vertex-face or edge-edge (default: as the path says)")
+  queries
+      ->add_option("--kind", options.kind, "vertex-face or edge-edge (default: as the path says)")
       ->type_name("KIND")
       ->check(one_of({"vertex-face", "edge-edge"}));
-  add_length(queries, "--keep", options.keep, "Distance that the reference is to keep [m]")->capture_default_str();
+  add_length(queries, "--keep", options.keep, "Distance that the reference is to keep [m]")
+      ->capture_default_str();
 }
 
 void add_readers(CLI::App& app, Options& options) {
-  add_json(add_command(app, options,
-                       {"list", "Show what there is: checks, studies, cases, integrators", help::list}, list),
-           options);
+  add_json(
+      add_command(app, options,
+                  {"list", "Show what there is: checks, studies, cases, integrators", help::list},
+                  list),
+      options);
   CLI::App* claims = add_command(
-      app, options, {"claims", "Show what a finished run says of the papers' claims", help::claims}, show_claims);
-  claims->add_option("ID", options.names, "One claim, such as T17: why, and the findings that decide it");
+      app, options, {"claims", "Show what a finished run says of the papers' claims", help::claims},
+      show_claims);
+  claims->add_option("ID", options.names,
+                     "One claim, such as T17: why, and the findings that decide it");
   add_folder(claims, options, "Folder of the finished run")->capture_default_str();
   add_json(claims, options);
   add_pages(app, options);
   CLI::App* mesh =
       add_command(app, options, {"inspect", "Is a mesh good for a body?", help::inspect}, inspect);
   add_input(mesh, "MESH.obj", options.file, "An OBJ file");
-  mesh->add_option("--cells", options.cells, "Cells of the grid that is looked at, along the longest side")
+  mesh->add_option("--cells", options.cells,
+                   "Cells of the grid that is looked at, along the longest side")
       ->type_name("N")
       ->check(whole_number(4, 1000))
       ->capture_default_str();
@@ -364,8 +408,8 @@ int run(int argc, char** argv) {
   options.command = command_line(argc, argv);
   options.words.assign(argv, argv + argc);
   CLI::App app(
-      "Verification suite and reference implementation for cloth simulation, after Bridson, Marino, Fedkiw "
-      "(2003).");
+      "Verification suite and reference implementation for cloth simulation, after Bridson, "
+      "Marino, Fedkiw (2003).");
   app.footer(help::whole_program);
   app.formatter(std::make_shared<PlainHelp>());
   app.require_subcommand(0, 1);  // a word that is none is named, rather than said to be missing
@@ -392,8 +436,8 @@ int run(int argc, char** argv) {
 }  // namespace foldproof
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ,
-              SIG_IGN);  // a file that may grow no further is an error like a full disk, and told like one
+  // a file that may grow no further is an error like a full disk, and told like one
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     const int code = foldproof::run(argc, argv);
     if (std::fflush(stdout) == 0) return code;

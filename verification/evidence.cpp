@@ -47,7 +47,8 @@ size_t Table::rows() const { return columns_.empty() ? 0 : length_of(columns_.fr
 
 void Table::add(Column column) {
   if (!columns_.empty() && length_of(column) != rows())
-    reject(fmt::format("{} values in column '{}' for {} rows", length_of(column), column.name, rows()));
+    reject(fmt::format("{} values in column '{}' for {} rows", length_of(column), column.name,
+                       rows()));
   columns_.push_back(std::move(column));
 }
 
@@ -58,8 +59,8 @@ void Table::append(std::initializer_list<Cell> cells) {
   for (size_t k = 0; k < cells.size(); ++k) {
     const bool is_text = cells.begin()[k].value.index() == 1;
     if (!is_first && is_text != holds_texts(columns_[k]))
-      reject(fmt::format("column '{}' holds {}, and row {} gives it {}", columns_[k].name, kind_of(!is_text),
-                         rows() + 1, kind_of(is_text)));
+      reject(fmt::format("column '{}' holds {}, and row {} gives it {}", columns_[k].name,
+                         kind_of(!is_text), rows() + 1, kind_of(is_text)));
   }
   for (size_t k = 0; k < cells.size(); ++k) append_to(columns_[k], cells.begin()[k]);
 }
@@ -97,7 +98,9 @@ size_t Table::worst_row(std::string_view wanted) const {
   reject(fmt::format("no row of column '{}' is at least 0", wanted));
 }
 
-Table roundings_of(const std::string& scale) { return {{"case", ""}, {"measured", "epsilon " + scale}}; }
+Table roundings_of(const std::string& scale) {
+  return {{"case", ""}, {"measured", "epsilon " + scale}};
+}
 
 double signed_largest(const std::vector<double>& values) {
   if (values.empty()) return nan;

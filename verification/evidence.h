@@ -36,9 +36,11 @@ concept Estimated = requires(const Number& number) {
 /// One entry of a row: a text, or a number with its uncertainty.
 struct Cell {
   template <class Number>
-  requires std::integral<Number> || std::floating_point<Number> Cell(Number number) : value(double(number)) {}
+  requires std::integral<Number> || std::floating_point<Number> Cell(Number number)
+      : value(double(number)) {}
   template <Estimated Number>
-  Cell(const Number& number) : value(double(number.value)), uncertainty(double(number.uncertainty)) {}
+  Cell(const Number& number)
+      : value(double(number.value)), uncertainty(double(number.uncertainty)) {}
   template <class Text>
   requires std::convertible_to<Text, std::string_view> Cell(const Text& text)
       : value(std::string(std::string_view(text))) {}
@@ -53,8 +55,8 @@ struct Cell {
 ///   for (const double h : steps) table.row(h, error_of(h));
 ///   return judge_worst(table, 1e-12, "five roundings a step");
 ///
-/// The first row decides which columns hold texts. What does not fit, in number or type, and a column that
-/// is not there throw std::logic_error with the names of the table and its columns.
+/// The first row decides which columns hold texts. What does not fit, in number or type, and a
+/// column that is not there throw std::logic_error with the names of the table and its columns.
 class Table {
  public:
   std::string name, title;  // of a study's table; evidence needs none
@@ -101,7 +103,8 @@ class Table {
   std::vector<Column> columns_;
 };
 
-/// For numbers measured case by case in multiples of epsilon times a scale: columns "case" and "measured".
+/// For numbers measured case by case in multiples of epsilon times a scale: columns "case"
+/// and "measured".
 Table roundings_of(const std::string& scale);
 
 /// The largest value with its sign; NaN if any is, or if there is none.

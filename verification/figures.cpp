@@ -4,7 +4,8 @@
 
 namespace foldproof {
 
-Curve curve_of(const std::string& label, const Table& table, std::string_view x, std::string_view y) {
+Curve curve_of(const std::string& label, const Table& table, std::string_view x,
+               std::string_view y) {
   return {label, table.numbers(x), table.numbers(y), nan, {}};
 }
 

@@ -9,8 +9,8 @@
 
 namespace foldproof {
 
-/// What a point of a curve stands for: measured, measured though a solve on the way did not finish, or a run
-/// that diverged, which has an x but no y.
+/// What a point of a curve stands for: measured, measured though a solve on the way did not finish,
+/// or a run that diverged, which has an x but no y.
 enum class Mark { measured, unfinished, diverged };
 
 std::string_view name_of(Mark mark);  // "measured", "unfinished", "diverged"
@@ -20,9 +20,10 @@ struct Curve {
   std::string label;
   std::vector<double> x, y;
   double floor;
-  std::vector<double> pair_orders;  // observed order of each neighbouring pair; empty if orders make no sense
-  double slope = nan;               // expected of this curve in log-log, NaN: none
-  std::vector<Mark> marks = {};     // one a point; empty: all measured
+  // observed order of each neighbouring pair; empty if orders make no sense
+  std::vector<double> pair_orders;
+  double slope = nan;            // expected of this curve in log-log, NaN: none
+  std::vector<Mark> marks = {};  // one a point; empty: all measured
 
   void point(double at, double value) {
     x.push_back(at);
@@ -31,7 +32,8 @@ struct Curve {
 };
 
 /// Two columns of a table as a curve, without a floor.
-Curve curve_of(const std::string& label, const Table& table, std::string_view x, std::string_view y);
+Curve curve_of(const std::string& label, const Table& table, std::string_view x,
+               std::string_view y);
 
 enum class Scale { linear, log };
 
@@ -53,8 +55,8 @@ struct Map {
   std::string name, title;
   Axis x, y;
   std::vector<double> x_values, y_values;  // ascending, in the axes' units
-  std::vector<double>
-      values;  // in `unit`, row by row: [iy * x_values.size() + ix]; NaN: no value, as the caption says
+  // in `unit`, row by row: [iy * x_values.size() + ix]; NaN: no value, as the caption says
+  std::vector<double> values;
   std::string quantity, unit;  // what the values are
   Scale scale;                 // of the values
   std::string caption;

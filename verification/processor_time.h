@@ -5,8 +5,8 @@
 
 namespace foldproof {
 
-/// What the processor has spent on this thread [s]: other programs and threads lengthen it less than the
-/// clock on the wall.
+/// What the processor has spent on this thread [s]: other programs and threads lengthen it less
+/// than the clock on the wall.
 inline double processor_seconds() {
   timespec spent{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);

@@ -21,8 +21,8 @@ struct PreparedScene {
 struct Subject {
   std::string name, version;
 
-  /// Builds the scene; the integrator and the solver's settings are the scene's. Throws NotOffered for what
-  /// it does not have.
+  /// Builds the scene; the integrator and the solver's settings are the scene's. Throws NotOffered
+  /// for what it does not have.
   std::function<std::unique_ptr<PreparedScene>(const Scene&)> prepare;
 
   /// All elastic and external forces at s [N], 3 x N.
@@ -34,22 +34,25 @@ struct Subject {
   /// Elastic and potential energy [J].
   std::function<double(PreparedScene&, const State& s)> potential_energy;
 
-  /// The velocities (3 x N [m/s]) that the scene's objects make of v, when v moves the cloth from s over the
-  /// span.
-  std::function<PerParticle3(PreparedScene&, const Span& span, const State& s, const PerParticle3& v)>
+  /// The velocities (3 x N [m/s]) that the scene's objects make of v, when v moves the cloth from
+  /// s over the span.
+  std::function<PerParticle3(PreparedScene&, const Span& span, const State& s,
+                             const PerParticle3& v)>
       avoid_objects;
 
-  /// The velocities (3 x N [m/s]) that the scene's strain limits make of v, which moves the cloth from s over
-  /// the span.
-  std::function<PerParticle3(PreparedScene&, const Span& span, const State& s, const PerParticle3& v)>
+  /// The velocities (3 x N [m/s]) that the scene's strain limits make of v, which moves the cloth
+  /// from s over the span.
+  std::function<PerParticle3(PreparedScene&, const Span& span, const State& s,
+                             const PerParticle3& v)>
       limit_strain;
 
   /// The same of what keeps cloth from itself: repulsion, impulses against crossings, impact zones.
-  std::function<PerParticle3(PreparedScene&, const Span& span, const State& s, const PerParticle3& v)>
+  std::function<PerParticle3(PreparedScene&, const Span& span, const State& s,
+                             const PerParticle3& v)>
       avoid_itself;
 
-  /// One step of dt [s] from the latest of the states `past`, of which a method may use two; adds the work
-  /// that it counted, if it counts.
+  /// One step of dt [s] from the latest of the states `past`, of which a method may use two; adds
+  /// the work that it counted, if it counts.
   std::function<State(PreparedScene&, std::span<const State> past, double dt, Work& work)> step;
 };
 

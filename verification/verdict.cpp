@@ -56,7 +56,8 @@ std::string_view outcome_text(const Record& record) {
 Finding judge_worst(Table evidence, std::string_view column, double bound, std::string why_bound,
                     std::string note) {
   const Column& judge = evidence.column(column);
-  const Verdict verdict{evidence.worst(column), bound, judge.uncertainty, judge.unit, std::move(why_bound)};
+  const Verdict verdict{evidence.worst(column), bound, judge.uncertainty, judge.unit,
+                        std::move(why_bound)};
   return {verdict, std::move(evidence), std::move(note)};
 }
 

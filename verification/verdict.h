@@ -1,5 +1,5 @@
-// What a verification says: verdicts, findings, the evidence behind them, and the checks and studies that
-// make them.
+// What a verification says: verdicts, findings, the evidence behind them, and the checks and
+// studies that make them.
 #pragma once
 
 #include <functional>
@@ -26,8 +26,8 @@ struct Verdict {
   std::string why_bound;                            // the bound's reason in words
 };
 
-/// holds iff measured + uncertainty <= bound, fails iff measured - uncertainty > bound, else inconclusive. Fails,
-/// too, if one of them is NaN, the bound infinite or the uncertainty negative.
+/// holds iff measured + uncertainty <= bound, fails iff measured - uncertainty > bound, else
+/// inconclusive. Fails, too, if one of them is NaN, the bound infinite or the uncertainty negative.
 Outcome outcome_of(const Verdict& verdict);
 
 struct Finding {
@@ -36,8 +36,8 @@ struct Finding {
   std::string note;  // what a reader has to know beside the numbers; may be empty
 };
 
-/// Judges the worst number of a column (Table::worst), with the largest uncertainty of the column, against a
-/// bound in the column's unit.
+/// Judges the worst number of a column (Table::worst), with the largest uncertainty of the column,
+/// against a bound in the column's unit.
 Finding judge_worst(Table evidence, std::string_view column, double bound, std::string why_bound,
                     std::string note = "");
 
@@ -64,7 +64,8 @@ using Progress = std::function<void(double)>;
 
 /// A finding with all that a reader wants to know of it: what a run records.
 struct Record {
-  std::string name, kind, study;  // kind "check", "study" or "bench"; study: the name of the study, or ""
+  // kind "check", "study" or "bench"; study: the name of the study, or ""
+  std::string name, kind, study;
   std::string claim, source;
   Finding finding;
   std::optional<Outcome> outcome;  // none for a bench, and before the run
@@ -76,7 +77,8 @@ struct Record {
 /// Does it lack the outcome that all but a bench must have?
 bool did_not_run(const Record& record);
 
-/// The outcome as files and listings spell it: name_of it, else "measured" (a bench) or "did not run".
+/// The outcome as files and listings spell it: name_of it, else "measured" (a bench)
+/// or "did not run".
 std::string_view outcome_text(const Record& record);
 
 struct StudyRecord {
@@ -90,8 +92,8 @@ struct StudyRecord {
 /// Runs a check. One that throws anything but NotOffered fails, with the message as its note.
 Record run_check(const Check& check, const Subject& subject);
 
-/// Runs `act`, which gives a check's or a study's finding, and completes the record: outcome, note of what was
-/// thrown, seconds.
+/// Runs `act`, which gives a check's or a study's finding, and completes the record: outcome, note
+/// of what was thrown, seconds.
 Record judge(Record record, const std::function<Finding()>& act);
 
 }  // namespace foldproof

@@ -21,7 +21,8 @@ double depth_at(const Scene& scene, std::span<const Object> objects, const State
   return objects.empty() ? 0 : value_at(*find_quantity("stays_outside"), scene, objects, frame);
 }
 
-ObservedRun simulate_observed(const Case& input_case, const LevelSetProvider& level_sets, int particles) {
+ObservedRun simulate_observed(const Case& input_case, const LevelSetProvider& level_sets,
+                              int particles) {
   const Scene& scene = input_case.scene;
   const BuiltScene built = build(scene, level_sets);
   const std::span<const Object> objects = built.objects;
@@ -40,8 +41,8 @@ ObservedRun simulate_observed(const Case& input_case, const LevelSetProvider& le
                             judge.record(row);
                             energy[row.time] = row.energy.total();
                           }};
-  const RunResult result =
-      simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule, observer);
+  const RunResult result = simulate(built.system, integrator_named(scene.integrator), built.start,
+                                    scene.schedule, observer);
   for (const double t : run.times) run.energy.push_back(energy.contains(t) ? energy.at(t) : nan);
   run.deepest = deepest.value();
   run.crossings = crossings.value();
@@ -52,7 +53,8 @@ ObservedRun simulate_observed(const Case& input_case, const LevelSetProvider& le
   for (size_t k = 0; k < records.size(); ++k) {
     if (!input_case.expectations[k].not_asked.empty()) continue;
     run.expected_keys.push_back(input_case.expectations[k].key);
-    if (records[k].outcome != Outcome::holds) run.failed_keys.push_back(input_case.expectations[k].key);
+    if (records[k].outcome != Outcome::holds)
+      run.failed_keys.push_back(input_case.expectations[k].key);
   }
   return run;
 }
@@ -82,15 +84,18 @@ std::string reason(const ObservedRun& without, const ObservedRun& with, double m
     return fmt::format("without it this expectation fails: {}", fmt::join(failed_keys, ", "));
   if (const auto meaningless = not_in(with.expected_keys, without.expected_keys);
       without.stopped.empty() && !meaningless.empty())
-    return fmt::format("without it this expectation has no meaning: {}", fmt::join(meaningless, ", "));
+    return fmt::format("without it this expectation has no meaning: {}",
+                       fmt::join(meaningless, ", "));
   if (without.crossings > 0 && with.crossings == 0)
-    return fmt::format("without it the cloth crosses itself, in {:g} places of a frame", without.crossings);
+    return fmt::format("without it the cloth crosses itself, in {:g} places of a frame",
+                       without.crossings);
   if (!(without.deepest <= with.deepest + error.value()))
-    return fmt::format("without it cloth is {:.3g} m deep in an object, with it {:.3g} m", without.deepest,
-                       with.deepest);
+    return fmt::format("without it cloth is {:.3g} m deep in an object, with it {:.3g} m",
+                       without.deepest, with.deepest);
   if (!(moved <= error.value()))
-    return fmt::format("it moves particles by {:.3g} m, more than the scene's own error of {:.3g} m", moved,
-                       error.value());
+    return fmt::format(
+        "it moves particles by {:.3g} m, more than the scene's own error of {:.3g} m", moved,
+        error.value());
   return "";
 }
 
@@ -153,12 +158,14 @@ std::string declared_reason(const Case& input_case, std::string_view name) {
 
 void reject_unknown_parts(const Case& input_case, const std::vector<ScenePart>& parts) {
   for (const DeclaredPart& one : input_case.declared) {
-    if (one.part == finer_mesh || std::ranges::find(parts, one.part, &ScenePart::name) != parts.end())
+    if (one.part == finer_mesh ||
+        std::ranges::find(parts, one.part, &ScenePart::name) != parts.end())
       continue;
     std::vector<std::string> known = {std::string(finer_mesh)};
     for (const ScenePart& part : parts) known.push_back(part.name);
-    throw InputError(fmt::format("{}: [ablation] names a part '{}' that cannot be toggled; known: {}",
-                                 input_case.scene.name, one.part, fmt::join(known, ", ")));
+    throw InputError(
+        fmt::format("{}: [ablation] names a part '{}' that cannot be toggled; known: {}",
+                    input_case.scene.name, one.part, fmt::join(known, ", ")));
   }
 }
 

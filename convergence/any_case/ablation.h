@@ -21,24 +21,26 @@ struct ScenePart {
   std::function<Scene(Scene)> toggled;  // without the part where it is present, else with it
 };
 
-/// All parts that the scene has: gravity, springs, bending, their damping, rest angles, held particles,
-/// objects, their friction, points between particles, strain limits, self-collision, sticky patches. And
-/// those that it lacks and whose numbers can be said without its author: strain limits of 10 % extension and
-/// 0 % compression (Provot 1995), collision points on edges and triangles, self-collision with a thickness of
-/// a quarter of the least height of a triangle, without stiffness or friction. Springs take their strain
+/// All parts that the scene has: gravity, springs, bending, their damping, rest angles, held
+/// particles, objects, their friction, points between particles, strain limits,
+/// self-collision, sticky patches. And those that it lacks and whose numbers can be said
+/// without its author: strain limits of 10 % extension and 0 % compression (Provot 1995),
+/// collision points on edges and triangles, self-collision with a thickness of a quarter of
+/// the least height of a triangle, without stiffness or friction. Springs take their strain
 /// limits with them, and a part its damping.
 std::vector<ScenePart> parts_of(const Scene& scene);
 
-// Only what a scene needs: what each part of a scene changes, held against the scene's own error, and what it
-// costs.
+// Only what a scene needs: what each part of a scene changes, held against the scene's own error,
+// and what it costs.
 
-/// What a run did, as far as runs of the same cloth can be compared by it. Frames are those that it reached.
+/// What a run did, as far as runs of the same cloth can be compared by it. Frames are those
+/// that it reached.
 struct ObservedRun {
   std::vector<double> times;    // of the frames [s]
   std::vector<PerParticle3> x;  // in each frame, 3 x N, the particles of the scene alone [m]
   std::vector<double> energy;   // kinetic, elastic and of gravity, at each frame [J]
   double deepest = 0;           // inside an object, a particle that is free and not pinched [m]
-  double crossings = 0;         // most pairs of an edge and a triangle of the cloth that meet in a frame
+  double crossings = 0;  // most pairs of an edge and a triangle of the cloth that meet in a frame
   long steps = 0;
   Work work;
   double seconds = 0;
@@ -47,21 +49,23 @@ struct ObservedRun {
   std::vector<std::string> failed_keys;    // of those that do not hold
 };
 
-/// Runs the case. particles: of these only, the first ones, positions are kept. level_sets: of its bodies;
-/// they should remember those that were made (bodies/level_set_provider.h). An error in building or running is told in
-/// `stopped`.
+/// Runs the case. particles: of these only, the first ones, positions are kept. level_sets: of its
+/// bodies; they should remember those that were made (bodies/level_set_provider.h). An error in
+/// building or running is told in `stopped`.
 ObservedRun observe_run(const Case& input_case, const LevelSetProvider& level_sets, int particles);
 
-/// The case with another scene: what is expected of the case and makes no sense for that scene is left out.
+/// The case with another scene: what is expected of the case and makes no sense for that
+/// scene is left out.
 Case with_scene(const Case& input_case, Scene scene);
 
-/// The largest difference over the frames that both have: the root mean square over particles, weighted with
-/// their masses (N [kg]), of how far apart they are [m].
+/// The largest difference over the frames that both have: the root mean square over particles,
+/// weighted with their masses (N [kg]), of how far apart they are [m].
 double position_difference(const ObservedRun& a, const ObservedRun& b, const PerParticle& mass);
 
 enum class Need { needed, not_needed, missing, no_effect };
 
-std::string_view name_of(Need need);  // "needed", "not needed here", "missing here", "not missed here"
+// "needed", "not needed here", "missing here", "not missed here"
+std::string_view name_of(Need need);
 
 /// A part of a case, run without it if it is there, else with it.
 struct JudgedPart {
@@ -78,10 +82,11 @@ struct JudgedPart {
   bool is_justified() const;
 };
 
-/// How far the scene's own run is from the truth, roughly: by how much it changes with half the step, and
-/// with triangles of half the size. These two are not extrapolated: an error of first order is twice such a
-/// difference, one of second order a third larger than it. A case may name a coarser mesh instead of the
-/// finer one; what that says of the same error is two to four times as much (coarser_mesh.h).
+/// How far the scene's own run is from the truth, roughly: by how much it changes with half the
+/// step, and with triangles of half the size. These two are not extrapolated: an error of first
+/// order is twice such a difference, one of second order a third larger than it. A case may name a
+/// coarser mesh instead of the finer one; what that says of the same error is two to four times as
+/// much (coarser_mesh.h).
 struct DiscretisationError {
   double time = 0, mesh = 0;  // m; NaN where a run came to no end
   double floor = 0;           // a millionth of the cloth's size: less than that no one asks for [m]
@@ -90,17 +95,19 @@ struct DiscretisationError {
   double value() const;
 };
 
-/// needed / missing, if the part changes positions by more than the scene's own error; or if without it the
-/// run comes to no end, an expectation of the case fails or has no meaning, the cloth crosses itself, or is
-/// deeper in objects by more than that error.
+/// needed / missing, if the part changes positions by more than the scene's own error; or if
+/// without it the run comes to no end, an expectation of the case fails or has no meaning, the
+/// cloth crosses itself, or is deeper in objects by more than that error.
 JudgedPart judge_part(const ScenePart& part, const ObservedRun& scene, ObservedRun toggled,
                       const DiscretisationError& error, const PerParticle& mass);
 
-/// What [ablation] calls the run with triangles of half the size. A case whose mesh approximates nothing, as two
-/// triangles that are all there is to show, says so under this name, and its own error is that of time alone.
+/// What [ablation] calls the run with triangles of half the size. A case whose mesh approximates
+/// nothing, as two triangles that are all there is to show, says so under this name, and its own
+/// error is that of time alone.
 constexpr std::string_view finer_mesh = "finer mesh";
 
-/// The reason that the case declares for the part of this name, or for doing without a finer mesh, or "".
+/// The reason that the case declares for the part of this name, or for doing without a
+/// finer mesh, or "".
 std::string declared_reason(const Case& input_case, std::string_view name);
 
 /// Throws InputError for a declared part that the scene neither has nor lacks.

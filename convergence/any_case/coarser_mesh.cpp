@@ -12,7 +12,8 @@ namespace foldproof {
 
 namespace {
 
-/// A point of a triangle by its coordinates along two sides: x_a + along_ab (x_b - x_a) + along_ac (x_c - x_a).
+/// A point of a triangle by its coordinates along two sides: x_a + along_ab (x_b - x_a) +
+/// along_ac (x_c - x_a).
 struct PlaceOnTriangle {
   Triangle triangle;
   double along_ab, along_ac;
@@ -37,8 +38,10 @@ std::vector<PlaceOnTriangle> places_of(const PerParticle3& points, const PerPart
   const MeshDistance surface = make_mesh_distance(x, triangles);
   std::vector<PlaceOnTriangle> places;
   for (const auto& point : points.colwise()) {
-    const NearestFeature nearest = nearest_feature(surface, point, std::numeric_limits<double>::infinity());
-    const Triangle& triangle = surface.triangles[size_t(surface.tree.order[size_t(nearest.triangle)])];
+    const NearestFeature nearest =
+        nearest_feature(surface, point, std::numeric_limits<double>::infinity());
+    const Triangle& triangle =
+        surface.triangles[size_t(surface.tree.order[size_t(nearest.triangle)])];
     places.push_back(place_of(nearest.point, triangle, x));
   }
   return places;
@@ -49,16 +52,18 @@ std::vector<PlaceOnTriangle> places_of(const PerParticle3& points, const PerPart
 double coarseness(const TriangleMesh& mesh, const TriangleMesh& coarser) {
   const double ratio = std::sqrt(double(mesh.triangles.size()) / double(coarser.triangles.size()));
   if (ratio < 1.2)
-    throw InputError(fmt::format("{} triangles of {}; give one with sides at least 1.2 times as long",
-                                 coarser.triangles.size(), mesh.triangles.size()));
+    throw InputError(
+        fmt::format("{} triangles of {}; give one with sides at least 1.2 times as long",
+                    coarser.triangles.size(), mesh.triangles.size()));
   const double area = lumped_masses(mesh, 1).sum(), other_area = lumped_masses(coarser, 1).sum();
   if (!(std::abs(other_area - area) <= 0.1 * area))
-    throw InputError(fmt::format("{:.3g} m^2 of {:.3g}; give a mesh of the same surface", other_area, area));
+    throw InputError(
+        fmt::format("{:.3g} m^2 of {:.3g}; give a mesh of the same surface", other_area, area));
   return ratio;
 }
 
-double error_from_coarser(const ObservedRun& run, const TriangleMesh& mesh, const ObservedRun& coarser,
-                          const TriangleMesh& coarser_mesh) {
+double error_from_coarser(const ObservedRun& run, const TriangleMesh& mesh,
+                          const ObservedRun& coarser, const TriangleMesh& coarser_mesh) {
   const double ratio = coarseness(mesh, coarser_mesh);
   if (run.x.empty() || coarser.x.empty()) return nan;
   const std::vector<PlaceOnTriangle> places = places_of(coarser.x[0], run.x[0], mesh.triangles);
@@ -66,7 +71,8 @@ double error_from_coarser(const ObservedRun& run, const TriangleMesh& mesh, cons
   for (const PerParticle3& x : run.x) {
     PerParticle3 moved(3, Eigen::Index(places.size()));
     for (size_t k = 0; k < places.size(); ++k)
-      moved.col(Eigen::Index(k)) = coarser.x[0].col(Eigen::Index(k)) + places[k].in(x)-places[k].in(run.x[0]);
+      moved.col(Eigen::Index(k)) =
+          coarser.x[0].col(Eigen::Index(k)) + places[k].in(x)-places[k].in(run.x[0]);
     at_places.x.push_back(std::move(moved));
   }
   return position_difference(at_places, coarser, lumped_masses(coarser_mesh, 1)) / (ratio - 1);

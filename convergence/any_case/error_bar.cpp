@@ -25,7 +25,8 @@ double pair_order(double a, double b, const Ladder& ladder) {
 }
 
 void require_valid(const Ladder& ladder, const std::vector<double>& differences) {
-  if (differences.size() < 2) throw InputError("an error bar needs three levels of refinement or more");
+  if (differences.size() < 2)
+    throw InputError("an error bar needs three levels of refinement or more");
   if (!ladder.values.empty() && ladder.values.size() != differences.size() + 1)
     throw InputError("an error bar needs one difference less than values");
   if (!(ladder.ratio > 1)) throw InputError("an error bar needs a ratio of refinement > 1");
@@ -33,7 +34,8 @@ void require_valid(const Ladder& ladder, const std::vector<double>& differences)
 }
 
 /// Why the last differences have no order, in words; "" if they have one.
-std::string why_no_order(const std::vector<double>& d, const std::vector<double>& orders, double floor) {
+std::string why_no_order(const std::vector<double>& d, const std::vector<double>& orders,
+                         double floor) {
   const double last = d.back(), before = d[d.size() - 2];
   if (!std::isfinite(last) || !std::isfinite(before)) return "a level came to no end";
   if (!(std::abs(last) > floor) || !(std::abs(before) > floor))
@@ -78,7 +80,8 @@ ErrorBar error_bar(const Ladder& ladder) {
       ladder.differences.empty() ? neighbouring_differences(ladder.values) : ladder.differences;
   require_valid(ladder, d);
   ErrorBar bar;
-  for (size_t k = 0; k + 1 < d.size(); ++k) bar.orders.push_back(pair_order(d[k], d[k + 1], ladder));
+  for (size_t k = 0; k + 1 < d.size(); ++k)
+    bar.orders.push_back(pair_order(d[k], d[k + 1], ladder));
   const double largest = std::max(std::abs(d.back()), std::abs(d[d.size() - 2]));
   bar.reason = why_no_order(d, bar.orders, ladder.floor);
   if (!bar.reason.empty()) {
@@ -93,7 +96,8 @@ ErrorBar error_bar(const Ladder& ladder) {
   const double order = std::min(bar.order, ladder.formal_order);
   bar.half_width =
       std::max(grid_convergence_index(d.back(), ladder.ratio, order, bar.safety), ladder.floor);
-  if (!ladder.values.empty()) bar.limit = ladder.values.back() + d.back() / (std::pow(ladder.ratio, order) - 1);
+  if (!ladder.values.empty())
+    bar.limit = ladder.values.back() + d.back() / (std::pow(ladder.ratio, order) - 1);
   return bar;
 }
 

@@ -1,4 +1,5 @@
-// What a ladder of refinements says about the error of its finest value: order, limit, error bar, or nothing.
+// What a ladder of refinements says about the error of its finest value: order, limit, error
+// bar, or nothing.
 #pragma once
 
 #include <limits>
@@ -7,13 +8,16 @@
 
 namespace foldproof {
 
-/// One quantity over n levels of refinement, coarse to fine; step or mesh size falls by `ratio` each level.
+/// One quantity over n levels of refinement, coarse to fine; step or mesh size falls by
+/// `ratio` each level.
 struct Ladder {
-  std::vector<double> values;       // n, of a number; empty for a field, which has only differences
-  std::vector<double> differences;  // n - 1, of neighbouring levels, >= 0; filled from values if empty
-  double ratio = 2;                 // > 1
-  double formal_order = 2;          // of the method, > 0
-  double floor = 0;  // differences at or below it are rounding or solver error, not discretization error
+  std::vector<double> values;  // n, of a number; empty for a field, which has only differences
+  // n - 1, of neighbouring levels, >= 0; filled from values if empty
+  std::vector<double> differences;
+  double ratio = 2;         // > 1
+  double formal_order = 2;  // of the method, > 0
+  // differences at or below it are rounding or solver error, not discretization error
+  double floor = 0;
 };
 
 enum class Reading { asymptotic, not_asymptotic, inconclusive };
@@ -24,11 +28,13 @@ std::string_view name_of(Reading reading);  // "asymptotic", "not asymptotic", "
 struct ErrorBar {
   Reading reading = Reading::inconclusive;
   std::string reason;          // why it is not asymptotic, or inconclusive; "" if asymptotic
-  std::vector<double> orders;   // n - 2, of neighbouring differences; NaN where there is none
-  double order = std::numeric_limits<double>::quiet_NaN();   // observed; NaN if inconclusive
-  double limit = std::numeric_limits<double>::quiet_NaN();   // Richardson's; NaN without values, or order
-  double safety = 3;            // 1.25 or 3 [1]
-  double half_width = std::numeric_limits<double>::quiet_NaN();  // of the bar, in the quantity's unit
+  std::vector<double> orders;  // n - 2, of neighbouring differences; NaN where there is none
+  double order = std::numeric_limits<double>::quiet_NaN();  // observed; NaN if inconclusive
+  // Richardson's; NaN without values, or order
+  double limit = std::numeric_limits<double>::quiet_NaN();
+  double safety = 3;  // 1.25 or 3 [1]
+  // of the bar, in the quantity's unit
+  double half_width = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Two observed orders closer than this are taken for the same [1].
@@ -39,15 +45,16 @@ constexpr double least_order = 0.5;
 
 /// Reads a ladder of n >= 3 levels. Orders are
 ///   p_k = log(d_k / d_(k+1)) / log ratio,  d_k = f_(k+1) - f_k,  none where d changes sign.
-/// The range is asymptotic if the last two orders agree within same_order and are at least least_order; with
-/// three levels, if the only one agrees with the formal order. The error bar is the grid convergence index
-/// (Roache 1994; Celik et al., J. Fluids Eng. 130 (2008) 078001, their eq. 7),
+/// The range is asymptotic if the last two orders agree within same_order and are at least
+/// least_order; with three levels, if the only one agrees with the formal order. The error
+/// bar is the grid convergence index (Roache 1994; Celik et al., J. Fluids Eng. 130 (2008)
+/// 078001, their eq. 7),
 ///   safety * d_last / (ratio^p - 1),  p = min(observed, formal),
-/// with a safety of 1.25 in the asymptotic range and of 3 outside it. Without an order (differences grow, change sign or have
-/// sunk to the floor) the reading is inconclusive, and the bar is three times the largest of the last two
-/// differences: a spread, no estimate (Eca and Hoekstra, J. Comput. Phys. 262 (2014) 104, section 3). Quantities that
-/// do not change at all have a bar of the floor. Throws InputError for fewer than three levels, or other
-/// lengths than promised.
+/// with a safety of 1.25 in the asymptotic range and of 3 outside it. Without an order (differences
+/// grow, change sign or have sunk to the floor) the reading is inconclusive, and the bar is three
+/// times the largest of the last two differences: a spread, no estimate (Eca and Hoekstra, J.
+/// Comput. Phys. 262 (2014) 104, section 3). Quantities that do not change at all have a bar of the
+/// floor. Throws InputError for fewer than three levels, or other lengths than promised.
 ErrorBar error_bar(const Ladder& ladder);
 
 }  // namespace foldproof

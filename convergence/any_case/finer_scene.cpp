@@ -13,8 +13,9 @@ namespace {
 
 bool moves_alike(const Motion& one, const Motion& other) {
   return one.velocity == other.velocity && one.amplitude == other.amplitude &&
-         one.frequency == other.frequency && one.phase == other.phase && one.center == other.center &&
-         one.angular_velocity == other.angular_velocity && one.from == other.from && one.until == other.until;
+         one.frequency == other.frequency && one.phase == other.phase &&
+         one.center == other.center && one.angular_velocity == other.angular_velocity &&
+         one.from == other.from && one.until == other.until;
 }
 
 /// `chosen`, and the middles of those edges whose ends are both in it.
@@ -34,7 +35,8 @@ std::vector<PrescribedParticle> prescribed_with_midpoints(const Scene& scene) {
     const PrescribedParticle* a = of_particle[size_t(scene.mesh.edges[e].a)];
     const PrescribedParticle* b = of_particle[size_t(scene.mesh.edges[e].b)];
     if (a && b && moves_alike(a->motion, b->motion))
-      prescribed.push_back({scene.mesh.particles() + int(e), 0.5 * (a->start + b->start), a->motion});
+      prescribed.push_back(
+          {scene.mesh.particles() + int(e), 0.5 * (a->start + b->start), a->motion});
   }
   return prescribed;
 }
@@ -53,7 +55,8 @@ std::vector<double> rest_angles_of_halves(const Scene& scene, const TriangleMesh
   return angles;
 }
 
-StickyPatch finer_patch(const TriangleMesh& mesh, const std::vector<Triangle>& quarters, StickyPatch patch) {
+StickyPatch finer_patch(const TriangleMesh& mesh, const std::vector<Triangle>& quarters,
+                        StickyPatch patch) {
   patch.particles = with_middles(mesh, patch.particles);
   if (patch.place) return patch;
   std::map<Triangle, std::ptrdiff_t> number_of;
@@ -87,10 +90,12 @@ Scene with_finer_mesh(const Scene& scene) {
   finer.v = quarters.of(scene.v);
   finer.prescribed = prescribed_with_midpoints(scene);
   if (scene.bending) finer.rest_angles = rest_angles_of_halves(scene, finer.mesh);
-  for (StickyPatch& patch : finer.sticky) patch = finer_patch(scene.mesh, quarters.triangles, patch);
+  for (StickyPatch& patch : finer.sticky)
+    patch = finer_patch(scene.mesh, quarters.triangles, patch);
   if (scene.self_collision)
-    finer.self_collision->thickness = std::min(finer.self_collision->thickness,
-                                               0.49 * smallest_height(finer.mesh.triangles, finer.mesh.rest));
+    finer.self_collision->thickness =
+        std::min(finer.self_collision->thickness,
+                 0.49 * smallest_height(finer.mesh.triangles, finer.mesh.rest));
   return finer;
 }
 

@@ -27,8 +27,8 @@ LevelRun watched_level(const Level& level, const LevelSetProvider& level_sets) {
                             measurer.record(row);
                             if (row.step > 0) run.step_ends.push_back(row.time);
                           }};
-  const RunResult result =
-      simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule, observer);
+  const RunResult result = simulate(built.system, integrator_named(scene.integrator), built.start,
+                                    scene.schedule, observer);
   run.values = measurer.values(result);
   run.work = operator_applications(result.work);
   if (result.stop) run.stopped = describe(*result.stop);
@@ -43,7 +43,8 @@ void add(const std::string& text, ContentKey& key) {
 StoredResult pack(const LevelRun& run) {
   StoredResult kept;
   std::vector<double> positions;
-  for (const PerParticle3& x : run.x) positions.insert(positions.end(), x.data(), x.data() + x.size());
+  for (const PerParticle3& x : run.x)
+    positions.insert(positions.end(), x.data(), x.data() + x.size());
   kept.arrays = {{"values", run.values},
                  {"times", run.times},
                  {"positions", positions},
@@ -71,7 +72,8 @@ LevelRun unpack(const StoredResult& kept) {
   if (run.times.empty()) return run;
   const Eigen::Index particles = Eigen::Index(positions.size() / run.times.size()) / 3;
   for (size_t k = 0; k < run.times.size(); ++k)
-    run.x.push_back(Eigen::Map<const PerParticle3>(positions.data() + Eigen::Index(k) * 3 * particles, 3, particles));
+    run.x.push_back(Eigen::Map<const PerParticle3>(
+        positions.data() + Eigen::Index(k) * 3 * particles, 3, particles));
   return run;
 }
 
@@ -94,10 +96,13 @@ std::string key_of(const Level& level, const std::string& program) {
   const Scene& scene = level.input_case.scene;
   const RunIdentity identity = identity_of(scene, program);
   ContentKey key;
-  for (const std::string& text : {identity.case_text, identity.meshes, identity.program, scene.integrator}) add(text, key);
+  for (const std::string& text :
+       {identity.case_text, identity.meshes, identity.program, scene.integrator})
+    add(text, key);
   const StepRule& step = scene.schedule.step;
-  for (const double number : {scene.schedule.end, scene.schedule.frame_interval, step.fixed, step.safety,
-                              step.strain_per_step, scene.solver.tolerance, double(scene.solver.max_iterations)})
+  for (const double number :
+       {scene.schedule.end, scene.schedule.frame_interval, step.fixed, step.safety,
+        step.strain_per_step, scene.solver.tolerance, double(scene.solver.max_iterations)})
     key.add(number);
   key.add(step.ends);
   key.add(level.particles);

@@ -32,15 +32,16 @@ struct Level {
 /// Runs the level. An error in building or running is told in `stopped`.
 LevelRun run_level(const Level& level, const LevelSetProvider& level_sets);
 
-/// The key of the level's result: of its case text, meshes, start, schedule, method and measurements, and of the program.
+/// The key of the level's result: of its case text, meshes, start, schedule, method and
+/// measurements, and of the program.
 std::string key_of(const Level& level, const std::string& program);
 
 /// The level's run from the store, or made now and kept there. Also keeps runs that stopped.
 LevelRun stored_level(const Level& level, const LevelSetProvider& level_sets, ResultStore& store,
                       const std::string& program);
 
-/// The largest difference over the frames: the root mean square over particles, weighted with their masses
-/// (N [kg]), of how far apart they are [m]. NaN where one of the runs stopped.
+/// The largest difference over the frames: the root mean square over particles, weighted with their
+/// masses (N [kg]), of how far apart they are [m]. NaN where one of the runs stopped.
 double field_difference(const LevelRun& a, const LevelRun& b, const PerParticle& mass);
 
 }  // namespace foldproof

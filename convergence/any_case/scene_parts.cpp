@@ -19,11 +19,13 @@ void add(Parts& parts, bool applies, bool is_present, const std::string& name,
                    }});
 }
 
-void add_present(Parts& parts, bool applies, const std::string& name, std::function<void(Scene&)> remove) {
+void add_present(Parts& parts, bool applies, const std::string& name,
+                 std::function<void(Scene&)> remove) {
   add(parts, applies, true, name, std::move(remove));
 }
 
-void add_absent(Parts& parts, bool applies, const std::string& name, std::function<void(Scene&)> put) {
+void add_absent(Parts& parts, bool applies, const std::string& name,
+                std::function<void(Scene&)> put) {
   add(parts, applies, false, name, std::move(put));
 }
 
@@ -45,26 +47,29 @@ void add_forces(const Scene& scene, Parts& parts) {
   constexpr double flat = 1e-9;  // rad: what rounding makes of a flat sheet
   const bool is_shaped =
       std::ranges::any_of(scene.rest_angles, [](double angle) { return std::abs(angle) > flat; });
-  add_present(parts, is_shaped, "rest angles", [](Scene& s) { std::ranges::fill(s.rest_angles, 0.0); });
+  add_present(parts, is_shaped, "rest angles",
+              [](Scene& s) { std::ranges::fill(s.rest_angles, 0.0); });
 }
 
 void add_objects(const Scene& scene, Parts& parts) {
   for (size_t k = 0; k < scene.objects.size(); ++k)
     add_present(parts, true, "object '" + scene.objects[k].object.name + "'",
                 [k](Scene& s) { s.objects.erase(s.objects.begin() + std::ptrdiff_t(k)); });
-  const bool rubs =
-      std::ranges::any_of(scene.objects, [](const SceneObject& part) { return part.object.friction > 0; });
+  const bool rubs = std::ranges::any_of(
+      scene.objects, [](const SceneObject& part) { return part.object.friction > 0; });
   add_present(parts, rubs, "friction of objects", [](Scene& s) {
     for (SceneObject& part : s.objects) part.object.friction = 0;
   });
   add_present(parts, !scene.objects.empty() && scene.collision.points != PointKind::particles,
-              "points between particles", [](Scene& s) { s.collision.points = PointKind::particles; });
+              "points between particles",
+              [](Scene& s) { s.collision.points = PointKind::particles; });
   add_absent(parts, !scene.objects.empty() && scene.collision.points == PointKind::particles,
              "points between particles", [](Scene& s) { s.collision.points = PointKind::faces; });
 }
 
 void add_constraints(const Scene& scene, Parts& parts) {
-  add_present(parts, !scene.prescribed.empty(), "held particles", [](Scene& s) { s.prescribed.clear(); });
+  add_present(parts, !scene.prescribed.empty(), "held particles",
+              [](Scene& s) { s.prescribed.clear(); });
   for (size_t k = 0; k < scene.sticky.size(); ++k)
     add_present(parts, true, "sticky '" + scene.sticky[k].name + "'",
                 [k](Scene& s) { s.sticky.erase(s.sticky.begin() + std::ptrdiff_t(k)); });

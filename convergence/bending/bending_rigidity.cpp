@@ -1,5 +1,5 @@
-// bending-rigidity: what a sheet resists to bending, by the pattern of its triangles, its direction and their
-// size.
+// bending-rigidity: what a sheet resists to bending, by the pattern of its triangles, its direction
+// and their size.
 #include <array>
 #include <cmath>
 
@@ -14,13 +14,16 @@ namespace {
 
 constexpr double ke = 0.0043;    // J
 constexpr double width = 0.013;  // of a cell [m]
-constexpr double gentle = 1e-3;  // curvature times the width of a cell, where its error is far below 1e-5 [1]
-constexpr int cells = 4;         // of the smaller sheets, each way; whole periods of every pattern
+// curvature times the width of a cell, where its error is far below 1e-5 [1]
+constexpr double gentle = 1e-3;
+constexpr int cells = 4;          // of the smaller sheets, each way; whole periods of every pattern
 constexpr int degrees_apart = 5;  // directions of the curvature
 
 double radians(double degrees) { return degrees * pi / 180; }
 
-Wrap gentle_wrap(double degrees) { return {radians(degrees), gentle / width, 0.1 * gentle * width}; }
+Wrap gentle_wrap(double degrees) {
+  return {radians(degrees), gentle / width, 0.1 * gentle * width};
+}
 
 /// D/ke over the directions, measured and by the oracle [1].
 struct Rigidity {
@@ -53,8 +56,8 @@ NamedFinding as_homogenised(const RegularPattern& pattern, const Rigidity& rigid
     worst.observe(std::abs(rigidity.relaxed[i] / relaxed[i] - 1));
   }
   const Verdict verdict{worst.value(), std::pow(gentle * pattern.longest_edge, 2), 0, "1",
-                        "angles on a cylinder differ from those of small curvature by the square of longest "
-                        "edge times curvature, relatively, with factors below 1"};
+                        "angles on a cylinder differ from those of small curvature by the square "
+                        "of longest edge times curvature, relatively, with factors below 1"};
   return {"bending-rigidity.matches-homogenisation." + pattern.name,
           "On a gentle cylinder, the energy per area of " + pattern.words +
               " is that of the homogenised cell, in every direction.",
@@ -64,14 +67,14 @@ NamedFinding as_homogenised(const RegularPattern& pattern, const Rigidity& rigid
             {"oracle, forced", "1", forced},
             {"D/ke, relaxed", "1", rigidity.relaxed},
             {"oracle, relaxed", "1", relaxed}},
-           "forced: every vertex on the cylinder; relaxed: the vertices of the cell's second kind, if it has "
-           "one, leave it until the energy is least"}};
+           "forced: every vertex on the cylinder; relaxed: the vertices of the cell's second kind, "
+           "if it has one, leave it until the energy is least"}};
 }
 
 // --- the same pattern, finer ---
 
-/// D/ke of a cylinder of fixed curvature as the cells become smaller, and how far it is from the homogenised
-/// one.
+/// D/ke of a cylinder of fixed curvature as the cells become smaller, and how far it is from the
+/// homogenised one.
 struct Refinement {
   Convergence error;  // relative, over the width of a cell [m]
   std::vector<double> rigidity;
@@ -79,7 +82,8 @@ struct Refinement {
 
 Refinement refine(const Subject& subject, const RegularPattern& pattern, int levels) {
   constexpr double curvature = 17, degrees = 25, coarsest = 0.021;  // 1/m, of the curvature, m
-  const double exact = oracles::cylinder_rigidity(oracles::forced_rigidity(pattern.cell()), radians(degrees));
+  const double exact =
+      oracles::cylinder_rigidity(oracles::forced_rigidity(pattern.cell()), radians(degrees));
   Refinement refinement;
   for (int level = 0; level < levels; ++level) {
     const double size = std::ldexp(coarsest, -level);
@@ -104,19 +108,18 @@ NamedFinding size_does_not_matter(const std::vector<Refinement>& refinements) {
     orders.push_back(pair_orders(refinement.error).back());
   }
   const Verdict verdict{worst.value(), 0.05, 0, "1",
-                        "errors are a series in the square of curvature times width; at the last pairs the "
-                        "second term is below a hundredth of the first"};
-  return {
-      "bending-rigidity.does-not-depend-on-cell-size",
-      "The same pattern with smaller cells tends to its homogenised rigidity with second order: ke says "
-      "the same at every size.",
-      {verdict,
-       {{"pattern", "", names},
-        {"D/ke, coarsest", "1", coarsest},
-        {"D/ke, finest", "1", finest},
-        {"order of the last pair", "1", orders}},
-       "measured is the worst |order - 2| of the last two pairs over all patterns; curvature 17 1/m along "
-       "25 degrees"}};
+                        "errors are a series in the square of curvature times width; at the last "
+                        "pairs the second term is below a hundredth of the first"};
+  return {"bending-rigidity.does-not-depend-on-cell-size",
+          "The same pattern with smaller cells tends to its homogenised rigidity with second "
+          "order: ke says the same at every size.",
+          {verdict,
+           {{"pattern", "", names},
+            {"D/ke, coarsest", "1", coarsest},
+            {"D/ke, finest", "1", finest},
+            {"order of the last pair", "1", orders}},
+           "measured is the worst |order - 2| of the last two pairs over all patterns; curvature "
+           "17 1/m along 25 degrees"}};
 }
 
 /// The greatest difference over directions or patterns, against what refining once more changes.
@@ -126,9 +129,10 @@ NamedFinding refining_does_not_cure(const std::string& name, const std::string& 
   for (const double one : values) {
     for (const double other : values) difference.observe(one - other);
   }
-  const Verdict verdict{drift / difference.value(), 0.01, 0, "1",
-                        "a difference of 100 times what halving the cells still changes will not vanish by "
-                        "refinement; a property of the material alone would leave nothing but that change"};
+  const Verdict verdict{
+      drift / difference.value(), 0.01, 0, "1",
+      "a difference of 100 times what halving the cells still changes will not vanish by "
+      "refinement; a property of the material alone would leave nothing but that change"};
   return {name,
           claim,
           {verdict,
@@ -144,7 +148,8 @@ double last_change(const Refinement& refinement) {
 
 // --- whole sheets, free strips ---
 
-/// A whole square sheet of n cells: its border has no hinges, so that its energy lacks a share of 1/n.
+/// A whole square sheet of n cells: its border has no hinges, so that its energy lacks
+/// a share of 1/n.
 NamedFinding border_is_first_order(const Subject& subject, int levels, Figure& figure) {
   const RegularPattern& pattern = regular_patterns()[1];
   Convergence whole;
@@ -154,14 +159,15 @@ NamedFinding border_is_first_order(const Subject& subject, int levels, Figure& f
     whole.steps.push_back(whole_side / n);
     whole.errors.push_back(std::abs(D / 0.25 - 1));
   }
-  figure.curves.push_back({"a whole sheet with its border, " + pattern.words, whole.steps, whole.errors, nan,
-                           pair_orders(whole)});
+  figure.curves.push_back({"a whole sheet with its border, " + pattern.words, whole.steps,
+                           whole.errors, nan, pair_orders(whole)});
   const Estimate deviation = order_deviation(whole, 1, 2);
   const Verdict verdict{deviation.value, 0.02, 0, "1",
-                        "n rows of cells have n - 1 lines of hinges: the missing share is 1/n exactly, and "
-                        "the curvature adds about 1e-5 of that"};
+                        "n rows of cells have n - 1 lines of hinges: the missing share is 1/n "
+                        "exactly, and the curvature adds about 1e-5 of that"};
   return {"bending-rigidity.border-effect-is-first-order",
-          "A whole sheet lacks the hinges of its border: its energy tends to the rigidity with first order.",
+          "A whole sheet lacks the hinges of its border: its energy tends to the rigidity with "
+          "first order.",
           {verdict,
            {{"width of a cell", "m", whole.steps}, {"1 - D/(ke/4)", "1", whole.errors}},
            "D/ke of this pattern and direction is 1/4, by the homogenised cell"}};
@@ -172,10 +178,10 @@ NamedFinding free_strip(const Subject& subject, const RegularPattern& pattern) {
   const FourSheets sheets(subject, pattern, cells, width, ke);
   const double measured = oracles::strip_rigidity(measured_tensor(sheets, curvature, ke), 0);
   const double exact = oracles::strip_rigidity(oracles::relaxed_rigidity(pattern.cell()), 0);
-  const Verdict verdict{std::abs(measured / exact - 1), std::pow(2 * cells * width * 3 * curvature, 2), 0,
-                        "1",
-                        "the surfaces' slopes, at most 3 times curvature times the sheets' side, change "
-                        "angles by their square"};
+  const Verdict verdict{std::abs(measured / exact - 1),
+                        std::pow(2 * cells * width * 3 * curvature, 2), 0, "1",
+                        "the surfaces' slopes, at most 3 times curvature times the sheets' side, "
+                        "change angles by their square"};
   return {"bending-rigidity.free-strip-is-softer." + pattern.name,
           "A narrow strip of " + pattern.words +
               " with free edges yields more than a forced cylinder: it curves across and twists.",
@@ -183,7 +189,8 @@ NamedFinding free_strip(const Subject& subject, const RegularPattern& pattern) {
            {{"B/ke of the strip", "1", std::vector<double>{measured}},
             {"oracle", "1", std::vector<double>{exact}},
             {"D/ke of the cylinder", "1",
-             std::vector<double>{oracles::cylinder_rigidity(oracles::relaxed_rigidity(pattern.cell()), 0)}}},
+             std::vector<double>{
+                 oracles::cylinder_rigidity(oracles::relaxed_rigidity(pattern.cell()), 0)}}},
            "from the energies of six quadratic surfaces"}};
 }
 
@@ -208,8 +215,8 @@ Table rigidity_table(const std::vector<Rigidity>& all) {
     }
   }
   return {"rigidity",
-          "D/ke of cylinders curved along four directions (measured), its range over all directions and that "
-          "of a narrow free strip along x (oracle)",
+          "D/ke of cylinders curved along four directions (measured), its range over all "
+          "directions and that of a narrow free strip along x (oracle)",
           {{"mesh", "", names},
            {"vertices", "", kinds},
            {"0°", "1", numbers[0]},
@@ -222,13 +229,14 @@ Table rigidity_table(const std::vector<Rigidity>& all) {
 }
 
 Figure direction_figure(const std::vector<Rigidity>& all) {
-  Figure figure{"direction",
-                "Flexural rigidity by the direction of the curvature",
-                {"direction of the curvature, from x", "degree", Scale::linear},
-                {"D/ke", "1", Scale::log},
-                nan,
-                "Vertices free to settle within a cell. A property of the material would be one level line.",
-                {}};
+  Figure figure{
+      "direction",
+      "Flexural rigidity by the direction of the curvature",
+      {"direction of the curvature, from x", "degree", Scale::linear},
+      {"D/ke", "1", Scale::log},
+      nan,
+      "Vertices free to settle within a cell. A property of the material would be one level line.",
+      {}};
   for (size_t p = 0; p < all.size(); ++p)
     figure.curves.push_back({regular_patterns()[p].words, all[p].degrees, all[p].relaxed, nan, {}});
   return figure;
@@ -244,8 +252,8 @@ StudyResult run_bending_rigidity(const Subject& subject, Tier tier, const Progre
                  {"width of a cell", "m", Scale::log},
                  {"|D/D of the homogenised cell - 1|", "1", Scale::log},
                  2,
-                 "Curvature 17 1/m along 25 degrees, inner cells; each pattern against its own limit. The "
-                 "whole sheet has first order.",
+                 "Curvature 17 1/m along 25 degrees, inner cells; each pattern against its own "
+                 "limit. The whole sheet has first order.",
                  {}};
   std::vector<double> at_zero;
   for (const RegularPattern& pattern : regular_patterns()) {
@@ -258,18 +266,20 @@ StudyResult run_bending_rigidity(const Subject& subject, Tier tier, const Progre
     progress(double(all.size()) / 12);
   }
   result.findings.push_back(size_does_not_matter(refinements));
-  result.findings.push_back(refining_does_not_cure("bending-rigidity.depends-on-direction",
-                                                   "Squares split along one diagonal resist differently by "
-                                                   "direction, and refinement does not remove that.",
-                                                   all[1].relaxed, last_change(refinements[1])));
+  result.findings.push_back(
+      refining_does_not_cure("bending-rigidity.depends-on-direction",
+                             "Squares split along one diagonal resist differently by direction, "
+                             "and refinement does not remove that.",
+                             all[1].relaxed, last_change(refinements[1])));
   Worst drift;
   for (const Refinement& refinement : refinements) drift.observe(last_change(refinement));
   result.findings.push_back(refining_does_not_cure(
       "bending-rigidity.depends-on-pattern",
-      "Curved along x, different patterns resist differently, and refinement does not remove that.", at_zero,
-      drift.value()));
+      "Curved along x, different patterns resist differently, and refinement does not remove that.",
+      at_zero, drift.value()));
   result.findings.push_back(border_is_first_order(subject, levels, refined));
-  for (const size_t p : {0, 1}) result.findings.push_back(free_strip(subject, regular_patterns()[p]));
+  for (const size_t p : {0, 1})
+    result.findings.push_back(free_strip(subject, regular_patterns()[p]));
   result.tables.push_back(rigidity_table(all));
   result.figures.push_back(direction_figure(all));
   result.figures.push_back(std::move(refined));
@@ -281,13 +291,13 @@ StudyResult run_bending_rigidity(const Subject& subject, Tier tier, const Progre
 
 Study bending_rigidity_study() {
   return {"bending-rigidity",
-          "ke does not depend on the size of the triangles, but the sheet's flexural rigidity depends on "
-          "their pattern and on the direction, and refinement does not remove that.",
+          "ke does not depend on the size of the triangles, but the sheet's flexural rigidity "
+          "depends on their pattern and on the direction, and refinement does not remove that.",
           "BMF03 section 4: |E|^2/(|N1| + |N2|) makes the look independent of remeshing",
-          "Flat sheets of many meshes are laid on cylinders, and the bending energy per area gives the "
-          "flexural rigidity D. The oracle knows only how a hinge is defined: it adds up the hinges of one "
-          "cell. Regular patterns keep their rigidity at every size; what it is depends on the pattern and "
-          "the direction, from 0.13 to 2.8 ke.",
+          "Flat sheets of many meshes are laid on cylinders, and the bending energy per area gives "
+          "the flexural rigidity D. The oracle knows only how a hinge is defined: it adds up the "
+          "hinges of one cell. Regular patterns keep their rigidity at every size; what it is "
+          "depends on the pattern and the direction, from 0.13 to 2.8 ke.",
           run_bending_rigidity};
 }
 

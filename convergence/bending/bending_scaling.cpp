@@ -1,5 +1,5 @@
-// bending-scaling: is the bending damping a property of the material? Dissipation at a given rate of
-// curvature under refinement.
+// bending-scaling: is the bending damping a property of the material? Dissipation at a given rate
+// of curvature under refinement.
 #include <cmath>
 
 #include "convergence/order.h"
@@ -30,27 +30,32 @@ std::vector<Factor> factors() {
            DampingFactor::edge_squared_over_area, 0}};
 }
 
-/// A square sheet rolled on a cylinder whose curvature k grows: x = (sin(k s)/k, y, (1 - cos(k s))/k) with s
-/// measured from the middle, and dx/dt at the given dk/dt.
+/// A square sheet rolled on a cylinder whose curvature k grows: x = (sin(k s)/k, y, (1 - cos(k
+/// s))/k) with s measured from the middle, and dx/dt at the given dk/dt.
 Scene rolling_sheet(int cells, DampingFactor factor) {
-  Scene scene = scene_at_rest(make_sheet({SheetPattern::one_diagonal, width, width, cells, cells}), 0.13);
+  Scene scene =
+      scene_at_rest(make_sheet({SheetPattern::one_diagonal, width, width, cells, cells}), 0.13);
   scene.bending = BendingMaterial{0, damping, Weighting::rest, factor, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   const double k = curvature;
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-    const double s = scene.mesh.rest(0, i) - width / 2, sine = std::sin(k * s), cosine = std::cos(k * s);
+    const double s = scene.mesh.rest(0, i) - width / 2, sine = std::sin(k * s),
+                 cosine = std::cos(k * s);
     scene.x.col(i) = Vector3(sine / k, scene.mesh.rest(1, i), (1 - cosine) / k);
-    scene.v.col(i) = rate * Vector3((s * cosine - sine / k) / k, 0, (s * sine - (1 - cosine) / k) / k);
+    scene.v.col(i) =
+        rate * Vector3((s * cosine - sine / k) / k, 0, (s * sine - (1 - cosine) / k) / k);
   }
   return scene;
 }
 
-/// Power that the damping takes, -v.D v, per area of the sheet and squared rate of curvature [J s or N m s].
+/// Power that the damping takes, -v.D v, per area of the sheet and squared rate of curvature
+/// [J s or N m s].
 double dissipation(const Subject& subject, int cells, DampingFactor factor) {
   const Scene scene = rolling_sheet(cells, factor);
   const auto prepared = require_offered(subject.prepare, "prepare")(scene);
   const State s{0, scene.x, scene.v};
-  const PerParticle3 force = require_offered(subject.damping_forces, "damping_forces")(*prepared, s, s.v);
+  const PerParticle3 force =
+      require_offered(subject.damping_forces, "damping_forces")(*prepared, s, s.v);
   return -force.cwiseProduct(s.v).sum() / (width * width * rate * rate);
 }
 
@@ -65,16 +70,16 @@ Table refined(const Subject& subject, const Factor& factor, int finest) {
 NamedFinding finding_of(const Factor& factor, Table measured, const Convergence& errors) {
   const Estimate deviation = order_deviation(errors, factor.expected, 1);
   measured.add({"order of the pair", "1", row_orders(errors)});
-  const Verdict verdict{deviation.value, 0.05, 0, "1",
-                        "the border has no hinges, which takes a share of about one cell in the sheet's "
-                        "width: at the finest meshes that "
-                        "share, and with it the order's error, is below a twentieth"};
+  const Verdict verdict{
+      deviation.value, 0.05, 0, "1",
+      "the border has no hinges, which takes a share of about one cell in the sheet's width: at "
+      "the finest meshes that share, and with it the order's error, is below a twentieth"};
   Finding finding{verdict, std::move(measured), "measured is |order - expected| of the last pair"};
   const std::string claim = factor.expected == 1
-                                ? "With the factor |E| as printed, the dissipation at a given rate of "
-                                  "curvature falls in proportion to the cells' width."
-                                : "With the factor |E|^2/(|N1| + |N2|), the dissipation at a given rate of "
-                                  "curvature tends to a constant.";
+                                ? "With the factor |E| as printed, the dissipation at a given rate "
+                                  "of curvature falls in proportion to the cells' width."
+                                : "With the factor |E|^2/(|N1| + |N2|), the dissipation at a given "
+                                  "rate of curvature tends to a constant.";
   return {"bending-scaling." + factor.finding, claim, std::move(finding)};
 }
 
@@ -104,12 +109,12 @@ StudyResult run_bending_scaling(const Subject& subject, Tier tier, const Progres
 
 Study bending_scaling_study() {
   return {"bending-scaling",
-          "The printed factor |E| does not make the bending damping a property of the material; |E|^2/(|N1| "
-          "+ |N2|) does.",
+          "The printed factor |E| does not make the bending damping a property of the material; "
+          "|E|^2/(|N1| + |N2|) does.",
           "BMF03 section 4",
-          "A square sheet is rolled on a cylinder whose curvature grows at a given rate, so that every mesh "
-          "deforms alike. The "
-          "power that the bending damping takes is compared between meshes, for both factors.",
+          "A square sheet is rolled on a cylinder whose curvature grows at a given rate, so that "
+          "every mesh deforms alike. The power that the bending damping takes is compared between "
+          "meshes, for both factors.",
           run_bending_scaling};
 }
 

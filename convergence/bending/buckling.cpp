@@ -22,14 +22,15 @@ struct Strip {
   double strain;  // by which it is shortened [1]
 
   double row() const { return std::sqrt(0.75) * edge; }  // m
-  double length() const { return (rows - 1) * row(); }   // from half a row before each clamp's line [m]
-  double width() const { return columns * edge; }        // m
+  // from half a row before each clamp's line [m]
+  double length() const { return (rows - 1) * row(); }
+  double width() const { return columns * edge; }  // m
 };
 
 /// Shortened along y, and widened by Poisson's ratio 1/3 so that no force remains but along y.
 Scene scene_of_strip(const Strip& strip) {
-  Scene scene =
-      scene_at_rest(make_sheet({SheetPattern::equilateral, strip.width(), 0, columns, strip.rows}), density);
+  Scene scene = scene_at_rest(
+      make_sheet({SheetPattern::equilateral, strip.width(), 0, columns, strip.rows}), density);
   scene.stretch = StretchMaterial{young, 0.01, 1};
   scene.bending = BendingMaterial{bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
@@ -45,8 +46,9 @@ Scene scene_of_strip(const Strip& strip) {
 /// A strip at rest in its plane under the compression, and what its forces say there.
 struct CompressedStrip {
   State rest;
-  double load;       // N/m
-  double stiffness;  // the least eigenvalue of M^{-1/2} K_zz M^{-1/2}, K_zz across the plane [1/s^2]
+  double load;  // N/m
+  // the least eigenvalue of M^{-1/2} K_zz M^{-1/2}, K_zz across the plane [1/s^2]
+  double stiffness;
   PerParticle mode;  // its displacement along z, N [m]; zero where held
 };
 
@@ -70,9 +72,10 @@ std::vector<int> free_particles(const Scene& scene) {
   return free;
 }
 
-/// M^{-1/2} K_zz M^{-1/2} over the free particles, by central differences of the subject's forces [1/s^2].
-Eigen::MatrixXd stiffness_across(const Subject& subject, PreparedScene& prepared, const Scene& scene,
-                                 State s) {
+/// M^{-1/2} K_zz M^{-1/2} over the free particles, by central differences of the subject's
+/// forces [1/s^2].
+Eigen::MatrixXd stiffness_across(const Subject& subject, PreparedScene& prepared,
+                                 const Scene& scene, State s) {
   constexpr double shift = 1e-8;  // m
   const std::vector<int> free = free_particles(scene);
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
@@ -84,8 +87,9 @@ Eigen::MatrixXd stiffness_across(const Subject& subject, PreparedScene& prepared
     const PerParticle3 behind = subject.elastic_forces(prepared, s);
     s.x(2, free[j]) = 0;
     for (size_t i = 0; i < free.size(); ++i)
-      matrix(Eigen::Index(i), Eigen::Index(j)) =
-          (behind(2, free[i]) - ahead(2, free[i])) / (2 * shift) / std::sqrt(mass[free[i]] * mass[free[j]]);
+      matrix(Eigen::Index(i), Eigen::Index(j)) = (behind(2, free[i]) - ahead(2, free[i])) /
+                                                 (2 * shift) /
+                                                 std::sqrt(mass[free[i]] * mass[free[j]]);
   }
   return (matrix + matrix.transpose()) / 2;
 }
@@ -94,7 +98,8 @@ CompressedStrip compress(const Subject& subject, const Strip& strip) {
   const Scene scene = scene_of_strip(strip);
   const auto prepared = require_offered(subject.prepare, "prepare")(scene);
   require_offered(subject.step, "step");
-  CompressedStrip result{settle(subject, *prepared, scene), 0, 0, PerParticle::Zero(scene.mesh.particles())};
+  CompressedStrip result{settle(subject, *prepared, scene), 0, 0,
+                         PerParticle::Zero(scene.mesh.particles())};
   const PerParticle3 force =
       require_offered(subject.elastic_forces, "elastic_forces")(*prepared, result.rest);
   for (int i = 0; i < scene.mesh.particles(); ++i)  // what the lower clamp holds back
@@ -111,8 +116,8 @@ CompressedStrip compress(const Subject& subject, const Strip& strip) {
   return result;
 }
 
-/// The strain at which the stiffness against the slowest mode vanishes, by the secant rule: it is nearly
-/// linear in the strain.
+/// The strain at which the stiffness against the slowest mode vanishes, by the secant rule: it is
+/// nearly linear in the strain.
 Strip critical_strip(const Subject& subject, int rows) {
   const double euler = pi * pi * bending / (std::pow(Strip{rows, 0}.length(), 2) * young);
   Strip before{rows, 0.6 * euler}, strip{rows, 0.9 * euler};
@@ -143,18 +148,17 @@ NamedFinding load_finding(const Rigidities& found) {
   Worst outside;
   outside.observe(over);
   outside.observe(under);
-  return {
-      "buckling.load-matches-euler",
-      "A strip of equilateral triangles between clamps buckles at Euler's load 4 pi^2 D/L^2, its rigidity D "
-      "between 2/9 ke (free edges) and 1/4 ke (bent to a cylinder).",
-      {{outside.value(), discrete, 0, "ke",
-        "outside of the two rigidities by no more than n rows miss of a cosine's curvature, (2 pi/(n - "
-        "1))^2/12 of it, on the finest mesh"},
-       {{"rows", "1", found.rows},
-        {"critical strain", "1", found.strains},
-        {"critical load", "N/m", found.loads},
-        {"rigidity D", "ke", found.over_ke}},
-       "measured is the distance from the range, 0 within it"}};
+  return {"buckling.load-matches-euler",
+          "A strip of equilateral triangles between clamps buckles at Euler's load 4 pi^2 D/L^2, "
+          "its rigidity D between 2/9 ke (free edges) and 1/4 ke (bent to a cylinder).",
+          {{outside.value(), discrete, 0, "ke",
+            "outside of the two rigidities by no more than n rows miss of a cosine's curvature, (2 "
+            "pi/(n - 1))^2/12 of it, on the finest mesh"},
+           {{"rows", "1", found.rows},
+            {"critical strain", "1", found.strains},
+            {"critical load", "N/m", found.loads},
+            {"rigidity D", "ke", found.over_ke}},
+           "measured is the distance from the range, 0 within it"}};
 }
 
 /// ln(amplitude) of the mode over time beyond the critical load.
@@ -181,20 +185,20 @@ Growth growth_beyond(const Subject& subject, const Strip& strip) {
     }
     s = subject.step(*prepared, {&s, 1}, h, uncounted);
   }
-  growth.measured = std::log(growth.amplitudes.back() / growth.amplitudes.front()) / growth.times.back();
+  growth.measured =
+      std::log(growth.amplitudes.back() / growth.amplitudes.front()) / growth.times.back();
   return growth;
 }
 
 NamedFinding growth_finding(const Growth& growth) {
-  return {
-      "buckling.grows-at-the-linearised-rate",
-      "Beyond the critical load a disturbance grows as exp(sigma t), -sigma^2 the negative eigenvalue of the "
-      "linearised forces.",
-      {{std::abs(growth.measured / growth.expected - 1), 0.01, 0, "1",
-        "a wrong mass, load or rigidity shifts the rate by more; the schemes add (sigma h)^2/24, a "
-        "millionth"},
-       {{"time", "s", growth.times}, {"amplitude", "m", growth.amplitudes}},
-       "measured is the relative error of the rate"}};
+  return {"buckling.grows-at-the-linearised-rate",
+          "Beyond the critical load a disturbance grows as exp(sigma t), -sigma^2 the negative "
+          "eigenvalue of the linearised forces.",
+          {{std::abs(growth.measured / growth.expected - 1), 0.01, 0, "1",
+            "a wrong mass, load or rigidity shifts the rate by more; the schemes add (sigma "
+            "h)^2/24, a millionth"},
+           {{"time", "s", growth.times}, {"amplitude", "m", growth.amplitudes}},
+           "measured is the relative error of the rate"}};
 }
 
 StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& progress) {
@@ -215,14 +219,14 @@ StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& prog
   result.findings.push_back(load_finding(found));
   const Growth growth = growth_beyond(subject, {critical.rows, 1.4 * critical.strain});
   result.findings.push_back(growth_finding(growth));
-  Figure figure{
-      "growth",
-      "A strip leaves its plane at 1.4 times the critical strain",
-      {"time", "s", Scale::linear},
-      {"amplitude of the buckling mode", "m", Scale::log},
-      nan,
-      "A straight line is exponential growth; the expected one follows from the forces' eigenvalue.",
-      {{"simulated", growth.times, growth.amplitudes, nan, {}}}};
+  Figure figure{"growth",
+                "A strip leaves its plane at 1.4 times the critical strain",
+                {"time", "s", Scale::linear},
+                {"amplitude of the buckling mode", "m", Scale::log},
+                nan,
+                "A straight line is exponential growth; the expected one follows from the forces' "
+                "eigenvalue.",
+                {{"simulated", growth.times, growth.amplitudes, nan, {}}}};
   Curve expected{"expected", growth.times, {}, nan, {}};
   for (const double t : growth.times)
     expected.y.push_back(growth.amplitudes.front() * std::exp(growth.expected * t));
@@ -236,13 +240,13 @@ StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& prog
 
 Study buckling_study() {
   return {"buckling",
-          "A compressed strip leaves its plane at Euler's load with the mesh's own rigidity, and grows "
-          "beyond it at the rate of the linearised forces.",
+          "A compressed strip leaves its plane at Euler's load with the mesh's own rigidity, and "
+          "grows beyond it at the rate of the linearised forces.",
           "our test of BMF03 section 4",
-          "A strip of equilateral triangles between two clamps is shortened; motion in its plane is left to "
-          "die out, none leaves it. Central differences of the forces across the plane give the stiffness "
-          "against buckling, and the strain at which it vanishes; the clamp's force there is the critical "
-          "load.",
+          "A strip of equilateral triangles between two clamps is shortened; motion in its plane "
+          "is left to die out, none leaves it. Central differences of the forces across the plane "
+          "give the stiffness against buckling, and the strain at which it vanishes; the clamp's "
+          "force there is the critical load.",
           run_buckling};
 }
 

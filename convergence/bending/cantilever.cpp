@@ -11,7 +11,8 @@ namespace foldproof {
 
 namespace {
 
-constexpr double stretch_share = 1e-8;  // strain under the whole load that the springs are made for [1]
+// strain under the whole load that the springs are made for [1]
+constexpr double stretch_share = 1e-8;
 
 /// Weight or tip load, and what the elastica says.
 struct LoadCase {
@@ -51,7 +52,8 @@ struct TipError {
   double off;          // stretch, unfinished solve and the oracle's uncertainty [1]
 };
 
-/// `length`: what counts as the strip's length L, over the one from half a cell before the hinges [1].
+/// `length`: what counts as the strip's length L, over the one from half a cell before
+/// the hinges [1].
 TipError tip_error(const LoadCase& load, const StripAtRest& rest, double length) {
   const double L = length * strip_length;
   return {rest.drop / L - load.drop.value, rest.reach / L - load.reach.value,
@@ -86,7 +88,8 @@ Refined refine(const Subject& subject, const LoadCase& load, const StripPattern&
   return refined;
 }
 
-/// Drop and reach together: either may pass through zero by chance as the load grows, their distance not.
+/// Drop and reach together: either may pass through zero by chance as the load grows,
+/// their distance not.
 Convergence distance(const Refined& refined) {
   Convergence tip{refined.drop.steps, {}, std::hypot(refined.drop.floor, refined.reach.floor)};
   for (size_t i = 0; i < refined.drop.errors.size(); ++i)
@@ -100,8 +103,8 @@ NamedFinding order_of(const Refined& refined) {
   std::vector<double> orders = pair_orders(tip);
   orders.insert(orders.begin(), nan);
   const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "a whole order would be off by 1; the third term of the error is smaller than the "
-                        "second by the panels' number"};
+                        "a whole order would be off by 1; the third term of the error is smaller "
+                        "than the second by the panels' number"};
   return {"cantilever.is-second-order." + refined.load.name,
           "The tip of a strip held cylindrical, " + refined.load.words +
               ", tends to the elastica's with second order.",
@@ -113,8 +116,8 @@ NamedFinding order_of(const Refined& refined) {
             {"error of the reach", "1", refined.reach.errors},
             {"distance from the elastica's tip over L", "1", tip.errors},
             {"order of the distance", "1", orders}},
-           "measured is |order - 2| of the last pair; the springs' strain and the solve's last step make the "
-           "uncertainty"}};
+           "measured is |order - 2| of the last pair; the springs' strain and the solve's last "
+           "step make the uncertainty"}};
 }
 
 NamedFinding within_one_percent(const std::vector<Refined>& all) {
@@ -133,11 +136,12 @@ NamedFinding within_one_percent(const std::vector<Refined>& all) {
     worst.observe(refined.reach.errors.back() / load.reach.value);
     uncertainty.observe(refined.drop.floor / load.drop.value);
   }
-  const Verdict verdict{worst.value(), 0.01, uncertainty.value(), "1",
-                        "what a fabric laboratory's bending test resolves: a hundredth of the length"};
+  const Verdict verdict{
+      worst.value(), 0.01, uncertainty.value(), "1",
+      "what a fabric laboratory's bending test resolves: a hundredth of the length"};
   return {"cantilever.matches-the-elastica",
-          "At the finest mesh, drop and reach of every clamped strip are the elastica's within one percent, "
-          "with the rigidity that the homogenised mesh has.",
+          "At the finest mesh, drop and reach of every clamped strip are the elastica's within one "
+          "percent, with the rigidity that the homogenised mesh has.",
           {verdict,
            {{"load", "", names},
             {"drop over L", "1", drops},
@@ -156,20 +160,23 @@ NamedFinding clamp_is_half_a_cell_before(const Refined& refined) {
   const LoadCase& load = refined.load;
   std::vector<double> orders;
   for (size_t i = 0; i < refined.drops.size(); ++i) {
-    // the load was made for L; a strip shorter by half a spacing has gamma (l/L)^3 and its drop counts over l
+    // the load was made for L; a strip shorter by half a spacing has gamma (l/L)^3 and its
+    // drop counts over l
     const double ratio = 1 - naive.steps[i] / 2 / strip_length;
-    const double gamma = load.load.gravity * strip_density * std::pow(ratio * strip_length, 3) / strip_D;
-    naive.errors.push_back(std::abs(refined.drops[i] / ratio - oracles::heavy_cantilever(gamma).drop.value));
+    const double gamma =
+        load.load.gravity * strip_density * std::pow(ratio * strip_length, 3) / strip_D;
+    naive.errors.push_back(
+        std::abs(refined.drops[i] / ratio - oracles::heavy_cantilever(gamma).drop.value));
   }
   orders = pair_orders(naive);
   orders.insert(orders.begin(), nan);
   const Estimate deviation = order_deviation(naive, 1, 1);
   const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "a whole order would be off by 1; the second term is smaller than the first by the "
-                        "panels' number"};
+                        "a whole order would be off by 1; the second term is smaller than the "
+                        "first by the panels' number"};
   return {"cantilever.clamp-on-the-hinges-is-first-order",
-          "With the length counted from the first line of hinges instead of half a cell before it, the same "
-          "strip is first order only.",
+          "With the length counted from the first line of hinges instead of half a cell before it, "
+          "the same strip is first order only.",
           {verdict,
            {{"spacing of the rows", "m", naive.steps},
             {"error of the drop", "1", naive.errors},
@@ -193,8 +200,8 @@ NamedFinding patterns_agree(const Subject& subject, const LoadCase& load) {
     uncertainty.observe(rest.last_step);
   }
   const Verdict verdict{spread.value(), 10 * stretch_share, uncertainty.value(), "1",
-                        "the patterns stretch differently, by a few times the strain that the springs were "
-                        "made for; hinges across the strip are the same"};
+                        "the patterns stretch differently, by a few times the strain that the "
+                        "springs were made for; hinges across the strip are the same"};
   return {"cantilever.patterns-agree",
           "Held cylindrical, with rows of edges across it, a strip of any pattern hangs alike.",
           {verdict,
@@ -208,7 +215,8 @@ Figure error_figure(const std::string& name, const std::string& title) {
           {"spacing of the rows", "m", Scale::log},
           {"distance from the elastica's tip over L", "1", Scale::log},
           2,
-          "Against the elastica with D = ke/4; the length counts from half a cell before the first hinges.",
+          "Against the elastica with D = ke/4; the length counts from half a cell before the first "
+          "hinges.",
           {}};
 }
 
@@ -248,15 +256,15 @@ StudyResult run_cantilever(const Subject& subject, Tier tier, const Progress& pr
 Study cantilever_study() {
   return {
       "cantilever",
-      "A clamped strip under its own weight or a load on its tip takes the shape of the elastica with "
-      "the mesh's own rigidity, to second order.",
+      "A clamped strip under its own weight or a load on its tip takes the shape of the elastica "
+      "with the mesh's own rigidity, to second order.",
       "BMF03 section 4; Bisshopp and Drucker 1945 for the tip load",
-      "The first two rows of vertices of a strip are held level. The strip is held cylindrical: each row "
-      "moves as one, driven by the sum of the solver's forces on it, so that the rigidity is that of the "
-      "homogenised cell, ke/4, and cannot relax across the strip. Springs are so stiff that stretch stays "
-      "below the errors shown. Equilibrium is found by Newton's method; the elastica by GSL, and, for "
-      "the tip load, by elliptic integrals. gamma is weight per area times L^3 over D, alpha load per "
-      "width times L^2 over D.",
+      "The first two rows of vertices of a strip are held level. The strip is held cylindrical: "
+      "each row moves as one, driven by the sum of the solver's forces on it, so that the rigidity "
+      "is that of the homogenised cell, ke/4, and cannot relax across the strip. Springs are so "
+      "stiff that stretch stays below the errors shown. Equilibrium is found by Newton's method; "
+      "the elastica by GSL, and, for the tip load, by elliptic integrals. gamma is weight per area "
+      "times L^3 over D, alpha load per width times L^2 over D.",
       run_cantilever};
 }
 

@@ -37,7 +37,10 @@ double angle_of(const Hinge& hinge, const PerParticle3& x) {
 }  // namespace
 
 GentleSheet::GentleSheet(const Subject& subject, TriangleMesh mesh, double width)
-    : subject_(subject), scene_(bending_scene(std::move(mesh))), probe_(subject, scene_), width_(width) {
+    : subject_(subject),
+      scene_(bending_scene(std::move(mesh))),
+      probe_(subject, scene_),
+      width_(width) {
   const PerParticle3& rest = scene_.mesh.rest;
   const Vector3 far_corner = rest.rowwise().maxCoeff();
   flat_.points = rest.topRows<2>();
@@ -46,7 +49,8 @@ GentleSheet::GentleSheet(const Subject& subject, TriangleMesh mesh, double width
   for (const Hinge& hinge : scene_.mesh.hinges) {
     flat_.hinges.push_back(hinge.particles);
     bool inside = true;
-    for (const int i : hinge.particles) inside = inside && !(depth(rest.col(i), far_corner) < 2.2 * width);
+    for (const int i : hinge.particles)
+      inside = inside && !(depth(rest.col(i), far_corner) < 2.2 * width);
     flat_.counted.push_back(inside);
     const Edge& edge = scene_.mesh.edges[size_t(hinge.edge)];
     if (!inside) continue;
@@ -61,7 +65,8 @@ GentleSheet::GentleSheet(const Subject& subject, TriangleMesh mesh, double width
 
 Eigen::VectorXd GentleSheet::cylinder(double angle) const {
   const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
-  return 0.5 * gentle_curvature * (along.transpose() * flat_.points).array().square().matrix().transpose();
+  return 0.5 * gentle_curvature *
+         (along.transpose() * flat_.points).array().square().matrix().transpose();
 }
 
 PerParticle3 GentleSheet::positions_at(const Eigen::VectorXd& heights) const {
@@ -92,7 +97,8 @@ double GentleSheet::forced(double angle) const { return rigidity(cylinder(angle)
 double GentleSheet::relaxed(double angle) const {
   // conjugate gradients: over the plane, forces are linear in heights as far as the slopes' square
   constexpr double tolerance = 1e-9;  // of the forces, to those at the start
-  const double probing = 1e-4 * width_ * double(scene_.mesh.particles());  // sum of the heights tried [m]
+  // sum of the heights tried [m]
+  const double probing = 1e-4 * width_ * double(scene_.mesh.particles());
   Eigen::VectorXd heights = cylinder(angle), residual = pull(heights), direction = residual;
   double squared = residual.squaredNorm();
   const double goal = tolerance * tolerance * squared;

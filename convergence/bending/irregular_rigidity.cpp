@@ -45,7 +45,8 @@ struct Mean {
   }
 };
 
-/// D/ke of one kind of mesh at one size, and how far single sheets are from what the oracle says of them.
+/// D/ke of one kind of mesh at one size, and how far single sheets are from what the
+/// oracle says of them.
 struct Sample {
   Mean forced, relaxed;
   Worst forced_error, relaxed_error;  // relative
@@ -53,14 +54,16 @@ struct Sample {
 
 constexpr std::array directions = {11.0, 56.0, 101.0, 146.0};  // of the curvature [degree]
 
-/// How many meshes of each size, and how many of them let their vertices settle, which costs a solve each.
+/// How many meshes of each size, and how many of them let their vertices settle, which
+/// costs a solve each.
 struct Effort {
   std::vector<int> sizes;  // cells along a side
   int meshes, settled;
 };
 
 TriangleMesh mesh_of(const Disorder& disorder, int cells, unsigned seed) {
-  Sheet sheet{disorder.pattern, gentle_side, gentle_side, cells, cells, disorder.jitter, shifted_seed(seed)};
+  Sheet sheet{disorder.pattern, gentle_side,       gentle_side, cells, cells,
+              disorder.jitter,  shifted_seed(seed)};
   if (disorder.pattern == SheetPattern::jittered) {
     sheet.rows = int(std::lround(cells * 2 / std::numbers::sqrt3));
     sheet.height = 0;
@@ -68,7 +71,8 @@ TriangleMesh mesh_of(const Disorder& disorder, int cells, unsigned seed) {
   return make_sheet(sheet);
 }
 
-Sample sample_of(const Subject& subject, const Disorder& disorder, int cells, const Effort& effort) {
+Sample sample_of(const Subject& subject, const Disorder& disorder, int cells,
+                 const Effort& effort) {
   Sample sample;
   for (int seed = 1; seed <= effort.meshes; ++seed) {
     const GentleSheet sheet(subject, mesh_of(disorder, cells, unsigned(seed)), gentle_side / cells);
@@ -76,7 +80,8 @@ Sample sample_of(const Subject& subject, const Disorder& disorder, int cells, co
     for (const double degrees : directions) {
       const double angle = degrees * pi / 180, own = sheet.forced(angle);
       forced += own / directions.size();
-      sample.forced_error.observe(std::abs(own / oracles::forced_cylinder_rigidity(sheet.flat(), angle) - 1));
+      sample.forced_error.observe(
+          std::abs(own / oracles::forced_cylinder_rigidity(sheet.flat(), angle) - 1));
       if (seed > effort.settled) continue;
       const double settled = sheet.relaxed(angle);
       relaxed += settled / directions.size();
@@ -113,30 +118,31 @@ NamedFinding as_the_oracle(const std::vector<Row>& rows) {
   const Verdict verdict{worst.value(), gentle_bound, 0, "1",
                         "the surfaces' slopes change angles by their square, relatively"};
   return {"bending-rigidity.irregular.matches-homogenisation",
-          "On jittered and random meshes too, the energy is what the hinges' definition gives, with all "
-          "vertices on the surface and with those inside settled.",
+          "On jittered and random meshes too, the energy is what the hinges' definition gives, "
+          "with all vertices on the surface and with those inside settled.",
           {verdict,
            {{"mesh", "", names},
             {"width of a cell", "m", widths},
             {"worst error, forced", "1", forced},
             {"worst error, relaxed", "1", relaxed}},
-           "settled: conjugate gradients on the subject's forces; the oracle solves its own sparse system"}};
+           "settled: conjugate gradients on the subject's forces; the oracle solves its own sparse "
+           "system"}};
 }
 
 NamedFinding excess_stays(const Row& row) {
   const Mean& coarse = row.samples[row.samples.size() - 2].forced;
   const Mean& fine = row.samples.back().forced;
-  const double excess = fine.value() - equilateral, change = std::abs(fine.value() - coarse.value());
+  const double excess = fine.value() - equilateral,
+               change = std::abs(fine.value() - coarse.value());
   const double uncertainty = std::hypot(coarse.standard_error(), fine.standard_error());
   std::vector<double> values, errors;
   for (const Sample& sample : row.samples) {
     values.push_back(sample.forced.value());
     errors.push_back(sample.forced.standard_error());
   }
-  const Verdict verdict{
-      excess > 0 ? change / excess : nan, 0.5, uncertainty / excess, "1",
-      "an excess that vanished in proportion to the width would change by its own size when "
-      "the cells are halved; half of that tells the two apart"};
+  const Verdict verdict{excess > 0 ? change / excess : nan, 0.5, uncertainty / excess, "1",
+                        "an excess that vanished in proportion to the width would change by its "
+                        "own size when the cells are halved; half of that tells the two apart"};
   return {"bending-rigidity.irregular.excess-persists-under-refinement." + row.disorder.name,
           "The excess of D over that of equilateral triangles stays when the cells are halved: " +
               row.disorder.words + ".",
@@ -144,20 +150,19 @@ NamedFinding excess_stays(const Row& row) {
            {{"width of a cell", "m", row.widths},
             {"D/ke, forced, mean", "1", values},
             {"standard error", "1", errors}},
-           "measured is the last change over the excess, NaN without one; the uncertainty is the standard "
-           "error of the means over meshes"}};
+           "measured is the last change over the excess, NaN without one; the uncertainty is the "
+           "standard error of the means over meshes"}};
 }
 
 void show(const std::vector<Row>& rows, StudyResult& result) {
-  Figure figure{
-      "irregular",
-      "Flexural rigidity of irregular meshes",
-      {"width of a cell", "m", Scale::log},
-      {"D/ke", "1", Scale::linear},
-      nan,
-      "Means over meshes and directions. Forced: all vertices on the cylinder; settled: those inside "
-      "leave it. Equilateral triangles have 0.25.",
-      {}};
+  Figure figure{"irregular",
+                "Flexural rigidity of irregular meshes",
+                {"width of a cell", "m", Scale::log},
+                {"D/ke", "1", Scale::linear},
+                nan,
+                "Means over meshes and directions. Forced: all vertices on the cylinder; settled: "
+                "those inside leave it. Equilateral triangles have 0.25.",
+                {}};
   std::vector<std::string> names;
   std::array<std::vector<double>, 4> numbers;
   for (const Row& row : rows) {

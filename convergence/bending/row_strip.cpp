@@ -27,8 +27,8 @@ Scene strip_scene(const StripPattern& pattern, int panels, double spacing, const
   return scene;
 }
 
-/// Generalised forces: turning a panel [N m] carries all rows behind it, stretching it [N] too. Slopes first,
-/// then strains (forces times the spacing [N m]).
+/// Generalised forces: turning a panel [N m] carries all rows behind it, stretching it [N] too.
+/// Slopes first, then strains (forces times the spacing [N m]).
 Eigen::VectorXd generalised_forces(const RowStrip& strip, const Eigen::VectorXd& unknowns) {
   const Eigen::Index n = strip.panels();
   const Eigen::VectorXd slopes = unknowns.head(n), lengths = strip.spacing() * unknowns.tail(n);
@@ -37,7 +37,8 @@ Eigen::VectorXd generalised_forces(const RowStrip& strip, const Eigen::VectorXd&
   Eigen::Vector2d behind = Eigen::Vector2d::Zero();
   for (Eigen::Index k = n - 1; k >= 0; --k) {
     behind += force.col(k + 2);
-    const Eigen::Vector2d along(std::cos(slopes[k]), std::sin(slopes[k])), across(-along.y(), along.x());
+    const Eigen::Vector2d along(std::cos(slopes[k]), std::sin(slopes[k])),
+        across(-along.y(), along.x());
     generalised[k] = lengths[k] * across.dot(behind);
     generalised[n + k] = strip.spacing() * along.dot(behind);
   }
@@ -51,7 +52,8 @@ Eigen::MatrixXd jacobian(const RowStrip& strip, const Eigen::VectorXd& unknowns)
     Eigen::VectorXd ahead = unknowns, behind = unknowns;
     ahead[k] += change;
     behind[k] -= change;
-    matrix.col(k) = (generalised_forces(strip, ahead) - generalised_forces(strip, behind)) / (2 * change);
+    matrix.col(k) =
+        (generalised_forces(strip, ahead) - generalised_forces(strip, behind)) / (2 * change);
   }
   return matrix;
 }
@@ -67,7 +69,8 @@ const std::vector<StripPattern>& strip_patterns() {
   return patterns;
 }
 
-RowStrip::RowStrip(const Subject& subject, const StripPattern& pattern, int panels, const StripLoad& load)
+RowStrip::RowStrip(const Subject& subject, const StripPattern& pattern, int panels,
+                   const StripLoad& load)
     : pattern_(pattern),
       panels_(panels),
       spacing_(strip_length / (panels + 0.5)),
@@ -79,7 +82,8 @@ RowStrip::RowStrip(const Subject& subject, const StripPattern& pattern, int pane
     row_of_.push_back(int(std::lround(scene_.mesh.rest(pattern.along, i) / spacing_)));
 }
 
-Eigen::Matrix2Xd RowStrip::rows(const Eigen::VectorXd& slopes, const Eigen::VectorXd& lengths) const {
+Eigen::Matrix2Xd RowStrip::rows(const Eigen::VectorXd& slopes,
+                                const Eigen::VectorXd& lengths) const {
   Eigen::Matrix2Xd places = Eigen::Matrix2Xd::Zero(2, panels_ + 2);
   places(0, 1) = spacing_;
   for (int k = 0; k < panels_; ++k)

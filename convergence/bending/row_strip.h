@@ -1,6 +1,6 @@
-// A strip that is held cylindrical: the vertices of each row across it move together, so that a mesh of
-// triangles becomes a chain of rigid-width panels. What drives the rows are the subject's forces, summed over
-// each row: by virtual work, those of the constrained strip.
+// A strip that is held cylindrical: the vertices of each row across it move together, so that a
+// mesh of triangles becomes a chain of rigid-width panels. What drives the rows are the subject's
+// forces, summed over each row: by virtual work, those of the constrained strip.
 #pragma once
 
 #include <string>
@@ -33,9 +33,9 @@ struct StripLoad {
   double stretch = 0;  // Y of the springs [N/m]; 0: none
 };
 
-/// Rows 0 and 1 are held level: the hinges of row 1 stand for the curvature from half a cell before to half a
-/// cell behind them, so that the strip is clamped half a cell before row 1. There are `panels` free ones, and
-/// L = (panels + 1/2) spacings.
+/// Rows 0 and 1 are held level: the hinges of row 1 stand for the curvature from half a cell before
+/// to half a cell behind them, so that the strip is clamped half a cell before row 1. There are
+/// `panels` free ones, and L = (panels + 1/2) spacings.
 class RowStrip {
  public:
   RowStrip(const Subject& subject, const StripPattern& pattern, int panels, const StripLoad& load);
@@ -44,8 +44,8 @@ class RowStrip {
   double spacing() const { return spacing_; }  // of the rows at rest [m]
   double width() const { return width_; }      // [m]
 
-  /// Rows' places (2 x rows: along and up [m]) when the panels have these slopes (upward positive [rad]) and
-  /// lengths [m], one of each per free panel.
+  /// Rows' places (2 x rows: along and up [m]) when the panels have these slopes (upward positive
+  /// [rad]) and lengths [m], one of each per free panel.
   Eigen::Matrix2Xd rows(const Eigen::VectorXd& slopes, const Eigen::VectorXd& lengths) const;
 
   /// The subject's forces, summed over rows, and the tip's load: 2 x rows [N].
@@ -70,9 +70,9 @@ struct StripAtRest {
   double last_step = 0;        // of Newton's method, the largest of its turns [rad] and strains [1]
 };
 
-/// For a strip with springs: Newton's method on slopes and lengths from a start, with a Jacobian by central
-/// differences. It ends when steps no longer shrink; a strip not at rest after 40 has a last_step that says
-/// so.
+/// For a strip with springs: Newton's method on slopes and lengths from a start, with a Jacobian by
+/// central differences. It ends when steps no longer shrink; a strip not at rest after 40 has a
+/// last_step that says so.
 StripAtRest at_rest(const RowStrip& strip, StripAtRest start);
 
 /// The flat strip, as a start.

@@ -16,8 +16,8 @@ namespace {
 constexpr double size = 0.11;    // radius of the ball, half of the figure's height [m]
 constexpr double young = 40;     // Y [N/m]
 constexpr double density = 0.2;  // kg/m^2
-constexpr double bending =
-    0.02;  // ke [J]: a twenty-fifth of Y size^2, so that hinges resist what springs let go
+// ke [J]: a twenty-fifth of Y size^2, so that hinges resist what springs let go
+constexpr double bending = 0.02;
 constexpr double delay = 0.012;    // damping over stiffness, of springs and hinges [s]
 constexpr double duration = 0.45;  // s
 
@@ -69,9 +69,11 @@ double handedness(const Eigen::Matrix3d& frame) {
   return frame.col(0).cross(frame.col(1)).dot(frame.col(2)) < 0 ? -1 : 1;
 }
 
-/// Root mean square distance of x from the rest shape, over the particles, after the best rigid motion [m].
+/// Root mean square distance of x from the rest shape, over the particles, after the best
+/// rigid motion [m].
 double distance_from(const PerParticle3& rest, const PerParticle3& x) {
-  const PerParticle3 a = rest.colwise() - rest.rowwise().mean(), b = x.colwise() - x.rowwise().mean();
+  const PerParticle3 a = rest.colwise() - rest.rowwise().mean(),
+                     b = x.colwise() - x.rowwise().mean();
   const Eigen::Matrix3d covariance = b * a.transpose();
   const oracles::SingularParts parts = oracles::singular_parts(covariance);
   const Eigen::Matrix3d U = parts.U, V = parts.V;
@@ -118,11 +120,11 @@ NamedFinding comes_back(const std::vector<Shell>& shells, const std::vector<Retu
   }
   const Verdict verdict{
       worst.value(), 1e-3, 0, "of the start",
-      "another place of rest, a dent or a wrong angle, is a tenth of the disturbance away or "
-      "more; motion that has not died yet would show in the last tenth of the time"};
+      "another place of rest, a dent or a wrong angle, is a tenth of the disturbance away or more; "
+      "motion that has not died yet would show in the last tenth of the time"};
   return {"shape-recovery.shell-returns-to-its-shape",
-          "With its own angles as rest angles, a shell pulled out of shape by about a tenth of its size "
-          "returns to it, on coarse and fine meshes.",
+          "With its own angles as rest angles, a shell pulled out of shape by about a tenth of its "
+          "size returns to it, on coarse and fine meshes.",
           {verdict,
            {{"shell", "", names},
             {"distance at the start", "m", starts},
@@ -132,11 +134,11 @@ NamedFinding comes_back(const std::vector<Shell>& shells, const std::vector<Retu
 
 NamedFinding angles_matter(const Shell& shell, const Return& own, const Return& flat) {
   const Verdict verdict{own.left / flat.left, 0.01, 0, "1",
-                        "a shell that springs alone brought back would return as well with flat rest angles, "
-                        "and the ratio would be 1"};
+                        "a shell that springs alone brought back would return as well with flat "
+                        "rest angles, and the ratio would be 1"};
   return {"shape-recovery.flat-rest-angles-do-not-restore-it",
-          "The same shell with flat rest angles does not return: its rest angles keep the shape, not its "
-          "springs alone.",
+          "The same shell with flat rest angles does not return: its rest angles keep the shape, "
+          "not its springs alone.",
           {verdict,
            {{"shell", "", std::vector<std::string>{shell.words}},
             {"distance with its own angles", "m", std::vector<double>{own.left}},
@@ -162,7 +164,8 @@ StudyResult run_shape_return(const Subject& subject, Tier tier, const Progress& 
     progress(double(returns.size()) / double(shells.size() + 1));
   }
   const Return flat = let_go(subject, shells[1], RestAngles::flat);
-  figure.curves.push_back({shells[1].words + ", flat rest angles", flat.times, flat.distances, nan, {}});
+  figure.curves.push_back(
+      {shells[1].words + ", flat rest angles", flat.times, flat.distances, nan, {}});
   result.findings.push_back(comes_back(shells, returns));
   result.findings.push_back(angles_matter(shells[1], returns[1], flat));
   result.figures.push_back(std::move(figure));
@@ -172,13 +175,12 @@ StudyResult run_shape_return(const Subject& subject, Tier tier, const Progress& 
 }  // namespace
 
 Study shape_return_study() {
-  return {
-      "shape-recovery", "Rest angles of its own keep and restore a sculpted shape.",
-      "BMF03 section 4: non-zero rest angles",
-      "A closed shell with bumps is squeezed, sheared and dented by about a tenth of its size, let go and "
-      "damped. Its distance from the rest shape falls until nothing is left to see, on coarse and fine "
-      "meshes alike; with flat rest angles it settles elsewhere.",
-      run_shape_return};
+  return {"shape-recovery", "Rest angles of its own keep and restore a sculpted shape.",
+          "BMF03 section 4: non-zero rest angles",
+          "A closed shell with bumps is squeezed, sheared and dented by about a tenth of its size, "
+          "let go and damped. Its distance from the rest shape falls until nothing is left to see, "
+          "on coarse and fine meshes alike; with flat rest angles it settles elsewhere.",
+          run_shape_return};
 }
 
 }  // namespace foldproof

@@ -1,4 +1,5 @@
-// strip-vibration: the lowest frequencies of a clamped strip, from its stiffness and from its steps.
+// strip-vibration: the lowest frequencies of a clamped strip, from its stiffness and
+// from its steps.
 #include <array>
 #include <cmath>
 
@@ -16,13 +17,13 @@ namespace foldproof {
 
 namespace {
 
-constexpr double disturbance = 1e-6;  // of the flat strip [m]: linear, and large enough for differences
+// of the flat strip [m]: linear, and large enough for differences
+constexpr double disturbance = 1e-6;
 
 /// beta L of the n-th mode of a clamped-free beam (n = 1, 2): cos(beta L) cosh(beta L) = -1.
 double clamped_free_root(int n) {
   const auto characteristic = [](double b) { return std::cos(b) + 1 / std::cosh(b); };
-  return oracles::bracketed_root(characteristic, (n - 1) * pi + 0.5, n * pi, 0)
-      .value;
+  return oracles::bracketed_root(characteristic, (n - 1) * pi + 0.5, n * pi, 0).value;
 }
 
 /// The frequencies of the continuous strip with the rigidity of the homogenised cell [rad/s].
@@ -37,7 +38,8 @@ Modes modes_of(const Eigen::MatrixXd& K, const Eigen::VectorXd& masses) {
   return oracles::symmetric_modes(0.5 * (K + K.transpose()), masses);
 }
 
-/// Forces across a strip held cylindrical when its free rows rise by `heights` [m]; one of each per row [N].
+/// Forces across a strip held cylindrical when its free rows rise by `heights` [m]; one of
+/// each per row [N].
 Eigen::VectorXd pull(const RowStrip& strip, const Eigen::VectorXd& heights) {
   const StripAtRest flat = level(strip);
   Eigen::Matrix2Xd rows = strip.rows(flat.slopes, flat.lengths);
@@ -45,8 +47,9 @@ Eigen::VectorXd pull(const RowStrip& strip, const Eigen::VectorXd& heights) {
   return strip.forces(rows).row(1).tail(heights.size()).transpose();
 }
 
-/// omega of the first two modes [rad/s] of a strip held cylindrical: shapes from the stiffness row by row,
-/// frequencies from Rayleigh's quotient of those shapes, which rounding of the stiffness leaves alone.
+/// omega of the first two modes [rad/s] of a strip held cylindrical: shapes from the stiffness
+/// row by row, frequencies from Rayleigh's quotient of those shapes, which rounding of the
+/// stiffness leaves alone.
 Eigen::Vector2d frequencies(const RowStrip& strip) {
   constexpr double amplitude = 1e-5;  // m
   const Eigen::Index n = strip.panels();
@@ -56,7 +59,8 @@ Eigen::Vector2d frequencies(const RowStrip& strip) {
     const Eigen::VectorXd up = small * Eigen::VectorXd::Unit(n, k);
     K.col(k) = (pull(strip, -up) - pull(strip, up)) / (2 * small);
   }
-  Eigen::VectorXd masses = Eigen::VectorXd::Constant(n, strip_density * strip.width() * strip.spacing());
+  Eigen::VectorXd masses =
+      Eigen::VectorXd::Constant(n, strip_density * strip.width() * strip.spacing());
   masses[n - 1] /= 2;  // the last row has cells on one side only
   const Modes modes = modes_of(K, masses);
   Eigen::Vector2d omega;
@@ -72,18 +76,19 @@ NamedFinding order_of(int mode, const Convergence& error, const std::vector<doub
   std::vector<double> orders = pair_orders(error);
   orders.insert(orders.begin(), nan);
   const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "a whole order would be off by 1; the third term of the error is smaller than the "
-                        "second by the panels' number over the mode's"};
+                        "a whole order would be off by 1; the third term of the error is smaller "
+                        "than the second by the panels' number over the mode's"};
   const std::string number = std::to_string(mode);
-  return {"strip-vibration.is-second-order.mode-" + number,
-          "Mode " + number +
-              " of a clamped strip held cylindrical tends with second order to the beam's frequency.",
-          {verdict,
-           {{"spacing of the rows", "m", error.steps},
-            {"omega", "rad/s", measured},
-            {"relative error", "1", error.errors},
-            {"order", "1", orders}},
-           "measured is |order - 2| of the last pair"}};
+  return {
+      "strip-vibration.is-second-order.mode-" + number,
+      "Mode " + number +
+          " of a clamped strip held cylindrical tends with second order to the beam's frequency.",
+      {verdict,
+       {{"spacing of the rows", "m", error.steps},
+        {"omega", "rad/s", measured},
+        {"relative error", "1", error.errors},
+        {"order", "1", orders}},
+       "measured is |order - 2| of the last pair"}};
 }
 
 NamedFinding is_the_beam(const Eigen::Vector2d& finest) {
@@ -95,12 +100,12 @@ NamedFinding is_the_beam(const Eigen::Vector2d& finest) {
     worst.observe(std::abs(measured.back() / exact.back() - 1));
   }
   const Verdict verdict{worst.value(), 0.01, 0, "1",
-                        "a rigidity off by a fiftieth would show; the least difference between meshes of the "
-                        "table of rigidities is larger"};
-  return {
-      "strip-vibration.matches-the-beam",
-      "At the finest mesh the first two frequencies of a clamped strip are the beam's within one percent.",
-      {verdict, {{"omega", "rad/s", measured}, {"clamped-free beam", "rad/s", exact}}, ""}};
+                        "a rigidity off by a fiftieth would show; the least difference between "
+                        "meshes of the table of rigidities is larger"};
+  return {"strip-vibration.matches-the-beam",
+          "At the finest mesh the first two frequencies of a clamped strip are the beam's within "
+          "one percent.",
+          {verdict, {{"omega", "rad/s", measured}, {"clamped-free beam", "rad/s", exact}}, ""}};
 }
 
 // --- steps ---
@@ -109,12 +114,14 @@ NamedFinding is_the_beam(const Eigen::Vector2d& finest) {
 Scene free_strip() {
   constexpr int along = 9, across = 2;
   const double cell = strip_length / (along - 0.5);
-  Scene scene = scene_at_rest(make_sheet({SheetPattern::one_diagonal, along * cell, across * cell, along, across}),
-                         strip_density);
+  Scene scene = scene_at_rest(
+      make_sheet({SheetPattern::one_diagonal, along * cell, across * cell, along, across}),
+      strip_density);
   scene.bending = BendingMaterial{strip_ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   for (int i = 0; i < scene.mesh.particles(); ++i) {
-    if (scene.mesh.rest(0, i) < 1.5 * cell) scene.prescribed.push_back({i, scene.mesh.rest.col(i), {}});
+    if (scene.mesh.rest(0, i) < 1.5 * cell)
+      scene.prescribed.push_back({i, scene.mesh.rest.col(i), {}});
   }
   return scene;
 }
@@ -122,7 +129,8 @@ Scene free_strip() {
 /// The free particles of a scene.
 std::vector<int> free_particles(const Scene& scene) {
   std::vector<char> is_led(size_t(scene.mesh.particles()), 0);
-  for (const PrescribedParticle& prescribed : scene.prescribed) is_led[size_t(prescribed.particle)] = 1;
+  for (const PrescribedParticle& prescribed : scene.prescribed)
+    is_led[size_t(prescribed.particle)] = 1;
   std::vector<int> free;
   for (int i = 0; i < scene.mesh.particles(); ++i)
     if (!is_led[size_t(i)]) free.push_back(i);
@@ -148,9 +156,10 @@ Modes sheet_modes(const Probe& probe, const Scene& scene, const std::vector<int>
   return modes_of(K, masses);
 }
 
-/// A mode of the flat strip in motion: the worst difference of its amplitude from that of the exact solution
-/// of the undamped scheme, over the amplitude, in one and a half periods.
-double worst_difference(const Subject& subject, const Scene& scene, const std::string& scheme, int mode) {
+/// A mode of the flat strip in motion: the worst difference of its amplitude from that of the exact
+/// solution of the undamped scheme, over the amplitude, in one and a half periods.
+double worst_difference(const Subject& subject, const Scene& scene, const std::string& scheme,
+                        int mode) {
   constexpr double amplitude = 3e-5;  // m
   const std::vector<int> free = free_particles(scene);
   const Modes modes = sheet_modes(Probe(subject, scene), scene, free);
@@ -189,16 +198,18 @@ NamedFinding steps_keep_the_frequency(const Subject& subject) {
     }
   }
   const Verdict verdict{worst.value(), 1e-5, 0, "of the amplitude",
-                        "the strip's slopes are about 1e-4 of 1 and turn what is linear to their square; "
-                        "forces by differences are good to 1e-6"};
-  return {
-      "strip-vibration.schemes-preserve-the-frequency",
-      "A free, undamped strip released in its first or second mode of the linear stiffness oscillates "
-      "with that mode's frequency, lowered or raised only as the scheme's exact solution says.",
-      {verdict,
-       {{"scheme", "", names}, {"mode", "1", modes}, {"worst difference", "of the amplitude", differences}},
-       "exact for schemes A, B and C without damping: x_n = x_0 cos(2 n asin(omega h/2)), one and a half "
-       "periods"}};
+                        "the strip's slopes are about 1e-4 of 1 and turn what is linear to their "
+                        "square; forces by differences are good to 1e-6"};
+  return {"strip-vibration.schemes-preserve-the-frequency",
+          "A free, undamped strip released in its first or second mode of the linear stiffness "
+          "oscillates with that mode's frequency, lowered or raised only as the scheme's exact "
+          "solution says.",
+          {verdict,
+           {{"scheme", "", names},
+            {"mode", "1", modes},
+            {"worst difference", "of the amplitude", differences}},
+           "exact for schemes A, B and C without damping: x_n = x_0 cos(2 n asin(omega h/2)), one "
+           "and a half periods"}};
 }
 
 StudyResult run_strip_vibration(const Subject& subject, Tier tier, const Progress& progress) {
@@ -213,7 +224,8 @@ StudyResult run_strip_vibration(const Subject& subject, Tier tier, const Progres
     omega = frequencies(strip);
     for (const size_t mode : {0, 1}) {
       errors[mode].steps.push_back(strip.spacing());
-      errors[mode].errors.push_back(std::abs(omega[Eigen::Index(mode)] / exact_frequency(int(mode) + 1) - 1));
+      errors[mode].errors.push_back(
+          std::abs(omega[Eigen::Index(mode)] / exact_frequency(int(mode) + 1) - 1));
       measured[mode].push_back(omega[Eigen::Index(mode)]);
     }
     progress(0.8 * double(errors[0].steps.size()) / double(sizes.size()));
@@ -223,13 +235,13 @@ StudyResult run_strip_vibration(const Subject& subject, Tier tier, const Progres
                 {"spacing of the rows", "m", Scale::log},
                 {"relative error of omega", "1", Scale::log},
                 2,
-                "Against the clamped-free beam with D = ke/4; the length counts from half a cell before the "
-                "first hinges.",
+                "Against the clamped-free beam with D = ke/4; the length counts from half a cell "
+                "before the first hinges.",
                 {}};
   for (const size_t mode : {0, 1}) {
     result.findings.push_back(order_of(int(mode) + 1, errors[mode], measured[mode]));
-    figure.curves.push_back({"mode " + std::to_string(mode + 1), errors[mode].steps, errors[mode].errors, nan,
-                             pair_orders(errors[mode])});
+    figure.curves.push_back({"mode " + std::to_string(mode + 1), errors[mode].steps,
+                             errors[mode].errors, nan, pair_orders(errors[mode])});
   }
   result.findings.push_back(is_the_beam(omega));
   result.findings.push_back(steps_keep_the_frequency(subject));
@@ -240,14 +252,15 @@ StudyResult run_strip_vibration(const Subject& subject, Tier tier, const Progres
 }  // namespace
 
 Study strip_vibration_study() {
-  return {
-      "strip-vibration",
-      "A clamped strip vibrates as the clamped-free beam with the mesh's own rigidity, to second order.",
-      "BMF03 section 4",
-      "The stiffness across a strip held cylindrical is taken from differences of the solver's forces, "
-      "its masses from the area; the two lowest frequencies are compared with beta^2 sqrt(D/rho). A strip "
-      "that is free to twist is released in one of its own modes and stepped by each scheme.",
-      run_strip_vibration};
+  return {"strip-vibration",
+          "A clamped strip vibrates as the clamped-free beam with the mesh's own rigidity, to "
+          "second order.",
+          "BMF03 section 4",
+          "The stiffness across a strip held cylindrical is taken from differences of the solver's "
+          "forces, its masses from the area; the two lowest frequencies are compared with beta^2 "
+          "sqrt(D/rho). A strip that is free to twist is released in one of its own modes and "
+          "stepped by each scheme.",
+          run_strip_vibration};
 }
 
 }  // namespace foldproof

@@ -9,15 +9,20 @@ namespace foldproof {
 
 namespace {
 
-const double row_ratio = std::numbers::sqrt3 / 2;  // height of an equilateral triangle over its edge
+// height of an equilateral triangle over its edge
+const double row_ratio = std::numbers::sqrt3 / 2;
 
 bool one_kind(double, double) { return false; }
 bool odd_row(double, double row) { return std::lround(row) % 2 != 0; }
-bool odd_square(double column, double row) { return (std::lround(column) + std::lround(row)) % 2 != 0; }
+bool odd_square(double column, double row) {
+  return (std::lround(column) + std::lround(row)) % 2 != 0;
+}
 bool between_columns(double column, double) { return std::abs(column - std::round(column)) > 0.25; }
 
 oracles::PeriodicMesh one_diagonal_cell() { return oracles::split_rectangles({}); }
-oracles::PeriodicMesh rectangle_cell() { return oracles::split_rectangles({1, 0.25, 1, 1, nullptr}); }
+oracles::PeriodicMesh rectangle_cell() {
+  return oracles::split_rectangles({1, 0.25, 1, 1, nullptr});
+}
 oracles::PeriodicMesh alternating_cell() {
   return oracles::split_rectangles({1, 1, 1, 2, [](int, int j) { return j % 2 == 0; }});
 }
@@ -33,27 +38,28 @@ const std::vector<RegularPattern>& regular_patterns() {
   static const double diagonal = std::numbers::sqrt2;
   static const std::vector<RegularPattern> patterns = {
       {"equilateral", "equilateral", SheetPattern::equilateral, 0, 1, equilateral_cell, one_kind},
-      {"one-diagonal", "squares, one diagonal", SheetPattern::one_diagonal, 1, diagonal, one_diagonal_cell,
-       one_kind},
-      {"alternating", "squares, rows of alternating diagonal", SheetPattern::alternating, 1, diagonal,
-       alternating_cell, odd_row},
+      {"one-diagonal", "squares, one diagonal", SheetPattern::one_diagonal, 1, diagonal,
+       one_diagonal_cell, one_kind},
+      {"alternating", "squares, rows of alternating diagonal", SheetPattern::alternating, 1,
+       diagonal, alternating_cell, odd_row},
       {"union-jack", "squares, union jack", SheetPattern::union_jack, 1, diagonal, union_jack_cell,
        odd_square},
       {"criss-cross", "squares, criss-cross", SheetPattern::criss_cross, 1, 1, criss_cross_cell,
        between_columns},
-      {"rectangles", "4:1 rectangles, one diagonal", SheetPattern::one_diagonal, 0.25, std::sqrt(17.0) / 4,
-       rectangle_cell, one_kind}};
+      {"rectangles", "4:1 rectangles, one diagonal", SheetPattern::one_diagonal, 0.25,
+       std::sqrt(17.0) / 4, rectangle_cell, one_kind}};
   return patterns;
 }
 
-FourSheets::FourSheets(const Subject& subject, const RegularPattern& pattern, int n, double width, double ke)
+FourSheets::FourSheets(const Subject& subject, const RegularPattern& pattern, int n, double width,
+                       double ke)
     : pattern_(pattern), width_(width) {
   height_ = width * (pattern.cell_height > 0 ? pattern.cell_height : row_ratio);
   area_ = n * width_ * n * height_;
   for (const int columns : {n, 2 * n}) {
     for (const int rows : {n, 2 * n}) {
-      Scene scene =
-          scene_at_rest(make_sheet({pattern.pattern, columns * width_, rows * height_, columns, rows}), 0.17);
+      Scene scene = scene_at_rest(
+          make_sheet({pattern.pattern, columns * width_, rows * height_, columns, rows}), 0.17);
       scene.bending = BendingMaterial{ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
       scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
       specimens_.push_back({scene.mesh.rest, Probe(subject, scene), columns == rows ? 1.0 : -1.0});
@@ -122,7 +128,8 @@ Eigen::Matrix3d measured_tensor(const FourSheets& sheets, double curvature, doub
   return 2 / (ke * curvature * curvature) * R;
 }
 
-double whole_sheet_rigidity(const Subject& subject, const RegularPattern& pattern, int n, double ke) {
+double whole_sheet_rigidity(const Subject& subject, const RegularPattern& pattern, int n,
+                            double ke) {
   Scene scene = scene_at_rest(make_sheet({pattern.pattern, whole_side, whole_side, n, n}), 0.17);
   scene.bending = BendingMaterial{ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);

@@ -29,7 +29,8 @@ void set_motion(Scene& scene) {
 }
 
 Scene elastic_sheet(int cells) {
-  Scene scene = scene_at_rest(make_sheet({SheetPattern::alternating, side, side, cells, cells}), 0.15);
+  Scene scene =
+      scene_at_rest(make_sheet({SheetPattern::alternating, side, side, cells, cells}), 0.15);
   scene.gravity = Vector3(0, -9.81, 0);
   scene.stretch = StretchMaterial{stiffness, 0, 1};
   scene.bending = BendingMaterial{bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
@@ -84,7 +85,8 @@ Cost cost_of(const Subject& subject, const Setting& setting) {
       all.unfinished_solves += one.unfinished_solves;
     }
   }
-  return {double(all.cg_iterations) / double(all.solves), largest.value(), double(all.unfinished_solves)};
+  return {double(all.cg_iterations) / double(all.solves), largest.value(),
+          double(all.unfinished_solves)};
 }
 
 double iterations_allowed(const Setting& setting) {
@@ -92,6 +94,8 @@ double iterations_allowed(const Setting& setting) {
   return std::ceil(std::log(2 * root / setting.tolerance) / std::log((root + 1) / (root - 1)));
 }
 
-double particles_of(const Setting& setting) { return double(setting.cells + 1) * (setting.cells + 1); }
+double particles_of(const Setting& setting) {
+  return double(setting.cells + 1) * (setting.cells + 1);
+}
 
 }  // namespace foldproof

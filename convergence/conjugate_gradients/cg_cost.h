@@ -1,4 +1,5 @@
-// What one setting of the sheet costs in iterations of conjugate gradients, and what theory allows it to.
+// What one setting of the sheet costs in iterations of conjugate gradients, and what
+// theory allows it to.
 #pragma once
 
 #include "verification/subject.h"
@@ -14,8 +15,8 @@ struct Setting {
   ResidualScale scale;
 };
 
-/// Cost of the solves of some steps with A and with B, which have one solve a step each: A at its end, B at
-/// its start. C has both.
+/// Cost of the solves of some steps with A and with B, which have one solve a step each: A at its
+/// end, B at its start. C has both.
 struct Cost {
   double mean = 0;     // iterations a solve
   double largest = 0;  // iterations of one solve
@@ -25,10 +26,10 @@ struct Cost {
 /// Runs some steps of a hanging sheet that moves with waves and noise.
 Cost cost_of(const Subject& subject, const Setting& setting);
 
-/// The most iterations of a solve whose residual is compared with the initial one. D is at most 2 zeta/omega
-/// times the elastic stiffness, so that the condition of I - h/2 M^{-1} D is at most kappa = 1 + 2 zeta
-/// h/h_limit; then Chebyshev's bound on the energy norm, times the sqrt(kappa) that it costs to speak of
-/// residuals:
+/// The most iterations of a solve whose residual is compared with the initial one. D is at most 2
+/// zeta/omega times the elastic stiffness, so that the condition of I - h/2 M^{-1} D is at most
+/// kappa = 1 + 2 zeta h/h_limit; then Chebyshev's bound on the energy norm, times the sqrt(kappa)
+/// that it costs to speak of residuals:
 ///   2 sqrt(kappa) ((sqrt(kappa) - 1)/(sqrt(kappa) + 1))^n <= tolerance
 double iterations_allowed(const Setting& setting);
 

@@ -61,7 +61,8 @@ std::vector<Sweep> sweeps(Tier tier, ResidualScale scale) {
                                   {},
                                   {}},
                                  from, [](Setting& s, double value) { s.step = value; })};
-  from.ratio = 3;  // with this and a small tolerance iterations are many enough that growth would show
+  // with this and a small tolerance iterations are many enough that growth would show
+  from.ratio = 3;
   from.tolerance = 1e-8;
   Sweep size{"mesh", "Iterations against mesh size", "particles", "1", {}, {}, {}};
   for (double value : sizes) {
@@ -86,8 +87,9 @@ std::vector<Column> columns_of(const std::vector<Sweep>& measured) {
       const Cost& cost = sweep.costs[i];
       varied_thing.push_back(sweep.name);
       scales.push_back(words_of(s.scale));
-      const std::array<double, 8> row = {s.tolerance, s.ratio,      s.step,          particles_of(s),
-                                         cost.mean,   cost.largest, cost.unfinished, iterations_allowed(s)};
+      const std::array<double, 8> row = {
+          s.tolerance, s.ratio,      s.step,          particles_of(s),
+          cost.mean,   cost.largest, cost.unfinished, iterations_allowed(s)};
       for (size_t k = 0; k < row.size(); ++k) numbers[k].push_back(row[k]);
     }
   }
@@ -113,13 +115,14 @@ NamedFinding fewer_than_ten(const std::vector<Sweep>& measured) {
   }
   const Verdict verdict{maxima.empty() ? nan : worst.value(), 9, 0, "iterations",
                         "fewer than ten, in the paper's words"};
-  return {
-      "cg-iterations.fewer-than-ten-in-the-typical-setting",
-      "At damping ratio 0.1, a step of half the elastic limit and tolerance 1e-4, no solve needs ten "
-      "iterations.",
-      {verdict,
-       {{"residual compared with", "1", scales}, {"mean iterations", "1", means}, {"largest", "1", maxima}},
-       "the sheet's velocities hold noise of every wavelength; smooth motion needs fewer"}};
+  return {"cg-iterations.fewer-than-ten-in-the-typical-setting",
+          "At damping ratio 0.1, a step of half the elastic limit and tolerance 1e-4, no solve "
+          "needs ten iterations.",
+          {verdict,
+           {{"residual compared with", "1", scales},
+            {"mean iterations", "1", means},
+            {"largest", "1", maxima}},
+           "the sheet's velocities hold noise of every wavelength; smooth motion needs fewer"}};
 }
 
 NamedFinding within_chebyshev(const std::vector<Sweep>& measured) {
@@ -131,8 +134,8 @@ NamedFinding within_chebyshev(const std::vector<Sweep>& measured) {
   const Verdict verdict{worst.value(), 1, 0, "1",
                         "conjugate gradients cannot do worse than Chebyshev's polynomials"};
   return {"cg-iterations.stay-within-the-theoretical-bound",
-          "No solve needs more iterations than the condition 1 + 2 zeta h/h_limit of its matrix allows, over "
-          "all settings.",
+          "No solve needs more iterations than the condition 1 + 2 zeta h/h_limit of its matrix "
+          "allows, over all settings.",
           {verdict, columns_of(measured),
            "measured is the largest ratio, with residuals compared with the initial one"}};
 }
@@ -174,33 +177,34 @@ NamedFinding no_growth_with_the_mesh(const std::vector<Sweep>& measured) {
     if (!std::isnan(steepest) && !(exponent <= steepest)) steepest = exponent;
   }
   const Verdict verdict{sizes.empty() ? nan : steepest, largest_exponent, 0, "1",
-                        "the condition is the same on every mesh; a count that grew like its root on a fixed "
-                        "material would have exponent 1/2"};
-  return {
-      "cg-iterations.do-not-grow-with-the-mesh",
-      "At a fixed damping ratio and a fixed fraction of the elastic limit, iterations do not grow with the "
-      "number of cells along a side.",
-      {verdict,
-       {{"residual compared with", "1", scales}, {"particles", "1", sizes}, {"mean iterations", "1", means}},
-       "measured is the exponent of the mean iterations in the number of cells along a side, fitted over all "
-       "meshes; negative: they fall"}};
+                        "the condition is the same on every mesh; a count that grew like its root "
+                        "on a fixed material would have exponent 1/2"};
+  return {"cg-iterations.do-not-grow-with-the-mesh",
+          "At a fixed damping ratio and a fixed fraction of the elastic limit, iterations do not "
+          "grow with the number of cells along a side.",
+          {verdict,
+           {{"residual compared with", "1", scales},
+            {"particles", "1", sizes},
+            {"mean iterations", "1", means}},
+           "measured is the exponent of the mean iterations in the number of cells along a side, "
+           "fitted over all meshes; negative: they fall"}};
 }
 
 /// One figure for each varied thing, with a pair of curves for each scale of the residual.
 std::vector<Figure> figures_of(const std::vector<Sweep>& measured) {
   std::vector<Figure> figures;
   for (const Sweep& sweep : measured) {
-    auto figure =
-        std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == sweep.name; });
+    auto figure = std::find_if(figures.begin(), figures.end(),
+                               [&](const Figure& f) { return f.name == sweep.name; });
     if (figure == figures.end()) {
-      figures.push_back(
-          {sweep.name,
-           sweep.title,
-           {sweep.label, sweep.unit, Scale::log},
-           {"iterations a solve", "1", Scale::linear},
-           nan,
-           "Each curve says what its residual is compared with. The other things are as in the table.",
-           {}});
+      figures.push_back({sweep.name,
+                         sweep.title,
+                         {sweep.label, sweep.unit, Scale::log},
+                         {"iterations a solve", "1", Scale::linear},
+                         nan,
+                         "Each curve says what its residual is compared with. The other things are "
+                         "as in the table.",
+                         {}});
       figure = figures.end() - 1;
     }
     Curve mean{words_of(sweep.settings.front().scale) + ", mean", sweep.values, {}, nan, {}};
@@ -230,25 +234,27 @@ StudyResult run_cg_iterations(const Subject& subject, Tier tier, const Progress&
   }
 
   StudyResult result;
-  result.findings = {fewer_than_ten(measured), within_chebyshev(measured), ten_or_more_elsewhere(measured),
-                     no_growth_with_the_mesh(measured)};
+  result.findings = {fewer_than_ten(measured), within_chebyshev(measured),
+                     ten_or_more_elsewhere(measured), no_growth_with_the_mesh(measured)};
   result.figures = figures_of(measured);
-  result.tables.push_back({"iterations", "Iterations of conjugate gradients a solve", columns_of(measured)});
+  result.tables.push_back(
+      {"iterations", "Iterations of conjugate gradients a solve", columns_of(measured)});
   return result;
 }
 
 }  // namespace
 
 Study cg_iterations_study() {
-  return {"cg-iterations",
-          "A solve for the implicit velocity takes fewer than ten iterations of conjugate gradients in a "
-          "typical setting, and no more on a finer mesh.",
-          "BMF03 section 3",
-          "A hanging sheet moves with waves and noise. Solves are counted under schemes A and B, each of "
-          "which has one a step; C has both. Tolerance, damping, step and mesh size are varied one at a "
-          "time. The damping ratio is zeta = (damping/stiffness) omega/2, for springs kd_s/Y and for hinges "
-          "kd |E|/(ke c/2), with omega from the elastic limit of the step.",
-          run_cg_iterations};
+  return {
+      "cg-iterations",
+      "A solve for the implicit velocity takes fewer than ten iterations of conjugate gradients in "
+      "a typical setting, and no more on a finer mesh.",
+      "BMF03 section 3",
+      "A hanging sheet moves with waves and noise. Solves are counted under schemes A and B, each "
+      "of which has one a step; C has both. Tolerance, damping, step and mesh size are varied one "
+      "at a time. The damping ratio is zeta = (damping/stiffness) omega/2, for springs kd_s/Y and "
+      "for hinges kd |E|/(ke c/2), with omega from the elastic limit of the step.",
+      run_cg_iterations};
 }
 
 }  // namespace foldproof

@@ -34,8 +34,8 @@ PrecisionProblem damped_sheet(Tier tier) {
 }
 
 std::vector<double> tolerances(Tier tier) {
-  std::vector<double> all = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, of_the_cases, SolverSettings{}.tolerance,
-                             exact};
+  std::vector<double> all = {
+      1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, of_the_cases, SolverSettings{}.tolerance, exact};
   if (tier == Tier::full)
     all = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, exact};
   return all;
@@ -52,8 +52,8 @@ struct TolerantRuns {
   double order() const { return pair_orders(errors).back(); }
 };
 
-TolerantRuns runs_with(const Subject& subject, const PrecisionProblem& problem, const PrecisionTruth& truth,
-                       const Integrator& scheme, double tolerance) {
+TolerantRuns runs_with(const Subject& subject, const PrecisionProblem& problem,
+                       const PrecisionTruth& truth, const Integrator& scheme, double tolerance) {
   constexpr std::array<int, 3> finer = {2, 4, 8};  // steps over those at the elastic limit
   TolerantRuns runs{std::string(scheme.name), tolerance, {}, {}, {}};
   runs.errors.floor = truth.uncertainty;
@@ -103,17 +103,17 @@ NamedFinding order_is_kept(const std::vector<SchemeRuns>& schemes, double tolera
     }
   }
   const Verdict verdict{names.empty() ? nan : worst.value(), order_kept / 10, 0, "1",
-                        "a tenth of what the order studies allow an order to be off, so that they judge the "
-                        "scheme and not its solves"};
-  return {
-      "solve-tolerance." + whose + "-tolerance-preserves-the-order",
-      "With the " + whose + " tolerance of the solves, the orders of A, B and C are those of exact solves.",
-      {verdict,
-       {{"scheme", "1", names},
-        {"order", "1", orders},
-        {"order with exact solves", "1", exact_orders},
-        {"largest relative change of an error", "1", errors}},
-       "measured is the largest shift of the order of the two finest runs"}};
+                        "a tenth of what the order studies allow an order to be off, so that they "
+                        "judge the scheme and not its solves"};
+  return {"solve-tolerance." + whose + "-tolerance-preserves-the-order",
+          "With the " + whose +
+              " tolerance of the solves, the orders of A, B and C are those of exact solves.",
+          {verdict,
+           {{"scheme", "1", names},
+            {"order", "1", orders},
+            {"order with exact solves", "1", exact_orders},
+            {"largest relative change of an error", "1", errors}},
+           "measured is the largest shift of the order of the two finest runs"}};
 }
 
 Table loosest(const std::vector<SchemeRuns>& schemes) {
@@ -134,7 +134,8 @@ Table loosest(const std::vector<SchemeRuns>& schemes) {
     exact_iterations.push_back(tight.iterations.back());
   }
   return {"loosest",
-          "The loosest tolerance that keeps the order within 0.1 and every error within 10 % of exact solves",
+          "The loosest tolerance that keeps the order within 0.1 and every error within 10 % of "
+          "exact solves",
           {{"scheme", "1", names},
            {"loosest tolerance", "1", tolerance},
            {"order with it", "1", orders},
@@ -150,8 +151,9 @@ Table all_runs(const std::vector<SchemeRuns>& schemes) {
     for (const TolerantRuns& run : runs) {
       for (size_t i = 0; i < run.iterations.size(); ++i) {
         names.push_back(run.scheme);
-        const std::array<double, 5> row = {run.tolerance, run.errors.steps[i], 100 * run.errors.errors[i],
-                                           run.iterations[i], run.applications[i]};
+        const std::array<double, 5> row = {run.tolerance, run.errors.steps[i],
+                                           100 * run.errors.errors[i], run.iterations[i],
+                                           run.applications[i]};
         for (size_t k = 0; k < row.size(); ++k) numbers[k].push_back(row[k]);
       }
     }
@@ -174,14 +176,19 @@ Figure figure_of(const std::vector<SchemeRuns>& schemes) {
       {"tolerance", "1", Scale::log},
       {"position error over the motion", "%", Scale::log},
       nan,
-      "Largest position error at the end, with the coarsest and with the finest step. Where a curve is "
-      "level the step decides on the error, where it rises the solves do.",
+      "Largest position error at the end, with the coarsest and with the finest step. Where a "
+      "curve is level the step decides on the error, where it rises the solves do.",
       {}};
   const size_t finest = schemes.front().front().iterations.size() - 1;
-  const std::array<std::pair<size_t, const char*>, 2> levels = {{{0, "coarsest"}, {finest, "finest"}}};
+  const std::array<std::pair<size_t, const char*>, 2> levels = {
+      {{0, "coarsest"}, {finest, "finest"}}};
   for (const auto& [level, words] : levels) {
     for (const SchemeRuns& runs : schemes) {
-      Curve curve{runs.front().scheme + ", " + words + " step", {}, {}, 100 * runs.front().errors.floor, {}};
+      Curve curve{runs.front().scheme + ", " + words + " step",
+                  {},
+                  {},
+                  100 * runs.front().errors.floor,
+                  {}};
       for (const TolerantRuns& run : runs) {
         curve.x.push_back(run.tolerance);
         curve.y.push_back(100 * run.errors.errors[level]);
@@ -217,14 +224,14 @@ StudyResult run_solve_tolerance(const Subject& subject, Tier tier, const Progres
 }  // namespace
 
 Study solve_tolerance_study() {
-  return {
-      "solve-tolerance", "The default tolerance of the solves leaves the order of A, B and C alone.",
-      "BMF03 section 3",
-      "How loose may a solve be? A damped sheet, whose fastest mode is overdamped several times, is run with "
-      "A, B and C at half, a quarter and an eighth of the elastic limit while the relative residual at which "
-      "conjugate gradients stop goes from a tenth down to rounding. Errors are against an extrapolated RK4, "
-      "which solves nothing.",
-      run_solve_tolerance};
+  return {"solve-tolerance",
+          "The default tolerance of the solves leaves the order of A, B and C alone.",
+          "BMF03 section 3",
+          "How loose may a solve be? A damped sheet, whose fastest mode is overdamped several "
+          "times, is run with A, B and C at half, a quarter and an eighth of the elastic limit "
+          "while the relative residual at which conjugate gradients stop goes from a tenth down to "
+          "rounding. Errors are against an extrapolated RK4, which solves nothing.",
+          run_solve_tolerance};
 }
 
 }  // namespace foldproof

@@ -5,7 +5,8 @@
 
 namespace foldproof {
 
-Study cg_iterations_study();    // cg-iterations: cost of the implicit solves
-Study solve_tolerance_study();  // solve-tolerance: how loose a solve may be before the order suffers
+Study cg_iterations_study();  // cg-iterations: cost of the implicit solves
+// solve-tolerance: how loose a solve may be before the order suffers
+Study solve_tolerance_study();
 
 }  // namespace foldproof

@@ -42,14 +42,16 @@ State run_to_end(const Subject& subject, const Scene& scene, double h, double en
   return s;
 }
 
-double usual_step(const Scene& scene) { return elastic_limit(build_system(scene), start_state(scene)) / 2; }
+double usual_step(const Scene& scene) {
+  return elastic_limit(build_system(scene), start_state(scene)) / 2;
+}
 
 double distance_at(const Scene& scene, const Vector3& p, double time) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const SceneObject& part : scene.objects) {
     const Span now{time, time, 0};
-    nearest = std::min(nearest,
-                       std::visit([&](const auto& body) { return body.at(p, now).phi; }, part.object.body));
+    nearest = std::min(nearest, std::visit([&](const auto& body) { return body.at(p, now).phi; },
+                                           part.object.body));
   }
   return nearest;
 }
@@ -58,7 +60,8 @@ Depths depths_of(const Scene& scene, const State& s) {
   Worst particles, edges, faces;
   const auto depth = [&](const Vector3& p) { return -distance_at(scene, p, s.time); };
   for (Eigen::Index i = 0; i < s.x.cols(); ++i) particles.observe(depth(s.x.col(i)));
-  for (const Edge& edge : scene.mesh.edges) edges.observe(depth((s.x.col(edge.a) + s.x.col(edge.b)) / 2));
+  for (const Edge& edge : scene.mesh.edges)
+    edges.observe(depth((s.x.col(edge.a) + s.x.col(edge.b)) / 2));
   for (const Triangle& t : scene.mesh.triangles)
     faces.observe(depth((s.x.col(t[0]) + s.x.col(t[1]) + s.x.col(t[2])) / 3));
   return {particles.value(), edges.value(), faces.value()};

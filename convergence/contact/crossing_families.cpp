@@ -32,7 +32,8 @@ Corners4 flat_points(Random& random, const Vector3& u, const Vector3& w) {
   const Vector3 origin = whole_point(random, 5);
   Corners4 x;
   for (int k = 0; k < 4; ++k)
-    x.col(k) = origin + std::floor(random.uniform(-4, 5)) * u + std::floor(random.uniform(-4, 5)) * w;
+    x.col(k) =
+        origin + std::floor(random.uniform(-4, 5)) * u + std::floor(random.uniform(-4, 5)) * w;
   return x;
 }
 
@@ -41,8 +42,9 @@ CrossingQuery coplanar_throughout(Random& random, PairKind kind) {
   return between(kind, flat_points(random, u, w), flat_points(random, u, w));
 }
 
-/// The vertex, or an end of the second edge, is halfway exactly on a corner or in the middle of a side of the
-/// triangle, or on an end or in the middle of the first edge. Multiples of four leave halves and means whole.
+/// The vertex, or an end of the second edge, is halfway exactly on a corner or in the middle of a
+/// side of the triangle, or on an end or in the middle of the first edge. Multiples of four leave
+/// halves and means whole.
 CrossingQuery on_the_border_halfway(Random& random, PairKind kind) {
   const Corners4 start = whole_points(random, 5, 4);
   Corners4 end = whole_points(random, 5, 4);
@@ -73,7 +75,8 @@ CrossingQuery met_at_an_end(Random& random, PairKind kind) {
   return is_heads(random) ? between(kind, met, other) : between(kind, other, met);
 }
 
-/// Both edges, or the triangle's first side and the line from its third corner to the vertex, are parallel.
+/// Both edges, or the triangle's first side and the line from its third corner to the
+/// vertex, are parallel.
 Corners4 parallel_points(Random& random, PairKind kind) {
   Corners4 x = whole_points(random, 6);
   const Vector3 d = whole_point(random, 3);
@@ -116,9 +119,9 @@ CrossingQuery motionless(Random& random, PairKind kind) {
   return {kind, x, shift.replicate<1, 4>()};
 }
 
-/// The vertex and a side of the triangle, or an end of one edge and the other edge, share a plane throughout,
-/// so that they meet on the border at a time that no fraction is. Of two triangles that share the side
-/// neither may miss it.
+/// The vertex and a side of the triangle, or an end of one edge and the other edge, share a plane
+/// throughout, so that they meet on the border at a time that no fraction is. Of two triangles that
+/// share the side neither may miss it.
 CrossingQuery through_a_side(Random& random, PairKind kind) {
   CrossingQuery query = coplanar_throughout(random, kind);
   query.x.col(3) = whole_point(random, 10);
@@ -134,13 +137,15 @@ oracles::Features features_of(PairKind kind) {
 }
 
 bool meets_exactly(const CrossingQuery& query) {
-  return oracles::ever_meet(features_of(query.kind), oracles::exact_motion(query.x, query.displacement));
+  return oracles::ever_meet(features_of(query.kind),
+                            oracles::exact_motion(query.x, query.displacement));
 }
 
 bool meets_exactly_before(const CrossingQuery& query, double end) {
   if (!(end > 0)) return false;
   const oracles::Motion motion = oracles::exact_motion(query.x, query.displacement);
-  return oracles::ever_meet(features_of(query.kind), oracles::until(motion, std::nextafter(end, 0)));
+  return oracles::ever_meet(features_of(query.kind),
+                            oracles::until(motion, std::nextafter(end, 0)));
 }
 
 CrossingQuery random_query(Random& random, PairKind kind) {

@@ -1,5 +1,5 @@
-// Questions to ask of a test for crossings: features that move in straight lines between points of small
-// whole coordinates, so that no double is rounded and the answer can be known exactly.
+// Questions to ask of a test for crossings: features that move in straight lines between points of
+// small whole coordinates, so that no double is rounded and the answer can be known exactly.
 #pragma once
 
 #include <string>

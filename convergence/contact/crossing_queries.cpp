@@ -69,16 +69,17 @@ Tallies all_tallies(int random, int degenerate, const Progress& progress) {
     all.random.push_back(
         tally_queries("random, " + name_of(kind), make_queries(random_query, kind, random, 5)));
     progress(kind == kinds[0] ? 0.3 : 0.8);
-    all.far.push_back(
-        tally_queries("random far away, " + name_of(kind),
-                      make_queries([](Random& r, PairKind k) { return far_away(random_query(r, k)); }, kind,
-                                   degenerate, 11)));
+    all.far.push_back(tally_queries(
+        "random far away, " + name_of(kind),
+        make_queries([](Random& r, PairKind k) { return far_away(random_query(r, k)); }, kind,
+                     degenerate, 11)));
     for (const CrossingFamily& family : families) {
       const std::string name = family.name + ", " + name_of(kind);
       all.degenerate.push_back(tally_queries(name, make_queries(family.make, kind, each, 7)));
       all.far.push_back(tally_queries(
           name + ", far away",
-          make_queries([&](Random& r, PairKind k) { return far_away(family.make(r, k)); }, kind, each, 13)));
+          make_queries([&](Random& r, PairKind k) { return far_away(family.make(r, k)); }, kind,
+                       each, 13)));
     }
   }
   return all;
@@ -119,7 +120,8 @@ double misses(const std::vector<Tally>& tallies) {
              : nan;
 }
 
-NamedFinding misses_none(const std::string& of, const std::string& words, const std::vector<Tally>& tallies) {
+NamedFinding misses_none(const std::string& of, const std::string& words,
+                         const std::vector<Tally>& tallies) {
   return {"crossing-queries.no-meeting-is-missed." + of,
           "No meeting of moving features is missed: " + words + ".",
           {{misses(tallies), 0, 0, "queries",
@@ -129,22 +131,25 @@ NamedFinding misses_none(const std::string& of, const std::string& words, const 
 }
 
 NamedFinding tells_in_time(const std::vector<Tally>& all) {
-  return {"crossing-queries.reported-time-is-never-late",
-          "The time that is told is not after the first meeting.",
-          {{total(all, &Tally::late), 0, 0, "queries",
-            "time advances only as far as a plane keeps the features apart; decided without rounding"},
-           columns_of(all),
-           ""}};
+  return {
+      "crossing-queries.reported-time-is-never-late",
+      "The time that is told is not after the first meeting.",
+      {{total(all, &Tally::late), 0, 0, "queries",
+        "time advances only as far as a plane keeps the features apart; decided without rounding"},
+       columns_of(all),
+       ""}};
 }
 
-/// How near two features that start so far apart must come to be reported, as approach.h promises [m].
+/// How near two features that start so far apart must come to be reported, as
+/// approach.h promises [m].
 double reported_within(double at_start, double keep) {
   const double least = at_start > keep ? keep : at_start / 2;
   return least + std::min(at_start - least, least) / 2;
 }
 
 double distance_at(const CrossingQuery& query, double time) {
-  return oracles::feature_distance(features_of(query.kind), query.x + time * query.displacement).value;
+  return oracles::feature_distance(features_of(query.kind), query.x + time * query.displacement)
+      .value;
 }
 
 /// Queries that do not meet, and how many of them are reported for a distance to be kept.
@@ -190,28 +195,29 @@ NamedFinding tells_near_ones_only(const std::vector<Alarms>& all) {
   }
   // only the 50 digits of the distance tell 1 from the roundings of the moved coordinates
   constexpr double roundings = 1e-10;
-  return {
-      "crossing-queries.false-alarms-are-near-misses",
-      "Features that are reported although they never meet are, at the time told, as near as was promised.",
-      {{worst.value(), 1 + roundings, 0, "1",
-        "distance over half as much again as what is to be kept, or three quarters of the start's distance; "
-        "coordinates of 10 m are rounded by 1e-15 m, a 10^12th of the least distance to be kept"},
-       {{"queries", "", names},
-        {"distance to be kept", "m", keep},
-        {"apart", "1", tally_queries},
-        {"told", "1", reported}},
-       ""}};
+  return {"crossing-queries.false-alarms-are-near-misses",
+          "Features that are reported although they never meet are, at the time told, as near as "
+          "was promised.",
+          {{worst.value(), 1 + roundings, 0, "1",
+            "distance over half as much again as what is to be kept, or three quarters of the "
+            "start's distance; coordinates of 10 m are rounded by 1e-15 m, a 10^12th of the least "
+            "distance to be kept"},
+           {{"queries", "", names},
+            {"distance to be kept", "m", keep},
+            {"apart", "1", tally_queries},
+            {"told", "1", reported}},
+           ""}};
 }
 
 Figure alarms_figure(const std::vector<Alarms>& all) {
-  Figure figure{
-      "false-alarms",
-      "Random pairs that are reported, though they do not meet",
-      {"distance to be kept", "m", Scale::log},
-      {"share of the pairs that do not meet", "1", Scale::log},
-      1,
-      "Coordinates up to 10 m. What comes near is to be reported: a share in proportion to the distance.",
-      {}};
+  Figure figure{"false-alarms",
+                "Random pairs that are reported, though they do not meet",
+                {"distance to be kept", "m", Scale::log},
+                {"share of the pairs that do not meet", "1", Scale::log},
+                1,
+                "Coordinates up to 10 m. What comes near is to be reported: a share in proportion "
+                "to the distance.",
+                {}};
   for (const Alarms& alarms : all) {
     Curve curve{name_of(alarms.kind), {}, {}, nan, {}};
     for (std::size_t k = 0; k < alarms.keep.size(); ++k) {
@@ -226,20 +232,22 @@ Figure alarms_figure(const std::vector<Alarms>& all) {
 
 StudyResult run_crossing_queries(const Subject&, Tier tier, const Progress& progress) {
   const bool full = tier == Tier::full;
-  const Tallies tallies = full ? all_tallies(100000, 10000, progress) : all_tallies(8000, 1000, progress);
+  const Tallies tallies =
+      full ? all_tallies(100000, 10000, progress) : all_tallies(8000, 1000, progress);
   std::vector<Tally> all = tallies.random;
   all.insert(all.end(), tallies.degenerate.begin(), tallies.degenerate.end());
   all.insert(all.end(), tallies.far.begin(), tallies.far.end());
   const int count = full ? 30000 : 4000;
   const std::vector<Alarms> alarms = {alarms_of(kinds[0], count), alarms_of(kinds[1], count)};
   StudyResult result;
-  result.findings = {misses_none("random", "small whole coordinates at random", tallies.random),
-                     misses_none("degenerate",
-                                 "in one plane throughout, on borders, at the ends of the time, "
-                                 "parallel, without area, without motion",
-                                 tallies.degenerate),
-                     misses_none("far-away", "all of these a thousand units from the origin", tallies.far),
-                     tells_in_time(all), tells_near_ones_only(alarms)};
+  result.findings = {
+      misses_none("random", "small whole coordinates at random", tallies.random),
+      misses_none("degenerate",
+                  "in one plane throughout, on borders, at the ends of the time, parallel, without "
+                  "area, without motion",
+                  tallies.degenerate),
+      misses_none("far-away", "all of these a thousand units from the origin", tallies.far),
+      tells_in_time(all), tells_near_ones_only(alarms)};
   result.figures = {alarms_figure(alarms)};
   result.tables = {{"queries", "What was asked, and what came of it", columns_of(all)}};
   return result;
@@ -250,11 +258,10 @@ StudyResult run_crossing_queries(const Subject&, Tier tier, const Progress& prog
 Study crossing_queries_study() {
   return {"crossing-queries", "The test for crossings misses none, whatever moves how.",
           "Bridson, Fedkiw and Anderson (2002), section 6",
-          "A vertex and a triangle, or two edges, move in straight lines between points of small whole "
-          "coordinates. "
-          "Whether they ever meet is decided in whole numbers by the signs of polynomials, and compared with "
-          "what the "
-          "reference says. What it reports although they stay apart came near.",
+          "A vertex and a triangle, or two edges, move in straight lines between points of small "
+          "whole coordinates. Whether they ever meet is decided in whole numbers by the signs of "
+          "polynomials, and compared with what the reference says. What it reports although they "
+          "stay apart came near.",
           run_crossing_queries};
 }
 

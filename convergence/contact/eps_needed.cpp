@@ -1,4 +1,5 @@
-// required-eps: how far out must the deepest points go, for no triangle between them to cut into the object?
+// required-eps: how far out must the deepest points go, for no triangle between them to cut
+// into the object?
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -16,7 +17,8 @@ namespace {
 constexpr double root3 = 1.7320508075688772;
 const Vector3 half_extents(0.3125, 0.40625, 0.28125);  // of the box [m]
 
-/// A body, the plane of a sheet that cuts into it, and who says which triangles are not clear of it.
+/// A body, the plane of a sheet that cuts into it, and who says which triangles are
+/// not clear of it.
 struct Body {
   std::string name, words;
   Solid solid;
@@ -44,20 +46,21 @@ Body ball(const std::string& name, double radius) {
 }
 
 Body box_edge() {
-  return {
-      "box",
-      "edge of a box",
-      Box{half_extents},
-      half_extents.z(),
-      Vector3(1, 0.03, 1.04).normalized(),
-      [](double edge) {
-        return Vector3(half_extents.x() - 0.7 * edge, 0.007, half_extents.z() - 0.7 * edge);
-      },
-      [](const auto& cloth) {
-        return oracles::triangles_in_body(cloth, oracles::box_between(-half_extents, half_extents)).empty();
-      },
-      [](double edge) { return edge / root3; },
-      1};
+  return {"box",
+          "edge of a box",
+          Box{half_extents},
+          half_extents.z(),
+          Vector3(1, 0.03, 1.04).normalized(),
+          [](double edge) {
+            return Vector3(half_extents.x() - 0.7 * edge, 0.007, half_extents.z() - 0.7 * edge);
+          },
+          [](const auto& cloth) {
+            return oracles::triangles_in_body(cloth,
+                                              oracles::box_between(-half_extents, half_extents))
+                .empty();
+          },
+          [](double edge) { return edge / root3; },
+          1};
 }
 
 /// A sheet of equilateral triangles in the body's plane, about its point.
@@ -69,7 +72,8 @@ struct Cloth {
 Cloth sheet_in(const Body& body, double edge) {
   constexpr int columns = 9, rows = 10;
   Cloth cloth{make_sheet({SheetPattern::equilateral, columns * edge, 0, columns, rows}), {}};
-  const Vector3 u = body.normal.unitOrthogonal(), v = body.normal.cross(u), centre(4.3 * edge, 4.1 * edge, 0);
+  const Vector3 u = body.normal.unitOrthogonal(), v = body.normal.cross(u),
+                centre(4.3 * edge, 4.1 * edge, 0);
   cloth.x.resize(3, cloth.mesh.particles());
   for (int i = 0; i < cloth.mesh.particles(); ++i) {
     const Vector3 flat = cloth.mesh.rest.col(i) - centre;
@@ -80,12 +84,13 @@ Cloth sheet_in(const Body& body, double edge) {
 
 PerParticle3 project(const Body& body, const Cloth& cloth, double eps) {
   const std::vector<Object> objects = {{body.name, RigidObject{body.solid, {}, Motion{}}, 0}};
-  const FoldProjection projection{"plain", {eps, eps + 1e-3, 1}, PinchedPoints::left_alone, 1e-13, 50};
+  const FoldProjection projection{
+      "plain", {eps, eps + 1e-3, 1}, PinchedPoints::left_alone, 1e-13, 50};
   return project_folds(objects, cloth.x, 0, projection).x;
 }
 
-/// The least eps [m] with which no triangle meets the body, to a thousandth, and the longest edge [m] that it
-/// has then.
+/// The least eps [m] with which no triangle meets the body, to a thousandth, and the longest edge
+/// [m] that it has then.
 struct NeededEps {
   double eps, longest_edge;
 };
@@ -100,7 +105,8 @@ NeededEps find_needed_eps(const Body& body, double edge) {
   }
   const PerParticle3 x = project(body, cloth, enough);
   double longest = 0;
-  for (const Edge& e : cloth.mesh.edges) longest = std::max(longest, (x.col(e.a) - x.col(e.b)).norm());
+  for (const Edge& e : cloth.mesh.edges)
+    longest = std::max(longest, (x.col(e.a) - x.col(e.b)).norm());
   return {enough, longest};
 }
 
@@ -131,41 +137,40 @@ std::vector<Column> evidence(const Range& range) {
 NamedFinding order_finding(const Body& body, const Range& range) {
   const Estimate deviation = order_deviation(range.measured, body.order, 2);
   const std::string power = body.order == 2 ? "the square of the edge" : "the edge";
-  return {
-      "required-eps.order-is-as-derived." + body.name,
-      "On the " + body.words + " the eps that is needed grows as " + power + ".",
-      {{deviation.value, 0.01, 0, "1",
-        "eps is sought to 5e-4 of itself, which is 0.0015 of an order; the next term of sqrt(R^2 + L^2/3) - "
-        "R is "
-        "L^2/(12 R^2) of the first, below 0.003 in the last pairs; along an edge every scale looks alike"},
-       evidence(range),
-       "measured is |order - " + std::to_string(int(body.order)) + "| over the last pairs"}};
+  return {"required-eps.order-is-as-derived." + body.name,
+          "On the " + body.words + " the eps that is needed grows as " + power + ".",
+          {{deviation.value, 0.01, 0, "1",
+            "eps is sought to 5e-4 of itself, which is 0.0015 of an order; the next term of "
+            "sqrt(R^2 + L^2/3) - R is L^2/(12 R^2) of the first, below 0.003 in the last pairs; "
+            "along an edge every scale looks alike"},
+           evidence(range),
+           "measured is |order - " + std::to_string(int(body.order)) + "| over the last pairs"}};
 }
 
 NamedFinding bound_finding(const Body& body, const Range& range) {
   Worst worst;
   for (double ratio : range.over_bound) worst.observe(ratio);
   const std::string bound = body.order == 2 ? "L^2/(6 R)" : "L/sqrt(3)";
-  return {"required-eps.derived-eps-suffices." + body.name,
-          "On the " + body.words + " an eps of " + bound + " suffices, L the longest edge.",
-          {{worst.value(), 1.001, 0, "1",
-            "the farthest point of a triangle from its corners is L/sqrt(3) from them at most; on a ball its "
-            "depth below them is at most (L/sqrt(3))^2/(2 R). A thousandth for the search"},
-           evidence(range),
-           ""}};
+  return {
+      "required-eps.derived-eps-suffices." + body.name,
+      "On the " + body.words + " an eps of " + bound + " suffices, L the longest edge.",
+      {{worst.value(), 1.001, 0, "1",
+        "the farthest point of a triangle from its corners is L/sqrt(3) from them at most; on a "
+        "ball its depth below them is at most (L/sqrt(3))^2/(2 R). A thousandth for the search"},
+       evidence(range),
+       ""}};
 }
 
 StudyResult run_eps_needed(const Subject&, Tier tier, const Progress& progress) {
   StudyResult result;
-  Figure figure{
-      "eps",
-      "The least eps that leaves no triangle inside",
-      {"longest edge of the projected cloth", "m", Scale::log},
-      {"eps needed", "m", Scale::log},
-      nan,
-      "Decided exactly, triangle by triangle. Smooth bodies need L^2/(6 R); along an edge of the body eps "
-      "has to grow with the cloth's edges.",
-      {}};
+  Figure figure{"eps",
+                "The least eps that leaves no triangle inside",
+                {"longest edge of the projected cloth", "m", Scale::log},
+                {"eps needed", "m", Scale::log},
+                nan,
+                "Decided exactly, triangle by triangle. Smooth bodies need L^2/(6 R); along an "
+                "edge of the body eps has to grow with the cloth's edges.",
+                {}};
   const std::vector<Body> bodies = {ball("ball", 0.13), ball("large-ball", 0.41), box_edge()};
   for (const Body& body : bodies) {
     const Range range = range_of(body, tier == Tier::quick ? 4 : 7);
@@ -183,12 +188,12 @@ StudyResult run_eps_needed(const Subject&, Tier tier, const Progress& progress) 
 
 Study eps_needed_study() {
   return {"required-eps",
-          "The eps that keeps triangles out of an object grows as the square of their edges over its radius, "
-          "and as their edges along its own edges.",
+          "The eps that keeps triangles out of an object grows as the square of their edges over "
+          "its radius, and as their edges along its own edges.",
           "BMF03 section 5.3",
-          "Sheets of equilateral triangles are sunk into a body and projected plainly, their particles to "
-          "eps outside. The least eps is sought with which no triangle has a point in common with the body; "
-          "that is decided in whole numbers, without a distance field.",
+          "Sheets of equilateral triangles are sunk into a body and projected plainly, their "
+          "particles to eps outside. The least eps is sought with which no triangle has a point in "
+          "common with the body; that is decided in whole numbers, without a distance field.",
           run_eps_needed};
 }
 

@@ -15,8 +15,8 @@ namespace {
 
 constexpr int columns = 12;
 constexpr double length = 0.2, edge = length / columns;  // of the strip and of its edges [m]
-constexpr double clear =
-    length - 1.5 * edge;  // between the clamps: from the middle of two columns, offset rows on average [m]
+// between the clamps: from the middle of two columns, offset rows on average [m]
+constexpr double clear = length - 1.5 * edge;
 constexpr double nearer = 0.04;     // by how much the clamps come together [m]
 constexpr double duration = 0.5;    // s
 constexpr double tolerance = 1e-3;  // of the sweeps, in rest lengths [1]
@@ -39,11 +39,11 @@ struct Strip {
 
 Scene scene_of_strip(const Strip& strip) {
   const double edge = strip.length / strip.columns;
-  Scene scene =
-      scene_at_rest(make_sheet({SheetPattern::equilateral, strip.length, 0, strip.columns, strip.rows}), 0.2);
+  Scene scene = scene_at_rest(
+      make_sheet({SheetPattern::equilateral, strip.length, 0, strip.columns, strip.rows}), 0.2);
   scene.stretch = strip.stretch;
-  scene.bending =
-      BendingMaterial{strip.ke, strip.relaxation * strip.ke, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.bending = BendingMaterial{strip.ke, strip.relaxation * strip.ke, Weighting::rest,
+                                  DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   if (strip.is_limited) {
     StrainLimits limits;
@@ -78,8 +78,16 @@ struct FoldedSheet {
 };
 
 FoldedSheet fold(const Hinges& hinges, bool is_limited) {
-  const Scene scene = scene_of_strip(
-      {length, columns, 5, {5, 0.002, 1}, hinges.stiffness, 0.005, nearer, duration, 1e-6, is_limited});
+  const Scene scene = scene_of_strip({length,
+                                      columns,
+                                      5,
+                                      {5, 0.002, 1},
+                                      hinges.stiffness,
+                                      0.005,
+                                      nearer,
+                                      duration,
+                                      1e-6,
+                                      is_limited});
   FoldedSheet result{hinges.name, is_limited};
   const RunResult run =
       simulate(build_system(scene), integrator_named("C"), start_state(scene), scene.schedule, {});
@@ -125,15 +133,17 @@ CustomForce elastic_bed(double bed, double density, const PerParticle& mass) {
 }
 
 WrinkledSheet wrinkle(double wavelength) {
-  constexpr double ke = 1e-4, rigidity = 2. / 9 * ke;  // of a narrow strip of equilateral triangles [J]
+  // of a narrow strip of equilateral triangles [J]
+  constexpr double ke = 1e-4, rigidity = 2. / 9 * ke;
   WrinkledSheet result;
   result.expected = wavelength;
   result.bed = rigidity * std::pow(2 * pi / wavelength, 4);
-  const Scene scene =
-      scene_of_strip({bed_length, 24, 3, {1, 0.001, 1}, ke, 0.002, 0.05 * bed_length, 0.4, 1e-5, true});
+  const Scene scene = scene_of_strip(
+      {bed_length, 24, 3, {1, 0.001, 1}, ke, 0.002, 0.05 * bed_length, 0.4, 1e-5, true});
   System system = build_system(scene);
   system.forces.push_back(elastic_bed(result.bed, scene.density, system.mass));
-  const RunResult run = simulate(system, integrator_named("C"), start_state(scene), scene.schedule, {});
+  const RunResult run =
+      simulate(system, integrator_named("C"), start_state(scene), scene.schedule, {});
   if (run.stop) return result;
   const PerParticle z = run.last.x.row(2).transpose();
   constexpr int samples = 120;
@@ -161,14 +171,14 @@ NamedFinding wavelength_finding(const std::vector<WrinkledSheet>& runs) {
   Worst worst;
   for (const WrinkledSheet& run : runs)
     worst.observe(run.height > 1e-3 ? std::abs(run.wavelength / run.expected - 1) : nan);
-  return {
-      "folding.wrinkle-length-matches-theory",
-      "With 0 % compression, a strip on an elastic bed folds into waves of length 2 pi (D/K)^(1/4), those of "
-      "the least energy.",
-      {{worst.value(), 1. / 6, 0, "1",
-        "the spectrum knows whole waves only, five and three of them in the strip: half a wave in three"},
-       evidence_of(runs),
-       "waves lower than a millimetre count as none"}};
+  return {"folding.wrinkle-length-matches-theory",
+          "With 0 % compression, a strip on an elastic bed folds into waves of length 2 pi "
+          "(D/K)^(1/4), those of the least energy.",
+          {{worst.value(), 1. / 6, 0, "1",
+            "the spectrum knows whole waves only, five and three of them in the strip: half a wave "
+            "in three"},
+           evidence_of(runs),
+           "waves lower than a millimetre count as none"}};
 }
 
 std::vector<Column> evidence_of(const std::vector<FoldedSheet>& runs) {
@@ -184,40 +194,41 @@ std::vector<Column> evidence_of(const std::vector<FoldedSheet>& runs) {
     sweeps.push_back(run.sweeps);
     left.push_back(run.left);
   }
-  return {{"hinges", "", hinges},         {"limit on compression", "", limits}, {"area lost", "1", area},
-          {"height", "mm", height},       {"wavelength", "mm", wavelength},     {"steps", "1", steps},
-          {"sweeps a step", "1", sweeps}, {"violation left", "1", left}};
+  return {{"hinges", "", hinges},           {"limit on compression", "", limits},
+          {"area lost", "1", area},         {"height", "mm", height},
+          {"wavelength", "mm", wavelength}, {"steps", "1", steps},
+          {"sweeps a step", "1", sweeps},   {"violation left", "1", left}};
 }
 
 NamedFinding area_finding(const std::vector<FoldedSheet>& runs) {
   Worst worst;
   for (const FoldedSheet& run : runs)
     if (run.is_limited) worst.observe(run.area_lost);
-  return {"folding.limit-preserves-area",
-          "With 0 % compression, a strip between ends that are led together loses none of its area.",
-          {{worst.value(), 2 * tolerance, 0, "of the area",
-            "an acute triangle whose edges are no shorter than at rest, and no longer by more than a tenth, "
-            "is no smaller; each edge may lack the tolerance of the sweeps"},
-           evidence_of(runs),
-           ""}};
+  return {
+      "folding.limit-preserves-area",
+      "With 0 % compression, a strip between ends that are led together loses none of its area.",
+      {{worst.value(), 2 * tolerance, 0, "of the area",
+        "an acute triangle whose edges are no shorter than at rest, and no longer by more than a "
+        "tenth, is no smaller; each edge may lack the tolerance of the sweeps"},
+       evidence_of(runs),
+       ""}};
 }
 
 NamedFinding lost_finding(const std::vector<FoldedSheet>& runs) {
   const FoldedSheet& run = runs[1];  // stiff hinges, no limit
   const double least = 0.5 * nearer / length;
   return {"folding.area-is-lost-without-the-limit",
-          "Without the limit, a strip whose hinges are stiff beside its springs stays in its plane and is "
-          "compressed.",
+          "Without the limit, a strip whose hinges are stiff beside its springs stays in its plane "
+          "and is compressed.",
           {{least / run.area_lost, 1, 0, "1",
-            "measured is half the share by which the clamps come together, over the area lost: Poisson's "
-            "ratio gives back a third "
-            "of it"},
+            "measured is half the share by which the clamps come together, over the area lost: "
+            "Poisson's ratio gives back a third of it"},
            evidence_of({run}),
            ""}};
 }
 
-/// The height, from trough to crest, of a cosine wave of this length [m] whose ends have come nearer by so
-/// much [m], by bisection on its arc.
+/// The height, from trough to crest, of a cosine wave of this length [m] whose ends have come
+/// nearer by so much [m], by bisection on its arc.
 double cosine_height(double arc, double shortening) {
   const double span = arc - shortening;
   double low = 0, high = arc;
@@ -226,7 +237,8 @@ double cosine_height(double arc, double shortening) {
     double sum = 0;
     constexpr int parts = 2000;
     for (int k = 0; k < parts; ++k)
-      sum += std::hypot(1, pi * height / span * std::sin(2 * pi * (k + 0.5) / parts)) * span / parts;
+      sum +=
+          std::hypot(1, pi * height / span * std::sin(2 * pi * (k + 0.5) / parts)) * span / parts;
     (sum < arc ? low : high) = height;
   }
   return (low + high) / 2;
@@ -236,12 +248,11 @@ NamedFinding height_finding(const std::vector<FoldedSheet>& runs) {
   const FoldedSheet& run = runs[0];  // stiff hinges, 0 %
   const double expected = cosine_height(clear, nearer);
   return {"folding.arc-height-matches-its-length",
-          "With 0 % compression, a strip of stiff hinges rises in one arc, as high as one that is as long as "
-          "the strip at rest.",
+          "With 0 % compression, a strip of stiff hinges rises in one arc, as high as one that is "
+          "as long as the strip at rest.",
           {{std::abs(run.height / expected - 1), edge / (2 * clear), 0, "1",
-            "the clamps, two columns of offset rows, leave the clear length open by half an edge; the arc is "
-            "taken for a cosine. "
-            "A strip that is compressed stays flat"},
+            "the clamps, two columns of offset rows, leave the clear length open by half an edge; "
+            "the arc is taken for a cosine. A strip that is compressed stays flat"},
            evidence_of({run}),
            ""}};
 }
@@ -261,22 +272,21 @@ StudyResult run_folding(const Subject&, Tier tier, const Progress& progress) {
           {},
           {},
           {{"wrinkles", "What becomes of a long strip on an elastic bed", evidence_of(waves)},
-           {"strips", "What becomes of a strip whose ends are led together by a fifth", evidence_of(runs)}}};
+           {"strips", "What becomes of a strip whose ends are led together by a fifth",
+            evidence_of(runs)}}};
 }
 
 }  // namespace
 
 Study folding_study() {
   return {"folding",
-          "Cloth that may not be compressed folds, and keeps its area; without the limit it is compressed "
-          "where its hinges "
-          "are stiffer than its springs.",
+          "Cloth that may not be compressed folds, and keeps its area; without the limit it is "
+          "compressed where its hinges are stiffer than its springs.",
           "BMF03 section 3, after Provot 1995",
-          "The clamped ends of a strip are led together by a fifth of its length within half a second. With "
-          "stiff hinges Euler's "
-          "strain 4 pi^2 D/(Y L^2) is a quarter: the strip would rather be compressed. With soft ones it "
-          "folds anyway. Wavelengths "
-          "are those of the largest Fourier coefficient along the middle of the strip, in lengths at rest.",
+          "The clamped ends of a strip are led together by a fifth of its length within half a "
+          "second. With stiff hinges Euler's strain 4 pi^2 D/(Y L^2) is a quarter: the strip would "
+          "rather be compressed. With soft ones it folds anyway. Wavelengths are those of the "
+          "largest Fourier coefficient along the middle of the strip, in lengths at rest.",
           run_folding};
 }
 

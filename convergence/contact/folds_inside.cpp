@@ -17,8 +17,8 @@ constexpr int around = 48, along = 13;
 constexpr double band = 0.01;         // tau of the projection [m]
 constexpr double least_crest = 1e-3;  // m
 
-/// A tube on a drum as wide as it, 5 mm inside, pushed together by a tenth and held at both ends; what pushes
-/// it makes it buckle to both sides of the drum's surface.
+/// A tube on a drum as wide as it, 5 mm inside, pushed together by a tenth and held at both ends;
+/// what pushes it makes it buckle to both sides of the drum's surface.
 Scene tube_on_drum() {
   Scene scene = scene_at_rest(make_cylinder(radius, length, around, along), 0.2);
   std::uint64_t state = 4;
@@ -69,8 +69,9 @@ int crests_of(const std::vector<double>& row, double least) {
 /// What runs leave, one entry for each forecast time.
 struct Folds {
   std::vector<double> tau, inside;  // s; deepest free particle at the end [m]
-  std::vector<double> crests;       // a turn of the tube, after the projection, mean over its free rings [1]
-  std::vector<double> angles;       // mean |theta - theta0| [rad]
+  // a turn of the tube, after the projection, mean over its free rings [1]
+  std::vector<double> crests;
+  std::vector<double> angles;  // mean |theta - theta0| [rad]
 };
 
 std::vector<Object> objects_of(const Scene& scene) {
@@ -80,8 +81,9 @@ std::vector<Object> objects_of(const Scene& scene) {
 }
 
 double crests_a_ring(const Scene& scene, const State& s) {
-  const ProjectedCloth cloth = project_folds(
-      objects_of(scene), s.x, s.time, {"blend", {0, band, 5e-3}, PinchedPoints::left_alone, 1e-9, 100});
+  const ProjectedCloth cloth =
+      project_folds(objects_of(scene), s.x, s.time,
+                    {"blend", {0, band, 5e-3}, PinchedPoints::left_alone, 1e-9, 100});
   double sum = 0;
   for (int ring = 1; ring < along; ++ring) {
     const double* phi = cloth.after.data() + ring * around;
@@ -108,7 +110,8 @@ double deepest_free(const Scene& scene, const State& s) {
 }
 
 /// Runs the scene until `end` [s], with forecast times of so many steps.
-Folds folds_of(const Subject& subject, Scene scene, double end, const std::vector<double>& taus_over_h) {
+Folds folds_of(const Subject& subject, Scene scene, double end,
+               const std::vector<double>& taus_over_h) {
   Folds folds;
   const double h = usual_step(scene);
   for (const double steps : taus_over_h) {
@@ -124,19 +127,18 @@ Folds folds_of(const Subject& subject, Scene scene, double end, const std::vecto
 }
 
 NamedFinding tube_finding(const Folds& folds) {
-  return {"folding-inside-objects.more-folds-when-allowed-inside",
-          "Cloth that starts partly inside of a drum and is pushed together has fewer folds if it is brought "
-          "to the "
-          "surface at once than if it may stay inside.",
-          {{folds.crests.front() / folds.crests.back(), 0.5, 0, "1",
-            "a surface that bars one side bars the folds to that side: at most half of them are left"},
-           {{"forecast time", "s", folds.tau},
-            {"deepest particle", "m", folds.inside},
-            {"crests a turn", "1", folds.crests},
-            {"mean fold", "rad", folds.angles}},
-           "measured are the crests of a turn with a forecast time of a step over those with one of ten "
-           "thousand, "
-           "after the projection into [0, 0.01 m]"}};
+  return {
+      "folding-inside-objects.more-folds-when-allowed-inside",
+      "Cloth that starts partly inside of a drum and is pushed together has fewer folds if it is "
+      "brought to the surface at once than if it may stay inside.",
+      {{folds.crests.front() / folds.crests.back(), 0.5, 0, "1",
+        "a surface that bars one side bars the folds to that side: at most half of them are left"},
+       {{"forecast time", "s", folds.tau},
+        {"deepest particle", "m", folds.inside},
+        {"crests a turn", "1", folds.crests},
+        {"mean fold", "rad", folds.angles}},
+       "measured are the crests of a turn with a forecast time of a step over those with one of "
+       "ten thousand, after the projection into [0, 0.01 m]"}};
 }
 
 NamedFinding ball_finding(const Folds& folds) {
@@ -144,8 +146,8 @@ NamedFinding ball_finding(const Folds& folds) {
       "folding-inside-objects.same-folds-over-a-ball",
       "Cloth that falls on a ball from outside folds as much whatever the forecast time.",
       {{std::abs(folds.angles.back() / folds.angles.front() - 1), 0.1, 0, "1",
-        "which folds it finds is chance; the mean of some four hundred hinges that fold by as much as they "
-        "differ is known to a twentieth, the ratio of two to less than a tenth"},
+        "which folds it finds is chance; the mean of some four hundred hinges that fold by as much "
+        "as they differ is known to a twentieth, the ratio of two to less than a tenth"},
        {{"forecast time", "s", folds.tau},
         {"deepest particle", "m", folds.inside},
         {"mean fold", "rad", folds.angles}},
@@ -165,8 +167,9 @@ StudyResult run_folds_inside(const Subject& subject, Tier tier, const Progress& 
       folds_of(subject, tube_on_drum(), 0.3,
                full ? std::vector<double>{1, 10, 100, 1000, 1e4} : std::vector<double>{1, 1e4});
   progress(0.6);
-  const Folds ball = folds_of(subject, sheet_over_ball(full ? 24 : 16), 0.8,
-                              full ? std::vector<double>{1, 10, 100, 300} : std::vector<double>{1, 100});
+  const Folds ball =
+      folds_of(subject, sheet_over_ball(full ? 24 : 16), 0.8,
+               full ? std::vector<double>{1, 10, 100, 300} : std::vector<double>{1, 100});
   StudyResult result;
   result.findings = {tube_finding(tube), ball_finding(ball)};
   return result;
@@ -177,9 +180,8 @@ StudyResult run_folds_inside(const Subject& subject, Tier tier, const Progress& 
 Study folds_inside_study() {
   return {"folding-inside-objects", "Cloth that may stay inside of an object folds more.",
           "BMF03 section 5.3",
-          "A tube that starts inside of a drum is pushed together, and a sheet falls on a ball: how many "
-          "folds have "
-          "they with forecast times from a step to far longer than the run?",
+          "A tube that starts inside of a drum is pushed together, and a sheet falls on a ball: "
+          "how many folds have they with forecast times from a step to far longer than the run?",
           run_folds_inside};
 }
 

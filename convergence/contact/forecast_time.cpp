@@ -1,5 +1,5 @@
-// forecast-time: where a point is after it was forecast to lie on the surface, and what the forecast time
-// does.
+// forecast-time: where a point is after it was forecast to lie on the surface, and what the
+// forecast time does.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -46,7 +46,8 @@ SceneObject ball_object(const Motion& motion) {
   return part;
 }
 
-/// The largest |phi| right after the step in which all points were forecast to lie on the surface [m].
+/// The largest |phi| right after the step in which all points were forecast to lie on
+/// the surface [m].
 double forecast_miss(const Subject& subject, const Scene& scene, double h) {
   const State end = run_to_end(subject, scene, h, h, [](const State&) {});
   Worst worst;
@@ -78,13 +79,15 @@ NamedFinding flat_finding(const Subject& subject) {
   return {"forecast-time.exact-on-a-plane",
           "On a plane, a point that is forecast to lie on the surface lies on it after the step.",
           {{off / (epsilon * (0.4 + 2 * h)), 20, 0, "epsilon of the extent",
-            "one multiplication and one addition after the correction, which itself takes a dozen roundings"},
+            "one multiplication and one addition after the correction, which itself takes a dozen "
+            "roundings"},
            {},
            ""}};
 }
 
 /// Error against the step, for one setting.
-Convergence misses(const Subject& subject, const Setting& setting, const std::vector<double>& steps) {
+Convergence misses(const Subject& subject, const Setting& setting,
+                   const std::vector<double>& steps) {
   Convergence result{steps, {}, 1e-15};
   for (const double h : steps) result.errors.push_back(forecast_miss(subject, setting.scene, h));
   return result;
@@ -95,13 +98,14 @@ NamedFinding order_finding(const Setting& setting, const Convergence& misses) {
   return {"forecast-time.second-order-on-a-" + setting.name,
           "On " + setting.words + ", it misses the surface by the square of the step.",
           {{deviation.value, 0.1, deviation.uncertainty, "1",
-            "a first-order miss would be off by one: the forecast has then the wrong direction or velocity; "
-            "the next term is smaller by the way of a step over the radius, a hundredth"},
+            "a first-order miss would be off by one: the forecast has then the wrong direction or "
+            "velocity; the next term is smaller by the way of a step over the radius, a hundredth"},
            {{"step", "s", misses.steps}, {"miss", "m", misses.errors}},
            "measured is |order - 2| of the last two pairs"}};
 }
 
-/// A point that comes down on a floor at forecast time tau: phi shrinks by the factor 1 - h/tau a step.
+/// A point that comes down on a floor at forecast time tau: phi shrinks by the factor
+/// 1 - h/tau a step.
 struct Decay {
   std::vector<double> times, phi;  // s, m
   double off = 0;                  // |factor - derived|, the largest
@@ -127,8 +131,8 @@ Decay decay_of(const Subject& subject, double tau_over_h) {
   return decay;
 }
 
-/// The first step of the same fall with a forecast time of five steps, and with the point put on the object
-/// that it would be inside at the next step.
+/// The first step of the same fall with a forecast time of five steps, and with the point put on
+/// the object that it would be inside at the next step.
 NamedFinding next_step_finding(const Subject& subject) {
   const double h = 0.004, height = 3e-3;
   std::vector<std::string> responses = {"forecast", "projection"};
@@ -141,10 +145,11 @@ NamedFinding next_step_finding(const Subject& subject) {
     heights.push_back(run_to_end(subject, scene, h, h, [](const State&) {}).x(1, 0));
   }
   return {"forecast-time.long-forecast-is-no-step-prediction",
-          "With a forecast time of five steps a point is still above a floor that it would have passed at "
-          "the next step.",
+          "With a forecast time of five steps a point is still above a floor that it would have "
+          "passed at the next step.",
           {{std::abs(heights[1]) / heights[0], 1e-6, 0, "1",
-            "on the floor but for rounding, against four fifths of the height: there is nothing between"},
+            "on the floor but for rounding, against four fifths of the height: there is nothing "
+            "between"},
            {{"response", "", responses}, {"height after a step", "m", heights}},
            "measured is the height with the next step's object over that with the forecast"}};
 }
@@ -154,14 +159,14 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
   result.findings.push_back(flat_finding(subject));
   std::vector<double> steps = {0.016, 0.008, 0.004, 0.002, 0.001};
   if (tier == Tier::full) steps.insert(steps.end(), {0.0005, 0.00025});
-  Figure figure{
-      "miss",
-      "How far a point that was forecast to lie on the surface is from it",
-      {"step", "s", Scale::log},
-      {"distance", "m", Scale::log},
-      2,
-      "After the step for which the forecast was made. Points slide on a frictionless ball of radius 0.3 m.",
-      {}};
+  Figure figure{"miss",
+                "How far a point that was forecast to lie on the surface is from it",
+                {"step", "s", Scale::log},
+                {"distance", "m", Scale::log},
+                2,
+                "After the step for which the forecast was made. Points slide on a frictionless "
+                "ball of radius 0.3 m.",
+                {}};
   for (const Setting& setting : curved_settings()) {
     const Convergence of = misses(subject, setting, steps);
     result.findings.push_back(order_finding(setting, of));
@@ -175,9 +180,9 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
                   {"time", "s", Scale::linear},
                   {"height", "m", Scale::linear},
                   nan,
-                  "At 0.9 m/s, steps of 4 ms. The height is multiplied by 1 - h/tau in every step: a longer "
-                  "forecast time is a softer landing. One that is shorter than the step overshoots: the "
-                  "point is inside after it, and is thrown off by the way out.",
+                  "At 0.9 m/s, steps of 4 ms. The height is multiplied by 1 - h/tau in every step: "
+                  "a longer forecast time is a softer landing. One that is shorter than the step "
+                  "overshoots: the point is inside after it, and is thrown off by the way out.",
                   {}};
   Worst off;
   std::vector<double> ratios, offs;
@@ -193,8 +198,8 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
   result.figures.push_back(approach);
   result.findings.push_back(
       {"forecast-time.decay-is-as-derived",
-       "With a forecast time of a step or more, a treated point's distance from a plane is multiplied by 1 - "
-       "h/tau in every step.",
+       "With a forecast time of a step or more, a treated point's distance from a plane is "
+       "multiplied by 1 - h/tau in every step.",
        {{off.value(), 1e-9, 0, "1",
          "heights above a millionth of a metre, known to roundings of 0.4 m: 1e-10 of them"},
         {{"forecast time over the step", "1", ratios}, {"off", "1", offs}},
@@ -206,12 +211,13 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
 }  // namespace
 
 Study forecast_time_study() {
-  return {"forecast-time", "A forecast is exact on planes and of second order on curved and turning objects.",
+  return {"forecast-time",
+          "A forecast is exact on planes and of second order on curved and turning objects.",
           "BMF03 section 5.2",
-          "The response makes a point's forecast exact: phi + tau (v_p - v).N = 0. Where the point is after "
-          "that time is another matter: the surface curves away under a point that slides, and the object's "
-          "normals turn. And the forecast time need not be the step: it is the time in which a point comes "
-          "to the surface.",
+          "The response makes a point's forecast exact: phi + tau (v_p - v).N = 0. Where the point "
+          "is after that time is another matter: the surface curves away under a point that "
+          "slides, and the object's normals turn. And the forecast time need not be the step: it "
+          "is the time in which a point comes to the surface.",
           run_forecast_time};
 }
 

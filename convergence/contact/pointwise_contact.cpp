@@ -21,7 +21,8 @@ Scene sheet_on_ball(int n, PointKind points) {
   return scene;
 }
 
-/// How deep edges and triangles are once the sheet lies on the ball, and the length of a diagonal edge [m].
+/// How deep edges and triangles are once the sheet lies on the ball, and the length of a
+/// diagonal edge [m].
 struct Cut {
   std::vector<double> edges, faces, lengths;
 };
@@ -44,9 +45,9 @@ NamedFinding order_finding(const Cut& cut) {
   return {"pointwise-contact.edge-penetration-is-second-order",
           "Edges whose ends lie on a ball cut into it by the square of their length.",
           {{deviation.value, 0.3, 0, "1",
-            "a chord of length L is L^2/(8R) deep; how far the longest edges have come to lie along the ball "
-            "differs from mesh to mesh by a few percent, which is worth three tenths of an order between "
-            "meshes half as fine again"},
+            "a chord of length L is L^2/(8R) deep; how far the longest edges have come to lie "
+            "along the ball differs from mesh to mesh by a few percent, which is worth three "
+            "tenths of an order between meshes half as fine again"},
            {{"edge", "m", cut.lengths},
             {"depth of midpoints", "m", cut.edges},
             {"depth of centres", "m", cut.faces}},
@@ -57,12 +58,13 @@ NamedFinding bound_finding(const Cut& cut) {
   Worst worst;
   for (size_t k = 0; k < cut.lengths.size(); ++k)
     worst.observe(cut.edges[k] / (cut.lengths[k] * cut.lengths[k] / (8 * radius)));
-  return {"pointwise-contact.edge-penetration-is-within-the-chord",
-          "No edge is deeper than a chord of its length.",
-          {{worst.value(), 1.1, 0, "1",
-            "L^2/(8R) of the longest edge, which the weight of the sheet stretches by a few percent"},
-           {{"edge", "m", cut.lengths}, {"depth of midpoints", "m", cut.edges}},
-           ""}};
+  return {
+      "pointwise-contact.edge-penetration-is-within-the-chord",
+      "No edge is deeper than a chord of its length.",
+      {{worst.value(), 1.1, 0, "1",
+        "L^2/(8R) of the longest edge, which the weight of the sheet stretches by a few percent"},
+       {{"edge", "m", cut.lengths}, {"depth of midpoints", "m", cut.edges}},
+       ""}};
 }
 
 NamedFinding held_finding(const Cut& particles, const Cut& faces) {
@@ -70,8 +72,8 @@ NamedFinding held_finding(const Cut& particles, const Cut& faces) {
   return {"pointwise-contact.centres-help-coarse-cloth",
           "With midpoints and centres as points, the centres of coarse triangles stay out.",
           {{measured, 0.1, 0, "1",
-            "what a step leaves on a curved surface, the square of its way, is far below a tenth of a "
-            "chord's depth"},
+            "what a step leaves on a curved surface, the square of its way, is far below a tenth "
+            "of a chord's depth"},
            {{"edge", "m", faces.lengths},
             {"particles alone", "m", particles.faces},
             {"centres too", "m", faces.faces}},
@@ -89,8 +91,8 @@ NamedFinding spike_finding(const Subject& subject) {
   return {"pointwise-contact.a-thin-pin-passes-through",
           "A pin thinner than an edge passes between the particles of a falling sheet.",
           {{height, -0.2, 0, "m",
-            "in a quarter of a second it falls by 0.3 m, from 0.03 m above the pin's tip: had the pin held "
-            "it, it would hang there"},
+            "in a quarter of a second it falls by 0.3 m, from 0.03 m above the pin's tip: had the "
+            "pin held it, it would hang there"},
            {},
            "measured is the sheet's mean height over the pin's tip"}};
 }
@@ -104,29 +106,31 @@ StudyResult run_pointwise_contact(const Subject& subject, Tier tier, const Progr
   Cut coarsest = particles;
   coarsest.faces.resize(1);
   StudyResult result;
-  result.findings = {order_finding(particles), bound_finding(particles), held_finding(coarsest, faces),
-                     spike_finding(subject)};
+  result.findings = {order_finding(particles), bound_finding(particles),
+                     held_finding(coarsest, faces), spike_finding(subject)};
   std::vector<double> chord;
   for (const double L : particles.lengths) chord.push_back(L * L / (8 * radius));
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  result.figures.push_back({"depth",
-                            "How deep edges and triangles lie in a ball that holds the particles out",
-                            {"edge", "m", Scale::log},
-                            {"depth", "m", Scale::log},
-                            2,
-                            "A sheet at rest on a ball of radius 0.2 m. Chord: L^2/(8R).",
-                            {{"midpoints of edges", particles.lengths, particles.edges, nan, {}},
-                             {"centres of triangles", particles.lengths, particles.faces, nan, {}},
-                             {"chord", particles.lengths, chord, nan, {}}}});
+  result.figures.push_back(
+      {"depth",
+       "How deep edges and triangles lie in a ball that holds the particles out",
+       {"edge", "m", Scale::log},
+       {"depth", "m", Scale::log},
+       2,
+       "A sheet at rest on a ball of radius 0.2 m. Chord: L^2/(8R).",
+       {{"midpoints of edges", particles.lengths, particles.edges, nan, {}},
+        {"centres of triangles", particles.lengths, particles.faces, nan, {}},
+        {"chord", particles.lengths, chord, nan, {}}}});
   return result;
 }
 
 }  // namespace
 
 Study pointwise_contact_study() {
-  return {"pointwise-contact", "Particles alone are enough where the cloth is dense.", "BMF03 section 5.2",
-          "The response holds points out of objects. What lies between the points is held out only as far as "
-          "the object is flat from one point to the next.",
+  return {"pointwise-contact", "Particles alone are enough where the cloth is dense.",
+          "BMF03 section 5.2",
+          "The response holds points out of objects. What lies between the points is held out only "
+          "as far as the object is flat from one point to the next.",
           run_pointwise_contact};
 }
 

@@ -1,5 +1,5 @@
-// resting-contact: cloth comes to rest on a ball under each response: what keeps moving, and what lies
-// inside.
+// resting-contact: cloth comes to rest on a ball under each response: what keeps moving, and
+// what lies inside.
 #include <cmath>
 
 #include "convergence/contact/contact_runs.h"
@@ -15,10 +15,11 @@ constexpr double end = 1.1, settled = 0.9;  // of the run, and from when on it s
 struct Rest {
   std::string response;
   std::vector<double> times, speeds;  // s, root mean square over the particles [m/s]
-  double jitter = 0;  // root mean square change of a particle's velocity in a step, over the step,
-                      // after `settled` [m/s^2]
-  double speed = 0;   // largest of speeds after `settled` [m/s]
-  double depth = 0;   // largest of a particle [m]
+  // root mean square change of a particle's velocity in a step, over the step, after
+  // `settled` [m/s^2]
+  double jitter = 0;
+  double speed = 0;  // largest of speeds after `settled` [m/s]
+  double depth = 0;  // largest of a particle [m]
 };
 
 Scene cloth_over_ball(const std::string& response) {
@@ -61,22 +62,24 @@ std::vector<Column> compare(const Rest& forecast, const Rest& other) {
           {"largest depth", "m", std::vector<double>{forecast.depth, other.depth}}};
 }
 
-constexpr const char* what_is_measured = "shaking is the root mean square acceleration from 0.9 s on";
+constexpr const char* what_is_measured =
+    "shaking is the root mean square acceleration from 0.9 s on";
 
 NamedFinding quieter(const Rest& forecast, const Rest& push_out) {
-  return {"resting-contact.quieter-than-push-out",
-          "Cloth at rest shakes less than half as much under forecasting as if points found inside are "
-          "pushed out.",
-          {{forecast.jitter / push_out.jitter, 0.5, 0, "1",
-            "two responses that are equally good differ by a hundredth here; half is far beyond that"},
-           compare(forecast, push_out),
-           what_is_measured}};
+  return {
+      "resting-contact.quieter-than-push-out",
+      "Cloth at rest shakes less than half as much under forecasting as if points found inside are "
+      "pushed out.",
+      {{forecast.jitter / push_out.jitter, 0.5, 0, "1",
+        "two responses that are equally good differ by a hundredth here; half is far beyond that"},
+       compare(forecast, push_out),
+       what_is_measured}};
 }
 
 NamedFinding alike(const Rest& forecast, const Rest& projection) {
   return {"resting-contact.projection-is-as-quiet",
-          "Cloth at rest shakes as much under forecasting as if points are put on the surface after each "
-          "step and lose their velocity into it.",
+          "Cloth at rest shakes as much under forecasting as if points are put on the surface "
+          "after each step and lose their velocity into it.",
           {{std::abs(forecast.jitter / projection.jitter - 1), 0.1, 0, "1",
             "the same shaking but for a tenth, which chance may make"},
            compare(forecast, projection),
@@ -93,10 +96,12 @@ StudyResult run_resting_contact(const Subject& subject, Tier, const Progress& pr
                 nan,
                 "Root mean square over the particles.",
                 {}};
-  Table table{
-      "responses",
-      "Cloth on a ball, by response",
-      {{"response", ""}, {"shaking at rest", "m/s^2"}, {"speed at rest", "m/s"}, {"largest depth", "m"}}};
+  Table table{"responses",
+              "Cloth on a ball, by response",
+              {{"response", ""},
+               {"shaking at rest", "m/s^2"},
+               {"speed at rest", "m/s"},
+               {"largest depth", "m"}}};
   for (const char* response : {"forecast", "projection", "push_out"}) {
     rests.push_back(rest_of(subject, response));
     const Rest& rest = rests.back();
@@ -113,10 +118,11 @@ StudyResult run_resting_contact(const Subject& subject, Tier, const Progress& pr
 }  // namespace
 
 Study resting_contact_study() {
-  return {"resting-contact", "Forecasting lets cloth come to rest.", "BMF03 section 5.2",
-          "A sheet falls on a ball and hangs over it. The paper's response corrects velocities before the "
-          "cloth moves; the two it is compared with look at where the cloth has come to.",
-          run_resting_contact};
+  return {
+      "resting-contact", "Forecasting lets cloth come to rest.", "BMF03 section 5.2",
+      "A sheet falls on a ball and hangs over it. The paper's response corrects velocities before "
+      "the cloth moves; the two it is compared with look at where the cloth has come to.",
+      run_resting_contact};
 }
 
 }  // namespace foldproof

@@ -29,8 +29,8 @@ Cut cut_by(const TriangleMesh& mesh, int axis, double height) {
   return cut;
 }
 
-/// The line from this edge on, through the triangle first, until it ends or closes; marks the edges that it
-/// passes.
+/// The line from this edge on, through the triangle first, until it ends or closes; marks the edges
+/// that it passes.
 std::vector<int> walk(const TriangleMesh& mesh, const Cut& cut, int edge, int triangle,
                       std::vector<bool>& passed) {
   std::vector<int> line = {edge};
@@ -55,9 +55,10 @@ Section section_along(const TriangleMesh& mesh, const Cut& cut, const std::vecto
   Section section;
   for (int edge : line) {
     const Crossing& crossing = cut.of_edge[std::size_t(edge)];
-    const double step = section.crossings.empty()
-                            ? 0
-                            : (place(mesh, crossing) - place(mesh, section.crossings.back())).norm();
+    const double step =
+        section.crossings.empty()
+            ? 0
+            : (place(mesh, crossing) - place(mesh, section.crossings.back())).norm();
     section.length.push_back(section.length.empty() ? 0 : section.length.back() + step);
     section.crossings.push_back(crossing);
   }
@@ -77,8 +78,10 @@ Section section_of(const TriangleMesh& mesh, int axis) {
     for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
       const bool is_border = mesh.edges[e].triangles[1] < 0;
       if (cut.of_edge[e].t < 0 || passed[e] || (from_border && !is_border)) continue;
-      Section found = section_along(mesh, cut, walk(mesh, cut, int(e), mesh.edges[e].triangles[0], passed));
-      if (longest.length.empty() || found.length.back() > longest.length.back()) longest = std::move(found);
+      Section found =
+          section_along(mesh, cut, walk(mesh, cut, int(e), mesh.edges[e].triangles[0], passed));
+      if (longest.length.empty() || found.length.back() > longest.length.back())
+        longest = std::move(found);
     }
   }
   return longest;
@@ -93,7 +96,8 @@ std::vector<double> along(const Section& section, const PerParticle& values, int
     const auto at = [&](const Crossing& c) { return (1 - c.t) * values[c.a] + c.t * values[c.b]; };
     const double from = section.length[next - 1], to = section.length[next];
     const double part = to > from ? std::clamp((s - from) / (to - from), 0.0, 1.0) : 0;
-    samples.push_back((1 - part) * at(section.crossings[next - 1]) + part * at(section.crossings[next]));
+    samples.push_back((1 - part) * at(section.crossings[next - 1]) +
+                      part * at(section.crossings[next]));
   }
   return samples;
 }

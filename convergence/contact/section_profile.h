@@ -19,13 +19,13 @@ struct Section {
   std::vector<double> length;
 };
 
-/// The longest line in which the plane through the middle of the rest shape, normal to the axis (0 x, 1 y, 2
-/// z), cuts it; empty where the shape is flat along the axis. A plane that meets a particle is moved aside by
-/// a billionth of the extent.
+/// The longest line in which the plane through the middle of the rest shape, normal to the axis (0
+/// x, 1 y, 2 z), cuts it; empty where the shape is flat along the axis. A plane that meets a
+/// particle is moved aside by a billionth of the extent.
 Section section_of(const TriangleMesh& mesh, int axis);
 
-/// The values (N) along the section, at `count` >= 2 places equally far from the next; empty for an empty
-/// section.
+/// The values (N) along the section, at `count` >= 2 places equally far from the next; empty for
+/// an empty section.
 std::vector<double> along(const Section& section, const PerParticle& values, int count);
 
 }  // namespace foldproof

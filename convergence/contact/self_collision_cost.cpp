@@ -25,8 +25,10 @@ TriangleMesh stacked_sheets(int n, int layers, double gap) {
   std::vector<Triangle> triangles;
   for (int k = 0; k < layers; ++k) {
     const int first = int(k * one.rest.cols());
-    rest.middleCols(first, one.rest.cols()) = one.rest.colwise() + Vector3(0.0013 * k, 0.0021 * k, gap * k);
-    for (const Triangle& t : one.triangles) triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    rest.middleCols(first, one.rest.cols()) =
+        one.rest.colwise() + Vector3(0.0013 * k, 0.0021 * k, gap * k);
+    for (const Triangle& t : one.triangles)
+      triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
   return make_triangle_mesh(std::move(rest), std::move(triangles));
 }
@@ -40,7 +42,8 @@ struct Search {
 Search time_search(int n, int layers) {
   const TriangleMesh mesh = stacked_sheets(n, layers, 0.0015);
   const ClothTree cloth = make_cloth_tree(mesh);
-  Search search{double(mesh.particles()), double(layers), 0, std::numeric_limits<double>::infinity()};
+  Search search{double(mesh.particles()), double(layers), 0,
+                std::numeric_limits<double>::infinity()};
   for (int k = 0; k < 3; ++k) {
     const double start = processor_seconds();
     search.pairs = double(near_pairs(cloth, mesh.rest, mesh.rest, 0.002).size());
@@ -70,21 +73,24 @@ void add_searches(Tier tier, StudyResult& result) {
       {"self-collision-cost.search-time-is-nearly-linear",
        "The search for close pairs takes time in proportion to the particles, but for little.",
        {{growth(by_size), 1.2, 0, "1",
-         "each particle has the same number of neighbours, and a tree is as deep as the logarithm of their "
-         "number: an exponent "
-         "of 1.1 at most from a thousand on; a tenth for memory beyond the caches"},
+         "each particle has the same number of neighbours, and a tree is as deep as the logarithm "
+         "of their number: an exponent of 1.1 at most from a thousand on; a tenth for memory "
+         "beyond the caches"},
         {{"particles", "1", column(by_size, &Search::particles)},
          {"pairs", "1", column(by_size, &Search::pairs)},
          {"processor time", "s", column(by_size, &Search::seconds)}},
         ""}});
-  result.figures.push_back(
-      {"search",
-       "The search for close pairs, two layers",
-       {"particles", "1", Scale::log},
-       {"processor time", "s", Scale::log},
-       1,
-       "Processor time of one search against particles, the least of three.",
-       {{"search", column(by_size, &Search::particles), column(by_size, &Search::seconds), nan, {}}}});
+  result.figures.push_back({"search",
+                            "The search for close pairs, two layers",
+                            {"particles", "1", Scale::log},
+                            {"processor time", "s", Scale::log},
+                            1,
+                            "Processor time of one search against particles, the least of three.",
+                            {{"search",
+                              column(by_size, &Search::particles),
+                              column(by_size, &Search::seconds),
+                              nan,
+                              {}}}});
   result.tables.push_back({"layers",
                            "The search for close pairs in stacks of 2025 particles a layer",
                            {{"layers", "1", column(by_layers, &Search::layers)},
@@ -93,7 +99,8 @@ void add_searches(Tier tier, StudyResult& result) {
                             {"processor time", "s", column(by_layers, &Search::seconds)}}});
 }
 
-/// How many particles move in zones, after so many rounds of impulses, in layers that fly through each other.
+/// How many particles move in zones, after so many rounds of impulses, in layers that fly
+/// through each other.
 void add_zones(const Subject& subject, StudyResult& result) {
   std::vector<double> rounds, zones, particles, crossings;
   for (const int count : {1, 2, 4, 8, 16}) {
@@ -109,17 +116,17 @@ void add_zones(const Subject& subject, StudyResult& result) {
     particles.push_back(double(work.zone_particles));
     crossings.push_back(double(work.crossings));
   }
-  result.findings.push_back(
-      {"self-collision-cost.impulse-rounds-reduce-rigid-zones",
-       "Rounds of impulses leave less to rigid zones.",
-       {{particles[3] / particles[0], 0.5, 0, "1",
-         "each round answers pairs that would else be joined to zones: eight leave less than half of what "
-         "one does"},
-        {{"rounds", "1", rounds},
-         {"zones", "1", zones},
-         {"particles in zones", "1", particles},
-         {"impulses", "1", crossings}},
-        "Three steps of four layers of 42 particles each that fly through each other at 3 m/s, 4 ms long."}});
+  result.findings.push_back({"self-collision-cost.impulse-rounds-reduce-rigid-zones",
+                             "Rounds of impulses leave less to rigid zones.",
+                             {{particles[3] / particles[0], 0.5, 0, "1",
+                               "each round answers pairs that would else be joined to zones: eight "
+                               "leave less than half of what one does"},
+                              {{"rounds", "1", rounds},
+                               {"zones", "1", zones},
+                               {"particles in zones", "1", particles},
+                               {"impulses", "1", crossings}},
+                              "Three steps of four layers of 42 particles each that fly through "
+                              "each other at 3 m/s, 4 ms long."}});
   result.tables.push_back({"zones",
                            "Particles left to rigid zones after so many rounds of impulses, of 504",
                            {{"rounds", "1", rounds},
@@ -161,16 +168,17 @@ void add_rest(const Subject& subject, StudyResult& result) {
       {"self-collision-cost.sheet-rests-within-the-thickness",
        "A sheet comes to rest on another at half of the thickness or more, and at no more than it.",
        {{outside.value(), 1, 0, "1",
-         "above the thickness nothing carries it; the springs of repulsion carry its weight at a small "
-         "part of the overlap, and half of it is left for what falling adds"},
+         "above the thickness nothing carries it; the springs of repulsion carry its weight at a "
+         "small part of the overlap, and half of it is left for what falling adds"},
         evidence,
         ""}});
   result.findings.push_back(
       {"self-collision-cost.gap-does-not-depend-on-the-step",
        "The gap at which a sheet rests on another does not depend on the step.",
        {{spread.value(), 0.05, 0, "1",
-         "what one step's fall adds is g h^2, .02 of the least thickness for the longest step; with that and "
-         "again as much for where in its last bounce the sheet is it is .04, rounded up"},
+         "what one step's fall adds is g h^2, .02 of the least thickness for the longest step; "
+         "with that and again as much for where in its last bounce the sheet is it is .04, rounded "
+         "up"},
         evidence,
         ""}});
 }
@@ -179,12 +187,12 @@ void add_rest(const Subject& subject, StudyResult& result) {
 
 Study self_collision_cost_study() {
   return {"self-collision-cost",
-          "Keeping cloth from itself costs time in proportion to its particles, and its thickness is what "
-          "layers keep.",
+          "Keeping cloth from itself costs time in proportion to its particles, and its thickness "
+          "is what layers keep.",
           "BMF03 section 5; Bridson, Fedkiw, Anderson 2002",
-          "Sheets in layers: what the search for close pairs costs against particles and layers, how much "
-          "rounds of impulses leave "
-          "to rigid zones, and at what distance layers come to rest against thickness and step.",
+          "Sheets in layers: what the search for close pairs costs against particles and layers, "
+          "how much rounds of impulses leave to rigid zones, and at what distance layers come to "
+          "rest against thickness and step.",
           [](const Subject& subject, Tier tier, const Progress& progress) {
             StudyResult result;
             add_searches(tier, result);

@@ -21,8 +21,8 @@ constexpr double ball_radius = 0.31, tube_radius = 0.09, ring_radius = 0.4;  // 
 
 /// Height of the wrinkled sheet over the surface at the arc length s [m]: wrinkles on a long wave.
 double height_at(double s) {
-  return amplitude * std::sin(2 * pi * s / wavelength + 0.7) + 0.002 * std::sin(2 * pi * s / 0.2 + 0.3) -
-         sunk;
+  return amplitude * std::sin(2 * pi * s / wavelength + 0.7) +
+         0.002 * std::sin(2 * pi * s / 0.2 + 0.3) - sunk;
 }
 
 /// A body with a wrinkled sheet half inside it: particle by particle at height_at over the surface.
@@ -42,8 +42,8 @@ Vector3 placed_over(const std::string& name, double s, double w) {
   }
   const double a = w / tube_radius, b = s / ring_radius,
                r = tube_radius + h;  // on top of the torus, along its ring
-  return {(ring_radius + r * std::sin(a)) * std::cos(b), (ring_radius + r * std::sin(a)) * std::sin(b),
-          r * std::cos(a)};
+  return {(ring_radius + r * std::sin(a)) * std::cos(b),
+          (ring_radius + r * std::sin(a)) * std::sin(b), r * std::cos(a)};
 }
 
 std::vector<SunkCloth> sunk_sheets(const TriangleMesh& sheet) {
@@ -53,14 +53,16 @@ std::vector<SunkCloth> sunk_sheets(const TriangleMesh& sheet) {
   for (SunkCloth& one : all) {
     one.x.resize(3, sheet.particles());
     for (int i = 0; i < sheet.particles(); ++i)
-      one.x.col(i) = placed_over(one.name, sheet.rest(0, i) - width / 2, sheet.rest(1, i) - height / 2);
+      one.x.col(i) =
+          placed_over(one.name, sheet.rest(0, i) - width / 2, sheet.rest(1, i) - height / 2);
   }
   return all;
 }
 
 ProjectedCloth project(const SunkCloth& cloth, const std::string& map, double reach) {
   const std::vector<Object> objects = {{cloth.name, RigidObject{cloth.solid, {}, Motion{}}, 0}};
-  return project_folds(objects, cloth.x, 0, {map, {0, reach, deepest}, PinchedPoints::left_alone, 1e-12, 50});
+  return project_folds(objects, cloth.x, 0,
+                       {map, {0, reach, deepest}, PinchedPoints::left_alone, 1e-12, 50});
 }
 
 /// What became of the wrinkles, of points that began inside.
@@ -80,7 +82,8 @@ KeptWrinkles measure_kept(const SunkCloth& cloth, const std::string& map,
   for (const double reach : reaches) {
     const ProjectedCloth after = project(cloth, map, reach);
     const auto is_inside = [&](Eigen::Index i) { return after.before[i] < 0; };
-    const double was = deviation_where(after.before, is_inside), is = deviation_where(after.after, is_inside);
+    const double was = deviation_where(after.before, is_inside),
+                 is = deviation_where(after.after, is_inside);
     kept.reach.push_back(reach);
     kept.deviation.push_back(is);
     kept.share.push_back(is / was);
@@ -112,10 +115,11 @@ NamedFinding plain_flattens(const AllKept& plain) {
   Worst worst;
   for (const auto& [name, kept] : plain)
     for (double deviation : kept.deviation) worst.observe(deviation);
-  return {
-      "wrinkle-preservation.plain-flattens-wrinkles",
-      "Plain projection leaves nothing of the depths that were inside: all lie on the surface.",
-      {{worst.value(), 1e-12, 0, "m", "points arrive within 1e-12 m of the surface"}, evidence(plain), ""}};
+  return {"wrinkle-preservation.plain-flattens-wrinkles",
+          "Plain projection leaves nothing of the depths that were inside: all lie on the surface.",
+          {{worst.value(), 1e-12, 0, "m", "points arrive within 1e-12 m of the surface"},
+           evidence(plain),
+           ""}};
 }
 
 /// The least slope of the blend, by which no two depths come closer than.
@@ -127,15 +131,16 @@ double least_slope(double reach) {
 NamedFinding blend_keeps_its_share(const AllKept& blend) {
   Worst worst;
   for (const auto& [name, kept] : blend)
-    for (size_t k = 0; k < kept.reach.size(); ++k) worst.observe(least_slope(kept.reach[k]) / kept.share[k]);
-  return {
-      "wrinkle-preservation.blend-keeps-a-share-of-depths",
-      "The blend leaves at least (tau - w/2)/(tau + t^ - w/2) of the deviation of depths that were inside.",
-      {{worst.value(), 1 + 1e-9, 0, "1",
-        "its slope is nowhere less, so that no two depths come closer than by that factor; 1e-9 for the "
-        "tolerance of 1e-12 m over deviations of a millimetre"},
-       evidence(blend),
-       "measured is that share over the one found"}};
+    for (size_t k = 0; k < kept.reach.size(); ++k)
+      worst.observe(least_slope(kept.reach[k]) / kept.share[k]);
+  return {"wrinkle-preservation.blend-keeps-a-share-of-depths",
+          "The blend leaves at least (tau - w/2)/(tau + t^ - w/2) of the deviation of depths that "
+          "were inside.",
+          {{worst.value(), 1 + 1e-9, 0, "1",
+            "its slope is nowhere less, so that no two depths come closer than by that factor; "
+            "1e-9 for the tolerance of 1e-12 m over deviations of a millimetre"},
+           evidence(blend),
+           "measured is that share over the one found"}};
 }
 
 /// Of the deeper half of the penetrations.
@@ -156,11 +161,11 @@ NamedFinding power_crushes_the_deep(const std::vector<SunkCloth>& sheets) {
     worst.observe(power.back() / blend.back());
   }
   return {"wrinkle-preservation.power-crushes-deep-wrinkles",
-          "With tau a fifth of the deepest penetration the power law leaves the deeper half of the wrinkles "
-          "less than a tenth of what the blend leaves.",
+          "With tau a fifth of the deepest penetration the power law leaves the deeper half of the "
+          "wrinkles less than a tenth of what the blend leaves.",
           {{worst.value(), 0.1, 0, "1",
-            "the power law's slope is at most (tau/(tau + t^)) p u^(p-1) = .0126 from the middle depth down, "
-            "with p = 6 and u = 5/12; the blend's is .1304 there"},
+            "the power law's slope is at most (tau/(tau + t^)) p u^(p-1) = .0126 from the middle "
+            "depth down, with p = 6 and u = 5/12; the blend's is .1304 there"},
            {{"over", "", names},
             {"share left by the power law", "1", power},
             {"share left by the blend", "1", blend}},
@@ -239,13 +244,14 @@ Curve circle(const std::string& label, double x, double radius) {
   return curve;
 }
 
-/// The signed distance that the projection follows where two balls overlap: inside, too shallow; between
-/// them, highest on the surface that is as deep in both.
+/// The signed distance that the projection follows where two balls overlap: inside, too shallow;
+/// between them, highest on the surface that is as deep in both.
 Map slice_of_union() {
   constexpr int across = 121, up = 81;
   const auto ball = [](double x, double radius) {
-    return Object{"ball", RigidObject{Sphere{radius}, {Eigen::Quaterniond::Identity(), {x, 0, 0}}, Motion{}},
-                  0};
+    return Object{
+        "ball", RigidObject{Sphere{radius}, {Eigen::Quaterniond::Identity(), {x, 0, 0}}, Motion{}},
+        0};
   };
   const std::vector<Object> balls = {ball(-0.15, 0.24), ball(0.17, 0.2)};
   Map map{"slice-of-phi",
@@ -258,9 +264,9 @@ Map slice_of_union() {
           "phi",
           "m",
           Scale::linear,
-          "A slice through the centres. Points inside both balls are pinched: N points out of the one in "
-          "which they are "
-          "deeper, and turns round across the surface between; the projection leaves them alone.",
+          "A slice through the centres. Points inside both balls are pinched: N points out of the "
+          "one in which they are deeper, and turns round across the surface between; the "
+          "projection leaves them alone.",
           {circle("first ball", -0.15, 0.24), circle("second ball", 0.17, 0.2)}};
   for (int i = 0; i < across; ++i) map.x_values.push_back(-0.45 + 0.9 * i / (across - 1));
   for (int k = 0; k < up; ++k) map.y_values.push_back(-0.3 + 0.6 * k / (up - 1));
@@ -274,7 +280,8 @@ StudyResult run_wrinkles_kept(const Subject&, Tier tier, const Progress& progres
   const TriangleMesh sheet = make_sheet({SheetPattern::one_diagonal, width, height, columns, rows});
   const std::vector<SunkCloth> sheets = sunk_sheets(sheet);
   std::vector<double> reaches;
-  for (double reach = deepest / 16; reach < 4.1 * deepest; reach *= tier == Tier::quick ? 2 : std::sqrt(2.0))
+  for (double reach = deepest / 16; reach < 4.1 * deepest;
+       reach *= tier == Tier::quick ? 2 : std::sqrt(2.0))
     reaches.push_back(reach);
 
   StudyResult result;
@@ -283,7 +290,8 @@ StudyResult run_wrinkles_kept(const Subject&, Tier tier, const Progress& progres
     AllKept all;
     for (const SunkCloth& cloth : sheets)
       all.emplace_back(cloth.name, measure_kept(cloth, std::string(map.name), reaches));
-    if (map.name != "plain") result.findings.push_back(wavelength_stays(std::string(map.name), all));
+    if (map.name != "plain")
+      result.findings.push_back(wavelength_stays(std::string(map.name), all));
     result.figures.push_back(before_and_after(sheets[1], map, 0.006));
     by_map.emplace_back(std::string(map.name), std::move(all));
     progress(double(by_map.size()) / double(depth_maps().size()));
@@ -299,15 +307,15 @@ StudyResult run_wrinkles_kept(const Subject&, Tier tier, const Progress& progres
 }  // namespace
 
 Study wrinkles_kept_study() {
-  return {
-      "wrinkle-preservation",
-      "Maps of depth keep the wrinkles that plain projection flattens; how much of them depends on tau.",
-      "BMF03 section 5.3, figure 2",
-      "Wrinkled strips lie half inside a half space, a ball and a torus, and are projected by each map over "
-      "a range of tau. Of the particles that were inside, the standard deviation of the signed distance is "
-      "compared before and after; the wavelength is where the spectrum of the distances along the strip's "
-      "middle is largest.",
-      run_wrinkles_kept};
+  return {"wrinkle-preservation",
+          "Maps of depth keep the wrinkles that plain projection flattens; how much of them "
+          "depends on tau.",
+          "BMF03 section 5.3, figure 2",
+          "Wrinkled strips lie half inside a half space, a ball and a torus, and are projected by "
+          "each map over a range of tau. Of the particles that were inside, the standard deviation "
+          "of the signed distance is compared before and after; the wavelength is where the "
+          "spectrum of the distances along the strip's middle is largest.",
+          run_wrinkles_kept};
 }
 
 }  // namespace foldproof

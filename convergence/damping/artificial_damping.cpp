@@ -1,5 +1,5 @@
-// artificial-damping: what a method takes from, or adds to, vibrations that nothing damps, mode by mode and
-// over a hundred periods.
+// artificial-damping: what a method takes from, or adds to, vibrations that nothing damps, mode by
+// mode and over a hundred periods.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,8 @@ namespace foldproof {
 
 namespace {
 
-constexpr std::array<double, 3> parts_of_limit = {1. / 4, 1. / 8, 1. / 16};  // steps over 2/omega_max
+// steps over 2/omega_max
+constexpr std::array<double, 3> parts_of_limit = {1. / 4, 1. / 8, 1. / 16};
 
 // ---- every mode against the derived factors
 
@@ -26,7 +27,8 @@ struct Response {
   std::vector<oracles::Factors> damped;  // at steps[1]
 };
 
-Response response_of(const Subject& subject, const VibratingSheet& sheet, const Integrator& method) {
+Response response_of(const Subject& subject, const VibratingSheet& sheet,
+                     const Integrator& method) {
   // damping ratios up to 0.3 across the plane and 0.12 in it, so that no mode is lost in 30 steps
   const double relaxation = 0.6 * sheet.limit / 2;
   Response response{method, {}, {}, {0.4 * relaxation, relaxation}, {}};
@@ -41,7 +43,8 @@ Response response_of(const Subject& subject, const VibratingSheet& sheet, const 
 NamedFinding as_derived(const VibratingSheet& sheet, const Response& response) {
   const std::string name(response.method.name);
   Worst worst;
-  Column omega_h{"omega h", "1", std::vector<double>{}}, ratios{"damping ratio", "1", std::vector<double>{}},
+  Column omega_h{"omega h", "1", std::vector<double>{}},
+      ratios{"damping ratio", "1", std::vector<double>{}},
       measured{"|factor|", "1", std::vector<double>{}},
       errors{"error of the factors", "1", std::vector<double>{}};
   const auto observe = [&](const SheetMode& mode, const Relaxation& relaxation, double h,
@@ -61,8 +64,11 @@ NamedFinding as_derived(const VibratingSheet& sheet, const Response& response) {
   }
   return {"artificial-damping.mode-factors-are-as-derived." + name,
           "A step of " + name +
-              " multiplies each vibration of a sheet, damped or not, by the factors derived from the method.",
-          {{worst.value(), factor_noise, 0, "1", why_factor_noise}, {omega_h, ratios, measured, errors}, ""}};
+              " multiplies each vibration of a sheet, damped or not, by the factors derived from "
+              "the method.",
+          {{worst.value(), factor_noise, 0, "1", why_factor_noise},
+           {omega_h, ratios, measured, errors},
+           ""}};
 }
 
 /// Powers of the step in what an undamped mode loses per period, by the expansion of |factor|.
@@ -81,15 +87,17 @@ std::vector<LossLaw> loss_laws() {
           {"BDF2", "lose (omega h)^3 pi/2 per period", 3}};
 }
 
-NamedFinding order_of_loss(const VibratingSheet& sheet, const Response& response, const LossLaw& law) {
-  const size_t fastest =
-      size_t(std::ranges::max_element(sheet.modes, {}, &SheetMode::frequency) - sheet.modes.begin());
+NamedFinding order_of_loss(const VibratingSheet& sheet, const Response& response,
+                           const LossLaw& law) {
+  const size_t fastest = size_t(std::ranges::max_element(sheet.modes, {}, &SheetMode::frequency) -
+                                sheet.modes.begin());
   Convergence losses;
   Worst shift;
   for (size_t s = 0; s < response.steps.size(); ++s) {
     const double h = response.steps[s];
     losses.steps.push_back(h);
-    losses.errors.push_back(std::abs(loss_per_period(sheet.modes[fastest], response.free[s][fastest], h)));
+    losses.errors.push_back(
+        std::abs(loss_per_period(sheet.modes[fastest], response.free[s][fastest], h)));
   }
   const Estimate deviation = order_deviation(losses, law.order, 1);
   std::vector<double> orders = pair_orders(losses);
@@ -97,8 +105,8 @@ NamedFinding order_of_loss(const VibratingSheet& sheet, const Response& response
   return {"artificial-damping.change-per-period-is-as-derived." + law.name,
           "Under " + law.name + " undamped vibrations " + law.words + ".",
           {{deviation.value, 0.25, deviation.uncertainty, "1",
-            "a loss of another power of the step is off by 2 (by 1 at least); at omega h = 1/8 the next term "
-            "of the expansion leaves some hundredths"},
+            "a loss of another power of the step is off by 2 (by 1 at least); at omega h = 1/8 the "
+            "next term of the expansion leaves some hundredths"},
            {{"step", "s", losses.steps},
             {"|change of amplitude per period|", "1", losses.errors},
             {"order of the pair", "1", orders}},
@@ -114,11 +122,13 @@ Curve loss_curve(const VibratingSheet& sheet, const Response& response) {
   for (size_t i = 0; i < sheet.modes.size(); ++i) {
     const double loss = loss_per_period(sheet.modes[i], response.free.front()[i], h);
     const double least = 2 * pi / (sheet.modes[i].frequency * h) * 1e-9;
-    points.emplace_back(sheet.modes[i].frequency * h, std::abs(loss) > least ? std::abs(loss) : nan);
+    points.emplace_back(sheet.modes[i].frequency * h,
+                        std::abs(loss) > least ? std::abs(loss) : nan);
     if (std::abs(loss) > least) grows.observe(-loss);
   }
   std::ranges::sort(points, {}, &std::pair<double, double>::first);
-  Curve curve{std::string(response.method.name) + (grows.value() > 0 ? ", grows" : ""), {}, {}, nan, {}};
+  Curve curve{
+      std::string(response.method.name) + (grows.value() > 0 ? ", grows" : ""), {}, {}, nan, {}};
   for (const auto& [omega_h, loss] : points) {
     curve.x.push_back(omega_h);
     curve.y.push_back(loss);
@@ -133,8 +143,8 @@ Figure loss_figure(const VibratingSheet& sheet, const std::vector<Response>& res
       {"omega h", "1", Scale::log},
       {"|change of amplitude| per period", "1", Scale::log},
       nan,
-      "Each marker is one mode of the sheet, at a step of a quarter of the elastic limit. A, B, C and the "
-      "implicit midpoint rule change no amplitude beyond 1e-9 a step, and are not drawn.",
+      "Each marker is one mode of the sheet, at a step of a quarter of the elastic limit. A, B, C "
+      "and the implicit midpoint rule change no amplitude beyond 1e-9 a step, and are not drawn.",
       {}};
   for (const Response& response : responses)
     for (const LossLaw& law : loss_laws())
@@ -144,15 +154,14 @@ Figure loss_figure(const VibratingSheet& sheet, const std::vector<Response>& res
 
 /// By how much the decay of damped modes differs from the exact one.
 Figure decay_figure(const VibratingSheet& sheet, const std::vector<Response>& responses) {
-  Figure figure{
-      "decay",
-      "Decay of damped vibrations",
-      {"omega h", "1", Scale::log},
-      {"|rate of decay over the exact one - 1|", "1", Scale::log},
-      nan,
-      "Bending modes of the sheet, at a step of an eighth of the elastic limit, damped in proportion to "
-      "their stiffness: the damping ratio is 1.2 omega h.",
-      {}};
+  Figure figure{"decay",
+                "Decay of damped vibrations",
+                {"omega h", "1", Scale::log},
+                {"|rate of decay over the exact one - 1|", "1", Scale::log},
+                nan,
+                "Bending modes of the sheet, at a step of an eighth of the elastic limit, damped "
+                "in proportion to their stiffness: the damping ratio is 1.2 omega h.",
+                {}};
   for (const Response& response : responses) {
     Curve curve{std::string(response.method.name), {}, {}, nan, {}};
     const double h = response.steps[1];
@@ -174,7 +183,8 @@ void add_responses(const Subject& subject, const VibratingSheet& sheet, StudyRes
     responses.push_back(response_of(subject, sheet, method));
     result.findings.push_back(as_derived(sheet, responses.back()));
     for (const LossLaw& law : loss_laws())
-      if (law.name == method.name) result.findings.push_back(order_of_loss(sheet, responses.back(), law));
+      if (law.name == method.name)
+        result.findings.push_back(order_of_loss(sheet, responses.back(), law));
   }
   result.figures.push_back(loss_figure(sheet, responses));
   result.figures.push_back(decay_figure(sheet, responses));
@@ -195,14 +205,15 @@ StudyResult run_artificial_damping(const Subject& subject, Tier tier, const Prog
 }  // namespace
 
 Study artificial_damping_study() {
-  return {"artificial-damping",
-          "Schemes A, B and C damp only what is damped; backward Euler damps every vibration, the faster the "
-          "more.",
-          "BMF03 section 3",
-          "All vibrations of a flat, free sheet are excited at once, and what a step of each method makes of "
-          "each of them is held against the factor derived from the method. Then a crumpling sheet vibrates "
-          "for a hundred periods of its slowest mode: does its energy have a trend?",
-          run_artificial_damping};
+  return {
+      "artificial-damping",
+      "Schemes A, B and C damp only what is damped; backward Euler damps every vibration, the "
+      "faster the more.",
+      "BMF03 section 3",
+      "All vibrations of a flat, free sheet are excited at once, and what a step of each method "
+      "makes of each of them is held against the factor derived from the method. Then a crumpling "
+      "sheet vibrates for a hundred periods of its slowest mode: does its energy have a trend?",
+      run_artificial_damping};
 }
 
 }  // namespace foldproof

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double runaway = 1e9;
 
-/// Coordinates of a state along fixed directions: sum over particles of weights . (x - x0) and of weights .
-/// v.
+/// Coordinates of a state along fixed directions: sum over particles of weights . (x - x0) and
+/// of weights . v.
 struct Coordinates {
   PerParticle3 start;                 // x0, 3 x N [m]
   std::vector<PerParticle3> weights;  // 3 x N each
@@ -46,7 +46,8 @@ void measure_by(const Coordinates& coordinates, DampedMotion& motion) {
 
 Vector3 row3(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
 
-/// Total change of the hinge's angle [rad], by an oracle that integrates until e^-40 of the motion is left.
+/// Total change of the hinge's angle [rad], by an oracle that integrates until e^-40 of the
+/// motion is left.
 double whole_fold(const DampedMotion& motion) {
   const ExactEnd end = exact_end(motion.scene, oracle_of(motion.scene), 40 / motion.rate, 1e-11);
   return hinge_angles(motion.scene.mesh, end.state.x).front() -
@@ -56,7 +57,8 @@ double whole_fold(const DampedMotion& motion) {
 }  // namespace
 
 DampedMotion expanding_triangle() {
-  constexpr double edge = 0.37, density = 0.19, damping = 0.013, path_length = 1e-6;  // m, kg/m^2, N s/m, m
+  // m, kg/m^2, N s/m, m
+  constexpr double edge = 0.37, density = 0.19, damping = 0.013, path_length = 1e-6;
   const double radius = edge / std::sqrt(3.0);
   PerParticle3 rest(3, 3), outward(3, 3);
   for (int i = 0; i < 3; ++i) {
@@ -84,7 +86,8 @@ DampedMotion expanding_triangle() {
 }
 
 DampedMotion folding_hinge() {
-  constexpr double length = 0.23, density = 0.31, damping = 0.0017, spring_damping = 0.011, fold = 0.8;
+  constexpr double length = 0.23, density = 0.31, damping = 0.0017, spring_damping = 0.011,
+                   fold = 0.8;
   const TriangleMesh mesh = make_hinge(length, -0.35);
   DampedMotion motion{"hinge", "a folding hinge", scene_at_rest(mesh, density), 0, {}, {}, {}};
   Scene& scene = motion.scene;
@@ -93,7 +96,8 @@ DampedMotion folding_hinge() {
   scene.rest_angles = {0};
   scene.solver.tolerance = 1e-11;
 
-  // v = -s M^{-1} u turns the angle at the rate s sum |u_i|^2/m_i, damped at the rate kd |E| sum |u_i|^2/m_i
+  // v = -s M^{-1} u turns the angle at the rate s sum |u_i|^2/m_i, damped at the rate kd |E|
+  // sum |u_i|^2/m_i
   const PerParticle mass = lumped_masses(mesh, density);
   const Eigen::Matrix<double, 3, 4> mode =
       bending_mode(hinge_shape(scene.x.col(0), scene.x.col(1), scene.x.col(2), scene.x.col(3)));
@@ -119,7 +123,8 @@ DampedMotion folding_hinge() {
 }
 
 DampedMotion sheet_in_plane(int cells) {
-  constexpr double relaxation = 0.011, path_length = 1e-9;  // s, kg^1/2 m of every mode's coordinate
+  // s, kg^1/2 m of every mode's coordinate
+  constexpr double relaxation = 0.011, path_length = 1e-9;
   const Scene elastic = sheet_at_rest(cells, {relaxation, 0});
   DampedMotion motion{"sheet", "a sheet", elastic, 0, {}, {}, {}};
   Scene& scene = motion.scene;
@@ -156,8 +161,8 @@ DampedMotion sheet_in_plane(int cells) {
   return motion;
 }
 
-DampedRun run_damped(const Subject& subject, const DampedMotion& motion, std::string_view method, double a,
-                     int steps) {
+DampedRun run_damped(const Subject& subject, const DampedMotion& motion, std::string_view method,
+                     double a, int steps) {
   const double h = 2 * a / motion.rate;
   Stepper stepper(subject, motion.scene, std::string(method));
   std::vector<State> past = {stepper.start()};
@@ -167,7 +172,8 @@ DampedRun run_damped(const Subject& subject, const DampedMotion& motion, std::st
   const auto record = [&] {
     run.progress.push_back(motion.progress(past.back()));
     run.speed.push_back(motion.speed(past.back()));
-    run.kinetic_energy.push_back(past.back().v.colwise().squaredNorm().dot(mass.transpose()) / start);
+    run.kinetic_energy.push_back(past.back().v.colwise().squaredNorm().dot(mass.transpose()) /
+                                 start);
     return std::ranges::all_of(run.progress.back(), [](double p) { return std::abs(p) < runaway; });
   };
   record();

@@ -1,5 +1,5 @@
-// Motions that damping alone brings to rest, whose way is known: a triangle that expands, a hinge that folds,
-// a sheet in which every damped mode moves.
+// Motions that damping alone brings to rest, whose way is known: a triangle that expands, a hinge
+// that folds, a sheet in which every damped mode moves.
 #pragma once
 
 #include <functional>
@@ -15,44 +15,48 @@ namespace foldproof {
 struct DampedMotion {
   std::string name, words;
   Scene scene;
-  double rate;                                                // c, of the fastest coordinate [1/s]
-  std::function<State(double t)> exact;                       // at t [s] > 0
-  std::function<std::vector<double>(const State&)> progress;  // of each coordinate over its whole way [1]
-  std::function<std::vector<double>(const State&)> speed;     // of each coordinate over that at the start [1]
+  double rate;                           // c, of the fastest coordinate [1/s]
+  std::function<State(double t)> exact;  // at t [s] > 0
+  // of each coordinate over its whole way [1]
+  std::function<std::vector<double>(const State&)> progress;
+  // of each coordinate over that at the start [1]
+  std::function<std::vector<double>(const State&)> speed;
 };
 
-/// An equilateral triangle of damped edges, expanding evenly: its directions never change, so that the motion
-/// is linear, with c = 9 kd/(density L^2).
+/// An equilateral triangle of damped edges, expanding evenly: its directions never change, so that
+/// the motion is linear, with c = 9 kd/(density L^2).
 DampedMotion expanding_triangle();
 
-/// A hinge of damped angle and damped edges that folds by about 0.8 rad: not linear. Its way is GSL's; its
-/// exact motion passes its place of rest by 0.4 % and returns.
+/// A hinge of damped angle and damped edges that folds by about 0.8 rad: not linear. Its way is
+/// GSL's; its exact motion passes its place of rest by 0.4 % and returns.
 DampedMotion folding_hinge();
 
-/// A flat sheet of damped springs; a coordinate is a mode of vibration that stiffness as large as the damping
-/// would have, and as such a mode of the damping.
+/// A flat sheet of damped springs; a coordinate is a mode of vibration that stiffness as large as
+/// the damping would have, and as such a mode of the damping.
 DampedMotion sheet_in_plane(int cells);
 
 struct DampedMotions {
   DampedMotion triangle, hinge, sheet;
 };
 
-/// Progress and speed of all coordinates, and the energy, after each step from the start: a row a step.
+/// Progress and speed of all coordinates, and the energy, after each step from the
+/// start: a row a step.
 struct DampedRun {
   std::vector<std::vector<double>> progress, speed;
   std::vector<double> kinetic_energy;  // over that at the start [1]
   Work work;
 };
 
-/// Steps with h = 2 a/c. BDF2 gets the exact state after its first step, so that it is judged and not the
-/// method that starts it. A run ends early when a coordinate passes 1e9, or is NaN.
-DampedRun run_damped(const Subject& subject, const DampedMotion& motion, std::string_view method, double a,
-                     int steps);
+/// Steps with h = 2 a/c. BDF2 gets the exact state after its first step, so that it is judged and
+/// not the method that starts it. A run ends early when a coordinate passes 1e9, or is NaN.
+DampedRun run_damped(const Subject& subject, const DampedMotion& motion, std::string_view method,
+                     double a, int steps);
 
 /// The largest progress of any coordinate: 1 when nothing overshoots (with signs; NaN if any is).
 double largest_progress(const DampedRun& run);
 
-/// How far any coordinate has turned back at most, over its whole way; 0 when its progress never falls.
+/// How far any coordinate has turned back at most, over its whole way; 0 when its
+/// progress never falls.
 double largest_reversal(const DampedRun& run);
 
 /// Turning back or overshooting, whatever is worse, over the whole way.
@@ -60,7 +64,8 @@ double worst_overshoot_or_reversal(const DampedRun& run);
 
 /// What was measured of some motions at some steps, for a table of evidence.
 struct MotionRows {
-  Column motion{"motion", "1", std::vector<std::string>{}}, a{"h c/2", "1", std::vector<double>{}}, value;
+  Column motion{"motion", "1", std::vector<std::string>{}}, a{"h c/2", "1", std::vector<double>{}},
+      value;
 
   MotionRows(const std::string& quantity, const std::string& unit)
       : value{quantity, unit, std::vector<double>{}} {}

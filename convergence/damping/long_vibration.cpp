@@ -56,13 +56,15 @@ struct Run {
   bool whole;                  // it reached the end
 };
 
-/// Evaluations of all elastic forces, or of as much work: making ready their derivative, a product with it.
+/// Evaluations of all elastic forces, or of as much work: making ready their derivative, a
+/// product with it.
 double evaluations(const Work& work) {
   return double(work.elastic_evaluations + work.stiffness_preparations + work.stiffness_products);
 }
 
 /// Kinetic and elastic energy [J].
-double energy_of(const Subject& subject, PreparedScene& prepared, const PerParticle& mass, const State& s) {
+double energy_of(const Subject& subject, PreparedScene& prepared, const PerParticle& mass,
+                 const State& s) {
   const double kinetic = s.v.colwise().squaredNorm().dot(mass.transpose()) / 2;
   return kinetic + require_offered(subject.potential_energy, "potential_energy")(prepared, s);
 }
@@ -95,13 +97,15 @@ Run run_of(const Subject& subject, const Vibration& vibration, const std::string
 constexpr double stride = 1.25;  // by which the search changes its step
 
 /// The first periods, as many as tell the cost of a step.
-Run first_periods(const Subject& subject, const Vibration& vibration, const std::string& method, double h) {
+Run first_periods(const Subject& subject, const Vibration& vibration, const std::string& method,
+                  double h) {
   return run_of(subject, vibration, method, h, std::max(2.0, 20 * h / vibration.period));
 }
 
-/// The step [s] nearest to half the elastic limit, longer than it or shorter, between which and the next
-/// `cost` evaluations a period are crossed. Where `patience` longer steps in turn are no cheaper than the
-/// cheapest before them, or a solve does not finish, there is no such step, and that one is taken.
+/// The step [s] nearest to half the elastic limit, longer than it or shorter, between which and the
+/// next `cost` evaluations a period are crossed. Where `patience` longer steps in turn are no
+/// cheaper than the cheapest before them, or a solve does not finish, there is no such step, and
+/// that one is taken.
 struct Bracket {
   double step, next;  // s; equal if there is no crossing
 };
@@ -124,8 +128,8 @@ Bracket bracket_of(const Subject& subject, const Vibration& vibration, const std
   return {best, best};
 }
 
-double step_of_equal_cost(const Subject& subject, const Vibration& vibration, const std::string& method,
-                          double cost) {
+double step_of_equal_cost(const Subject& subject, const Vibration& vibration,
+                          const std::string& method, double cost) {
   auto [h, next] = bracket_of(subject, vibration, method, cost);
   const bool longer = next > h;
   for (int i = 0; h != next && i < 5; ++i) {
@@ -144,41 +148,42 @@ NamedFinding has_no_trend(const Run& run) {
           "Over a hundred periods the energy of an undamped crumpling sheet has no trend under " +
               run.method + ": its slope is zero within three standard errors.",
           {{std::abs(trend.slope) / trend.error, 3, 0, "standard errors",
-            "20 blocks of five periods, their spread corrected for what neighbours have in common: without a "
-            "trend three standard errors are exceeded once in a hundred runs"},
+            "20 blocks of five periods, their spread corrected for what neighbours have in common: "
+            "without a trend three standard errors are exceeded once in a hundred runs"},
            {{"block", "periods", trend.times}, {"mean energy", "of the start's", trend.means}},
            "The slope is " + std::to_string(trend.slope * periods) + " +- " +
                std::to_string(trend.error * periods) +
-               " of the energy in a hundred periods; three times the error is "
-               "the smallest trend that this notices."}};
+               " of the energy in a hundred periods; three times the error is the smallest trend "
+               "that this notices."}};
 }
 
 NamedFinding stays_bounded(const Run& run) {
-  // a mode keeps p^2 + (1 - (omega h/2)^2) (omega q)^2, which lies between 1 - (omega h/2)^2 and 1 of its
-  // energy
+  // a mode keeps p^2 + (1 - (omega h/2)^2) (omega q)^2, which lies between 1 - (omega h/2)^2 and
+  // 1 of its energy
   const double kept = 1 - part_of_limit * part_of_limit;
   Worst worst;
   for (const double energy : run.energy) worst.observe(std::abs(std::log(energy)));
-  return {
-      "artificial-damping.energy-stays-bounded." + run.method,
-      "Over a hundred periods the energy of an undamped crumpling sheet stays within what the fastest mode's "
-      "swings allow under " +
-          run.method + ".",
-      {{run.whole ? worst.value() : nan, -std::log(kept), 0, "|ln(energy/start)|",
-        "a linear mode's energy lies between 1 and 1 - (omega h/2)^2 of a number that the scheme keeps; "
-        "omega h/2 is at most a half"},
-       {{"time", "periods", thin_out(run.time)}, {"energy", "of the start's", thin_out(run.energy)}},
-       ""}};
+  return {"artificial-damping.energy-stays-bounded." + run.method,
+          "Over a hundred periods the energy of an undamped crumpling sheet stays within what the "
+          "fastest mode's swings allow under " +
+              run.method + ".",
+          {{run.whole ? worst.value() : nan, -std::log(kept), 0, "|ln(energy/start)|",
+            "a linear mode's energy lies between 1 and 1 - (omega h/2)^2 of a number that the "
+            "scheme keeps; omega h/2 is at most a half"},
+           {{"time", "periods", thin_out(run.time)},
+            {"energy", "of the start's", thin_out(run.energy)}},
+           ""}};
 }
 
 NamedFinding dies_out(const Run& run) {
-  return {
-      "artificial-damping.energy-dies-out.backward-euler",
-      "Backward Euler takes more than half the energy of an undamped sheet within a hundred periods at half "
-      "the elastic limit.",
-      {{run.energy.back(), 0.5, 0, "of the start's energy", "half of the energy is what we call significant"},
-       {{"time", "periods", thin_out(run.time)}, {"energy", "of the start's", thin_out(run.energy)}},
-       ""}};
+  return {"artificial-damping.energy-dies-out.backward-euler",
+          "Backward Euler takes more than half the energy of an undamped sheet within a hundred "
+          "periods at half the elastic limit.",
+          {{run.energy.back(), 0.5, 0, "of the start's energy",
+            "half of the energy is what we call significant"},
+           {{"time", "periods", thin_out(run.time)},
+            {"energy", "of the start's", thin_out(run.energy)}},
+           ""}};
 }
 
 /// Means over equal spans of a curve of many steps, so that it can be read; a short one as it is.
@@ -210,7 +215,8 @@ Figure energy_figure(const std::string& name, const std::string& title, const st
 
 Table energy_table(const Vibration& vibration, const std::vector<Run>& same_step,
                    const std::vector<Run>& same_cost) {
-  Column method{"method", "1", std::vector<std::string>{}}, kind{"equal", "1", std::vector<std::string>{}},
+  Column method{"method", "1", std::vector<std::string>{}},
+      kind{"equal", "1", std::vector<std::string>{}},
       step{"step over 2/omega_max", "1", std::vector<double>{}},
       cost{"evaluations", "a period", std::vector<double>{}},
       lasted{"lasted", "periods", std::vector<double>{}},
@@ -227,8 +233,8 @@ Table energy_table(const Vibration& vibration, const std::vector<Run>& same_step
       std::get<0>(energy.values).push_back(run.energy.back());
     }
   return {"energy",
-          "Energy of an undamped sheet after a hundred periods, at equal step and at a step chosen for equal "
-          "cost",
+          "Energy of an undamped sheet after a hundred periods, at equal step and at a step chosen "
+          "for equal cost",
           {method, kind, step, cost, lasted, energy, unfinished}};
 }
 
@@ -253,18 +259,19 @@ void add_long_vibrations(const Subject& subject, Tier tier, StudyResult& result)
     const double step = step_of_equal_cost(subject, vibration, name, same_step.front().cost);
     same_cost.push_back(run_of(subject, vibration, name, step, periods));
   }
-  result.figures.push_back(energy_figure("energy-at-equal-step", "Energy of an undamped sheet, equal step",
-                                         "Means over two periods; all steps are half the elastic limit. "
-                                         "Curves that end have left the picture: upwards "
-                                         "when the energy passed ten times the start's.",
-                                         same_step));
-  result.figures.push_back(energy_figure(
-      "energy-at-equal-cost", "Energy of an undamped sheet, equal cost",
-      "As above, with each method's step chosen such that it makes as many evaluations of the forces, or "
-      "products with their derivative, as scheme A does at half the elastic limit: the step nearest to A's, "
-      "judged by the first periods. The table has the cost of the whole run; a method that longer steps make "
-      "no cheaper before it is as cheap as A stays at the cheapest of them.",
-      same_cost));
+  result.figures.push_back(
+      energy_figure("energy-at-equal-step", "Energy of an undamped sheet, equal step",
+                    "Means over two periods; all steps are half the elastic limit. Curves that end "
+                    "have left the picture: upwards when the energy passed ten times the start's.",
+                    same_step));
+  result.figures.push_back(
+      energy_figure("energy-at-equal-cost", "Energy of an undamped sheet, equal cost",
+                    "As above, with each method's step chosen such that it makes as many "
+                    "evaluations of the forces, or products with their derivative, as scheme A "
+                    "does at half the elastic limit: the step nearest to A's, judged by the first "
+                    "periods. The table has the cost of the whole run; a method that longer steps "
+                    "make no cheaper before it is as cheap as A stays at the cheapest of them.",
+                    same_cost));
   result.tables.push_back(energy_table(vibration, same_step, same_cost));
 }
 

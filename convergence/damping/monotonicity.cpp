@@ -1,4 +1,5 @@
-// monotonicity: how motions come to rest that damping alone brings there, in steps far longer than they last.
+// monotonicity: how motions come to rest that damping alone brings there, in steps far longer
+// than they last.
 #include <cmath>
 #include <limits>
 
@@ -13,12 +14,12 @@ namespace {
 
 constexpr double rounding = 1e-8;  // of the way
 constexpr const char* why_rounding =
-    "the way is a millionth of the triangle's size, so that each of up to 500 steps rounds by some 1e-10 of "
-    "it; in nothing else does a linear motion differ from the derived one";
+    "the way is a millionth of the triangle's size, so that each of up to 500 steps rounds by some "
+    "1e-10 of it; in nothing else does a linear motion differ from the derived one";
 constexpr double turning = 1e-5;  // of the way
 constexpr const char* why_turning =
-    "the ways on the sheet are nanometres, to which positions are rounded by 1e-8, and which leave 1e-7 of "
-    "nonlinearity; a method that overshoots does so by a good part of the way";
+    "the ways on the sheet are nanometres, to which positions are rounded by 1e-8, and which leave "
+    "1e-7 of nonlinearity; a method that overshoots does so by a good part of the way";
 
 // ---- the derived ways of schemes A, B and C (pure damping, r = (1 - a)/(1 + a) a step)
 
@@ -53,11 +54,12 @@ NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& m
     std::get<0>(firsts.values).push_back(first);
     std::get<0>(totals.values).push_back(total);
   }
-  return {
-      "monotonicity.distance-is-as-derived." + scheme,
-      "Under scheme " + scheme + " a motion that is only damped goes " + ways_in_words(scheme) +
-          ", a = h c/2.",
-      {{worst.value(), rounding, 0, "of (1 + a^2) times the way", why_rounding}, {as, firsts, totals}, ""}};
+  return {"monotonicity.distance-is-as-derived." + scheme,
+          "Under scheme " + scheme + " a motion that is only damped goes " + ways_in_words(scheme) +
+              ", a = h c/2.",
+          {{worst.value(), rounding, 0, "of (1 + a^2) times the way", why_rounding},
+           {as, firsts, totals},
+           ""}};
 }
 
 // ---- scheme A
@@ -72,8 +74,8 @@ NamedFinding overshoots(const Subject& subject, const DampedMotions& motions) {
     rows.add(*motion, a, wrong);
   }
   return {"monotonicity.overshoots.A",
-          "Scheme A is not monotone: at h c/2 = 10 its explicit half step throws the cloth back by more than "
-          "a hundred times the way that it should go.",
+          "Scheme A is not monotone: at h c/2 = 10 its explicit half step throws the cloth back by "
+          "more than a hundred times the way that it should go.",
           {{worst.value(), 1, 0, "1",
             "measured is a hundred over the way back; derived are 2a(a - 1) = 180 in one step"},
            rows.columns(),
@@ -91,19 +93,21 @@ NamedFinding is_stable(const Subject& subject, const DampedMotions& motions) {
       worst.observe(largest.value());
       rows.add(*motion, a, largest.value());
     }
-  return {"monotonicity.stable-under-any-damping.A",
-          "Scheme A is stable under damping however large: linear motions never have more kinetic energy "
-          "than at the start.",
-          {{worst.value(), 1, 0, "of the start's energy",
-            "each step multiplies the speed of a mode by (1 - a)/(1 + a), whose size is below 1"},
-           rows.columns(),
-           "Judged in the energy of all modes together: thrown twenty thousand ways off (2 a^2 at a = 100), "
-           "the fast modes leak into the slow ones, since the sheet is not quite linear."}};
+  return {
+      "monotonicity.stable-under-any-damping.A",
+      "Scheme A is stable under damping however large: linear motions never have more kinetic "
+      "energy than at the start.",
+      {{worst.value(), 1, 0, "of the start's energy",
+        "each step multiplies the speed of a mode by (1 - a)/(1 + a), whose size is below 1"},
+       rows.columns(),
+       "Judged in the energy of all modes together: thrown twenty thousand ways off (2 a^2 at a = "
+       "100), the fast modes leak into the slow ones, since the sheet is not quite linear."}};
 }
 
 // ---- schemes B and C
 
-NamedFinding is_bounded(const Subject& subject, const DampedMotions& motions, const std::string& scheme) {
+NamedFinding is_bounded(const Subject& subject, const DampedMotions& motions,
+                        const std::string& scheme) {
   Worst worst;
   MotionRows rows("farthest", "ways");
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
@@ -112,15 +116,18 @@ NamedFinding is_bounded(const Subject& subject, const DampedMotions& motions, co
       worst.observe(far);
       rows.add(*motion, a, far);
     }
-  return {"monotonicity.overshoot-is-bounded." + scheme,
-          "Scheme " + scheme +
-              " overshoots a linear motion by no more than the way itself, however large the damping.",
-          {{worst.value(), 2, 0, "ways", "derived: the farthest is 2a/(1 + a) of the way, in the first step"},
-           rows.columns(),
-           ""}};
+  return {
+      "monotonicity.overshoot-is-bounded." + scheme,
+      "Scheme " + scheme +
+          " overshoots a linear motion by no more than the way itself, however large the damping.",
+      {{worst.value(), 2, 0, "ways",
+        "derived: the farthest is 2a/(1 + a) of the way, in the first step"},
+       rows.columns(),
+       ""}};
 }
 
-NamedFinding alternates(const Subject& subject, const DampedMotions& motions, const std::string& scheme) {
+NamedFinding alternates(const Subject& subject, const DampedMotions& motions,
+                        const std::string& scheme) {
   double kept = 0;
   MotionRows rows("steps that keep the direction", "of 8");
   for (const double a : {1.6, 4.3, 10.0, 25.0}) {
@@ -133,8 +140,8 @@ NamedFinding alternates(const Subject& subject, const DampedMotions& motions, co
   }
   return {"monotonicity.velocity-alternates." + scheme,
           "Scheme " + scheme +
-              " is not monotone in the strict sense: for h c/2 > 1 the velocity changes its sign in "
-              "every step.",
+              " is not monotone in the strict sense: for h c/2 > 1 the velocity changes its sign "
+              "in every step.",
           {{kept, 0, 0, "steps", "derived: a step multiplies the velocity by (1 - a)/(1 + a) < 0"},
            rows.columns(),
            ""}};
@@ -157,7 +164,8 @@ NamedFinding monotone_below_one(const Subject& subject, const DampedMotions& mot
 
 // ---- fully implicit methods
 
-NamedFinding is_monotone(const Subject& subject, const DampedMotions& motions, const std::string& method) {
+NamedFinding is_monotone(const Subject& subject, const DampedMotions& motions,
+                         const std::string& method) {
   Worst worst;
   MotionRows rows("overshoot or way back", "ways");
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
@@ -166,14 +174,14 @@ NamedFinding is_monotone(const Subject& subject, const DampedMotions& motions, c
       worst.observe(wrong);
       rows.add(*motion, a, wrong);
     }
-  return {
-      "monotonicity.monotone." + method,
-      "Linear motions are monotone at any step under " + method + ": nothing overshoots, nothing turns back.",
-      {{worst.value(), turning, 0, "of the way", why_turning}, rows.columns(), ""}};
+  return {"monotonicity.monotone." + method,
+          "Linear motions are monotone at any step under " + method +
+              ": nothing overshoots, nothing turns back.",
+          {{worst.value(), turning, 0, "of the way", why_turning}, rows.columns(), ""}};
 }
 
-/// The farthest that BDF2 gets from two exact values of v' = -c v: its recurrence on v, with x = (1 - v) of
-/// the way, since it keeps v + c x exactly.
+/// The farthest that BDF2 gets from two exact values of v' = -c v: its recurrence on v, with x =
+/// (1 - v) of the way, since it keeps v + c x exactly.
 double farthest_by_bdf2(double a, int steps) {
   double before = 1, now = std::exp(-2 * a);
   Worst largest;
@@ -196,13 +204,16 @@ std::vector<NamedFinding> bdf2_findings(const Subject& subject, const DampedMoti
     error.observe(std::abs(far - farthest_by_bdf2(a, 30)));
     rows.add(motions.triangle, a, far);
   }
-  return {{"monotonicity.overshoots.BDF2",
-           "BDF2, started exactly, is not monotone at large steps: it overshoots by more than a hundredth of "
-           "the way.",
-           {{least.value(), 1, 0, "1", "measured is a hundredth over the overshoot"}, rows.columns(), ""}},
-          {"monotonicity.distance-is-as-derived.BDF2",
-           "BDF2, started exactly, overshoots as its recurrence says, by a tenth of the way at most.",
-           {{error.value(), rounding, 0, "of the way", why_rounding}, rows.columns(), ""}}};
+  return {
+      {"monotonicity.overshoots.BDF2",
+       "BDF2, started exactly, is not monotone at large steps: it overshoots by more than a "
+       "hundredth of the way.",
+       {{least.value(), 1, 0, "1", "measured is a hundredth over the overshoot"},
+        rows.columns(),
+        ""}},
+      {"monotonicity.distance-is-as-derived.BDF2",
+       "BDF2, started exactly, overshoots as its recurrence says, by a tenth of the way at most.",
+       {{error.value(), rounding, 0, "of the way", why_rounding}, rows.columns(), ""}}};
 }
 
 StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& progress) {
@@ -221,7 +232,8 @@ StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& 
   progress(0.3);
   for (const std::string method : {"backward-euler", "linear-backward-euler"})
     result.findings.push_back(is_monotone(subject, motions, method));
-  for (NamedFinding& finding : bdf2_findings(subject, motions)) result.findings.push_back(std::move(finding));
+  for (NamedFinding& finding : bdf2_findings(subject, motions))
+    result.findings.push_back(std::move(finding));
   add_nonlinear_hinge(subject, motions.hinge, result);
   progress(0.6);
   result.figures = monotonicity_figures(subject, motions, tier);
@@ -235,13 +247,13 @@ StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& 
 
 Study monotonicity_study() {
   return {"monotonicity",
-          "In steps far longer than the damping's time A overshoots without bound, B and C by the way itself "
-          "at most, though they swing; backward Euler alone is monotone.",
+          "In steps far longer than the damping's time A overshoots without bound, B and C by the "
+          "way itself at most, though they swing; backward Euler alone is monotone.",
           "BMF03 section 3",
-          "Three motions that damping alone brings to rest: a triangle that expands (linear, known exactly), "
-          "a hinge that folds (nonlinear, known by an oracle), a sheet whose modes all move. How far does "
-          "each method go over the way, and does it turn back? c is the damping rate of the fastest motion, "
-          "h the step.",
+          "Three motions that damping alone brings to rest: a triangle that expands (linear, known "
+          "exactly), a hinge that folds (nonlinear, known by an oracle), a sheet whose modes all "
+          "move. How far does each method go over the way, and does it turn back? c is the damping "
+          "rate of the fastest motion, h the step.",
           run_monotonicity};
 }
 

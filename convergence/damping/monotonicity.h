@@ -17,22 +17,24 @@ void add_nonlinear_hinge(const Subject& subject, const DampedMotion& hinge, Stud
 /// Adds findings, figures and a table to the study monotonicity.
 void add_overdamped(const Subject& subject, Tier tier, StudyResult& result);
 
-// Motions to rest against stiffness that damping outweighs: a sheet in all its modes, a hinge that closes
-// far.
+// Motions to rest against stiffness that damping outweighs: a sheet in all its modes, a hinge
+// that closes far.
 
-/// A flat, free sheet with springs and hinges, every mode of which is damped more than four times critically.
-/// Each starts displaced by its way and moving towards rest, so that half of the way decays at its fast rate
-/// and half at its slow one: positions and velocities both fall without a turn. rate: the fastest mode's c.
+/// A flat, free sheet with springs and hinges, every mode of which is damped more than four times
+/// critically. Each starts displaced by its way and moving towards rest, so that half of the way
+/// decays at its fast rate and half at its slow one: positions and velocities both fall without a
+/// turn. rate: the fastest mode's c.
 DampedMotion overdamped_sheet(int cells);
 
-/// A hinge bent by nearly two radians beyond its rest angle, one triangle of which is held, let go; springs
-/// and hinge overdamped. Not linear. Its way is that back to the rest angle, and its speed is over way times
-/// rate.
+/// A hinge bent by nearly two radians beyond its rest angle, one triangle of which is held, let go;
+/// springs and hinge overdamped. Not linear. Its way is that back to the rest angle, and its speed
+/// is over way times rate.
 DampedMotion closing_hinge();
 
 // What the study of monotonicity shows.
 
 /// First steps and histories of the triangle, histories of the hinge, overshoot on the sheet.
-std::vector<Figure> monotonicity_figures(const Subject& subject, const DampedMotions& motions, Tier tier);
+std::vector<Figure> monotonicity_figures(const Subject& subject, const DampedMotions& motions,
+                                         Tier tier);
 
 }  // namespace foldproof

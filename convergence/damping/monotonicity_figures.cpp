@@ -12,7 +12,8 @@ constexpr double least_shown = 1e-6;  // of the way
 
 std::vector<double> ratios(double from, double to, int count) {
   std::vector<double> list;
-  for (int i = 0; i < count; ++i) list.push_back(from * std::pow(to / from, double(i) / (count - 1)));
+  for (int i = 0; i < count; ++i)
+    list.push_back(from * std::pow(to / from, double(i) / (count - 1)));
   return list;
 }
 
@@ -22,15 +23,16 @@ Figure first_step_figure(const Subject& subject, const DampedMotions& motions) {
                 {"h c/2", "1", Scale::log},
                 {"|first step| over the whole way", "1", Scale::log},
                 nan,
-                "The exact motion goes 1 - exp(-h c) of its way. Above h c/2 = 1 the steps of A and RK2 lead "
-                "backwards. BDF2 is left out: its first step is another method's.",
+                "The exact motion goes 1 - exp(-h c) of its way. Above h c/2 = 1 the steps of A "
+                "and RK2 lead backwards. BDF2 is left out: its first step is another method's.",
                 {}};
   const std::vector<double> as = ratios(0.05, 40, 16);
   for (const Integrator& method : integrators()) {
     if (method.history > 1) continue;
     Curve curve{std::string(method.name), as, {}, nan, {}};
     for (const double a : as)
-      curve.y.push_back(std::abs(run_damped(subject, motions.triangle, method.name, a, 1).progress[1][0]));
+      curve.y.push_back(
+          std::abs(run_damped(subject, motions.triangle, method.name, a, 1).progress[1][0]));
     figure.curves.push_back(std::move(curve));
   }
   Curve exact{"exact", as, {}, nan, {}};
@@ -42,15 +44,14 @@ Figure first_step_figure(const Subject& subject, const DampedMotions& motions) {
 constexpr double shown_a = 10;
 
 Figure distance_figure(const Subject& subject, const DampedMotions& motions) {
-  Figure figure{
-      "distance",
-      "A damped motion at h c/2 = 10",
-      {"step", "1", Scale::linear},
-      {"distance from the exact place of rest, over the way", "1", Scale::log},
-      nan,
-      "The exact motion is over before the first step ends. Explicit methods are unstable here; A comes to "
-      "rest a hundred ways off.",
-      {}};
+  Figure figure{"distance",
+                "A damped motion at h c/2 = 10",
+                {"step", "1", Scale::linear},
+                {"distance from the exact place of rest, over the way", "1", Scale::log},
+                nan,
+                "The exact motion is over before the first step ends. Explicit methods are "
+                "unstable here; A comes to rest a hundred ways off.",
+                {}};
   for (const Integrator& method : integrators()) {
     Curve curve{std::string(method.name), {}, {}, nan, {}};
     const DampedRun run = run_damped(subject, motions.triangle, method.name, shown_a, 24);
@@ -71,16 +72,17 @@ struct Shown {
 };
 
 Shown shown_of_triangle() {
-  return {{"B", "C", "implicit-midpoint", "BDF2", "backward-euler"},
-          "Those methods whose motion stays near: B, C and the implicit midpoint rule swing about the place "
-          "of rest, BDF2 (started exactly) passes it once, backward Euler comes from one side."};
+  return {
+      {"B", "C", "implicit-midpoint", "BDF2", "backward-euler"},
+      "Those methods whose motion stays near: B, C and the implicit midpoint rule swing about the "
+      "place of rest, BDF2 (started exactly) passes it once, backward Euler comes from one side."};
 }
 
 Shown shown_of_hinge() {
   return {
       {"B", "C", "linear-backward-euler"},
-      "Those methods all of whose solves succeed; the table has the others. The hinge's damping falls as it "
-      "unfolds: C, which takes the explicit part first, does not come back."};
+      "Those methods all of whose solves succeed; the table has the others. The hinge's damping "
+      "falls as it unfolds: C, which takes the explicit part first, does not come back."};
 }
 
 Figure history_figure(const Subject& subject, const DampedMotion& motion, const Shown& shown) {
@@ -104,21 +106,21 @@ Figure history_figure(const Subject& subject, const DampedMotion& motion, const 
 }
 
 Figure sheet_figure(const Subject& subject, const DampedMotions& motions, Tier tier) {
-  Figure figure{
-      "sheet",
-      "Overshoot on a damped sheet",
-      {"h c/2 of the fastest mode", "1", Scale::log},
-      {"largest overshoot or way back of a mode, over its way", "1", Scale::log},
-      nan,
-      "All modes in the plane of the sheet move at first, and damping stops them. Backward Euler neither "
-      "overshoots nor turns back at any step, A, B, C and the implicit midpoint rule neither below 1. BDF2 "
-      "is started exactly.",
-      {}};
+  Figure figure{"sheet",
+                "Overshoot on a damped sheet",
+                {"h c/2 of the fastest mode", "1", Scale::log},
+                {"largest overshoot or way back of a mode, over its way", "1", Scale::log},
+                nan,
+                "All modes in the plane of the sheet move at first, and damping stops them. "
+                "Backward Euler neither overshoots nor turns back at any step, A, B, C and the "
+                "implicit midpoint rule neither below 1. BDF2 is started exactly.",
+                {}};
   const std::vector<double> as = ratios(0.1, 100, tier == Tier::quick ? 10 : 25);
   for (const std::string method : {"A", "B", "C", "BDF2", "implicit-midpoint"}) {
     Curve curve{method, as, {}, nan, {}};
     for (const double a : as) {
-      const double wrong = worst_overshoot_or_reversal(run_damped(subject, motions.sheet, method, a, 20));
+      const double wrong =
+          worst_overshoot_or_reversal(run_damped(subject, motions.sheet, method, a, 20));
       curve.y.push_back(wrong > least_shown && wrong < 1e5 ? wrong : nan);
     }
     figure.curves.push_back(std::move(curve));
@@ -128,10 +130,12 @@ Figure sheet_figure(const Subject& subject, const DampedMotions& motions, Tier t
 
 }  // namespace
 
-std::vector<Figure> monotonicity_figures(const Subject& subject, const DampedMotions& motions, Tier tier) {
+std::vector<Figure> monotonicity_figures(const Subject& subject, const DampedMotions& motions,
+                                         Tier tier) {
   return {first_step_figure(subject, motions), distance_figure(subject, motions),
           history_figure(subject, motions.triangle, shown_of_triangle()),
-          history_figure(subject, motions.hinge, shown_of_hinge()), sheet_figure(subject, motions, tier)};
+          history_figure(subject, motions.hinge, shown_of_hinge()),
+          sheet_figure(subject, motions, tier)};
 }
 
 }  // namespace foldproof

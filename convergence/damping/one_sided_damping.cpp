@@ -37,8 +37,8 @@ NamedFinding spares_the_undamped(const OneSided& springs, const OneSided& hinges
   worst.observe(hinges.worst);
   return {"artificial-damping.undamped-parts-stay-undamped." + springs.method,
           "Scheme " + springs.method +
-              " adds no damping to bending when springs alone are damped heavily, nor to stretch when hinges "
-              "are.",
+              " adds no damping to bending when springs alone are damped heavily, nor to stretch "
+              "when hinges are.",
           {{worst.value(), 100 * factor_noise, 0, "of the amplitude, a period",
             "the slowest mode takes a hundred steps for a period; of each step, " +
                 std::string(why_factor_noise)},
@@ -52,15 +52,15 @@ NamedFinding spares_the_undamped(const OneSided& springs, const OneSided& hinges
 NamedFinding damps_everything(const OneSided& springs, const OneSided& hinges) {
   Worst worst;
   for (const OneSided& one : {springs, hinges}) worst.observe(0.1 / one.worst);
-  return {
-      "artificial-damping.damps-every-motion.backward-euler",
-      "Backward Euler damps motions that nothing damps: at half the elastic limit the fastest of them loses "
-      "more than a tenth of its amplitude in a period.",
-      {{worst.value(), 1, 0, "1", "measured is a tenth over the loss; the derived loss is pi omega h"},
-       {{"damped", "1", std::vector<std::string>{springs.damped, hinges.damped}},
-        {"change of the undamped modes", "of the amplitude, a period",
-         std::vector<double>{springs.worst, hinges.worst}}},
-       ""}};
+  return {"artificial-damping.damps-every-motion.backward-euler",
+          "Backward Euler damps motions that nothing damps: at half the elastic limit the fastest "
+          "of them loses more than a tenth of its amplitude in a period.",
+          {{worst.value(), 1, 0, "1",
+            "measured is a tenth over the loss; the derived loss is pi omega h"},
+           {{"damped", "1", std::vector<std::string>{springs.damped, hinges.damped}},
+            {"change of the undamped modes", "of the amplitude, a period",
+             std::vector<double>{springs.worst, hinges.worst}}},
+           ""}};
 }
 
 Table one_sided_table(const std::vector<OneSided>& rows) {
@@ -73,12 +73,15 @@ Table one_sided_table(const std::vector<OneSided>& rows) {
   }
   return {"one-sided",
           "Largest change of an undamped mode while the others are damped heavily (h c/2 up to 10)",
-          {{"method", "1", methods}, {"damped", "1", damped}, {"of the amplitude, a period", "1", worst}}};
+          {{"method", "1", methods},
+           {"damped", "1", damped},
+           {"of the amplitude, a period", "1", worst}}};
 }
 
 }  // namespace
 
-void add_one_sided_damping(const Subject& subject, const VibratingSheet& sheet, StudyResult& result) {
+void add_one_sided_damping(const Subject& subject, const VibratingSheet& sheet,
+                           StudyResult& result) {
   std::vector<OneSided> rows;
   for (const Integrator& method : integrators()) {
     if (method.family == Family::fully_explicit) continue;  // unstable at this damping
@@ -86,8 +89,10 @@ void add_one_sided_damping(const Subject& subject, const VibratingSheet& sheet, 
     const OneSided hinges = one_sided(subject, sheet, method, ModeKind::bending);
     rows.push_back(springs);
     rows.push_back(hinges);
-    if (method.family == Family::mixed) result.findings.push_back(spares_the_undamped(springs, hinges));
-    if (method.name == "backward-euler") result.findings.push_back(damps_everything(springs, hinges));
+    if (method.family == Family::mixed)
+      result.findings.push_back(spares_the_undamped(springs, hinges));
+    if (method.name == "backward-euler")
+      result.findings.push_back(damps_everything(springs, hinges));
   }
   result.tables.push_back(one_sided_table(rows));
 }

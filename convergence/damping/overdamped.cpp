@@ -13,8 +13,8 @@ constexpr double least_shown = 1e-6;  // of the way
 constexpr double most_shown = 1e6;    // ways
 constexpr double turning = 1e-5;      // of the way
 constexpr const char* why_turning =
-    "the ways are nanometres, to which positions are rounded by 1e-8, and which leave 1e-7 of nonlinearity; "
-    "a method that overshoots does so by a good part of the way";
+    "the ways are nanometres, to which positions are rounded by 1e-8, and which leave 1e-7 of "
+    "nonlinearity; a method that overshoots does so by a good part of the way";
 
 /// How far a velocity points away from rest at most, or rises again, over that at the start.
 double velocity_misconduct(const DampedRun& run) {
@@ -37,7 +37,8 @@ Misconduct misconduct_of(const DampedRun& run) {
 }
 
 struct SheetRows {
-  Column a{"h c/2", "1", std::vector<double>{}}, position{"positions", "ways", std::vector<double>{}},
+  Column a{"h c/2", "1", std::vector<double>{}},
+      position{"positions", "ways", std::vector<double>{}},
       velocity{"velocities", "of the start's", std::vector<double>{}};
 
   void add(double at, const Misconduct& measured) {
@@ -48,7 +49,8 @@ struct SheetRows {
   std::vector<Column> columns() const { return {a, position, velocity}; }
 };
 
-NamedFinding sheet_is_monotone(const Subject& subject, const DampedMotion& sheet, const std::string& method) {
+NamedFinding sheet_is_monotone(const Subject& subject, const DampedMotion& sheet,
+                               const std::string& method) {
   Worst worst;
   SheetRows rows;
   for (const double a : {0.7, 4.3, 25.0, 400.0}) {
@@ -57,11 +59,12 @@ NamedFinding sheet_is_monotone(const Subject& subject, const DampedMotion& sheet
     worst.observe(wrong.velocity);
     rows.add(a, wrong);
   }
-  return {"monotonicity.overdamped-sheet.monotone." + method,
-          "On an overdamped sheet with stiffness neither a position nor a velocity overshoots or turns back "
-          "at any step under " +
-              method + ".",
-          {{worst.value(), turning, 0, "of the way or of the speed", why_turning}, rows.columns(), ""}};
+  return {
+      "monotonicity.overdamped-sheet.monotone." + method,
+      "On an overdamped sheet with stiffness neither a position nor a velocity overshoots or turns "
+      "back at any step under " +
+          method + ".",
+      {{worst.value(), turning, 0, "of the way or of the speed", why_turning}, rows.columns(), ""}};
 }
 
 NamedFinding sheet_is_thrown_back(const Subject& subject, const DampedMotion& sheet) {
@@ -69,18 +72,18 @@ NamedFinding sheet_is_thrown_back(const Subject& subject, const DampedMotion& sh
   SheetRows rows;
   const Misconduct wrong = misconduct_of(run_damped(subject, sheet, "A", a, 12));
   rows.add(a, wrong);
-  return {
-      "monotonicity.overdamped-sheet.overshoots.A",
-      "On an overdamped sheet with stiffness scheme A throws a mode back by more than fifty times its way at "
-      "h c/2 = 10, a step at which it is stable.",
-      {{50 / wrong.position, 1, 0, "1",
-        "measured is fifty over the way back; derived for half of the way fast is a^2 - a = 90 in the first "
-        "step"},
-       rows.columns(),
-       ""}};
+  return {"monotonicity.overdamped-sheet.overshoots.A",
+          "On an overdamped sheet with stiffness scheme A throws a mode back by more than fifty "
+          "times its way at h c/2 = 10, a step at which it is stable.",
+          {{50 / wrong.position, 1, 0, "1",
+            "measured is fifty over the way back; derived for half of the way fast is a^2 - a = 90 "
+            "in the first step"},
+           rows.columns(),
+           ""}};
 }
 
-NamedFinding sheet_is_bounded(const Subject& subject, const DampedMotion& sheet, const std::string& scheme) {
+NamedFinding sheet_is_bounded(const Subject& subject, const DampedMotion& sheet,
+                              const std::string& scheme) {
   Worst worst;
   SheetRows rows;
   for (const double a : {0.7, 2.2, 4.3, 7.0, 12.0}) {
@@ -91,17 +94,18 @@ NamedFinding sheet_is_bounded(const Subject& subject, const DampedMotion& sheet,
   }
   return {"monotonicity.overdamped-sheet.overshoot-is-bounded." + scheme,
           "On an overdamped sheet with stiffness scheme " + scheme +
-              " overshoots or turns back by less than the way itself, in positions, and less than twice the "
-              "speed of the start, in velocities.",
+              " overshoots or turns back by less than the way itself, in positions, and less than "
+              "twice the speed of the start, in velocities.",
           {{worst.value(), 2, 0, "ways or speeds",
-            "derived without stiffness: a velocity is multiplied by (1 - a)/(1 + a), more than -1, so that "
-            "it swings by less than twice its size; that part of a position that decays fast overshoots by "
-            "less than itself"},
+            "derived without stiffness: a velocity is multiplied by (1 - a)/(1 + a), more than -1, "
+            "so that it swings by less than twice its size; that part of a position that decays "
+            "fast overshoots by less than itself"},
            rows.columns(),
            ""}};
 }
 
-NamedFinding sheet_swings(const Subject& subject, const DampedMotion& sheet, const std::string& scheme) {
+NamedFinding sheet_swings(const Subject& subject, const DampedMotion& sheet,
+                          const std::string& scheme) {
   Worst worst;
   SheetRows rows;
   for (const double a : {2.2, 4.3, 7.0, 12.0}) {
@@ -113,8 +117,8 @@ NamedFinding sheet_swings(const Subject& subject, const DampedMotion& sheet, con
           "On an overdamped sheet with stiffness velocities change sign under " + scheme +
               " at steps with h c/2 > 2, by more than a tenth of those at the start.",
           {{worst.value(), 1, 0, "1",
-            "each swing is to be a tenth of the velocity at the start or more: measured is a tenth over the "
-            "smallest of the four"},
+            "each swing is to be a tenth of the velocity at the start or more: measured is a tenth "
+            "over the smallest of the four"},
            rows.columns(),
            ""}};
 }
@@ -129,16 +133,15 @@ NamedFinding hinge_closes_monotonically(const Subject& subject, const DampedMoti
     worst.observe(wrong);
     rows.add(hinge, a, wrong);
   }
-  return {
-      "monotonicity.closing-hinge-is-monotone." + method,
-      "An overdamped hinge that closes by nearly two radians neither passes its rest angle nor turns back "
-      "under " +
-          method + ", at any step.",
-      {{worst.value(), 1e-7, 0, "of the way",
-        "forty solves, each to 1e-11 of the momentum that the hinge would have at its fast rate, a thousand "
-        "times its own"},
-       rows.columns(),
-       "A solve that did not finish would count as NaN."}};
+  return {"monotonicity.closing-hinge-is-monotone." + method,
+          "An overdamped hinge that closes by nearly two radians neither passes its rest angle nor "
+          "turns back under " +
+              method + ", at any step.",
+          {{worst.value(), 1e-7, 0, "of the way",
+            "forty solves, each to 1e-11 of the momentum that the hinge would have at its fast "
+            "rate, a thousand times its own"},
+           rows.columns(),
+           "A solve that did not finish would count as NaN."}};
 }
 
 // ---- what is shown
@@ -149,9 +152,9 @@ Figure sheet_figure(const std::string& name, const std::string& of) {
           {"h c/2 of the fastest mode", "1", Scale::log},
           {"largest overshoot or way back of a mode, over its start", "1", Scale::log},
           nan,
-          "Every mode starts displaced and on its way to rest. All modes are damped at least four times "
-          "critically. Curves of methods that are monotone everywhere are empty and left out; where one ends "
-          "to the right, the method is unstable. BDF2 is started exactly.",
+          "Every mode starts displaced and on its way to rest. All modes are damped at least four "
+          "times critically. Curves of methods that are monotone everywhere are empty and left "
+          "out; where one ends to the right, the method is unstable. BDF2 is started exactly.",
           {}};
 }
 
@@ -166,7 +169,8 @@ void add_curve(const std::string& method, const std::vector<double>& as, std::ve
   if (any) figure.curves.push_back({method, as, values, nan, {}});
 }
 
-void add_figures(const Subject& subject, const DampedMotion& sheet, Tier tier, StudyResult& result) {
+void add_figures(const Subject& subject, const DampedMotion& sheet, Tier tier,
+                 StudyResult& result) {
   const int count = tier == Tier::quick ? 9 : 21;
   std::vector<double> as;
   for (int i = 0; i < count; ++i) as.push_back(0.1 * std::pow(1000.0, double(i) / (count - 1)));
@@ -198,11 +202,13 @@ Table closing_table(const Subject& subject, const DampedMotion& hinge) {
       std::get<1>(method.values).push_back(std::string(integrator.name));
       std::get<0>(as.values).push_back(a);
       std::get<0>(wrong.values).push_back(worst_overshoot_or_reversal(run));
-      std::get<0>(newton.values).push_back(double(run.work.newton_iterations) / double(run.speed.size() - 1));
+      std::get<0>(newton.values)
+          .push_back(double(run.work.newton_iterations) / double(run.speed.size() - 1));
       std::get<0>(unfinished.values).push_back(double(run.work.unfinished_solves));
     }
   return {"closing-hinge",
-          "An overdamped hinge that closes by nearly two radians: what fully implicit methods make of it",
+          "An overdamped hinge that closes by nearly two radians: what fully implicit methods make "
+          "of it",
           {method, as, wrong, newton, unfinished}};
 }
 

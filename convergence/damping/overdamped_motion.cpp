@@ -19,7 +19,9 @@ struct Decay {
   double slow, fast;  // 1/s
 
   double left(double t) const { return (std::exp(-slow * t) + std::exp(-fast * t)) / 2; }
-  double rate(double t) const { return (slow * std::exp(-slow * t) + fast * std::exp(-fast * t)) / 2; }
+  double rate(double t) const {
+    return (slow * std::exp(-slow * t) + fast * std::exp(-fast * t)) / 2;
+  }
 };
 
 Decay decay_of(const SheetMode& mode, const Relaxation& relaxation) {
@@ -57,7 +59,8 @@ DampedMotion overdamped_sheet(int cells) {
   Random random(97);
   for (const SheetMode& mode : modes) {
     moving.push_back({mode.shape, mode.shape * mass.asDiagonal(),
-                      random.uniform(-1, 1) < 0 ? -path_length : path_length, decay_of(mode, relaxation)});
+                      random.uniform(-1, 1) < 0 ? -path_length : path_length,
+                      decay_of(mode, relaxation)});
     motion.rate = std::max(motion.rate, oscillator_of(mode, relaxation).damping);
   }
   motion.exact = [rest, moving](double t) {
@@ -87,9 +90,11 @@ DampedMotion overdamped_sheet(int cells) {
 }
 
 DampedMotion closing_hinge() {
-  constexpr double length = 0.23, density = 0.31, rest_angle = 0.2, start_angle = 2.1;  // m, kg/m^2, rad, rad
+  // m, kg/m^2, rad, rad
+  constexpr double length = 0.23, density = 0.31, rest_angle = 0.2, start_angle = 2.1;
   const TriangleMesh mesh = make_hinge(length, rest_angle);
-  DampedMotion motion{"closing hinge", "a hinge that closes", scene_at_rest(mesh, density), 0, {}, {}, {}};
+  DampedMotion motion{
+      "closing hinge", "a hinge that closes", scene_at_rest(mesh, density), 0, {}, {}, {}};
   Scene& scene = motion.scene;
   scene.x = make_hinge(length, start_angle).rest;
   scene.stretch = StretchMaterial{40, 9, 1};
@@ -101,7 +106,8 @@ DampedMotion closing_hinge() {
 
   // the tip, particle 1, turns about the edge: damped at the rate kd |E| |u_2|^2/m
   const double mass = lumped_masses(mesh, density)[1];
-  const HingeShape shape = hinge_shape(scene.x.col(0), scene.x.col(1), scene.x.col(2), scene.x.col(3));
+  const HingeShape shape =
+      hinge_shape(scene.x.col(0), scene.x.col(1), scene.x.col(2), scene.x.col(3));
   motion.rate = scene.bending->damping * length * shape.u2.squaredNorm() / mass;
   motion.exact = [scene](double t) {
     const oracles::ClothState end = exact_end(scene, oracle_of(scene), t, 1e-10).state;

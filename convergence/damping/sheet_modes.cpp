@@ -46,7 +46,8 @@ Eigen::MatrixXd scaled_stiffness(const Scene& scene, const std::vector<Eigen::In
         (acceleration(rhs, cloth, behind) - acceleration(rhs, cloth, ahead)) / (2 * shift);
     for (Eigen::Index i = 0; i < n; ++i) {
       const Eigen::Index row = coordinates[size_t(i)];
-      matrix(i, j) = std::sqrt(mass[row / 3] / mass[coordinates[size_t(j)] / 3]) * slope.reshaped()[row];
+      matrix(i, j) =
+          std::sqrt(mass[row / 3] / mass[coordinates[size_t(j)] / 3]) * slope.reshaped()[row];
     }
   }
   return (matrix + matrix.transpose()) / 2;
@@ -64,7 +65,8 @@ void add_modes(const Scene& scene, ModeKind kind, std::vector<SheetMode>& modes)
   constexpr Eigen::Index rigid = 3;
   const std::vector<Eigen::Index> coordinates = coordinates_of(kind, scene.mesh.rest.cols());
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
-  const oracles::SymmetricModes found = oracles::symmetric_modes(scaled_stiffness(scene, coordinates));
+  const oracles::SymmetricModes found =
+      oracles::symmetric_modes(scaled_stiffness(scene, coordinates));
   for (Eigen::Index k = rigid; k < found.values.size(); ++k) {
     PerParticle3 shape = PerParticle3::Zero(3, mass.size());
     for (size_t i = 0; i < coordinates.size(); ++i)
@@ -124,7 +126,8 @@ oracles::Factors eigenvalues(const Eigen::Matrix2d& matrix) {
 }  // namespace
 
 Scene sheet_at_rest(int cells, const Relaxation& relaxation) {
-  Scene scene = scene_at_rest(make_sheet({SheetPattern::union_jack, side, side, cells, cells}), density);
+  Scene scene =
+      scene_at_rest(make_sheet({SheetPattern::union_jack, side, side, cells, cells}), density);
   scene.mesh.rest.topRows(2).array() -= side / 2;
   scene.x = scene.mesh.rest;
   scene.stretch = StretchMaterial{young, relaxation.stretch * young, 1};
@@ -159,7 +162,8 @@ oracles::Oscillator oscillator_of(const SheetMode& mode, const Relaxation& relax
 }
 
 std::vector<oracles::Factors> measured_factors(const Subject& subject, const Scene& scene,
-                                               const std::vector<SheetMode>& modes, double h, int skipped) {
+                                               const std::vector<SheetMode>& modes, double h,
+                                               int skipped) {
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   Stepper stepper(subject, scene, scene.integrator);
   std::vector<Eigen::Matrix2d> next(modes.size(), Eigen::Matrix2d::Zero()), now = next;
@@ -174,7 +178,8 @@ std::vector<oracles::Factors> measured_factors(const Subject& subject, const Sce
     }
   }
   std::vector<oracles::Factors> factors;
-  for (size_t i = 0; i < modes.size(); ++i) factors.push_back(eigenvalues(next[i] * now[i].inverse()));
+  for (size_t i = 0; i < modes.size(); ++i)
+    factors.push_back(eigenvalues(next[i] * now[i].inverse()));
   return factors;
 }
 
@@ -199,7 +204,8 @@ VibratingSheet make_vibrating_sheet(int cells) {
 }
 
 std::vector<oracles::Factors> factors_of(const Subject& subject, const VibratingSheet& sheet,
-                                         const Integrator& method, const Relaxation& relaxation, double h) {
+                                         const Integrator& method, const Relaxation& relaxation,
+                                         double h) {
   Scene scene = sheet_at_rest(sheet.cells, relaxation);
   scene.integrator = std::string(method.name);
   return measured_factors(subject, scene, sheet.modes, h, method.history > 1 ? 20 : 0);

@@ -5,7 +5,8 @@
 
 namespace foldproof {
 
-Study artificial_damping_study();  // artificial-damping: what methods take from vibrations that nothing damps
-Study monotonicity_study();        // monotonicity: coming to rest in steps longer than the damping's time
+// artificial-damping: what methods take from vibrations that nothing damps
+Study artificial_damping_study();
+Study monotonicity_study();  // monotonicity: coming to rest in steps longer than the damping's time
 
 }  // namespace foldproof

@@ -10,7 +10,8 @@ namespace foldproof {
 namespace {
 
 /// Fills times and means.
-void average(const std::vector<double>& times, const std::vector<double>& values, int blocks, Trend& trend) {
+void average(const std::vector<double>& times, const std::vector<double>& values, int blocks,
+             Trend& trend) {
   const double start = times.front(), span = (times.back() - start) / blocks;
   std::vector<double> sums(size_t(blocks), 0), counts = sums;
   for (size_t i = 0; i < times.size(); ++i) {
@@ -19,7 +20,8 @@ void average(const std::vector<double>& times, const std::vector<double>& values
     ++counts[size_t(block)];
   }
   for (int k = 0; k < blocks; ++k) {
-    if (counts[size_t(k)] == 0) throw InputError("trend_of: a block has no sample; take fewer blocks");
+    if (counts[size_t(k)] == 0)
+      throw InputError("trend_of: a block has no sample; take fewer blocks");
     trend.times.push_back(start + (k + 0.5) * span);
     trend.means.push_back(sums[size_t(k)] / counts[size_t(k)]);
   }
@@ -28,8 +30,10 @@ void average(const std::vector<double>& times, const std::vector<double>& values
 }  // namespace
 
 Trend trend_of(const std::vector<double>& times, const std::vector<double>& values, int blocks) {
-  if (times.size() != values.size() || blocks < 3 || times.empty() || !(times.back() > times.front()))
-    throw InputError("trend_of: needs as many times as values, ascending, and three blocks at least");
+  if (times.size() != values.size() || blocks < 3 || times.empty() ||
+      !(times.back() > times.front()))
+    throw InputError(
+        "trend_of: needs as many times as values, ascending, and three blocks at least");
   Trend trend;
   average(times, values, blocks, trend);
 
@@ -37,7 +41,8 @@ Trend trend_of(const std::vector<double>& times, const std::vector<double>& valu
   const PerParticle centred = t.array() - t.mean();
   trend.slope = centred.dot(y) / centred.squaredNorm();
   const PerParticle scatter = (y.array() - y.mean()).matrix() - trend.slope * centred;
-  const double lag_one = scatter.head(blocks - 1).dot(scatter.tail(blocks - 1)) / scatter.squaredNorm();
+  const double lag_one =
+      scatter.head(blocks - 1).dot(scatter.tail(blocks - 1)) / scatter.squaredNorm();
   const double enlarged = lag_one > 0 ? std::sqrt((1 + lag_one) / (1 - lag_one)) : 1;
   trend.error = enlarged * std::sqrt(scatter.squaredNorm() / (blocks - 2) / centred.squaredNorm());
   return trend;

@@ -31,12 +31,14 @@ Scene driven_scene() {
   swing.amplitude = Vector3(0.006, 0.011, 0.047);
   swing.frequency = 3.7;
   swing.phase = 0.6;
-  scene.prescribed = {
-      {1, scene.mesh.rest.col(1), swing}, {2, scene.mesh.rest.col(2), {}}, {3, scene.mesh.rest.col(3), {}}};
+  scene.prescribed = {{1, scene.mesh.rest.col(1), swing},
+                      {2, scene.mesh.rest.col(2), {}},
+                      {3, scene.mesh.rest.col(3), {}}};
   return scene;
 }
 
-/// The same in the oracle's own words: it finds masses, springs and factors from the rest corners by itself.
+/// The same in the oracle's own words: it finds masses, springs and factors from the rest
+/// corners by itself.
 oracles::ClothDefinition driven_oracle(const Scene& scene) {
   oracles::DrivenHinge hinge;
   for (size_t i = 0; i < 4; ++i) {
@@ -56,8 +58,8 @@ oracles::ClothDefinition driven_oracle(const Scene& scene) {
   return oracles::driven_hinge(hinge);
 }
 
-/// Where the next term of a method's error has become small: the sooner the higher its order; forward Euler
-/// has to be stable first.
+/// Where the next term of a method's error has become small: the sooner the higher its order;
+/// forward Euler has to be stable first.
 int first_level(const Integrator& integrator) {
   if (integrator.name == "forward-euler") return 6144;
   const std::array<int, 4> by_order = {3072, 576, 288, 192};
@@ -71,8 +73,8 @@ std::vector<ObservedMethod> methods(Tier tier) {
   for (const Integrator& integrator : integrators()) {
     if (integrator.family == Family::mixed) continue;
     const bool restricted = std::isfinite(integrator.largest_growth);
-    all.push_back({integrator, restricted ? gentle_step_patterns() : step_patterns(), first_level(integrator),
-                   integrator.order == 4 ? 5 + more : 4 + more});
+    all.push_back({integrator, restricted ? gentle_step_patterns() : step_patterns(),
+                   first_level(integrator), integrator.order == 4 ? 5 + more : 4 + more});
   }
   return all;
 }
@@ -80,24 +82,25 @@ std::vector<ObservedMethod> methods(Tier tier) {
 StudyResult run_hinge_order(const Subject& subject, Tier tier, const Progress& progress) {
   const Scene scene = driven_scene();
   const ExactEnd exact = exact_end(scene, driven_oracle(scene), end, tolerance);
-  return time_order(
-      subject,
-      {"time-order.hinge", "the driven hinge", scene, end, methods(tier), exact.state, exact.uncertainty},
-      progress);
+  return time_order(subject,
+                    {"time-order.hinge", "the driven hinge", scene, end, methods(tier), exact.state,
+                     exact.uncertainty},
+                    progress);
 }
 
 }  // namespace
 
 Study hinge_time_order_study() {
   return {"time-order.hinge",
-          "Schemes A, B and C are second order in x and v on a nonlinear, damped, driven hinge, whatever the "
-          "sequence of steps.",
+          "Schemes A, B and C are second order in x and v on a nonlinear, damped, driven hinge, "
+          "whatever the sequence of steps.",
           "BMF03 section 3",
-          "Two triangles share an edge that is held; one opposite corner is led along a periodic path, the "
-          "other is free. Springs and bending are both damped, gravity pulls, and the angle goes through a "
-          "large part of its range, so that nothing is linear and the forces depend on time. Each scheme "
-          "runs with constant, alternating and random steps; a finer level halves every step of the coarser "
-          "one. The end is compared with a solution by GSL, which shares no formula with the solver.",
+          "Two triangles share an edge that is held; one opposite corner is led along a periodic "
+          "path, the other is free. Springs and bending are both damped, gravity pulls, and the "
+          "angle goes through a large part of its range, so that nothing is linear and the forces "
+          "depend on time. Each scheme runs with constant, alternating and random steps; a finer "
+          "level halves every step of the coarser one. The end is compared with a solution by GSL, "
+          "which shares no formula with the solver.",
           run_hinge_order};
 }
 

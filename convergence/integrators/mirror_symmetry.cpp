@@ -1,4 +1,5 @@
-// mirror-symmetry: a symmetric sheet stays symmetric but for rounding, which grows as any disturbance does.
+// mirror-symmetry: a symmetric sheet stays symmetric but for rounding, which grows as any
+// disturbance does.
 #include <cmath>
 #include <limits>
 #include <random>
@@ -16,7 +17,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double side = 0.5;           // m: with eight columns, every x is exact
 constexpr double disturbance = 1e-10;  // m
 
-/// A sheet held at two corners of one edge falls from the horizontal; it is symmetric about x = side/2.
+/// A sheet held at two corners of one edge falls from the horizontal; it is symmetric
+/// about x = side/2.
 Scene falling_sheet() {
   Scene scene = scene_at_rest(make_sheet({SheetPattern::criss_cross, side, side, 8, 8}), 0.2);
   scene.gravity = Vector3(0, 0, -9.80665);
@@ -79,7 +81,8 @@ Scene disturb(Scene scene) {
   return scene;
 }
 
-/// Growth per second of the disturbance: the slope of its logarithm over time by least squares [1/s].
+/// Growth per second of the disturbance: the slope of its logarithm over time by
+/// least squares [1/s].
 double growth_rate(const History& history) {
   double n = 0, t = 0, y = 0, tt = 0, ty = 0;
   for (size_t i = 0; i < history.times.size(); ++i) {
@@ -97,18 +100,19 @@ NamedFinding finding_of(const History& rounding, const History& seeded) {
     roundings.push_back(rounding.values[i] / (epsilon * side * rounding.steps[i] * grown.value()));
     worst.observe(roundings.back());
   }
-  return {
-      "mirror-symmetry.only-rounding-breaks-it",
-      "A symmetric sheet stays symmetric but for rounding, which grows no faster than a disturbance put in "
-      "by hand.",
-      {{worst.value(), 16, 0, "epsilon * side * steps * growth",
-        "a step rounds x, v and the dozen forces on a particle in their last digits; sixteen is all of these "
-        "erring to one side, and each grows from then on as the disturbance has grown from the start"},
-       {{"time", "s", rounding.times},
-        {"asymmetry from rounding", "m", rounding.values},
-        {"asymmetry from 1e-10 m", "m", seeded.values},
-        {"rounding over epsilon * side * steps * growth", "1", roundings}},
-       "the disturbance grows by " + std::to_string(growth_rate(seeded)) + " per second in the exponent"}};
+  return {"mirror-symmetry.only-rounding-breaks-it",
+          "A symmetric sheet stays symmetric but for rounding, which grows no faster than a "
+          "disturbance put in by hand.",
+          {{worst.value(), 16, 0, "epsilon * side * steps * growth",
+            "a step rounds x, v and the dozen forces on a particle in their last digits; sixteen "
+            "is all of these erring to one side, and each grows from then on as the disturbance "
+            "has grown from the start"},
+           {{"time", "s", rounding.times},
+            {"asymmetry from rounding", "m", rounding.values},
+            {"asymmetry from 1e-10 m", "m", seeded.values},
+            {"rounding over epsilon * side * steps * growth", "1", roundings}},
+           "the disturbance grows by " + std::to_string(growth_rate(seeded)) +
+               " per second in the exponent"}};
 }
 
 StudyResult run_mirror_symmetry(const Subject& subject, Tier tier, const Progress& progress) {
@@ -120,14 +124,15 @@ StudyResult run_mirror_symmetry(const Subject& subject, Tier tier, const Progres
   progress(1);
   StudyResult result;
   result.findings.push_back(finding_of(rounding, seeded));
-  result.figures.push_back({"asymmetry",
-                            "Asymmetry of a symmetric sheet that falls",
-                            {"time", "s", Scale::linear},
-                            {"largest distance from the mirror image", "m", Scale::log},
-                            nan,
-                            "From rounding alone, and from a random disturbance of 1e-10 m: both grow alike.",
-                            {{"from rounding", rounding.times, rounding.values, nan, {}},
-                             {"from a disturbance of 1e-10 m", seeded.times, seeded.values, nan, {}}}});
+  result.figures.push_back(
+      {"asymmetry",
+       "Asymmetry of a symmetric sheet that falls",
+       {"time", "s", Scale::linear},
+       {"largest distance from the mirror image", "m", Scale::log},
+       nan,
+       "From rounding alone, and from a random disturbance of 1e-10 m: both grow alike.",
+       {{"from rounding", rounding.times, rounding.values, nan, {}},
+        {"from a disturbance of 1e-10 m", seeded.times, seeded.values, nan, {}}}});
   return result;
 }
 
@@ -135,11 +140,12 @@ StudyResult run_mirror_symmetry(const Subject& subject, Tier tier, const Progres
 
 Study mirror_symmetry_study() {
   return {"mirror-symmetry",
-          "What is symmetric stays so, but for rounding that grows as the motion's own instability lets it.",
+          "What is symmetric stays so, but for rounding that grows as the motion's own instability "
+          "lets it.",
           "our test of BMF03 section 3",
-          "A sheet with a plane of symmetry, held at two corners, falls from the horizontal, swings and "
-          "crumples. The balance of its two halves is unstable, so that rounding grows; the same run with a "
-          "small random disturbance shows how fast.",
+          "A sheet with a plane of symmetry, held at two corners, falls from the horizontal, "
+          "swings and crumples. The balance of its two halves is unstable, so that rounding grows; "
+          "the same run with a small random disturbance shows how fast.",
           run_mirror_symmetry};
 }
 

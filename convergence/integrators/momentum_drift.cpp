@@ -1,5 +1,5 @@
-// momentum-drift: which scheme keeps the angular momentum of a free sheet, and how fast the drift of the
-// other falls.
+// momentum-drift: which scheme keeps the angular momentum of a free sheet, and how fast the drift
+// of the other falls.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -26,19 +26,21 @@ struct Drift {
   std::string scheme;
   std::vector<double> steps;     // mean step [s]
   std::vector<double> relative;  // |L(end) - L(0)| / |L(0)| [1]
-  std::vector<double>
-      roundings;  // |L(end) - L(0)| in units of epsilon * steps * the largest sum of m |x| |v| seen [1]
-  std::vector<double>
-      of_tolerance;  // the same in the solver's tolerance * steps * the largest |x| |v| seen, both in
-                     // the norm weighted with the masses [1]
-  std::vector<double> linear;  // |p(end) - p(0)| in epsilon * steps * the largest sum of m |v| seen [1]
+  // |L(end) - L(0)| in units of epsilon * steps * the largest sum of m |x| |v| seen [1]
+  std::vector<double> roundings;
+  // the same in the solver's tolerance * steps * the largest |x| |v| seen, both in the norm
+  // weighted with the masses [1]
+  std::vector<double> of_tolerance;
+  // |p(end) - p(0)| in epsilon * steps * the largest sum of m |v| seen [1]
+  std::vector<double> linear;
 };
 
 /// A jittered sheet, bent and stretched, that turns, flaps and flies away.
 Scene flying_sheet(double spring_damping, double bending_damping) {
   Scene scene = scene_at_rest(make_sheet({SheetPattern::jittered, 0.53, 0, 5, 4, 0.23, 11}), 0.17);
   scene.stretch = StretchMaterial{13, spring_damping, 1};
-  scene.bending = BendingMaterial{0.0017, bending_damping, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.bending =
+      BendingMaterial{0.0017, bending_damping, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0.07);
   scene.solver.tolerance = solver_tolerance;
   const Vector3 spin(1.9, -3.3, 2.6), flight(0.3, 0.2, -0.5);
@@ -46,7 +48,8 @@ Scene flying_sheet(double spring_damping, double bending_damping) {
     const double a = scene.mesh.rest(0, i) / 0.53, b = scene.mesh.rest(1, i) / 0.53;
     const Vector3 wave(0.011 * std::sin(4.1 * b), 0.017 * std::cos(3.3 * a),
                        0.07 * std::sin(4.7 * a + 2.9 * b));
-    const Vector3 flap(0.5 * std::cos(5.1 * b), 0.4 * std::sin(3.7 * a), 1.7 * std::cos(5.9 * a - 3.1 * b));
+    const Vector3 flap(0.5 * std::cos(5.1 * b), 0.4 * std::sin(3.7 * a),
+                       1.7 * std::cos(5.9 * a - 3.1 * b));
     const Vector3 x = scene.mesh.rest.col(i) + wave;
     scene.x.col(i) = x;
     scene.v.col(i) = spin.cross(x) + flap + flight;
@@ -65,12 +68,14 @@ Vector3 momentum_about_origin(const PerParticle& mass, const State& s) {
 
 /// Sizes that drifts are compared with, each the largest of a run.
 struct Scales {
-  Worst angular, weighted, linear;  // sum m |x| |v|, sqrt(sum m x^2 sum m v^2) [kg m^2/s], sum m |v| [kg m/s]
+  // sum m |x| |v|, sqrt(sum m x^2 sum m v^2) [kg m^2/s], sum m |v| [kg m/s]
+  Worst angular, weighted, linear;
 
   void observe(const PerParticle& mass, const State& s) {
     const Eigen::RowVectorXd x = s.x.colwise().norm(), v = s.v.colwise().norm();
     angular.observe(x.cwiseProduct(v).dot(mass.transpose()));
-    weighted.observe(std::sqrt(x.cwiseAbs2().dot(mass.transpose()) * v.cwiseAbs2().dot(mass.transpose())));
+    weighted.observe(
+        std::sqrt(x.cwiseAbs2().dot(mass.transpose()) * v.cwiseAbs2().dot(mass.transpose())));
     linear.observe(v.dot(mass.transpose()));
   }
 };
@@ -109,20 +114,21 @@ NamedFinding kept(const Drift& drift, const std::string& material) {
   for (double roundings : drift.roundings) worst.observe(roundings);
   Finding finding{
       {worst.value(), 16, 0, "epsilon, a step, of sum m|x||v|",
-       "a step rounds x and v of each particle once, and the dozen or so forces on it, each at most about "
-       "m|v|/h, in their last digits; sixteen is all of these erring to one side"},
+       "a step rounds x and v of each particle once, and the dozen or so forces on it, each at "
+       "most about m|v|/h, in their last digits; sixteen is all of these erring to one side"},
       {{"step", "s", drift.steps},
        {"relative drift", "1", drift.relative},
        {"drift in roundings", "1", drift.roundings}},
       ""};
-  return {
-      "momentum-drift." + material + "-angular-is-conserved." + drift.scheme,
-      "Scheme " + drift.scheme + " keeps the angular momentum of a free, " + material + " sheet to rounding.",
-      std::move(finding)};
+  return {"momentum-drift." + material + "-angular-is-conserved." + drift.scheme,
+          "Scheme " + drift.scheme + " keeps the angular momentum of a free, " + material +
+              " sheet to rounding.",
+          std::move(finding)};
 }
 
 Convergence convergence_of(const Drift& drift) {
-  return {drift.steps, drift.relative, 0};  // no floor: the start is known, and rounding is judged by itself
+  // no floor: the start is known, and rounding is judged by itself
+  return {drift.steps, drift.relative, 0};
 }
 
 NamedFinding falls_with_the_order(const Drift& drift) {
@@ -133,8 +139,8 @@ NamedFinding falls_with_the_order(const Drift& drift) {
   std::vector<double> orders = pair_orders(convergence);
   orders.insert(orders.begin(), nan);
   Finding finding{{deviation.value, 0.1, deviation.uncertainty, "1",
-                   "a drift of another power of the step is off by 1; at these steps the next term leaves "
-                   "less than a tenth"},
+                   "a drift of another power of the step is off by 1; at these steps the next term "
+                   "leaves less than a tenth"},
                   {{"step", "s", drift.steps},
                    {"relative drift", "1", drift.relative},
                    {"order of the pair", "1", orders},
@@ -142,8 +148,8 @@ NamedFinding falls_with_the_order(const Drift& drift) {
                   "measured is the largest |order - " + std::to_string(order) +
                       "| over the last pairs, three if there are so many"};
   return {"momentum-drift.damped-drift-order." + drift.scheme,
-          "The angular momentum of a free, damped sheet drifts under " + drift.scheme + ", by order " +
-              std::to_string(order) + " in the step.",
+          "The angular momentum of a free, damped sheet drifts under " + drift.scheme +
+              ", by order " + std::to_string(order) + " in the step.",
           std::move(finding)};
 }
 
@@ -151,10 +157,10 @@ NamedFinding drift_is_real(const Drift& drift) {
   constexpr double rounding_bound = 16;
   Worst worst;
   for (double roundings : drift.roundings) worst.observe(rounding_bound / roundings);
-  Finding finding{
-      {worst.value(), 0.01, 0, "of the drift", "a hundred times what counts as kept cannot be rounding"},
-      {{"step", "s", drift.steps}, {"drift in roundings", "1", drift.roundings}},
-      "measured is the bound of a kept momentum over the drift"};
+  Finding finding{{worst.value(), 0.01, 0, "of the drift",
+                   "a hundred times what counts as kept cannot be rounding"},
+                  {{"step", "s", drift.steps}, {"drift in roundings", "1", drift.roundings}},
+                  "measured is the bound of a kept momentum over the drift"};
   return {"momentum-drift.damped-drift-exceeds-rounding.C",
           "The drift of scheme C on a damped sheet is no rounding.", std::move(finding)};
 }
@@ -180,9 +186,9 @@ NamedFinding linear_is_kept(const Drifts& drifts) {
           "The linear momentum of a free sheet is kept to rounding under " + drifts.damped.scheme +
               ", damped or not, however early a solve stops.",
           {{worst.value(), 1, 0, "epsilon, a step, of sum m|v|",
-            "forces come in sums of zero and every iterate of a solve differs from its guess by such forces: "
-            "what is left are the roundings of each particle's velocity, half an epsilon of it at most, some "
-            "of either sign"},
+            "forces come in sums of zero and every iterate of a solve differs from its guess by "
+            "such forces: what is left are the roundings of each particle's velocity, half an "
+            "epsilon of it at most, some of either sign"},
            {steps, roundings},
            ""}};
 }
@@ -195,8 +201,8 @@ NamedFinding kept_to_tolerance(const Drift& drift, const std::string& material) 
       "The implicit midpoint rule keeps the angular momentum of a free, " + material +
           " sheet to the tolerance of its solves.",
       {{worst.value(), 4, 0, "tolerances, a step, of |x||v|",
-        "derived: a step changes it by x cross twice the residual, which is at most the tolerance times the "
-        "momentum and the first impulse, less than twice the momentum here"},
+        "derived: a step changes it by x cross twice the residual, which is at most the tolerance "
+        "times the momentum and the first impulse, less than twice the momentum here"},
        {{"step", "s", drift.steps},
         {"relative drift", "1", drift.relative},
         {"drift in tolerances", "1", drift.of_tolerance}},
@@ -204,13 +210,14 @@ NamedFinding kept_to_tolerance(const Drift& drift, const std::string& material) 
 }
 
 Table table_of(const std::vector<Drifts>& all) {
-  Column method{"method", "1", std::vector<std::string>{}}, sheet{"sheet", "1", std::vector<std::string>{}},
-      step{"step", "s", std::vector<double>{}},
+  Column method{"method", "1", std::vector<std::string>{}},
+      sheet{"sheet", "1", std::vector<std::string>{}}, step{"step", "s", std::vector<double>{}},
       relative{"angular momentum, relative drift", "1", std::vector<double>{}},
       order{"order of the pair", "1", std::vector<double>{}},
       linear{"linear momentum, drift in roundings", "1", std::vector<double>{}};
   for (const Drifts& drifts : all)
-    for (const auto& [drift, words] : {std::pair{&drifts.undamped, "undamped"}, {&drifts.damped, "damped"}})
+    for (const auto& [drift, words] :
+         {std::pair{&drifts.undamped, "undamped"}, {&drifts.damped, "damped"}})
       for (size_t k = 0; k < drift->steps.size(); ++k) {
         std::get<1>(method.values).push_back(drift->scheme);
         std::get<1>(sheet.values).push_back(words);
@@ -220,8 +227,9 @@ Table table_of(const std::vector<Drifts>& all) {
             .push_back(k == 0 ? nan : std::log2(drift->relative[k - 1] / drift->relative[k]));
         std::get<0>(linear.values).push_back(drift->linear[k]);
       }
-  return {
-      "all-methods", "Drift of momentum under all methods", {method, sheet, step, relative, order, linear}};
+  return {"all-methods",
+          "Drift of momentum under all methods",
+          {method, sheet, step, relative, order, linear}};
 }
 
 Figure figure_of(const std::string& name, const std::string& material,
@@ -231,13 +239,13 @@ Figure figure_of(const std::string& name, const std::string& material,
                 {"step", "s", Scale::log},
                 {"relative drift of angular momentum", "1", Scale::log},
                 2,
-                "Change of the angular momentum from the start to the end of the run, over its size. Curves "
-                "without slope are rounding, or the tolerance of solves.",
+                "Change of the angular momentum from the start to the end of the run, over its "
+                "size. Curves without slope are rounding, or the tolerance of solves.",
                 {}};
   for (const Drift* drift : drifts)
-    figure.curves.push_back(
-        {drift->scheme, drift->steps, drift->relative, nan,
-         drift->relative.front() > 1e-7 ? pair_orders(convergence_of(*drift)) : std::vector<double>{}});
+    figure.curves.push_back({drift->scheme, drift->steps, drift->relative, nan,
+                             drift->relative.front() > 1e-7 ? pair_orders(convergence_of(*drift))
+                                                            : std::vector<double>{}});
   return figure;
 }
 
@@ -283,14 +291,15 @@ StudyResult run_momentum_drift(const Subject& subject, Tier tier, const Progress
 
 Study momentum_drift_study() {
   return {"momentum-drift",
-          "Schemes A and B keep the angular momentum of a free sheet to rounding, damped or not; C keeps it "
-          "undamped, and lets it drift by second order in the step when damped. The implicit midpoint rule "
-          "keeps it to the tolerance of its solves; all methods keep the linear momentum.",
+          "Schemes A and B keep the angular momentum of a free sheet to rounding, damped or not; C "
+          "keeps it undamped, and lets it drift by second order in the step when damped. The "
+          "implicit midpoint rule keeps it to the tolerance of its solves; all methods keep the "
+          "linear momentum.",
           "BMF03 section 3; Hairer, Lubich, Wanner, section IV.2",
-          "An irregular sheet, bent, stretched and spinning, flies without any force from outside. All "
-          "forces keep angular momentum call by call; a method keeps it only if the velocity that moves the "
-          "positions is parallel in sum to the one that carries the momentum. The drift from start to end is "
-          "measured while the step is halved.",
+          "An irregular sheet, bent, stretched and spinning, flies without any force from outside. "
+          "All forces keep angular momentum call by call; a method keeps it only if the velocity "
+          "that moves the positions is parallel in sum to the one that carries the momentum. The "
+          "drift from start to end is measured while the step is halved.",
           run_momentum_drift};
 }
 

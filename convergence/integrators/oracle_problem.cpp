@@ -48,7 +48,8 @@ void set_material(const Scene& scene, oracles::ClothMaterial& material) {
   }
   if (!scene.bending) return;
   const BendingMaterial& bending = *scene.bending;
-  if (bending.law != "sine") throw InputError("oracle_of: the oracle knows the bending law 'sine' only");
+  if (bending.law != "sine")
+    throw InputError("oracle_of: the oracle knows the bending law 'sine' only");
   material.bending_stiffness = bending.stiffness;
   material.bending_damping = bending.damping;
   material.elastic_geometry =
@@ -78,15 +79,16 @@ oracles::ClothDefinition oracle_of(const Scene& scene) {
   set_material(scene, cloth.material);
   if (scene.bending)
     for (size_t h = 0; h < scene.mesh.hinges.size(); ++h)
-      cloth.hinges.push_back(
-          oracles::hinge_at_rest(scene.mesh.hinges[h].particles, scene.mesh.rest, scene.rest_angles[h]));
+      cloth.hinges.push_back(oracles::hinge_at_rest(scene.mesh.hinges[h].particles, scene.mesh.rest,
+                                                    scene.rest_angles[h]));
   if (scene.gravity) cloth.gravity = *scene.gravity;
   for (const PrescribedParticle& prescribed : scene.prescribed)
     cloth.prescribed[prescribed.particle] = oracle_motion(prescribed);
   return cloth;
 }
 
-ExactEnd exact_end(const Scene& scene, const oracles::ClothDefinition& cloth, double end, double tolerance) {
+ExactEnd exact_end(const Scene& scene, const oracles::ClothDefinition& cloth, double end,
+                   double tolerance) {
   const std::vector<double> y0 = oracles::free_coordinates(cloth, {scene.x, scene.v});
   const std::array<double, 1> times = {end};
   const oracles::ReferenceSolution solution =

@@ -1,4 +1,5 @@
-// time-order.sheet: a hanging sheet, so that the solves are real ones and hinges share their particles.
+// time-order.sheet: a hanging sheet, so that the solves are real ones and hinges share
+// their particles.
 #include <cmath>
 
 #include "convergence/integrators/oracle_problem.h"
@@ -18,16 +19,17 @@ constexpr double end = 0.06;                   // s
 void set_waves(Scene& scene) {
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     const double a = scene.mesh.rest(0, i) / width, b = scene.mesh.rest(1, i) / height;
-    scene.x.col(i) +=
-        Vector3(0.013 * std::sin(3.1 * b), 0.009 * std::cos(2.3 * a), 0.06 * std::sin(5.3 * a + 1.7 * b));
-    scene.v.col(i) =
-        Vector3(0.4 * std::cos(2.9 * b), 0.3 * std::sin(4.1 * a), 2.1 * std::cos(4.7 * a - 2.2 * b));
+    scene.x.col(i) += Vector3(0.013 * std::sin(3.1 * b), 0.009 * std::cos(2.3 * a),
+                              0.06 * std::sin(5.3 * a + 1.7 * b));
+    scene.v.col(i) = Vector3(0.4 * std::cos(2.9 * b), 0.3 * std::sin(4.1 * a),
+                             2.1 * std::cos(4.7 * a - 2.2 * b));
   }
 }
 
 /// Its two upper corners are led to and fro.
 Scene hanging_scene() {
-  Scene scene = scene_at_rest(make_sheet({SheetPattern::alternating, width, height, cells, cells}), 0.19);
+  Scene scene =
+      scene_at_rest(make_sheet({SheetPattern::alternating, width, height, cells, cells}), 0.19);
   scene.gravity = Vector3(0, -9.81, 0);
   scene.stretch = StretchMaterial{11, 0.035, 1};
   scene.bending = BendingMaterial{3e-4, 3e-5, Weighting::rest, DampingFactor::edge, "sine"};
@@ -61,13 +63,13 @@ StudyResult run_sheet_order(const Subject& subject, Tier tier, const Progress& p
 
 Study sheet_time_order_study() {
   return {"time-order.sheet",
-          "Schemes A, B and C are second order in x and v on a damped hanging sheet, whatever the sequence "
-          "of steps.",
+          "Schemes A, B and C are second order in x and v on a damped hanging sheet, whatever the "
+          "sequence of steps.",
           "BMF03 section 3",
-          "A sheet of squares, rows split along alternating diagonals, hangs by its two upper corners, which "
-          "are led to and fro. It is released from a wavy shape with a wavy velocity; springs and bending "
-          "are both damped. Everything else is as in the study of the hinge, with the solution by GSL over "
-          "all free particles.",
+          "A sheet of squares, rows split along alternating diagonals, hangs by its two upper "
+          "corners, which are led to and fro. It is released from a wavy shape with a wavy "
+          "velocity; springs and bending are both damped. Everything else is as in the study of "
+          "the hinge, with the solution by GSL over all free particles.",
           run_sheet_order};
 }
 

@@ -15,8 +15,8 @@ namespace {
 constexpr int pairs_judged = 3;
 constexpr double bound = 0.1;
 constexpr const char* why_bound =
-    "design bound on |order - expected| over the last three pairs: another order is off by 1, and the "
-    "evidence shows, pair by pair, what the error's next term leaves";
+    "design bound on |order - expected| over the last three pairs: another order is off by 1, and "
+    "the evidence shows, pair by pair, what the error's next term leaves";
 
 std::string in_words(int order) {
   const std::array<std::string, 5> words = {"zeroth", "first", "second", "third", "fourth"};
@@ -30,7 +30,9 @@ struct Run {
   std::vector<double> counts;  // steps of each level
   Convergence x, v;            // errors in m and m/s over the mean step in s
 
-  std::string label() const { return std::string(integrator.name) + ", " + std::string(pattern.name); }
+  std::string label() const {
+    return std::string(integrator.name) + ", " + std::string(pattern.name);
+  }
 };
 
 double largest_difference(const PerParticle3& p, const PerParticle3& q) {
@@ -76,7 +78,8 @@ Run errors_of(const Subject& subject, const OrderProblem& problem, const Observe
   return run;
 }
 
-std::vector<Run> all_runs(const Subject& subject, const OrderProblem& problem, const Progress& progress) {
+std::vector<Run> all_runs(const Subject& subject, const OrderProblem& problem,
+                          const Progress& progress) {
   require_offered(subject.step, "step");
   double steps = 0;
   for (const ObservedMethod& method : problem.methods)
@@ -104,8 +107,8 @@ std::array<Quantity, 2> quantities() {
   return {{{"x", "positions", "m", &Run::x}, {"v", "velocities", "m/s", &Run::v}}};
 }
 
-/// The levels whose errors the reference solution can tell from its own: at least four, that three pairs can
-/// be judged.
+/// The levels whose errors the reference solution can tell from its own: at least four, that three
+/// pairs can be judged.
 Convergence above_floor(const Convergence& errors) {
   constexpr int least = pairs_judged + 1;
   const size_t levels = size_t(std::max(least, levels_above_floor(errors, 50)));
@@ -117,24 +120,27 @@ Convergence above_floor(const Convergence& errors) {
 
 NamedFinding finding_of(const OrderProblem& problem, const Run& run, const Quantity& quantity) {
   const Convergence& errors = run.*quantity.errors;
-  const Estimate deviation = order_deviation(above_floor(errors), run.integrator.order, pairs_judged);
-  Finding finding{
-      {deviation.value, bound, deviation.uncertainty, "1", why_bound},
-      {{"mean step", "s", errors.steps},
-       {"steps", "1", run.counts},
-       {"error in " + quantity.name, quantity.unit, errors.errors},
-       {"order of the pair", "1", after_nan(pair_orders(errors))}},
-      "measured is the largest |order - expected| over the last three pairs of errors that exceed fifty "
-      "times the reference's uncertainty, where the table of integrators states what is expected"};
+  const Estimate deviation =
+      order_deviation(above_floor(errors), run.integrator.order, pairs_judged);
+  Finding finding{{deviation.value, bound, deviation.uncertainty, "1", why_bound},
+                  {{"mean step", "s", errors.steps},
+                   {"steps", "1", run.counts},
+                   {"error in " + quantity.name, quantity.unit, errors.errors},
+                   {"order of the pair", "1", after_nan(pair_orders(errors))}},
+                  "measured is the largest |order - expected| over the last three pairs of errors "
+                  "that exceed fifty times the reference's uncertainty, where the table of "
+                  "integrators states what is expected"};
   const std::string name(run.integrator.name);
   return {problem.study + "." + name + "." + std::string(run.pattern.name) + "." + quantity.name,
-          name + " is " + in_words(run.integrator.order) + " order in the " + quantity.words + " of " +
-              problem.description + " with " + std::string(run.pattern.words) + ".",
+          name + " is " + in_words(run.integrator.order) + " order in the " + quantity.words +
+              " of " + problem.description + " with " + std::string(run.pattern.words) + ".",
           std::move(finding)};
 }
 
-/// What decides on "second order only while the step is constant": B with both patterns of variable steps.
-NamedFinding newmark_with_variable_steps(const OrderProblem& problem, const std::vector<Run>& runs) {
+/// What decides on "second order only while the step is constant": B with both patterns of
+/// variable steps.
+NamedFinding newmark_with_variable_steps(const OrderProblem& problem,
+                                         const std::vector<Run>& runs) {
   constexpr double second = 2;  // in the paper's words, whatever the table says
   Worst deviation, uncertainty;
   std::vector<std::string> patterns, names;
@@ -154,7 +160,8 @@ NamedFinding newmark_with_variable_steps(const OrderProblem& problem, const std:
   Finding finding{
       {orders.empty() ? nan : deviation.value(), bound, uncertainty.value(), "1", why_bound},
       {{"steps", "1", patterns}, {"error in", "1", names}, {"order of the last pair", "1", orders}},
-      "B is a one-step map with a local error of third order, so its order does not need a constant step"};
+      "B is a one-step map with a local error of third order, so its order does not need a "
+      "constant step"};
   return {problem.study + ".B-is-second-order-with-variable-steps",
           "Scheme B is second order in x and v with alternating and with random steps, too.",
           std::move(finding)};
@@ -175,22 +182,24 @@ std::vector<Selection> selections() {
           {"compared-", "the methods compared with, constant steps", other}};
 }
 
-Figure figure_of(const OrderProblem& problem, const std::vector<Run>& runs, const Quantity& quantity,
-                 const Selection& selection) {
+Figure figure_of(const OrderProblem& problem, const std::vector<Run>& runs,
+                 const Quantity& quantity, const Selection& selection) {
   const bool of_paper = selection.prefix.empty();
-  Figure figure{selection.prefix + "errors-in-" + quantity.name,
-                "Error in the " + quantity.words + " of " + problem.description + ": " + selection.words,
-                {"mean step", "s", Scale::log},
-                {"largest error in " + quantity.name, quantity.unit, Scale::log},
-                of_paper ? 2 : nan,
-                "Largest error of any coordinate at the end of the motion. The floor is the uncertainty of "
-                "the reference solution.",
-                {}};
+  Figure figure{
+      selection.prefix + "errors-in-" + quantity.name,
+      "Error in the " + quantity.words + " of " + problem.description + ": " + selection.words,
+      {"mean step", "s", Scale::log},
+      {"largest error in " + quantity.name, quantity.unit, Scale::log},
+      of_paper ? 2 : nan,
+      "Largest error of any coordinate at the end of the motion. The floor is the uncertainty of "
+      "the reference solution.",
+      {}};
   for (const Run& run : runs) {
     if (!selection.shows(run)) continue;
     const Convergence& errors = run.*quantity.errors;
     const std::string label = of_paper ? run.label() : std::string(run.integrator.name);
-    figure.curves.push_back({label, errors.steps, errors.errors, errors.floor, pair_orders(errors)});
+    figure.curves.push_back(
+        {label, errors.steps, errors.errors, errors.floor, pair_orders(errors)});
   }
   return figure;
 }
@@ -270,11 +279,13 @@ std::vector<double> steps_of(const StepPattern& pattern, double end, int count) 
     throw InputError("step pattern '" + std::string(pattern.name) + "': " + std::to_string(count) +
                      " steps are no multiple of its " + std::to_string(length));
   std::vector<double> steps;
-  for (int i = 0; i < count; ++i) steps.push_back(pattern.relative[size_t(i % length)] * end / count);
+  for (int i = 0; i < count; ++i)
+    steps.push_back(pattern.relative[size_t(i % length)] * end / count);
   return steps;
 }
 
-StudyResult time_order(const Subject& subject, const OrderProblem& problem, const Progress& progress) {
+StudyResult time_order(const Subject& subject, const OrderProblem& problem,
+                       const Progress& progress) {
   const std::vector<Run> runs = all_runs(subject, problem, progress);
   StudyResult result;
   for (const Run& run : runs)

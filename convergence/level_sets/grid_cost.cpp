@@ -32,7 +32,8 @@ GridCost cost_of(const MeshDistance& mesh, int cells) {
   Random random(113);
   Worst error;
   for (int i = 0; i < points; ++i) {
-    const Vector3 on_surface = mesh.corners[size_t(random.uniform(0, double(mesh.corners.size())))][0];
+    const Vector3 on_surface =
+        mesh.corners[size_t(random.uniform(0, double(mesh.corners.size())))][0];
     const Vector3 p = on_surface + random.vectors(1, 1.7 * lattice.spacing).col(0);
     error.observe(std::abs(grid.at(p).phi - mesh.at(p).phi));
   }
@@ -61,7 +62,8 @@ void add_grid_costs(const std::vector<int>& cells, StudyResult& result) {
   for (const int n : cells) costs.push_back(cost_of(mesh, n));
   result.tables.push_back(
       {"cost",
-       "Grids about a statue of " + std::to_string(statue.triangles.size()) + " triangles, 1 m high",
+       "Grids about a statue of " + std::to_string(statue.triangles.size()) +
+           " triangles, 1 m high",
        {{"cells along the longest side", "1", column(costs, &GridCost::cells)},
         {"nodes", "1", column(costs, &GridCost::nodes)},
         {"grid", "MB", column(costs, &GridCost::megabytes)},
@@ -74,9 +76,9 @@ void add_grid_costs(const std::vector<int>& cells, StudyResult& result) {
                 {"memory", "MB", Scale::log},
                 {"largest error of phi", "m", Scale::log},
                 nan,
-                "At random points within three cells of the surface, against the exact distance to the mesh. "
-                "Edges of the "
-                "mesh are kinks of phi, where trilinear values err by O(h), and memory grows with h^-3.",
+                "At random points within three cells of the surface, against the exact distance to "
+                "the mesh. Edges of the mesh are kinks of phi, where trilinear values err by O(h), "
+                "and memory grows with h^-3.",
                 {}};
   figure.curves = {{"regular grid, exact band",
                     column(costs, &GridCost::megabytes),

@@ -10,7 +10,9 @@ namespace {
 
 constexpr int margin = 3;
 
-Lattice lattice_of(const KnownBody& body, int cells) { return lattice_about(body.bounds, cells, margin); }
+Lattice lattice_of(const KnownBody& body, int cells) {
+  return lattice_about(body.bounds, cells, margin);
+}
 
 Bounds cube(const Vector3& centre, const Vector3& half) { return {centre - half, centre + half}; }
 
@@ -24,8 +26,8 @@ bool is_inner(const Lattice& lattice, const Node& node) {
 double steepness_error(const Grid& grid, long index) {
   double squares = 0;
   for (const long stride : grid.lattice.strides())
-    squares +=
-        std::pow((grid.phi[index + stride] - grid.phi[index - stride]) / (2 * grid.lattice.spacing), 2);
+    squares += std::pow(
+        (grid.phi[index + stride] - grid.phi[index - stride]) / (2 * grid.lattice.spacing), 2);
   return std::abs(std::sqrt(squares) - 1);
 }
 
@@ -141,7 +143,8 @@ ContourErrors contour_errors(const KnownBody& body, const Grid& grid) {
       worst_angle.observe(degrees);
     }
   }
-  return {lattice.spacing, offset.value(), worst_offset.value(), angle.value(), worst_angle.value()};
+  return {lattice.spacing, offset.value(), worst_offset.value(), angle.value(),
+          worst_angle.value()};
 }
 
 }  // namespace foldproof

@@ -35,7 +35,8 @@ OctreeSettings settings(int depth) {
 struct Kept {
   std::shared_ptr<const DeformingBody> body;
   bool was_loaded = false;
-  std::string why_rejected;  // why the file that was there was not taken; empty if none was, or it was taken
+  // why the file that was there was not taken; empty if none was, or it was taken
+  std::string why_rejected;
 };
 
 /// The body as a program gets it that keeps level sets in the folder.
@@ -46,12 +47,14 @@ Kept kept(const std::string& folder, const MeshSequence& sequence, const OctreeS
     if (const size_t at = line.find("refused: "); at != std::string::npos)
       result.why_rejected = line.substr(at);
   };
-  result.body = caching_provider(folder, listen).make_deforming_body(sequence, how, BetweenFrames::carried);
+  result.body =
+      caching_provider(folder, listen).make_deforming_body(sequence, how, BetweenFrames::carried);
   return result;
 }
 
 /// Where it is kept.
-std::string file_of(const std::string& folder, const MeshSequence& sequence, const OctreeSettings& how) {
+std::string file_of(const std::string& folder, const MeshSequence& sequence,
+                    const OctreeSettings& how) {
   return (std::filesystem::path(folder) / (input_key(sequence, how) + ".h5")).string();
 }
 
@@ -78,24 +81,27 @@ NamedFinding loaded_is_the_same(Costs& costs) {
   double start = processor_seconds();
   const Kept built = kept(folder, animation(3), settings(6));
   costs.build = processor_seconds() - start;
-  costs.megabytes = double(std::filesystem::file_size(file_of(folder, animation(3), settings(6)))) / 1e6;
+  costs.megabytes =
+      double(std::filesystem::file_size(file_of(folder, animation(3), settings(6)))) / 1e6;
   start = processor_seconds();
   const Kept loaded = kept(folder, animation(3), settings(6));
   costs.load = processor_seconds() - start;
-  const double wrong =
-      (built.was_loaded ? 1 : 0) + (loaded.was_loaded ? 0 : 1) + different_answers(*built.body, *loaded.body);
-  return {
-      "level-set-cache.loaded-fields-are-bitwise-equal",
-      "Level sets that were computed before are loaded, and answer bit for bit as those that were computed.",
-      {{wrong, 0, 0, "1", "values are stored in full"}, {}, "measured is the number of answers that differ"}};
+  const double wrong = (built.was_loaded ? 1 : 0) + (loaded.was_loaded ? 0 : 1) +
+                       different_answers(*built.body, *loaded.body);
+  return {"level-set-cache.loaded-fields-are-bitwise-equal",
+          "Level sets that were computed before are loaded, and answer bit for bit as those that "
+          "were computed.",
+          {{wrong, 0, 0, "1", "values are stored in full"},
+           {},
+           "measured is the number of answers that differ"}};
 }
 
 NamedFinding loading_is_cheap(const Costs& costs) {
   return {"level-set-cache.loading-is-cheap",
           "Loading takes a tenth of the time of computing, or less.",
           {{costs.load / costs.build, 0.1, 0, "1",
-            "a tenth: with it ten runs cost about one computation more than the first; measured in processor "
-            "time, which other programs on the machine do not lengthen much"},
+            "a tenth: with it ten runs cost about one computation more than the first; measured in "
+            "processor time, which other programs on the machine do not lengthen much"},
            {{"computing", "s", std::vector<double>{costs.build}},
             {"loading", "s", std::vector<double>{costs.load}},
             {"file", "MB", std::vector<double>{costs.megabytes}}},
@@ -113,7 +119,8 @@ void keep_file(const std::string&) {}
 void keep_request(MeshSequence&, OctreeSettings&) {}
 
 void cut_to(const std::string& path, double share) {
-  std::filesystem::resize_file(path, std::uintmax_t(share * double(std::filesystem::file_size(path))));
+  std::filesystem::resize_file(path,
+                               std::uintmax_t(share * double(std::filesystem::file_size(path))));
 }
 
 /// Turns a bit in a value of a file.
@@ -135,17 +142,21 @@ void write_unsound(const std::string& path) {
 
 std::vector<Spoiling> spoilings() {
   return {
-      {"not there", "", [](const std::string& path) { std::filesystem::remove(path); }, keep_request},
-      {"cut at half", "whole HDF5 file", [](const std::string& path) { cut_to(path, 0.5); }, keep_request},
-      {"cut at its last byte", "whole HDF5 file", [](const std::string& path) { cut_to(path, 1 - 1e-7); },
+      {"not there", "", [](const std::string& path) { std::filesystem::remove(path); },
        keep_request},
+      {"cut at half", "whole HDF5 file", [](const std::string& path) { cut_to(path, 0.5); },
+       keep_request},
+      {"cut at its last byte", "whole HDF5 file",
+       [](const std::string& path) { cut_to(path, 1 - 1e-7); }, keep_request},
       {"empty", "whole HDF5 file", [](const std::string& path) { cut_to(path, 0); }, keep_request},
-      {"a text", "whole HDF5 file", [](const std::string& path) { std::ofstream(path) << "level sets\n"; },
-       keep_request},
+      {"a text", "whole HDF5 file",
+       [](const std::string& path) { std::ofstream(path) << "level sets\n"; }, keep_request},
       {"another HDF5 file", "cannot read",
-       [](const std::string& path) { Hdf5::create_file(path).attribute("version", 1); }, keep_request},
+       [](const std::string& path) { Hdf5::create_file(path).attribute("version", 1); },
+       keep_request},
       {"a bit turned", "",
-       [](const std::string& path) { turn_bit(path, std::filesystem::file_size(path) / 3); }, keep_request},
+       [](const std::string& path) { turn_bit(path, std::filesystem::file_size(path) / 3); },
+       keep_request},
       {"branches that do not fit", "branches", write_unsound, keep_request},
       {"a vertex moved by a rounding", "computed from another", keep_file,
        [](MeshSequence& s, OctreeSettings&) {
@@ -163,7 +174,8 @@ std::vector<Spoiling> spoilings() {
 
 NamedFinding unfit_files_are_rejected() {
   const ScratchFolder scratch;
-  const std::string folder = scratch.file("kept"), good = file_of(folder, animation(2), settings(4)),
+  const std::string folder = scratch.file("kept"),
+                    good = file_of(folder, animation(2), settings(4)),
                     spoilt = scratch.file("spoilt");
   kept(folder, animation(2), settings(4));
   std::vector<std::string> names, reasons;
@@ -183,16 +195,18 @@ NamedFinding unfit_files_are_rejected() {
                              rebuilt.why_rejected.find(spoiling.reason) != std::string::npos;
     names.push_back(spoiling.name);
     const size_t name_at = rebuilt.why_rejected.find(".h5");
-    reasons.push_back(name_at == std::string::npos ? "no file" : rebuilt.why_rejected.substr(name_at + 3));
+    reasons.push_back(name_at == std::string::npos ? "no file"
+                                                   : rebuilt.why_rejected.substr(name_at + 3));
     wrong.push_back((is_rejected ? 0 : 1) + (again.was_loaded ? 0 : 1));
     worst.observe(wrong.back());
   }
-  return {"level-set-cache.invalid-files-are-rejected",
-          "A file that is cut, damaged, foreign or computed from something else is refused with the reason, "
-          "and replaced.",
-          {{worst.value(), 0, 0, "1", "each must be refused, and the new file be good"},
-           {{"file", "", names}, {"refused or replaced wrongly", "1", wrong}, {"reason", "", reasons}},
-           ""}};
+  return {
+      "level-set-cache.invalid-files-are-rejected",
+      "A file that is cut, damaged, foreign or computed from something else is refused with the "
+      "reason, and replaced.",
+      {{worst.value(), 0, 0, "1", "each must be refused, and the new file be good"},
+       {{"file", "", names}, {"refused or replaced wrongly", "1", wrong}, {"reason", "", reasons}},
+       ""}};
 }
 
 StudyResult run_level_set_cache(const Subject&, Tier, const Progress& progress) {
@@ -212,8 +226,8 @@ StudyResult run_level_set_cache(const Subject&, Tier, const Progress& progress) 
 
 Study level_set_cache_study() {
   return {"level-set-cache", "Level sets computed beforehand serve many runs.", "BMF03 section 5.1",
-          "A whole animation's level sets are stored in a file with the key of what they were computed from. "
-          "What does a second run pay, and can it be fooled?",
+          "A whole animation's level sets are stored in a file with the key of what they were "
+          "computed from. What does a second run pay, and can it be fooled?",
           run_level_set_cache};
 }
 

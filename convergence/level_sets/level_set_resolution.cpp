@@ -1,5 +1,5 @@
-// level-set-resolution: errors of distance and direction on grids against their spacing; what the crude start
-// costs.
+// level-set-resolution: errors of distance and direction on grids against their spacing; what the
+// crude start costs.
 #include <cmath>
 
 #include "convergence/level_sets/level_set_resolution.h"
@@ -65,36 +65,37 @@ NamedFinding unit_gradient(const KnownBody& body, const std::vector<NodeErrors>&
       {{1 - pair_orders(steep).back(), 0, 0, "1",
         "errors of O(h^2) that vary from node to node, their differences taken over 2 h"},
        columns_of(steep, "1"),
-       "measured is 1 less the order between the two finest grids, of the mean of ||grad phi| - 1| away from "
-       "kinks"}};
+       "measured is 1 less the order between the two finest grids, of the mean of ||grad phi| - 1| "
+       "away from kinks"}};
 }
 
 NamedFinding first_order(const KnownBody& body, const std::vector<NodeErrors>& levels) {
-  return order_finding({"first-order-marching-converges." + body.name,
-                        "First-order marching errs by O(h) about a " + body.name + ", in the mean.", "m", 1,
-                        "one-cell upwind differences; log h enters where characteristics spread"},
-                       against_h(levels, &NodeErrors::mean));
+  return order_finding(
+      {"first-order-marching-converges." + body.name,
+       "First-order marching errs by O(h) about a " + body.name + ", in the mean.", "m", 1,
+       "one-cell upwind differences; log h enters where characteristics spread"},
+      against_h(levels, &NodeErrors::mean));
 }
 
 void add_marching(const KnownBody& body, const std::vector<int>& cells, StudyResult& result) {
   const auto first = march_all(body, cells, Start::layer, MarchingOrder::first);
   const auto second = march_all(body, cells, Start::layer, MarchingOrder::second);
   const auto banded = march_all(body, cells, Start::band, MarchingOrder::second);
-  result.findings.push_back(order_finding(
-      {"second-order-marching-converges." + body.name,
-       "Second-order marching errs by O(h^2) about a " + body.name + ", in the mean away from its kinks.",
-       "m", 2,
-       "two-cell upwind differences; only next to kinks, and where a difference changes sign, is one cell "
-       "upwind"},
-      against_h(second, &NodeErrors::mean_away)));
-  if (body.name == "ball")
-    result.findings.push_back(first_order(body, first));  // the torus's needs finer grids
+  result.findings.push_back(order_finding({"second-order-marching-converges." + body.name,
+                                           "Second-order marching errs by O(h^2) about a " +
+                                               body.name + ", in the mean away from its kinks.",
+                                           "m", 2,
+                                           "two-cell upwind differences; only next to kinks, and "
+                                           "where a difference changes sign, is one cell upwind"},
+                                          against_h(second, &NodeErrors::mean_away)));
+  // the torus's needs finer grids
+  if (body.name == "ball") result.findings.push_back(first_order(body, first));
   result.findings.push_back(unit_gradient(body, second));
   Figure figure = empty_figure(
       "marching-" + body.name, "Error of fast marching about a " + body.name,
       {"error of phi", "m", Scale::log},
-      "From exact values in a layer about the surface, the same on all grids; band: within two and a half "
-      "cells, so that a finer grid marches farther. Away: not next to where phi has kinks.");
+      "From exact values in a layer about the surface, the same on all grids; band: within two and "
+      "a half cells, so that a finer grid marches farther. Away: not next to where phi has kinks.");
   figure.curves = {
       curve_of("first order, mean", against_h(first, &NodeErrors::mean)),
       curve_of("first order, largest", against_h(first, &NodeErrors::worst)),
@@ -106,7 +107,8 @@ void add_marching(const KnownBody& body, const std::vector<int>& cells, StudyRes
   result.figures.push_back(std::move(figure));
 }
 
-/// h^2/8 times both principal curvatures of the innermost level set that the cells about a point touch.
+/// h^2/8 times both principal curvatures of the innermost level set that the cells
+/// about a point touch.
 double trilinear_bound(double h) {
   constexpr double radius = 0.7;
   return h * h / 4 / (radius - near_surface - std::sqrt(3.0) * h);
@@ -123,34 +125,37 @@ void add_interpolation(const std::vector<int>& cells, StudyResult& result) {
   for (const PointErrors& level : levels) share.observe(level.value / trilinear_bound(level.h));
   result.findings.push_back(
       {"level-set-resolution.trilinear-error-is-bounded-by-curvature",
-       "Between exact nodes the trilinear value misses a ball's distance by no more than its curvature "
-       "explains.",
+       "Between exact nodes the trilinear value misses a ball's distance by no more than its "
+       "curvature explains.",
        {{share.value(), 1, 0, "1",
          "along each axis h^2/8 times the second derivative; the three add up to 2/|p|"},
         columns_of(value, "m"),
         "measured is the largest error over h^2/(4 |p|) of the innermost cells touched"}});
   result.findings.push_back(
-      order_finding({"cell-gradient-is-first-order", "The gradient of the cell errs by O(h).", "1", 1,
-                     "it is right in the cell's middle and constant along each axis"},
+      order_finding({"cell-gradient-is-first-order", "The gradient of the cell errs by O(h).", "1",
+                     1, "it is right in the cell's middle and constant along each axis"},
                     cell));
-  result.findings.push_back(order_finding(
-      {"nodal-gradient-is-second-order", "The blend of the nodes' central differences errs by O(h^2).", "1",
-       2, "central differences and their blend are both exact for quadratics"},
-      nodal));
-  Figure figure =
-      empty_figure("interpolation", "Error between exact nodes, within a tenth of a metre of a ball",
-                   {"largest error", "m, or 1 for directions", Scale::log}, "Random points.");
+  result.findings.push_back(
+      order_finding({"nodal-gradient-is-second-order",
+                     "The blend of the nodes' central differences errs by O(h^2).", "1", 2,
+                     "central differences and their blend are both exact for quadratics"},
+                    nodal));
+  Figure figure = empty_figure(
+      "interpolation", "Error between exact nodes, within a tenth of a metre of a ball",
+      {"largest error", "m, or 1 for directions", Scale::log}, "Random points.");
   figure.curves = {curve_of("value", value), curve_of("gradient of the cell", cell),
                    curve_of("gradient of the nodes", nodal)};
   result.figures.push_back(std::move(figure));
 }
 
-Table contour_table(const std::vector<ContourErrors>& crude, const std::vector<ContourErrors>& exact) {
+Table contour_table(const std::vector<ContourErrors>& crude,
+                    const std::vector<ContourErrors>& exact) {
   const auto column = [](const std::vector<ContourErrors>& levels, double ContourErrors::*what) {
     return against_h(levels, what).errors;
   };
   return {"contour",
-          "The surface that the grid draws, with the paper's crude start and with exact values next to it",
+          "The surface that the grid draws, with the paper's crude start and with exact values "
+          "next to it",
           {{"h", "m", against_h(crude, &ContourErrors::mean_offset).steps},
            {"crude: mean offset", "cells", column(crude, &ContourErrors::mean_offset)},
            {"crude: largest offset", "cells", column(crude, &ContourErrors::worst_offset)},
@@ -170,37 +175,38 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
     crude.push_back(contour_errors(body, grid));
     exact.push_back(contour_errors(body, march_grid(body, n, Start::band, MarchingOrder::second)));
   }
-  result.findings.push_back(
-      order_finding({"crude-start.distance-is-first-order",
-                     "From small positive and small negative values marching gives the distance, to O(h).",
-                     "m", 1, "the surface is known to a part of a cell, which marching carries everywhere"},
-                    against_h(nodes, &NodeErrors::mean)));
+  result.findings.push_back(order_finding(
+      {"crude-start.distance-is-first-order",
+       "From small positive and small negative values marching gives the distance, to O(h).", "m",
+       1, "the surface is known to a part of a cell, which marching carries everywhere"},
+      against_h(nodes, &NodeErrors::mean)));
   const Convergence offset = against_h(crude, &ContourErrors::worst_offset);
   Worst farthest;
   for (const double cells_off : offset.errors) farthest.observe(cells_off);
-  result.findings.push_back(
-      {"level-set-resolution.crude-start.contour-is-within-half-a-cell",
-       "The crude start leaves the surface off by half a cell at most.",
-       {{farthest.value(), 0.5, 0, "cells",
-         "sides alone put the crossing in the middle of an edge, at most half a cell from where it is"},
-        columns_of(offset, "cells"),
-        "measured is the largest offset on any of the grids"}});
+  result.findings.push_back({"level-set-resolution.crude-start.contour-is-within-half-a-cell",
+                             "The crude start leaves the surface off by half a cell at most.",
+                             {{farthest.value(), 0.5, 0, "cells",
+                               "sides alone put the crossing in the middle of an edge, at most "
+                               "half a cell from where it is"},
+                              columns_of(offset, "cells"),
+                              "measured is the largest offset on any of the grids"}});
   const Convergence angle = against_h(crude, &ContourErrors::mean_angle);
   const double kept = angle.errors.back() / angle.errors.front();
   result.findings.push_back(
       {"level-set-resolution.crude-start.normals-stay-wrong",
        "With the crude start normals at the surface do not get better on finer grids.",
        {{std::abs(std::log2(kept)), 0.5, 0, "1",
-         "a staircase has the same angles at every size; over the grids compared an error of O(h) would fall "
-         "by a factor of four, 2 in this measure"},
+         "a staircase has the same angles at every size; over the grids compared an error of O(h) "
+         "would fall by a factor of four, 2 in this measure"},
         columns_of(angle, "degrees"),
         "measured is |log2| of the mean angle on the finest grid over that on the coarsest"}});
   const Convergence cured = against_h(exact, &ContourErrors::worst_angle);
-  result.findings.push_back({"level-set-resolution.exact-start.normals-are-second-order",
-                             "With exact values next to the surface normals there err by O(h^2) at worst.",
-                             {{2 - pair_orders(cured).back(), 0.2, 0, "1", "as between exact nodes"},
-                              columns_of(cured, "degrees"),
-                              "measured is 2 less the order between the two finest grids"}});
+  result.findings.push_back(
+      {"level-set-resolution.exact-start.normals-are-second-order",
+       "With exact values next to the surface normals there err by O(h^2) at worst.",
+       {{2 - pair_orders(cured).back(), 0.2, 0, "1", "as between exact nodes"},
+        columns_of(cured, "degrees"),
+        "measured is 2 less the order between the two finest grids"}});
   Figure figure = empty_figure(
       "crude-start", "Angle between the grid's normal and the ball's, at the surface",
       {"angle", "degrees", Scale::log}, "Where the grid's surface crosses edges of the lattice.");
@@ -231,13 +237,14 @@ StudyResult run_level_set_resolution(const Subject&, Tier tier, const Progress& 
 
 Study level_set_resolution_study() {
   return {"level-set-resolution",
-          "From exact values next to the surface second-order marching gives the distance to O(h^2); the "
-          "paper's crude start gives it to O(h), with normals that stay wrong.",
+          "From exact values next to the surface second-order marching gives the distance to "
+          "O(h^2); the paper's crude start gives it to O(h), with normals that stay wrong.",
           "BMF03 section 5.1",
-          "How fine must a grid be, and what does the start cost? Bodies whose distance is known in closed "
-          "form are put on grids whose spacing is halved. Measured are the distance at the nodes after fast "
-          "marching of both orders, what trilinear interpolation and two kinds of gradients add between "
-          "exact nodes, and the surface and the normals that a start from sides alone leaves behind.",
+          "How fine must a grid be, and what does the start cost? Bodies whose distance is known "
+          "in closed form are put on grids whose spacing is halved. Measured are the distance at "
+          "the nodes after fast marching of both orders, what trilinear interpolation and two "
+          "kinds of gradients add between exact nodes, and the surface and the normals that a "
+          "start from sides alone leaves behind.",
           run_level_set_resolution};
 }
 

@@ -10,8 +10,8 @@
 
 namespace foldproof {
 
-// Errors of signed distance on grids about bodies whose distance is known: what level-set-resolution
-// measures.
+// Errors of signed distance on grids about bodies whose distance is known: what
+// level-set-resolution measures.
 
 /// A body with its distance in closed form, and how far its medial axis is.
 struct KnownBody {
@@ -23,12 +23,12 @@ struct KnownBody {
 };
 
 KnownBody known_ball();  // radius 0.7 m, off the lattice's centre; away: outside of half the radius
-KnownBody
-known_torus();  // radii 0.61 and 0.23 m; away: half the tube's radius from its ring, 0.15 m from its axis
+// radii 0.61 and 0.23 m; away: half the tube's radius from its ring, 0.15 m from its axis
+KnownBody known_torus();
 
-/// What marching starts from: exact values within two and a half cells of the surface; exact values within
-/// the body's `layer`, on every grid the same, so that the error is marching's own; which side each node is
-/// on.
+/// What marching starts from: exact values within two and a half cells of the surface; exact values
+/// within the body's `layer`, on every grid the same, so that the error is marching's own; which
+/// side each node is on.
 enum class Start { band, layer, crude };
 
 /// `cells` along the longest side of the body's bounds, three more around it.
@@ -70,8 +70,8 @@ ContourErrors contour_errors(const KnownBody& body, const Grid& grid);
 
 // What a grid about a mesh costs: nodes, memory, seconds, error.
 
-/// Adds the table `cost` and the figure `error-against-memory` of grids about a statue. cells: along its
-/// longest side.
+/// Adds the table `cost` and the figure `error-against-memory` of grids about a statue. cells:
+/// along its longest side.
 void add_grid_costs(const std::vector<int>& cells, StudyResult& result);
 
 }  // namespace foldproof

@@ -1,4 +1,5 @@
-// level-sets-in-time: what lies between two stored level sets of a body that deforms, and what a frame costs.
+// level-sets-in-time: what lies between two stored level sets of a body that deforms, and
+// what a frame costs.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -21,8 +22,10 @@ constexpr double middle = 0.31;       // the time that is looked at [s]
 /// A ball that is thrown along x while it is drawn out, bends and swings, all at different rates.
 Vector3 deform(const Vector3& X, double t) {
   const double drawn_pairs = 1 + 0.25 * std::sin(2.1 * t), bend = 3.2 * std::sin(3.7 * t);
-  const Vector3 x(X.x() * drawn_pairs, X.y() / std::sqrt(drawn_pairs), X.z() / std::sqrt(drawn_pairs));
-  return x + Vector3(0.7 * (t - middle), bend * x.x() * x.x() * 0.5 + 0.12 * std::sin(2.9 * t), 0.3 * t * t);
+  const Vector3 x(X.x() * drawn_pairs, X.y() / std::sqrt(drawn_pairs),
+                  X.z() / std::sqrt(drawn_pairs));
+  return x + Vector3(0.7 * (t - middle), bend * x.x() * x.x() * 0.5 + 0.12 * std::sin(2.9 * t),
+                     0.3 * t * t);
 }
 
 OctreeSettings settings_to(int depth) {
@@ -48,7 +51,8 @@ struct Pair {
   double largest_displacement;  // the farthest that a vertex moves in it [m]
   double blended, carried;      // largest miss of phi at the middle time [m]
   double evaluations;           // distances asked for, for one frame
-  double kept;  // of the second frame's nodes, the share that keeps the nearest point of the first [1]
+  // of the second frame's nodes, the share that keeps the nearest point of the first [1]
+  double kept;
 };
 
 double largest_miss(const DeformingBody& body, const MeshDistance& exact,
@@ -59,9 +63,10 @@ double largest_miss(const DeformingBody& body, const MeshDistance& exact,
   return worst.value();
 }
 
-Pair measure(const TriangleMesh& ball, double interval, int depth, const std::vector<Vector3>& points,
-             const MeshDistance& exact) {
-  const MeshSequence sequence = deformed_mesh(ball, deform, {middle - interval / 2, middle + interval / 2});
+Pair measure(const TriangleMesh& ball, double interval, int depth,
+             const std::vector<Vector3>& points, const MeshDistance& exact) {
+  const MeshSequence sequence =
+      deformed_mesh(ball, deform, {middle - interval / 2, middle + interval / 2});
   DeformingBody body = make_deforming_body(sequence, settings_to(depth), BetweenFrames::blended);
   Pair pair{interval,
             (sequence.positions[1] - sequence.positions[0]).colwise().norm().maxCoeff(),
@@ -100,55 +105,55 @@ NamedFinding second_order(const std::vector<Pair>& pairs, Miss miss, const std::
   errors.errors.resize(std::size_t(levels));
   const Estimate deviation = order_deviation(errors, 2, 1);
   return {"level-sets-in-time." + name + "-is-second-order",
-          "Interpolated between frames, " + name + ", phi errs with second order in the time between them.",
+          "Interpolated between frames, " + name +
+              ", phi errs with second order in the time between them.",
           {{deviation.value, 0.5, deviation.uncertainty, "1",
             "first order would be off by 1; half of that is left to what the octrees miss"},
            {{"time between frames", "s", errors.steps}, {"largest miss", "m", errors.errors}},
-           "measured is |order - 2| of the last pair of intervals whose errors are nine times what the "
-           "octrees may miss"}};
+           "measured is |order - 2| of the last pair of intervals whose errors are nine times what "
+           "the octrees may miss"}};
 }
 
 NamedFinding carried_errs_less(const std::vector<Pair>& pairs) {
   Worst worst;
   for (std::size_t i = 0; i < 2; ++i) worst.observe(pairs[i].carried / pairs[i].blended);
-  return {
-      "level-sets-in-time.carried-error-is-smaller",
-      "Carried along with the body, phi errs by less than a half of what it errs if blended at the point.",
-      {{worst.value(), 0.5, 0, "1",
-        "a half: then it saves more than a quarter of the frames, 1 - 1/sqrt(2), both errors falling with "
-        "the interval squared"},
-       {{"time between frames", "s", column(pairs, &Pair::interval)},
-        {"carried", "m", column(pairs, &Pair::carried)},
-        {"blended", "m", column(pairs, &Pair::blended)}},
-       "measured is the larger ratio of the two longest intervals"}};
+  return {"level-sets-in-time.carried-error-is-smaller",
+          "Carried along with the body, phi errs by less than a half of what it errs if blended at "
+          "the point.",
+          {{worst.value(), 0.5, 0, "1",
+            "a half: then it saves more than a quarter of the frames, 1 - 1/sqrt(2), both errors "
+            "falling with the interval squared"},
+           {{"time between frames", "s", column(pairs, &Pair::interval)},
+            {"carried", "m", column(pairs, &Pair::carried)},
+            {"blended", "m", column(pairs, &Pair::blended)}},
+           "measured is the larger ratio of the two longest intervals"}};
 }
 
 NamedFinding frame_is_cheap(const std::vector<Pair>& pairs, int depth) {
   const double nodes = std::pow(std::ldexp(1, depth) + 1, 3);
   Worst worst;
   for (const Pair& pair : pairs) worst.observe(pair.evaluations / nodes);
-  return {
-      "level-sets-in-time.frames-compute-few-distances",
-      "A frame of a deforming body asks for a tenth of the distances that a whole grid as fine would need.",
-      {{worst.value(), 0.1, 0, "1",
-        "a tenth: what lies beyond the band is sampled only as finely as it must be"},
-       {{"time between frames", "s", column(pairs, &Pair::interval)},
-        {"distances for the first frame", "1", column(pairs, &Pair::evaluations)},
-        {"nodes of the grid", "1", std::vector<double>(pairs.size(), nodes)}},
-       ""}};
+  return {"level-sets-in-time.frames-compute-few-distances",
+          "A frame of a deforming body asks for a tenth of the distances that a whole grid as fine "
+          "would need.",
+          {{worst.value(), 0.1, 0, "1",
+            "a tenth: what lies beyond the band is sampled only as finely as it must be"},
+           {{"time between frames", "s", column(pairs, &Pair::interval)},
+            {"distances for the first frame", "1", column(pairs, &Pair::evaluations)},
+            {"nodes of the grid", "1", std::vector<double>(pairs.size(), nodes)}},
+           ""}};
 }
 
 NamedFinding fast_bodies_keep_little(const std::vector<Pair>& pairs) {
-  return {
-      "level-sets-in-time.fast-bodies-reuse-little",
-      "A body that moves by more than its radius between two frames leaves few nodes of the first as they "
-      "were: nearly all are looked for anew.",
-      {{pairs.front().kept, 0.1, 0, "1",
-        "a tenth: a node farther from the surface than the way keeps its nearest point, and few of them are "
-        "in the cube"},
-       {{"longest way of a vertex", "m", column(pairs, &Pair::largest_displacement)},
-        {"nodes that keep their nearest point", "1", column(pairs, &Pair::kept)}},
-       ""}};
+  return {"level-sets-in-time.fast-bodies-reuse-little",
+          "A body that moves by more than its radius between two frames leaves few nodes of the "
+          "first as they were: nearly all are looked for anew.",
+          {{pairs.front().kept, 0.1, 0, "1",
+            "a tenth: a node farther from the surface than the way keeps its nearest point, and "
+            "few of them are in the cube"},
+           {{"longest way of a vertex", "m", column(pairs, &Pair::largest_displacement)},
+            {"nodes that keep their nearest point", "1", column(pairs, &Pair::kept)}},
+           ""}};
 }
 
 Figure figure_of(const std::vector<Pair>& pairs) {
@@ -158,8 +163,8 @@ Figure figure_of(const std::vector<Pair>& pairs) {
           {"time between frames", "s", Scale::log},
           {"largest miss of phi", "m", Scale::log},
           2,
-          "Within 2 cm of the surface, at the time in the middle of the two frames, against the exact "
-          "distance to the mesh as it is then. The floor is the octrees' tolerance.",
+          "Within 2 cm of the surface, at the time in the middle of the two frames, against the "
+          "exact distance to the mesh as it is then. The floor is the octrees' tolerance.",
           {{"blended at the point", x, column(pairs, &Pair::blended), tolerance,
             pair_orders(convergence_of(pairs, &Pair::blended))},
            {"carried along", x, column(pairs, &Pair::carried), tolerance,
@@ -203,8 +208,9 @@ Study level_sets_in_time_study() {
   return {"level-sets-in-time",
           "Stored level sets of a deforming body, interpolated in time, converge to the body.",
           "BMF03 section 5.1",
-          "How many frames must be stored? A body deforms smoothly; two frames of it lie about one time, "
-          "ever closer, and phi between them is held against the exact distance to the mesh at that time.",
+          "How many frames must be stored? A body deforms smoothly; two frames of it lie about one "
+          "time, ever closer, and phi between them is held against the exact distance to the mesh "
+          "at that time.",
           run_level_sets_in_time};
 }
 

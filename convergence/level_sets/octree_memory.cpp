@@ -27,7 +27,8 @@ struct Body {
 Body statue() {
   const TriangleMesh mesh = make_statue(1, 3);
   const Vector3 low = mesh.rest.rowwise().minCoeff(), high = mesh.rest.rowwise().maxCoeff();
-  const PerParticle3 x = 0.82 / (high - low).maxCoeff() * (mesh.rest.colwise() - 0.5 * (low + high));
+  const PerParticle3 x =
+      0.82 / (high - low).maxCoeff() * (mesh.rest.colwise() - 0.5 * (low + high));
   const auto distance = std::make_shared<MeshDistance>(make_mesh_distance(x, mesh.triangles));
   return {"statue", [distance](const Vector3& p) { return distance->at(p); }, 7, 8, 9};
 }
@@ -56,13 +57,14 @@ std::vector<Vector3> points_in_band(const Body& body, double band) {
     const double x = along(random), y = along(random), z = along(random), up = height(random);
     const Distance at = body.distance({x, y, z});
     const Vector3 p = Vector3(x, y, z) - (at.phi - up) * at.normal;
-    if (p.cwiseAbs().maxCoeff() < 0.5 && std::abs(body.distance(p).phi) <= band) points.push_back(p);
+    if (p.cwiseAbs().maxCoeff() < 0.5 && std::abs(body.distance(p).phi) <= band)
+      points.push_back(p);
   }
   return points;
 }
 
-/// Largest miss [m] of the trilinear interpolant on a regular grid of 2^level cells along each axis of the
-/// cube; only the cells about the points are made.
+/// Largest miss [m] of the trilinear interpolant on a regular grid of 2^level cells along each axis
+/// of the cube; only the cells about the points are made.
 double grid_miss(const Body& body, const std::vector<Vector3>& points, int level) {
   const double cells = std::ldexp(1, level);
   Worst worst;
@@ -91,18 +93,20 @@ struct Balance {
   double grid_bytes, tree_bytes, grid_miss, tree_miss, tolerance, evaluations, seconds;
 };
 
-/// The first of a row of ever smaller tolerances with which the tree misses by no more than the grid. The
-/// band is wider by the diagonal of a cell, so that what hangs from coarser cells lies outside of it.
+/// The first of a row of ever smaller tolerances with which the tree misses by no more than the
+/// grid. The band is wider by the diagonal of a cell, so that what hangs from coarser cells
+/// lies outside of it.
 Balance balance_of(const Body& body, int level) {
   const double h = std::ldexp(1, -level), band = band_cells * h;
   const std::vector<Vector3> points = points_in_band(body, band);
-  Balance balance{body.name, level, 8 * std::pow(1 / h + 1, 3), 0, grid_miss(body, points, level), nan, 0,
-                  0,         0};
+  Balance balance{
+      body.name, level, 8 * std::pow(1 / h + 1, 3), 0, grid_miss(body, points, level), nan, 0,
+      0,         0};
   for (const double share : {1.05, 0.85, 0.6, 0.42, 0.3}) {
     const double start = processor_seconds();
-    const Octree tree =
-        make_octree({body.distance}, {Vector3::Constant(-0.5), 1, level + 1, 3, share * balance.grid_miss,
-                                      band + std::sqrt(3.0) * h, 0.25, 0, HangingNodes::constrained});
+    const Octree tree = make_octree(
+        {body.distance}, {Vector3::Constant(-0.5), 1, level + 1, 3, share * balance.grid_miss,
+                          band + std::sqrt(3.0) * h, 0.25, 0, HangingNodes::constrained});
     balance.seconds = processor_seconds() - start;
     balance.tree_bytes = double(bytes(tree));
     balance.tree_miss = tree_miss(body, points, tree);
@@ -136,22 +140,24 @@ std::vector<Column> evidence_of(const std::vector<Balance>& all, const std::stri
 }
 
 NamedFinding takes_a_tenth(const std::vector<Balance>& all) {
-  return {"octree-memory.bumpy-body-takes-a-tenth",
-          "On a bumpy body the octree takes a tenth of the memory of the grid with the same error, or less.",
-          {{share_of_grid(finest(all, "statue")), 0.1, 0, "1",
-            "a tenth: what is asked of it at 512 cells along each axis, where the full tier measures; the "
-            "quick tier stops at 256, where less is saved"},
-           evidence_of(all, "statue"),
-           "errors are the largest within three cells of the surface, at the same points for both"}};
+  return {
+      "octree-memory.bumpy-body-takes-a-tenth",
+      "On a bumpy body the octree takes a tenth of the memory of the grid with the same error, or "
+      "less.",
+      {{share_of_grid(finest(all, "statue")), 0.1, 0, "1",
+        "a tenth: what is asked of it at 512 cells along each axis, where the full tier measures; "
+        "the quick tier stops at 256, where less is saved"},
+       evidence_of(all, "statue"),
+       "errors are the largest within three cells of the surface, at the same points for both"}};
 }
 
 NamedFinding even_curve_takes_more(const std::vector<Balance>& all) {
   return {"octree-memory.sphere-takes-more-than-a-tenth",
-          "On a sphere, which is curved alike everywhere, the octree takes more than a tenth of the grid's "
-          "memory.",
+          "On a sphere, which is curved alike everywhere, the octree takes more than a tenth of "
+          "the grid's memory.",
           {{0.1 / share_of_grid(finest(all, "sphere")), 1, 0, "1",
-            "measured is a tenth over the share: below 1 the share is larger. The band's cells must all be "
-            "as small as the grid's, and a leaf takes the room of four nodes"},
+            "measured is a tenth over the share: below 1 the share is larger. The band's cells "
+            "must all be as small as the grid's, and a leaf takes the room of four nodes"},
            evidence_of(all, "sphere"),
            ""}};
 }
@@ -161,8 +167,9 @@ Table table_of(const std::vector<Balance>& all) {
   std::vector<std::vector<double>> columns(8);
   for (const Balance& b : all) {
     body.push_back(b.body);
-    const double row[] = {std::ldexp(1, b.level), b.grid_miss,      b.tree_miss,   b.grid_bytes / 1e6,
-                          b.tree_bytes / 1e6,     share_of_grid(b), b.evaluations, b.seconds};
+    const double row[] = {std::ldexp(1, b.level), b.grid_miss,        b.tree_miss,
+                          b.grid_bytes / 1e6,     b.tree_bytes / 1e6, share_of_grid(b),
+                          b.evaluations,          b.seconds};
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].push_back(row[k]);
   }
   return {"balance",
@@ -184,8 +191,8 @@ Figure figure_of(const std::vector<Balance>& all) {
                 {"largest miss within three cells", "m", Scale::log},
                 {"memory", "MB", Scale::log},
                 nan,
-                "The cube is 1 m wide. A grid of n cells along each axis has (n + 1)^3 values; each octree "
-                "misses by no more than the grid beside it.",
+                "The cube is 1 m wide. A grid of n cells along each axis has (n + 1)^3 values; "
+                "each octree misses by no more than the grid beside it.",
                 {}};
   for (const char* const body : {"sphere", "torus", "box", "statue"}) {
     Curve grid{std::string(body) + ", grid", {}, {}, nan, {}},
@@ -205,8 +212,8 @@ Figure figure_of(const std::vector<Balance>& all) {
 
 /// The leaves that a plane through the statue cuts.
 Map slice_of(const Body& body) {
-  const Octree tree = make_octree(
-      {body.distance}, {Vector3::Constant(-0.5), 1, 7, 3, 1e-3, 0.05, 0.25, 0, HangingNodes::constrained});
+  const Octree tree = make_octree({body.distance}, {Vector3::Constant(-0.5), 1, 7, 3, 1e-3, 0.05,
+                                                    0.25, 0, HangingNodes::constrained});
   Map map{"leaves",
           "Leaves of an octree, cut by a plane",
           {"x", "m", Scale::linear},
@@ -217,14 +224,15 @@ Map slice_of(const Body& body) {
           "width of the leaf",
           "m",
           Scale::log,
-          "The statue, cut through its middle; 128 cells along each axis at most, to 1 mm within 5 cm of the "
-          "surface.",
+          "The statue, cut through its middle; 128 cells along each axis at most, to 1 mm within 5 "
+          "cm of the surface.",
           {}};
   constexpr int points = 192;
   for (int i = 0; i < points; ++i) map.x_values.push_back((i + 0.5) / points - 0.5);
   map.y_values = map.x_values;
   for (double y : map.y_values)
-    for (double x : map.x_values) map.values.push_back(std::ldexp(1, -leaf_at(tree, {x, y, 0.013}).level));
+    for (double x : map.x_values)
+      map.values.push_back(std::ldexp(1, -leaf_at(tree, {x, y, 0.013}).level));
   return map;
 }
 
@@ -250,9 +258,9 @@ StudyResult run_octree_memory(const Subject&, Tier tier, const Progress& progres
 Study octree_memory_study() {
   return {"octree-memory", "An octree takes less memory than a regular grid of the same error.",
           "BMF03 section 5.1",
-          "How much does adaptive sampling save? For bodies with even curvature, sharp edges and bumps, a "
-          "regular grid and the coarsest octree that misses by no more, both in double precision. The octree "
-          "may use cells of half the grid's width where it needs them.",
+          "How much does adaptive sampling save? For bodies with even curvature, sharp edges and "
+          "bumps, a regular grid and the coarsest octree that misses by no more, both in double "
+          "precision. The octree may use cells of half the grid's width where it needs them.",
           run_octree_memory};
 }
 

@@ -20,9 +20,10 @@ constexpr double cells_looked_at = 6;  // from the edge
 /// A box that stands askew in the cube of the samples, which has a width of 1 m about the origin.
 struct Askew {
   Box box{{0.31, 0.27, 0.23}};
-  Eigen::Matrix3d turn = (Eigen::AngleAxisd(0.7, Vector3::UnitX()) *
-                          Eigen::AngleAxisd(0.4, Vector3::UnitY()) * Eigen::AngleAxisd(0.9, Vector3::UnitZ()))
-                             .toRotationMatrix();
+  Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(0.7, Vector3::UnitX()) * Eigen::AngleAxisd(0.4, Vector3::UnitY()) *
+       Eigen::AngleAxisd(0.9, Vector3::UnitZ()))
+          .toRotationMatrix();
 
   Distance at(const Vector3& p) const {
     const Distance here = box.at(turn.transpose() * p);
@@ -41,7 +42,8 @@ std::vector<EdgePoint> edge_points(const Askew& body, double h) {
   const auto unit = [&] { return double(random() >> 11) * 0x1p-53; };
   std::vector<EdgePoint> points;
   for (int i = 0; i < 6000; ++i) {
-    const int face = int(random() % 3), along = (face + 1 + int(random() % 2)) % 3, across = 3 - face - along;
+    const int face = int(random() % 3), along = (face + 1 + int(random() % 2)) % 3,
+              across = 3 - face - along;
     EdgePoint point;
     point.from_edge = cells_looked_at * h * unit();
     Vector3 p, n = Vector3::Zero();
@@ -70,8 +72,8 @@ EdgeErrors edge_errors(const Askew& body, const Solid& solid, double h) {
   EdgeErrors errors{h, 0, 0, 0};
   for (const EdgePoint& point : edge_points(body, h)) {
     const Distance at = solid.at(point.p);
-    const double angle = 180 / pi *
-                         std::atan2(at.normal.cross(point.normal).norm(), at.normal.dot(point.normal));
+    const double angle =
+        180 / pi * std::atan2(at.normal.cross(point.normal).norm(), at.normal.dot(point.normal));
     if (!(angle <= told_apart)) errors.reach = std::max(errors.reach, point.from_edge / h);
     update_worst(errors.worst_angle, angle);
     update_worst(errors.worst_phi, std::abs(at.phi));
@@ -125,27 +127,29 @@ NamedFinding reach_finding(const Sampling& sampling) {
 }
 
 NamedFinding angle_finding(const Sampling& sampling) {
-  const double first = sampling.errors.front().worst_angle, last = sampling.errors.back().worst_angle;
-  return {
-      "sharp-edges.normal-error-persists-under-refinement." + sampling.name,
-      "On " + sampling.words + " refinement narrows the strip of blended normals, but not their error.",
-      {{std::abs(last / first - 1), 0.2, 0, "1",
-        "next to an edge the samples of every spacing are alike but for where the edge lies among them, of "
-        "which 6000 places are tried: a fifth is left for chance"},
-       evidence(sampling),
-       "measured is the change of the largest angle from the coarsest to the finest"}};
+  const double first = sampling.errors.front().worst_angle,
+               last = sampling.errors.back().worst_angle;
+  return {"sharp-edges.normal-error-persists-under-refinement." + sampling.name,
+          "On " + sampling.words +
+              " refinement narrows the strip of blended normals, but not their error.",
+          {{std::abs(last / first - 1), 0.2, 0, "1",
+            "next to an edge the samples of every spacing are alike but for where the edge lies "
+            "among them, of which 6000 places are tried: a fifth is left for chance"},
+           evidence(sampling),
+           "measured is the change of the largest angle from the coarsest to the finest"}};
 }
 
 NamedFinding phi_finding(const Sampling& sampling) {
-  const Estimate deviation =
-      order_deviation({column(sampling, &EdgeErrors::h), column(sampling, &EdgeErrors::worst_phi), 0}, 1, 2);
-  return {"sharp-edges.phi-is-first-order." + sampling.name,
-          "On " + sampling.words + " the surface misses an edge by a part of a cell.",
-          {{deviation.value, 0.2, deviation.uncertainty, "1",
-            "a kink of phi is cut off over a cell: order 1; the largest of 6000 random places is known to a "
-            "tenth or so, a fifth of an order between spacings of which one is half the other"},
-           evidence(sampling),
-           "measured is |order - 1| of the last two pairs"}};
+  const Estimate deviation = order_deviation(
+      {column(sampling, &EdgeErrors::h), column(sampling, &EdgeErrors::worst_phi), 0}, 1, 2);
+  return {
+      "sharp-edges.phi-is-first-order." + sampling.name,
+      "On " + sampling.words + " the surface misses an edge by a part of a cell.",
+      {{deviation.value, 0.2, deviation.uncertainty, "1",
+        "a kink of phi is cut off over a cell: order 1; the largest of 6000 random places is known "
+        "to a tenth or so, a fifth of an order between spacings of which one is half the other"},
+       evidence(sampling),
+       "measured is |order - 1| of the last two pairs"}};
 }
 
 Figure figure_of(const std::vector<Sampling>& samplings) {
@@ -154,8 +158,8 @@ Figure figure_of(const std::vector<Sampling>& samplings) {
                 {"spacing", "m", Scale::log},
                 {"distance from the edge", "m", Scale::log},
                 1,
-                "Farthest points of the faces of a box askew to the samples at which N is off by more than a "
-                "degree.",
+                "Farthest points of the faces of a box askew to the samples at which N is off by "
+                "more than a degree.",
                 {}};
   for (const Sampling& sampling : samplings) {
     Curve curve{sampling.words, column(sampling, &EdgeErrors::h), {}, nan, {}};
@@ -168,14 +172,13 @@ Figure figure_of(const std::vector<Sampling>& samplings) {
 StudyResult run_sharp_edges(const Subject&, Tier tier, const Progress& progress) {
   const Askew body;
   const int finest = tier == Tier::full ? 8 : 7;
-  Sampling grids{
-      "grid",
-      "a grid",
-      {},
-      2 * std::sqrt(6.0),
-      "differences at a cell's corners look two cells along each axis, 2 sqrt(3) cells away; the kink "
-      "inside the box is s/sqrt(2) from a point at s from the edge, so that beyond 2 sqrt(6) cells all "
-      "that is looked at is one plane"};
+  Sampling grids{"grid",
+                 "a grid",
+                 {},
+                 2 * std::sqrt(6.0),
+                 "differences at a cell's corners look two cells along each axis, 2 sqrt(3) cells "
+                 "away; the kink inside the box is s/sqrt(2) from a point at s from the edge, so "
+                 "that beyond 2 sqrt(6) cells all that is looked at is one plane"};
   Sampling trees{
       "octree",
       "an octree",
@@ -203,8 +206,8 @@ StudyResult run_sharp_edges(const Subject&, Tier tier, const Progress& progress)
 Study sharp_edges_study() {
   return {"sharp-edges", "Sampled distances round off edges and blend the normals next to them.",
           "BMF03 section 5.1",
-          "How far from an edge is N not the face's, and how much does refinement help? A box askew to the "
-          "samples, exact values at the nodes.",
+          "How far from an edge is N not the face's, and how much does refinement help? A box "
+          "askew to the samples, exact values at the nodes.",
           run_sharp_edges};
 }
 

@@ -17,7 +17,8 @@ SteppedMotion bdf2_without_forces(const Subject& subject) {
   return stepped_motion(subject, std::move(motion), "BDF2");
 }
 
-/// What multiplies the difference of the two latest velocities in one step of ratio times the one before.
+/// What multiplies the difference of the two latest velocities in one step of ratio times
+/// the one before.
 double difference_factor(const SteppedMotion& of, double ratio) {
   const double h = 1 / of.motion.omega0;
   const Eigen::MatrixXd matrix = step_matrix(of, {ratio * h, h});
@@ -32,18 +33,18 @@ NamedFinding zero_stability(const Subject& subject) {
     (difference_factor(of, middle) <= 1 ? below : above) = middle;
   }
   const oracles::Estimate exact = oracles::bdf2_largest_ratio();
-  return {
-      "variable-step-stability.BDF2.largest-step-ratio-is-as-derived",
-      "BDF2 with steps of a constant ratio amplifies differences of x'' = 0 from the ratio 1 + sqrt(2) on.",
-      {{std::abs((below + above) / 2 - exact.value), 1e-9, exact.uncertainty, "1",
-        "the factor r^2/(1 + 2 r) is found to roundings, and its slope there is 0.35"},
-       {{"ratio found", "1", std::vector<double>{(below + above) / 2}},
-        {"1 + sqrt(2)", "1", std::vector<double>{exact.value}}},
-       ""}};
+  return {"variable-step-stability.BDF2.largest-step-ratio-is-as-derived",
+          "BDF2 with steps of a constant ratio amplifies differences of x'' = 0 from the ratio 1 + "
+          "sqrt(2) on.",
+          {{std::abs((below + above) / 2 - exact.value), 1e-9, exact.uncertainty, "1",
+            "the factor r^2/(1 + 2 r) is found to roundings, and its slope there is 0.35"},
+           {{"ratio found", "1", std::vector<double>{(below + above) / 2}},
+            {"1 + sqrt(2)", "1", std::vector<double>{exact.value}}},
+           ""}};
 }
 
-/// A corner in flight at v0, whose second state is disturbed: what comes of the disturbance after steps that
-/// grow by `ratio` up to omega h = .001, over the disturbance.
+/// A corner in flight at v0, whose second state is disturbed: what comes of the disturbance after
+/// steps that grow by `ratio` up to omega h = .001, over the disturbance.
 double amplification(const SteppedMotion& of, double ratio) {
   constexpr int steps = 600;
   double h = 1e-3 / of.motion.omega0 * std::pow(ratio, -steps);
@@ -66,20 +67,21 @@ std::vector<NamedFinding> growing_steps(const std::string& where, const SteppedM
   const auto factor = [](double r) { return r * r / (1 + 2 * r); };
   const double kept = amplification(of, below), grown = amplification(of, above);
   const double bound = 1 / (1 - factor(below));  // 1 + p + p^2 + ...
-  return {{"variable-step-stability.BDF2.bounded-below-that-ratio." + where,
-           "Steps that grow by 2.40 leave BDF2 bounded on " + where + ".",
-           {{kept / bound, 1, 0, "1",
-             "differences fall by p = r^2/(1 + 2 r) each step, so they add up to less than 1/(1 - p)"},
-            {{"amplification after 600 steps", "1", std::vector<double>{kept}},
-             {"1/(1 - p)", "1", std::vector<double>{bound}}},
-            ""}},
-          {"variable-step-stability.BDF2.grows-above-that-ratio." + where,
-           "Steps that grow by 2.43 make BDF2 grow without bound on " + where + ", though implicit.",
-           {{1000 / grown, 1, 0, "1",
-             "p = 1.0077 to the power 600 is 98, summed up more than ten thousand; a thousand tells it from "
-             "what stays bounded"},
-            {{"amplification after 600 steps", "1", std::vector<double>{grown}}},
-            "measured is a thousand over the amplification"}}};
+  return {
+      {"variable-step-stability.BDF2.bounded-below-that-ratio." + where,
+       "Steps that grow by 2.40 leave BDF2 bounded on " + where + ".",
+       {{kept / bound, 1, 0, "1",
+         "differences fall by p = r^2/(1 + 2 r) each step, so they add up to less than 1/(1 - p)"},
+        {{"amplification after 600 steps", "1", std::vector<double>{kept}},
+         {"1/(1 - p)", "1", std::vector<double>{bound}}},
+        ""}},
+      {"variable-step-stability.BDF2.grows-above-that-ratio." + where,
+       "Steps that grow by 2.43 make BDF2 grow without bound on " + where + ", though implicit.",
+       {{1000 / grown, 1, 0, "1",
+         "p = 1.0077 to the power 600 is 98, summed up more than ten thousand; a thousand tells it "
+         "from what stays bounded"},
+        {{"amplification after 600 steps", "1", std::vector<double>{grown}}},
+        "measured is a thousand over the amplification"}}};
 }
 
 }  // namespace

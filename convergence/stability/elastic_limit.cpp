@@ -29,7 +29,8 @@ Scene undamped_sheet(const Regime& regime, int cells) {
   Scene scene = flat_sheet(cells);
   if (regime.stretch > 0) scene.stretch = StretchMaterial{regime.stretch, 0, 1};
   if (regime.bending > 0)
-    scene.bending = BendingMaterial{regime.bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
+    scene.bending =
+        BendingMaterial{regime.bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
   return scene;
 }
 
@@ -55,8 +56,8 @@ NamedFinding exponent_of(const Regime& regime, const Limits& limits) {
   std::vector<double> orders = pair_orders(limits.exact);
   orders.insert(orders.begin(), nan);
   const Verdict verdict{deviation.value, 0.05, 0, "1",
-                        "a whole exponent would be off by 1; what the border does to the fastest mode dies "
-                        "out as the cells become many"};
+                        "a whole exponent would be off by 1; what the border does to the fastest "
+                        "mode dies out as the cells become many"};
   return {"elastic-limit.exponent." + regime.name,
           "With " + regime.words +
               ", the largest stable step is proportional to the cells' width to the power " +
@@ -79,14 +80,16 @@ NamedFinding bound_of(const Regime& regime, const Limits& limits) {
                         "the bound on the frequency must not lie below it"};
   return {
       "elastic-limit.bound-is-safe." + regime.name,
-      "With " + regime.words + ", the reference's elastic limit is no longer than the largest stable step.",
+      "With " + regime.words +
+          ", the reference's elastic limit is no longer than the largest stable step.",
       {verdict,
        {{"width of a cell", "m", limits.exact.steps}, {"elastic limit over 2/omega", "1", ratios}},
-       "power iteration approaches omega from below, which errs towards passing; the uncertainty is the one "
-       "percent within which runs confirm 2/omega"}};
+       "power iteration approaches omega from below, which errs towards passing; the uncertainty "
+       "is the one percent within which runs confirm 2/omega"}};
 }
 
-/// On a flat sheet at rest springs act in its plane and hinges across it: neither adds to the other.
+/// On a flat sheet at rest springs act in its plane and hinges across it: neither
+/// adds to the other.
 NamedFinding smaller_of_both(const std::vector<Limits>& alone, const Limits& both) {
   Worst worst;
   std::vector<double> springs, bending;
@@ -97,26 +100,26 @@ NamedFinding smaller_of_both(const std::vector<Limits>& alone, const Limits& bot
   }
   const Verdict verdict{worst.value(), 0.01, 0, "1",
                         "power iteration has found the frequencies to better than a hundredth"};
-  return {
-      "elastic-limit.both.is-the-smaller-of-the-two",
-      "With springs and bending, the largest stable step is the smaller of the two: springs' on wide cells, "
-      "bending's on narrow ones.",
-      {verdict,
-       {{"width of a cell", "m", both.exact.steps},
-        {"2/omega, both", "s", both.exact.errors},
-        {"2/omega, springs alone", "s", springs},
-        {"2/omega, bending alone", "s", bending}},
-       ""}};
+  return {"elastic-limit.both.is-the-smaller-of-the-two",
+          "With springs and bending, the largest stable step is the smaller of the two: springs' "
+          "on wide cells, bending's on narrow ones.",
+          {verdict,
+           {{"width of a cell", "m", both.exact.steps},
+            {"2/omega, both", "s", both.exact.errors},
+            {"2/omega, springs alone", "s", springs},
+            {"2/omega, bending alone", "s", bending}},
+           ""}};
 }
 
-NamedFinding scheme_limit(const Subject& subject, const Regime& regime, const Integrator& integrator) {
+NamedFinding scheme_limit(const Subject& subject, const Regime& regime,
+                          const Integrator& integrator) {
   Scene scene = undamped_sheet(regime, 6);
   scene.integrator = std::string(integrator.name);
   const double ratio =
       largest_stable_step(subject, scene, fastest_mode(subject, scene).omega, {0.8, 1.2, 8, 600});
   const Verdict verdict{std::abs(ratio - 1), 0.01, 0, "1",
-                        "the bisection ends at a width of a sixth of that, and a run this long tells growth "
-                        "rates that much beyond the limit"};
+                        "the bisection ends at a width of a sixth of that, and a run this long "
+                        "tells growth rates that much beyond the limit"};
   const std::string name(integrator.name);
   return {"elastic-limit.is-two-over-omega." + regime.name + "." + name,
           "With " + regime.words + ", the largest stable step of scheme " + name +
@@ -165,13 +168,14 @@ StudyResult run_elastic_limit(const Subject& subject, Tier tier, const Progress&
 
 Study elastic_limit_study() {
   return {"elastic-limit",
-          "The largest stable step of undamped motion is 2/omega for schemes A, B and C; it is proportional "
-          "to the cells' width where springs dominate, and to its square where bending does.",
+          "The largest stable step of undamped motion is 2/omega for schemes A, B and C; it is "
+          "proportional to the cells' width where springs dominate, and to its square where "
+          "bending does.",
           "BMF03 section 3",
-          "A flat, free, undamped sheet is disturbed a little. Its fastest mode is found by power iteration "
-          "on the elastic forces, the largest stable step of each scheme by bisection on runs that stay "
-          "bounded or do not. The paper gives the limit as proportional to the width; hinges alone make it "
-          "fall with the square.",
+          "A flat, free, undamped sheet is disturbed a little. Its fastest mode is found by power "
+          "iteration on the elastic forces, the largest stable step of each scheme by bisection on "
+          "runs that stay bounded or do not. The paper gives the limit as proportional to the "
+          "width; hinges alone make it fall with the square.",
           run_elastic_limit};
 }
 

@@ -17,7 +17,8 @@ Scene damped_sheet(int cells, const Damping& damping) {
   Scene scene = flat_sheet(cells);
   if (damping.springs > 0) scene.stretch = StretchMaterial{29, damping.springs, 1};
   if (damping.bending > 0)
-    scene.bending = BendingMaterial{0.0071, damping.bending, Weighting::rest, DampingFactor::edge, "sine"};
+    scene.bending =
+        BendingMaterial{0.0071, damping.bending, Weighting::rest, DampingFactor::edge, "sine"};
   return scene;
 }
 
@@ -30,20 +31,19 @@ NamedFinding damping_exponent(const Damping& damping, const Convergence& limits,
   const Estimate deviation = order_deviation(limits, exponent, 1);
   std::vector<double> orders = pair_orders(limits);
   orders.insert(orders.begin(), nan);
-  return {
-      "stability-sheet.damping-limit-exponent." + damping.name,
-      "With " + damping.words +
-          " the largest stable step of a fully explicit method is proportional to the cells' width to the "
-          "power " +
-          (exponent == 2 ? "two." : "three."),
-      {{deviation.value, 0.1, 0, "1",
-        "another whole exponent is off by 1; what the border does to the fastest mode dies out as the "
-        "cells become many"},
-       {{"width of a cell", "m", limits.steps},
-        {"2/rate of damping", "s", limits.errors},
-        {"exponent", "1", orders}},
-       "measured is |exponent - expected| of the last pair; 2/rate is forward Euler's and RK2's limit, "
-       "where damping decides"}};
+  return {"stability-sheet.damping-limit-exponent." + damping.name,
+          "With " + damping.words +
+              " the largest stable step of a fully explicit method is proportional to the cells' "
+              "width to the power " +
+              (exponent == 2 ? "two." : "three."),
+          {{deviation.value, 0.1, 0, "1",
+            "another whole exponent is off by 1; what the border does to the fastest mode dies out "
+            "as the cells become many"},
+           {{"width of a cell", "m", limits.steps},
+            {"2/rate of damping", "s", limits.errors},
+            {"exponent", "1", orders}},
+           "measured is |exponent - expected| of the last pair; 2/rate is forward Euler's and "
+           "RK2's limit, where damping decides"}};
 }
 
 }  // namespace
@@ -62,8 +62,8 @@ void add_refinement(const Subject& subject, Tier tier, StudyResult& result) {
                 {"width of a cell", "m", Scale::log},
                 {"largest stable step", "s", Scale::log},
                 nan,
-                "2/omega limits schemes A and B, and C where nothing is damped; 2/rate of damping limits "
-                "forward Euler and explicit midpoint.",
+                "2/omega limits schemes A and B, and C where nothing is damped; 2/rate of damping "
+                "limits forward Euler and explicit midpoint.",
                 {}};
   Curve elastic{"2/omega, springs", {}, {}, nan, {}, 1};
   for (const int cells : meshes) {
@@ -71,15 +71,16 @@ void add_refinement(const Subject& subject, Tier tier, StudyResult& result) {
     elastic.y.push_back(2 / fastest_mode(subject, damped_sheet(cells, dampings()[0])).omega);
   }
   figure.curves.push_back(std::move(elastic));
-  for (const auto& [damping, exponent] : {std::pair(dampings()[0], 2.0), std::pair(dampings()[1], 3.0)}) {
+  for (const auto& [damping, exponent] :
+       {std::pair(dampings()[0], 2.0), std::pair(dampings()[1], 3.0)}) {
     Convergence limits;
     for (const int cells : meshes) {
       limits.steps.push_back(flat_side / cells);
       limits.errors.push_back(2 / largest_damping_rate(subject, damped_sheet(cells, damping)));
     }
     result.findings.push_back(damping_exponent(damping, limits, exponent));
-    figure.curves.push_back(
-        {"2/rate, " + damping.words, limits.steps, limits.errors, nan, pair_orders(limits), exponent});
+    figure.curves.push_back({"2/rate, " + damping.words, limits.steps, limits.errors, nan,
+                             pair_orders(limits), exponent});
   }
   result.figures.push_back(std::move(figure));
 }
@@ -105,8 +106,11 @@ StepCounts step_counts(const Subject& subject, const std::vector<int>& meshes) {
   for (const int cells : meshes) {
     const Scene scene = unit_sheet(cells);
     const double omega = fastest_mode(subject, scene).omega;
-    const auto rates = oracles::oscillator_rates(omega, largest_damping_rate(subject, scene) / (2 * omega));
-    const auto steps = [&](int order) { return 1 / oracles::largest_runge_kutta_step(order, rates).value; };
+    const auto rates =
+        oracles::oscillator_rates(omega, largest_damping_rate(subject, scene) / (2 * omega));
+    const auto steps = [&](int order) {
+      return 1 / oracles::largest_runge_kutta_step(order, rates).value;
+    };
     counts.widths.push_back(1. / cells);
     counts.mixed.push_back(omega / 2);
     counts.euler.push_back(steps(1));
@@ -132,10 +136,12 @@ constexpr size_t tenth = 1;
 NamedFinding an_order_of_magnitude(const StepCounts& counts) {
   const double factor = counts.classical[tenth] / counts.mixed[tenth];
   return {"stability-sheet.tenth-width.explicit-needs-ten-times-the-steps",
-          "At a width of a tenth a fully explicit method needs at least ten times the steps of a mixed one.",
+          "At a width of a tenth a fully explicit method needs at least ten times the steps of a "
+          "mixed one.",
           {{10 / factor, 1, 0, "1", "the paper's example: 10 steps against 100"},
            table_of(counts),
-           "measured is ten over the factor between classical Runge-Kutta, which steps furthest, and A"}};
+           "measured is ten over the factor between classical Runge-Kutta, which steps furthest, "
+           "and A"}};
 }
 
 NamedFinding factor_exponent(const StepCounts& counts) {
@@ -143,15 +149,18 @@ NamedFinding factor_exponent(const StepCounts& counts) {
   for (size_t i = 0; i < counts.widths.size(); ++i)
     factors.errors.push_back(counts.classical[i] / counts.mixed[i]);
   const Estimate deviation = order_deviation(factors, -1, 1);
-  return {"stability-sheet.tenth-width.step-ratio-exponent",
-          "The factor between the steps of explicit and mixed methods grows as one over the width of a cell.",
-          {{deviation.value, 0.1, 0, "1", "a factor that stayed, or grew with the square, is off by 1"},
-           {{"width of a cell", "1", factors.steps}, {"steps of RK4 over those of A", "1", factors.errors}},
-           "measured is |exponent + 1| of the last pair"}};
+  return {
+      "stability-sheet.tenth-width.step-ratio-exponent",
+      "The factor between the steps of explicit and mixed methods grows as one over the width of a "
+      "cell.",
+      {{deviation.value, 0.1, 0, "1", "a factor that stayed, or grew with the square, is off by 1"},
+       {{"width of a cell", "1", factors.steps},
+        {"steps of RK4 over those of A", "1", factors.errors}},
+       "measured is |exponent + 1| of the last pair"}};
 }
 
-/// At a tenth the steps are also found by trying: runs of the whole sheet, and for A, which leaves its limit
-/// too slowly for runs when damping is heavy, the matrix of the fastest mode.
+/// At a tenth the steps are also found by trying: runs of the whole sheet, and for A, which leaves
+/// its limit too slowly for runs when damping is heavy, the matrix of the fastest mode.
 NamedFinding by_trying(const Subject& subject, const Integrator& integrator, double expected) {
   Scene scene = unit_sheet(10);
   const FastestMode mode = fastest_mode(subject, scene);
@@ -159,23 +168,25 @@ NamedFinding by_trying(const Subject& subject, const Integrator& integrator, dou
   if (integrator.family == Family::mixed) {
     const double h = 1 / expected;
     steps = 1 / largest_constant_step(
-                    stepped_motion(subject, motion_along(scene, mode.shape, mode.omega), integrator.name),
+                    stepped_motion(subject, motion_along(scene, mode.shape, mode.omega),
+                                   integrator.name),
                     {0.5 * h, 4 * h, 1e-6, 14});
   } else {
     scene.integrator = std::string(integrator.name);
     const double fraction = mode.omega / (2 * expected);
-    steps = mode.omega / 2 /
-            largest_stable_step(subject, scene, mode.omega, {0.9 * fraction, 1.1 * fraction, 7, 2400});
+    steps =
+        mode.omega / 2 /
+        largest_stable_step(subject, scene, mode.omega, {0.9 * fraction, 1.1 * fraction, 7, 2400});
   }
-  return {
-      "stability-sheet.tenth-width.stepping-confirms." + std::string(integrator.name),
-      "Stepping confirms the steps that " + std::string(integrator.title) + " needs at a width of a tenth.",
-      {{std::abs(steps / expected - 1), 0.01, 0, "1",
-        "a disturbance grows a thousandfold in 2400 steps from a third of a percent beyond the limit on; the "
-        "bisection ends at a sixth of a percent"},
-       {{"steps in a unit of time", "1", std::vector<double>{steps}},
-        {"as known", "1", std::vector<double>{expected}}},
-       ""}};
+  return {"stability-sheet.tenth-width.stepping-confirms." + std::string(integrator.name),
+          "Stepping confirms the steps that " + std::string(integrator.title) +
+              " needs at a width of a tenth.",
+          {{std::abs(steps / expected - 1), 0.01, 0, "1",
+            "a disturbance grows a thousandfold in 2400 steps from a third of a percent beyond the "
+            "limit on; the bisection ends at a sixth of a percent"},
+           {{"steps in a unit of time", "1", std::vector<double>{steps}},
+            {"as known", "1", std::vector<double>{expected}}},
+           ""}};
 }
 
 }  // namespace

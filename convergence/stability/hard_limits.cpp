@@ -1,5 +1,5 @@
-// hard-limits: where stiffness ratios, slivers, graded meshes, heavy damping and jumps of the step stop the
-// schemes.
+// hard-limits: where stiffness ratios, slivers, graded meshes, heavy damping and jumps of the step
+// stop the schemes.
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +27,8 @@ struct HardSheet {
 Scene sheet_scene(const Sheet& sheet, double bending) {
   Scene scene = scene_at_rest(make_sheet(sheet), density);
   scene.stretch = StretchMaterial{stretch, 0, 1};
-  if (bending > 0) scene.bending = BendingMaterial{bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
+  if (bending > 0)
+    scene.bending = BendingMaterial{bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   return scene;
 }
@@ -49,7 +50,8 @@ std::vector<HardSheet> hard_sheets() {
 
 // ---- undamped sheets
 
-/// Largest stable steps of one sheet over 2/omega, by scheme, and the solver's own bound over 2/omega.
+/// Largest stable steps of one sheet over 2/omega, by scheme, and the solver's own
+/// bound over 2/omega.
 struct SheetLimits {
   double exact;  // 2/omega [s]
   double bound;
@@ -58,7 +60,8 @@ struct SheetLimits {
 
 SheetLimits limits_of(const Subject& subject, Scene scene) {
   const double omega = fastest_mode(subject, scene).omega;
-  SheetLimits limits{2 / omega, elastic_limit(build_system(scene), start_state(scene)) * omega / 2, {}};
+  SheetLimits limits{
+      2 / omega, elastic_limit(build_system(scene), start_state(scene)) * omega / 2, {}};
   for (const Integrator& integrator : paper_schemes()) {
     scene.integrator = std::string(integrator.name);
     limits.schemes.push_back(largest_stable_step(subject, scene, omega, {0.9, 1.1, 7, 400}));
@@ -71,18 +74,19 @@ NamedFinding undamped_finding(const HardSheet& sheet, const SheetLimits& limits)
   std::vector<std::string> names;
   for (const Integrator& integrator : paper_schemes()) names.emplace_back(integrator.name);
   for (const double ratio : limits.schemes) worst.observe(std::abs(ratio - 1));
-  const Verdict verdict{
-      worst.value(), 0.01, 0, "1",
-      "the bisection ends at a width of a sixth of that, and power iteration has found omega "
-      "to better than half of it"};
+  const Verdict verdict{worst.value(), 0.01, 0, "1",
+                        "the bisection ends at a width of a sixth of that, and power iteration has "
+                        "found omega to better than half of it"};
   return {"hard-limits.is-two-over-omega." + sheet.name,
-          "With " + sheet.words + ", the largest stable step of schemes A, B and C is 2/omega all the same.",
+          "With " + sheet.words +
+              ", the largest stable step of schemes A, B and C is 2/omega all the same.",
           {verdict,
            {{"scheme", "1", names}, {"largest stable step over 2/omega", "1", limits.schemes}},
            "measured is the largest |ratio - 1|"}};
 }
 
-NamedFinding bound_finding(const std::vector<HardSheet>& sheets, const std::vector<SheetLimits>& limits) {
+NamedFinding bound_finding(const std::vector<HardSheet>& sheets,
+                           const std::vector<SheetLimits>& limits) {
   Worst worst;
   std::vector<std::string> names;
   std::vector<double> ratios;
@@ -91,13 +95,14 @@ NamedFinding bound_finding(const std::vector<HardSheet>& sheets, const std::vect
     ratios.push_back(limits[i].bound);
     worst.observe(ratios.back());
   }
-  return {
-      "hard-limits.bound-is-safe",
-      "The reference's elastic limit is no longer than the largest stable step on hard sheets either.",
-      {{worst.value(), 1, 0.01 * worst.value(), "1", "the bound on the frequency must not lie below it"},
-       {{"sheet", "1", names}, {"elastic limit over 2/omega", "1", ratios}},
-       "power iteration approaches omega from below, which errs towards passing; the uncertainty is the one "
-       "percent within which runs confirm 2/omega"}};
+  return {"hard-limits.bound-is-safe",
+          "The reference's elastic limit is no longer than the largest stable step on hard sheets "
+          "either.",
+          {{worst.value(), 1, 0.01 * worst.value(), "1",
+            "the bound on the frequency must not lie below it"},
+           {{"sheet", "1", names}, {"elastic limit over 2/omega", "1", ratios}},
+           "power iteration approaches omega from below, which errs towards passing; the "
+           "uncertainty is the one percent within which runs confirm 2/omega"}};
 }
 
 // ---- damping
@@ -108,9 +113,10 @@ struct Damped {
   double expected;  // largest stable step over 2/omega [1]
 };
 
-/// Springs alone with damping in proportion to stiffness: the modes stay those of the undamped sheet, and
-/// each is an oscillator with the damping ratio zeta = kd_s omega/(2 Y). The step of A and B is then limited
-/// to 2/omega, that of C to (2/omega) (zeta + sqrt(1 + zeta^2)); the fastest mode decides.
+/// Springs alone with damping in proportion to stiffness: the modes stay those of the undamped
+/// sheet, and each is an oscillator with the damping ratio zeta = kd_s omega/(2 Y). The step of A
+/// and B is then limited to 2/omega, that of C to (2/omega) (zeta + sqrt(1 + zeta^2)); the
+/// fastest mode decides.
 std::vector<Damped> damped_limits() {
   std::vector<Damped> limits;
   for (const double zeta : {0.5, 1.5, 4.0, 10.0, 30.0, 100.0}) {
@@ -120,8 +126,9 @@ std::vector<Damped> damped_limits() {
   return limits;
 }
 
-/// A and B leave their limit slowly: at a step longer by a fraction d a disturbance grows by about 2 d/zeta a
-/// step. No run of bearable length tells that from decay; the matrix of the fastest mode's step does.
+/// A and B leave their limit slowly: at a step longer by a fraction d a disturbance grows by about
+/// 2 d/zeta a step. No run of bearable length tells that from decay; the matrix of the fastest
+/// mode's step does.
 bool is_told_by_runs(const Damped& limit) { return limit.scheme == "C" || limit.ratio < 1; }
 
 double damped_limit(const Subject& subject, const Damped& limit) {
@@ -141,7 +148,8 @@ double damped_limit(const Subject& subject, const Damped& limit) {
          mode.omega / 2;
 }
 
-NamedFinding damped_finding(const std::vector<Damped>& limits, const std::vector<double>& measured) {
+NamedFinding damped_finding(const std::vector<Damped>& limits,
+                            const std::vector<double>& measured) {
   Worst worst;
   std::vector<std::string> schemes, told_by;
   std::vector<double> ratios, expected;
@@ -152,20 +160,20 @@ NamedFinding damped_finding(const std::vector<Damped>& limits, const std::vector
     expected.push_back(limits[i].expected);
     worst.observe(std::abs(measured[i] / expected.back() - 1));
   }
-  return {
-      "hard-limits.damped-limit-is-as-derived",
-      "Damped in proportion to stiffness, schemes A and B are stable up to 2/omega, C up to (2/omega) (zeta "
-      "+ sqrt(1 + zeta^2)), for damping ratios zeta up to 100.",
-      {{worst.value(), 0.01, 0, "1",
-        "the bisection ends at a width of a sixth of that; the limits are those of the damped oscillator"},
-       {{"scheme", "1", schemes},
-        {"told by", "1", told_by},
-        {"damping ratio of the fastest mode", "1", ratios},
-        {"largest stable step over 2/omega", "1", measured},
-        {"expected", "1", expected}},
-       "measured is the largest |found/expected - 1|. Beyond their limit A and B grow too slowly at ratios "
-       "of 10 "
-       "and more for runs to tell it from decay: there the spectral radius of the fastest mode's step does"}};
+  return {"hard-limits.damped-limit-is-as-derived",
+          "Damped in proportion to stiffness, schemes A and B are stable up to 2/omega, C up to "
+          "(2/omega) (zeta + sqrt(1 + zeta^2)), for damping ratios zeta up to 100.",
+          {{worst.value(), 0.01, 0, "1",
+            "the bisection ends at a width of a sixth of that; the limits are those of the damped "
+            "oscillator"},
+           {{"scheme", "1", schemes},
+            {"told by", "1", told_by},
+            {"damping ratio of the fastest mode", "1", ratios},
+            {"largest stable step over 2/omega", "1", measured},
+            {"expected", "1", expected}},
+           "measured is the largest |found/expected - 1|. Beyond their limit A and B grow too "
+           "slowly at ratios of 10 and more for runs to tell it from decay: there the spectral "
+           "radius of the fastest mode's step does"}};
 }
 
 // ---- the study
@@ -174,11 +182,13 @@ Table table_of(const std::vector<HardSheet>& sheets, const std::vector<SheetLimi
   Table table{"largest-steps",
               "Largest stable steps of hard, undamped sheets",
               {{"sheet", "1"}, {"2/omega", "s"}, {"elastic limit over 2/omega", "1"}}};
-  for (size_t i = 0; i < sheets.size(); ++i) table.row(sheets[i].words, limits[i].exact, limits[i].bound);
+  for (size_t i = 0; i < sheets.size(); ++i)
+    table.row(sheets[i].words, limits[i].exact, limits[i].bound);
   for (size_t k = 0; k < paper_schemes().size(); ++k) {
     std::vector<double> ratios;
     for (const SheetLimits& one : limits) ratios.push_back(one.schemes[k]);
-    table.add({"scheme " + std::string(paper_schemes()[k].name) + " over 2/omega", "1", std::move(ratios)});
+    table.add({"scheme " + std::string(paper_schemes()[k].name) + " over 2/omega", "1",
+               std::move(ratios)});
   }
   return table;
 }
@@ -204,7 +214,8 @@ Figure damping_figure(const std::vector<Damped>& limits, const std::vector<doubl
                 {}};
   for (const char* scheme : {"A", "B", "C"})
     figure.curves.push_back(measured_curve(scheme, limits, measured));
-  Curve derived{"derived for C: zeta + sqrt(1 + zeta^2)", geometric_range(0.5, 100, 81), {}, nan, {}};
+  Curve derived{
+      "derived for C: zeta + sqrt(1 + zeta^2)", geometric_range(0.5, 100, 81), {}, nan, {}};
   for (const double zeta : derived.x) derived.y.push_back(zeta + std::sqrt(1 + zeta * zeta));
   figure.curves.push_back(std::move(derived));
   return figure;
@@ -242,16 +253,17 @@ StudyResult run_hard_limits(const Subject& subject, Tier, const Progress& progre
 }  // namespace
 
 Study hard_limits_study() {
-  return {
-      "hard-limits",
-      "Stiffness ratios, slivers and graded meshes leave the largest stable step at 2/omega; damping leaves "
-      "it there for A and B and widens it for C; a jump of the step changes energies by a bounded factor.",
-      "BMF03 section 3",
-      "Flat, free sheets at the edge of what the method takes are disturbed a little. The fastest mode is "
-      "found by power iteration on the elastic forces, the largest stable step of each scheme by bisection "
-      "on runs that stay bounded or do not, with heavy damping on the spectral radius of the fastest mode's "
-      "step, and compared with what the oscillator's step matrices say.",
-      run_hard_limits};
+  return {"hard-limits",
+          "Stiffness ratios, slivers and graded meshes leave the largest stable step at 2/omega; "
+          "damping leaves it there for A and B and widens it for C; a jump of the step changes "
+          "energies by a bounded factor.",
+          "BMF03 section 3",
+          "Flat, free sheets at the edge of what the method takes are disturbed a little. The "
+          "fastest mode is found by power iteration on the elastic forces, the largest stable step "
+          "of each scheme by bisection on runs that stay bounded or do not, with heavy damping on "
+          "the spectral radius of the fastest mode's step, and compared with what the oscillator's "
+          "step matrices say.",
+          run_hard_limits};
 }
 
 }  // namespace foldproof

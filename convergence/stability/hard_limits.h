@@ -10,9 +10,9 @@ namespace foldproof {
 
 // What a jump of the step does to the energy of a vibration.
 
-/// The finding hard-limits.energy-is-bounded-across-a-step-jump.<scheme>: an undamped sheet vibrates in its
-/// fastest mode in steps of
-/// 0.009 (2/omega), which jump to 0.9 (2/omega) at one of eight phases of the period.
+/// The finding hard-limits.energy-is-bounded-across-a-step-jump.<scheme>: an undamped sheet
+/// vibrates in its fastest mode in steps of 0.009 (2/omega), which jump to 0.9 (2/omega) at one of
+/// eight phases of the period.
 NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& scheme);
 
 // When a ribbon of slivers loses a triangle, and that the step does not decide it.

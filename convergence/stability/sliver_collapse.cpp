@@ -27,7 +27,8 @@ Scene falling_ribbon(double safety) {
 double collapse_time(const Scene& scene) {
   const RunResult result =
       simulate(build_system(scene), integrator_named("C"), start_state(scene), scene.schedule, {});
-  const bool is_lost = result.stop && result.stop->reason.find("lost its area") != std::string::npos;
+  const bool is_lost =
+      result.stop && result.stop->reason.find("lost its area") != std::string::npos;
   return is_lost ? result.stop->time : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -41,11 +42,11 @@ NamedFinding sliver_collapse() {
     apart.observe(std::abs(times.back() / times.front() - 1));
   }
   return {"hard-limits.slivers-collapse-at-any-step",
-          "A falling ribbon of triangles 1200 times as long as high shears until one has lost its area, at "
-          "the same time whatever the step: a limit of the model, not of the integration.",
+          "A falling ribbon of triangles 1200 times as long as high shears until one has lost its "
+          "area, at the same time whatever the step: a limit of the model, not of the integration.",
           {{apart.value(), 1e-3, 0, "1",
-            "a failure of the steps would come at another time when they are halved; second order leaves "
-            "less than a thousandth"},
+            "a failure of the steps would come at another time when they are halved; second order "
+            "leaves less than a thousandth"},
            {{"step over the elastic limit", "1", safeties}, {"time of collapse", "s", times}},
            "measured is the relative difference of the times"}};
 }

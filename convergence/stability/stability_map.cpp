@@ -15,10 +15,11 @@ namespace foldproof {
 namespace {
 
 constexpr double bending = 0.0071;  // ke [J]
-constexpr int coarsest = 4;  // cells a side, of the mesh on which a material's damping ratio is counted
+// cells a side, of the mesh on which a material's damping ratio is counted
+constexpr int coarsest = 4;
 
-/// What the springs of the sheet resist with. The hinges stay what they are, so that on soft springs and
-/// narrow cells they decide the fastest mode.
+/// What the springs of the sheet resist with. The hinges stay what they are, so that on soft
+/// springs and narrow cells they decide the fastest mode.
 struct Springs {
   std::string name, words;
   double stiffness;  // Y [N/m]
@@ -28,8 +29,8 @@ std::vector<Springs> kinds_of_springs() {
   return {{"soft", "Y = 29 N/m", 29}, {"stiff", "Y = 2900 N/m", 2900}};
 }
 
-/// Springs and hinges with one relaxation time (damping over stiffness) [s]: every mode is an oscillator of
-/// its own, whose damping ratio is relaxation omega/2.
+/// Springs and hinges with one relaxation time (damping over stiffness) [s]: every mode is an
+/// oscillator of its own, whose damping ratio is relaxation omega/2.
 Scene relaxing_sheet(const Springs& springs, int cells, double relaxation) {
   Scene scene = flat_sheet(cells);
   scene.stretch = StretchMaterial{springs.stiffness, relaxation * springs.stiffness, 1};
@@ -58,7 +59,8 @@ struct MappedSheet {
 MappedSheet mapped_sheet(const Subject& subject, const Springs& springs, Tier tier) {
   const bool quick = tier == Tier::quick;
   MappedSheet sheet{springs, {}, geometric_range(0.03, 30, quick ? 5 : 10)};
-  for (const int cells : quick ? std::vector{coarsest, 8, 16} : std::vector{coarsest, 6, 8, 12, 16, 24, 32})
+  for (const int cells :
+       quick ? std::vector{coarsest, 8, 16} : std::vector{coarsest, 6, 8, 12, 16, 24, 32})
     sheet.modes.push_back({cells, fastest_mode(subject, relaxing_sheet(springs, cells, 0))});
   return sheet;
 }
@@ -68,16 +70,18 @@ double known_ratio(const Integrator& method, double zeta) {
   if (method.name == "C") return zeta + std::sqrt(1 + zeta * zeta);
   if (method.family == Family::mixed) return 1;
   constexpr double omega = 2;
-  return oracles::largest_runge_kutta_step(method.order, oracles::oscillator_rates(omega, zeta)).value;
+  return oracles::largest_runge_kutta_step(method.order, oracles::oscillator_rates(omega, zeta))
+      .value;
 }
 
 /// The same of the sheet's fastest mode, by stepping the whole sheet along it.
-double tried_ratio(const Subject& subject, const Integrator& method, Scene scene, const FastestMode& mode,
-                   double expected) {
+double tried_ratio(const Subject& subject, const Integrator& method, Scene scene,
+                   const FastestMode& mode, double expected) {
   constexpr double growth = 1e-6;
   const double h = expected * 2 / mode.omega;
   return largest_constant_step(
-             stepped_motion(subject, motion_along(std::move(scene), mode.shape, mode.omega), method.name),
+             stepped_motion(subject, motion_along(std::move(scene), mode.shape, mode.omega),
+                            method.name),
              {h / 2, 4 * h, growth, 9}) *
          mode.omega / 2;
 }
@@ -97,15 +101,16 @@ MapPoints points_of(const Subject& subject, const Integrator& method, const Mapp
       points.zeta.push_back(material * sheet.faster(one));
       points.known.push_back(known_ratio(method, points.zeta.back()));
       points.tried.push_back(tried_ratio(subject, method,
-                                         relaxing_sheet(sheet.springs, one.cells, relaxation), one.mode,
-                                         points.known.back()));
+                                         relaxing_sheet(sheet.springs, one.cells, relaxation),
+                                         one.mode, points.known.back()));
     }
   return points;
 }
 
-/// The damping ratio at which the known ratio takes a value, on a mode `faster` times as fast as that on
-/// which the ratio counts; NaN if it takes it nowhere between the ends of the map.
-double ratio_at_level(const Integrator& method, double level, double faster, std::pair<double, double> ends) {
+/// The damping ratio at which the known ratio takes a value, on a mode `faster` times as fast as
+/// that on which the ratio counts; NaN if it takes it nowhere between the ends of the map.
+double ratio_at_level(const Integrator& method, double level, double faster,
+                      std::pair<double, double> ends) {
   auto [low, high] = ends;
   const auto above = [&](double zeta) { return known_ratio(method, zeta * faster) - level; };
   if (!(above(low) * above(high) < 0)) return nan;
@@ -117,17 +122,17 @@ double ratio_at_level(const Integrator& method, double level, double faster, std
   return std::sqrt(low * high);
 }
 
-/// Where the known limit is a tenth, a hundredth, ten times or a hundred times the elastic one, as far as
-/// that is inside the map.
+/// Where the known limit is a tenth, a hundredth, ten times or a hundred times the elastic one, as
+/// far as that is inside the map.
 std::vector<Curve> level_curves(const Integrator& method, const MappedSheet& sheet) {
   std::vector<Curve> curves;
   if (method.name == "A" || method.name == "B") return curves;
-  for (const auto& [level, words] :
-       {std::pair(0.01, "1/100"), std::pair(0.1, "1/10"), std::pair(10., "10"), std::pair(100., "100")}) {
+  for (const auto& [level, words] : {std::pair(0.01, "1/100"), std::pair(0.1, "1/10"),
+                                     std::pair(10., "10"), std::pair(100., "100")}) {
     Curve curve{std::string("derived: ") + words, {}, {}, nan, {}};
     for (const MeshMode& one : sheet.modes) {
-      const double zeta =
-          ratio_at_level(method, level, sheet.faster(one), {sheet.materials.front(), sheet.materials.back()});
+      const double zeta = ratio_at_level(method, level, sheet.faster(one),
+                                         {sheet.materials.front(), sheet.materials.back()});
       if (std::isnan(zeta)) continue;
       curve.x.push_back(zeta);
       curve.y.push_back(one.cells);
@@ -141,26 +146,26 @@ std::string caption_of(const Integrator& method) {
   if (method.name == "A" || method.name == "B") return "Derived: the elastic limit everywhere.";
   if (method.name == "C")
     return "Derived: zeta + sqrt(1 + zeta^2) of the fastest mode, whose zeta refinement raises.";
-  return "Derived: where damping decides it falls as 1/zeta of the fastest mode, and refinement raises zeta "
-         "as one over "
-         "the cells' width where springs decide that mode, as one over its square where hinges do.";
+  return "Derived: where damping decides it falls as 1/zeta of the fastest mode, and refinement "
+         "raises zeta as one over the cells' width where springs decide that mode, as one over its "
+         "square where hinges do.";
 }
 
 Map map_of(const Integrator& method, const MappedSheet& sheet, const MapPoints& points) {
-  Map map{
-      "map-" + sheet.springs.name + "-" + std::string(method.name),
-      "Largest stable step of " + std::string(method.title) + ", " + sheet.springs.words,
-      {"damping ratio of the fastest mode on cells of a quarter of the side", "1", Scale::log},
-      {"cells a side", "1", Scale::log},
-      sheet.materials,
-      {},
-      points.tried,
-      "largest stable step over elastic limit",
-      "1",
-      Scale::log,
-      "A column is one material, a row one mesh. The elastic limit is 2/omega of the mesh's fastest mode. " +
-          caption_of(method),
-      level_curves(method, sheet)};
+  Map map{"map-" + sheet.springs.name + "-" + std::string(method.name),
+          "Largest stable step of " + std::string(method.title) + ", " + sheet.springs.words,
+          {"damping ratio of the fastest mode on cells of a quarter of the side", "1", Scale::log},
+          {"cells a side", "1", Scale::log},
+          sheet.materials,
+          {},
+          points.tried,
+          "largest stable step over elastic limit",
+          "1",
+          Scale::log,
+          "A column is one material, a row one mesh. The elastic limit is 2/omega of the mesh's "
+          "fastest mode. " +
+              caption_of(method),
+          level_curves(method, sheet)};
   for (const MeshMode& one : sheet.modes) map.y_values.push_back(one.cells);
   return map;
 }
@@ -170,19 +175,21 @@ NamedFinding as_derived(const Integrator& method, const Springs& springs, const 
   for (size_t i = 0; i < points.tried.size(); ++i)
     worst.observe(std::abs(points.tried[i] / points.known[i] - 1));
   if (points.tried.empty()) worst.observe(nan);
-  return {"stability-sheet.map-follows-the-fastest-mode." + springs.name + "." + std::string(method.name),
-          "Over damping and resolution, with " + springs.words + ", the largest stable step of " +
-              std::string(method.title) + " is that of the oscillator that the fastest mode is.",
-          {{worst.value(), 0.01, 0, "1",
-            "the bisection ends at a relative width of 3e-4, and beyond the limit of A and B, which they "
-            "leave most slowly, the radius exceeds 1 by a few thousandths of the relative excess, of which "
-            "1e-6 counts; a limit that scaled otherwise would be off by factors"},
-           {{"damping ratio on the coarsest mesh", "1", points.material},
-            {"width of a cell", "m", points.width},
-            {"damping ratio of the fastest mode", "1", points.zeta},
-            {"largest stable step over 2/omega", "1", points.tried},
-            {"as derived", "1", points.known}},
-           "measured is the largest relative deviation over the map"}};
+  return {
+      "stability-sheet.map-follows-the-fastest-mode." + springs.name + "." +
+          std::string(method.name),
+      "Over damping and resolution, with " + springs.words + ", the largest stable step of " +
+          std::string(method.title) + " is that of the oscillator that the fastest mode is.",
+      {{worst.value(), 0.01, 0, "1",
+        "the bisection ends at a relative width of 3e-4, and beyond the limit of A and B, which "
+        "they leave most slowly, the radius exceeds 1 by a few thousandths of the relative excess, "
+        "of which 1e-6 counts; a limit that scaled otherwise would be off by factors"},
+       {{"damping ratio on the coarsest mesh", "1", points.material},
+        {"width of a cell", "m", points.width},
+        {"damping ratio of the fastest mode", "1", points.zeta},
+        {"largest stable step over 2/omega", "1", points.tried},
+        {"as derived", "1", points.known}},
+       "measured is the largest relative deviation over the map"}};
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// stability-oscillator: the largest stable step of every method over the damping ratio of one oscillator.
+// stability-oscillator: the largest stable step of every method over the damping ratio of
+// one oscillator.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,11 +22,13 @@ double known_limit(const Integrator& integrator, double zeta) {
   using oracles::Scheme;
   const oracles::Oscillator oscillator{1, 2 * zeta, 0, 0};
   if (integrator.name == "A") return oracles::largest_stable_step(Scheme::mixed, oscillator).value;
-  if (integrator.name == "B") return oracles::largest_stable_step(Scheme::central_newmark, oscillator).value;
+  if (integrator.name == "B")
+    return oracles::largest_stable_step(Scheme::central_newmark, oscillator).value;
   if (integrator.name == "C")
     return oracles::largest_stable_step(Scheme::variable_step_newmark, oscillator).value;
   if (integrator.family == Family::fully_explicit)
-    return oracles::largest_runge_kutta_step(integrator.order, oracles::oscillator_rates(1, zeta)).value;
+    return oracles::largest_runge_kutta_step(integrator.order, oracles::oscillator_rates(1, zeta))
+        .value;
   return std::numeric_limits<double>::infinity();
 }
 
@@ -45,35 +48,40 @@ struct LimitRow {
   std::vector<double> zeta, measured, known;
 };
 
-LimitRow limit_row(const Subject& subject, const Integrator& integrator, const std::vector<double>& ratios) {
+LimitRow limit_row(const Subject& subject, const Integrator& integrator,
+                   const std::vector<double>& ratios) {
   LimitRow row;
   for (const double zeta : ratios) {
     const double known = known_limit(integrator, zeta);
     if (!(known > 0)) continue;  // unstable at every step: judged by itself
     row.zeta.push_back(zeta);
     row.known.push_back(known);
-    row.measured.push_back(measured_limit(stepped_motion(subject, hinge_oscillator(zeta), integrator.name), known));
+    row.measured.push_back(
+        measured_limit(stepped_motion(subject, hinge_oscillator(zeta), integrator.name), known));
   }
   return row;
 }
 
 NamedFinding limit_finding(const Integrator& integrator, const LimitRow& row) {
   Worst worst;
-  for (size_t i = 0; i < row.zeta.size(); ++i) worst.observe(std::abs(row.measured[i] / row.known[i] - 1));
+  for (size_t i = 0; i < row.zeta.size(); ++i)
+    worst.observe(std::abs(row.measured[i] / row.known[i] - 1));
   const std::string name(integrator.name), title(integrator.title);
   const bool mixed = integrator.family == Family::mixed;
-  const std::string what = !mixed ? "where its stability polynomial leaves 1, so that damping narrows it"
-                           : name == "C" ? "2 (zeta + sqrt(1 + zeta^2)) over omega, so that damping widens it"
-                                         : "2/omega whatever the damping";
-  return {"stability-oscillator.limit-is-as-derived." + name,
-          "The largest stable step of " + title + " on the damped oscillator is " + what + ".",
-          {{worst.value(), 1e-3, 0, "1",
-            "a tenth of a percent tells any two of these formulas apart; a spectral radius of 1 + 1e-8 "
-            "counts as growth, which errs by a ten-thousandth at most, where methods leave 1 slowest"},
-           {{"damping ratio", "1", row.zeta},
-            {"largest stable omega h", "1", row.measured},
-            {"as known", "1", row.known}},
-           "measured is the largest relative deviation"}};
+  const std::string what =
+      !mixed        ? "where its stability polynomial leaves 1, so that damping narrows it"
+      : name == "C" ? "2 (zeta + sqrt(1 + zeta^2)) over omega, so that damping widens it"
+                    : "2/omega whatever the damping";
+  return {
+      "stability-oscillator.limit-is-as-derived." + name,
+      "The largest stable step of " + title + " on the damped oscillator is " + what + ".",
+      {{worst.value(), 1e-3, 0, "1",
+        "a tenth of a percent tells any two of these formulas apart; a spectral radius of 1 + 1e-8 "
+        "counts as growth, which errs by a ten-thousandth at most, where methods leave 1 slowest"},
+       {{"damping ratio", "1", row.zeta},
+        {"largest stable omega h", "1", row.measured},
+        {"as known", "1", row.known}},
+       "measured is the largest relative deviation"}};
 }
 
 /// Methods that leave the imaginary axis at once: first and second order.
@@ -89,8 +97,8 @@ NamedFinding undamped_growth(const Subject& subject, const Integrator& integrato
   }
   const std::string name(integrator.name);
   return {"stability-oscillator.undamped-motion-grows." + name,
-          "Without damping " + std::string(integrator.title) + " grows at every step: |R(iy)|^2 = 1 + y^" +
-              (power == 2 ? "2." : "4/4."),
+          "Without damping " + std::string(integrator.title) +
+              " grows at every step: |R(iy)|^2 = 1 + y^" + (power == 2 ? "2." : "4/4."),
           {{worst.value(), 1e-3, 0, "1",
             "the smallest excess, 1.6e-6, is found to 1e-9; another power of y is off by a factor"},
            {{"omega h", "1", steps}, {"squared spectral radius - 1", "1", excess}},
@@ -103,7 +111,8 @@ NamedFinding unlimited_finding(const Subject& subject, const Integrator& integra
   for (const double zeta : {0.0, 0.01, 0.1, 0.5, 1.0, 10.0}) {
     const SteppedMotion of = stepped_motion(subject, hinge_oscillator(zeta), integrator.name);
     Worst here;
-    for (const double omega_h : geometric_range(0.01, 1000, 26)) here.observe(spectral_radius_at(of, omega_h));
+    for (const double omega_h : geometric_range(0.01, 1000, 26))
+      here.observe(spectral_radius_at(of, omega_h));
     ratios.push_back(zeta);
     largest.push_back(here.value());
     worst.observe(here.value() - 1);
@@ -111,7 +120,8 @@ NamedFinding unlimited_finding(const Subject& subject, const Integrator& integra
   return {"stability-oscillator.has-no-limit." + std::string(integrator.name),
           std::string(integrator.title) + " is stable on the damped oscillator at every step.",
           {{worst.value(), threshold, 0, "1", "what counts as growth everywhere in this study"},
-           {{"damping ratio", "1", ratios}, {"largest spectral radius, omega h .01 to 1000", "1", largest}},
+           {{"damping ratio", "1", ratios},
+            {"largest spectral radius, omega h .01 to 1000", "1", largest}},
            "measured is the largest spectral radius, less 1"}};
 }
 
@@ -161,8 +171,8 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
                 {"damping ratio", "1", Scale::log},
                 {"largest stable omega h", "1", Scale::log},
                 nan,
-                "Measured from step matrices. Methods that are implicit in the elastic forces have no limit "
-                "and no curve; A and B share theirs.",
+                "Measured from step matrices. Methods that are implicit in the elastic forces have "
+                "no limit and no curve; A and B share theirs.",
                 {}};
   double done = 0;
   for (const Integrator& integrator : integrators()) {
@@ -176,7 +186,8 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
       for (size_t i = 0; i < row.zeta.size(); ++i)
         if (row.zeta[i] > 0) curve.x.push_back(row.zeta[i]), curve.y.push_back(row.measured[i]);
       figure.curves.push_back(std::move(curve));
-      if (!(known_limit(integrator, 0) > 0)) result.findings.push_back(undamped_growth(subject, integrator));
+      if (!(known_limit(integrator, 0) > 0))
+        result.findings.push_back(undamped_growth(subject, integrator));
     }
     for (const char* mapped : {"A", "C", "RK4", "BDF2"})
       if (integrator.name == mapped)
@@ -189,16 +200,17 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
 }  // namespace
 
 Study stability_oscillator_study() {
-  return {"stability-oscillator",
-          "On the damped oscillator schemes A and B are stable up to 2/omega whatever the damping, C further "
-          "the more it is damped; explicit methods lose their step to the damping, implicit ones have no "
-          "limit.",
-          "BMF03 section 3",
-          "One corner of a hinge moves across its plane, three are held: an oscillator whose frequency and "
-          "damping follow by hand. Two unit disturbances, stepped once, make the matrix of a method's step "
-          "(four for BDF2, which looks back two states); its spectral radius is bisected for the step at "
-          "which it leaves 1, and compared with what is known of each method.",
-          run_stability_oscillator};
+  return {
+      "stability-oscillator",
+      "On the damped oscillator schemes A and B are stable up to 2/omega whatever the damping, C "
+      "further the more it is damped; explicit methods lose their step to the damping, implicit "
+      "ones have no limit.",
+      "BMF03 section 3",
+      "One corner of a hinge moves across its plane, three are held: an oscillator whose frequency "
+      "and damping follow by hand. Two unit disturbances, stepped once, make the matrix of a "
+      "method's step (four for BDF2, which looks back two states); its spectral radius is bisected "
+      "for the step at which it leaves 1, and compared with what is known of each method.",
+      run_stability_oscillator};
 }
 
 }  // namespace foldproof

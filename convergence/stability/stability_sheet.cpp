@@ -1,5 +1,5 @@
-// stability-sheet: the largest stable step of a sheet over damping and resolution: what is implicit in the
-// damping and what is not.
+// stability-sheet: the largest stable step of a sheet over damping and resolution: what is implicit
+// in the damping and what is not.
 #include <cmath>
 
 #include "convergence/order.h"
@@ -14,11 +14,12 @@ namespace foldproof {
 
 namespace {
 
-/// Flat, springs resist in the plane alone and hinges across it: with one of them damped some modes are not.
+/// Flat, springs resist in the plane alone and hinges across it: with one of them damped
+/// some modes are not.
 bool damps_all(const Damping& damping) { return damping.springs > 0 && damping.bending > 0; }
 
-/// First and second order Runge-Kutta methods leave the imaginary axis at once: an undamped mode grows at any
-/// step.
+/// First and second order Runge-Kutta methods leave the imaginary axis at once: an undamped mode
+/// grows at any step.
 bool grows_undamped(const Integrator& integrator) {
   return integrator.family == Family::fully_explicit && integrator.order <= 2;
 }
@@ -29,7 +30,8 @@ bool grows_undamped(const Integrator& integrator) {
 double known_limit(const Integrator& integrator, const LinearForces& forces) {
   if (integrator.name == "C")
     return oracles::largest_variable_newmark_step(forces.stiffness, forces.damping).value;
-  if (integrator.family == Family::mixed) return oracles::largest_leapfrog_step(forces.stiffness).value;
+  if (integrator.family == Family::mixed)
+    return oracles::largest_leapfrog_step(forces.stiffness).value;
   return oracles::largest_runge_kutta_step(integrator.order,
                                            oracles::system_rates(forces.stiffness, forces.damping))
       .value;
@@ -40,8 +42,8 @@ struct DampedLimits {
   std::vector<double> times, measured, known, elastic;
 };
 
-DampedLimits damped_limits(const Subject& subject, const Integrator& integrator, const Damping& damping,
-                           int points) {
+DampedLimits damped_limits(const Subject& subject, const Integrator& integrator,
+                           const Damping& damping, int points) {
   constexpr double omega0 = 50, threshold = 1e-6;
   DampedLimits limits;
   for (const double times : geometric_range(0.01, 100, points)) {
@@ -52,8 +54,8 @@ DampedLimits damped_limits(const Subject& subject, const Integrator& integrator,
     limits.times.push_back(times);
     limits.known.push_back(known);
     limits.elastic.push_back(oracles::largest_leapfrog_step(forces.stiffness).value);
-    limits.measured.push_back(largest_constant_step(stepped_motion(subject, motion, integrator.name),
-                                                    {known / 2, known * 4, threshold, 11}));
+    limits.measured.push_back(largest_constant_step(
+        stepped_motion(subject, motion, integrator.name), {known / 2, known * 4, threshold, 11}));
   }
   return limits;
 }
@@ -68,65 +70,71 @@ std::vector<Column> columns_of(const DampedLimits& limits) {
 double worst_deviation(const std::vector<double>& measured, const std::vector<double>& expected) {
   if (measured.empty()) return nan;
   Worst worst;
-  for (size_t i = 0; i < measured.size(); ++i) worst.observe(std::abs(measured[i] / expected[i] - 1));
+  for (size_t i = 0; i < measured.size(); ++i)
+    worst.observe(std::abs(measured[i] / expected[i] - 1));
   return worst.value();
 }
 
 const char* const why_percent =
-    "a spectral radius of 1 + 1e-6 counts as growth; where damping is heaviest radii leave 1 by a hundredth "
-    "of the step's excess, so that the limit is found to 1e-3 at least, and a limit that fell with the "
-    "damping would be off by factors";
+    "a spectral radius of 1 + 1e-6 counts as growth; where damping is heaviest radii leave 1 by a "
+    "hundredth of the step's excess, so that the limit is found to 1e-3 at least, and a limit that "
+    "fell with the damping would be off by factors";
 
-NamedFinding independence(const Integrator& integrator, const Damping& damping, const DampedLimits& limits) {
+NamedFinding independence(const Integrator& integrator, const Damping& damping,
+                          const DampedLimits& limits) {
   const std::string name(integrator.name);
-  return {"stability-sheet.limit-does-not-depend-on-damping." + damping.name + "." + name,
-          "On a sheet with " + damping.words + " scheme " + name +
-              " is stable up to 2/omega, the limit without damping, however large the damping.",
-          {{worst_deviation(limits.measured, limits.elastic), 0.01, 0, "1", why_percent},
-           columns_of(limits),
-           "measured is the largest relative deviation from 2/omega while the damping rises by 1e4"}};
+  return {
+      "stability-sheet.limit-does-not-depend-on-damping." + damping.name + "." + name,
+      "On a sheet with " + damping.words + " scheme " + name +
+          " is stable up to 2/omega, the limit without damping, however large the damping.",
+      {{worst_deviation(limits.measured, limits.elastic), 0.01, 0, "1", why_percent},
+       columns_of(limits),
+       "measured is the largest relative deviation from 2/omega while the damping rises by 1e4"}};
 }
 
 NamedFinding never_narrower(const Damping& damping, const DampedLimits& limits) {
   Worst worst;
-  for (size_t i = 0; i < limits.measured.size(); ++i) worst.observe(limits.elastic[i] / limits.measured[i]);
-  return {
-      "stability-sheet.damping-never-lowers-the-limit." + damping.name + ".C",
-      "On a sheet with " + damping.words + " scheme C is stable up to 2/omega at least.",
-      {{worst.value(), 1.001, 0, "1", "the bisection and the linearised forces leave less than a thousandth"},
-       columns_of(limits),
-       "measured is the largest 2/omega over the largest stable step, while the damping rises by 1e4"}};
+  for (size_t i = 0; i < limits.measured.size(); ++i)
+    worst.observe(limits.elastic[i] / limits.measured[i]);
+  return {"stability-sheet.damping-never-lowers-the-limit." + damping.name + ".C",
+          "On a sheet with " + damping.words + " scheme C is stable up to 2/omega at least.",
+          {{worst.value(), 1.001, 0, "1",
+            "the bisection and the linearised forces leave less than a thousandth"},
+           columns_of(limits),
+           "measured is the largest 2/omega over the largest stable step, while the damping rises "
+           "by 1e4"}};
 }
 
-NamedFinding as_known(const Integrator& integrator, const Damping& damping, const DampedLimits& limits) {
+NamedFinding as_known(const Integrator& integrator, const Damping& damping,
+                      const DampedLimits& limits) {
   const std::string name(integrator.name);
   const bool mixed = integrator.family == Family::mixed;
   return {"stability-sheet.limit-is-as-derived." + damping.name + "." + name,
           "On a sheet with " + damping.words + " the largest stable step of " +
               std::string(integrator.title) +
               (mixed ? " is where 4 + 2 h C - h^2 K becomes singular."
-                     : " is where its stability polynomial leaves 1 at one of the sheet's rates: damping "
-                       "narrows it."),
+                     : " is where its stability polynomial leaves 1 at one of the sheet's rates: "
+                       "damping narrows it."),
           {{worst_deviation(limits.measured, limits.known), 0.01, 0, "1", why_percent},
            columns_of(limits),
            "measured is the largest relative deviation while the damping rises by 1e4"}};
 }
 
-void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progress, StudyResult& result) {
+void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progress,
+                       StudyResult& result) {
   const int points = tier == Tier::quick ? 5 : 13;
   double done = 0;
   for (const Damping& damping : dampings()) {
-    Figure figure{
-        "over-damping-" + damping.name,
-        "Largest stable step of a clamped sheet, " + damping.words,
-        {"multiple of the damping constants", "1", Scale::log},
-        {"largest stable step", "s", Scale::log},
-        nan,
-        "The constants are 0.3 N s/m of springs, 0.01 N s of bending. From the spectral radius of the whole "
-        "sheet's step. A and B keep the undamped limit, C gains, "
-        "explicit methods lose in proportion to the damping. Forward Euler and explicit midpoint have no "
-        "stable step at all where some modes are undamped.",
-        {}};
+    Figure figure{"over-damping-" + damping.name,
+                  "Largest stable step of a clamped sheet, " + damping.words,
+                  {"multiple of the damping constants", "1", Scale::log},
+                  {"largest stable step", "s", Scale::log},
+                  nan,
+                  "The constants are 0.3 N s/m of springs, 0.01 N s of bending. From the spectral "
+                  "radius of the whole sheet's step. A and B keep the undamped limit, C gains, "
+                  "explicit methods lose in proportion to the damping. Forward Euler and explicit "
+                  "midpoint have no stable step at all where some modes are undamped.",
+                  {}};
     for (const Integrator& integrator : integrators()) {
       if (integrator.family == Family::fully_implicit) continue;
       if (!damps_all(damping) && grows_undamped(integrator)) continue;
@@ -136,7 +144,8 @@ void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progre
       else
         result.findings.push_back(as_known(integrator, damping, limits));
       if (integrator.name == "C") result.findings.push_back(never_narrower(damping, limits));
-      figure.curves.push_back({std::string(integrator.name), limits.times, limits.measured, nan, {}});
+      figure.curves.push_back(
+          {std::string(integrator.name), limits.times, limits.measured, nan, {}});
       progress(0.7 * ++done / 21);
     }
     result.figures.push_back(std::move(figure));
@@ -158,17 +167,16 @@ StudyResult run_stability_sheet(const Subject& subject, Tier tier, const Progres
 }  // namespace
 
 Study stability_sheet_study() {
-  return {
-      "stability-sheet",
-      "On a sheet the largest stable step of A and B does not depend on the damping and that of C only "
-      "gains; "
-      "explicit methods need h of order dx^2 rho/kd with damped springs, dx^3 rho/kd with damped bending.",
-      "BMF03 section 3",
-      "A small clamped sheet of springs and hinges is stepped from each unit disturbance: the matrix of the "
-      "whole step, whose spectral radius is bisected while the damping rises by 1e4. Under refinement the "
-      "largest rate of the damping is found by power iteration. The paper's example, cells of a tenth, is "
-      "counted out and confirmed by runs.",
-      run_stability_sheet};
+  return {"stability-sheet",
+          "On a sheet the largest stable step of A and B does not depend on the damping and that "
+          "of C only gains; explicit methods need h of order dx^2 rho/kd with damped springs, dx^3 "
+          "rho/kd with damped bending.",
+          "BMF03 section 3",
+          "A small clamped sheet of springs and hinges is stepped from each unit disturbance: the "
+          "matrix of the whole step, whose spectral radius is bisected while the damping rises by "
+          "1e4. Under refinement the largest rate of the damping is found by power iteration. The "
+          "paper's example, cells of a tenth, is counted out and confirmed by runs.",
+          run_stability_sheet};
 }
 
 }  // namespace foldproof

@@ -26,10 +26,12 @@ void add_refinement(const Subject& subject, Tier tier, StudyResult& result);
 /// The paper's example, cells of a tenth: steps counted out and confirmed by stepping.
 void add_tenth(const Subject& subject, Tier tier, StudyResult& result);
 
-// The largest stable step of a sheet over damping and resolution: maps of the study stability-sheet.
+// The largest stable step of a sheet over damping and resolution: maps of the study
+// stability-sheet.
 
-/// For two stiffnesses of the springs and for A, B, C and classical Runge-Kutta 4: a map, and a finding that
-/// it is what the oscillator of the fastest mode says. The damping is the same material on all meshes.
+/// For two stiffnesses of the springs and for A, B, C and classical Runge-Kutta 4: a map, and a
+/// finding that it is what the oscillator of the fastest mode says. The damping is the same
+/// material on all meshes.
 void add_stability_maps(const Subject& subject, Tier tier, StudyResult& result);
 
 }  // namespace foldproof

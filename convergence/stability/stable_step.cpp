@@ -11,8 +11,8 @@ namespace foldproof {
 
 namespace {
 
-/// Does a small disturbance stay small in steps of h [s]? Stable motion is bounded by the modes' amplitudes,
-/// unstable motion grows beyond every bound.
+/// Does a small disturbance stay small in steps of h [s]? Stable motion is bounded by the modes'
+/// amplitudes, unstable motion grows beyond every bound.
 enum class ProjectionOutcome { stays, grows };
 
 struct Trial {
@@ -46,14 +46,15 @@ PerParticle3 disturbance_shape(Eigen::Index n) {
 }
 
 Scene flat_sheet(int cells) {
-  Scene scene =
-      scene_at_rest(make_sheet({SheetPattern::union_jack, flat_side, flat_side, cells, cells}), 0.23);
+  Scene scene = scene_at_rest(
+      make_sheet({SheetPattern::union_jack, flat_side, flat_side, cells, cells}), 0.23);
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   return scene;
 }
 
 ForceOperator elastic_operator(const Subject& subject, const Scene& scene) {
-  const std::shared_ptr<PreparedScene> prepared = require_offered(subject.prepare, "prepare")(scene);
+  const std::shared_ptr<PreparedScene> prepared =
+      require_offered(subject.prepare, "prepare")(scene);
   const auto& forces = require_offered(subject.elastic_forces, "elastic_forces");
   return [&forces, prepared, start = start_state(scene)](const PerParticle3& displacement) {
     const double scale = small_disturbance / displacement.norm();
@@ -65,7 +66,8 @@ ForceOperator elastic_operator(const Subject& subject, const Scene& scene) {
 }
 
 ForceOperator damping_operator(const Subject& subject, const Scene& scene) {
-  const std::shared_ptr<PreparedScene> prepared = require_offered(subject.prepare, "prepare")(scene);
+  const std::shared_ptr<PreparedScene> prepared =
+      require_offered(subject.prepare, "prepare")(scene);
   const auto& forces = require_offered(subject.damping_forces, "damping_forces");
   return [&forces, prepared, start = start_state(scene)](const PerParticle3& v) {
     return forces(*prepared, start, v);

@@ -7,7 +7,8 @@
 
 namespace foldproof {
 
-/// A flat, free square of union-jack cells without forces, at rest: what the studies of limits put theirs on.
+/// A flat, free square of union-jack cells without forces, at rest: what the studies of
+/// limits put theirs on.
 Scene flat_sheet(int cells);
 constexpr double flat_side = 0.61;  // its width [m]
 
@@ -20,7 +21,8 @@ ForceOperator elastic_operator(const Subject& subject, const Scene& scene);
 /// Damping forces [N] of velocities [m/s] at the scene's start.
 ForceOperator damping_operator(const Subject& subject, const Scene& scene);
 
-/// Of -M^{-1/2} F M^{-1/2} over the particles that are not led; the masses are the scene's lumped ones.
+/// Of -M^{-1/2} F M^{-1/2} over the particles that are not led; the masses are the
+/// scene's lumped ones.
 struct LargestEigenvalue {
   double value;        // 1/s^2 or 1/s
   PerParticle3 shape;  // M^{-1/2} times its vector, 3 x N, normalised
@@ -52,7 +54,8 @@ double largest_stable_step(const Subject& subject, const Scene& scene, double om
 /// Numbers in [-1/2, 1/2), 3 x n, the same on every machine.
 PerParticle3 disturbance_shape(Eigen::Index n);
 
-/// Size of the disturbances of a flat sheet [m]: small enough to be linear, large enough for differences.
+/// Size of the disturbances of a flat sheet [m]: small enough to be linear, large enough
+/// for differences.
 constexpr double small_disturbance = 1e-7;
 
 }  // namespace foldproof

@@ -50,9 +50,9 @@ EnergyRange after_jump(const Vibration& of, double phase) {
 
 }  // namespace
 
-// At the step h = s (2/omega) the leapfrog keeps Q = v^2/2 + (1 - s^2) omega^2 x^2/2 of an undamped mode.
-// Whatever its phase, the energy E at the jump gives a Q in [(1 - s^2) E, E]; afterwards the energy lies in
-// [Q, Q/(1 - s^2)].
+// At the step h = s (2/omega) the leapfrog keeps Q = v^2/2 + (1 - s^2) omega^2 x^2/2 of an undamped
+// mode. Whatever its phase, the energy E at the jump gives a Q in [(1 - s^2) E, E]; afterwards the
+// energy lies in [Q, Q/(1 - s^2)].
 NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& scheme) {
   scene.integrator = scheme;
   const auto prepared = require_offered(subject.prepare, "prepare")(scene);
@@ -68,16 +68,17 @@ NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& s
     worst.observe(range.largest.value() * one_minus_squared);
     worst.observe(range.over_least.value() * one_minus_squared);
   }
-  return {
-      "hard-limits.energy-is-bounded-across-a-step-jump." + scheme,
-      "When the step jumps by 1 : 100 to s (2/omega), s = 0.9, the energy of scheme " + scheme +
-          " stays within [1 - s^2, 1/(1 - s^2)] of what it was.",
-      {{worst.value(), 1.01, 0, "1",
-        "one for the derived range; a hundredth for the vibration being not quite the fastest mode alone"},
-       {{"phase at the jump", "rad", phases},
-        {"least energy after it, over the start's", "1", least},
-        {"largest energy after it, over the start's", "1", most}},
-       "measured is how far the range is used: the largest energy, or one over the least, times 1 - s^2"}};
+  return {"hard-limits.energy-is-bounded-across-a-step-jump." + scheme,
+          "When the step jumps by 1 : 100 to s (2/omega), s = 0.9, the energy of scheme " + scheme +
+              " stays within [1 - s^2, 1/(1 - s^2)] of what it was.",
+          {{worst.value(), 1.01, 0, "1",
+            "one for the derived range; a hundredth for the vibration being not quite the fastest "
+            "mode alone"},
+           {{"phase at the jump", "rad", phases},
+            {"least energy after it, over the start's", "1", least},
+            {"largest energy after it, over the start's", "1", most}},
+           "measured is how far the range is used: the largest energy, or one over the least, "
+           "times 1 - s^2"}};
 }
 
 }  // namespace foldproof

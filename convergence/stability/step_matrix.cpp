@@ -14,12 +14,12 @@ namespace {
 
 constexpr double tight = 1e-13;  // of solves
 
-// In the plane of a sheet places are rounded to 1e-17 m and strains of 1e-6 act as if there were none; the
-// hinge's corner has its disturbance alone in z, so that nothing rounds.
+// In the plane of a sheet places are rounded to 1e-17 m and strains of 1e-6 act as if there were
+// none; the hinge's corner has its disturbance alone in z, so that nothing rounds.
 constexpr double sheet_disturbance = 1e-7, hinge_disturbance = 1e-12;  // m
 
-/// scene.x + q shapes and q' shapes; disturbances as SmallMotion has them, times the size `unit` [m
-/// sqrt(kg)].
+/// scene.x + q shapes and q' shapes; disturbances as SmallMotion has them, times the size
+/// `unit` [m sqrt(kg)].
 State disturb(const SmallMotion& motion, const Eigen::VectorXd& y, double time, double unit) {
   const Eigen::Index n = motion.shapes.cols(), particles = motion.scene.x.cols();
   const Eigen::VectorXd x = motion.shapes * y.head(n) * unit;
@@ -35,27 +35,31 @@ State disturb(const SmallMotion& motion, const Eigen::VectorXd& y, double time, 
 Eigen::VectorXd coordinates(const SmallMotion& motion, const PerParticle3& difference) {
   const PerParticle3 weighted =
       difference * lumped_masses(motion.scene.mesh, motion.scene.density).asDiagonal();
-  return motion.shapes.transpose() * Eigen::Map<const Eigen::VectorXd>(weighted.data(), weighted.size());
+  return motion.shapes.transpose() *
+         Eigen::Map<const Eigen::VectorXd>(weighted.data(), weighted.size());
 }
 
 /// A q so small that no particle moves by more than the disturbance [m sqrt(kg)].
-double unit_of(const SmallMotion& motion) { return motion.disturbance / motion.shapes.cwiseAbs().maxCoeff(); }
+double unit_of(const SmallMotion& motion) {
+  return motion.disturbance / motion.shapes.cwiseAbs().maxCoeff();
+}
 
 /// The state after one step from the disturbances y of the latest states.
-State step_disturbance(const SteppedMotion& of, const Eigen::VectorXd& y, Steps steps, double unit) {
+State step_disturbance(const SteppedMotion& of, const Eigen::VectorXd& y, Steps steps,
+                       double unit) {
   const Eigen::Index size = 2 * of.motion.shapes.cols();
   std::vector<State> past;
   for (int i = 0; i < of.history; ++i)
-    past.push_back(
-        disturb(of.motion, y.segment(i * size, size), i + 1 < of.history ? -steps.before : 0, unit));
+    past.push_back(disturb(of.motion, y.segment(i * size, size),
+                           i + 1 < of.history ? -steps.before : 0, unit));
   Work uncounted;
   return of.subject.step(*of.prepared, past, steps.now, uncounted);
 }
 
 }  // namespace
 
-// u1 = |E|/|N1| n1 near flat, and theta = z |E|/|N1|: the force on the corner is -ke c (theta/2) |E|/|N1| -
-// kd |E| (|E|/|N1|)^2 z', c = |E|^2/(|N1| + |N2|).
+// u1 = |E|/|N1| n1 near flat, and theta = z |E|/|N1|: the force on the corner is -ke c (theta/2)
+// |E|/|N1| - kd |E| (|E|/|N1|)^2 z', c = |E|^2/(|N1| + |N2|).
 SmallMotion hinge_oscillator(double zeta) {
   constexpr double length = 0.13, density = 0.21, ke = 0.0071;              // m, kg/m^2, J
   constexpr double N1 = 0.9 * length * length, N2 = 0.6 * length * length;  // m^2
@@ -76,7 +80,8 @@ SmallMotion hinge_oscillator(double zeta) {
 Scene clamped_sheet(double spring_damping, double bending_damping) {
   Scene scene = scene_at_rest(make_sheet({SheetPattern::union_jack, 0.33, 0.22, 3, 2}), 0.23);
   scene.stretch = StretchMaterial{29, spring_damping, 1};
-  scene.bending = BendingMaterial{0.11, bending_damping, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.bending =
+      BendingMaterial{0.11, bending_damping, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   for (int i = 0; i < scene.mesh.particles(); ++i)
     if (scene.mesh.rest(0, i) < 0.17) scene.prescribed.push_back({i, scene.x.col(i), {}});
@@ -125,7 +130,8 @@ LinearForces linear_forces(const Subject& subject, const SmallMotion& motion) {
   return forces;
 }
 
-SteppedMotion stepped_motion(const Subject& subject, SmallMotion motion, std::string_view integrator) {
+SteppedMotion stepped_motion(const Subject& subject, SmallMotion motion,
+                             std::string_view integrator) {
   motion.scene.integrator = std::string(integrator);
   motion.scene.solver.tolerance = tight;
   require_offered(subject.step, "step");
@@ -140,9 +146,12 @@ Eigen::MatrixXd step_matrix(const SteppedMotion& of, Steps steps) {
   for (Eigen::Index i = 0; i + 2 * n < size; ++i) matrix(i, i + 2 * n) = 1;  // now becomes before
   for (Eigen::Index j = 0; j < size; ++j) {
     const Eigen::VectorXd y = Eigen::VectorXd::Unit(size, j);
-    const State ahead = step_disturbance(of, y, steps, unit), behind = step_disturbance(of, -y, steps, unit);
-    matrix.col(j).segment(size - 2 * n, n) = coordinates(of.motion, ahead.x - behind.x) / (2 * unit);
-    matrix.col(j).tail(n) = coordinates(of.motion, ahead.v - behind.v) / (2 * unit * of.motion.omega0);
+    const State ahead = step_disturbance(of, y, steps, unit),
+                behind = step_disturbance(of, -y, steps, unit);
+    matrix.col(j).segment(size - 2 * n, n) =
+        coordinates(of.motion, ahead.x - behind.x) / (2 * unit);
+    matrix.col(j).tail(n) =
+        coordinates(of.motion, ahead.v - behind.v) / (2 * unit * of.motion.omega0);
   }
   return matrix;
 }
@@ -205,7 +214,8 @@ Eigen::MatrixXd in_energy_norm(const Eigen::MatrixXd& matrix, const Eigen::Matri
   const Eigen::VectorXd roots = values.cwiseSqrt();
   Eigen::MatrixXd scale = Eigen::MatrixXd::Identity(2 * n, 2 * n), back = scale;
   scale.topLeftCorner(n, n) = vectors * roots.asDiagonal() * vectors.transpose() / omega0;
-  back.topLeftCorner(n, n) = vectors * roots.cwiseInverse().asDiagonal() * vectors.transpose() * omega0;
+  back.topLeftCorner(n, n) =
+      vectors * roots.cwiseInverse().asDiagonal() * vectors.transpose() * omega0;
   return scale * matrix * back;
 }
 

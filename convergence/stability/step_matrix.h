@@ -1,5 +1,5 @@
-// The matrix of a method's step about an equilibrium, found by stepping small disturbances: what it says
-// about stability is exact for linear motion.
+// The matrix of a method's step about an equilibrium, found by stepping small disturbances: what it
+// says about stability is exact for linear motion.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,22 +11,24 @@
 
 namespace foldproof {
 
-/// Small motion about the start of a scene, which must be an equilibrium at rest: coordinates q [m sqrt(kg)]
-/// of some displacements. Disturbances are (omega0 q, dq/dt), both in sqrt(J).
+/// Small motion about the start of a scene, which must be an equilibrium at rest: coordinates q [m
+/// sqrt(kg)] of some displacements. Disturbances are (omega0 q, dq/dt), both in sqrt(J).
 struct SmallMotion {
   Scene scene;
   Eigen::MatrixXd shapes;  // 3 N x n [1/sqrt(kg)], orthonormal in the masses
   double omega0;           // [rad/s]
-  double disturbance;  // of a particle's place [m]: small enough to be linear, large enough for differences
+  // of a particle's place [m]: small enough to be linear, large enough for differences
+  double disturbance;
 };
 
-/// A corner of a hinge that moves across its plane, the other three held: x'' = -omega0^2 x - 2 zeta omega0
-/// x' as long as the angle is small. omega0 and the damping that makes zeta follow by hand from BMF03 section
-/// 4.
+/// A corner of a hinge that moves across its plane, the other three held: x'' = -omega0^2 x - 2
+/// zeta omega0 x' as long as the angle is small. omega0 and the damping that makes zeta follow by
+/// hand from BMF03 section 4.
 SmallMotion hinge_oscillator(double zeta);
 
-/// A sheet of 3 x 2 cells, flat, clamped at two columns of particles; six are free. Springs and hinges are of
-/// comparable stiffness; their damping [N s/m], [N s] does not commute with it unless it is in proportion.
+/// A sheet of 3 x 2 cells, flat, clamped at two columns of particles; six are free. Springs and
+/// hinges are of comparable stiffness; their damping [N s/m], [N s] does not commute with it unless
+/// it is in proportion.
 Scene clamped_sheet(double spring_damping, double bending_damping);
 
 /// All displacements of the particles that the scene does not hold.
@@ -50,15 +52,16 @@ struct SteppedMotion {
 };
 
 /// Throws NotOffered if the subject does not step.
-SteppedMotion stepped_motion(const Subject& subject, SmallMotion motion, std::string_view integrator);
+SteppedMotion stepped_motion(const Subject& subject, SmallMotion motion,
+                             std::string_view integrator);
 
 /// A step and the one before it, which methods without history do not see [s].
 struct Steps {
   double now, before;
 };
 
-/// Takes the latest `history` disturbances, the oldest first, to those one step later; 2 n history square,
-/// by central differences.
+/// Takes the latest `history` disturbances, the oldest first, to those one step later; 2 n history
+/// square, by central differences.
 Eigen::MatrixXd step_matrix(const SteppedMotion& of, Steps steps);
 
 /// Two steps, first and then second, again and again: the matrix of one such pair.
@@ -77,16 +80,16 @@ struct StepRange {
   int halvings = 24;
 };
 
-/// The first step from low on, in strides of a seventh, whose matrix grows, bisected [s]. 0 if `low` grows,
-/// infinite if nothing up to `high` does.
+/// The first step from low on, in strides of a seventh, whose matrix grows, bisected [s]. 0 if
+/// `low` grows, infinite if nothing up to `high` does.
 double largest_constant_step(const SteppedMotion& of, const StepRange& range);
 
-/// The largest norm of the powers 1 to `powers` of a matrix: how much of a disturbance can come of it on the
-/// way, stable or not. At least 1, its power 0.
+/// The largest norm of the powers 1 to `powers` of a matrix: how much of a disturbance can come of
+/// it on the way, stable or not. At least 1, its power 0.
 double transient_growth(const Eigen::MatrixXd& matrix, int powers);
 
-/// The matrix of one step without history, in the norm sqrt(2 E), E = q.K q/2 + v.v/2: K^{1/2} q takes the
-/// place of omega0 q. stiffness: K, positive definite.
+/// The matrix of one step without history, in the norm sqrt(2 E), E = q.K q/2 + v.v/2: K^{1/2} q
+/// takes the place of omega0 q. stiffness: K, positive definite.
 Eigen::MatrixXd in_energy_norm(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& stiffness,
                                double omega0);
 

@@ -5,11 +5,14 @@
 
 namespace foldproof {
 
-Study elastic_limit_study();      // elastic-limit: the largest stable step under refinement
-Study stability_oscillator_study();     // stability-oscillator: every method's limit over the damping ratio
-Study stability_sheet_study();          // stability-sheet: limits of a sheet over damping and resolution
-Study variable_step_stability_study();  // variable-step-stability: stable steps in turn; BDF2's growing steps
-Study transient_growth_study();   // transient-growth: how far a stable scheme carries a disturbance
-Study hard_limits_study();              // hard-limits: largest stable steps of hard sheets, under damping, over jumps
+Study elastic_limit_study();  // elastic-limit: the largest stable step under refinement
+// stability-oscillator: every method's limit over the damping ratio
+Study stability_oscillator_study();
+Study stability_sheet_study();  // stability-sheet: limits of a sheet over damping and resolution
+// variable-step-stability: stable steps in turn; BDF2's growing steps
+Study variable_step_stability_study();
+Study transient_growth_study();  // transient-growth: how far a stable scheme carries a disturbance
+// hard-limits: largest stable steps of hard sheets, under damping, over jumps
+Study hard_limits_study();
 
 }  // namespace foldproof

@@ -1,5 +1,5 @@
-// transient-growth: how far a stable scheme can carry a disturbance before it decays, in the norm of the
-// energy.
+// transient-growth: how far a stable scheme can carry a disturbance before it decays, in the
+// norm of the energy.
 #include <cmath>
 
 #include "convergence/order.h"
@@ -13,7 +13,8 @@ namespace foldproof {
 
 namespace {
 
-constexpr int powers = 60;  // steps looked ahead; the largest growth comes within a period of the slowest
+// steps looked ahead; the largest growth comes within a period of the slowest
+constexpr int powers = 60;
 
 const std::vector<std::string>& schemes() {
   static const std::vector<std::string> names = {"A", "B", "C"};
@@ -22,7 +23,8 @@ const std::vector<std::string>& schemes() {
 
 // ---- one oscillator: a = h c/2 = zeta omega h
 
-double oscillator_growth(const Subject& subject, const std::string& scheme, double omega_h, double a) {
+double oscillator_growth(const Subject& subject, const std::string& scheme, double omega_h,
+                         double a) {
   const SteppedMotion of = stepped_motion(subject, hinge_oscillator(a / omega_h), scheme);
   const double h = omega_h / of.motion.omega0;
   return transient_growth(step_matrix(of, {h, h}), powers);
@@ -30,7 +32,8 @@ double oscillator_growth(const Subject& subject, const std::string& scheme, doub
 
 double derived_growth(const std::string& scheme, double omega_h, double a) {
   const oracles::Oscillator oscillator{1, 2 * a / omega_h, 0, 0};
-  return transient_growth(oracles::step_matrix(derived_scheme(scheme), oscillator, omega_h), powers);
+  return transient_growth(oracles::step_matrix(derived_scheme(scheme), oscillator, omega_h),
+                          powers);
 }
 
 /// Growth of one scheme over damping (a) and step (omega h).
@@ -56,17 +59,20 @@ std::vector<Column> columns_of(const GrowthTable& table) {
 NamedFinding derived_finding(const std::string& scheme, const GrowthTable& table) {
   Worst worst;
   for (size_t i = 0; i < table.a.size(); ++i)
-    worst.observe(std::abs(table.growth[i] / derived_growth(scheme, table.omega_h[i], table.a[i]) - 1));
+    worst.observe(
+        std::abs(table.growth[i] / derived_growth(scheme, table.omega_h[i], table.a[i]) - 1));
   return {"transient-growth.growth-is-as-derived." + scheme,
           "The growth of a disturbance of the damped oscillator under scheme " + scheme +
               " is that of the derived matrix.",
           {{worst.value(), 1e-6, 0, "1",
-            "entries are found to 1e-12 or so, and sixty powers of a stable matrix add up sixty such errors"},
+            "entries are found to 1e-12 or so, and sixty powers of a stable matrix add up sixty "
+            "such errors"},
            columns_of(table),
            "measured is the largest relative deviation"}};
 }
 
-/// What multiplies the velocity in A's position: h (1 - a). In the energy norm omega h |1 - a| of it.
+/// What multiplies the velocity in A's position: h (1 - a). In the energy norm omega
+/// h |1 - a| of it.
 NamedFinding grows_with_damping(const GrowthTable& table) {
   Worst worst;
   std::vector<double> least;
@@ -76,14 +82,15 @@ NamedFinding grows_with_damping(const GrowthTable& table) {
   }
   std::vector<Column> columns = columns_of(table);
   columns.push_back({"omega h |h c/2 - 1|", "1", least});
-  return {"transient-growth.A.grows-with-damping",
-          "Though stable, scheme A carries a damped disturbance to omega h |h c/2 - 1| times its size at "
-          "least, in the norm of the energy: in proportion to the damping and without bound.",
-          {{worst.value(), 1, 1e-9, "1",
-            "its explicit half step moves a particle by h (1 - h c/2) times its velocity: one entry of the "
-            "step matrix, which no norm can be below"},
-           std::move(columns),
-           "measured is the largest omega h |h c/2 - 1| over the growth"}};
+  return {
+      "transient-growth.A.grows-with-damping",
+      "Though stable, scheme A carries a damped disturbance to omega h |h c/2 - 1| times its size "
+      "at least, in the norm of the energy: in proportion to the damping and without bound.",
+      {{worst.value(), 1, 1e-9, "1",
+        "its explicit half step moves a particle by h (1 - h c/2) times its velocity: one entry of "
+        "the step matrix, which no norm can be below"},
+       std::move(columns),
+       "measured is the largest omega h |h c/2 - 1| over the growth"}};
 }
 
 NamedFinding exponent_in_damping(const Subject& subject) {
@@ -93,11 +100,12 @@ NamedFinding exponent_in_damping(const Subject& subject) {
     convergence.errors.push_back(oscillator_growth(subject, "A", 1, a));
   }
   const Estimate deviation = order_deviation(convergence, 1, 2);
-  return {"transient-growth.A.growth-is-proportional-to-damping",
-          "The growth under scheme A is proportional to the damping where that is high.",
-          {{deviation.value, 0.05, 0, "1", "h c/2 - 1 over h c/2 differs by a thirtieth at the lowest"},
-           {{"h c/2", "1", convergence.steps}, {"growth", "1", convergence.errors}},
-           "measured is |exponent - 1|, the larger of two pairs"}};
+  return {
+      "transient-growth.A.growth-is-proportional-to-damping",
+      "The growth under scheme A is proportional to the damping where that is high.",
+      {{deviation.value, 0.05, 0, "1", "h c/2 - 1 over h c/2 differs by a thirtieth at the lowest"},
+       {{"h c/2", "1", convergence.steps}, {"growth", "1", convergence.errors}},
+       "measured is |exponent - 1|, the larger of two pairs"}};
 }
 
 NamedFinding bounded_finding(const std::string& scheme, const GrowthTable& table) {
@@ -111,11 +119,11 @@ NamedFinding bounded_finding(const std::string& scheme, const GrowthTable& table
   columns.push_back({"undamped growth", "1", bounds});
   return {"transient-growth.growth-is-bounded." + scheme,
           "Scheme " + scheme +
-              " never carries a disturbance of the oscillator further than it does without damping, "
-              "1/sqrt(1 - (omega h/2)^2) of its size.",
+              " never carries a disturbance of the oscillator further than it does without "
+              "damping, 1/sqrt(1 - (omega h/2)^2) of its size.",
           {{worst.value(), 1, 1e-9, "1",
-            "the undamped leapfrog keeps v^2 + (1 - (omega h/2)^2) omega^2 x^2, and damping should take from "
-            "it only"},
+            "the undamped leapfrog keeps v^2 + (1 - (omega h/2)^2) omega^2 x^2, and damping should "
+            "take from it only"},
            std::move(columns),
            "measured is the largest growth over that of the undamped oscillator"}};
 }
@@ -151,14 +159,17 @@ struct SheetGrowth {
 constexpr double part_of_limit = 0.9;
 
 SheetGrowth sheet_growth(const Subject& subject, int points) {
-  SheetGrowth found{geometric_range(0.01, 100, points), std::vector<std::vector<double>>(schemes().size())};
+  SheetGrowth found{geometric_range(0.01, 100, points),
+                    std::vector<std::vector<double>>(schemes().size())};
   for (const double damping : found.damping) {
     const SmallMotion motion = free_motion(clamped_sheet(0.3 * damping, 0.01 * damping), 50);
     const Eigen::MatrixXd stiffness = linear_forces(subject, motion).stiffness;
     const double h = part_of_limit * oracles::largest_leapfrog_step(stiffness).value;
     for (size_t i = 0; i < schemes().size(); ++i) {
-      const Eigen::MatrixXd matrix = step_matrix(stepped_motion(subject, motion, schemes()[i]), {h, h});
-      found.growth[i].push_back(transient_growth(in_energy_norm(matrix, stiffness, motion.omega0), powers));
+      const Eigen::MatrixXd matrix =
+          step_matrix(stepped_motion(subject, motion, schemes()[i]), {h, h});
+      found.growth[i].push_back(
+          transient_growth(in_energy_norm(matrix, stiffness, motion.omega0), powers));
     }
   }
   return found;
@@ -183,15 +194,16 @@ void add_sheet(const Subject& subject, int points, StudyResult& result) {
         {"transient-growth.sheet-growth-is-bounded." + schemes()[i],
          "On a sheet whose stiffness and damping do not commute, scheme " + schemes()[i] +
              " carries no disturbance further than the undamped sheet's fastest mode would be.",
-         {{worst.value(), 1, 1e-6, "1", "1/sqrt(1 - (omega h/2)^2) of the fastest mode, without damping"},
+         {{worst.value(), 1, 1e-6, "1",
+           "1/sqrt(1 - (omega h/2)^2) of the fastest mode, without damping"},
           {{"damping", "1", found.damping}, {"growth", "1", found.growth[i]}},
           "measured is the largest growth over that bound"}});
   }
   const double first = found.growth[0].front(), last = found.growth[0].back();
   result.findings.push_back(
       {"transient-growth.A.sheet-growth-exceeds-tenfold",
-       "On the sheet scheme A carries heavily damped disturbances to more than ten times what it does "
-       "lightly damped ones, and ever further.",
+       "On the sheet scheme A carries heavily damped disturbances to more than ten times what it "
+       "does lightly damped ones, and ever further.",
        {{10 * first / last, 1, 0, "1", "an order of magnitude; the damping rises by four"},
         {{"damping", "1", found.damping}, {"growth", "1", found.growth[0]}},
         "measured is ten times the first growth over the last"}});
@@ -201,13 +213,14 @@ void add_sheet(const Subject& subject, int points, StudyResult& result) {
 StudyResult run_transient_growth(const Subject& subject, Tier tier, const Progress& progress) {
   const bool quick = tier == Tier::quick;
   StudyResult result;
-  Figure figure{"oscillator",
-                "Largest transient growth of the damped oscillator at omega h = 1",
-                {"damping over a step, h c/2", "1", Scale::log},
-                {"largest norm of a power of the step", "1", Scale::log},
-                nan,
-                "Norm of the energy. Scheme A overshoots in proportion to the damping, B and C do not.",
-                {}};
+  Figure figure{
+      "oscillator",
+      "Largest transient growth of the damped oscillator at omega h = 1",
+      {"damping over a step, h c/2", "1", Scale::log},
+      {"largest norm of a power of the step", "1", Scale::log},
+      nan,
+      "Norm of the energy. Scheme A overshoots in proportion to the damping, B and C do not.",
+      {}};
   double done = 0;
   for (const std::string& scheme : schemes()) {
     const GrowthTable table = growth_table(subject, scheme);
@@ -233,16 +246,16 @@ StudyResult run_transient_growth(const Subject& subject, Tier tier, const Progre
 }  // namespace
 
 Study transient_growth_study() {
-  return {
-      "transient-growth",
-      "For highly damped material scheme A, though stable, carries disturbances far beyond their size, in "
-      "proportion to the damping; B and C never further than undamped motion.",
-      "BMF03 section 3",
-      "A step whose spectral radius is at most 1 may still amplify on the way, if its eigenvectors are not "
-      "orthogonal. Measured is the largest norm of the first powers of the step matrix in the norm of the "
-      "energy, in which exact motion never grows: on an oscillator, over step and damping, and on a small "
-      "clamped sheet whose springs and hinges are damped out of proportion to their stiffness.",
-      run_transient_growth};
+  return {"transient-growth",
+          "For highly damped material scheme A, though stable, carries disturbances far beyond "
+          "their size, in proportion to the damping; B and C never further than undamped motion.",
+          "BMF03 section 3",
+          "A step whose spectral radius is at most 1 may still amplify on the way, if its "
+          "eigenvectors are not orthogonal. Measured is the largest norm of the first powers of "
+          "the step matrix in the norm of the energy, in which exact motion never grows: on an "
+          "oscillator, over step and damping, and on a small clamped sheet whose springs and "
+          "hinges are damped out of proportion to their stiffness.",
+          run_transient_growth};
 }
 
 }  // namespace foldproof

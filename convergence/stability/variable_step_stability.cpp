@@ -37,11 +37,13 @@ NamedFinding resonance_finding(const Subject& subject, const std::string& scheme
                                      stepped_radius(of, long_step, long_step)};
   Worst either;
   for (const double radius : alone) either.observe(radius);
-  const Verdict verdict{either.value() / pair, 0.5, 0, "1",
-                        "growth by more than two in each pair of steps is no rounding, and no slow drift"};
+  const Verdict verdict{
+      either.value() / pair, 0.5, 0, "1",
+      "growth by more than two in each pair of steps is no rounding, and no slow drift"};
   return {"variable-step-stability.alternating-steps-resonate." + scheme,
           "Undamped, steps of .69/omega and 1.99/omega in turn make scheme " + scheme +
-              " grow, though each alone is stable: a step below the limit does not suffice if steps vary.",
+              " grow, though each alone is stable: a step below the limit does not suffice if "
+              "steps vary.",
           {verdict,
            {{"spectral radius of the pair", "1", std::vector<double>{pair}},
             {"of two short steps", "1", std::vector<double>{alone[0]}},
@@ -53,17 +55,17 @@ NamedFinding damped_finding(const Subject& subject, const std::string& scheme) {
   std::vector<double> ratios = {0.5, 0.7, 1, 2, 5, 20}, radii;
   Worst worst;
   for (const double zeta : ratios) {
-    radii.push_back(
-        stepped_radius(stepped_motion(subject, hinge_oscillator(zeta), scheme), short_step, long_step));
+    radii.push_back(stepped_radius(stepped_motion(subject, hinge_oscillator(zeta), scheme),
+                                   short_step, long_step));
     worst.observe(radii.back());
   }
-  return {
-      "variable-step-stability.damping-removes-resonance." + scheme,
-      "A damping ratio of a half or more makes steps of .69/omega and 1.99/omega in turn stable in scheme " +
-          scheme + ".",
-      {{worst.value(), 1, 0, "1", "a spectral radius above 1 grows"},
-       {{"damping ratio", "1", ratios}, {"spectral radius of the pair", "1", radii}},
-       "measured is the largest of the radii"}};
+  return {"variable-step-stability.damping-removes-resonance." + scheme,
+          "A damping ratio of a half or more makes steps of .69/omega and 1.99/omega in turn "
+          "stable in scheme " +
+              scheme + ".",
+          {{worst.value(), 1, 0, "1", "a spectral radius above 1 grows"},
+           {{"damping ratio", "1", ratios}, {"spectral radius of the pair", "1", radii}},
+           "measured is the largest of the radii"}};
 }
 
 /// The damping ratio from which on a pair of steps no longer grows; 0 if it never does.
@@ -116,32 +118,31 @@ NamedFinding map_finding(const std::string& scheme, const Map& map) {
       const double exact = exact_radius(scheme, map.y_values[iy], ratio * long_step, long_step);
       worst.observe(std::abs(map.values[i++] / exact - 1));
     }
-  return {
-      "variable-step-stability.growth-is-as-derived." + scheme,
-      "The spectral radius of two steps in turn of scheme " + scheme +
-          " is that of the derived matrices, over step ratios and damping ratios.",
-      {{worst.value(), 1e-6, 0, "1",
-        "entries are found to 1e-12 or so; where the two eigenvalues coincide that moves them by its root"},
-       {{"points compared", "1", std::vector<double>{double(map.values.size())}}},
-       "measured is the largest relative deviation over the map"}};
+  return {"variable-step-stability.growth-is-as-derived." + scheme,
+          "The spectral radius of two steps in turn of scheme " + scheme +
+              " is that of the derived matrices, over step ratios and damping ratios.",
+          {{worst.value(), 1e-6, 0, "1",
+            "entries are found to 1e-12 or so; where the two eigenvalues coincide that moves them "
+            "by its root"},
+           {{"points compared", "1", std::vector<double>{double(map.values.size())}}},
+           "measured is the largest relative deviation over the map"}};
 }
 
 /// Where an undamped pair grows: over both steps.
 Map both_steps_map(const Subject& subject, int fineness) {
-  Map map{
-      "undamped-steps",
-      "Two steps in turn without damping",
-      {"first step, omega h", "1", Scale::linear},
-      {"second step, omega h", "1", Scale::linear},
-      linear_range(0.05, 2, 12 * fineness + 1),
-      linear_range(0.05, 2, 12 * fineness + 1),
-      {},
-      "spectral radius of a pair of steps",
-      "1",
-      Scale::linear,
-      "Schemes A, B and C agree without damping. Each of these steps alone is stable; off the diagonal some "
-      "pairs resonate, most of all with a step near the limit.",
-      {}};
+  Map map{"undamped-steps",
+          "Two steps in turn without damping",
+          {"first step, omega h", "1", Scale::linear},
+          {"second step, omega h", "1", Scale::linear},
+          linear_range(0.05, 2, 12 * fineness + 1),
+          linear_range(0.05, 2, 12 * fineness + 1),
+          {},
+          "spectral radius of a pair of steps",
+          "1",
+          Scale::linear,
+          "Schemes A, B and C agree without damping. Each of these steps alone is stable; off the "
+          "diagonal some pairs resonate, most of all with a step near the limit.",
+          {}};
   const SteppedMotion of = stepped_motion(subject, hinge_oscillator(0), "A");
   for (const double second : map.y_values)
     for (const double first : map.x_values) map.values.push_back(stepped_radius(of, first, second));
@@ -181,21 +182,23 @@ void add_sheet_findings(const Subject& subject, const std::string& scheme, Study
       {"variable-step-stability.undamped-sheet-grows." + scheme,
        "An undamped sheet grows under scheme " + scheme +
            " with steps of .69 and 1.99 over its highest frequency in turn.",
-       {{1e3 / undamped, 1, 0, "1", "a thousand times its size is beyond what bounded modes can add up to"},
+       {{1e3 / undamped, 1, 0, "1",
+         "a thousand times its size is beyond what bounded modes can add up to"},
         {{"largest size over the start's", "1", std::vector<double>{undamped}}},
         "measured is a thousand over the growth"}});
-  result.findings.push_back(
-      {"variable-step-stability.damped-sheet-does-not-grow." + scheme,
-       "A sheet whose highest mode has a damping ratio of a half does not grow under the same steps of "
-       "scheme " +
-           scheme + ".",
-       {{damped / 10, 1, 0, "1",
-         "a mode near its limit may exceed its start, by 1/sqrt(1 - (omega h/2)^2) = 10 at 1.99/omega"},
-        {{"largest size over the start's", "1", std::vector<double>{damped}}},
-        "measured is the growth over ten"}});
+  result.findings.push_back({"variable-step-stability.damped-sheet-does-not-grow." + scheme,
+                             "A sheet whose highest mode has a damping ratio of a half does not "
+                             "grow under the same steps of scheme " +
+                                 scheme + ".",
+                             {{damped / 10, 1, 0, "1",
+                               "a mode near its limit may exceed its start, by 1/sqrt(1 - (omega "
+                               "h/2)^2) = 10 at 1.99/omega"},
+                              {{"largest size over the start's", "1", std::vector<double>{damped}}},
+                              "measured is the growth over ten"}});
 }
 
-StudyResult run_variable_step_stability(const Subject& subject, Tier tier, const Progress& progress) {
+StudyResult run_variable_step_stability(const Subject& subject, Tier tier,
+                                        const Progress& progress) {
   const int fineness = tier == Tier::quick ? 3 : 10;
   StudyResult result;
   double done = 0;
@@ -212,7 +215,8 @@ StudyResult run_variable_step_stability(const Subject& subject, Tier tier, const
   result.maps.push_back(ratio_map(subject, "BDF2", fineness));
   result.maps.push_back(both_steps_map(subject, fineness));
   progress(++done / 5);
-  for (NamedFinding& finding : bdf2_growing_steps(subject)) result.findings.push_back(std::move(finding));
+  for (NamedFinding& finding : bdf2_growing_steps(subject))
+    result.findings.push_back(std::move(finding));
   progress(1);
   return result;
 }
@@ -220,15 +224,16 @@ StudyResult run_variable_step_stability(const Subject& subject, Tier tier, const
 }  // namespace
 
 Study variable_step_stability_study() {
-  return {"variable-step-stability",
-          "Steps that are stable each by itself can resonate in turn: undamped, A, B and C more than double "
-          "in each pair of .69/omega and 1.99/omega; a damping ratio of a half cures it.",
-          "BMF03 section 3",
-          "The paper asks for a scheme whose step may vary. Two steps in turn are the product of two step "
-          "matrices, found by stepping a hinge whose corner is an oscillator, and compared with the derived "
-          "ones; the same steps are then taken on a sheet. BDF2 has a limit of its own: steps must not grow "
-          "by more than 1 + sqrt(2) each.",
-          run_variable_step_stability};
+  return {
+      "variable-step-stability",
+      "Steps that are stable each by itself can resonate in turn: undamped, A, B and C more than "
+      "double in each pair of .69/omega and 1.99/omega; a damping ratio of a half cures it.",
+      "BMF03 section 3",
+      "The paper asks for a scheme whose step may vary. Two steps in turn are the product of two "
+      "step matrices, found by stepping a hinge whose corner is an oscillator, and compared with "
+      "the derived ones; the same steps are then taken on a sheet. BDF2 has a limit of its own: "
+      "steps must not grow by more than 1 + sqrt(2) each.",
+      run_variable_step_stability};
 }
 
 }  // namespace foldproof

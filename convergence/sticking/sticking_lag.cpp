@@ -1,5 +1,5 @@
-// sticking-lag: how far what sticks lags behind, what forecasts buy against a plain spring, and what they
-// cost.
+// sticking-lag: how far what sticks lags behind, what forecasts buy against a plain spring, and
+// what they cost.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -21,13 +21,15 @@ namespace {
 constexpr double turning = 3.1;  // rad/s
 constexpr double arm = 0.31;     // m
 
-// Lag of a particle on a turntable: x = (R + u) e^{i w t} with m w^2 (R + u) = -(k (1 + i w tau)) u.
+// Lag of a particle on a turntable: x = (R + u) e^{i w t} with m w^2 (R + u) = -(k
+// (1 + i w tau)) u.
 //
-// Scheme C lags further. Let e = x_t - x and d = v_t - v at the start of a step, omega^2 = k/m, q = h tau
-// omega^2/2, and let the target have the constant acceleration a. The moving velocity v~ solves
+// Scheme C lags further. Let e = x_t - x and d = v_t - v at the start of a step, omega^2 =
+// k/m, q = h tau omega^2/2, and let the target have the constant acceleration a. The moving
+// velocity v~ solves
 //   (1 + q) (v~ - v_t) = -d + h omega^2 e/2
-// with the target's velocity of the step's start; the trapezoidal line gives a = omega^2 e + 2 q d/h where d
-// is the same from step to step. So is e, if v~ = v_t + h a/2:
+// with the target's velocity of the step's start; the trapezoidal line gives a = omega^2 e + 2 q
+// d/h where d is the same from step to step. So is e, if v~ = v_t + h a/2:
 //   omega^2 e = a (1 + q + q^2)/(1 + q)
 double derived_lag(const std::string& method, double k, double tau, double h) {
   const double inertia = particle_mass * turning * turning;
@@ -36,13 +38,14 @@ double derived_lag(const std::string& method, double k, double tau, double h) {
   return method == "C" ? lag * (1 + q + q * q) / (1 + q) : lag;
 }
 
-/// How far a particle is from its place in the mean over the last part of a run [m], and the width of its
-/// swing about that mean, over m a/k; both as seen from the turntable.
+/// How far a particle is from its place in the mean over the last part of a run [m], and the width
+/// of its swing about that mean, over m a/k; both as seen from the turntable.
 struct Lag {
   double mean, swing;
 };
 
-Lag measured_lag(const Subject& subject, const std::string& method, double k, double tau, double h) {
+Lag measured_lag(const Subject& subject, const std::string& method, double k, double tau,
+                 double h) {
   Motion motion;
   motion.angular_velocity = {0, 0, turning};
   Scene scene = particle_on_palm({arm, 0, 0}, motion, k, tau);
@@ -59,7 +62,8 @@ Lag measured_lag(const Subject& subject, const std::string& method, double k, do
     s = require_offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
     if (s.bonds.empty()) return {nan, nan};
     if (s.time < settled) continue;
-    seen.push_back(std::complex<double>(s.x(0, 0), s.x(1, 0)) * std::polar(1.0, -turning * s.time) - arm);
+    seen.push_back(std::complex<double>(s.x(0, 0), s.x(1, 0)) * std::polar(1.0, -turning * s.time) -
+                   arm);
     sum += seen.back();
   }
   const std::complex<double> mean = sum / double(seen.size());
@@ -85,35 +89,38 @@ void add_lags_of_long_steps(const Subject& subject, StudyResult& result) {
     }
   result.findings.push_back(
       {"sticking-lag.lag-grows-with-the-step-in-C",
-       "On a surface that moves by itself scheme C lags by 1 + q^2/(1 + q) times m a/k, q = h tau_s k/(2 m): "
-       "up to "
-       "h tau_s a/2 more; A and B by m a/k.",
+       "On a surface that moves by itself scheme C lags by 1 + q^2/(1 + q) times m a/k, q = h "
+       "tau_s k/(2 m): up to h tau_s a/2 more; A and B by m a/k.",
        {{off.value(), 1e-2, 0, "1",
-         "the surface turns by less than 0.01 in a step and by 0.04 in tau_s, in which time the lag settles: "
-         "its square is "
-         "left; C lags up to six times as far as A"},
-        {{"scheme", "", methods}, {"omega h", "1", steps}, {"lag", "m", measured}, {"derived", "m", derived}},
+         "the surface turns by less than 0.01 in a step and by 0.04 in tau_s, in which time the "
+         "lag settles: its square is left; C lags up to six times as far as A"},
+        {{"scheme", "", methods},
+         {"omega h", "1", steps},
+         {"lag", "m", measured},
+         {"derived", "m", derived}},
         "tau_s = 8/omega"}});
 }
 
 void add_lags(const Subject& subject, Tier tier, StudyResult& result) {
-  Figure figure{
-      "lag",
-      "How far what sticks to a turntable lags behind",
-      {"stiffness", "N/m", Scale::log},
-      {"lag", "m", Scale::log},
-      -1,
-      "A particle of 2 g, 0.31 m from the axis, 3.1 rad/s. The plain spring's lag is the mean of a swing "
-      "that never ends; the forecast's is at rest.",
-      {}};
+  Figure figure{"lag",
+                "How far what sticks to a turntable lags behind",
+                {"stiffness", "N/m", Scale::log},
+                {"lag", "m", Scale::log},
+                -1,
+                "A particle of 2 g, 0.31 m from the axis, 3.1 rad/s. The plain spring's lag is the "
+                "mean of a swing that never ends; the forecast's is at rest.",
+                {}};
   Worst off, swings;
   double least_swing = INFINITY;
   std::vector<double> stiffness, plain, plain_swing, lag, derived, swing;
   for (const double k : geometric_range(10, 1e4, tier == Tier::quick ? 4 : 10)) {
-    const double omega = std::sqrt(k / particle_mass), tau = 2 / omega, h = 0.02 / omega;  // critical damping
-    const Lag without = measured_lag(subject, "C", k, 0, h), with = measured_lag(subject, "C", k, tau, h);
+    // critical damping
+    const double omega = std::sqrt(k / particle_mass), tau = 2 / omega, h = 0.02 / omega;
+    const Lag without = measured_lag(subject, "C", k, 0, h),
+              with = measured_lag(subject, "C", k, tau, h);
     stiffness.push_back(k), plain.push_back(without.mean), plain_swing.push_back(without.swing);
-    lag.push_back(with.mean), derived.push_back(derived_lag("C", k, tau, h)), swing.push_back(with.swing);
+    lag.push_back(with.mean), derived.push_back(derived_lag("C", k, tau, h)),
+        swing.push_back(with.swing);
     off.observe(std::abs(with.mean / derived.back() - 1));
     swings.observe(with.swing);
     least_swing = std::min(least_swing, std::isnan(without.swing) ? -INFINITY : without.swing);
@@ -128,15 +135,15 @@ void add_lags(const Subject& subject, Tier tier, StudyResult& result) {
                                         {"with forecasts, lag", "m", lag},
                                         {"derived", "m", derived},
                                         {"with forecasts, swing over m a/k", "1", swing}};
-  result.findings.push_back({"sticking-lag.lag-is-m-a-over-k",
-                             "With forecasts a particle on a turntable lags by m a/|k (1 + i w tau_s) - m "
-                             "w^2|: m a/k where it is stiff.",
-                             {{off.value(), 2e-3, 0, "1",
-                               "k falls by 2 (lag/far)^2, at most 6e-4 here, and steps of 0.02/omega err by "
-                               "their square; another law of k or of "
-                               "a is off by a factor"},
-                              evidence,
-                              ""}});
+  result.findings.push_back(
+      {"sticking-lag.lag-is-m-a-over-k",
+       "With forecasts a particle on a turntable lags by m a/|k (1 + i w tau_s) - m w^2|: m a/k "
+       "where it is stiff.",
+       {{off.value(), 2e-3, 0, "1",
+         "k falls by 2 (lag/far)^2, at most 6e-4 here, and steps of 0.02/omega err by their "
+         "square; another law of k or of a is off by a factor"},
+        evidence,
+        ""}});
   result.findings.push_back(
       {"sticking-lag.forecasts-damp-the-swing",
        "Stuck with critical forecasts, tau_s = 2/omega, it comes to rest against its place.",
@@ -147,7 +154,8 @@ void add_lags(const Subject& subject, Tier tier, StudyResult& result) {
       {"sticking-lag.plain-spring-swings-forever",
        "A plain spring swings about its lag for ever, by as much again: it never holds a place.",
        {{1.9 - least_swing, 0, 0, "1",
-         "the swing is from nothing to twice m a/k; a tenth for where the steps fall and what k fades"},
+         "the swing is from nothing to twice m a/k; a tenth for where the steps fall and what k "
+         "fades"},
         evidence,
         "measured is what the smallest swing, over m a/k, lacks of 1.9"}});
 }
@@ -172,15 +180,14 @@ double derived_limit(const std::string& method, double omega_tau) {
 }
 
 void add_limits(const Subject& subject, Tier tier, StudyResult& result) {
-  Figure figure{
-      "limit",
-      "Largest stable step of a stuck particle",
-      {"forecast time times frequency", "1", Scale::log},
-      {"largest stable step times frequency", "1", Scale::log},
-      nan,
-      "A and B gain nothing from forecasts; C is stable in steps up to twice the forecast time, however "
-      "stiff the bond. Points are measured, lines derived.",
-      {}};
+  Figure figure{"limit",
+                "Largest stable step of a stuck particle",
+                {"forecast time times frequency", "1", Scale::log},
+                {"largest stable step times frequency", "1", Scale::log},
+                nan,
+                "A and B gain nothing from forecasts; C is stable in steps up to twice the "
+                "forecast time, however stiff the bond. Points are measured, lines derived.",
+                {}};
   for (const Integrator& integrator : paper_schemes()) {
     const std::string name(integrator.name);
     Curve curve{name, {}, {}, nan, {}}, known{name + ", derived", {}, {}, nan, {}};
@@ -191,16 +198,18 @@ void add_limits(const Subject& subject, Tier tier, StudyResult& result) {
       known.y.push_back(derived_limit(name, omega_tau));
       off.observe(std::abs(curve.y.back() / known.y.back() - 1));
     }
-    result.findings.push_back(
-        {"sticking-lag.limit-is-as-derived." + name,
-         "Scheme " + name + ": what sticks is stable in steps up to " +
-             (name == "C" ? "tau_s + sqrt(tau_s^2 + 4/omega^2)." : "2/omega, whatever its forecast time."),
-         {{off.value(), 1e-3, 0, "1",
-           "a radius of 1 + 1e-7 counts as growth, which errs by a ten-thousandth where the radius leaves 1 "
-           "slowest; the "
-           "formulas for A, B and for C differ by more from tau_s = 2e-3/omega on"},
-          {{"omega tau_s", "1", curve.x}, {"omega h, measured", "1", curve.y}, {"derived", "1", known.y}},
-          "measured is the largest relative deviation"}});
+    result.findings.push_back({"sticking-lag.limit-is-as-derived." + name,
+                               "Scheme " + name + ": what sticks is stable in steps up to " +
+                                   (name == "C" ? "tau_s + sqrt(tau_s^2 + 4/omega^2)."
+                                                : "2/omega, whatever its forecast time."),
+                               {{off.value(), 1e-3, 0, "1",
+                                 "a radius of 1 + 1e-7 counts as growth, which errs by a "
+                                 "ten-thousandth where the radius leaves 1 slowest; the formulas "
+                                 "for A, B and for C differ by more from tau_s = 2e-3/omega on"},
+                                {{"omega tau_s", "1", curve.x},
+                                 {"omega h, measured", "1", curve.y},
+                                 {"derived", "1", known.y}},
+                                "measured is the largest relative deviation"}});
     figure.curves.push_back(curve);
     if (name != "B") figure.curves.push_back(known);
   }
@@ -218,18 +227,19 @@ void add_layers(const Subject& subject, StudyResult& result) {
     with.push_back(layers_radius(subject, omega_h, 0.5) - 1);
     without.push_back(layers_radius(subject, omega_h, 0) - 1);
     stable.observe(with.back());
-    if (omega_h > 2) least = std::min(least, std::isnan(without.back()) ? -INFINITY : without.back());
+    if (omega_h > 2)
+      least = std::min(least, std::isnan(without.back()) ? -INFINITY : without.back());
   }
   const std::vector<Column> evidence = {{"omega h of a bond", "1", ratios},
                                         {"radius less 1 with tau_s = h/2", "1", with},
                                         {"radius less 1 with a plain spring", "1", without}};
   result.findings.push_back(
       {"sticking-lag.stiff-layers-are-stable",
-       "Two layers that stick to each other are stable in scheme C with tau_s = h/2, "
-       "however stiff their bonds.",
+       "Two layers that stick to each other are stable in scheme C with tau_s = h/2, however stiff "
+       "their bonds.",
        {{stable.value(), 1e-3, 0, "1",
-         "disturbances of 1e-6 m turn a triangle of 0.1 m by 1e-5, whose square times (omega h)^2 is "
-         "1e-4 of a step; what is unstable grows manyfold in one"},
+         "disturbances of 1e-6 m turn a triangle of 0.1 m by 1e-5, whose square times (omega h)^2 "
+         "is 1e-4 of a step; what is unstable grows manyfold in one"},
         evidence,
         "measured is the largest spectral radius less 1"}});
   result.findings.push_back(
@@ -249,8 +259,8 @@ void add_cost(const Subject& subject, Tier tier, StudyResult& result) {
                 {"k tau_s h/(2 m)", "1", Scale::log},
                 {"iterations of a solve", "1", Scale::linear},
                 nan,
-                "A damped sheet whose particles all stick, to a surface or to a second sheet. Scheme C, "
-                "tolerance 1e-10.",
+                "A damped sheet whose particles all stick, to a surface or to a second sheet. "
+                "Scheme C, tolerance 1e-10.",
                 {}};
   const int cells = tier == Tier::quick ? 8 : 24;
   const double loose = iterations_where(subject, cells, StuckTo::nothing, 1);
@@ -270,16 +280,15 @@ void add_cost(const Subject& subject, Tier tier, StudyResult& result) {
       {"sticking-lag.surface-bonds-add-few-iterations",
        "Bonds to a surface cost a solve no more than the digits by which its first guess is worse.",
        {{surface.value(), 1.4, 0, "1",
-         "what they add is k tau_s on the diagonal, which does not spread the spectrum; but the guess, the "
-         "explicit "
-         "velocity, is off by up to 1e4 times as much: fourteen digits to go and not ten"},
+         "what they add is k tau_s on the diagonal, which does not spread the spectrum; but the "
+         "guess, the explicit velocity, is off by up to 1e4 times as much: fourteen digits to go "
+         "and not ten"},
         {{"k tau_s h/(2 m)", "1", numbers},
          {"nothing sticks", "1", none},
          {"to a surface", "1", on_surface},
          {"to cloth", "1", on_cloth}},
-        "measured is the largest number of iterations over that where nothing sticks; bonds between layers "
-        "spread the "
-        "spectrum, and cost more"}});
+        "measured is the largest number of iterations over that where nothing sticks; bonds "
+        "between layers spread the spectrum, and cost more"}});
 }
 
 StudyResult run_sticking_lag(const Subject& subject, Tier tier, const Progress& progress) {
@@ -299,14 +308,13 @@ StudyResult run_sticking_lag(const Subject& subject, Tier tier, const Progress& 
 
 Study sticking_lag_study() {
   return {"sticking-lag",
-          "What sticks lags by m a/k; forecasts end its swinging and, in scheme C, free the step of its "
-          "stiffness.",
+          "What sticks lags by m a/k; forecasts end its swinging and, in scheme C, free the step "
+          "of its stiffness.",
           "BMF03 section 6",
-          "A bond is a spring without length between where a particle and its target are forecast to be. "
-          "Forecasting "
-          "both adds a damping of their relative velocity, which the schemes take implicitly: against a "
-          "plain spring "
-          "it neither lags more nor less, but it comes to rest, and in scheme C it is stable however stiff.",
+          "A bond is a spring without length between where a particle and its target are forecast "
+          "to be. Forecasting both adds a damping of their relative velocity, which the schemes "
+          "take implicitly: against a plain spring it neither lags more nor less, but it comes to "
+          "rest, and in scheme C it is stable however stiff.",
           run_sticking_lag};
 }
 

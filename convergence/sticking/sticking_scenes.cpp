@@ -21,11 +21,13 @@ State begun(const Subject& subject, PreparedScene& prepared, State s) {
 
 }  // namespace
 
-Scene particle_on_palm(const Vector3& place, const Motion& motion, double stiffness, double forecast_time) {
+Scene particle_on_palm(const Vector3& place, const Motion& motion, double stiffness,
+                       double forecast_time) {
   PerParticle3 x(3, 3);
   x << place, place + Vector3(0.1, 0, 0), place + Vector3(0, 0.1, 0);
   const TriangleMesh mesh = make_triangle_mesh(x, {{0, 1, 2}});
-  Scene scene = scene_at_rest(mesh, 3 * particle_mass / triangle_areas(mesh.triangles, mesh.rest)[0]);
+  Scene scene =
+      scene_at_rest(mesh, 3 * particle_mass / triangle_areas(mesh.triangles, mesh.rest)[0]);
   StickyPatch patch = palm(scene, 2, motion);
   patch.particles = {0};
   patch.stiffness = stiffness;
@@ -71,7 +73,10 @@ Scene held_layers() {
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   const Eigen::Index lower = scene.x.cols() / 2;
   Eigen::Index middle = 0;
-  (scene.x.leftCols(lower).colwise() - Vector3(side / 2, side / 2, 0)).colwise().norm().minCoeff(&middle);
+  (scene.x.leftCols(lower).colwise() - Vector3(side / 2, side / 2, 0))
+      .colwise()
+      .norm()
+      .minCoeff(&middle);
   for (int i = 0; i < int(lower); ++i)
     if (i != middle) scene.prescribed.push_back({i, scene.x.col(i), Motion{}});
   return scene;
@@ -95,7 +100,8 @@ double layers_radius(const Subject& subject, double omega_h, double share) {
 
   std::vector<Eigen::Index> free;  // coordinates
   for (Eigen::Index i = 0; i < rest.x.cols(); ++i)
-    if (std::ranges::none_of(scene.prescribed, [&](const PrescribedParticle& p) { return p.particle == i; }))
+    if (std::ranges::none_of(scene.prescribed,
+                             [&](const PrescribedParticle& p) { return p.particle == i; }))
       for (Eigen::Index k = 0; k < 3; ++k) free.push_back(3 * i + k);
   const Eigen::Index n = Eigen::Index(free.size());
   Eigen::MatrixXd matrix(2 * n, 2 * n);
@@ -132,7 +138,8 @@ double iterations_where(const Subject& subject, int n, StuckTo to, double number
   State s = start_state(scene);
   s.v = disturbance_shape(s.x.cols());
   Work work;
-  for (int k = 0; k < 3; ++k) s = require_offered(subject.step, "step")(*prepared, {&s, 1}, h, work);
+  for (int k = 0; k < 3; ++k)
+    s = require_offered(subject.step, "step")(*prepared, {&s, 1}, h, work);
   return double(work.cg_iterations) / double(work.solves);
 }
 

@@ -5,6 +5,7 @@
 
 namespace foldproof {
 
-Study sticking_lag_study();  // sticking-lag: lag, limits and cost of what sticks, with forecasts and without
+// sticking-lag: lag, limits and cost of what sticks, with forecasts and without
+Study sticking_lag_study();
 
 }  // namespace foldproof

@@ -1,4 +1,5 @@
-// biphasic: a strip under a growing load, of weak springs with strain limits and of springs without.
+// biphasic: a strip under a growing load, of weak springs with strain limits and of
+// springs without.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -15,20 +16,22 @@ namespace {
 constexpr double length = 0.5, density = 0.2;  // m, kg/m^2
 constexpr double weak = 10;                    // Y [N/m]
 constexpr double limit = 0.1;                  // extension [1]
-constexpr double locking =
-    limit * weak;                      // load at the clamp that stretches a spring there to the limit [N/m]
+// load at the clamp that stretches a spring there to the limit [N/m]
+constexpr double locking = limit * weak;
 constexpr double most = 4;             // largest load over that [1]
 constexpr double damping_time = 0.03;  // kd/Y [s]
 constexpr double duration = 3;         // s
 
-/// The strip's end is pulled with an acceleration that grows from 0 to this, as a quarter of a sine [m/s^2].
+/// The strip's end is pulled with an acceleration that grows from 0 to this, as a quarter of
+/// a sine [m/s^2].
 constexpr double fastest = most * locking / (density * length);
 constexpr double frequency = 1 / (4 * duration);  // Hz
 
 /// Load at the clamp that pulls the strip's mass along [N/m].
 double load_at(double t) { return density * length * fastest * std::sin(2 * pi * frequency * t); }
 
-/// Mean extension of a bar with strain load s/(length Y), s from its free end, until that is the limit.
+/// Mean extension of a bar with strain load s/(length Y), s from its free end, until
+/// that is the limit.
 double bar_extension(double load, double young, double limit_of_strain) {
   const double full = limit_of_strain * young;
   if (load <= full) return load / (2 * young);
@@ -45,7 +48,8 @@ struct Springs {
 /// Edges along the pull, so that the strip's modulus is Y, and only edges along it are stretched.
 Scene strip(const Springs& springs) {
   Scene scene = scene_at_rest(
-      make_sheet({SheetPattern::equilateral, length, 0, springs.columns, springs.columns / 5}), density);
+      make_sheet({SheetPattern::equilateral, length, 0, springs.columns, springs.columns / 5}),
+      density);
   scene.stretch = StretchMaterial{springs.young, damping_time * springs.young, 1};
   if (springs.is_limited) {
     StrainLimits limits;
@@ -89,11 +93,12 @@ PulledStrip pull_strip(const Springs& springs) {
       update_worst(result.largest_strain, (s.x.col(edge.b) - s.x.col(edge.a)).norm() / rest - 1);
     }
     result.loads.push_back(load_at(s.time));
-    result.extensions.push_back((ends / count - s.x(0, scene.prescribed.front().particle)) / length - 1);
+    result.extensions.push_back(
+        (ends / count - s.x(0, scene.prescribed.front().particle)) / length - 1);
   };
   const auto start = std::chrono::steady_clock::now();
-  const RunResult run =
-      simulate(system, integrator_named(scene.integrator), start_state(scene), scene.schedule, {frame, {}});
+  const RunResult run = simulate(system, integrator_named(scene.integrator), start_state(scene),
+                                 scene.schedule, {frame, {}});
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.steps = double(run.steps);
   result.sweeps = double(run.work.strain_sweeps) / result.steps;
@@ -114,13 +119,15 @@ double compliance(const PulledStrip& run, double low, double high) {
 
 /// How much less the strip gives way once springs are at their limits.
 double late_over_early(const PulledStrip& run) {
-  return compliance(run, 3 * locking, most * locking) / compliance(run, 0.1 * locking, 0.9 * locking);
+  return compliance(run, 3 * locking, most * locking) /
+         compliance(run, 0.1 * locking, 0.9 * locking);
 }
 
 std::vector<Column> evidence_of(const PulledStrip& run) {
   std::vector<double> bar;
   for (const double load : run.loads)
-    bar.push_back(bar_extension(load, run.springs.young, run.springs.is_limited ? limit : INFINITY));
+    bar.push_back(
+        bar_extension(load, run.springs.young, run.springs.is_limited ? limit : INFINITY));
   return {{"load", "N/m", run.loads}, {"extension", "1", run.extensions}, {"of the bar", "1", bar}};
 }
 
@@ -128,63 +135,60 @@ NamedFinding bar_finding(const PulledStrip& run) {
   Worst worst;
   std::vector<Column> evidence = evidence_of(run);
   const auto& bar = std::get<0>(evidence[2].values);
-  for (size_t k = 0; k < bar.size(); ++k) worst.observe(std::abs(run.extensions[k] - bar[k]) / limit);
-  const double wave = length / std::sqrt(weak / density);       // s
+  for (size_t k = 0; k < bar.size(); ++k)
+    worst.observe(std::abs(run.extensions[k] - bar[k]) / limit);
+  const double wave = length / std::sqrt(weak / density);     // s
   const double growth = most * locking * 2 * pi * frequency;  // of the load, at most [N/m/s]
   const double lag = (wave + damping_time) * growth / (2 * weak) / limit;
   return {"biphasic.extension-matches-a-biphasic-bar",
-          "A strip of weak springs with a limit of +10 % is extended by its load as a bar whose strain grows "
-          "with the load to "
-          "10 % and no further.",
+          "A strip of weak springs with a limit of +10 % is extended by its load as a bar whose "
+          "strain grows with the load to 10 % and no further.",
           {{worst.value(), lag, 0, "of the limit",
-            "the strip lags behind its load by the time of a wave along it and that of its damping, in which "
-            "a bar is "
-            "extended by this much"},
+            "the strip lags behind its load by the time of a wave along it and that of its "
+            "damping, in which a bar is extended by this much"},
            std::move(evidence),
            ""}};
 }
 
 NamedFinding phases_finding(const PulledStrip& run) {
   return {"biphasic.gives-way-then-holds",
-          "Beyond three times the load at which it begins to reach its limits, the strip gives way a twelfth "
-          "as much as it did before.",
+          "Beyond three times the load at which it begins to reach its limits, the strip gives way "
+          "a twelfth as much as it did before.",
           {{late_over_early(run), 0.125, 0, "1",
-            "a bar gives way (full load/load)^2 as much: between 1/9 and 1/16, 1/12 on average; half as much "
-            "again"},
+            "a bar gives way (full load/load)^2 as much: between 1/9 and 1/16, 1/12 on average; "
+            "half as much again"},
            evidence_of(run),
-           "measured is the slope of extension over load from 3 to 4 times that load, over the slope up to "
-           "0.9 times it"}};
+           "measured is the slope of extension over load from 3 to 4 times that load, over the "
+           "slope up to 0.9 times it"}};
 }
 
 NamedFinding one_phase_finding(const std::vector<PulledStrip>& runs) {
   Table measured{{"case", ""}, {"|slope late over early - 1|", "1"}};
   for (const PulledStrip& run : runs)
     if (!run.springs.is_limited) measured.row(run.springs.name, std::abs(late_over_early(run) - 1));
-  return {
-      "biphasic.springs-without-limits-have-one-phase",
-      "Without limits a strip gives way to the last as it did at first, weak or stiff springs.",
-      judge_worst(
-          measured, 0.25,
-          "springs are linear, the load's way into the strip is not quite slow: far from the twelfth of a "
-          "strip with limits")};
+  return {"biphasic.springs-without-limits-have-one-phase",
+          "Without limits a strip gives way to the last as it did at first, weak or stiff springs.",
+          judge_worst(measured, 0.25,
+                      "springs are linear, the load's way into the strip is not quite slow: far "
+                      "from the twelfth of a strip with limits")};
 }
 
 NamedFinding steps_finding(const PulledStrip& limited, const PulledStrip& stiff) {
   const double ratio = stiff.steps / limited.steps;
-  return {"biphasic.limits-allow-larger-steps",
-          "Springs that need no limit to stay within 10 % under the largest load are four times as stiff, "
-          "and take twice as many "
-          "steps.",
-          {{std::abs(ratio / std::sqrt(most) - 1), 0.05, 0, "1",
-            "the elastic limit is proportional to one over the square root of the stiffness; steps are "
-            "fitted to frames"},
-           {{"springs", "", std::vector<std::string>{limited.springs.name, stiff.springs.name}},
-            {"elastic limit", "s", std::vector<double>{limited.step_limit, stiff.step_limit}},
-            {"steps", "1", std::vector<double>{limited.steps, stiff.steps}},
-            {"sweeps a step", "1", std::vector<double>{limited.sweeps, stiff.sweeps}},
-            {"seconds", "s", std::vector<double>{limited.seconds, stiff.seconds}},
-            {"largest strain", "1", std::vector<double>{limited.largest_strain, stiff.largest_strain}}},
-           ""}};
+  return {
+      "biphasic.limits-allow-larger-steps",
+      "Springs that need no limit to stay within 10 % under the largest load are four times as "
+      "stiff, and take twice as many steps.",
+      {{std::abs(ratio / std::sqrt(most) - 1), 0.05, 0, "1",
+        "the elastic limit is proportional to one over the square root of the stiffness; steps are "
+        "fitted to frames"},
+       {{"springs", "", std::vector<std::string>{limited.springs.name, stiff.springs.name}},
+        {"elastic limit", "s", std::vector<double>{limited.step_limit, stiff.step_limit}},
+        {"steps", "1", std::vector<double>{limited.steps, stiff.steps}},
+        {"sweeps a step", "1", std::vector<double>{limited.sweeps, stiff.sweeps}},
+        {"seconds", "s", std::vector<double>{limited.seconds, stiff.seconds}},
+        {"largest strain", "1", std::vector<double>{limited.largest_strain, stiff.largest_strain}}},
+       ""}};
 }
 
 Figure figure_of(const std::vector<PulledStrip>& runs) {
@@ -193,13 +197,14 @@ Figure figure_of(const std::vector<PulledStrip>& runs) {
                 {"load at the clamp", "N/m", Scale::linear},
                 {"mean extension", "1", Scale::linear},
                 nan,
-                "A strip pulled by one end, ever faster. The bar: strain proportional to the load beyond, "
-                "until it is the limit.",
+                "A strip pulled by one end, ever faster. The bar: strain proportional to the load "
+                "beyond, until it is the limit.",
                 {}};
   for (const PulledStrip& run : runs)
     figure.curves.push_back({run.springs.name, run.loads, run.extensions, nan, {}});
   const std::vector<Column> evidence = evidence_of(runs.front());
-  figure.curves.push_back({"bar with a limit", runs.front().loads, std::get<0>(evidence[2].values), nan, {}});
+  figure.curves.push_back(
+      {"bar with a limit", runs.front().loads, std::get<0>(evidence[2].values), nan, {}});
   return figure;
 }
 
@@ -250,19 +255,15 @@ StudyResult run_biphasic(const Subject&, Tier tier, const Progress& progress) {
 
 Study biphasic_study() {
   return {"biphasic",
-          "Weak springs with limits give way to a load at first and then no more, in steps that springs "
-          "without limits, "
-          "as stiff as they have to be, cannot take.",
+          "Weak springs with limits give way to a load at first and then no more, in steps that "
+          "springs without limits, as stiff as they have to be, cannot take.",
           "BMF03 section 3, after Provot 1995",
-          "A strip without weight is pulled by one end with an acceleration that grows from nothing: the "
-          "load at its "
-          "clamp is its mass times that. Its largest load is four times what stretches a spring by the 10 % "
-          "of the limit. Three "
-          "strips: weak springs with limits, the same without, and springs four times as stiff, which the "
-          "largest load stretches "
-          "by 10 %. A strip pulled by both ends beyond its limits has no answer, and no force that could be "
-          "measured: hence "
-          "the free end.",
+          "A strip without weight is pulled by one end with an acceleration that grows from "
+          "nothing: the load at its clamp is its mass times that. Its largest load is four times "
+          "what stretches a spring by the 10 % of the limit. Three strips: weak springs with "
+          "limits, the same without, and springs four times as stiff, which the largest load "
+          "stretches by 10 %. A strip pulled by both ends beyond its limits has no answer, and no "
+          "force that could be measured: hence the free end.",
           run_biphasic};
 }
 

@@ -1,4 +1,5 @@
-// strain-momentum: which scheme keeps the angular momentum of a free sheet while strain limits act on it.
+// strain-momentum: which scheme keeps the angular momentum of a free sheet while strain
+// limits act on it.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,8 @@ namespace {
 constexpr double end = 0.24;  // s
 constexpr int coarsest = 60;  // steps
 
-/// A jittered sheet that spins so fast, and flaps so wildly, that its weak, undamped springs are at their
-/// limits most of the time; it starts within them.
+/// A jittered sheet that spins so fast, and flaps so wildly, that its weak, undamped springs are at
+/// their limits most of the time; it starts within them.
 Scene spinning_sheet() {
   Scene scene = scene_at_rest(make_sheet({SheetPattern::jittered, 0.53, 0, 5, 4, 0.23, 11}), 0.17);
   scene.stretch = StretchMaterial{3, 0, 1};
@@ -34,7 +35,8 @@ Scene spinning_sheet() {
   const Vector3 spin(1.9, -3.3, 6.6), flight(0.3, 0.2, -0.5);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     const double a = scene.mesh.rest(0, i) / 0.53, b = scene.mesh.rest(1, i) / 0.53;
-    const Vector3 flap(0.2 * std::cos(5.1 * b), 0.2 * std::sin(3.7 * a), 0.9 * std::cos(5.9 * a - 3.1 * b));
+    const Vector3 flap(0.2 * std::cos(5.1 * b), 0.2 * std::sin(3.7 * a),
+                       0.9 * std::cos(5.9 * a - 3.1 * b));
     const Vector3 x = scene.mesh.rest.col(i);
     scene.v.col(i) = spin.cross(x) + flap + flight;
   }
@@ -54,7 +56,8 @@ void add_level(const Subject& subject, const Scene& scene, int count, Drift& dri
   State s = start;
   Worst size;
   for (int n = 0; n < count; ++n) {
-    size.observe(s.x.colwise().norm().cwiseProduct(s.v.colwise().norm()).dot(system.mass.transpose()));
+    size.observe(
+        s.x.colwise().norm().cwiseProduct(s.v.colwise().norm()).dot(system.mass.transpose()));
     s = stepper.step(s, end / count);
   }
   const Vector3 before = angular_momentum(system, start);
@@ -66,10 +69,11 @@ void add_level(const Subject& subject, const Scene& scene, int count, Drift& dri
 }
 
 std::vector<Column> evidence_of(const Drift& drift) {
-  return {{"step", "s", drift.steps},
-          {"relative drift", "1", drift.relative},
-          {"drift in roundings", "1", drift.roundings},
-          {"sweeps a step, at the finest", "1", std::vector<double>(drift.steps.size(), drift.sweeps)}};
+  return {
+      {"step", "s", drift.steps},
+      {"relative drift", "1", drift.relative},
+      {"drift in roundings", "1", drift.roundings},
+      {"sweeps a step, at the finest", "1", std::vector<double>(drift.steps.size(), drift.sweeps)}};
 }
 
 NamedFinding kept(const Drift& drift) {
@@ -79,9 +83,8 @@ NamedFinding kept(const Drift& drift) {
           "Scheme " + drift.scheme +
               " keeps the angular momentum of a free sheet at its strain limits to rounding.",
           {{worst.value(), 16 + 12 * drift.sweeps, 0, "epsilon, a step, of sum m|x||v|",
-            "sixteen roundings of x, v and the forces, all erring to one side, and two for each of some six "
-            "springs "
-            "at a particle in each sweep"},
+            "sixteen roundings of x, v and the forces, all erring to one side, and two for each of "
+            "some six springs at a particle in each sweep"},
            evidence_of(drift),
            ""}};
 }
@@ -92,8 +95,8 @@ NamedFinding drifts(const Drift& drift) {
           "The angular momentum of a free sheet at its strain limits drifts under " + drift.scheme +
               ", by first order in the step.",
           {{std::abs(fitted - 1), 0.1, 0, "1",
-            "a drift of another power of the step is off by 1; at these steps the next term leaves less than "
-            "a tenth"},
+            "a drift of another power of the step is off by 1; at these steps the next term leaves "
+            "less than a tenth"},
            evidence_of(drift),
            "measured is |order - 1| of the line through all levels"}};
 }
@@ -101,15 +104,15 @@ NamedFinding drifts(const Drift& drift) {
 StudyResult run_strain_momentum(const Subject& subject, Tier tier, const Progress& progress) {
   const int levels = tier == Tier::quick ? 5 : 7;
   StudyResult result;
-  Figure figure{"drift",
-                "Angular momentum of a free sheet at its strain limits",
-                {"step", "s", Scale::log},
-                {"relative drift of angular momentum", "1", Scale::log},
-                1,
-                "Change of the angular momentum from the start to the end of the run, over its size. The "
-                "sheet is not damped, so "
-                "that A and C are the same scheme; B's drift is rounding.",
-                {}};
+  Figure figure{
+      "drift",
+      "Angular momentum of a free sheet at its strain limits",
+      {"step", "s", Scale::log},
+      {"relative drift of angular momentum", "1", Scale::log},
+      1,
+      "Change of the angular momentum from the start to the end of the run, over its size. The "
+      "sheet is not damped, so that A and C are the same scheme; B's drift is rounding.",
+      {}};
   double done = 0;
   for (const Integrator& method : paper_schemes()) {
     Drift drift{std::string(method.name), {}, {}, {}};
@@ -127,19 +130,15 @@ StudyResult run_strain_momentum(const Subject& subject, Tier tier, const Progres
 
 Study strain_momentum_study() {
   return {"strain-momentum",
-          "While strain limits act, scheme B keeps the angular momentum of a free sheet to rounding; A and C "
-          "let it drift, by "
-          "first order in the step.",
+          "While strain limits act, scheme B keeps the angular momentum of a free sheet to "
+          "rounding; A and C let it drift, by first order in the step.",
           "BMF03 section 3",
-          "An undamped sheet spins and flaps at its strain limits. Each correction keeps angular momentum. "
-          "But A and C move the "
-          "positions with the corrected velocity and carry on the uncorrected one: a step changes the "
-          "momentum by h times the "
-          "sum of m (corrected - uncorrected) x v, which is the impulses' torque about where the other ends "
-          "of their springs "
-          "go. Impulses that hold against a force are of the order of h, so a step errs by h^2, and a run by "
-          "h. B carries on "
-          "the velocity that it moved with.",
+          "An undamped sheet spins and flaps at its strain limits. Each correction keeps angular "
+          "momentum. But A and C move the positions with the corrected velocity and carry on the "
+          "uncorrected one: a step changes the momentum by h times the sum of m (corrected - "
+          "uncorrected) x v, which is the impulses' torque about where the other ends of their "
+          "springs go. Impulses that hold against a force are of the order of h, so a step errs by "
+          "h^2, and a run by h. B carries on the velocity that it moved with.",
           run_strain_momentum};
 }
 

@@ -1,5 +1,5 @@
-// strain-sweeps: how fast the orders of strain limiting find velocities within the limits, on finer and finer
-// meshes.
+// strain-sweeps: how fast the orders of strain limiting find velocities within the limits, on finer
+// and finer meshes.
 #include <algorithm>
 #include <cmath>
 
@@ -15,12 +15,13 @@ namespace foldproof {
 
 namespace {
 
-constexpr double tolerance = 1e-3;  // violation over the rest length at which sweeps are counted [1]
-constexpr double fall = 0.08;       // of the sheet's height, in one step [1]
+// violation over the rest length at which sweeps are counted [1]
+constexpr double tolerance = 1e-3;
+constexpr double fall = 0.08;  // of the sheet's height, in one step [1]
 
-/// A square sheet of n x n cells, at rest, held along its upper edge, when all below has been given the
-/// velocity that takes it down by 8 % of its height in a step: within limits of 10 % it can come down nearly
-/// so far, but every row has to learn it. Mirror-symmetric in x.
+/// A square sheet of n x n cells, at rest, held along its upper edge, when all below has been given
+/// the velocity that takes it down by 8 % of its height in a step: within limits of 10 % it can
+/// come down nearly so far, but every row has to learn it. Mirror-symmetric in x.
 struct JerkedSheet {
   int cells;
   Scene scene;
@@ -39,8 +40,10 @@ struct JerkedSheet {
 };
 
 JerkedSheet jerked_sheet(int cells) {
-  JerkedSheet sheet{
-      cells, scene_at_rest(make_sheet({SheetPattern::union_jack, 1, 1, cells, cells}), 0.2), {}, {}};
+  JerkedSheet sheet{cells,
+                    scene_at_rest(make_sheet({SheetPattern::union_jack, 1, 1, cells, cells}), 0.2),
+                    {},
+                    {}};
   sheet.scene.stretch = StretchMaterial{10, 0, 1};
   for (int i = 0; i <= cells; ++i) {
     const int top = cells * (cells + 1) + i;
@@ -72,7 +75,8 @@ double asymmetry(const JerkedSheet& sheet, const PerParticle3& v) {
   for (Eigen::Index i = 0; i < v.cols(); ++i) {
     const Eigen::Index mirror_finding = i / row * row + sheet.cells - i % row;
     worst.observe(
-        (v.col(i) - Vector3(-v(0, mirror_finding), v(1, mirror_finding), v(2, mirror_finding))).norm());
+        (v.col(i) - Vector3(-v(0, mirror_finding), v(1, mirror_finding), v(2, mirror_finding)))
+            .norm());
   }
   return worst.value() / largest_difference(v, sheet.v);
 }
@@ -111,29 +115,27 @@ NamedFinding growth(const Row& row) {
   std::vector<double> widths;
   for (const double cells : row.cells) widths.push_back(1 / cells);
   const double exponent = -fitted_order({widths, row.sweeps, 0});
-  return {"strain-sweeps.grow-quadratically." + row.order,
-          "Sweeps in the order '" + row.order +
-              "' that find velocities within the limits grow as the square of the cells "
-              "along a side.",
-          {{std::abs(exponent - 2), 0.25, 0, "1",
-            "near the limits a sweep is one of an iteration for a Poisson equation, in which a correction "
-            "spreads like heat: "
-            "over n cells in n^2 sweeps; growth in proportion, or as the cube, is off by 1"},
-           evidence_of(row),
-           "measured is |exponent - 2|"}};
+  return {
+      "strain-sweeps.grow-quadratically." + row.order,
+      "Sweeps in the order '" + row.order +
+          "' that find velocities within the limits grow as the square of the cells along a side.",
+      {{std::abs(exponent - 2), 0.25, 0, "1",
+        "near the limits a sweep is one of an iteration for a Poisson equation, in which a "
+        "correction spreads like heat: over n cells in n^2 sweeps; growth in proportion, or as the "
+        "cube, is off by 1"},
+       evidence_of(row),
+       "measured is |exponent - 2|"}};
 }
 
 NamedFinding mirror_finding(const Row& row) {
   Worst worst;
   for (const double asymmetry : row.asymmetry) worst.observe(asymmetry / epsilon);
   return {"strain-sweeps.jacobi-is-mirror-symmetric",
-          "Sweeps that correct all springs from the same velocities answer a mirror-symmetric motion by a "
-          "mirror-symmetric "
-          "one.",
+          "Sweeps that correct all springs from the same velocities answer a mirror-symmetric "
+          "motion by a mirror-symmetric one.",
           {{worst.value(), 64, 0, "epsilon of the largest correction",
-            "only the order in which a particle's impulses are added differs between the two sides, and the "
-            "limits pull its "
-            "roundings back from sweep to sweep"},
+            "only the order in which a particle's impulses are added differs between the two "
+            "sides, and the limits pull its roundings back from sweep to sweep"},
            evidence_of(row),
            ""}};
 }
@@ -148,29 +150,29 @@ NamedFinding bias_finding(const std::vector<Row>& rows) {
     coarsest.push_back(row.asymmetry.front());
     worst.observe(0.01 / row.asymmetry.front());
   }
-  return {
-      "strain-sweeps.sequential-sweeps-break-mirror-symmetry",
-      "Sweeps that correct springs in turn answer a mirror-symmetric motion unsymmetrically, alternating "
-      "ones too.",
-      {{worst.value(), 1, 0, "1",
-        "measured is a hundredth of the largest correction over the asymmetry, on the coarsest mesh: it is "
-        "no small part"},
-       {{"order", "", orders}, {"asymmetry", "of the largest correction", coarsest}},
-       "The velocities within the limits are many; which of them is found depends on who is asked first."}};
+  return {"strain-sweeps.sequential-sweeps-break-mirror-symmetry",
+          "Sweeps that correct springs in turn answer a mirror-symmetric motion unsymmetrically, "
+          "alternating ones too.",
+          {{worst.value(), 1, 0, "1",
+            "measured is a hundredth of the largest correction over the asymmetry, on the coarsest "
+            "mesh: it is no small part"},
+           {{"order", "", orders}, {"asymmetry", "of the largest correction", coarsest}},
+           "The velocities within the limits are many; which of them is found depends on who is "
+           "asked first."}};
 }
 
 NamedFinding energy(const std::vector<Row>& rows) {
   Worst worst;
   for (const Row& row : rows)
     for (const double left : row.energy_left) worst.observe(left);
-  return {
-      "strain-sweeps.kinetic-energy-decreases",
-      "Limiting the strain of a sheet that moves away from its place takes kinetic energy, in whatever "
-      "order.",
-      {{worst.value(), 1, 0, "of what there was",
-        "springs within their limits at the start; what each impulse takes is relative motion beyond them"},
-       evidence_of(rows.front()),
-       ""}};
+  return {"strain-sweeps.kinetic-energy-decreases",
+          "Limiting the strain of a sheet that moves away from its place takes kinetic energy, in "
+          "whatever order.",
+          {{worst.value(), 1, 0, "of what there was",
+            "springs within their limits at the start; what each impulse takes is relative motion "
+            "beyond them"},
+           evidence_of(rows.front()),
+           ""}};
 }
 
 Curve residuals(const NamedOrder& order, int cells) {
@@ -200,7 +202,8 @@ Table table_of(const std::vector<Row>& rows) {
   return {"orders", "Sweeps until no violation exceeds a thousandth", columns};
 }
 
-/// Springs that are beyond their limits at the start are brought back in one step, whatever that takes.
+/// Springs that are beyond their limits at the start are brought back in one step,
+/// whatever that takes.
 Table recovery_table() {
   std::vector<double> stretches = {1.05, 1.12, 1.2, 1.4}, given, elastic, sweeps;
   const JerkedSheet sheet = jerked_sheet(12);
@@ -214,7 +217,8 @@ Table recovery_table() {
     elastic.push_back(energies(sheet.system, stretched).stretch);
   }
   return {"brought-back",
-          "Kinetic energy that limits of +10 % give to a free sheet that rests stretched in all directions",
+          "Kinetic energy that limits of +10 % give to a free sheet that rests stretched in all "
+          "directions",
           {{"length over rest length", "1", stretches},
            {"kinetic energy given", "J", given},
            {"elastic energy of the stretch", "J", elastic},
@@ -230,9 +234,8 @@ StudyResult run_strain_sweeps(const Subject&, Tier tier, const Progress& progres
                 {"sweeps", "1", Scale::log},
                 {"violation left, over the rest length", "1", Scale::log},
                 nan,
-                "A sheet of 12 x 12 cells, held along its upper edge, falls by 8 % of its height in a step; "
-                "limits are +10 % "
-                "and 0 %.",
+                "A sheet of 12 x 12 cells, held along its upper edge, falls by 8 % of its height "
+                "in a step; limits are +10 % and 0 %.",
                 {}};
   std::vector<Row> rows;
   for (const NamedOrder& order : sweep_orders()) {
@@ -254,20 +257,17 @@ StudyResult run_strain_sweeps(const Subject&, Tier tier, const Progress& progres
 
 Study strain_sweeps_study() {
   return {"strain-sweeps",
-          "Sweeps of strain limiting grow as the square of the cells along a side, in every order; only "
-          "those that "
-          "correct all springs at once keep mirror symmetry, and need several times as many.",
+          "Sweeps of strain limiting grow as the square of the cells along a side, in every order; "
+          "only those that correct all springs at once keep mirror symmetry, and need several "
+          "times as many.",
           "BMF03 section 3, after Provot 1995",
-          "A square sheet at rest is held along its upper edge, and all below is given the velocity that "
-          "takes it down by 8 % "
-          "of its height in a step. Limits of 10 % let it come down nearly so far, but only if every row "
-          "takes its share: "
-          "the news has to get from the edge to the hem, a cell further a sweep at best, and back. Sweeps "
-          "one spring after the "
-          "other in the order of the particles, alternately forwards and backwards, colour by colour, and "
-          "all at once are "
-          "counted until no violation exceeds a thousandth of a rest length. It measures the reference's own "
-          "sweeps.",
+          "A square sheet at rest is held along its upper edge, and all below is given the "
+          "velocity that takes it down by 8 % of its height in a step. Limits of 10 % let it come "
+          "down nearly so far, but only if every row takes its share: the news has to get from the "
+          "edge to the hem, a cell further a sweep at best, and back. Sweeps one spring after the "
+          "other in the order of the particles, alternately forwards and backwards, colour by "
+          "colour, and all at once are counted until no violation exceeds a thousandth of a rest "
+          "length. It measures the reference's own sweeps.",
           run_strain_sweeps};
 }
 

@@ -1,5 +1,5 @@
-// What `foldproof ablate` judges by: finer scenes that are the same scene, parts that are toggled one by one,
-// needs.
+// What `foldproof ablate` judges by: finer scenes that are the same scene, parts that are toggled
+// one by one, needs.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -158,7 +158,8 @@ TEST_CASE("a coarser mesh is compared where it lies on the finer one") {
   ObservedRun run, coarser;
   run.x = {fine.rest, bulged(fine.rest, 0.1)};
   coarser.x = {coarse.rest, bulged(coarse.rest, 0.1)};
-  // the same motion: what is left, e^2 / 8 of x^2 for sides e = 0.1, is that facets are moved linearly
+  // the same motion: what is left, e^2 / 8 of x^2 for sides e = 0.1, is that facets
+  // are moved linearly
   CHECK(error_from_coarser(run, fine, coarser, coarse) < 0.1 * 0.1 * 0.1 / 8 / (r - 1) * 2);
   // another one: by 0.02 x^2, whose square has the mean 1/5 on the sphere
   coarser.x[1] = bulged(coarse.rest, 0.12);
@@ -175,7 +176,8 @@ TEST_CASE("a coarser mesh is compared where it lies on the finer one") {
 
 TEST_CASE("a case names its coarser mesh beside its reasons") {
   const std::string path = "coarser_mesh_trial.toml";
-  std::ofstream(path) << text << "[ablation]\ncoarser_mesh = \"cloth.rows=2\"\n\"gravity\" = \"a reason\"\n";
+  std::ofstream(path)
+      << text << "[ablation]\ncoarser_mesh = \"cloth.rows=2\"\n\"gravity\" = \"a reason\"\n";
   const Case input_case = read_case(path);
   CHECK(input_case.coarser_mesh == std::vector<std::string>{"cloth.rows=2"});
   REQUIRE(input_case.declared.size() == 1);

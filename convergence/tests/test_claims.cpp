@@ -30,10 +30,10 @@ const std::vector<Decider> all_roles = {{"support", Role::supports},
                                         {"limit", Role::limits},
                                         {"contra", Role::contradicts}};
 
-Ruling with(std::optional<Outcome> support, std::optional<Outcome> another, std::optional<Outcome> limit,
-            std::optional<Outcome> contra) {
-  return ruling(all_roles, {finding("support", support), finding("another", another), finding("limit", limit),
-                            finding("contra", contra)});
+Ruling with(std::optional<Outcome> support, std::optional<Outcome> another,
+            std::optional<Outcome> limit, std::optional<Outcome> contra) {
+  return ruling(all_roles, {finding("support", support), finding("another", another),
+                            finding("limit", limit), finding("contra", contra)});
 }
 
 Claim small_claim(Ruling recorded, const std::string& why) {
@@ -59,7 +59,8 @@ bool is_known(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a claim is confirmed when all that it needs holds and nothing limits or contradicts it") {
+TEST_CASE(
+    "a claim is confirmed when all that it needs holds and nothing limits or contradicts it") {
   CHECK(with(holds, holds, fails, fails) == Ruling::confirmed);
 }
 
@@ -69,7 +70,8 @@ TEST_CASE("a limit that holds makes a confirmed claim conditional") {
 
 TEST_CASE("a contradiction that holds refutes, whatever else holds or fails") {
   for (const Outcome support : {holds, fails})
-    for (const Outcome limit : {holds, fails}) CHECK(with(support, holds, limit, holds) == Ruling::refuted);
+    for (const Outcome limit : {holds, fails})
+      CHECK(with(support, holds, limit, holds) == Ruling::refuted);
 }
 
 TEST_CASE("one failed support of several leaves a claim undecided, neither confirmed nor refuted") {
@@ -88,16 +90,19 @@ TEST_CASE("a finding that says nothing, in any role, leaves a claim undecided") 
     CHECK(with(holds, holds, holds, silent) == Ruling::undecided);
     CHECK(with(silent, holds, holds, holds) == Ruling::undecided);
   }
-  CHECK(ruling(all_roles, {finding("support", holds), finding("another", holds), finding("limit", fails)}) ==
-        Ruling::undecided);
+  CHECK(ruling(all_roles, {finding("support", holds), finding("another", holds),
+                           finding("limit", fails)}) == Ruling::undecided);
 }
 
 TEST_CASE(
-    "a finding that failed without a number has said nothing: it cannot clear a claim of a contradiction") {
-  const std::vector<Decider> deciders = {{"support", Role::supports}, {"contra", Role::contradicts}};
+    "a finding that failed without a number has said nothing: it cannot clear a claim of a "
+    "contradiction") {
+  const std::vector<Decider> deciders = {{"support", Role::supports},
+                                         {"contra", Role::contradicts}};
   CHECK(ruling(deciders, {finding("support", holds), finding("contra", fails, not_a_number)}) ==
         Ruling::undecided);
-  CHECK(ruling(deciders, {finding("support", holds), finding("contra", fails)}) == Ruling::confirmed);
+  CHECK(ruling(deciders, {finding("support", holds), finding("contra", fails)}) ==
+        Ruling::confirmed);
 }
 
 TEST_CASE("without support nothing is confirmed") {
@@ -107,7 +112,8 @@ TEST_CASE("without support nothing is confirmed") {
   CHECK(ruling({{"contra", Role::contradicts}}, {finding("contra", holds)}) == Ruling::refuted);
 }
 
-TEST_CASE("numbers in a text come from the findings, with unit, three digits and the row asked for") {
+TEST_CASE(
+    "numbers in a text come from the findings, with unit, three digits and the row asked for") {
   Record record = finding("mass", holds, 0.123456);
   record.finding.evidence = {{"case", "", std::vector<std::string>{"heavy", "light"}},
                              {"|m|/2", "g", std::vector<double>{7, 3}},
@@ -116,18 +122,19 @@ TEST_CASE("numbers in a text come from the findings, with unit, three digits and
   CHECK(fill_placeholders("{mass} of {mass|bound}", records) == "0.123 kg of 0.5 kg");
   CHECK(fill_placeholders("{mass||m|/2|light}, {mass||m|/2|1}, {mass||m|/2|last}", records) ==
         "3 g, 7 g, 3 g");
-  CHECK(fill_placeholders("{mass||m|/2|smallest} to {mass||m|/2|largest}", records) == "3 g to 7 g");
+  CHECK(fill_placeholders("{mass||m|/2|smallest} to {mass||m|/2|largest}", records) ==
+        "3 g to 7 g");
   CHECK(fill_placeholders("{mass|share|first}", records) == "0.5");
   for (const char* wrong :
        {"{mess}", "{mass|share|3}", "{mass|share|0}", "{mass|share|heavily}", "{mass|volume|1}",
         "{mass|share|last}", "{mass|share|largest}", "{mass", "{mass|case|1}"})
-    CHECK_THROWS_WITH(fill_placeholders(wrong, records),
-                      Catch::Contains("placeholder {mass") || Catch::Contains("placeholder {mess}"));
+    CHECK_THROWS_WITH(fill_placeholders(wrong, records), Catch::Contains("placeholder {mass") ||
+                                                             Catch::Contains("placeholder {mess}"));
 }
 
 TEST_CASE(
-    "a number may stand without its unit, and for the largest of several; powers of ten are written as "
-    "such") {
+    "a number may stand without its unit, and for the largest of several; powers of ten are "
+    "written as such") {
   const std::vector<Record> records = {
       finding("small", holds, 5.9217e-5), finding("large", holds, 1.9949e7),
       finding("plain", holds, 123456),    finding("unknown", fails, not_a_number),
@@ -147,7 +154,9 @@ TEST_CASE(
                     Catch::Contains("different units"));
 }
 
-TEST_CASE("a ruled claim has its numbers; one that asks for a number that is not there is refused by name") {
+TEST_CASE(
+    "a ruled claim has its numbers; one that asks for a number that is not there is refused by "
+    "name") {
   const std::vector<Record> records = {finding("support", holds)};
   CHECK(rule_claim(small_claim(Ruling::confirmed, "It is {support}."), records).claim.why ==
         "It is 0.25 kg.");
@@ -156,7 +165,8 @@ TEST_CASE("a ruled claim has its numbers; one that asks for a number that is not
 }
 
 TEST_CASE("a ruling other than the recorded one fails; an open question stays open") {
-  const std::vector<Record> held = {finding("support", holds)}, failed = {finding("support", fails)};
+  const std::vector<Record> held = {finding("support", holds)},
+                            failed = {finding("support", fails)};
   CHECK(outcome_of(rule_claim(small_claim(Ruling::confirmed, ""), held)) == holds);
   CHECK(outcome_of(rule_claim(small_claim(Ruling::confirmed, ""), failed)) == fails);
   CHECK(outcome_of(rule_claim(small_claim(Ruling::confirmed, ""), {})) == fails);
@@ -165,12 +175,15 @@ TEST_CASE("a ruling other than the recorded one fails; an open question stays op
   CHECK(outcome_of(rule_claim(small_claim(Ruling::undecided, ""), {})) == Outcome::inconclusive);
 }
 
-TEST_CASE("the ledger has every claim of sections 3, 4 and 6 once, and claims of section 5 in their order") {
+TEST_CASE(
+    "the ledger has every claim of sections 3, 4 and 6 once, and claims of section 5 in their "
+    "order") {
   std::vector<std::string> ids, expected;
   std::vector<int> objects;
   for (const Claim& claim : written_claims()) {
     CHECK(claim.paper == "BMF03");
-    claim.id.starts_with("C") ? objects.push_back(std::stoi(claim.id.substr(1))) : ids.push_back(claim.id);
+    claim.id.starts_with("C") ? objects.push_back(std::stoi(claim.id.substr(1)))
+                              : ids.push_back(claim.id);
   }
   for (int k = 1; k <= 20; ++k) expected.push_back("T" + std::to_string(k));
   for (int k = 1; k <= 13; ++k) expected.push_back("B" + std::to_string(k));
@@ -198,6 +211,7 @@ TEST_CASE("no claim's text has a measured number typed into it") {
   const std::regex placeholder("\\{[^}]*\\}"), number("[0-9][.,][0-9]|[0-9]e-?[0-9]|[0-9] ?%");
   for (const Claim& claim : written_claims()) {
     INFO("claim " << claim.id);
-    CHECK(!std::regex_search(std::regex_replace(claim.why + claim.condition, placeholder, ""), number));
+    CHECK(!std::regex_search(std::regex_replace(claim.why + claim.condition, placeholder, ""),
+                             number));
   }
 }

@@ -40,8 +40,8 @@ TEST_CASE("pair orders do not need equal ratios of steps") {
 }
 
 TEST_CASE("the fitted order is the slope of least squares over all points") {
-  // log2 of the steps 0, -1, -2, -3, of the errors 0, -2, -4, -3: so the slope is (-.5 * 2 + .5 * 4 + 1.5 *
-  // 3)/5
+  // log2 of the steps 0, -1, -2, -3, of the errors 0, -2, -4, -3: so the slope is (-.5 * 2 +
+  // .5 * 4 + 1.5 * 3)/5
   const Convergence convergence{{1, 0.5, 0.25, 0.125}, {1, 0.25, 0.0625, 0.125}, 0};
   CHECK(fitted_order(convergence) == Approx(1.1).epsilon(1e-12));
 }
@@ -52,7 +52,8 @@ TEST_CASE("growing errors have negative orders") {
 
 TEST_CASE("pair orders approach the leading exponent") {
   const std::vector<double> orders = pair_orders(power_law(2, 1.3, 0.9, 8));
-  for (size_t i = 1; i < orders.size(); ++i) CHECK(std::abs(orders[i] - 2) < std::abs(orders[i - 1] - 2));
+  for (size_t i = 1; i < orders.size(); ++i)
+    CHECK(std::abs(orders[i] - 2) < std::abs(orders[i - 1] - 2));
 }
 
 TEST_CASE("errors without a logarithm give NaN and no order") {
@@ -142,7 +143,8 @@ TEST_CASE("levels above the floor end at the first that has sunk") {
 TEST_CASE("steps of every pattern add up to the end and halve from level to level") {
   constexpr double end = 0.73;
   for (const StepPattern& pattern : step_patterns()) {
-    const std::vector<double> coarse = steps_of(pattern, end, 24), fine = steps_of(pattern, end, 48);
+    const std::vector<double> coarse = steps_of(pattern, end, 24),
+                              fine = steps_of(pattern, end, 48);
     REQUIRE(coarse.size() == 24);
     REQUIRE(fine.size() == 48);
     CHECK(std::accumulate(coarse.begin(), coarse.end(), 0.0) == Approx(end).epsilon(1e-14));

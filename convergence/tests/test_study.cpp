@@ -8,7 +8,8 @@
 using namespace foldproof;
 
 TEST_CASE("a study that throws fails under its own name") {
-  const Study study{"sums", "A sentence.", "", "", [](const Subject&, Tier, const Progress&) -> StudyResult {
+  const Study study{"sums", "A sentence.", "", "",
+                    [](const Subject&, Tier, const Progress&) -> StudyResult {
                       throw std::runtime_error("no convergence");
                     }};
   const auto [records, whole] = run_study(study, reference_subject(), Tier::quick, [](double) {});
@@ -18,13 +19,13 @@ TEST_CASE("a study that throws fails under its own name") {
 }
 
 TEST_CASE("each finding of a study is judged by its own verdict") {
-  const Study study{
-      "sums", "A sentence.", "", "", [](const Subject&, Tier, const Progress&) {
-        StudyResult result;
-        for (const double measured : {1.0, 3.0, 2.25, foldproof::nan})
-          result.findings.push_back({"sums.one", "A sentence.", {{measured, 2, 0.5, "1", ""}, {}, ""}});
-        return result;
-      }};
+  const Study study{"sums", "A sentence.", "", "", [](const Subject&, Tier, const Progress&) {
+                      StudyResult result;
+                      for (const double measured : {1.0, 3.0, 2.25, foldproof::nan})
+                        result.findings.push_back(
+                            {"sums.one", "A sentence.", {{measured, 2, 0.5, "1", ""}, {}, ""}});
+                      return result;
+                    }};
   const auto [records, whole] = run_study(study, reference_subject(), Tier::quick, [](double) {});
   REQUIRE(records.size() == 4);
   CHECK(records[0].outcome == Outcome::holds);

@@ -1,4 +1,5 @@
-// What is measured of wrinkles, on shapes whose answers are known; and a simulation read back from its file.
+// What is measured of wrinkles, on shapes whose answers are known; and a simulation read
+// back from its file.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -16,7 +17,8 @@ using namespace foldproof;
 TEST_CASE("the dominant wavelength is that of the largest wave, whatever line lies under it") {
   std::vector<double> samples;
   for (int k = 0; k < 200; ++k)
-    samples.push_back(0.7 * std::sin(2 * pi * k / 25 + 0.4) + 0.5 * std::cos(2 * pi * k / 8.0) + 3 + 0.2 * k);
+    samples.push_back(0.7 * std::sin(2 * pi * k / 25 + 0.4) + 0.5 * std::cos(2 * pi * k / 8.0) + 3 +
+                      0.2 * k);
   CHECK(dominant_wavelength(samples, 0.01) == Approx(0.25));
   CHECK(std::isnan(dominant_wavelength(std::vector<double>(200, 0.0), 0.01)));
   CHECK(std::isnan(dominant_wavelength({1, -1, 1, -1}, 0.01)));
@@ -68,7 +70,8 @@ end = 0.1
 
 TEST_CASE("a stored simulation is read back bit for bit, overrides and all") {
   const ScratchFolder folder;
-  const Scene scene = read_scene_text(small_case, "small.toml", {"cloth.width=0.45", "object.0.radius=0.25"});
+  const Scene scene =
+      read_scene_text(small_case, "small.toml", {"cloth.width=0.45", "object.0.radius=0.25"});
   const BuiltScene built = build(scene, computing_provider());
   State s = built.start;
   {

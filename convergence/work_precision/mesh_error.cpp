@@ -17,10 +17,11 @@ constexpr double width = 0.83, height = 0.71;  // m
 constexpr double end = 0.15;                   // s
 constexpr int coarsest = 4;                    // cells along each side
 
-/// Held along its upper edge, swung by a smooth velocity. Every constant is a property of the cloth, none of
-/// the mesh.
+/// Held along its upper edge, swung by a smooth velocity. Every constant is a property of the
+/// cloth, none of the mesh.
 Scene swung_sheet(int cells) {
-  Scene scene = scene_at_rest(make_sheet({SheetPattern::one_diagonal, width, height, cells, cells}), 0.19);
+  Scene scene =
+      scene_at_rest(make_sheet({SheetPattern::one_diagonal, width, height, cells, cells}), 0.19);
   scene.integrator = "C";
   scene.gravity = Vector3(0, -9.81, 0);
   scene.stretch = StretchMaterial{47, 0.047, 1};
@@ -87,11 +88,13 @@ Convergence differences(const std::vector<MeshRun>& meshes) {
   return result;
 }
 
-/// What a mesh errs by [m], from its difference to the next finer one and the order that was observed:
+/// What a mesh errs by [m], from its difference to the next finer one and the order
+/// that was observed:
 ///   e(dx) - e(dx/2) = e(dx) (1 - 2^-order)
 std::vector<double> space_errors(const Convergence& differences, double order) {
   std::vector<double> errors;
-  for (double difference : differences.errors) errors.push_back(difference / (1 - std::pow(2, -order)));
+  for (double difference : differences.errors)
+    errors.push_back(difference / (1 - std::pow(2, -order)));
   return errors;
 }
 
@@ -99,10 +102,9 @@ NamedFinding second_order(const Convergence& errors) {
   const Estimate deviation = order_deviation(errors, 2, 1);
   std::vector<double> orders = pair_orders(errors);
   orders.insert(orders.begin(), nan);
-  const Verdict verdict{
-      deviation.value, 0.5, deviation.uncertainty, "1",
-      "first order would be off by 1; half of that is left to the border, whose springs and "
-      "hinges lack a neighbour, on meshes this coarse"};
+  const Verdict verdict{deviation.value, 0.5, deviation.uncertainty, "1",
+                        "first order would be off by 1; half of that is left to the border, whose "
+                        "springs and hinges lack a neighbour, on meshes this coarse"};
   return {"mesh-error.is-second-order-in-cell-width",
           "Positions of a smooth motion converge with second order in the cells' width.",
           {verdict,
@@ -122,17 +124,17 @@ NamedFinding step_errs_less(const std::vector<MeshRun>& meshes, const std::vecto
     worst.observe(time.back() / space[i]);
     uncertainty.observe(meshes[i].uncertainty / space[i]);
   }
-  const Verdict verdict{worst.value(), 0.1, uncertainty.value(), "1",
-                        "a tenth: then a shorter step would lessen the whole error by no more than that"};
-  return {
-      "mesh-error.usual-step-error-is-below-a-tenth-of-it",
-      "At the share of the elastic limit that automatic steps take, the step's error is less than a tenth "
-      "of the mesh's.",
-      {verdict,
-       {{"cells along a side", "1", cells},
-        {"error of the mesh", "m", space},
-        {"error of the step", "m", time}},
-       "measured is the largest ratio of the two"}};
+  const Verdict verdict{
+      worst.value(), 0.1, uncertainty.value(), "1",
+      "a tenth: then a shorter step would lessen the whole error by no more than that"};
+  return {"mesh-error.usual-step-error-is-below-a-tenth-of-it",
+          "At the share of the elastic limit that automatic steps take, the step's error is less "
+          "than a tenth of the mesh's.",
+          {verdict,
+           {{"cells along a side", "1", cells},
+            {"error of the mesh", "m", space},
+            {"error of the step", "m", time}},
+           "measured is the largest ratio of the two"}};
 }
 
 Table balance(const std::vector<MeshRun>& meshes, const std::vector<double>& space) {
@@ -164,14 +166,15 @@ Table balance(const std::vector<MeshRun>& meshes, const std::vector<double>& spa
 
 Figure figure_of(const std::vector<MeshRun>& meshes, const Convergence& errors,
                  const std::vector<double>& space) {
-  Figure figure{"errors",
-                "Errors of the mesh and of the step",
-                {"width of a cell", "m", Scale::log},
-                {"position error", "m", Scale::log},
-                2,
-                "Largest component at the particles of the coarsest mesh, at the end of the motion. The step "
-                "is half the elastic limit of its mesh, so that it shrinks with the cells.",
-                {}};
+  Figure figure{
+      "errors",
+      "Errors of the mesh and of the step",
+      {"width of a cell", "m", Scale::log},
+      {"position error", "m", Scale::log},
+      2,
+      "Largest component at the particles of the coarsest mesh, at the end of the motion. The step "
+      "is half the elastic limit of its mesh, so that it shrinks with the cells.",
+      {}};
   figure.curves.push_back({"mesh", errors.steps, space, nan, pair_orders(errors)});
   Curve step{"step, half the elastic limit", {}, {}, nan, {}};
   for (const MeshRun& mesh : meshes) {
@@ -201,16 +204,16 @@ StudyResult run_mesh_error(const Subject& subject, Tier tier, const Progress& pr
 }  // namespace
 
 Study mesh_error_study() {
-  return {
-      "mesh-error", "On a smooth motion the mesh errs more than a step of half the elastic limit does.",
-      "ours",
-      "How fine should the step be for my mesh? A sheet held along its upper edge swings by a smooth "
-      "velocity, on meshes each of which halves the cells of the one before. Errors of the mesh come from "
-      "neighbouring meshes at the particles that they share, with the step's error extrapolated away; errors "
-      "of the step from two steps on one mesh. Where springs decide on the elastic limit it is proportional "
-      "to the cells' width, so that with second order in both, the ratio of the two errors is the same on "
-      "every mesh.",
-      run_mesh_error};
+  return {"mesh-error",
+          "On a smooth motion the mesh errs more than a step of half the elastic limit does.",
+          "ours",
+          "How fine should the step be for my mesh? A sheet held along its upper edge swings by a "
+          "smooth velocity, on meshes each of which halves the cells of the one before. Errors of "
+          "the mesh come from neighbouring meshes at the particles that they share, with the "
+          "step's error extrapolated away; errors of the step from two steps on one mesh. Where "
+          "springs decide on the elastic limit it is proportional to the cells' width, so that "
+          "with second order in both, the ratio of the two errors is the same on every mesh.",
+          run_mesh_error};
 }
 
 }  // namespace foldproof

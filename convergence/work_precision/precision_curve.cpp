@@ -9,9 +9,9 @@ namespace foldproof {
 
 namespace {
 
-constexpr double coarsest = 1. / 8;      // steps of the first run over those at the elastic limit
-constexpr double far_away = 20;          // displacement over the motion beyond which a run is stopped [1]
-constexpr int most_repeats = 4;          // of a run that is timed
+constexpr double coarsest = 1. / 8;  // steps of the first run over those at the elastic limit
+constexpr double far_away = 20;  // displacement over the motion beyond which a run is stopped [1]
+constexpr int most_repeats = 4;  // of a run that is timed
 constexpr double enough_seconds = 0.03;  // after which it is not repeated
 
 struct TimedRun {
@@ -39,18 +39,18 @@ double log_between(double from, double to, double part) {
 }
 
 int measured_runs(const PrecisionCurve& curve) {
-  return int(
-      std::ranges::count_if(curve.runs, [](const PrecisionRun& run) { return !std::isnan(run.error); }));
+  return int(std::ranges::count_if(curve.runs,
+                                   [](const PrecisionRun& run) { return !std::isnan(run.error); }));
 }
 
-/// The work of a run with so many steps: that of the two runs before it, continued linearly; 0 if they do not
-/// tell.
+/// The work of a run with so many steps: that of the two runs before it, continued linearly; 0 if
+/// they do not tell.
 double expected_work(const PrecisionCurve& curve, int steps) {
   if (curve.runs.size() < 2) return 0;
   const PrecisionRun &last = curve.runs.back(), &before = curve.runs[curve.runs.size() - 2];
   if (last.part < 1 || before.part < 1) return 0;
-  return last.applications +
-         (last.applications - before.applications) / (last.steps - before.steps) * (steps - last.steps);
+  return last.applications + (last.applications - before.applications) /
+                                 (last.steps - before.steps) * (steps - last.steps);
 }
 
 }  // namespace
@@ -68,7 +68,8 @@ PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& p
   scene.integrator = std::string(integrator.name);
   double count = std::max(2., coarsest * problem.end / truth.elastic_limit);
   for (bool again = true; again; count *= problem.ratio) {
-    const RunPlan plan{problem.end, int(std::lround(count)), far_away * truth.motion, problem.budget};
+    const RunPlan plan{problem.end, int(std::lround(count)), far_away * truth.motion,
+                       problem.budget};
     const bool is_short = plan.steps > problem.end / truth.elastic_limit;
     if (is_short && expected_work(curve, plan.steps) > problem.budget) break;
     const auto [run, seconds] = time_run(subject, scene, plan);
@@ -78,8 +79,9 @@ PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& p
     }
     const double error =
         run.ending == Ending::reached ? largest_distance(run.last.x, truth.x) / truth.motion : nan;
-    curve.runs.push_back({plan.steps, error <= diverged_error ? error : nan, operator_applications(run.work),
-                          seconds, double(run.steps) / plan.steps, run.work});
+    curve.runs.push_back({plan.steps, error <= diverged_error ? error : nan,
+                          operator_applications(run.work), seconds, double(run.steps) / plan.steps,
+                          run.work});
     again = !(error <= finest_error) || measured_runs(curve) < problem.min_points;
   }
   return curve;

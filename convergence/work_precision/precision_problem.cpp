@@ -36,8 +36,10 @@ Extrapolation extrapolate(const Subject& subject, Scene scene, const Integrator&
   scene.solver.tolerance = tight;
   RunPlan fine = coarse;
   fine.steps *= 2;
-  const PlannedRun first = run_planned(subject, scene, coarse), second = run_planned(subject, scene, fine);
-  const PerParticle3 correction = (second.last.x - first.last.x) / (std::pow(2, integrator.order) - 1);
+  const PlannedRun first = run_planned(subject, scene, coarse),
+                   second = run_planned(subject, scene, fine);
+  const PerParticle3 correction =
+      (second.last.x - first.last.x) / (std::pow(2, integrator.order) - 1);
   const PerParticle3 x = second.last.x + correction;
   return {x, largest_distance(x, second.last.x), second.farthest};
 }
@@ -92,15 +94,16 @@ PrecisionTruth truth_of(const Subject& subject, const PrecisionProblem& problem)
       extrapolate(subject, problem.scene, integrator_named(problem.second), second_plan);
   double own = 0;
   if (problem.first == FirstOpinion::oracle) {
-    const ExactEnd exact = exact_end(problem.scene, oracle_of(problem.scene), problem.end, oracle_tolerance);
+    const ExactEnd exact =
+        exact_end(problem.scene, oracle_of(problem.scene), problem.end, oracle_tolerance);
     truth.x = exact.state.x;
     own = exact.uncertainty;
   } else {
-    // of fourth order, RK4 needs fewer steps; it is stable for damping rates up to 2.785/h: start from 2/h,
-    // since rates change along the motion
+    // of fourth order, RK4 needs fewer steps; it is stable for damping rates up to 2.785/h: start
+    // from 2/h, since rates change along the motion
     RunPlan plan = second_plan;
-    plan.steps =
-        std::max({problem.finest * at_limit / 2, at_limit, int(std::ceil(problem.end / truth.two_over_c))});
+    plan.steps = std::max(
+        {problem.finest * at_limit / 2, at_limit, int(std::ceil(problem.end / truth.two_over_c))});
     const Extrapolation first = extrapolate(subject, problem.scene, integrator_named("RK4"), plan);
     truth.x = first.x;
     own = first.correction;

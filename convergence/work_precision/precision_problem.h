@@ -1,4 +1,5 @@
-// Motions whose end is known well enough to tell which integrator reaches a wanted accuracy at which price.
+// Motions whose end is known well enough to tell which integrator reaches a wanted accuracy
+// at which price.
 #pragma once
 
 #include <string>
@@ -9,32 +10,33 @@
 
 namespace foldproof {
 
-/// Who says first where the motion ends. oracle: GSL, which shares no formula with the solver; runge_kutta:
-/// extrapolated RK4, for meshes on which the oracle would take minutes.
+/// Who says first where the motion ends. oracle: GSL, which shares no formula with the solver;
+/// runge_kutta: extrapolated RK4, for meshes on which the oracle would take minutes.
 enum class FirstOpinion { oracle, runge_kutta };
 
 struct PrecisionProblem {
-  std::string name;   // part of the findings' names
+  std::string name;         // part of the findings' names
   std::string description;  // "the heavily damped sheet"
-  Scene scene;        // its integrator is replaced by each of the table
-  double end;         // s
+  Scene scene;              // its integrator is replaced by each of the table
+  double end;               // s
   FirstOpinion first;
   std::string second;  // the scheme whose extrapolation is the second opinion
-  double ratio;      // of the numbers of steps of neighbouring runs, > 1
-  int min_points;  // measured runs of a curve before it may end
-  int finest;        // steps of the second opinion's coarser run over those at the elastic limit
-  double budget;     // largest work of one judged run [operator applications]
+  double ratio;        // of the numbers of steps of neighbouring runs, > 1
+  int min_points;      // measured runs of a curve before it may end
+  int finest;          // steps of the second opinion's coarser run over those at the elastic limit
+  double budget;       // largest work of one judged run [operator applications]
 };
 
 /// Where the motion ends, and the scales with which to speak of it.
 struct PrecisionTruth {
-  PerParticle3 x;         // at the end, 3 x N [m]
-  double motion;          // largest distance of any particle from its start over the whole run [m]
-  double uncertainty;     // of any component of x, over the motion [1]: the first opinion's own, and how far
-                          // the second is from it
+  PerParticle3 x;  // at the end, 3 x N [m]
+  double motion;   // largest distance of any particle from its start over the whole run [m]
+  // of any component of x, over the motion [1]: the first opinion's own, and how far the
+  // second is from it
+  double uncertainty;
   double elastic_limit;   // at the start, the solver's bound [s]
   double two_over_omega;  // 2/omega of the fastest mode of the start, by power iteration [s]
-  double two_over_c;  // 2/c of the fastest damping rate of the start, by power iteration [s]
+  double two_over_c;      // 2/c of the fastest damping rate of the start, by power iteration [s]
 };
 
 /// One run with constant steps.
@@ -58,7 +60,8 @@ struct PlannedRun {
 /// Evaluations, preparations and products of all forces: one visit to every spring and hinge each.
 double operator_applications(const Work& work);
 
-/// Runs the scene with its integrator. NaN, a lost element or a particle beyond farthest is divergence.
+/// Runs the scene with its integrator. NaN, a lost element or a particle beyond
+/// farthest is divergence.
 PlannedRun run_planned(const Subject& subject, const Scene& scene, const RunPlan& plan);
 
 /// Both opinions; may take a second.
@@ -70,8 +73,8 @@ double largest_distance(const PerParticle3& p, const PerParticle3& q);
 /// The damped hinge, the lightly and the heavily damped sheet, the stiff statue.
 std::vector<PrecisionProblem> precision_problems(Tier tier);
 
-/// A sheet that hangs by its upper corners, released from waves; every part of it has the relaxation time
-/// `relaxation` (damping over stiffness) [s].
+/// A sheet that hangs by its upper corners, released from waves; every part of it has the
+/// relaxation time `relaxation` (damping over stiffness) [s].
 Scene hanging_sheet(int cells, double relaxation);
 
 }  // namespace foldproof

@@ -24,8 +24,8 @@ Creeping creeping(double omega) {
   return {omega, c, omega / (zeta + std::sqrt(zeta * zeta - 1))};
 }
 
-/// Relative errors of the rate over the steps h [s]: -ln(mu)/(rate h) - 1, mu the step matrix's eigenvalue
-/// next to exp(-rate h).
+/// Relative errors of the rate over the steps h [s]: -ln(mu)/(rate h) - 1, mu the step matrix's
+/// eigenvalue next to exp(-rate h).
 Convergence rate_errors(const Subject& subject, const std::string& scheme) {
   const SteppedMotion of = stepped_motion(subject, hinge_oscillator(zeta), scheme);
   const Creeping motion = creeping(of.motion.omega0);
@@ -41,11 +41,12 @@ Convergence rate_errors(const Subject& subject, const std::string& scheme) {
   return errors;
 }
 
-// On the slow solution v = -(k/c)(1 + d) x with d of the order k/c^2. With a = h c/2, C's move is h v~,
+// On the slow solution v = -(k/c)(1 + d) x with d of the order k/c^2. With a = h c/2,
+// C's move is h v~,
 //   v~ = (v - h/2 k x)/(1 + a) = -(k/c) x (1 + d/(1 + a)),
-// so that x is multiplied by 1 - h (k/c)(1 + d/(1 + a)) where exp(-h (k/c)(1 + d)) is exact. To second order
-// in k/c, with d = k/c^2 = (k/c)(h/2)/a, the rate comes out too large by (k/c)^2 (h/2) a/(1 + a): of second
-// order in h where a is small, of first order where it is large.
+// so that x is multiplied by 1 - h (k/c)(1 + d/(1 + a)) where exp(-h (k/c)(1 + d)) is exact. To
+// second order in k/c, with d = k/c^2 = (k/c)(h/2)/a, the rate comes out too large by (k/c)^2 (h/2)
+// a/(1 + a): of second order in h where a is small, of first order where it is large.
 double derived_error(const Creeping& motion, double h) {
   const double a = h * motion.c / 2, slow = motion.omega * motion.omega / motion.c;
   return slow * slow * h / 2 * a / (1 + a) / motion.rate;
@@ -65,19 +66,18 @@ NamedFinding as_derived(const Convergence& errors, const Creeping& motion) {
     derived.push_back(derived_error(motion, errors.steps[i]));
     worst.observe(std::abs(errors.errors[i] / derived.back() - 1));
   }
-  return {
-      "work-precision.slow-motion-is-first-order.C",
-      "Under heavy damping C's error on the slow motion is that of a method of first order, unless the step "
-      "resolves the damping.",
-      {{worst.value(), 0.05, 0, "1",
-        "the derivation leaves out the square of the rate times the step, a twenty-fifth at the longest "
-        "step"},
-       {{"h c/2", "1", dampings_of(errors, motion)},
-        {"relative error of the rate", "1", errors.errors},
-        {"derived", "1", derived},
-        {"order of the pair", "1", orders}},
-       "measured is the largest relative deviation from the derived error, (k/c)^2 (h/2) a/(1 + a) with a = "
-       "h c/2: of first order in h for a above one, of second below"}};
+  return {"work-precision.slow-motion-is-first-order.C",
+          "Under heavy damping C's error on the slow motion is that of a method of first order, "
+          "unless the step resolves the damping.",
+          {{worst.value(), 0.05, 0, "1",
+            "the derivation leaves out the square of the rate times the step, a twenty-fifth at "
+            "the longest step"},
+           {{"h c/2", "1", dampings_of(errors, motion)},
+            {"relative error of the rate", "1", errors.errors},
+            {"derived", "1", derived},
+            {"order of the pair", "1", orders}},
+           "measured is the largest relative deviation from the derived error, (k/c)^2 (h/2) a/(1 "
+           "+ a) with a = h c/2: of first order in h for a above one, of second below"}};
 }
 
 NamedFinding keeps_its_order(const Convergence& errors, const Creeping& motion) {
@@ -97,22 +97,23 @@ NamedFinding keeps_its_order(const Convergence& errors, const Creeping& motion) 
 }  // namespace
 
 void add_slow_motion(const Subject& subject, StudyResult& result) {
-  Figure figure{
-      "slow-motion",
-      "Slow motion under heavy damping",
-      {"h c/2", "1", Scale::log},
-      {"relative error of the rate", "1", Scale::log},
-      nan,
-      "An oscillator with a damping ratio of 20 creeps home; the rate under each scheme against the exact "
-      "one. C moves with a velocity that belongs to the start of the step once the damping is not resolved.",
-      {}};
+  Figure figure{"slow-motion",
+                "Slow motion under heavy damping",
+                {"h c/2", "1", Scale::log},
+                {"relative error of the rate", "1", Scale::log},
+                nan,
+                "An oscillator with a damping ratio of 20 creeps home; the rate under each scheme "
+                "against the exact one. C moves with a velocity that belongs to the start of the "
+                "step once the damping is not resolved.",
+                {}};
   const Creeping motion = creeping(hinge_oscillator(zeta).omega0);
   for (const std::string scheme : {"A", "B", "C"}) {
     const Convergence errors = rate_errors(subject, scheme);
     if (scheme == "A") result.findings.push_back(keeps_its_order(errors, motion));
     if (scheme == "C") result.findings.push_back(as_derived(errors, motion));
-    figure.curves.push_back({scheme, dampings_of(errors, motion), errors.errors, nan, pair_orders(errors),
-                             scheme == "A" ? 2 : nan});  // C's own goes from 2 to 1
+    // C's own goes from 2 to 1
+    figure.curves.push_back({scheme, dampings_of(errors, motion), errors.errors, nan,
+                             pair_orders(errors), scheme == "A" ? 2 : nan});
   }
   result.figures.push_back(std::move(figure));
 }

@@ -15,15 +15,17 @@ namespace foldproof {
 
 // What methods make of the slow motion that heavy damping leaves: a part of work-precision.
 
-/// An overdamped oscillator creeps home at a rate near k/c. The rate under A, B and C against the step: a
-/// figure, that A keeps its second order, and that C has the error derived above its definition.
+/// An overdamped oscillator creeps home at a rate near k/c. The rate under A, B and C against
+/// the step: a figure, that A keeps its second order, and that C has the error derived above
+/// its definition.
 void add_slow_motion(const Subject& subject, StudyResult& result);
 
 // Error against cost of one method on one motion, and what a wanted error costs on it.
 
 struct PrecisionRun {
   int steps;
-  double error;  // largest component of the position error at the end over the motion [1]; NaN: diverged
+  // largest component of the position error at the end over the motion [1]; NaN: diverged
+  double error;
   double applications;  // of force operators [1]
   double seconds;       // of the processor, the least of a few repeats
   double part;          // of its steps that it took: 1 unless it diverged on the way [1]
@@ -41,10 +43,11 @@ struct PrecisionCurve {
 /// A run whose error exceeds the motion itself counts as diverged.
 constexpr double diverged_error = 1;
 
-/// The runs of one method: from an eighth of the steps at the elastic limit on, finer by problem.ratio, until
-/// the error is `finest_error` [1] and problem.min_points runs were measured, or until a run with a step
-/// below the elastic limit exceeds the problem's budget, or would if work went on to grow as between the two
-/// before. Runs with longer steps that exceed it are left out.
+/// The runs of one method: from an eighth of the steps at the elastic limit on, finer by
+/// problem.ratio, until the error is `finest_error` [1] and problem.min_points runs were
+/// measured, or until a run with a step below the elastic limit exceeds the problem's budget, or
+/// would if work went on to grow as between the two before. Runs with longer steps that exceed
+/// it are left out.
 PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& problem,
                                const PrecisionTruth& truth, const Integrator& integrator,
                                double finest_error);
@@ -63,8 +66,8 @@ struct Price {
   double unfinished;  // solves in the run that reaches it [1]
 };
 
-/// From the coarsest run from which on all errors are at most `wanted` [1]; between it and the next coarser
-/// one the price is interpolated, linearly in the logarithms, unless that one diverged.
+/// From the coarsest run from which on all errors are at most `wanted` [1]; between it and the next
+/// coarser one the price is interpolated, linearly in the logarithms, unless that one diverged.
 Price price_at(const PrecisionCurve& curve, double end, double wanted);
 
 // What the work-precision study measured, between its parts.

@@ -11,11 +11,12 @@ namespace {
 /// A tenth of the finest error that prices are read off at.
 NamedFinding reference_is_known(const PrecisionScene& scene) {
   const Verdict verdict{scene.truth.uncertainty, wanted_errors.back() / 10, 0, "1",
-                        "a tenth of the smallest error that a price is read off at, so that it shifts no "
-                        "price by more than a tenth of a run's error"};
+                        "a tenth of the smallest error that a price is read off at, so that it "
+                        "shifts no price by more than a tenth of a run's error"};
   return {
       "work-precision.reference-is-accurate." + scene.problem.name,
-      "Two opinions on where " + scene.problem.description + " ends agree to a ten-thousandth of its motion.",
+      "Two opinions on where " + scene.problem.description +
+          " ends agree to a ten-thousandth of its motion.",
       {verdict,
        {{"largest motion", "m", std::vector<double>{scene.truth.motion}},
         {"disagreement and own uncertainty", "1", std::vector<double>{scene.truth.uncertainty}}},
@@ -26,13 +27,15 @@ NamedFinding reference_is_known(const PrecisionScene& scene) {
 
 /// By what an error shrinks when the step is halved, from a pair of runs.
 double shrinkage(const PrecisionRun& coarse, const PrecisionRun& fine) {
-  return std::pow(fine.error / coarse.error, std::log(2.) / std::log(double(fine.steps) / coarse.steps));
+  return std::pow(fine.error / coarse.error,
+                  std::log(2.) / std::log(double(fine.steps) / coarse.steps));
 }
 
-/// The index of the finest run that, with the one before it, can be told from the reference; 0 if there is
-/// none.
+/// The index of the finest run that, with the one before it, can be told from the reference; 0
+/// if there is none.
 size_t finest_judged(const PrecisionCurve& curve, double uncertainty) {
-  constexpr double above = 10;  // the uncertainty, so that it shifts an error by no more than a tenth
+  // the uncertainty, so that it shifts an error by no more than a tenth
+  constexpr double above = 10;
   size_t i = curve.runs.empty() ? 0 : curve.runs.size() - 1;
   while (i > 0 && curve.runs[i].error <= above * uncertainty) --i;
   return i > 0 && std::isnan(curve.runs[i - 1].error) ? 0 : i;
@@ -56,24 +59,25 @@ NamedFinding errors_fall(const PrecisionScene& scene) {
     fine.push_back(curve.runs[i].error);
     shrinkages.push_back(shrinkage(curve.runs[i - 1], curve.runs[i]));
     worst.observe(shrinkages.back());
-    worst_with_uncertainty.observe(shrinkages.back() * (1 + 2 * scene.truth.uncertainty / fine.back()));
+    worst_with_uncertainty.observe(shrinkages.back() *
+                                   (1 + 2 * scene.truth.uncertainty / fine.back()));
   }
   if (int(methods.size()) < least_judged) worst.observe(nan);
   const Verdict verdict{
       worst.value(), std::sqrt(0.5), worst_with_uncertainty.value() - worst.value(), "1",
-      "an error of first order is halved with the step, one that does not fall stays 1; the "
-      "bound is half an order, midway between the two in the logarithm"};
-  return {
-      "work-precision.errors-decrease." + scene.problem.name,
-      "On " + scene.problem.description + ", errors fall with the step at the end of every method's range.",
-      {verdict,
-       {{"method", "1", methods},
-        {"error of the run before", "1", coarse},
-        {"error of the finest run", "1", fine},
-        {"error left when the step is halved", "1", shrinkages}},
-       "measured is the largest factor that a halved step leaves of the error, from the two finest runs that "
-       "err ten times more than the reference" +
-           (left_out.empty() ? "" : "; without two such runs within the budget:" + left_out)}};
+      "an error of first order is halved with the step, one that does not fall stays 1; the bound "
+      "is half an order, midway between the two in the logarithm"};
+  return {"work-precision.errors-decrease." + scene.problem.name,
+          "On " + scene.problem.description +
+              ", errors fall with the step at the end of every method's range.",
+          {verdict,
+           {{"method", "1", methods},
+            {"error of the run before", "1", coarse},
+            {"error of the finest run", "1", fine},
+            {"error left when the step is halved", "1", shrinkages}},
+           "measured is the largest factor that a halved step leaves of the error, from the two "
+           "finest runs that err ten times more than the reference" +
+               (left_out.empty() ? "" : "; without two such runs within the budget:" + left_out)}};
 }
 
 /// The largest step at a wanted error among the fully explicit methods [s]; NaN if none reaches it.
@@ -94,8 +98,10 @@ double step_of(const PrecisionScene& scene, std::string_view scheme, double want
 
 /// Damping limits explicit steps at best to 2.785/c (RK4), elasticity those of A and B to 2/omega.
 NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
-  constexpr double runge_kutta_reach = 2.785 / 2;  // of RK4 along the negative real axis, over that of Euler
-  const double predicted = scene.truth.two_over_omega / (runge_kutta_reach * scene.truth.two_over_c);
+  // of RK4 along the negative real axis, over that of Euler
+  constexpr double runge_kutta_reach = 2.785 / 2;
+  const double predicted =
+      scene.truth.two_over_omega / (runge_kutta_reach * scene.truth.two_over_c);
   Worst worst;
   std::vector<std::string> schemes;
   std::vector<double> wanted, mixed, fully_explicit, ratios;
@@ -113,23 +119,23 @@ NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
   const Verdict verdict{
       worst.value(), runs_apart, 0, "1",
       "both steps are known to the ratio of neighbouring runs, and their quotient to its square"};
-  return {
-      "work-precision.mixed-steps-are-larger." + scene.problem.name,
-      "On " + scene.problem.description +
-          ", schemes A and B reach one percent of error with steps larger than the best explicit "
-          "method's by the ratio of the elastic limit to the explicit damping limit.",
-      {verdict,
-       {{"scheme", "1", schemes},
-        {"error", "1", wanted},
-        {"its largest step", "s", mixed},
-        {"largest step of explicit methods", "s", fully_explicit},
-        {"their ratio", "1", ratios},
-        {"ratio of the limits", "1", std::vector<double>(wanted.size(), predicted)}},
-       "measured is the ratio of the limits over the least ratio of the steps at one percent; at a tenth of "
-       "it accuracy, not stability, decides on the steps of A and B"}};
+  return {"work-precision.mixed-steps-are-larger." + scene.problem.name,
+          "On " + scene.problem.description +
+              ", schemes A and B reach one percent of error with steps larger than the best "
+              "explicit method's by the ratio of the elastic limit to the explicit damping limit.",
+          {verdict,
+           {{"scheme", "1", schemes},
+            {"error", "1", wanted},
+            {"its largest step", "s", mixed},
+            {"largest step of explicit methods", "s", fully_explicit},
+            {"their ratio", "1", ratios},
+            {"ratio of the limits", "1", std::vector<double>(wanted.size(), predicted)}},
+           "measured is the ratio of the limits over the least ratio of the steps at one percent; "
+           "at a tenth of it accuracy, not stability, decides on the steps of A and B"}};
 }
 
-/// By what the fastest mode grows in a whole run of B with a step h >= 2/omega [1]: z = -1 - g solves
+/// By what the fastest mode grows in a whole run of B with a step h >= 2/omega
+/// [1]: z = -1 - g solves
 ///   (1 + a) z^2 + (h^2 omega^2 - 2) z + 1 - a = 0,   a = h c/2,
 ///   g = (h^2 omega^2/2 - 2)/a to first order.
 double growth_beyond(const PrecisionScene& scene, double h) {
@@ -146,32 +152,33 @@ NamedFinding within_the_limit(const PrecisionScene& scene) {
     growths.push_back(growth_beyond(scene, steps.back()));
     worst.observe(steps.back() / scene.truth.two_over_omega);
   }
-  return {
-      "work-precision.steps-stay-within-the-limit." + scene.problem.name,
-      "On " + scene.problem.description +
-          ", the largest step with which B reaches a wanted error is at most 2/omega, as nearly as a step is "
-          "known.",
-      {{worst.value(), scene.problem.ratio, 0, "1",
-        "beyond 2/omega the fastest mode grows only by about (h^2 omega^2/2 - 2)/a a step, a = h c/2, and a "
-        "step is known only to the ratio of neighbouring runs"},
-       {{"error", "1", std::vector<double>(wanted_errors.begin(), wanted_errors.end())},
-        {"largest step of B", "s", steps},
-        {"growth of the fastest mode in the run", "1", growths}},
-       "measured is the largest of the steps over 2/omega"}};
+  return {"work-precision.steps-stay-within-the-limit." + scene.problem.name,
+          "On " + scene.problem.description +
+              ", the largest step with which B reaches a wanted error is at most 2/omega, as "
+              "nearly as a step is known.",
+          {{worst.value(), scene.problem.ratio, 0, "1",
+            "beyond 2/omega the fastest mode grows only by about (h^2 omega^2/2 - 2)/a a step, a = "
+            "h c/2, and a step is known only to the ratio of neighbouring runs"},
+           {{"error", "1", std::vector<double>(wanted_errors.begin(), wanted_errors.end())},
+            {"largest step of B", "s", steps},
+            {"growth of the fastest mode in the run", "1", growths}},
+           "measured is the largest of the steps over 2/omega"}};
 }
 
-/// Where h c is large C moves positions with F/c at the step's start, as forward Euler would: the error is
-/// then of first order in h (order reduction), while A and B keep the middle of the step.
+/// Where h c is large C moves positions with F/c at the step's start, as forward Euler would: the
+/// error is then of first order in h (order reduction), while A and B keep the middle of the step.
 NamedFinding C_needs_shorter_steps(const PrecisionScene& scene) {
-  const double error = wanted_errors.front(), ratio = step_of(scene, "C", error) / step_of(scene, "B", error);
+  const double error = wanted_errors.front(),
+               ratio = step_of(scene, "C", error) / step_of(scene, "B", error);
   return {"work-precision.C-needs-shorter-steps." + scene.problem.name,
           "On " + scene.problem.description +
               ", C reaches one percent of error only with steps less than half of B's.",
-          {{ratio, 0.5, 0, "1", "both steps are known to the ratio of neighbouring runs, the root of two"},
+          {{ratio, 0.5, 0, "1",
+            "both steps are known to the ratio of neighbouring runs, the root of two"},
            {{"largest step of C", "s", std::vector<double>{step_of(scene, "C", error)}},
             {"largest step of B", "s", std::vector<double>{step_of(scene, "B", error)}}},
-           "measured is the ratio of the steps. Where h c is large, C moves positions by h F/c of the step's "
-           "start: its error falls with the first power of h until h c is small"}};
+           "measured is the ratio of the steps. Where h c is large, C moves positions by h F/c of "
+           "the step's start: its error falls with the first power of h until h c is small"}};
 }
 
 /// C's solves over A's at equal numbers of steps.

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double percent = 100;
 
-/// What a run is drawn against. A run that diverged on the way stands where all of its steps would have cost
-/// as much as those that it took.
+/// What a run is drawn against. A run that diverged on the way stands where all of its steps would
+/// have cost as much as those that it took.
 struct CostAxis {
   std::string name, words;
   Axis axis;
@@ -19,20 +19,21 @@ struct CostAxis {
 };
 
 std::vector<CostAxis> cost_axes() {
-  return {{"work",
-           "work",
-           {"applications of force operators", "1", Scale::log},
-           [](const PrecisionScene&, const PrecisionRun& run) { return run.applications / run.part; }},
-          {"seconds",
-           "time",
-           {"processor time", "s", Scale::log},
-           [](const PrecisionScene&, const PrecisionRun& run) { return run.seconds / run.part; }},
-          {"step",
-           "step",
-           {"step over bound of elastic limit", "1", Scale::log},
-           [](const PrecisionScene& scene, const PrecisionRun& run) {
-             return scene.problem.end / run.steps / scene.truth.elastic_limit;
-           }}};
+  return {
+      {"work",
+       "work",
+       {"applications of force operators", "1", Scale::log},
+       [](const PrecisionScene&, const PrecisionRun& run) { return run.applications / run.part; }},
+      {"seconds",
+       "time",
+       {"processor time", "s", Scale::log},
+       [](const PrecisionScene&, const PrecisionRun& run) { return run.seconds / run.part; }},
+      {"step",
+       "step",
+       {"step over bound of elastic limit", "1", Scale::log},
+       [](const PrecisionScene& scene, const PrecisionRun& run) {
+         return scene.problem.end / run.steps / scene.truth.elastic_limit;
+       }}};
 }
 
 Curve curve_of(const PrecisionScene& scene, const PrecisionCurve& curve, const CostAxis& cost) {
@@ -46,9 +47,10 @@ Curve curve_of(const PrecisionScene& scene, const PrecisionCurve& curve, const C
 }
 
 const char* const caption =
-    "Largest position error at the end over the largest motion. In the strip at the top: runs that diverged "
-    "or err by more than the motion, where all of their steps would have cost as much as those that they "
-    "took. The floor is the uncertainty of the reference solution; runs below it are faint.";
+    "Largest position error at the end over the largest motion. In the strip at the top: runs that "
+    "diverged or err by more than the motion, where all of their steps would have cost as much as "
+    "those that they took. The floor is the uncertainty of the reference solution; runs below it "
+    "are faint.";
 
 /// Which curves have fewer than five runs that err more than the reference, and why.
 std::string short_curves(const PrecisionScene& scene) {
@@ -59,9 +61,10 @@ std::string short_curves(const PrecisionScene& scene) {
         curve.runs, [&](const PrecisionRun& run) { return run.error > scene.truth.uncertainty; });
     if (seen >= enough || curve.runs.empty()) continue;
     const bool is_fine = curve.runs.back().error <= wanted_errors.back();
-    list +=
-        (list.empty() ? " " : ", ") + std::string(curve.integrator.name) + " (" + std::to_string(seen) +
-        (is_fine ? ": exact enough from its longest stable steps on)" : ": shorter steps exceed the budget)");
+    list += (list.empty() ? " " : ", ") + std::string(curve.integrator.name) + " (" +
+            std::to_string(seen) +
+            (is_fine ? ": exact enough from its longest stable steps on)"
+                     : ": shorter steps exceed the budget)");
   }
   return list.empty() ? "" : " Fewer than five such runs:" + list + ".";
 }
@@ -72,7 +75,8 @@ struct Currency {
   double Price::*cost;
 };
 
-const std::array<Currency, 2> currencies = {{{"work", &Price::applications}, {"seconds", &Price::seconds}}};
+const std::array<Currency, 2> currencies = {
+    {{"work", &Price::applications}, {"seconds", &Price::seconds}}};
 
 /// The two best of a scene.
 struct Podium {

@@ -7,12 +7,13 @@ namespace foldproof {
 
 namespace {
 
-/// An arc of the length s H that turns by phi has the chord s H sin(phi/2)/(phi/2), inclined by phi/2.
+/// An arc of the length s H that turns by phi has the chord s H sin(phi/2)/(phi/2),
+/// inclined by phi/2.
 Vector3 bend_point(const Vector3& X, double angle, double height) {
   const double phi = angle * X.y() / height, half = phi / 2;
   const double chord = half == 0 ? X.y() : X.y() * std::sin(half) / half;
-  return {chord * std::sin(half) + X.x() * std::cos(phi), chord * std::cos(half) - X.x() * std::sin(phi),
-          X.z()};
+  return {chord * std::sin(half) + X.x() * std::cos(phi),
+          chord * std::cos(half) - X.x() * std::sin(phi), X.z()};
 }
 
 Vector3 twist_point(const Vector3& X, double angle, double height) {

@@ -9,7 +9,8 @@
 namespace foldproof {
 
 enum class DeformationKind {
-  bend,    // the vertical axis becomes an arc of its own length, towards +x; what is beside it turns along
+  // the vertical axis becomes an arc of its own length, towards +x; what is beside it turns along
+  bend,
   twist,   // heights turn about the axis, each in proportion
   breathe  // widths grow, most at half the height, and by nothing at both ends
 };
@@ -17,13 +18,13 @@ enum class DeformationKind {
 /// Comes and goes: its share of the amplitude is (1 - cos(2 pi t/period))/2, nothing at t = 0.
 struct BodyDeformation {
   DeformationKind kind;
-  double
-      amplitude;  // bend, twist: how far the top turns against the base [rad]; breathe: growth over width [1]
+  // bend, twist: how far the top turns against the base [rad]; breathe: growth over width [1]
+  double amplitude;
   double period;  // s
 };
 
-/// One after the other, about the vertical (y) axis through the middle of the bounds, heights counted from
-/// their lowest point. Lengths in m.
+/// One after the other, about the vertical (y) axis through the middle of the bounds, heights
+/// counted from their lowest point. Lengths in m.
 Deformation deformation_of(std::vector<BodyDeformation> parts, const Bounds& bounds);
 
 }  // namespace foldproof

@@ -50,8 +50,9 @@ void reject_holes(const TriangleMesh& mesh, const MeshOrigin& origin) {
   throw InputError(triangle_location(origin, first.triangles[0]) +
                    "a hole: " + edge_name(origin, first.a, first.b) + ", at " +
                    position_name(mesh.rest.col(first.a)) + ", has no triangle on its other side (" +
-                   std::to_string(border.size()) + " such edges around " + std::to_string(loops.size()) +
-                   (loops.size() == 1 ? " hole" : " holes") + "); " + remedy);
+                   std::to_string(border.size()) + " such edges around " +
+                   std::to_string(loops.size()) + (loops.size() == 1 ? " hole" : " holes") + "); " +
+                   remedy);
 }
 
 void reject_self_intersections(const TriangleMesh& mesh, const MeshOrigin& origin) {
@@ -71,11 +72,13 @@ void reject_inside_out(const TriangleMesh& mesh, const MeshOrigin& origin) {
     std::vector<Triangle> inside, others;
     for (size_t t = 0; t < piece.size(); ++t)
       (piece[t] == own ? inside : others).push_back(mesh.triangles[t]);
-    const double around = std::round(winding_number(mesh.rest, others, mesh.rest.col(inside[0][0])));
+    const double around =
+        std::round(winding_number(mesh.rest, others, mesh.rest.col(inside[0][0])));
     const bool outward = enclosed_volume(mesh.rest, inside) > 0;
     if (around == (outward ? 0 : 1)) continue;
     const int first = int(std::find(piece.begin(), piece.end(), own) - piece.begin());
-    throw InputError(triangle_location(origin, first) + "the piece of " + std::to_string(inside.size()) +
+    throw InputError(triangle_location(origin, first) + "the piece of " +
+                     std::to_string(inside.size()) +
                      " triangles that begins here is inside out: its normals point " +
                      (outward ? "outward, though it lies within another piece" : "inward") +
                      "; reverse the order of its triangles' vertices, or set repair = \"winding\"");

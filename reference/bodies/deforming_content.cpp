@@ -29,18 +29,20 @@ void require(bool is_met, std::size_t frame, const char* what) {
   if (!is_met) throw InputError("deforming body, frame " + std::to_string(frame) + ": " + what);
 }
 
-/// Children follow their branches, one after the other, and channels likewise: nothing is shared or out of
-/// range.
+/// Children follow their branches, one after the other, and channels likewise: nothing is shared
+/// or out of range.
 bool has_sound_branches(const Octree& tree) {
   std::size_t branches = 1, channels = 0;
   for (std::size_t b = 0; b < tree.branches.size(); ++b) {
     const OctreeBranch& branch = tree.branches[b];
-    if (b >= branches || branch.children != int(branches) || branch.channels != int(channels)) return false;
+    if (b >= branches || branch.children != int(branches) || branch.channels != int(channels))
+      return false;
     if (branch.parts < 1) return false;
     branches += std::size_t(std::popcount(unsigned(branch.inner)));
     channels += branch.parts;
   }
-  return branches == tree.branches.size() && channels == tree.phi.size() && channels == tree.part.size();
+  return branches == tree.branches.size() && channels == tree.phi.size() &&
+         channels == tree.part.size();
 }
 
 /// Levels of branches, which children follow breadth first: none is deeper than the settings say.
@@ -101,7 +103,8 @@ void require_valid_content(const DeformingBody& body) {
   for (std::size_t k = 0; k < count; ++k) {
     const DeformingFrame& frame = body.frames[k];
     const std::size_t channels = frame.field.phi.size();
-    require(k == 0 || frame.time > body.frames[k - 1].time, k, "its time is not later than that before");
+    require(k == 0 || frame.time > body.frames[k - 1].time, k,
+            "its time is not later than that before");
     require(!frame.field.branches.empty() && has_sound_branches(frame.field), k,
             "its branches do not fit together");
     require(is_deep_enough(frame.field), k, "its branches are deeper than its depth");

@@ -45,10 +45,13 @@ void require_valid_content(const Grid& grid) {
   const Lattice& lattice = grid.lattice;
   require(lattice.origin.allFinite() && std::isfinite(lattice.spacing) && lattice.spacing > 0,
           "its lattice has no place or no spacing");
-  require(*std::min_element(lattice.nodes.begin(), lattice.nodes.end()) >= 2, "its lattice has no cells");
-  require(grid.phi.size() == std::size_t(lattice.size()), "its values are not as many as its nodes");
-  require(std::all_of(grid.phi.begin(), grid.phi.end(), [](double phi) { return std::isfinite(phi); }),
-          "a value is not finite");
+  require(*std::min_element(lattice.nodes.begin(), lattice.nodes.end()) >= 2,
+          "its lattice has no cells");
+  require(grid.phi.size() == std::size_t(lattice.size()),
+          "its values are not as many as its nodes");
+  require(
+      std::all_of(grid.phi.begin(), grid.phi.end(), [](double phi) { return std::isfinite(phi); }),
+      "a value is not finite");
 }
 
 }  // namespace foldproof

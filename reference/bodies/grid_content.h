@@ -13,7 +13,8 @@ std::string input_key(const TriangleSoup& soup, const GridMethod& method, Repair
 /// Of the grid itself.
 std::string content_key(const Grid& grid);
 
-/// Throws InputError saying what is wrong with a grid that no build made. A sound grid can be asked anywhere.
+/// Throws InputError saying what is wrong with a grid that no build made. A sound grid can be
+/// asked anywhere.
 void require_valid_content(const Grid& grid);
 
 }  // namespace foldproof

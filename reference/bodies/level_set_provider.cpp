@@ -37,22 +37,25 @@ LevelSetProvider memoizing_provider(const LevelSetProvider& provider) {
                               [&] { return provider.make_level_set(soup, method, repair); });
           },
           [=](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
-            return bodies->get(input_key(sequence, settings) + std::to_string(int(between)),
-                               [&] { return provider.make_deforming_body(sequence, settings, between); });
+            return bodies->get(input_key(sequence, settings) + std::to_string(int(between)), [&] {
+              return provider.make_deforming_body(sequence, settings, between);
+            });
           }};
 }
 
 LevelSetProvider computing_provider() {
   return {make_level_set,
           [](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
-            return std::make_shared<const DeformingBody>(make_deforming_body(sequence, settings, between));
+            return std::make_shared<const DeformingBody>(
+                make_deforming_body(sequence, settings, between));
           }};
 }
 
 std::shared_ptr<const Octree> make_octree(const LevelSetProvider& provider, const PerParticle3& x,
                                           const std::vector<Triangle>& triangles,
                                           const OctreeSettings& settings) {
-  const auto body = provider.make_deforming_body({triangles, {0}, {x}}, settings, BetweenFrames::blended);
+  const auto body =
+      provider.make_deforming_body({triangles, {0}, {x}}, settings, BetweenFrames::blended);
   return {body, &body->frames.front().field};
 }
 

@@ -39,9 +39,10 @@ MeshInspection inspect_mesh(const TriangleSoup& soup, int cells) {
   look_for_solid(soup, found);
   const GridMethod method{cells, 4, 3, MarchingOrder::second};
   try {
-    count_nodes(soup,
-                *make_level_set(soup, method, found.rejection.empty() ? Repair::refuse : Repair::winding),
-                found);
+    count_nodes(
+        soup,
+        *make_level_set(soup, method, found.rejection.empty() ? Repair::refuse : Repair::winding),
+        found);
   } catch (const InputError& error) {
     found.repair_failure = error.what();
   }

@@ -19,8 +19,9 @@ struct View {
 
 Vector2 project_along(const Vector3& x, const View& view) { return {x[view.u], x[view.v]}; }
 
-/// Does the edge pass p on its right? Half open in v: the lower end counts, the upper one does not. Both
-/// triangles of an edge ask with the same numbers in the same order, so that both get the same answer.
+/// Does the edge pass p on its right? Half open in v: the lower end counts, the upper one does
+/// not. Both triangles of an edge ask with the same numbers in the same order, so that both get
+/// the same answer.
 bool passes(Vector2 a, Vector2 b, const Vector2& p) {
   if (a.y() > b.y()) std::swap(a, b);
   if (!(a.y() <= p.y() && p.y() < b.y())) return false;
@@ -28,17 +29,18 @@ bool passes(Vector2 a, Vector2 b, const Vector2& p) {
 }
 
 bool covers(const Corners& t, const View& view, const Vector2& p) {
-  const Vector2 a = project_along(t[0], view), b = project_along(t[1], view), c = project_along(t[2], view);
+  const Vector2 a = project_along(t[0], view), b = project_along(t[1], view),
+                c = project_along(t[2], view);
   return (passes(a, b, p) != passes(b, c, p)) != passes(c, a, p);
 }
 
-/// Where the ray through p meets the triangle's plane, kept within the triangle's own extent: the plane of
-/// one that is seen edge on answers with rounding only.
+/// Where the ray through p meets the triangle's plane, kept within the triangle's own extent: the
+/// plane of one that is seen edge on answers with rounding only.
 double crossing(const Corners& t, const View& view, const Vector2& p) {
   const Vector3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
   const Vector2 step = p - project_along(t[0], view);
-  const double w =
-      t[0][view.along] - (step.x() * normal[view.u] + step.y() * normal[view.v]) / normal[view.along];
+  const double w = t[0][view.along] -
+                   (step.x() * normal[view.u] + step.y() * normal[view.v]) / normal[view.along];
   const auto [low, high] = std::minmax({t[0][view.along], t[1][view.along], t[2][view.along]});
   return w >= low ? std::min(w, high) : low;
 }

@@ -56,7 +56,8 @@ std::vector<std::vector<Neighbour>> neighbours_of(const std::vector<Triangle>& t
   return neighbours;
 }
 
-/// Walks over the patch of `first`: whether each of its triangles is turned against the first (1) or not (0).
+/// Walks over the patch of `first`: whether each of its triangles is turned against the first
+/// (1) or not (0).
 std::vector<int> collect_patch(int first, const std::vector<std::vector<Neighbour>>& neighbours,
                                std::vector<int>& flip_state) {
   std::vector<int> patch{first};
@@ -76,7 +77,8 @@ std::vector<float> sides_of(const MeshDistance& mesh, const Lattice& lattice) {
   const std::vector<Dipole> dipoles = make_dipoles(mesh);
   std::vector<float> side(lattice.size());
   for (long index = 0; index < lattice.size(); ++index)
-    side[index] = float(0.5 - winding_number(mesh, dipoles, lattice.position(lattice.node(index)), far));
+    side[index] =
+        float(0.5 - winding_number(mesh, dipoles, lattice.position(lattice.node(index)), far));
   return side;
 }
 
@@ -105,9 +107,10 @@ std::shared_ptr<const Grid> make_repaired_grid(const TriangleSoup& soup, const G
   const Lattice lattice = lattice_about(mesh.tree.nodes[0].bounds, method.cells, method.margin);
   Seeds seeds = seeds_from_sides(lattice, sides_of(mesh, lattice));
   if (seeds.nodes.empty())
-    throw InputError(mesh_location(soup.origin) + "repair finds no inside: the winding number of its " +
-                     std::to_string(soup.triangles.size()) +
-                     " triangles is below 1/2 at every node; turn them outward, or give a finer grid");
+    throw InputError(
+        mesh_location(soup.origin) + "repair finds no inside: the winding number of its " +
+        std::to_string(soup.triangles.size()) +
+        " triangles is below 1/2 at every node; turn them outward, or give a finer grid");
   for (size_t i = 0; i < seeds.nodes.size(); ++i) {
     const Vector3 p = lattice.position(lattice.node(seeds.nodes[i]));
     const NearestFeature nearest = nearest_feature(mesh, p, lattice.spacing);

@@ -20,7 +20,8 @@ Vector2 drop_axis(const Vector3& x, int axis) { return {x[(axis + 1) % 3], x[(ax
 /// An axis along which the triangle can be looked at without losing its area.
 int open_axis(const Corners& t) {
   for (int axis = 0; axis < 3; ++axis)
-    if (side_of_line(drop_axis(t[0], axis), drop_axis(t[1], axis), drop_axis(t[2], axis)) != 0) return axis;
+    if (side_of_line(drop_axis(t[0], axis), drop_axis(t[1], axis), drop_axis(t[2], axis)) != 0)
+      return axis;
   return 0;
 }
 
@@ -36,7 +37,9 @@ bool segments_meet(const Vector2& a, const Vector2& b, const Vector2& p, const V
 }
 
 /// All three of one sign, zeros on either side.
-bool agree(int a, int b, int c) { return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0); }
+bool agree(int a, int b, int c) {
+  return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
+}
 
 /// The segment p q lies in the triangle's plane.
 bool meet_in_plane(const Corners& t, const Vector3& p, const Vector3& q) {
@@ -47,10 +50,11 @@ bool meet_in_plane(const Corners& t, const Vector3& p, const Vector3& q) {
   return segments_meet(a, b, u, v) || segments_meet(b, c, u, v) || segments_meet(c, a, u, v);
 }
 
-/// Has the segment p q a point of the triangle? Its ends on two sides of the plane, its line on one side of
-/// all three edges.
+/// Has the segment p q a point of the triangle? Its ends on two sides of the plane, its line on one
+/// side of all three edges.
 bool meets(const Corners& t, const Vector3& p, const Vector3& q) {
-  const int side_p = side_of_plane(t[0], t[1], t[2], p), side_q = side_of_plane(t[0], t[1], t[2], q);
+  const int side_p = side_of_plane(t[0], t[1], t[2], p),
+            side_q = side_of_plane(t[0], t[1], t[2], q);
   if (side_p * side_q > 0) return false;
   if (side_p == 0 && side_q == 0) return meet_in_plane(t, p, q);
   return agree(side_of_plane(p, q, t[0], t[1]), side_of_plane(p, q, t[1], t[2]),
@@ -73,8 +77,10 @@ bool folded_flat(const PerParticle3& x, const Triangle& s, const Triangle& t) {
   int other = 0;
   while (has_corner(t, s[other])) ++other;
   const int axis = open_axis(corners);
-  const Vector2 a = drop_axis(corners[(other + 1) % 3], axis), b = drop_axis(corners[(other + 2) % 3], axis);
-  return side_of_line(a, b, drop_axis(corners[other], axis)) == side_of_line(a, b, drop_axis(far, axis));
+  const Vector2 a = drop_axis(corners[(other + 1) % 3], axis),
+                b = drop_axis(corners[(other + 2) % 3], axis);
+  return side_of_line(a, b, drop_axis(corners[other], axis)) ==
+         side_of_line(a, b, drop_axis(far, axis));
 }
 
 /// Has an edge of s that does not end in a vertex of t a point of t?
@@ -90,7 +96,8 @@ bool edges_meet(const PerParticle3& x, const Triangle& s, const Triangle& t) {
 
 /// Appends the pairs of triangle s with those after it that meet it.
 void add_pairs_of(int s, const std::vector<Bounds>& boxes, const BoxTree& tree,
-                  const std::function<bool(int)>& meets_s, std::vector<std::pair<int, int>>& pairs) {
+                  const std::function<bool(int)>& meets_s,
+                  std::vector<std::pair<int, int>>& pairs) {
   std::vector<int> found, waiting{0};
   while (!waiting.empty()) {
     const int at = waiting.back();
@@ -112,8 +119,8 @@ void add_pairs_of(int s, const std::vector<Bounds>& boxes, const BoxTree& tree,
 
 }  // namespace
 
-// Where two triangles meet in more than what they share, the stretch in which they meet ends where it leaves
-// one of them, through an edge; with one vertex shared, through the edge across from it.
+// Where two triangles meet in more than what they share, the stretch in which they meet ends where
+// it leaves one of them, through an edge; with one vertex shared, through the edge across from it.
 bool intersect(const PerParticle3& x, const Triangle& s, const Triangle& t) {
   const long shared = std::count_if(s.begin(), s.end(), [&](int v) { return has_corner(t, v); });
   if (shared == 2) return folded_flat(x, s, t);

@@ -9,8 +9,9 @@ namespace {
 
 constexpr double full_angle = 4 * pi;
 
-/// The solid angle of a triangle seen from the origin [rad], positive when its back is seen: twice the arc
-/// tangent of a b c over |a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b| (van Oosterom and Strackee 1983).
+/// The solid angle of a triangle seen from the origin [rad], positive when its back is seen: twice
+/// the arc tangent of a b c over |a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b| (van Oosterom and
+/// Strackee 1983).
 double solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
   const double u = a.norm(), v = b.norm(), w = c.norm();
   const double below = u * v * w + a.dot(b) * w + b.dot(c) * u + c.dot(a) * v;
@@ -36,15 +37,16 @@ Dipole dipole_of(const MeshDistance& mesh, const BoxNode& node) {
   }
   dipole.centre /= sum;
   for (int i = node.first; i < node.first + node.count; ++i) {
-    dipole.slope += area_of(mesh.corners[i]) * (centre_of(mesh.corners[i]) - dipole.centre).transpose();
+    dipole.slope +=
+        area_of(mesh.corners[i]) * (centre_of(mesh.corners[i]) - dipole.centre).transpose();
     for (const Vector3& corner : mesh.corners[i])
       dipole.radius = std::max(dipole.radius, (corner - dipole.centre).norm());
   }
   return dipole;
 }
 
-// The solid angle of a small patch of area n at r from p is n.r/|r|^3; over a patch that is spread about its
-// centre the next term is the derivative of that: slope : (I/|r|^3 - 3 r r^T/|r|^5).
+// The solid angle of a small patch of area n at r from p is n.r/|r|^3; over a patch that is spread
+// about its centre the next term is the derivative of that: slope : (I/|r|^3 - 3 r r^T/|r|^5).
 double far_angle(const Dipole& dipole, const Vector3& r, double distance) {
   const double cube = distance * distance * distance;
   return dipole.area.dot(r) / cube + dipole.slope.trace() / cube -
@@ -53,9 +55,11 @@ double far_angle(const Dipole& dipole, const Vector3& r, double distance) {
 
 }  // namespace
 
-double winding_number(const PerParticle3& x, const std::vector<Triangle>& triangles, const Vector3& p) {
+double winding_number(const PerParticle3& x, const std::vector<Triangle>& triangles,
+                      const Vector3& p) {
   double sum = 0;
-  for (const Triangle& t : triangles) sum += solid_angle(x.col(t[0]) - p, x.col(t[1]) - p, x.col(t[2]) - p);
+  for (const Triangle& t : triangles)
+    sum += solid_angle(x.col(t[0]) - p, x.col(t[1]) - p, x.col(t[2]) - p);
   return sum / full_angle;
 }
 
@@ -66,8 +70,8 @@ std::vector<Dipole> make_dipoles(const MeshDistance& mesh) {
   return dipoles;
 }
 
-double winding_number(const MeshDistance& mesh, const std::vector<Dipole>& dipoles, const Vector3& p,
-                      double far) {
+double winding_number(const MeshDistance& mesh, const std::vector<Dipole>& dipoles,
+                      const Vector3& p, double far) {
   double sum = 0;
   std::vector<int> waiting{0};
   while (!waiting.empty()) {
@@ -82,7 +86,8 @@ double winding_number(const MeshDistance& mesh, const std::vector<Dipole>& dipol
       waiting.push_back(node.right);
       waiting.push_back(at + 1);
     } else {
-      for (int i = node.first; i < node.first + node.count; ++i) sum += solid_angle(mesh.corners[i], p);
+      for (int i = node.first; i < node.first + node.count; ++i)
+        sum += solid_angle(mesh.corners[i], p);
     }
   }
   return sum / full_angle;

@@ -6,16 +6,17 @@ namespace foldproof {
 
 namespace {
 
-/// sum_i a_i.b_i/m_i over free particles: the product of the variable M^{-1/2} a, in which masses are 1.
+/// sum_i a_i.b_i/m_i over free particles: the product of the variable M^{-1/2} a, in
+/// which masses are 1.
 double product(const PerParticle3& a, const PerParticle3& b, const PerParticle& inverse_mass) {
   return a.cwiseProduct(b).colwise().sum().dot(inverse_mass.transpose());
 }
 
 }  // namespace
 
-// In the variable M^{1/2} dw the iteration is the plain one of van der Vorst's paper, with its letters; here
-// it is written with masses: r, s, p, v, t are momenta [kg m/s], M^{-1} p and M^{-1} s the directions in dw
-// [m/s].
+// In the variable M^{1/2} dw the iteration is the plain one of van der Vorst's paper, with its
+// letters; here it is written with masses: r, s, p, v, t are momenta [kg m/s], M^{-1} p and M^{-1}
+// s the directions in dw [m/s].
 SolveResult solve_unsymmetric_step(const NewtonMatrix& A, const SolverSettings& settings,
                                    const PerParticle3& r0, PerParticle3& dw, Work& work) {
   const PerParticle& inverse_mass = A.inverse_mass;
@@ -31,7 +32,8 @@ SolveResult solve_unsymmetric_step(const NewtonMatrix& A, const SolverSettings& 
     const double alpha = rho / product(r0, v, inverse_mass);
     const PerParticle3 s = r - alpha * v, along_s = s * inverse_mass.asDiagonal();
     multiply(A, along_s, t, work);
-    const double tt = product(t, t, inverse_mass), omega = tt > 0 ? product(t, s, inverse_mass) / tt : 0;
+    const double tt = product(t, t, inverse_mass),
+                 omega = tt > 0 ? product(t, s, inverse_mass) / tt : 0;
     ++iterations;
 
     const PerParticle3 step = alpha * along_p + omega * along_s;

@@ -1,14 +1,15 @@
-// The stabilised biconjugate gradients of van der Vorst (1992), for Newton steps whose matrix is not
-// symmetric.
+// The stabilised biconjugate gradients of van der Vorst (1992), for Newton steps whose matrix
+// is not symmetric.
 #pragma once
 
 #include "reference/dynamics/conjugate_gradient.h"
 
 namespace foldproof {
 
-/// Solves A dw = r for the free particles from dw = 0; prescribed ones get 0. r: 3 x N momenta [kg m/s]; on exit
-/// dw: 3 x N [m/s]. The residual is relative to |r|, in the mass-weighted norm. An iteration takes two products. The
-/// iteration may break down, or stall, before it has converged: dw is then what it had, and the residual its own.
+/// Solves A dw = r for the free particles from dw = 0; prescribed ones get 0. r: 3 x N momenta [kg
+/// m/s]; on exit dw: 3 x N [m/s]. The residual is relative to |r|, in the mass-weighted norm. An
+/// iteration takes two products. The iteration may break down, or stall, before it has converged:
+/// dw is then what it had, and the residual its own.
 SolveResult solve_unsymmetric_step(const NewtonMatrix& A, const SolverSettings& settings,
                                    const PerParticle3& r, PerParticle3& dw, Work& work);
 

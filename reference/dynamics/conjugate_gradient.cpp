@@ -14,7 +14,8 @@ double squared_norm(const Eigen::Ref<const PerParticle3>& r,
   return r.colwise().squaredNorm().dot(inverse_mass.transpose());
 }
 
-/// The sum of part(first, count) over blocks of particles, block by block: a long sum rounds less so.
+/// The sum of part(first, count) over blocks of particles, block by block: a long sum
+/// rounds less so.
 template <class Part>
 double sum_of_blocks(Eigen::Index particles, const Part& part) {
   constexpr Eigen::Index block = 512;
@@ -25,8 +26,8 @@ double sum_of_blocks(Eigen::Index particles, const Part& part) {
 }
 
 /// D p at free particles, 0 at prescribed ones.
-void damping_product(const DampingOperator& damping, const PerParticle3& p, const PerParticle& inverse_mass,
-                     PerParticle3& Dp, Work& work) {
+void damping_product(const DampingOperator& damping, const PerParticle3& p,
+                     const PerParticle& inverse_mass, PerParticle3& Dp, Work& work) {
   Dp.setZero();
   damping.add_product(p, Dp);
   for (Eigen::Index i = 0; i < inverse_mass.size(); ++i)
@@ -34,7 +35,8 @@ void damping_product(const DampingOperator& damping, const PerParticle3& p, cons
   ++work.damping_products;
 }
 
-double squared_momentum(const PerParticle3& v, const PerParticle& mass, const PerParticle& inverse_mass) {
+double squared_momentum(const PerParticle3& v, const PerParticle& mass,
+                        const PerParticle& inverse_mass) {
   double sum = 0;
   for (Eigen::Index i = 0; i < mass.size(); ++i)
     if (inverse_mass[i] != 0) sum += mass[i] * v.col(i).squaredNorm();
@@ -49,13 +51,15 @@ SolveResult record(SolveResult solve, Work& work) {
   return solve;
 }
 
-/// q = A p for a symmetric positive definite A on free particles; 0 at prescribed ones. Returns p.q.
+/// q = A p for a symmetric positive definite A on free particles; 0 at prescribed
+/// ones. Returns p.q.
 using Product = std::function<double(const PerParticle3& p, PerParticle3& q)>;
 
-/// Adds to v the solution of A w = r by conjugate gradients, preconditioned with the masses: the plain
-/// iteration in the variable M^{1/2} w. scale: what the residual's norm is compared with [kg^1/2 m/s].
-SolveResult iterate(const Product& A, const PerParticle& inverse_mass, const SolverSettings& settings,
-                    double scale, PerParticle3 r, PerParticle3& v) {
+/// Adds to v the solution of A w = r by conjugate gradients, preconditioned with the
+/// masses: the plain iteration in the variable M^{1/2} w. scale: what the residual's norm
+/// is compared with [kg^1/2 m/s].
+SolveResult iterate(const Product& A, const PerParticle& inverse_mass,
+                    const SolverSettings& settings, double scale, PerParticle3 r, PerParticle3& v) {
   PerParticle3 q(3, r.cols());
   double rr = squared_norm(r, inverse_mass);
   double residual = std::sqrt(rr) / scale;
@@ -84,8 +88,8 @@ double positive_or_one(double scale) { return scale > 0 ? scale : 1; }
 }  // namespace
 
 SolveResult solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass,
-                           const PerParticle& inverse_mass, const SolverSettings& settings, PerParticle3& v,
-                           Work& work) {
+                           const PerParticle& inverse_mass, const SolverSettings& settings,
+                           PerParticle3& v, Work& work) {
   const Product A = [&](const PerParticle3& p, PerParticle3& q) {  // (M - s D) p
     q.setZero();
     damping.add_product(p, q);

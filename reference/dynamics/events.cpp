@@ -34,7 +34,8 @@ std::vector<double> object_event_times(const System& system, double start) {
     const auto* collision = std::get_if<ObjectCollision>(&filter);
     if (!collision) continue;
     for (const Object& object : collision->objects)
-      for (const double time : std::visit([](const auto& body) { return jumps_of(body); }, object.body))
+      for (const double time :
+           std::visit([](const auto& body) { return jumps_of(body); }, object.body))
         if (time > start && std::isfinite(time)) times.push_back(time);
   }
   return times;
@@ -53,7 +54,10 @@ std::vector<double> sticking_event_times(const System& system, double start) {
 }
 
 Events::Events(const System& system, double start, double tolerance)
-    : given_(system), times_(event_times(system.prescribed, start)), tolerance_(tolerance), last_(start) {
+    : given_(system),
+      times_(event_times(system.prescribed, start)),
+      tolerance_(tolerance),
+      last_(start) {
   if (!times_.empty()) {
     own_ = std::make_unique<System>(system);
     set_prescribed_motion(start);
@@ -86,8 +90,9 @@ void Events::pass(double t) {
 }
 
 void Events::set_prescribed_motion(double t) {
-  std::ranges::transform(given_.prescribed, own_->prescribed.begin(),
-                         [&](const PrescribedParticle& p) { return smooth_continuation(p, t, tolerance_); });
+  std::ranges::transform(
+      given_.prescribed, own_->prescribed.begin(),
+      [&](const PrescribedParticle& p) { return smooth_continuation(p, t, tolerance_); });
 }
 
 }  // namespace foldproof

@@ -8,8 +8,8 @@ namespace foldproof {
 
 namespace {
 
-/// A Butcher tableau. Stage i is taken at time t + c_i h with the rates of the stages before it, weighted by
-/// row i of A; the step with the weights b.
+/// A Butcher tableau. Stage i is taken at time t + c_i h with the rates of the stages before it,
+/// weighted by row i of A; the step with the weights b.
 struct Tableau {
   std::vector<std::vector<double>> A;  // row i has i entries
   std::vector<double> b, c;
@@ -41,7 +41,8 @@ State advance(const System& system, const State& now, double t, const std::vecto
   return s;
 }
 
-State runge_kutta(const Tableau& tableau, const System& system, const State& now, double h, Work& work) {
+State runge_kutta(const Tableau& tableau, const System& system, const State& now, double h,
+                  Work& work) {
   std::vector<Rate> rates;
   for (size_t i = 0; i < tableau.b.size(); ++i) {
     const double t = now.time + tableau.c[i] * h;

@@ -1,5 +1,5 @@
-// Explicit Runge-Kutta methods: what BMF03 section 3 compares its schemes with. Positions and velocities
-// alike are explicit, so damping limits the step as well as elasticity.
+// Explicit Runge-Kutta methods: what BMF03 section 3 compares its schemes with. Positions and
+// velocities alike are explicit, so damping limits the step as well as elasticity.
 #pragma once
 
 #include <span>
@@ -11,14 +11,16 @@ namespace foldproof {
 /// Forward Euler: first order; unstable for undamped motion at any step.
 State forward_euler(const System& system, std::span<const State> past, double h, Work& work);
 
-/// Explicit midpoint rule (RK2): second order; undamped motion grows slowly, as (omega h)^4/8 a step.
+/// Explicit midpoint rule (RK2): second order; undamped motion grows slowly, as
+/// (omega h)^4/8 a step.
 State explicit_midpoint(const System& system, std::span<const State> past, double h, Work& work);
 
-/// Strong-stability-preserving RK3 of Shu and Osher (1988): third order; undamped stable for omega h <=
-/// sqrt(3).
+/// Strong-stability-preserving RK3 of Shu and Osher (1988): third order; undamped stable for
+/// omega h <= sqrt(3).
 State ssp_runge_kutta_3(const System& system, std::span<const State> past, double h, Work& work);
 
-/// The classical RK4: fourth order; undamped stable for omega h <= 2 sqrt(2), pure damping for c h <= 2.785.
+/// The classical RK4: fourth order; undamped stable for omega h <= 2 sqrt(2), pure damping
+/// for c h <= 2.785.
 State runge_kutta_4(const System& system, std::span<const State> past, double h, Work& work);
 
 }  // namespace foldproof

@@ -15,8 +15,9 @@ namespace foldproof {
 namespace {
 
 constexpr int max_newton_iterations = 60, max_halvings = 12;
-constexpr double forcing = 1e-3;       // relative residual to which a Newton step is solved
-constexpr double min_decrease = 1e-4;  // of the residual or of the work left, as a part of the step taken
+constexpr double forcing = 1e-3;  // relative residual to which a Newton step is solved
+// of the residual or of the work left, as a part of the step taken
+constexpr double min_decrease = 1e-4;
 
 /// The stage equation's data: see the header.
 struct Stage {
@@ -36,7 +37,8 @@ double norm_of(const PerParticle3& momentum, const PerParticle& inverse_mass) {
 }
 
 /// s (F + D w) - M (w - V) at free particles, 0 at prescribed ones [kg m/s].
-PerParticle3 residual_of(const System& system, const Stage& stage, const PerParticle3& w, Work& work) {
+PerParticle3 residual_of(const System& system, const Stage& stage, const PerParticle3& w,
+                         Work& work) {
   const State at = state_of(stage, w);
   PerParticle3 force = elastic_forces(system.forces, at, work);
   damping_at(system.forces, at, work).add_product(w, force);
@@ -55,12 +57,12 @@ struct Trial {
 
 double product(const PerParticle3& a, const PerParticle3& b) { return a.cwiseProduct(b).sum(); }
 
-/// Halves the step until the residual falls, or until the residual's work along the step, by the trapezoidal
-/// rule, is positive: then the step leads downhill in the potential of which the residual is minus the
-/// gradient (the damping's part has none), though the residual itself may have to rise on the way. Gives up
-/// after a dozen halvings.
-Trial line_search(const System& system, const Stage& stage, const Trial& from, const PerParticle3& dw,
-                  Work& work) {
+/// Halves the step until the residual falls, or until the residual's work along the step, by the
+/// trapezoidal rule, is positive: then the step leads downhill in the potential of which the
+/// residual is minus the gradient (the damping's part has none), though the residual itself may
+/// have to rise on the way. Gives up after a dozen halvings.
+Trial line_search(const System& system, const Stage& stage, const Trial& from,
+                  const PerParticle3& dw, Work& work) {
   double part = 1;
   for (int i = 0; i < max_halvings; ++i, part /= 2) {
     try {
@@ -76,23 +78,25 @@ Trial line_search(const System& system, const Stage& stage, const Trial& from, c
   return {from.w, from.residual, from.norm, false};
 }
 
-/// The Newton step by conjugate gradients, from the elastic derivative alone: exact where it is definite,
-/// else semidefinite element by element.
-PerParticle3 symmetric_step(const System& system, const Stage& stage, const Trial& from, Work& work) {
+/// The Newton step by conjugate gradients, from the elastic derivative alone: exact where it is
+/// definite, else semidefinite element by element.
+PerParticle3 symmetric_step(const System& system, const Stage& stage, const Trial& from,
+                            Work& work) {
   const State at = state_of(stage, from.w);
   const DampingOperator damping = damping_at(system.forces, at, work);
   const SolverSettings settings{forcing, system.solver.max_iterations, ResidualScale::momentum};
   PerParticle3 dw;
   for (const Definiteness definiteness : {Definiteness::exact, Definiteness::semidefinite}) {
-    const ForceDifferential stiffness = elastic_differential_at(system.forces, at, definiteness, work);
+    const ForceDifferential stiffness =
+        elastic_differential_at(system.forces, at, definiteness, work);
     const NewtonMatrix A{system.mass, system.inverse_mass, damping, stiffness, stage.s};
     if (!solve_newton_step(A, settings, from.residual, dw, work).indefinite) break;
   }
   return dw;
 }
 
-/// The Newton step with the exact derivative of all forces, which no longer is symmetric. Empty if the solve
-/// did not finish or if the step leads uphill.
+/// The Newton step with the exact derivative of all forces, which no longer is symmetric. Empty if
+/// the solve did not finish or if the step leads uphill.
 std::optional<PerParticle3> exact_step(const System& system, const Stage& stage, const Trial& from,
                                        Work& work) {
   const State at = state_of(stage, from.w);
@@ -107,8 +111,9 @@ std::optional<PerParticle3> exact_step(const System& system, const Stage& stage,
   return dw;
 }
 
-/// One iteration of Newton's method. Where damping or current weighting makes the derivative unsymmetric, the
-/// exact step is tried first; the symmetric one takes over where that fails, far from the solution.
+/// One iteration of Newton's method. Where damping or current weighting makes the derivative
+/// unsymmetric, the exact step is tried first; the symmetric one takes over where that fails, far
+/// from the solution.
 Trial newton_step(const System& system, const Stage& stage, const Trial& from, Work& work) {
   if (const std::optional<PerParticle3> dw = exact_step(system, stage, from, work)) {
     const Trial to = line_search(system, stage, from, *dw, work);
@@ -117,7 +122,8 @@ Trial newton_step(const System& system, const Stage& stage, const Trial& from, W
   return line_search(system, stage, from, symmetric_step(system, stage, from, work), work);
 }
 
-/// The stage equation with the forces linearised about the state `now`, the elastic derivative semidefinite:
+/// The stage equation with the forces linearised about the state `now`, the elastic
+/// derivative semidefinite:
 ///   (M - s D - s^2 K) dw = s (F + D w + K (X + s w - x)) - M (w - V),
 /// less what prescribed particles ask for.
 /// w: on entry the velocity to start from with the known velocities written in, on exit w + dw.
@@ -141,8 +147,8 @@ SolveResult solve_linearised(const System& system, const State& now, const Stage
   return solve;
 }
 
-/// What rounding the positions alone may do to the residual [kg^1/2 m/s]: forces change by a bound on the
-/// stiffness times a rounding of the largest coordinate.
+/// What rounding the positions alone may do to the residual [kg^1/2 m/s]: forces change by a bound
+/// on the stiffness times a rounding of the largest coordinate.
 double rounding_at(const System& system, const Stage& stage, const PerParticle3& w) {
   const State at = state_of(stage, w);
   const PerParticle rows = stiffness_row_bounds(system.forces, at, StickingPart::all);  // N/m
@@ -150,8 +156,10 @@ double rounding_at(const System& system, const Stage& stage, const PerParticle3&
   return stage.s * rounding * std::sqrt(rows.cwiseAbs2().dot(system.inverse_mass));
 }
 
-/// Newton's method from a trial, until its residual is `target_norm` [kg^1/2 m/s] or nothing improves it.
-Trial solve_newton(const System& system, const Stage& stage, Trial at, double target_norm, Work& work) {
+/// Newton's method from a trial, until its residual is `target_norm` [kg^1/2 m/s] or
+/// nothing improves it.
+Trial solve_newton(const System& system, const Stage& stage, Trial at, double target_norm,
+                   Work& work) {
   for (int i = 0; at.norm > target_norm && at.is_improved && i < max_newton_iterations; ++i) {
     at = newton_step(system, stage, at, work);
     ++work.newton_iterations;
@@ -164,13 +172,13 @@ Trial trial_at(const System& system, const Stage& stage, const PerParticle3& w, 
   return {w, residual, norm_of(residual, system.inverse_mass), true};
 }
 
-/// Where the linearised stage equation leads from the start's velocity, to the accuracy of a Newton step;
-/// back to the start, without hope, if a triangle loses its area there.
-Trial linearised_trial(const System& system, const State& now, const Stage& stage, const Trial& start,
-                       Work& work) {
+/// Where the linearised stage equation leads from the start's velocity, to the accuracy of a Newton
+/// step; back to the start, without hope, if a triangle loses its area there.
+Trial linearised_trial(const System& system, const State& now, const Stage& stage,
+                       const Trial& start, Work& work) {
   PerParticle3 w = start.w;
-  solve_linearised(system, now, stage, {forcing, system.solver.max_iterations, ResidualScale::momentum}, w,
-                   work);
+  solve_linearised(system, now, stage,
+                   {forcing, system.solver.max_iterations, ResidualScale::momentum}, w, work);
   try {
     return trial_at(system, stage, w, work);
   } catch (const DegenerateElement&) {
@@ -178,24 +186,26 @@ Trial linearised_trial(const System& system, const State& now, const Stage& stag
   }
 }
 
-/// Solves the stage equation by Newton's method with a line search, until the residual is the solver's
-/// tolerance times the momentum of the velocity now and the impulse at it, or what rounding makes of cloth at
-/// rest. From that velocity it starts, and a second time, if it does not arrive, from the linearised step: in
-/// a long step the velocity now leads to another place altogether. Prescribed particles are where they are at
-/// the stage's time, and as fast.
+/// Solves the stage equation by Newton's method with a line search, until the residual is the
+/// solver's tolerance times the momentum of the velocity now and the impulse at it, or what
+/// rounding makes of cloth at rest. From that velocity it starts, and a second time, if it does not
+/// arrive, from the linearised step: in a long step the velocity now leads to another place
+/// altogether. Prescribed particles are where they are at the stage's time, and as fast.
 PerParticle3 solve_stage(const System& system, const State& now, Stage& stage, Work& work) {
   PerParticle3 w = now.v;
   impose(velocities_at(system.prescribed, stage.time), w);
   for (const PrescribedParticle& p : system.prescribed)
-    stage.X.col(p.particle) = position_at(p.motion, p.start, stage.time) - stage.s * w.col(p.particle);
+    stage.X.col(p.particle) =
+        position_at(p.motion, p.start, stage.time) - stage.s * w.col(p.particle);
 
   const Trial start = trial_at(system, stage, w, work);
   const double size = start.norm + norm_of(w * system.mass.asDiagonal(), system.inverse_mass);
-  const double target_norm = std::max(system.solver.tolerance * size, rounding_at(system, stage, w));
+  const double target_norm =
+      std::max(system.solver.tolerance * size, rounding_at(system, stage, w));
   Trial end = solve_newton(system, stage, start, target_norm, work);
   if (!(end.norm <= target_norm)) {
-    const Trial again =
-        solve_newton(system, stage, linearised_trial(system, now, stage, start, work), target_norm, work);
+    const Trial again = solve_newton(
+        system, stage, linearised_trial(system, now, stage, start, work), target_norm, work);
     if (again.norm < end.norm) end = again;
   }
   if (!(end.norm <= target_norm)) ++work.unfinished_solves;
@@ -213,7 +223,8 @@ State backward_euler(const System& system, std::span<const State> past, double h
   return finish_step(system, now, h, {w, w}, work);
 }
 
-State linearised_backward_euler(const System& system, std::span<const State> past, double h, Work& work) {
+State linearised_backward_euler(const System& system, std::span<const State> past, double h,
+                                Work& work) {
   const State& now = past.back();
   PerParticle3 w = now.v;
   impose(mean_velocities(system.prescribed, now.x, now.time, h), w);
@@ -235,11 +246,12 @@ State bdf2(const System& system, std::span<const State> past, double h, Work& wo
   if (past.size() < 2) return implicit_midpoint(system, past, h, work);
   const State &now = past.back(), &before = past[past.size() - 2];
 
-  // x_{n+1} = (1 + p) x_n - p x_{n-1} + s w, the same for v, with r = h/h_before, p = r^2/(1 + 2 r),
-  // s = h (1 + r)/(1 + 2 r)
+  // x_{n+1} = (1 + p) x_n - p x_{n-1} + s w, the same for v, with r = h/h_before, p = r^2/(1 + 2
+  // r), s = h (1 + r)/(1 + 2 r)
   const double r = h / (now.time - before.time);
   const double p = r * r / (1 + 2 * r), s = h * (1 + r) / (1 + 2 * r);
-  Stage stage{now.time + h, now.x + p * (now.x - before.x), now.v + p * (now.v - before.v), s, now.bonds};
+  Stage stage{now.time + h, now.x + p * (now.x - before.x), now.v + p * (now.v - before.v), s,
+              now.bonds};
   const PerParticle3 w = solve_stage(system, now, stage, work);
   return finish_step(system, now, h, {(stage.X + stage.s * w - now.x) / h, w}, work);
 }

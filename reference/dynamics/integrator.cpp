@@ -16,18 +16,21 @@ constexpr double bdf2_growth = 2.4;
 const std::vector<Integrator>& integrators() {
   using enum Family;
   static const std::vector<Integrator> table = {
-      {"A", "mixed explicit/implicit", "BMF03 section 3, first list", 2, 1, mixed_explicit_implicit},
+      {"A", "mixed explicit/implicit", "BMF03 section 3, first list", 2, 1,
+       mixed_explicit_implicit},
       {"B", "central Newmark", "BMF03 section 3, second list", 2, 1, central_newmark},
-      {"C", "variable-step Newmark", "BMF03 section 3, last list", 2, 1, variable_step_newmark, mixed,
-       std::numeric_limits<double>::infinity(), true},
+      {"C", "variable-step Newmark", "BMF03 section 3, last list", 2, 1, variable_step_newmark,
+       mixed, std::numeric_limits<double>::infinity(), true},
       {"forward-euler", "forward Euler", "Euler 1768", 1, 1, forward_euler, fully_explicit},
       {"RK2", "explicit midpoint", "Runge 1895", 2, 1, explicit_midpoint, fully_explicit},
-      {"SSP-RK3", "SSP Runge-Kutta 3", "Shu and Osher 1988", 3, 1, ssp_runge_kutta_3, fully_explicit},
+      {"SSP-RK3", "SSP Runge-Kutta 3", "Shu and Osher 1988", 3, 1, ssp_runge_kutta_3,
+       fully_explicit},
       {"RK4", "classical Runge-Kutta 4", "Kutta 1901", 4, 1, runge_kutta_4, fully_explicit},
       {"backward-euler", "backward Euler", "BMF03 section 3", 1, 1, backward_euler, fully_implicit},
       {"linear-backward-euler", "linearised backward Euler", "Baraff and Witkin 1998", 1, 1,
        linearised_backward_euler, fully_implicit},
-      {"BDF2", "BDF2", "Hairer, Norsett, Wanner, section III.5", 2, 2, bdf2, fully_implicit, bdf2_growth},
+      {"BDF2", "BDF2", "Hairer, Norsett, Wanner, section III.5", 2, 2, bdf2, fully_implicit,
+       bdf2_growth},
       {"implicit-midpoint", "implicit midpoint", "Hairer, Lubich, Wanner, section II.1", 2, 1,
        implicit_midpoint, fully_implicit},
   };

@@ -1,5 +1,5 @@
-// The table of integrators. A study runs over it and compares the observed order with `order`: a wrong row is
-// refuted.
+// The table of integrators. A study runs over it and compares the observed order with `order`: a
+// wrong row is refuted.
 #pragma once
 
 #include <limits>
@@ -11,17 +11,19 @@
 
 namespace foldproof {
 
-/// Which forces a method takes implicitly. mixed: the damping in the velocity alone, as the paper does;
-/// fully_explicit: nothing, so that damping limits its step; fully_implicit: the elastic forces too.
+/// Which forces a method takes implicitly. mixed: the damping in the velocity alone, as the
+/// paper does; fully_explicit: nothing, so that damping limits its step; fully_implicit: the
+/// elastic forces too.
 enum class Family { mixed, fully_explicit, fully_implicit };
 
 struct Integrator {
   std::string_view name, title, source;
-  int order;    // of the global error in x and v, for any step sequence that keeps to largest_growth
+  int order;  // of the global error in x and v, for any step sequence that keeps to largest_growth
   int history;  // states that `step` can use, the latest last; with fewer it starts itself
   State (*step)(const System& system, std::span<const State> past, double h, Work& work);  // h [s]
   Family family = Family::mixed;
-  double largest_growth = std::numeric_limits<double>::infinity();  // of a step over the one before [1]
+  // of a step over the one before [1]
+  double largest_growth = std::numeric_limits<double>::infinity();
   bool damping_widens_limit = false;  // stable for h^2 K < 4 M + 2 h D, not for h^2 K < 4 M only
 };
 
@@ -36,11 +38,13 @@ const Integrator& integrator_named(std::string_view name);
 /// The latest states of a run, which is what a step sees.
 class History {
  public:
-  /// Starts, or starts again after an event that no method must look across. length: most states kept, >= 1.
+  /// Starts, or starts again after an event that no method must look across. length: most
+  /// states kept, >= 1.
   History(State start, int length) : states_{std::move(start)}, length_(size_t(length)) {}
 
   /// Goes on with states that a history of this length has kept, the latest last; at least one.
-  History(std::vector<State> states, int length) : states_(std::move(states)), length_(size_t(length)) {}
+  History(std::vector<State> states, int length)
+      : states_(std::move(states)), length_(size_t(length)) {}
 
   /// Takes up the state that a step has made.
   void advance(State next) {

@@ -4,8 +4,8 @@ namespace foldproof {
 
 namespace {
 
-/// All that a half step needs to know of one state: forces that do not depend on velocity, and the damping's
-/// cached terms.
+/// All that a half step needs to know of one state: forces that do not depend on velocity, and the
+/// damping's cached terms.
 struct Forces {
   PerParticle3 elastic;  // 3 x N [N], external forces included
   DampingOperator damping;
@@ -35,7 +35,8 @@ PerParticle3 implicit_half_step(const System& system, const Forces& at, const Pe
 
 }  // namespace
 
-State mixed_explicit_implicit(const System& system, std::span<const State> past, double h, Work& work) {
+State mixed_explicit_implicit(const System& system, std::span<const State> past, double h,
+                              Work& work) {
   const State& now = past.back();
   const double end = now.time + h;
   const Forces here = forces_at(system, now, work);
@@ -49,7 +50,8 @@ State mixed_explicit_implicit(const System& system, std::span<const State> past,
 
   // velocity: trapezoidal rule, continued from the half-step velocity before its modification
   const Forces there = forces_at(system, next, work);
-  next.v = implicit_half_step(system, there, v_half, velocities_at(system.prescribed, end), h, work);
+  next.v =
+      implicit_half_step(system, there, v_half, velocities_at(system.prescribed, end), h, work);
   correct(system.filters, {end, end, h}, next, next.v, work);
   return next;
 }
@@ -60,8 +62,8 @@ State central_newmark(const System& system, std::span<const State> past, double 
   const Forces here = forces_at(system, now, work);
 
   // position: move with a velocity that is implicit in the damping
-  PerParticle3 v_half = implicit_half_step(system, here, now.v,
-                                           mean_velocities(system.prescribed, now.x, now.time, h), h, work);
+  PerParticle3 v_half = implicit_half_step(
+      system, here, now.v, mean_velocities(system.prescribed, now.x, now.time, h), h, work);
   correct(system.filters, {now.time, end, h}, now, v_half, work);
   State next{end, now.x + h * v_half, v_half, now.bonds};
 
@@ -72,21 +74,23 @@ State central_newmark(const System& system, std::span<const State> past, double 
   return next;
 }
 
-State variable_step_newmark(const System& system, std::span<const State> past, double h, Work& work) {
+State variable_step_newmark(const System& system, std::span<const State> past, double h,
+                            Work& work) {
   const State& now = past.back();
   const double end = now.time + h;
   const Forces here = forces_at(system, now, work);
 
   // position: move with a velocity that is implicit in the damping, as in scheme B
-  PerParticle3 v_move = implicit_half_step(system, here, now.v,
-                                           mean_velocities(system.prescribed, now.x, now.time, h), h, work);
+  PerParticle3 v_move = implicit_half_step(
+      system, here, now.v, mean_velocities(system.prescribed, now.x, now.time, h), h, work);
   correct(system.filters, {now.time, end, h}, now, v_move, work);
   State next{end, now.x + h * v_move, v_move, now.bonds};
 
   // velocity: trapezoidal rule from v_n, as in scheme A
   const PerParticle3 v_half = explicit_half_step(system, here, now.v, now.v, h, work);
   const Forces there = forces_at(system, next, work);
-  next.v = implicit_half_step(system, there, v_half, velocities_at(system.prescribed, end), h, work);
+  next.v =
+      implicit_half_step(system, there, v_half, velocities_at(system.prescribed, end), h, work);
   correct(system.filters, {end, end, h}, next, next.v, work);
   return next;
 }

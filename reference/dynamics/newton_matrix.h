@@ -1,4 +1,5 @@
-// The matrix of a Newton step of the methods that are implicit in the elastic forces too, as a function call.
+// The matrix of a Newton step of the methods that are implicit in the elastic forces too, as
+// a function call.
 #pragma once
 
 #include "reference/forces/damping.h"
@@ -16,7 +17,8 @@ struct NewtonMatrix {
   double s;  // the part of the step that multiplies the rate [s]
 };
 
-/// q = A p at free particles, 0 at prescribed ones; both 3 x N. Counts one product with D and one with K.
+/// q = A p at free particles, 0 at prescribed ones; both 3 x N. Counts one product with D
+/// and one with K.
 void multiply(const NewtonMatrix& A, const PerParticle3& p, PerParticle3& q, Work& work);
 
 }  // namespace foldproof

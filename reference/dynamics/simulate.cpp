@@ -15,12 +15,13 @@ namespace {
 // A particle that crosses ten times the cloth's own size in one step is taken for divergence.
 constexpr double sizes_per_step = 10;
 
-// Of a frame's interval: events closer to a frame than this snap to it, so no step is as short as rounding
-// error.
+// Of a frame's interval: events closer to a frame than this snap to it, so no step is as short as
+// rounding error.
 constexpr double closest_event = 1e-9;
 
 void check(const Schedule& schedule, const State& start) {
-  if (!(schedule.end >= start.time)) throw InputError("time: the end must not lie before the start");
+  if (!(schedule.end >= start.time))
+    throw InputError("time: the end must not lie before the start");
   if (!(schedule.frame_interval > 0)) throw InputError("time: the frame interval must be > 0 s");
   if (!(schedule.step.fixed >= 0))
     throw InputError("time: the step must be > 0 s, or 0 for an automatic one");
@@ -28,7 +29,8 @@ void check(const Schedule& schedule, const State& start) {
   if (!(schedule.step.strain_per_step > 0)) throw InputError("time: strain_per_step must be > 0");
 }
 
-/// The longest step in which no spring changes its length by more than `fraction` of its rest length [s].
+/// The longest step in which no spring changes its length by more than `fraction` of its
+/// rest length [s].
 double step_by_strain_rate(const System& system, const State& s, double fraction) {
   double fastest = 0;  // 1/s
   for (const Force& force : system.forces) {
@@ -43,7 +45,9 @@ double step_by_strain_rate(const System& system, const State& s, double fraction
   return fraction / fastest;
 }
 
-double diagonal_of(const PerParticle3& x) { return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm(); }
+double diagonal_of(const PerParticle3& x) {
+  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
+}
 
 /// What is wrong with `next`, if anything: values that are not finite, or a leap.
 std::optional<Stop> fault_in(const State& now, const State& next, double size, long step) {
@@ -59,8 +63,8 @@ std::optional<Stop> fault_in(const State& now, const State& next, double size, l
     }
   }
   if (worst < 0) return {};
-  return Stop{"divergence: a particle moved more than ten times the cloth's size in one step", now.time, step,
-              worst};
+  return Stop{"divergence: a particle moved more than ten times the cloth's size in one step",
+              now.time, step, worst};
 }
 
 /// limit: the elastic limit [s].
@@ -69,17 +73,20 @@ double automatic_step(const System& system, const Integrator& integrator, const 
   if (integrator.damping_widens_limit) limit = widened_limit(system, s, limit);
   if (integrator.family == Family::fully_explicit) {
     Work uncounted;
-    const double rate = damping_rate_bound(damping_at(system.forces, s, uncounted), system.inverse_mass);
+    const double rate =
+        damping_rate_bound(damping_at(system.forces, s, uncounted), system.inverse_mass);
     limit = std::min(limit, 2 / rate);
     if (std::isnan(rate)) limit = rate;
   }
-  const double wanted = std::min(rule.safety * limit, step_by_strain_rate(system, s, rule.strain_per_step));
-  if (std::isnan(wanted)) throw DegenerateElement("the elastic limit of the step is not a number", {-1});
+  const double wanted =
+      std::min(rule.safety * limit, step_by_strain_rate(system, s, rule.strain_per_step));
+  if (std::isnan(wanted))
+    throw DegenerateElement("the elastic limit of the step is not a number", {-1});
   return wanted;
 }
 
-/// The longest step that divides the time `left` evenly and is no longer than `wanted` [s]; a hair of
-/// tolerance so that 0.1 s in steps of 0.01 s are 10 steps, not 11.
+/// The longest step that divides the time `left` evenly and is no longer than `wanted` [s]; a hair
+/// of tolerance so that 0.1 s in steps of 0.01 s are 10 steps, not 11.
 double even_step(double left, double wanted) {
   const double parts = std::ceil(left / wanted * (1 - 1e-9));
   return parts <= 1 ? left : left / parts;
@@ -89,8 +96,8 @@ double even_step(double left, double wanted) {
 class Run {
  public:
   /// The run as it was at the checkpoint.
-  Run(const System& system, const Integrator& integrator, const Schedule& schedule, const Observer& observer,
-      const Checkpoint& from);
+  Run(const System& system, const Integrator& integrator, const Schedule& schedule,
+      const Observer& observer, const Checkpoint& from);
 
   /// Hands out the start: its frame, row and checkpoint.
   void start();
@@ -167,7 +174,8 @@ RunResult Run::finish() {
   return {history_.now(), steps_, work_, stop_};
 }
 
-/// Steps to the time `target` across all events until then, after each of which the history starts anew.
+/// Steps to the time `target` across all events until then, after each of which the
+/// history starts anew.
 void Run::step_to_frame(double target) {
   const double close = closest_event * schedule_.frame_interval;
   while (!stop_ && history_.now().time < target) {
@@ -195,7 +203,8 @@ void Run::step_to(double target) {
   }
 }
 
-/// Where the schedule lets the next step end, at `target` at the latest [s]; none where it prescribes nothing.
+/// Where the schedule lets the next step end, at `target` at the latest [s]; none where it
+/// prescribes nothing.
 std::optional<double> Run::prescribed_end(double target) const {
   const std::vector<double>& ends = schedule_.step.ends;
   const auto next = std::ranges::upper_bound(ends, history_.now().time);
@@ -214,7 +223,8 @@ void Run::step(double target) {
   const bool asks_for_limit = observer_.step || !(end || schedule_.step.fixed > 0);
   const double limit = asks_for_limit ? elastic_limit(system, now) : 0;
   const double h = end ? *end - now.time
-                       : even_step(left, allowed_step(system, integrator_, history_.past(), schedule_.step, limit));
+                       : even_step(left, allowed_step(system, integrator_, history_.past(),
+                                                      schedule_.step, limit));
   if (!(now.time + h > now.time)) {
     stop_ = Stop{"a step became too short to advance the time", now.time, number, -1};
     return;
@@ -283,7 +293,8 @@ double Run::damping_power(const State& s) const {
 
 double allowed_step(const System& system, const Integrator& integrator, std::span<const State> past,
                     const StepRule& rule, double limit) {
-  double wanted = rule.fixed > 0 ? rule.fixed : automatic_step(system, integrator, past.back(), rule, limit);
+  double wanted =
+      rule.fixed > 0 ? rule.fixed : automatic_step(system, integrator, past.back(), rule, limit);
   if (past.size() > 1) {
     const double before = past.back().time - past[past.size() - 2].time;
     wanted = std::min(wanted, integrator.largest_growth * before);

@@ -11,18 +11,19 @@
 
 namespace foldproof {
 
-/// How long a step is. Each frame interval (or what an automatic step sees left of it) is divided evenly, so
-/// frames are hit exactly. So are events, at which a prescribed motion starts or stops, or an object's
-/// velocity jumps (dynamics/events.h): there a method that looks back starts anew.
+/// How long a step is. Each frame interval (or what an automatic step sees left of it) is divided
+/// evenly, so frames are hit exactly. So are events, at which a prescribed motion starts or stops,
+/// or an object's velocity jumps (dynamics/events.h): there a method that looks back starts anew.
 struct StepRule {
   double fixed = 0;  // the largest step allowed [s]; 0: chosen each step
-  double safety =
-      0.5;  // automatic: fraction of the elastic limit 2/omega, and for fully explicit methods of the
-            // damping limit 2/c too, c the bound on the largest damping rate [1]
-  double strain_per_step =
-      0.1;  // automatic: no edge's length changes by more than this fraction of its rest length [1]
-  std::vector<double> ends = {};  // where every step ends, ascending, frames and events among them [s];
-                                  // once they are used up, or without any, the rules above hold
+  // automatic: fraction of the elastic limit 2/omega, and for fully explicit methods of the damping
+  // limit 2/c too, c the bound on the largest damping rate [1]
+  double safety = 0.5;
+  // automatic: no edge's length changes by more than this fraction of its rest length [1]
+  double strain_per_step = 0.1;
+  // where every step ends, ascending, frames and events among them [s]; once they are used up, or
+  // without any, the rules above hold
+  std::vector<double> ends = {};
 };
 
 struct Schedule {
@@ -43,8 +44,8 @@ struct Diagnostics {
   double seconds = 0;                         // since the start of the run, clock time
 };
 
-/// Shows `visit` every number of a Diagnostics, const or not, but the clock time, in an order that stays: counts as
-/// long, the rest as double.
+/// Shows `visit` every number of a Diagnostics, const or not, but the clock time, in an order that
+/// stays: counts as long, the rest as double.
 template <class SomeDiagnostics, class Visit>
 void for_each_value(SomeDiagnostics& d, const Visit& visit) {
   for (auto* value : {&d.time, &d.step, &d.damping_work, &d.step_over_elastic_limit}) visit(*value);
@@ -71,8 +72,8 @@ struct RunResult {
   std::optional<Stop> stop;  // empty when the end was reached
 };
 
-/// All that a run remembers at a frame beside its system, method and schedule: what it takes to go on to the
-/// same bits.
+/// All that a run remembers at a frame beside its system, method and schedule: what it takes to go
+/// on to the same bits.
 struct Checkpoint {
   std::vector<State> past;    // what the method looks back on; the latest is the frame's state
   long frame = 0, steps = 0;  // so far; the start is frame 0
@@ -85,26 +86,29 @@ struct Checkpoint {
   double seconds = 0;         // clock time since the start of the run
 };
 
-/// Who watches. Empty functions are not called, and diagnostics that nobody watches are not computed.
+/// Who watches. Empty functions are not called, and diagnostics that nobody watches
+/// are not computed.
 struct Observer {
   std::function<void(const State&)> frame;  // at 0, every frame interval, and the end
   std::function<void(const Diagnostics&)> step;
-  std::function<void(const Checkpoint&)> checkpoint = {};  // after each frame and its row of diagnostics
+  // after each frame and its row of diagnostics
+  std::function<void(const Checkpoint&)> checkpoint = {};
 };
 
-/// Throws InputError for a schedule that cannot be kept (end < start, interval <= 0, safety <= 0, ...).
+/// Throws InputError for a schedule that cannot be kept (end < start, interval <= 0,
+/// safety <= 0, ...).
 RunResult simulate(const System& system, const Integrator& integrator, const State& start,
                    const Schedule& schedule, const Observer& observer);
 
-/// Goes on from a checkpoint of a run of the same system, integrator and schedule that was watched by as many
-/// functions. Frames, diagnostics but for clock time, later checkpoints and the result are those of the
-/// uninterrupted run, to the bit; what was handed out up to the checkpoint is not handed out again. Throws
-/// InputError for one without a state, or of other particles.
+/// Goes on from a checkpoint of a run of the same system, integrator and schedule that was watched
+/// by as many functions. Frames, diagnostics but for clock time, later checkpoints and the result
+/// are those of the uninterrupted run, to the bit; what was handed out up to the checkpoint is not
+/// handed out again. Throws InputError for one without a state, or of other particles.
 RunResult resume(const System& system, const Integrator& integrator, const Checkpoint& from,
                  const Schedule& schedule, const Observer& observer);
 
-/// The longest step [s] that the rule allows after these states. No step exceeds the one before by more than
-/// the integrator's largest_growth.
+/// The longest step [s] that the rule allows after these states. No step exceeds the one before by
+/// more than the integrator's largest_growth.
 ///   limit   the elastic limit at the latest of them [s]; a rule with a fixed step does not ask
 ///           for it
 double allowed_step(const System& system, const Integrator& integrator, std::span<const State> past,

@@ -21,8 +21,8 @@ System make_system(PerParticle mass) {
 void prescribe(System& system, const PrescribedParticle& particle) {
   const int i = particle.particle;
   if (!(i >= 0 && i < system.mass.size()))
-    throw InputError("cannot prescribe the motion of particle " + std::to_string(i) + ": there are " +
-                     std::to_string(system.mass.size()));
+    throw InputError("cannot prescribe the motion of particle " + std::to_string(i) +
+                     ": there are " + std::to_string(system.mass.size()));
   if (system.inverse_mass[i] == 0)
     throw InputError("the motion of particle " + std::to_string(i) + " is prescribed twice");
   system.inverse_mass[i] = 0;
@@ -40,7 +40,8 @@ double widened_limit(const System& system, const State& s, double limit) {
       forecast = std::min(forecast, force.shortest_forecast(s));
   });
   if (std::isinf(forecast)) return limit;
-  const double others = 2 / frequency_without_sticking_springs(system.forces, s, system.inverse_mass);
+  const double others =
+      2 / frequency_without_sticking_springs(system.forces, s, system.inverse_mass);
   return std::max(limit, std::min(others, 2 * forecast));
 }
 
@@ -55,7 +56,8 @@ void begin_step(const System& system, State& s) {
 Energies energies(const System& system, const State& s) {
   Energies e;
   e.kinetic = 0.5 * s.v.colwise().squaredNorm().dot(system.mass.transpose());
-  for_each_force(system.forces, [&](const auto& force) { e.*force.energy_term += force.energy(s); });
+  for_each_force(system.forces,
+                 [&](const auto& force) { e.*force.energy_term += force.energy(s); });
   return e;
 }
 

@@ -20,29 +20,32 @@ struct System {
   SolverSettings solver;
 };
 
-/// A system of free particles with these masses (N [kg], each > 0, else InputError), without forces.
+/// A system of free particles with these masses (N [kg], each > 0, else InputError),
+/// without forces.
 System make_system(PerParticle mass);
 
-/// Prescribes the motion of a particle. Throws InputError if it is prescribed already or does not exist.
+/// Prescribes the motion of a particle. Throws InputError if it is prescribed already or
+/// does not exist.
 void prescribe(System& system, const PrescribedParticle& particle);
 
-/// Largest stable step of the undamped motion by the bound on the elastic frequency: 2/omega [s]; infinite
-/// without stiffness.
+/// Largest stable step of the undamped motion by the bound on the elastic frequency: 2/omega [s];
+/// infinite without stiffness.
 double elastic_limit(const System& system, const State& s);
 
-/// The same for a scheme whose limit damping widens to h^2 K < 4 M + 2 h D (scheme C). In steps up to 2 tau_s
-/// the damping of sticking outweighs its stiffness: max(limit, min(2/omega without sticking's springs, 2
-/// tau_s)) [s].
+/// The same for a scheme whose limit damping widens to h^2 K < 4 M + 2 h D (scheme C). In steps up
+/// to 2 tau_s the damping of sticking outweighs its stiffness: max(limit, min(2/omega without
+/// sticking's springs, 2 tau_s)) [s].
 ///   limit   the elastic limit [s]
 double widened_limit(const System& system, const State& s, double limit);
 
-/// Once a step, before it: bonds of sticking form and break, and self-collision renews its cache of pairs.
-/// A second call changes nothing.
+/// Once a step, before it: bonds of sticking form and break, and self-collision renews its cache of
+/// pairs. A second call changes nothing.
 void begin_step(const System& system, State& s);
 
 Energies energies(const System& system, const State& s);  // J
 
-Vector3 linear_momentum(const System& system, const State& s);   // sum m v [kg m/s]
-Vector3 angular_momentum(const System& system, const State& s);  // sum m x x v about the origin [kg m^2/s]
+Vector3 linear_momentum(const System& system, const State& s);  // sum m v [kg m/s]
+// sum m x x v about the origin [kg m^2/s]
+Vector3 angular_momentum(const System& system, const State& s);
 
 }  // namespace foldproof

@@ -1,5 +1,5 @@
-// For speed alone: how many bits of a byte are set, from a table. Without the processor's own instruction
-// std::popcount is a call.
+// For speed alone: how many bits of a byte are set, from a table. Without the processor's own
+// instruction std::popcount is a call.
 #pragma once
 
 #include <array>

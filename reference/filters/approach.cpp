@@ -18,10 +18,11 @@ constexpr int max_planes = 1000;
 //                      second, each linear in tau, the time from t on. Whatever N is, this is a
 //                      proof; the nearest points only make it last long.
 //
-/// How long a plane with the normal N keeps the features at least `gap` [m] apart, from positions x on, at
-/// the rates `displacement`: infinite if they do not close, negative if it does not part them now.
-double separated_for(PairKind kind, const Corners4& x, const Corners4& displacement, const Vector3& N,
-                     double gap) {
+/// How long a plane with the normal N keeps the features at least `gap` [m] apart, from
+/// positions x on, at the rates `displacement`: infinite if they do not close, negative if it
+/// does not part them now.
+double separated_for(PairKind kind, const Corners4& x, const Corners4& displacement,
+                     const Vector3& N, double gap) {
   const Eigen::RowVector4d height = N.transpose() * x,
                            rate = N.transpose() * displacement;  // m, m per motion
   const int first = kind == PairKind::vertex_triangle ? 1 : 2;   // points of the first feature
@@ -37,8 +38,8 @@ double separated_for(PairKind kind, const Corners4& x, const Corners4& displacem
 
 }  // namespace
 
-std::optional<Approach> first_approach(PairKind kind, const Corners4& x, const Corners4& displacement,
-                                       double min_distance) {
+std::optional<Approach> first_approach(PairKind kind, const Corners4& x,
+                                       const Corners4& displacement, double min_distance) {
   // seen from one of the points, so that large coordinates and common motion cost no digits
   const Corners4 from = x.colwise() - Vector3(x.col(3)),
                  along = displacement.colwise() - Vector3(displacement.col(3));
@@ -46,7 +47,8 @@ std::optional<Approach> first_approach(PairKind kind, const Corners4& x, const C
   Nearness at = nearness(kind, from);
   // what is kept, when an approach is reported, and halfway between the two what planes promise [m]
   const double kept_distance = at.distance > min_distance ? min_distance : at.distance / 2;
-  const double report_distance = kept_distance + std::min(at.distance - kept_distance, kept_distance) / 2;
+  const double report_distance =
+      kept_distance + std::min(at.distance - kept_distance, kept_distance) / 2;
   const double plane_gap = (kept_distance + report_distance) / 2;
   for (int plane = 0; plane < max_planes && at.distance > report_distance; ++plane) {
     const double duration = separated_for(kind, from + t * along, along, at.normal, plane_gap);

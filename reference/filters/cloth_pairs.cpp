@@ -14,7 +14,8 @@ struct VertexOrEdge {
 };
 
 bool share_a_particle(const VertexOrEdge& f, const Triangle& t) {
-  return std::find(t.begin(), t.end(), f.a) != t.end() || std::find(t.begin(), t.end(), f.b) != t.end();
+  return std::find(t.begin(), t.end(), f.a) != t.end() ||
+         std::find(t.begin(), t.end(), f.b) != t.end();
 }
 
 /// Of each particle, the box over its straight way, widened by margin/2 on all sides.
@@ -22,7 +23,8 @@ std::vector<Bounds> particle_boxes(const PerParticle3& x, const PerParticle3& en
   const Vector3 wider = Vector3::Constant(margin / 2);
   std::vector<Bounds> boxes(static_cast<size_t>(x.cols()));
   for (Eigen::Index i = 0; i < x.cols(); ++i)
-    boxes[size_t(i)] = {x.col(i).cwiseMin(end.col(i)) - wider, x.col(i).cwiseMax(end.col(i)) + wider};
+    boxes[size_t(i)] = {x.col(i).cwiseMin(end.col(i)) - wider,
+                        x.col(i).cwiseMax(end.col(i)) + wider};
   return boxes;
 }
 
@@ -32,7 +34,8 @@ bool lie_within(const std::vector<Bounds>& boxes, const std::vector<Bounds>& lar
                     [](const Bounds& inner, const Bounds& outer) { return outer.contains(inner); });
 }
 
-/// Do the boxes of the two features overlap? Most do not along one of the first axes, where they are left.
+/// Do the boxes of the two features overlap? Most do not along one of the first axes,
+/// where they are left.
 bool overlap(const FeaturePair& pair, const std::vector<Bounds>& particles) {
   const int of_first = pair.kind == PairKind::vertex_triangle ? 1 : 2;
   std::array<const Bounds*, 4> boxes;
@@ -81,7 +84,8 @@ struct Search {
   void add_edges(const VertexOrEdge& e, const VertexOrEdge& f);
 };
 
-Search::Search(const ClothTree& of, std::vector<Bounds> particle_boxes, const std::vector<char>& which)
+Search::Search(const ClothTree& of, std::vector<Bounds> particle_boxes,
+               const std::vector<char>& which)
     : cloth(of), moved(which), particles(std::move(particle_boxes)) {
   triangles.resize(cloth.triangles.size());
   triangle_moved.assign(moved.empty() ? 0 : triangles.size(), 0);
@@ -106,7 +110,8 @@ Search::Search(const ClothTree& of, std::vector<Bounds> particle_boxes, const st
         take(triangles[t], triangle_moved, t);
       }
     } else {
-      for (const int child : {n + 1, node.right}) take(nodes[size_t(child)], node_moved, size_t(child));
+      for (const int child : {n + 1, node.right})
+        take(nodes[size_t(child)], node_moved, size_t(child));
     }
   }
 }
@@ -192,7 +197,8 @@ ClothTree make_cloth_tree(const TriangleMesh& mesh) {
     }
   // of an edge's two triangles, the first
   for (const Edge& edge : mesh.edges) {
-    cloth.mean_edge += (mesh.rest.col(edge.b) - mesh.rest.col(edge.a)).norm() / double(mesh.edges.size());
+    cloth.mean_edge +=
+        (mesh.rest.col(edge.b) - mesh.rest.col(edge.a)).norm() / double(mesh.edges.size());
     const size_t t = size_t(edge.triangles[0]);
     for (size_t k = 0; k < 3; ++k) {
       const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
@@ -202,8 +208,9 @@ ClothTree make_cloth_tree(const TriangleMesh& mesh) {
   return cloth;
 }
 
-std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& x, const PerParticle3& end,
-                                    double margin, const std::vector<char>& moved) {
+std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& x,
+                                    const PerParticle3& end, double margin,
+                                    const std::vector<char>& moved) {
   Search search(cloth, particle_boxes(x, end, margin), moved);
   search.within(0);
   return std::move(search.found);
@@ -217,11 +224,12 @@ bool cache_is_valid(const PairCache& cache, const PerParticle3& x, double margin
   return lie_within(particle_boxes(x, x, margin), cache.boxes);
 }
 
-std::optional<std::vector<FeaturePair>> pairs_from_cache(const PairCache& cache, const PerParticle3& x,
+std::optional<std::vector<FeaturePair>> pairs_from_cache(const PairCache& cache,
+                                                         const PerParticle3& x,
                                                          const PerParticle3& end, double margin,
                                                          const std::vector<char>& moved) {
-  // features whose boxes overlap now overlapped in the larger boxes, too; which pair comes first the tree
-  // alone decides
+  // features whose boxes overlap now overlapped in the larger boxes, too; which pair comes first
+  // the tree alone decides
   const std::vector<Bounds> boxes = particle_boxes(x, end, margin);
   if (!lie_within(boxes, cache.boxes)) return {};
   std::vector<FeaturePair> chosen;

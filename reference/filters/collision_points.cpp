@@ -20,8 +20,8 @@ void add_point(const std::vector<int>& particles, const PerParticle& inverse_mas
 
 }  // namespace
 
-std::vector<CollisionPoint> collision_points(const TriangleMesh& mesh, const PerParticle& inverse_mass,
-                                             PointKind kind) {
+std::vector<CollisionPoint> collision_points(const TriangleMesh& mesh,
+                                             const PerParticle& inverse_mass, PointKind kind) {
   std::vector<CollisionPoint> points;
   if (kind == PointKind::faces)
     for (const Triangle& t : mesh.triangles) add_point({t[0], t[1], t[2]}, inverse_mass, points);

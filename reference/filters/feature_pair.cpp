@@ -9,9 +9,9 @@ namespace foldproof {
 
 namespace {
 
-// Edges whose directions differ by less than this, squared sine, are taken for parallel; triangles whose area
-// is less than this share of what their sides could span, squared, for lines. What that hides is 1e-9 of
-// their size.
+// Edges whose directions differ by less than this, squared sine, are taken for parallel; triangles
+// whose area is less than this share of what their sides could span, squared, for lines. What that
+// hides is 1e-9 of their size.
 constexpr double nearly_parallel = 1e-18;
 
 /// Where along the edge from a to b the point p is nearest: 0 at a, 1 at b.
@@ -32,7 +32,9 @@ void keep_nearer(Nearness& nearest, const Corners4& x, const Eigen::Vector4d& we
   if (!(nearest.distance <= other.distance)) nearest = other;
 }
 
-Nearness no_nearness() { return {std::numeric_limits<double>::quiet_NaN(), Vector3(), Eigen::Vector4d()}; }
+Nearness no_nearness() {
+  return {std::numeric_limits<double>::quiet_NaN(), Vector3(), Eigen::Vector4d()};
+}
 
 //      x3         The vertex x0 over the triangle. The foot of its perpendicular has the weights
 //     /  \        w2, w3 (and w1 = 1 - w2 - w3); a negative weight says that it lies beyond the
@@ -69,10 +71,10 @@ Nearness vertex_triangle(const Corners4& x) {
 
 Eigen::Vector4d edge_weights(double a, double b) { return {1 - a, a, -(1 - b), -b}; }
 
-/// Two edges x0 x1 and x2 x3: nearest inside both, or at an end of one of them. Inside, x0 + a d and x2 + b e
-/// are nearest across N = d x e, so a = (x2 - x0) x e . N / |N|^2. Of nearly parallel edges rounding shifts a
-/// along them; the foot of that place on the other edge, and its foot in turn, are as near to each other as
-/// the nearest points are.
+/// Two edges x0 x1 and x2 x3: nearest inside both, or at an end of one of them. Inside, x0 + a d
+/// and x2 + b e are nearest across N = d x e, so a = (x2 - x0) x e . N / |N|^2. Of nearly parallel
+/// edges rounding shifts a along them; the foot of that place on the other edge, and its foot in
+/// turn, are as near to each other as the nearest points are.
 Nearness edge_edge(const Corners4& x) {
   const Vector3 d = x.col(1) - x.col(0), e = x.col(3) - x.col(2), r = x.col(2) - x.col(0);
   const Vector3 N = d.cross(e);  // m^2
@@ -81,7 +83,8 @@ Nearness edge_edge(const Corners4& x) {
     const double a = r.cross(e).dot(N) / size, b = r.cross(d).dot(N) / size;
     if (a >= 0 && a <= 1 && b >= 0 && b <= 1) {
       const double foot = nearest_along(x.col(0) + a * d, x.col(2), x.col(3));
-      return nearness_at(x, edge_weights(nearest_along(x.col(2) + foot * e, x.col(0), x.col(1)), foot));
+      return nearness_at(
+          x, edge_weights(nearest_along(x.col(2) + foot * e, x.col(0), x.col(1)), foot));
     }
   }
   Nearness nearest = no_nearness();

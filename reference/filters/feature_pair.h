@@ -1,5 +1,5 @@
-// Two features of the cloth, a vertex and a triangle or two edges: how near they are to each other, and
-// where.
+// Two features of the cloth, a vertex and a triangle or two edges: how near they are to each
+// other, and where.
 #pragma once
 
 #include <array>
@@ -13,26 +13,27 @@ enum class PairKind { vertex_triangle, edge_edge };
 /// Two features without a particle in common.
 struct FeaturePair {
   PairKind kind;
-  std::array<int, 4>
-      particles;  // the vertex and the triangle's corners; or the first edge's ends and the second's
+  // the vertex and the triangle's corners; or the first edge's ends and the second's
+  std::array<int, 4> particles;
 };
 
-using Corners4 = Eigen::Matrix<double, 3, 4>;  // columns: four points, in the order of FeaturePair [m]
+// columns: four points, in the order of FeaturePair [m]
+using Corners4 = Eigen::Matrix<double, 3, 4>;
 
 /// Columns of the pair's particles.
 Corners4 corners_of(const FeaturePair& pair, const PerParticle3& of);
 
 /// Where two features are nearest to each other:  sum_i weights_i x_i = distance normal.
-/// The weights are (1, -w1, -w2, -w3) for a vertex and the triangle's point w1 x1 + w2 x2 + w3 x3, and
-/// (1 - a, a, -(1 - b), -b) for the points x0 + a (x1 - x0) and x2 + b (x3 - x2) of two edges.
+/// The weights are (1, -w1, -w2, -w3) for a vertex and the triangle's point w1 x1 + w2 x2 + w3 x3,
+/// and (1 - a, a, -(1 - b), -b) for the points x0 + a (x1 - x0) and x2 + b (x3 - x2) of two edges.
 struct Nearness {
   double distance;          // m
   Vector3 normal;           // from the second feature to the first [1]; zero where they touch
   Eigen::Vector4d weights;  // 1
 };
 
-/// Triangles without area and edges without length or parallel to each other are as good as others: their
-/// sides and ends are asked.
+/// Triangles without area and edges without length or parallel to each other are as good as others:
+/// their sides and ends are asked.
 Nearness nearness(PairKind kind, const Corners4& x);
 
 }  // namespace foldproof

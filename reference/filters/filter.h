@@ -1,5 +1,5 @@
-// The hook of BMF03 section 3, "modify the velocity in place": strain limits, collisions, sticking attach
-// here.
+// The hook of BMF03 section 3, "modify the velocity in place": strain limits, collisions,
+// sticking attach here.
 #pragma once
 
 #include <functional>
@@ -15,22 +15,25 @@ namespace foldproof {
 
 /// A filter written on the spot.
 struct CustomFilter {
-  std::function<void(const Span& span, const State& s, PerParticle3& v)>
-      modify;  // v: 3 x N [m/s], corrected in place
+  // v: 3 x N [m/s], corrected in place
+  std::function<void(const Span& span, const State& s, PerParticle3& v)> modify;
 
-  void correct(const Span& span, const State& s, PerParticle3& v, Work&) const { modify(span, s, v); }
+  void correct(const Span& span, const State& s, PerParticle3& v, Work&) const {
+    modify(span, s, v);
+  }
 };
 
-/// A filter corrects the velocity v that moves the cloth from s over the span. It must leave prescribed
-/// particles alone.
+/// A filter corrects the velocity v that moves the cloth from s over the span. It must leave
+/// prescribed particles alone.
 template <class F>
-concept MotionFilter = requires(const F filter, const Span span, const State s, PerParticle3 v, Work work) {
+concept MotionFilter = requires(const F filter, const Span span, const State s, PerParticle3 v,
+                                Work work) {
   filter.correct(span, s, v, work);
 };
 
 using Filter = std::variant<StrainLimiter, ObjectCollision, SelfCollision, CustomFilter>;
-static_assert(MotionFilter<StrainLimiter> && MotionFilter<ObjectCollision> && MotionFilter<SelfCollision> &&
-              MotionFilter<CustomFilter>);
+static_assert(MotionFilter<StrainLimiter> && MotionFilter<ObjectCollision> &&
+              MotionFilter<SelfCollision> && MotionFilter<CustomFilter>);
 
 /// Applies the filters in their order.
 void correct(const std::vector<Filter>& filters, const Span& span, const State& s, PerParticle3& v,

@@ -33,7 +33,8 @@ void ImpactZones::join(const FeaturePair& pair) {
 
 bool ImpactZones::are_joined(const FeaturePair& pair) const {
   const int root = root_of(pair.particles[0]);
-  return std::all_of(pair.particles.begin(), pair.particles.end(), [&](int i) { return root_of(i) == root; });
+  return std::all_of(pair.particles.begin(), pair.particles.end(),
+                     [&](int i) { return root_of(i) == root; });
 }
 
 std::vector<std::vector<int>> ImpactZones::take_grown_zones() {
@@ -48,7 +49,8 @@ std::vector<std::vector<int>> ImpactZones::take_grown_zones() {
 
 long ImpactZones::zones() const {
   long count = 0;
-  for (int i = 0; i < int(parent_.size()); ++i) count += parent_[size_t(i)] == i && size_[size_t(i)] > 1;
+  for (int i = 0; i < int(parent_.size()); ++i)
+    count += parent_[size_t(i)] == i && size_[size_t(i)] > 1;
   return count;
 }
 
@@ -64,8 +66,8 @@ namespace {
 using Motion6 = Eigen::Matrix<double, 6, 1>;  // u, then omega times the zone's size: both m/s
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// A direction of the six whose share of the zone's inertia is less is no motion of it: a turn about the line
-// on which all its particles lie.
+// A direction of the six whose share of the zone's inertia is less is no motion of it: a turn about
+// the line on which all its particles lie.
 constexpr double no_motion = 1e-12;
 
 /// A zone's particles seen from its middle, in units of its size: v = J w with J = [1, -[r]x].
@@ -138,8 +140,8 @@ double move_as_one(const std::vector<int>& zone, const PerParticle3& x, const Pe
   // what the prescribed particles say first; momentum decides the rest
   const Solved by_led = solve(prescribed.left, prescribed.right, prescribed.left.trace());
   const Matrix6 onto = by_led.open * by_led.open.transpose();
-  const Solved by_momentum =
-      solve(onto * free.left * onto, onto * (free.right - free.left * by_led.motion), free.left.trace());
+  const Solved by_momentum = solve(
+      onto * free.left * onto, onto * (free.right - free.left * by_led.motion), free.left.trace());
   const Motion6 motion = by_led.motion + by_momentum.motion;
   double missed = 0;
   for (const int i : zone) {

@@ -1,5 +1,5 @@
-// Rigid impact zones: particles whose collisions impulses do not resolve move together (Provot 1997; Bridson,
-// Fedkiw, Anderson 2002, section 7.5).
+// Rigid impact zones: particles whose collisions impulses do not resolve move together (Provot
+// 1997; Bridson, Fedkiw, Anderson 2002, section 7.5).
 #pragma once
 
 #include <vector>
@@ -33,11 +33,12 @@ class ImpactZones {
   std::vector<char> grown_;  // N: of roots
 };
 
-/// Gives the zone's particles the velocities of a rigid motion, u + omega x (x - c), the one that keeps their
-/// linear and angular momentum: to rounding, of free ones. Prescribed particles keep theirs, and lead the
-/// zone where there are any. Along x + t v no two points of the zone meet, for any t, since the map 1 + t
-/// [omega]x has no kernel. x, v: 3 x N [m], [m/s]. Returns how far the motion misses the velocities of its
-/// prescribed particles [m/s]: rounding, unless these do not move as one.
+/// Gives the zone's particles the velocities of a rigid motion, u + omega x (x - c), the one that
+/// keeps their linear and angular momentum: to rounding, of free ones. Prescribed particles keep
+/// theirs, and lead the zone where there are any. Along x + t v no two points of the zone meet,
+/// for any t, since the map 1 + t [omega]x has no kernel. x, v: 3 x N [m], [m/s]. Returns how far
+/// the motion misses the velocities of its prescribed particles [m/s]: rounding, unless these do
+/// not move as one.
 double move_as_one(const std::vector<int>& zone, const PerParticle3& x, const PerParticle& mass,
                    const PerParticle& inverse_mass, PerParticle3& v);
 

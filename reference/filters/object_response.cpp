@@ -12,8 +12,8 @@ namespace {
 // Normals that differ by less than this, 5.7 degrees, have no surface between them worth the name.
 constexpr double least_difference_of_normals = 0.1;
 
-// Normals more than 120 degrees apart: objects that close on a point, out of whose way no corrections in turn
-// lead.
+// Normals more than 120 degrees apart: objects that close on a point, out of whose way no
+// corrections in turn lead.
 constexpr double facing = -0.5;
 
 // A point that would reach the surface within this part of the step is on it.
@@ -28,9 +28,9 @@ double forecast_distance(const ObjectPoint& at, const Vector3& v_p, double tau) 
   return at.phi + tau * (v_p - at.velocity).dot(at.normal);
 }
 
-/// Each object once, the one that the point is forecast to be deepest in first: an object that is not the
-/// nearest, but will be entered, is not forgotten. If the way out of one leads into another that faces it,
-/// the point is held between them.
+/// Each object once, the one that the point is forecast to be deepest in first: an object that is
+/// not the nearest, but will be entered, is not forgotten. If the way out of one leads into another
+/// that faces it, the point is held between them.
 Vector3 forecast_against_each(std::span<ObjectPoint> left, const MovingPoint& point) {
   Vector3 v = point.v;
   std::optional<ObjectPoint> before;
@@ -52,7 +52,8 @@ Vector3 forecast_against_each(std::span<ObjectPoint> left, const MovingPoint& po
 
 Vector3 forecast(std::span<ObjectPoint> answers, const MovingPoint& point) {
   const auto inside = [](const ObjectPoint& at) { return at.phi < 0; };
-  if (std::count_if(answers.begin(), answers.end(), inside) < 2) return forecast_against_each(answers, point);
+  if (std::count_if(answers.begin(), answers.end(), inside) < 2)
+    return forecast_against_each(answers, point);
   const Nearest nearest = nearest_of(answers);
   return velocity_between(nearest.first, nearest.second, point);
 }
@@ -68,8 +69,8 @@ Vector3 push_out_velocity(const ObjectPoint& at, const Vector3& v, double push) 
   return v + push * at.normal - (1 - kept_by_friction(at.friction, push, sliding.norm())) * sliding;
 }
 
-/// Put on the surface if it would be inside after the step; a velocity that ends the step loses its part into
-/// a surface that the point is on.
+/// Put on the surface if it would be inside after the step; a velocity that ends the step loses its
+/// part into a surface that the point is on.
 Vector3 projection(std::span<ObjectPoint> answers, const MovingPoint& point) {
   const double h = point.span.end - point.span.start;
   const ObjectPoint at = nearest_of(answers).first;
@@ -107,15 +108,19 @@ Vector3 forecast_velocity(const ObjectPoint& at, const Vector3& v_p, double tau)
 //        b
 Vector3 velocity_between(const ObjectPoint& a, const ObjectPoint& b, const MovingPoint& point) {
   const Vector3 across = a.normal - b.normal;
-  if (!(across.norm() > least_difference_of_normals)) return forecast_velocity(a, point.v, point.tau);
-  const double push_a = std::max(0.0, -forecast_distance(a, point.v, point.tau) / point.tau);  // m/s
+  if (!(across.norm() > least_difference_of_normals))
+    return forecast_velocity(a, point.v, point.tau);
+  // m/s
+  const double push_a = std::max(0.0, -forecast_distance(a, point.v, point.tau) / point.tau);
   const double push_b = std::max(0.0, -forecast_distance(b, point.v, point.tau) / point.tau);
 
   const Vector3 n = across.normalized();
-  const double psi_new = forecast_distance(a, point.v, point.tau) - forecast_distance(b, point.v, point.tau);
+  const double psi_new =
+      forecast_distance(a, point.v, point.tau) - forecast_distance(b, point.v, point.tau);
   const Vector3 relative = point.v - (a.velocity + b.velocity) / 2;
   const Vector3 sliding = relative - relative.dot(n) * n;
-  const double kept = kept_by_friction(1, a.friction * push_a + b.friction * push_b, sliding.norm());
+  const double kept =
+      kept_by_friction(1, a.friction * push_a + b.friction * push_b, sliding.norm());
   return point.v - psi_new / (point.tau * across.norm()) * n - (1 - kept) * sliding;
 }
 
@@ -127,7 +132,8 @@ const std::vector<Response>& responses() {
        "interface forecasting against the deepest or nearest object alone, pinched or not",
        QueryTime::at_start, forecast_deepest},
       {"projection", "points are put on the surface after the step", QueryTime::at_end, projection},
-      {"push_out", "points found inside after a step are given the velocity that takes them out in the next",
+      {"push_out",
+       "points found inside after a step are given the velocity that takes them out in the next",
        QueryTime::at_start, push_out},
   };
   return table;

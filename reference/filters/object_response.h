@@ -1,6 +1,6 @@
 // What a point of the cloth does about the objects that it is about to enter: the paper's interface
-// forecasting (BMF03 section 5.2), and others to compare it with: the same against one object only, and two that
-// are cruder.
+// forecasting (BMF03 section 5.2), and others to compare it with: the same against one object only,
+// and two that are cruder.
 #pragma once
 
 #include <span>
@@ -26,12 +26,12 @@ struct MovingPoint {
 /// Untouched, bit for bit, if phi_new >= 0. v_p [m/s], tau [s] > 0, mu is that of `at`.
 Vector3 forecast_velocity(const ObjectPoint& at, const Vector3& v_p, double tau);
 
-/// A point inside two objects, held on the surface between them: psi = phi_a - phi_b is forecast to be zero
-/// at the time tau ahead, by a velocity along N_a - N_b, inwards or outwards; along that surface it is free,
-/// but for friction against the mean of the two objects' velocities, with the two pushes that a and b would
-/// give alone as normal forces. So is a point that is not pinched yet if the way out of one object leads into
-/// another that faces it. Where N_a and N_b are nearly the same, there is no surface between: against a
-/// alone.
+/// A point inside two objects, held on the surface between them: psi = phi_a - phi_b is forecast to
+/// be zero at the time tau ahead, by a velocity along N_a - N_b, inwards or outwards; along that
+/// surface it is free, but for friction against the mean of the two objects' velocities, with the
+/// two pushes that a and b would give alone as normal forces. So is a point that is not pinched yet
+/// if the way out of one object leads into another that faces it. Where N_a and N_b are nearly the
+/// same, there is no surface between: against a alone.
 Vector3 velocity_between(const ObjectPoint& a, const ObjectPoint& b, const MovingPoint& point);
 
 /// Where a response asks the objects.
@@ -44,7 +44,8 @@ enum class QueryTime {
 struct Response {
   std::string_view name, about;
   QueryTime query_time;
-  Vector3 (*velocity)(std::span<ObjectPoint> answers, const MovingPoint& point);  // may reorder what is said
+  // may reorder what is said
+  Vector3 (*velocity)(std::span<ObjectPoint> answers, const MovingPoint& point);
 };
 
 /// The table of responses: the paper's first.

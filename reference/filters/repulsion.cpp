@@ -9,9 +9,11 @@ namespace {
 constexpr double overlap_per_step = 0.1;  // of the overlap, taken away in a step at most
 
 /// sum(w_i^2/m_i) [1/kg].
-double compliance(const FeaturePair& pair, const Eigen::Vector4d& weights, const PerParticle& inverse_mass) {
+double compliance(const FeaturePair& pair, const Eigen::Vector4d& weights,
+                  const PerParticle& inverse_mass) {
   double sum = 0;
-  for (int k = 0; k < 4; ++k) sum += weights[k] * weights[k] * inverse_mass[pair.particles[size_t(k)]];
+  for (int k = 0; k < 4; ++k)
+    sum += weights[k] * weights[k] * inverse_mass[pair.particles[size_t(k)]];
   return sum;
 }
 
@@ -43,14 +45,16 @@ struct ClosePair {
 
 bool inside_both(const Eigen::Vector4d& weights) { return (weights.array() != 0).all(); }
 
-/// Pairs within the thickness that carry. Where two layers lie flat on each other, the nearest points of most
-/// pairs are at ends and corners, with normals that lean: layers would catch on each other's edges when they
-/// slide. So two edges count where they are nearest inside both; a vertex counts over a triangle, and at a
-/// triangle's rim only if it is no nearer to another triangle, as over a fold or at the cloth's border.
-std::vector<ClosePair> load_bearing_pairs(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
-                                          double thickness) {
+/// Pairs within the thickness that carry. Where two layers lie flat on each other, the nearest
+/// points of most pairs are at ends and corners, with normals that lean: layers would catch on each
+/// other's edges when they slide. So two edges count where they are nearest inside both; a vertex
+/// counts over a triangle, and at a triangle's rim only if it is no nearer to another triangle, as
+/// over a fold or at the cloth's border.
+std::vector<ClosePair> load_bearing_pairs(const std::vector<FeaturePair>& pairs,
+                                          const PerParticle3& x, double thickness) {
   std::vector<ClosePair> close;
-  PerParticle nearest = PerParticle::Constant(x.cols(), thickness);  // of each vertex to a triangle [m]
+  // of each vertex to a triangle [m]
+  PerParticle nearest = PerParticle::Constant(x.cols(), thickness);
   for (const FeaturePair& pair : pairs) {
     const Nearness at = nearness(pair.kind, corners_of(pair, x));
     if (!(at.distance < thickness) || !(at.distance > 0)) continue;
@@ -79,7 +83,8 @@ long repel(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
     const double parting = relative.dot(at.normal),
                  wanted = overlap_per_step * overlap / h;  // v_N, 0.1 d/h [m/s]
     double after = std::max(0.0, parting);
-    if (after < wanted) after += std::min(h * settings.stiffness * overlap * pair_compliance, wanted - after);
+    if (after < wanted)
+      after += std::min(h * settings.stiffness * overlap * pair_compliance, wanted - after);
     const double push = after - parting;
     if (!(push > 0) || !(pair_compliance > 0)) continue;
     push_apart(pair, at.weights,

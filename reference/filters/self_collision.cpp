@@ -11,10 +11,11 @@ namespace foldproof {
 
 namespace {
 
-constexpr double min_distance_share = 0.1;  // of the thickness: the distance that no motion may undercut
-constexpr double spare_share = 0.12;        // of the mean edge: the margin to spare of the cache
-constexpr double untangling_time =
-    0.01;  // s: in it what pierces moves by a thickness against what it pierces
+// of the thickness: the distance that no motion may undercut
+constexpr double min_distance_share = 0.1;
+constexpr double spare_share = 0.12;  // of the mean edge: the margin to spare of the cache
+// s: in it what pierces moves by a thickness against what it pierces
+constexpr double untangling_time = 0.01;
 
 /// The motion of one step, and what is done to keep it free of crossings.
 struct Step {
@@ -24,8 +25,8 @@ struct Step {
   double h;  // s
   Work& work;
   const std::vector<char>& tangled;  // N, or empty: particles that are left to pass each other
-  std::vector<char> moved =
-      {};  // N: particles whose velocity was changed since all pairs were last asked; empty: all
+  // N: particles whose velocity was changed since all pairs were last asked; empty: all
+  std::vector<char> moved = {};
 
   double min_distance() const { return min_distance_share * filter.settings.thickness; }  // m
   std::vector<FeaturePair> pairs() const;
@@ -37,8 +38,9 @@ struct Step {
 };
 
 /// near_pairs, from the filter's cache where it reaches.
-std::vector<FeaturePair> pairs_of(const SelfCollision& filter, const PerParticle3& x, const PerParticle3& end,
-                                  double margin, const std::vector<char>& moved = {}) {
+std::vector<FeaturePair> pairs_of(const SelfCollision& filter, const PerParticle3& x,
+                                  const PerParticle3& end, double margin,
+                                  const std::vector<char>& moved = {}) {
   if (const std::shared_ptr<const PairCache> cache = filter.cache->load())
     if (auto cached = pairs_from_cache(*cache, x, end, margin, moved)) return std::move(*cached);
   return near_pairs(filter.cloth, x, end, margin, moved);
@@ -71,23 +73,25 @@ long Step::resolve_all(int round) {
   return resolved;
 }
 
-/// The impulse between the points that would meet, along the line between them then. In the first round they
-/// may come as near as the thickness, where repulsion awaits them; after it their approach is stopped.
-/// Friction as in repulsion.
+/// The impulse between the points that would meet, along the line between them then. In the first
+/// round they may come as near as the thickness, where repulsion awaits them; after it their
+/// approach is stopped. Friction as in repulsion.
 void Step::resolve(const FeaturePair& pair, const Approach& contact, int round) {
   const Vector3& N = contact.at.normal;
-  const double gap = (corners_of(pair, s.x) * contact.at.weights).dot(N);  // along it, at the start [m]
+  // along it, at the start [m]
+  const double gap = (corners_of(pair, s.x) * contact.at.weights).dot(N);
   const Vector3 relative = corners_of(pair, v) * contact.at.weights;
-  const double allowed = round > 0 ? 0 : std::min(0.0, (filter.settings.thickness - gap) / h);  // m/s
+  // m/s
+  const double allowed = round > 0 ? 0 : std::min(0.0, (filter.settings.thickness - gap) / h);
   const double push = allowed - relative.dot(N);
   if (!(push > 0)) return;
   push_apart(pair, contact.at.weights,
-             push * N + friction_impulse(relative, N, push, filter.settings.friction), filter.inverse_mass,
-             v);
+             push * N + friction_impulse(relative, N, push, filter.settings.friction),
+             filter.inverse_mass, v);
 }
 
-/// Joins what still comes together; false if nothing does. leads: prescribed particles that no zone's motion
-/// meets.
+/// Joins what still comes together; false if nothing does. leads: prescribed particles that no
+/// zone's motion meets.
 bool Step::join_approaching_pairs(ImpactZones& zones, std::vector<char>& is_off_its_path) {
   bool any = false;
   for (const FeaturePair& pair : pairs()) {
@@ -110,7 +114,8 @@ void Step::move_zones(ImpactZones& zones, std::vector<char>& is_off_its_path) {
     const double deviation = move_as_one(zone, s.x, filter.mass, filter.inverse_mass, v);
     for (const int i : zone) {
       moved[size_t(i)] = 1;
-      is_off_its_path[size_t(i)] = filter.inverse_mass[i] == 0 && h * deviation > 1e-6 * min_distance();
+      is_off_its_path[size_t(i)] =
+          filter.inverse_mass[i] == 0 && h * deviation > 1e-6 * min_distance();
     }
   }
 }
@@ -122,7 +127,8 @@ void SelfCollision::update_pair_cache(const State& s) const {
   const std::shared_ptr<const PairCache> latest = cache->load();
   // half of it is left for the step to come
   if (latest && cache_is_valid(*latest, s.x, settings.thickness + spare / 2)) return;
-  cache->store(std::make_shared<const PairCache>(make_pair_cache(cloth, s.x, settings.thickness + spare)));
+  cache->store(
+      std::make_shared<const PairCache>(make_pair_cache(cloth, s.x, settings.thickness + spare)));
 }
 
 void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, Work& work) const {
@@ -133,7 +139,8 @@ void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, W
     const CrossingTriangles crossing = self_intersections(s.x, cloth.triangles);
     if (!crossing.empty()) tangled = tangled_particles(crossing, cloth.triangles, s.x.cols());
     if (!crossing.empty()) remove_tangled_pairs(tangled, close);
-    push_out_of_tangle(crossing, cloth.triangles, s.x, settings.thickness / untangling_time, inverse_mass, v);
+    push_out_of_tangle(crossing, cloth.triangles, s.x, settings.thickness / untangling_time,
+                       inverse_mass, v);
   }
   work.close_pairs += repel(close, s.x, settings, h, inverse_mass, v);
   if (!(span.end > span.start)) return;
@@ -144,7 +151,8 @@ void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, W
 
   ImpactZones zones(s.x.cols());
   std::vector<char> is_off_its_path(size_t(s.x.cols()), 0);
-  while (step.join_approaching_pairs(zones, is_off_its_path)) step.move_zones(zones, is_off_its_path);
+  while (step.join_approaching_pairs(zones, is_off_its_path))
+    step.move_zones(zones, is_off_its_path);
   work.zones += zones.zones();
   work.zone_particles += zones.particles();
 }

@@ -12,8 +12,8 @@ namespace foldproof {
 
 namespace {
 
-// A predicted length this near to a limit is at it: a corrected spring is, to rounding, and is not corrected
-// again.
+// A predicted length this near to a limit is at it: a corrected spring is, to rounding, and is not
+// corrected again.
 constexpr double at_the_limit = 8 * std::numeric_limits<double>::epsilon();
 
 /// What the springs of a sweep were found to be, before they were corrected.
@@ -43,10 +43,10 @@ struct Correction {
 //   s^2 d.d + 2 s p.d + p.p - T^2 = 0,   with the roots
 //   s = (-p.d +- r)/d.d,   r^2 = (p.d)^2 - d.d (p.p - T^2) = d.d T^2 - h^2 |d x u|^2
 //
-// We take that with +r: then (p + s d).d = r >= 0, the spring points the way it does now. It is written so
-// that nothing cancels. If the part of h u across d is longer than T, only beyond the upper limit, there is
-// no root: r = 0 then gives the least length that can be reached, to which the root tends when T is barely
-// reached.
+// We take that with +r: then (p + s d).d = r >= 0, the spring points the way it does now. It is
+// written so that nothing cancels. If the part of h u across d is longer than T, only beyond the
+// upper limit, there is no root: r = 0 then gives the least length that can be reached, to which
+// the root tends when T is barely reached.
 Correction correction_of(const Vector3& d, const Vector3& u, double h, double limit) {
   Correction result;
   const Vector3 p = d + h * u;
@@ -96,8 +96,8 @@ class Sweeps {
   }
 
  private:
-  /// What the spring needs; a violation of 0 if it is within its limits, which no square root is needed to
-  /// see.
+  /// What the spring needs; a violation of 0 if it is within its limits, which no square root
+  /// is needed to see.
   Correction needed_correction(const LimitedSpring& spring) const {
     const Vector3 d = x_.col(spring.b) - x_.col(spring.a), u = v_.col(spring.b) - v_.col(spring.a);
     const double L0 = spring.rest_length, squared = (d + h_ * u).squaredNorm();
@@ -117,8 +117,8 @@ class Sweeps {
     if (wb > 0) v_.col(spring.b) += wb * change;
   }
 
-  /// Counts what is asked for; false if there is nothing to be done: within the limits, both ends prescribed,
-  /// or without length, which has no direction.
+  /// Counts what is asked for; false if there is nothing to be done: within the limits, both ends
+  /// prescribed, or without length, which has no direction.
   bool record(const LimitedSpring& spring, const Correction& needed, SweepResult& result) const {
     if (needed.violation == 0) return false;
     update_worst(result.violation, needed.violation);
@@ -134,22 +134,25 @@ class Sweeps {
     if (record(spring, needed, result)) push(spring, needed.share);
   }
 
-  /// A coloured sweep on threads: same bits, since springs of a colour share no particle and are sorted by
-  /// colour.
+  /// A coloured sweep on threads: same bits, since springs of a colour share no particle and are
+  /// sorted by colour.
   SweepResult on_threads() {
     std::vector<SweepResult> result(size_t(limiter_.limits.threads));
-    run_colours_on_threads(limiter_.colours, limiter_.limits.threads, [&](int first, int last, int thread) {
-      for (int i = first; i < last; ++i) correct(limiter_.springs[size_t(i)], result[size_t(thread)]);
-    });
+    run_colours_on_threads(limiter_.colours, limiter_.limits.threads,
+                           [&](int first, int last, int thread) {
+                             for (int i = first; i < last; ++i)
+                               correct(limiter_.springs[size_t(i)], result[size_t(thread)]);
+                           });
     SweepResult sum;
     for (const SweepResult& part : result) sum.add(part);
     return sum;
   }
 
-  // Of n impulses that meet at a particle each gives an n-th, and the same at its other end, or momentum
-  // would not be kept. Near the limits a full impulse is a projection P_i, in the norm weighted with masses,
-  // that acts on two particles; so sum_i P_i/n_i is at most one and the sweep a mean of projections: it never
-  // leads away from velocities within the limits, and converges to such where there are any.
+  // Of n impulses that meet at a particle each gives an n-th, and the same at its other end, or
+  // momentum would not be kept. Near the limits a full impulse is a projection P_i, in the norm
+  // weighted with masses, that acts on two particles; so sum_i P_i/n_i is at most one and the sweep
+  // a mean of projections: it never leads away from velocities within the limits, and converges to
+  // such where there are any.
   SweepResult jacobi_sweep() {
     const std::vector<LimitedSpring>& springs = limiter_.springs;
     SweepResult result;
@@ -178,7 +181,8 @@ class Sweeps {
 
 }  // namespace
 
-StrainSweeps limit_strain(const StrainLimiter& limiter, double h, const PerParticle3& x, PerParticle3& v) {
+StrainSweeps limit_strain(const StrainLimiter& limiter, double h, const PerParticle3& x,
+                          PerParticle3& v) {
   Sweeps sweeps(limiter, h, x, v);
   StrainSweeps done;
   while (true) {

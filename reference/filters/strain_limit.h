@@ -1,5 +1,5 @@
-// Strain limits: springs may not leave [1 - compression, 1 + extension] of their rest length over the coming
-// step (BMF03 section 3, after Provot 1995).
+// Strain limits: springs may not leave [1 - compression, 1 + extension] of their rest length over
+// the coming step (BMF03 section 3, after Provot 1995).
 #pragma once
 
 #include <vector>
@@ -14,8 +14,10 @@ namespace foldproof {
 enum class SweepOrder {
   gauss_seidel,  // one after the other, by the particles that they join
   alternating,   // the same, every other sweep backwards
-  coloured,  // colour by colour, no two springs of a colour sharing a particle: threads may share a colour
-  jacobi  // all from the same velocities, each impulse divided by the number of those that meet at its ends
+  // colour by colour, no two springs of a colour sharing a particle: threads may share a colour
+  coloured,
+  // all from the same velocities, each impulse divided by the number of those that meet at its ends
+  jacobi
 };
 
 struct StrainLimits {
@@ -32,14 +34,14 @@ struct LimitedSpring {
   double rest_length;  // L0 [m]
 };
 
-/// The filter: for each spring the length that velocities predict for the end of a step, |d + h dv|, is
-/// brought back to the limit that it is beyond, by equal and opposite impulses along the current d. So one
-/// call keeps linear and angular momentum, to rounding; prescribed particles, and springs within rounding of
-/// their limits, it leaves bit for bit as they are.
+/// The filter: for each spring the length that velocities predict for the end of a step, |d + h
+/// dv|, is brought back to the limit that it is beyond, by equal and opposite impulses along the
+/// current d. So one call keeps linear and angular momentum, to rounding; prescribed particles, and
+/// springs within rounding of their limits, it leaves bit for bit as they are.
 struct StrainLimiter {
   StrainLimits limits;
-  std::vector<LimitedSpring>
-      springs;               // sorted by (colour, a, b); there is one colour if the order is not coloured
+  // sorted by (colour, a, b); there is one colour if the order is not coloured
+  std::vector<LimitedSpring> springs;
   std::vector<int> colours;  // where in `springs` each colour begins, and their number at the end
   PerParticle inverse_mass;  // N [1/kg], 0 for prescribed particles
 
@@ -54,13 +56,15 @@ StrainLimiter make_strain_limiter(const StrainLimits& limits, const std::vector<
 /// What a call did.
 struct StrainSweeps {
   int sweeps = 0;  // the one that found nothing to do included
-  /// Largest violation of a limit, over the rest length; <= the tolerance unless sweeps ran out, or what is left is
-  /// held at both ends [1].
+  /// Largest violation of a limit, over the rest length; <= the tolerance unless sweeps ran out, or
+  /// what is left is held at both ends [1].
   double remaining_violation = 0;
-  long unreachable = 0;  // springs of the last sweep that no impulse along them brings within their limits
+  // springs of the last sweep that no impulse along them brings within their limits
+  long unreachable = 0;
 };
 
 /// Corrects v (3 x N [m/s]), which moves x (3 x N [m]) for a step of h [s].
-StrainSweeps limit_strain(const StrainLimiter& limiter, double h, const PerParticle3& x, PerParticle3& v);
+StrainSweeps limit_strain(const StrainLimiter& limiter, double h, const PerParticle3& x,
+                          PerParticle3& v);
 
 }  // namespace foldproof

@@ -12,7 +12,8 @@ namespace {
 void check(const StrainLimits& limits) {
   const auto reject = [](const std::string& why) { throw InputError("strain limits: " + why); };
   if (!(limits.extension >= 0)) reject("extension must be a number >= 0");
-  if (!(limits.compression >= 0 && limits.compression < 1)) reject("compression must lie in [0, 1)");
+  if (!(limits.compression >= 0 && limits.compression < 1))
+    reject("compression must lie in [0, 1)");
   if (!(limits.tolerance > 0)) reject("tolerance must be > 0");
   if (limits.sweeps < 1) reject("at least one sweep is needed");
   if (!(limits.threads >= 1 && limits.threads <= 256)) reject("threads must lie in 1 .. 256");
@@ -26,7 +27,8 @@ std::vector<int> colours_of(const std::vector<LimitedSpring>& springs, Eigen::In
   for (const LimitedSpring& spring : springs) {
     auto &at_a = taken[size_t(spring.a)], &at_b = taken[size_t(spring.b)];
     size_t colour = 0;
-    while ((colour < at_a.size() && at_a[colour]) || (colour < at_b.size() && at_b[colour])) ++colour;
+    while ((colour < at_a.size() && at_a[colour]) || (colour < at_b.size() && at_b[colour]))
+      ++colour;
     for (auto* at : {&at_a, &at_b}) {
       if (at->size() <= colour) at->resize(colour + 1, false);
       (*at)[colour] = true;
@@ -39,7 +41,8 @@ std::vector<int> colours_of(const std::vector<LimitedSpring>& springs, Eigen::In
 /// Sorts the springs by colour, keeps their order within each, and says where each begins.
 void group_by_colour(StrainLimiter& limiter) {
   const std::vector<int> colour_of = colours_of(limiter.springs, limiter.inverse_mass.size());
-  const int count = colour_of.empty() ? 0 : 1 + *std::max_element(colour_of.begin(), colour_of.end());
+  const int count =
+      colour_of.empty() ? 0 : 1 + *std::max_element(colour_of.begin(), colour_of.end());
   std::vector<LimitedSpring> grouped;
   limiter.colours = {0};
   for (int colour = 0; colour < count; ++colour) {
@@ -56,7 +59,8 @@ StrainLimiter make_strain_limiter(const StrainLimits& limits, const std::vector<
                                   const PerParticle& inverse_mass) {
   check(limits);
   StrainLimiter limiter{limits, {}, {}, inverse_mass};
-  for (const Spring& spring : springs) limiter.springs.push_back({spring.a, spring.b, spring.rest_length});
+  for (const Spring& spring : springs)
+    limiter.springs.push_back({spring.a, spring.b, spring.rest_length});
   const auto places = [](const LimitedSpring& s) { return std::tuple(s.a, s.b); };
   std::stable_sort(limiter.springs.begin(), limiter.springs.end(),
                    [&](const auto& one, const auto& other) { return places(one) < places(other); });

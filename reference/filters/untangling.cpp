@@ -31,7 +31,8 @@ void add_piercings(const PerParticle3& x, const Triangle& s, const Triangle& t,
     const double along = (t0 - from).dot(n) / e.dot(n);
     if (!(along >= 0 && along <= 1)) continue;
     const Vector3 r = from + along * e - t0;
-    const double w1 = r.cross(e2).dot(n) / n.squaredNorm(), w2 = e1.cross(r).dot(n) / n.squaredNorm();
+    const double w1 = r.cross(e2).dot(n) / n.squaredNorm(),
+                 w2 = e1.cross(r).dot(n) / n.squaredNorm();
     if (!(w1 >= 0 && w2 >= 0 && w1 + w2 <= 1)) continue;
     const Vector3 inward = x.col(c) - from - (x.col(c) - from).dot(e) / e.squaredNorm() * e;
     const Vector3 R = (line.dot(inward) > 0 ? line : Vector3(-line)).normalized();
@@ -66,7 +67,8 @@ std::string list_triangles(const CrossingTriangles& crossing) {
   return crossing.size() > 5 ? text + ", ..." : text;
 }
 
-std::vector<char> tangled_particles(const CrossingTriangles& crossing, const std::vector<Triangle>& triangles,
+std::vector<char> tangled_particles(const CrossingTriangles& crossing,
+                                    const std::vector<Triangle>& triangles,
                                     Eigen::Index particles) {
   std::vector<char> tangled(size_t(particles), 0);
   for (const auto& [s, t] : crossing)

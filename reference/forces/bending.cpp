@@ -10,8 +10,8 @@ namespace foldproof {
 
 namespace {
 
-// Squared height over edge below which a triangle counts as degenerate: at 1e-10 of the edge rounding has
-// eaten the normal.
+// Squared height over edge below which a triangle counts as degenerate: at 1e-10 of the edge
+// rounding has eaten the normal.
 constexpr double smallest_height_squared = 1e-20;
 
 void add_forces(const std::array<int, 4>& particles, const HingeShape& shape, double magnitude,
@@ -31,8 +31,8 @@ double sine_magnitude(double theta, double rest_angle) {
 double sine_slope(double theta, double) { return 0.5 * std::cos(theta / 2); }
 
 double sine_potential(double theta, double rest_angle) {
-  // 2 (cos(theta0/2) - cos(theta/2)) as a product of sines, which loses no digits near a rest angle of 0;
-  // near others a share of about tan(theta0/2)/(theta - theta0) of a rounding
+  // 2 (cos(theta0/2) - cos(theta/2)) as a product of sines, which loses no digits near a rest angle
+  // of 0; near others a share of about tan(theta0/2)/(theta - theta0) of a rounding
   return 4 * std::sin((theta + rest_angle) / 4) * std::sin((theta - rest_angle) / 4) -
          std::sin(rest_angle / 2) * (theta - rest_angle);
 }
@@ -54,8 +54,9 @@ double cubic_potential(double theta, double rest_angle) {
 }  // namespace
 
 const std::vector<BendingLaw>& bending_laws() {
-  static const std::vector<BendingLaw> laws = {{"sine", sine_magnitude, sine_slope, sine_potential},
-                                               {"cubic", cubic_magnitude, cubic_slope, cubic_potential}};
+  static const std::vector<BendingLaw> laws = {
+      {"sine", sine_magnitude, sine_slope, sine_potential},
+      {"cubic", cubic_magnitude, cubic_slope, cubic_potential}};
   return laws;
 }
 
@@ -71,8 +72,10 @@ const BendingLaw& bending_law(std::string_view name) {
 HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4) {
   const Vector3 E = x4 - x3, to1 = x1 - x4, to2 = x2 - x4;
   const Vector3 N1 = (x1 - x3).cross(to1), N2 = to2.cross(x2 - x3);
-  const double E_squared = E.squaredNorm(), N1_squared = N1.squaredNorm(), N2_squared = N2.squaredNorm();
-  const Eigen::Array2d length = Eigen::Array2d(N1_squared, N2_squared).sqrt(), per_length = 1 / length;
+  const double E_squared = E.squaredNorm(), N1_squared = N1.squaredNorm(),
+               N2_squared = N2.squaredNorm();
+  const Eigen::Array2d length = Eigen::Array2d(N1_squared, N2_squared).sqrt(),
+                       per_length = 1 / length;
   const double edge = std::sqrt(E_squared), per_edge_squared = 1 / E_squared;
   const double per_length1 = per_length[0], per_length2 = per_length[1];
 
@@ -86,13 +89,14 @@ HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, 
   const double smallest = smallest_height_squared * E_squared * E_squared;
   shape.degenerate = !(N1_squared > smallest && N2_squared > smallest);
 
-  // sin(theta) = (n1 x n2).e^ is the height of x2 below the first triangle's plane over its distance from the
-  // edge. Folded less than a right angle, sin(theta/2) = sin(theta)/(2 cos(theta/2)): exactly 0 when flat, no
-  // digit lost beside it. Beyond, the printed sqrt((1 - n1.n2)/2), which is accurate just there.
+  // sin(theta) = (n1 x n2).e^ is the height of x2 below the first triangle's plane over its
+  // distance from the edge. Folded less than a right angle, sin(theta/2) = sin(theta)/(2
+  // cos(theta/2)): exactly 0 when flat, no digit lost beside it. Beyond, the printed sqrt((1 -
+  // n1.n2)/2), which is accurate just there.
   const double cosine = N1.dot(N2) * (per_length1 * per_length2);
   const double sine = N1.dot(x3 - x2) * (edge * per_length1 * per_length2);
-  shape.sin_half =
-      cosine >= 0 ? sine / std::sqrt(2 + 2 * cosine) : std::copysign(std::sqrt(0.5 - 0.5 * cosine), sine);
+  shape.sin_half = cosine >= 0 ? sine / std::sqrt(2 + 2 * cosine)
+                               : std::copysign(std::sqrt(0.5 - 0.5 * cosine), sine);
   return shape;
 }
 
@@ -104,7 +108,8 @@ double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, cons
 HingeShape checked_hinge_shape(const BendingHinge& hinge, const PerParticle3& x) {
   const auto [i1, i2, i3, i4] = hinge.particles;
   const HingeShape shape = hinge_shape(x.col(i1), x.col(i2), x.col(i3), x.col(i4));
-  if (shape.degenerate) throw DegenerateElement("a triangle of a hinge has lost its area", {i1, i2, i3, i4});
+  if (shape.degenerate)
+    throw DegenerateElement("a triangle of a hinge has lost its area", {i1, i2, i3, i4});
   return shape;
 }
 
@@ -114,7 +119,8 @@ double angle_of(const BendingHinge& hinge, const PerParticle3& x) {
 }
 
 double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting) {
-  return weighting == Weighting::rest ? hinge.rest_weight : shape.edge * shape.edge / shape.area_sum;
+  return weighting == Weighting::rest ? hinge.rest_weight
+                                      : shape.edge * shape.edge / shape.area_sum;
 }
 
 Eigen::Matrix<double, 3, 4> bending_mode(const HingeShape& shape) {
@@ -126,7 +132,8 @@ Eigen::Matrix<double, 3, 4> bending_mode(const HingeShape& shape) {
   return u;
 }
 
-// Flattened, here and below: the loop holds hinge_shape itself, whose result would else pass through memory.
+// Flattened, here and below: the loop holds hinge_shape itself, whose result would else pass
+// through memory.
 [[gnu::flatten]] void Bending::add_elastic(const State& s, PerParticle3& f) const {
   const BendingLaw& law = bending_law(material.law);
   const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
@@ -144,8 +151,8 @@ double Bending::energy(const State& s) const {
   double sum = 0;
   for (const BendingHinge& hinge : hinges) {
     const HingeShape shape = checked_hinge_shape(hinge, s.x);
-    sum +=
-        weight_of(hinge, shape, material.weighting) * law.potential(angle_of(hinge, s.x), hinge.rest_angle);
+    sum += weight_of(hinge, shape, material.weighting) *
+           law.potential(angle_of(hinge, s.x), hinge.rest_angle);
   }
   return material.stiffness * sum;
 }
@@ -159,24 +166,27 @@ double Bending::energy(const State& s) const {
                               ? shape.edge
                               : shape.edge * shape.edge / shape.area_sum;
     const double root = std::sqrt(material.damping * factor);
-    damping.hinges.push_back({hinge.particles, shape.b1, shape.b2, root * shape.u1, root * shape.u2});
+    damping.hinges.push_back(
+        {hinge.particles, shape.b1, shape.b2, root * shape.u1, root * shape.u2});
   }
 }
 
 namespace {
 
-/// Bounds on the rows of grad u, for each particle i the sum over j of |du_i/dx_j| [1/m^2]. With l_km the
-/// distance from x_k to x_m, e = |E|, and d(N/|N|^2) = dN/|N|^2 in size, u_k = |E| N_k/|N_k|^2 gives for k =
+/// Bounds on the rows of grad u, for each particle i the sum over j of |du_i/dx_j| [1/m^2]. With
+/// l_km the distance from x_k to x_m, e = |E|, and d(N/|N|^2) = dN/|N|^2 in size, u_k = |E|
+/// N_k/|N_k|^2 gives for k =
 /// 1, 2
 ///   |du_k/dx_k| = |u_k|^2,   |du_k/dx_3| <= g_k4,   |du_k/dx_4| <= g_k3,
 ///   g_km = |u_k|^2 l_km/e + |u_k|/e,
-/// the same for du_3/dx_k and du_4/dx_k since grad u is symmetric, and, with |db_k/dx_3| = l_k4/e^2 and
-/// |db_k/dx_4| = l_k3/e^2, the rest from u_3 = -(b_1 u_1 + b_2 u_2) and u_4 = -((1 - b_1) u_1 + (1 - b_2)
-/// u_2).
+/// the same for du_3/dx_k and du_4/dx_k since grad u is symmetric, and, with |db_k/dx_3| = l_k4/e^2
+/// and |db_k/dx_4| = l_k3/e^2, the rest from u_3 = -(b_1 u_1 + b_2 u_2) and u_4 = -((1 - b_1) u_1 +
+/// (1 - b_2) u_2).
 Eigen::Vector4d mode_gradient_rows(const HingeShape& shape, const std::array<int, 4>& particles,
                                    const PerParticle3& x) {
   const Vector3 x3 = x.col(particles[2]), x4 = x.col(particles[3]);
-  const double e = shape.edge, size[2] = {shape.u1.norm(), shape.u2.norm()}, b[2] = {shape.b1, shape.b2};
+  const double e = shape.edge, size[2] = {shape.u1.norm(), shape.u2.norm()},
+               b[2] = {shape.b1, shape.b2};
   Eigen::Vector4d rows = Eigen::Vector4d::Zero();
   for (int k = 0; k < 2; ++k) {
     const double to3 = (x.col(particles[size_t(k)]) - x3).norm(),
@@ -194,19 +204,20 @@ Eigen::Vector4d mode_gradient_rows(const HingeShape& shape, const std::array<int
 }  // namespace
 
 [[gnu::flatten]] void Bending::add_stiffness_bound(const State& s, PerParticle& rows) const {
-  // One hinge's stiffness matrix is ke c (magnitude' u u^T - magnitude grad u). A row of the first sums to
-  // |u_i| sum |u_j|; the second counts where a hinge is far from its rest angle. With current weighting the
-  // change of c itself is left out.
+  // One hinge's stiffness matrix is ke c (magnitude' u u^T - magnitude grad u). A row of the first
+  // sums to |u_i| sum |u_j|; the second counts where a hinge is far from its rest angle. With
+  // current weighting the change of c itself is left out.
   const BendingLaw& law = bending_law(material.law);
   const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
   for (const BendingHinge& hinge : hinges) {
     const HingeShape shape = checked_hinge_shape(hinge, s.x);
     const double weight = material.stiffness * weight_of(hinge, shape, material.weighting);
     const double theta = is_sine ? 0 : angle_of(hinge, s.x);
-    const double slope = is_sine ? 0.5 * std::sqrt(std::max(0.0, 1 - shape.sin_half * shape.sin_half))
-                                 : std::abs(law.slope(theta, hinge.rest_angle));
-    const double magnitude =
-        std::abs(is_sine ? shape.sin_half - hinge.sin_half_rest : law.magnitude(theta, hinge.rest_angle));
+    const double slope = is_sine
+                             ? 0.5 * std::sqrt(std::max(0.0, 1 - shape.sin_half * shape.sin_half))
+                             : std::abs(law.slope(theta, hinge.rest_angle));
+    const double magnitude = std::abs(is_sine ? shape.sin_half - hinge.sin_half_rest
+                                              : law.magnitude(theta, hinge.rest_angle));
     const Eigen::Vector4d norms = bending_mode(shape).colwise().norm();
     const Eigen::Vector4d sums =
         slope * norms.sum() * norms + magnitude * mode_gradient_rows(shape, hinge.particles, s.x);
@@ -237,7 +248,8 @@ Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material,
   bending.hinges.reserve(mesh.hinges.size());
   for (size_t h = 0; h < mesh.hinges.size(); ++h) {
     const double theta0 = rest_angles[h];
-    if (!(std::abs(theta0) <= pi)) throw InputError("bending: rest angles must lie in [-pi, pi] rad");
+    if (!(std::abs(theta0) <= pi))
+      throw InputError("bending: rest angles must lie in [-pi, pi] rad");
     BendingHinge hinge{mesh.hinges[h].particles, 0, theta0, std::sin(theta0 / 2)};
     const HingeShape shape = checked_hinge_shape(hinge, mesh.rest);
     hinge.rest_weight = shape.edge * shape.edge / shape.area_sum;

@@ -1,5 +1,5 @@
-// Bending: forces on a pair of triangles along the one mode that changes their angle and nothing else (BMF03
-// section 4).
+// Bending: forces on a pair of triangles along the one mode that changes their angle and nothing
+// else (BMF03 section 4).
 #pragma once
 
 #include <array>
@@ -27,25 +27,26 @@ namespace foldproof {
 //   F_damping_i = -kd s (u.v) u_i                           s = |E| as printed, or
 //                                                               |E|^2/(|N1| + |N2|)
 //
-// u = -grad theta: the printed line d(theta)/dt = u.v has the wrong sign, the forces as printed have the
-// right one.
+// u = -grad theta: the printed line d(theta)/dt = u.v has the wrong sign, the forces as printed
+// have the right one.
 
-/// Where c is taken. Only at rest is the elastic force the gradient of an energy; the paper does not say
-/// which it means.
+/// Where c is taken. Only at rest is the elastic force the gradient of an energy; the paper does
+/// not say which it means.
 enum class Weighting { rest, current };
 
-/// The factor s of the damping force: the edge's length as printed (kd in N s), or |E|^2/(|N1| + |N2|) (kd in
-/// J s).
+/// The factor s of the damping force: the edge's length as printed (kd in N s), or |E|^2/(|N1| +
+/// |N2|) (kd in J s).
 enum class DampingFactor { edge, edge_squared_over_area };
 
-/// How strongly an angle is resisted: a magnitude that replaces sin(theta/2) - sin(theta0/2) and multiplies
-/// all four forces alike, as BMF03 section 4 demands of any such law. Slope 1/2 in theta at theta0 = 0, so
-/// that ke keeps its meaning.
+/// How strongly an angle is resisted: a magnitude that replaces sin(theta/2) - sin(theta0/2) and
+/// multiplies all four forces alike, as BMF03 section 4 demands of any such law. Slope 1/2 in theta
+/// at theta0 = 0, so that ke keeps its meaning.
 struct BendingLaw {
   std::string_view name;
   double (*magnitude)(double theta, double rest_angle);  // [1]
   double (*slope)(double theta, double rest_angle);      // its derivative by theta [1/rad]
-  double (*potential)(double theta, double rest_angle);  // its integral over theta from the rest angle [1]
+  // its integral over theta from the rest angle [1]
+  double (*potential)(double theta, double rest_angle);
 };
 
 /// The table of laws: "sine" (the paper's), "cubic" ((theta - theta0)/2 (1 + (theta - theta0)^2)).
@@ -82,60 +83,64 @@ HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, 
 /// theta in [-pi, pi] [rad]; 0 and pi count as positive.
 double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4);
 
-/// The same of the hinge's particles at x (3 x N [m]). Throws DegenerateElement naming them if a triangle has
-/// lost its area.
+/// The same of the hinge's particles at x (3 x N [m]). Throws DegenerateElement naming them if a
+/// triangle has lost its area.
 HingeShape checked_hinge_shape(const BendingHinge& hinge, const PerParticle3& x);
 
-/// theta of the hinge's particles at x (3 x N [m]) [rad]; sin_half would not do near pi, where it hardly
-/// changes.
+/// theta of the hinge's particles at x (3 x N [m]) [rad]; sin_half would not do near pi, where it
+/// hardly changes.
 double angle_of(const BendingHinge& hinge, const PerParticle3& x);
 double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting);  // c [1]
 
 /// u1, u2, u3, u4 as columns [1/m].
 Eigen::Matrix<double, 3, 4> bending_mode(const HingeShape& shape);
 
-/// grad u = -(second derivative of theta), exact: row 3 i + a, column 3 j + b is d(u_i)_a/d(x_j)_b [1/m^2].
-/// Symmetric. The hinge must not be degenerate.
-Matrix12 bending_mode_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4);
+/// grad u = -(second derivative of theta), exact: row 3 i + a, column 3 j + b is d(u_i)_a/d(x_j)_b
+/// [1/m^2]. Symmetric. The hinge must not be degenerate.
+Matrix12 bending_mode_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3,
+                               const Vector3& x4);
 
-/// How the factors of a hinge's forces change with x1, x2, x3, x4, three entries a corner: |E| [1], and
-/// |E|^2/(|N1| + |N2|) [1/m].
+/// How the factors of a hinge's forces change with x1, x2, x3, x4, three entries a corner: |E| [1],
+/// and |E|^2/(|N1| + |N2|) [1/m].
 Vector12 edge_gradient(const Vector3& x3, const Vector3& x4);
-Vector12 weight_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4);
+Vector12 weight_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3,
+                         const Vector3& x4);
 
 struct Bending {
   static constexpr auto energy_term = &Energies::bending;
   BendingMaterial material;
   std::vector<BendingHinge> hinges;
 
-  /// Throws DegenerateElement naming the particles of a hinge one of whose triangles has lost its area.
+  /// Throws DegenerateElement naming the particles of a hinge one of whose triangles
+  /// has lost its area.
   void add_elastic(const State& s, PerParticle3& f) const;
 
-  /// sum of ke c (potential of the law) [J]; with current weighting c is taken at s, and the force is not its
-  /// gradient.
+  /// sum of ke c (potential of the law) [J]; with current weighting c is taken at s, and the force
+  /// is not its gradient.
   double energy(const State& s) const;
 
   void prepare_damping(const State& s, DampingOperator& damping) const;
 
-  /// A hinge's block is ke c (-magnitude' u u^T + magnitude grad u); semidefinite by its eigenvalues. With
-  /// current weighting the change of c is left out: it would not be symmetric.
+  /// A hinge's block is ke c (-magnitude' u u^T + magnitude grad u); semidefinite by its
+  /// eigenvalues. With current weighting the change of c is left out: it would not be symmetric.
   void add_elastic_differential(const State& s, Definiteness definiteness,
                                 ForceDifferential& differential) const;
 
-  /// The same, exact, with the change of c, and with it how the damping forces change with the positions at
-  /// the velocities of s: a hinge's block gets -kd (rate u (grad s)^T + s u (grad u v)^T + s rate grad u),
-  /// rate = u.v.
+  /// The same, exact, with the change of c, and with it how the damping forces change with the
+  /// positions at the velocities of s: a hinge's block gets -kd (rate u (grad s)^T + s u (grad u
+  /// v)^T + s rate grad u), rate = u.v.
   void add_force_differential(const State& s, ForceDifferential& differential) const;
 
-  /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see forces/force.h.
+  /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see
+  /// forces/force.h.
   void add_stiffness_bound(const State& s, PerParticle& rows) const;
 };
 
 /// The angle of every hinge of the mesh at positions x (3 x N [m]); H values [rad].
 std::vector<double> hinge_angles(const TriangleMesh& mesh, const PerParticle3& x);
 
-/// One element per hinge, with the given rest angles (H values [rad]). Throws InputError for a negative or
-/// NaN constant, an unknown law, or a wrong number of angles or one outside [-pi, pi].
+/// One element per hinge, with the given rest angles (H values [rad]). Throws InputError for a
+/// negative or NaN constant, an unknown law, or a wrong number of angles or one outside [-pi, pi].
 Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material,
                      const std::vector<double>& rest_angles);
 

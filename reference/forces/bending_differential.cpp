@@ -1,4 +1,5 @@
-// How a hinge's forces change with its corners, for the methods that are implicit in the elastic forces too.
+// How a hinge's forces change with its corners, for the methods that are implicit in the
+// elastic forces too.
 #include "reference/forces/bending.h"
 
 namespace foldproof {
@@ -28,7 +29,8 @@ Vector12 at_corners(const BendingHinge& hinge, const PerParticle3& all) {
   return list;
 }
 
-Matrix12 elastic_block(const BendingMaterial& material, const BendingHinge& hinge, const HingeRates& rates) {
+Matrix12 elastic_block(const BendingMaterial& material, const BendingHinge& hinge,
+                       const HingeRates& rates) {
   const BendingLaw& law = bending_law(material.law);
   const double weight = material.stiffness * weight_of(hinge, rates.shape, material.weighting);
   return weight * (law.magnitude(rates.theta, hinge.rest_angle) * rates.gradient -
@@ -36,8 +38,8 @@ Matrix12 elastic_block(const BendingMaterial& material, const BendingHinge& hing
 }
 
 /// ke magnitude u (grad c)^T [N/m], c at the current positions x.
-Matrix12 weight_block(const BendingMaterial& material, const BendingHinge& hinge, const HingeRates& rates,
-                      const PerParticle3& x) {
+Matrix12 weight_block(const BendingMaterial& material, const BendingHinge& hinge,
+                      const HingeRates& rates, const PerParticle3& x) {
   const auto [i1, i2, i3, i4] = hinge.particles;
   const double magnitude = bending_law(material.law).magnitude(rates.theta, hinge.rest_angle);
   return material.stiffness * magnitude *
@@ -46,18 +48,19 @@ Matrix12 weight_block(const BendingMaterial& material, const BendingHinge& hinge
 
 // F = -kd s (u.v) u with s = |E| or |E|^2/(|N1| + |N2|), and grad u symmetric:
 //   dF = -kd ((u.v) u (grad s.dx) + s u ((grad u v).dx) + s (u.v) grad u dx)
-Matrix12 damping_block(const BendingMaterial& material, const BendingHinge& hinge, const HingeRates& rates,
-                       const State& s) {
+Matrix12 damping_block(const BendingMaterial& material, const BendingHinge& hinge,
+                       const HingeRates& rates, const State& s) {
   const auto [i1, i2, i3, i4] = hinge.particles;
   const Vector3 x1 = s.x.col(i1), x2 = s.x.col(i2), x3 = s.x.col(i3), x4 = s.x.col(i4);
   const bool by_edge = material.damping_factor == DampingFactor::edge;
-  const double edge = rates.shape.edge, factor = by_edge ? edge : edge * edge / rates.shape.area_sum;
+  const double edge = rates.shape.edge,
+               factor = by_edge ? edge : edge * edge / rates.shape.area_sum;
   const Vector12 of_factor = by_edge ? edge_gradient(x3, x4) : weight_gradient(x1, x2, x3, x4);
   const Vector12 v = at_corners(hinge, s.v);
   const double rate = rates.u.dot(v);
   const Vector12 of_rate = rates.gradient * v;
-  return -material.damping *
-         (rates.u * (rate * of_factor + factor * of_rate).transpose() + factor * rate * rates.gradient);
+  return -material.damping * (rates.u * (rate * of_factor + factor * of_rate).transpose() +
+                              factor * rate * rates.gradient);
 }
 
 }  // namespace

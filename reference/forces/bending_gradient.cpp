@@ -1,5 +1,5 @@
-// How the bending mode (the second derivative of the angle) and the forces' factors change with the corners,
-// for the fully implicit methods.
+// How the bending mode (the second derivative of the angle) and the forces' factors change with the
+// corners, for the fully implicit methods.
 #include <Eigen/Geometry>
 
 #include "reference/forces/bending.h"
@@ -55,9 +55,10 @@ SideGradient side_gradient(const std::array<Vector3, 4>& x, int k) {
   return gradient;
 }
 
-/// How the length of (q - p) x (r - p), n its unit direction, changes with p, q, r: each with the height over
-/// the opposite side.
-void add_area_gradient(const std::array<Vector3, 4>& x, const std::array<int, 3>& pqr, Vector12& gradient) {
+/// How the length of (q - p) x (r - p), n its unit direction, changes with p, q, r: each with the
+/// height over the opposite side.
+void add_area_gradient(const std::array<Vector3, 4>& x, const std::array<int, 3>& pqr,
+                       Vector12& gradient) {
   const auto at = [&](int k) -> const Vector3& { return x[size_t(pqr[size_t(k)])]; };
   const Vector3 n = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
   for (int k = 0; k < 3; ++k) {
@@ -76,7 +77,8 @@ Vector12 edge_gradient(const Vector3& x3, const Vector3& x4) {
   return gradient;
 }
 
-Vector12 weight_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4) {
+Vector12 weight_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3,
+                         const Vector3& x4) {
   const HingeShape shape = hinge_shape(x1, x2, x3, x4);
   Vector12 areas = Vector12::Zero();
   add_area_gradient({x1, x2, x3, x4}, {0, 2, 3}, areas);
@@ -85,9 +87,11 @@ Vector12 weight_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3
   return 2 * ratio * edge_gradient(x3, x4) - ratio * ratio * areas;
 }
 
-Matrix12 bending_mode_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4) {
+Matrix12 bending_mode_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3,
+                               const Vector3& x4) {
   const HingeShape shape = hinge_shape(x1, x2, x3, x4);
-  const SideGradient side1 = side_gradient({x1, x2, x3, x4}, 0), side2 = side_gradient({x1, x2, x3, x4}, 1);
+  const SideGradient side1 = side_gradient({x1, x2, x3, x4}, 0),
+                     side2 = side_gradient({x1, x2, x3, x4}, 1);
 
   // u3 = -(b1 u1 + b2 u2), u4 = -(u1 + u2 + u3)
   Matrix12 gradient;

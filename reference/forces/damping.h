@@ -1,9 +1,9 @@
-// The damping forces at one set of positions: F_damping = D v, linear in v, D symmetric negative semi-
-// definite.
+// The damping forces at one set of positions: F_damping = D v, linear in v, D symmetric negative
+// semi- definite.
 //
-// Every damper of cloth resists one mode: F = -w (w.v), a matrix of rank one that is never assembled; what
-// sticks is held in three. All that depends on positions is in w, computed once and used for every product of
-// a solve (BMF03 section 3).
+// Every damper of cloth resists one mode: F = -w (w.v), a matrix of rank one that is never
+// assembled; what sticks is held in three. All that depends on positions is in w, computed once and
+// used for every product of a solve (BMF03 section 3).
 #pragma once
 
 #include <array>
@@ -21,19 +21,20 @@ struct PairDamper {
   Vector3 along;  // sqrt(coefficient [N s/m]) times the unit direction from a to b
 };
 
-/// Resists the folding of a hinge: w = sqrt(coefficient) u, of which two vectors and two weights say
-/// everything:
+/// Resists the folding of a hinge: w = sqrt(coefficient) u, of which two vectors and two weights
+/// say everything:
 ///   w3 = -(weight1 w1 + weight2 w2),   w4 = -((1 - weight1) w1 + (1 - weight2) w2)
 struct HingeDamper {
   std::array<int, 4> particles;
-  double weight1, weight2;  // barycentric coordinates of x1 and x2 along the edge, 1 at x3 and 0 at x4
+  // barycentric coordinates of x1 and x2 along the edge, 1 at x3 and 0 at x4
+  double weight1, weight2;
   Vector3 w1, w2;
 };
 
 /// Resists the motion of a particle against a place that triangles of cloth carry, of rank three:
 ///   F = coefficient (J v - v_particle) on the particle, -J^T F on the corners
-/// Without frames the place is at rest: what moves by itself has its part among the forces that do not depend
-/// on v.
+/// Without frames the place is at rest: what moves by itself has its part among the forces that do
+/// not depend on v.
 struct TargetDamper {
   int particle;
   double coefficient;                 // N s/m

@@ -1,4 +1,5 @@
-// The energies of a state, a term for each kind. Every force names the term that its energy belongs to.
+// The energies of a state, a term for each kind. Every force names the term that its
+// energy belongs to.
 #pragma once
 
 #include <iterator>

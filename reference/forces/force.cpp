@@ -16,9 +16,11 @@ void CustomForce::prepare_damping(const State& s, DampingOperator& terms) const 
   terms.custom.push_back([this, s](const PerParticle3& v, PerParticle3& f) { damping(s, v, f); });
 }
 
-void CustomForce::add_elastic_differential(const State& s, Definiteness, ForceDifferential& sum) const {
+void CustomForce::add_elastic_differential(const State& s, Definiteness,
+                                           ForceDifferential& sum) const {
   if (!differential) return;
-  sum.custom.push_back([this, s](const PerParticle3& dx, PerParticle3& df) { differential(s, dx, df); });
+  sum.custom.push_back(
+      [this, s](const PerParticle3& dx, PerParticle3& df) { differential(s, dx, df); });
 }
 
 void CustomForce::add_force_differential(const State& s, ForceDifferential& sum) const {
@@ -28,7 +30,8 @@ void CustomForce::add_force_differential(const State& s, ForceDifferential& sum)
 DampingOperator damping_at(const std::vector<Force>& forces, const State& s, Work& work) {
   DampingOperator damping;
   for_each_force(forces, [&](const auto& force) {
-    if constexpr (requires { force.prepare_damping(s, damping); }) force.prepare_damping(s, damping);
+    if constexpr (requires { force.prepare_damping(s, damping); })
+      force.prepare_damping(s, damping);
   });
   ++work.damping_preparations;
   return damping;
@@ -45,7 +48,8 @@ ForceDifferential elastic_differential_at(const std::vector<Force>& forces, cons
   return differential;
 }
 
-ForceDifferential force_differential_at(const std::vector<Force>& forces, const State& s, Work& work) {
+ForceDifferential force_differential_at(const std::vector<Force>& forces, const State& s,
+                                        Work& work) {
   ForceDifferential differential;
   for_each_force(forces, [&](const auto& force) {
     if constexpr (requires { force.add_force_differential(s, differential); })
@@ -66,7 +70,8 @@ double damping_rate_bound(const DampingOperator& damping, const PerParticle& inv
     const Eigen::Vector4d norms(h.w1.norm(), h.w2.norm(), w3.norm(), w4.norm());
     for (int k = 0; k < 4; ++k) rows[h.particles[size_t(k)]] += norms[k] * norms.sum();
   }
-  for (const TargetDamper& t : damping.targets) add_row_sums(t.particle, t.frames, t.coefficient, rows);
+  for (const TargetDamper& t : damping.targets)
+    add_row_sums(t.particle, t.frames, t.coefficient, rows);
   double largest = 0;
   for (Eigen::Index i = 0; i < rows.size(); ++i) update_worst(largest, rows[i] * inverse_mass[i]);
   return largest;
@@ -82,17 +87,20 @@ double frequency_of(const PerParticle& rows, const PerParticle& inverse_mass) {
 
 }  // namespace
 
-PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& s, StickingPart part) {
+PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& s,
+                                 StickingPart part) {
   PerParticle rows = PerParticle::Zero(s.x.cols());
   for_each_force(forces, [&](const auto& force) {
     if constexpr (requires { force.add_bound_without_springs(s, rows); })
       if (part == StickingPart::without_springs) return force.add_bound_without_springs(s, rows);
-    if constexpr (requires { force.add_stiffness_bound(s, rows); }) force.add_stiffness_bound(s, rows);
+    if constexpr (requires { force.add_stiffness_bound(s, rows); })
+      force.add_stiffness_bound(s, rows);
   });
   return rows;
 }
 
-double frequency_bound(const std::vector<Force>& forces, const State& s, const PerParticle& inverse_mass) {
+double frequency_bound(const std::vector<Force>& forces, const State& s,
+                       const PerParticle& inverse_mass) {
   return frequency_of(stiffness_row_bounds(forces, s, StickingPart::all), inverse_mass);
 }
 

@@ -17,15 +17,16 @@
 
 namespace foldproof {
 
-/// A force written on the spot, for manufactured solutions and experiments. Empty functions add nothing.
+/// A force written on the spot, for manufactured solutions and experiments. Empty
+/// functions add nothing.
 struct CustomForce {
   static constexpr auto energy_term = &Energies::custom;
 
   std::function<void(const State& s, PerParticle3& f)> elastic;  // may depend on s.time; not on s.v
-  std::function<void(const State& s, const PerParticle3& v, PerParticle3& f)>
-      damping;  // linear in v, symmetric, dissipating
-  std::function<void(const State& s, const PerParticle3& dx, PerParticle3& df)>
-      differential;                                 // of `elastic` by the positions: linear in dx, symmetric
+  // linear in v, symmetric, dissipating
+  std::function<void(const State& s, const PerParticle3& v, PerParticle3& f)> damping;
+  // of `elastic` by the positions: linear in dx, symmetric
+  std::function<void(const State& s, const PerParticle3& dx, PerParticle3& df)> differential;
   std::function<double(const State& s)> potential;  // [J]
 
   void add_elastic(const State& s, PerParticle3& f) const {
@@ -37,8 +38,8 @@ struct CustomForce {
   void add_force_differential(const State& s, ForceDifferential& sum) const;
 };
 
-/// One force: an elastic or external part that depends on time and positions, and an energy. It may have more,
-/// which the functions below ask for by name:
+/// One force: an elastic or external part that depends on time and positions, and an energy. It may
+/// have more, which the functions below ask for by name:
 ///   prepare_damping(s, damping)                               it damps
 ///   add_elastic_differential(s, definiteness, differential),
 ///   add_force_differential(s, differential)                   fully implicit methods need it
@@ -69,32 +70,37 @@ PerParticle3 elastic_forces(const std::vector<Force>& forces, const State& s, Wo
 /// The position-dependent terms of all damping forces at s: computed once, used for every product.
 DampingOperator damping_at(const std::vector<Force>& forces, const State& s, Work& work);
 
-/// The derivative of all elastic forces by the positions at s: computed once, used for every product.
+/// The derivative of all elastic forces by the positions at s: computed once, used
+/// for every product.
 ForceDifferential elastic_differential_at(const std::vector<Force>& forces, const State& s,
                                           Definiteness definiteness, Work& work);
 
-/// The exact derivative of all forces, damping forces at the velocities of s included, by the positions.
-/// Custom forces give that of their elastic part alone.
-ForceDifferential force_differential_at(const std::vector<Force>& forces, const State& s, Work& work);
+/// The exact derivative of all forces, damping forces at the velocities of s included, by the
+/// positions. Custom forces give that of their elastic part alone.
+ForceDifferential force_differential_at(const std::vector<Force>& forces, const State& s,
+                                        Work& work);
 
 enum class StickingPart { all, without_springs };
 
 /// Upper bounds on the row sums of the forces' stiffness matrix at s, for each particle [N/m].
-PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& s, StickingPart part);
+PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& s,
+                                 StickingPart part);
 
-/// An upper bound on the largest elastic angular frequency [rad/s] at s, from springs, hinges and bonds of
-/// sticking:
+/// An upper bound on the largest elastic angular frequency [rad/s] at s, from springs, hinges and
+/// bonds of sticking:
 ///   omega^2 <= max over particles i of (1/m_i) (sum over the stiffness matrices' rows at i)
-/// the maximum row sum, by Gershgorin after scaling with the masses. inverse_mass: N [1/kg], 0 for prescribed
-/// particles.
-double frequency_bound(const std::vector<Force>& forces, const State& s, const PerParticle& inverse_mass);
+/// the maximum row sum, by Gershgorin after scaling with the masses. inverse_mass: N [1/kg], 0 for
+/// prescribed particles.
+double frequency_bound(const std::vector<Force>& forces, const State& s,
+                       const PerParticle& inverse_mass);
 
-/// The same without the springs of sticking, whose forecasts keep scheme C stable: forces/sticking.h.
+/// The same without the springs of sticking, whose forecasts keep scheme C stable:
+/// forces/sticking.h.
 double frequency_without_sticking_springs(const std::vector<Force>& forces, const State& s,
                                           const PerParticle& inverse_mass);
 
-/// An upper bound on the largest damping rate [1/s], the largest eigenvalue of -M^{-1} D, by the same row
-/// sums.
+/// An upper bound on the largest damping rate [1/s], the largest eigenvalue of -M^{-1} D, by
+/// the same row sums.
 double damping_rate_bound(const DampingOperator& damping, const PerParticle& inverse_mass);
 
 }  // namespace foldproof

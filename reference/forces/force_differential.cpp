@@ -14,12 +14,13 @@ void add_pairs(const std::vector<PairStiffness>& pairs, const PerParticle3& dx, 
   }
 }
 
-void add_hinges(const std::vector<HingeStiffness>& hinges, const PerParticle3& dx, PerParticle3& df) {
+void add_hinges(const std::vector<HingeStiffness>& hinges, const PerParticle3& dx,
+                PerParticle3& df) {
   for (const HingeStiffness& h : hinges) {
     Vector12 moved;
     for (int k = 0; k < 4; ++k) moved.segment<3>(3 * k) = dx.col(h.particles[size_t(k)]);
-    const Vector12 change =
-        h.block.lazyProduct(moved);  // in place: Eigen's general product is for larger matrices
+    // in place: Eigen's general product is for larger matrices
+    const Vector12 change = h.block.lazyProduct(moved);
     for (int k = 0; k < 4; ++k) df.col(h.particles[size_t(k)]) += change.segment<3>(3 * k);
   }
 }

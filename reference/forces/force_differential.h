@@ -1,6 +1,7 @@
-// The forces' derivative by the positions at one state: dF = K dx, for the methods that are implicit in the
-// elastic forces too. The paper's own schemes never need it. K is symmetric where the forces have an energy:
-// not that of damping forces at given velocities, nor that of bending with current weighting.
+// The forces' derivative by the positions at one state: dF = K dx, for the methods that are
+// implicit in the elastic forces too. The paper's own schemes never need it. K is symmetric where
+// the forces have an energy: not that of damping forces at given velocities, nor that of bending
+// with current weighting.
 #pragma once
 
 #include <array>
@@ -12,8 +13,8 @@
 namespace foldproof {
 
 /// exact: the derivative itself, indefinite where an element is compressed or folded the wrong way.
-/// semidefinite: each element's matrix with its positive eigenvalues set to zero, so that -K can only resist
-/// (Teran et al. 2005, section 6). Exact wherever the element was so already.
+/// semidefinite: each element's matrix with its positive eigenvalues set to zero, so that -K can
+/// only resist (Teran et al. 2005, section 6). Exact wherever the element was so already.
 enum class Definiteness { exact, semidefinite };
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
@@ -25,7 +26,8 @@ struct PairStiffness {
   Eigen::Matrix3d block;  // [N/m]
 };
 
-/// A hinge: its four particles' forces against their displacements, three rows and columns a particle.
+/// A hinge: its four particles' forces against their displacements, three rows and
+/// columns a particle.
 struct HingeStiffness {
   std::array<int, 4> particles;
   Matrix12 block;  // [N/m]

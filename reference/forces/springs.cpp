@@ -53,7 +53,8 @@ void StretchSprings::add_elastic_differential(const State& s, Definiteness defin
     const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
     const double length = checked_length(d, spring);
     const Vector3 along = d / length;
-    double across = spring.stiffness * (length - spring.rest_length) / length;  // tension over length
+    // tension over length
+    double across = spring.stiffness * (length - spring.rest_length) / length;
     if (definiteness == Definiteness::semidefinite) across = std::max(0.0, across);
     const Eigen::Matrix3d projector = along * along.transpose();
     differential.pairs.push_back(
@@ -68,18 +69,21 @@ void StretchSprings::add_force_differential(const State& s, ForceDifferential& d
   for (size_t k = 0; k < springs.size(); ++k) {
     const Spring& spring = springs[k];
     if (spring.damping == 0) continue;
-    const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a), dv = s.v.col(spring.b) - s.v.col(spring.a);
+    const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a),
+                  dv = s.v.col(spring.b) - s.v.col(spring.a);
     const double length = checked_length(d, spring);
     const Vector3 n = d / length;
-    const Eigen::Matrix3d turn = (Eigen::Matrix3d::Identity() - n * n.transpose()) / length;  // dn = turn dd
-    differential.pairs[first + k].block -= spring.damping * (n * (dv.transpose() * turn) + n.dot(dv) * turn);
+    // dn = turn dd
+    const Eigen::Matrix3d turn = (Eigen::Matrix3d::Identity() - n * n.transpose()) / length;
+    differential.pairs[first + k].block -=
+        spring.damping * (n * (dv.transpose() * turn) + n.dot(dv) * turn);
     differential.symmetric = false;
   }
 }
 
 void StretchSprings::add_stiffness_bound(const State& s, PerParticle& rows) const {
-  // One spring's stiffness matrix is k along d and tension/|d| across it; a row of it sums to at most twice
-  // the larger.
+  // One spring's stiffness matrix is k along d and tension/|d| across it; a row of it sums to at
+  // most twice the larger.
   for (const Spring& spring : springs) {
     const double length = checked_length(s.x.col(spring.b) - s.x.col(spring.a), spring);
     const double across = spring.stiffness * std::abs(length - spring.rest_length) / length;
@@ -90,7 +94,8 @@ void StretchSprings::add_stiffness_bound(const State& s, PerParticle& rows) cons
 }
 
 StretchSprings make_springs(const TriangleMesh& mesh, const StretchMaterial& material) {
-  if (!(material.stiffness >= 0)) throw InputError("springs: stiffness must be a number >= 0 [N/m]");
+  if (!(material.stiffness >= 0))
+    throw InputError("springs: stiffness must be a number >= 0 [N/m]");
   if (!(material.damping >= 0)) throw InputError("springs: damping must be a number >= 0 [N s/m]");
   if (!(material.rest_length_scale > 0)) throw InputError("springs: rest_length_scale must be > 0");
 
@@ -99,8 +104,9 @@ StretchSprings make_springs(const TriangleMesh& mesh, const StretchMaterial& mat
   result.springs.reserve(mesh.edges.size());
   for (size_t e = 0; e < mesh.edges.size(); ++e) {
     const double shape = areas[e] / (lengths[e] * lengths[e]);  // A_e/L0^2 of the rest shape [1]
-    result.springs.push_back({mesh.edges[e].a, mesh.edges[e].b, material.rest_length_scale * lengths[e],
-                              material.stiffness * shape, material.damping * shape});
+    result.springs.push_back({mesh.edges[e].a, mesh.edges[e].b,
+                              material.rest_length_scale * lengths[e], material.stiffness * shape,
+                              material.damping * shape});
   }
   return result;
 }

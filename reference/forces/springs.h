@@ -1,5 +1,5 @@
-// Springs along the edges: stretch and shear of the sheet (BMF03 presumes them; the mesh-independent form is
-// ours).
+// Springs along the edges: stretch and shear of the sheet (BMF03 presumes them; the
+// mesh-independent form is ours).
 #pragma once
 
 #include <vector>
@@ -16,8 +16,8 @@ namespace foldproof {
 //
 //   F_a =  Y (A_e/L0) (|d|/L0 - 1) d^  +  kd_s (A_e/L0^2) ((v_b - v_a).d^) d^,     F_b = -F_a
 //
-// so that the spring's stiffness is Y A_e/L0^2 [N/m]. On an equilateral mesh the sheet has Young's modulus Y
-// [N/m] and Poisson ratio 1/3 exactly; elsewhere effective ones.
+// so that the spring's stiffness is Y A_e/L0^2 [N/m]. On an equilateral mesh the sheet has Young's
+// modulus Y [N/m] and Poisson ratio 1/3 exactly; elsewhere effective ones.
 struct Spring {
   int a, b;
   double rest_length;  // L0 [m]
@@ -43,21 +43,23 @@ struct StretchSprings {
 
   void prepare_damping(const State& s, DampingOperator& damping) const;
 
-  /// A spring's block is k along d and tension/|d| across it; semidefinite drops the second where tension <
-  /// 0.
+  /// A spring's block is k along d and tension/|d| across it; semidefinite drops the second
+  /// where tension < 0.
   void add_elastic_differential(const State& s, Definiteness definiteness,
                                 ForceDifferential& differential) const;
 
-  /// The same, exact, and with it how the damping forces change with the positions at the velocities of s:
-  /// for the unit direction n and dv = v_b - v_a, block = -damping (n dv^T + (n.dv) I)(I - n n^T)/|d|.
+  /// The same, exact, and with it how the damping forces change with the positions at the
+  /// velocities of s: for the unit direction n and dv = v_b - v_a, block = -damping (n dv^T +
+  /// (n.dv) I)(I - n n^T)/|d|.
   void add_force_differential(const State& s, ForceDifferential& differential) const;
 
-  /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see forces/force.h.
+  /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see
+  /// forces/force.h.
   void add_stiffness_bound(const State& s, PerParticle& rows) const;
 };
 
-/// One spring per edge. Throws InputError when the material's values are not: stiffness >= 0, damping >= 0,
-/// scale > 0.
+/// One spring per edge. Throws InputError when the material's values are not: stiffness >= 0,
+/// damping >= 0, scale > 0.
 StretchSprings make_springs(const TriangleMesh& mesh, const StretchMaterial& material);
 
 }  // namespace foldproof

@@ -25,7 +25,8 @@ Vector3 pull_of(const StickyTarget& target, const State& s) {
 }
 
 /// H of dF = H du, u = x_t - x: k across u, k + d dk/dd along it.
-Eigen::Matrix3d spring_matrix(const StickyTarget& target, const State& s, Definiteness definiteness) {
+Eigen::Matrix3d spring_matrix(const StickyTarget& target, const State& s,
+                              Definiteness definiteness) {
   const Vector3 u = target.x - s.x.col(target.particle);
   double stiffness_slope = target.stiffness_slope;
   const double squared = target.distance * target.distance;
@@ -39,8 +40,8 @@ struct Surface {
   PerParticle3 x, v;  // m, m/s
 };
 
-StickyTarget target_of(const StickyPatch& patch, const State& s, const Surface& surface, size_t first,
-                       size_t count) {
+StickyTarget target_of(const StickyPatch& patch, const State& s, const Surface& surface,
+                       size_t first, size_t count) {
   const Bond& bond = s.bonds[first];
   const PerParticle3& x = patch.place ? surface.x : s.x;
   StickyTarget target{bond.patch, bond.particle, first, count, {}, Vector3::Zero(), 0, 0, 0, {}};
@@ -48,7 +49,8 @@ StickyTarget target_of(const StickyPatch& patch, const State& s, const Surface& 
     const Triangle& corners = patch.triangles.at(size_t(s.bonds[k].triangle));
     target.frames.push_back(frame_of(corners, x, s.bonds[k].place, 1 / double(count)));
     if (!target.frames.back().slopes.allFinite())
-      throw DegenerateElement("a triangle of sticky '" + patch.name + "' has no area", {bond.particle});
+      throw DegenerateElement("a triangle of sticky '" + patch.name + "' has no area",
+                              {bond.particle});
   }
   target.x = place_of(target.frames, x);
   if (patch.place) {
@@ -77,7 +79,8 @@ std::vector<StickyTarget> Sticking::targets_at(const State& s) const {
     const StickyPatch& patch = patches.at(size_t(bond.patch));
     if (patch.place && (first == 0 || bonds[first - 1].patch != bond.patch))
       surface = {patch.place(s.time), patch.velocity(s.time)};
-    while (end < bonds.size() && bonds[end].patch == bond.patch && bonds[end].particle == bond.particle)
+    while (end < bonds.size() && bonds[end].patch == bond.patch &&
+           bonds[end].particle == bond.particle)
       ++end;
     targets.push_back(target_of(patch, s, surface, first, end - first));
   }
@@ -89,8 +92,10 @@ void Sticking::add_elastic(const State& s, PerParticle3& f) const {
     const Vector3 pull = pull_of(target, s);
     f.col(target.particle) += pull;
     add_corner_forces(target.frames, -pull, f);
-    // what a target that moves by itself adds to the damping does not depend on the cloth's velocity
-    f.col(target.particle) += target.stiffness * patches[size_t(target.patch)].forecast_time * target.v;
+    // what a target that moves by itself adds to the damping does not depend on the
+    // cloth's velocity
+    f.col(target.particle) +=
+        target.stiffness * patches[size_t(target.patch)].forecast_time * target.v;
   }
 }
 
@@ -113,7 +118,8 @@ void Sticking::prepare_damping(const State& s, DampingOperator& damping) const {
   }
 }
 
-// With u = x_t - x and du = J dx - dx_particle: dF = H du on the particle, -J^T dF - (dJ)^T F on the corners.
+// With u = x_t - x and du = J dx - dx_particle: dF = H du on the particle, -J^T dF - (dJ)^T F
+// on the corners.
 void Sticking::add_elastic_differential(const State& s, Definiteness definiteness,
                                         ForceDifferential& differential) const {
   for (const StickyTarget& target : targets_at(s)) {
@@ -128,7 +134,8 @@ void Sticking::add_elastic_differential(const State& s, Definiteness definitenes
   }
 }
 
-// The damping is F = c q, c = k tau_s, q = v_t - v: dF = dc q + c (dJ) v with dc = tau_s (dk/dd)/d (u . du).
+// The damping is F = c q, c = k tau_s, q = v_t - v: dF = dc q + c (dJ) v with dc = tau_s
+// (dk/dd)/d (u . du).
 void Sticking::add_force_differential(const State& s, ForceDifferential& differential) const {
   add_elastic_differential(s, Definiteness::exact, differential);
   for (const StickyTarget& target : targets_at(s)) {
@@ -162,20 +169,23 @@ void add_row_sums(int particle, const std::vector<TriangleFrame>& frames, double
 
 void Sticking::add_stiffness_bound(const State& s, PerParticle& rows) const {
   for (const StickyTarget& target : targets_at(s)) {
-    const double along = target.stiffness + target.stiffness_slope * target.distance * target.distance;
+    const double along =
+        target.stiffness + target.stiffness_slope * target.distance * target.distance;
     add_row_sums(target.particle, target.frames, std::max(target.stiffness, std::abs(along)), rows);
   }
   add_bound_without_springs(s, rows);
 }
 
-// (dJ)^T F is a sum of three terms over pairs of corners, each at most |height| |F| |g_i| |g_j| |dx_j|.
+// (dJ)^T F is a sum of three terms over pairs of corners, each at most |height| |F|
+// |g_i| |g_j| |dx_j|.
 void Sticking::add_bound_without_springs(const State& s, PerParticle& rows) const {
   for (const StickyTarget& target : targets_at(s)) {
     const double force = pull_of(target, s).norm();
     for (const TriangleFrame& frame : target.frames) {
       const Vector3 steepness = frame.slopes.colwise().norm().transpose();
       for (int i = 0; i < 3; ++i)
-        rows[frame.corners[size_t(i)]] += 3 * force * std::abs(frame.height) * steepness[i] * steepness.sum();
+        rows[frame.corners[size_t(i)]] +=
+            3 * force * std::abs(frame.height) * steepness[i] * steepness.sum();
     }
   }
 }

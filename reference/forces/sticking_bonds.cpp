@@ -38,7 +38,8 @@ void add_bond_if_near(const PatchNow& now, int triangle, int particle, const Vec
   if (!(distance <= now.patch.near)) return;
   const Vector3 place = local_place(corners, p);
   if (!place.allFinite())
-    throw DegenerateElement("a triangle of sticky '" + now.patch.name + "' has no area", {particle});
+    throw DegenerateElement("a triangle of sticky '" + now.patch.name + "' has no area",
+                            {particle});
   bonds.push_back({now.number, triangle, particle, place});
 }
 
@@ -62,7 +63,8 @@ void add_bonds_of(const PatchNow& now, const BoxTree& tree, int particle, const 
 using Stuck = std::set<std::pair<int, int>>;  // patch and particle
 
 /// New bonds of all particles that may stick to the patch and do not.
-void add_new_bonds(const PatchNow& now, const State& s, const Stuck& stuck, std::vector<Bond>& bonds) {
+void add_new_bonds(const PatchNow& now, const State& s, const Stuck& stuck,
+                   std::vector<Bond>& bonds) {
   Bounds reach = bounds_of(now.x);
   reach.min().array() -= now.patch.near;
   reach.max().array() += now.patch.near;
@@ -92,7 +94,8 @@ void Sticking::update_bonds(State& s) const {
     const PerParticle3 surface = patches[k].place ? patches[k].place(s.time) : PerParticle3();
     add_new_bonds({patches[k], int(k), patches[k].place ? surface : s.x}, s, stuck, bonds);
   }
-  std::ranges::sort(bonds, {}, [](const Bond& b) { return std::tuple(b.patch, b.particle, b.triangle); });
+  std::ranges::sort(bonds, {},
+                    [](const Bond& b) { return std::tuple(b.patch, b.particle, b.triangle); });
   s.bonds = std::move(bonds);
 }
 

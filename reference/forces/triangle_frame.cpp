@@ -12,8 +12,8 @@ Vector3 local_place(const Corners3& corners, const Vector3& p) {
           from_a.dot(N) / std::sqrt(squared)};
 }
 
-TriangleFrame frame_of(const std::array<int, 3>& particles, const PerParticle3& x, const Vector3& place,
-                       double part) {
+TriangleFrame frame_of(const std::array<int, 3>& particles, const PerParticle3& x,
+                       const Vector3& place, double part) {
   const Vector3 a = x.col(particles[0]), b = x.col(particles[1]), c = x.col(particles[2]);
   const Vector3 N = (b - a).cross(c - a);
   const double twice_area = N.norm();
@@ -42,12 +42,14 @@ Vector3 frame_velocity(const std::vector<TriangleFrame>& frames, const PerPartic
   for (const TriangleFrame& frame : frames)
     for (int i = 0; i < 3; ++i) {
       const Vector3 of_corner = v.col(frame.corners[size_t(i)]);
-      sum += frame.weights[i] * of_corner - frame.height * frame.normal.dot(of_corner) * frame.slopes.col(i);
+      sum += frame.weights[i] * of_corner -
+             frame.height * frame.normal.dot(of_corner) * frame.slopes.col(i);
     }
   return sum;
 }
 
-void add_corner_forces(const std::vector<TriangleFrame>& frames, const Vector3& force, PerParticle3& f) {
+void add_corner_forces(const std::vector<TriangleFrame>& frames, const Vector3& force,
+                       PerParticle3& f) {
   for (const TriangleFrame& frame : frames)
     for (int i = 0; i < 3; ++i)
       f.col(frame.corners[size_t(i)]) +=
@@ -78,8 +80,9 @@ void add_corner_force_change(const std::vector<TriangleFrame>& frames, const Vec
   for (const TriangleFrame& frame : frames) {
     const Turning turning = turning_of(frame, dx);
     for (int i = 0; i < 3; ++i)
-      f.col(frame.corners[size_t(i)]) -= frame.height * (turning.slopes.col(i).dot(force) * frame.normal +
-                                                         frame.slopes.col(i).dot(force) * turning.normal);
+      f.col(frame.corners[size_t(i)]) -=
+          frame.height * (turning.slopes.col(i).dot(force) * frame.normal +
+                          frame.slopes.col(i).dot(force) * turning.normal);
   }
 }
 

@@ -38,7 +38,8 @@ Vector3 displacement_at(const Octree& tree, const std::vector<BranchNodes<Vector
   Vector3 sum = Vector3::Zero();
   for (int k = 0; k < 8; ++k) {
     double weight = 1;
-    for (int axis = 0; axis < 3; ++axis) weight *= k >> axis & 1 ? leaf.local[axis] : 1 - leaf.local[axis];
+    for (int axis = 0; axis < 3; ++axis)
+      weight *= k >> axis & 1 ? leaf.local[axis] : 1 - leaf.local[axis];
     sum += weight * values[first + corner_steps[k]];
   }
   return sum;
@@ -50,8 +51,8 @@ struct Origin {
 
 /// A frame's displacement u over the whole interval, at the place X that a share of it takes to p:
 ///   X + share u(X) = p
-/// share: s for the interval's first frame, s - 1 for its last. By iteration, which contracts where neighbouring points
-/// move by less than their distance.
+/// share: s for the interval's first frame, s - 1 for its last. By iteration, which contracts where
+/// neighbouring points move by less than their distance.
 Origin origin_of(const Octree& tree, const std::vector<BranchNodes<Vector3>>& u, const Vector3& p,
                  double share) {
   constexpr int most = 50;
@@ -71,7 +72,8 @@ DeformingPoint interpolate(const Interval& interval, const Origin& a, const Orig
   const Distance before = interval.now->field.at(a.place), after = interval.next->field.at(b.place);
   const Vector3 gradient = (1 - s) * before.normal + s * after.normal;
   const double length = gradient.norm();
-  return {(1 - s) * before.phi + s * after.phi, length > 0 ? Vector3(gradient / length) : before.normal,
+  return {(1 - s) * before.phi + s * after.phi,
+          length > 0 ? Vector3(gradient / length) : before.normal,
           ((1 - s) * a.displacement + s * b.displacement) / interval.duration};
 }
 
@@ -87,7 +89,8 @@ DeformingPoint deforming_at(const DeformingBody& body, const Vector3& p, double 
   const auto& back = interval.next->from_previous;
   const Octree &now = interval.now->field, &next = interval.next->field;
   if (body.between == BetweenFrames::blended)
-    return interpolate(interval, {p, displacement_at(now, ahead, p)}, {p, displacement_at(next, back, p)});
+    return interpolate(interval, {p, displacement_at(now, ahead, p)},
+                       {p, displacement_at(next, back, p)});
   const double s = interval.part;
   return interpolate(interval, origin_of(now, ahead, p, s), origin_of(next, back, p, s - 1));
 }
@@ -95,9 +98,9 @@ DeformingPoint deforming_at(const DeformingBody& body, const Vector3& p, double 
 Vector3 advected_position(const DeformingBody& body, const Vector3& p, double start, double end) {
   Vector3 q = p;
   for (double t = start; t < end;) {
-    const auto next =
-        std::upper_bound(body.frames.begin(), body.frames.end(), t,
-                         [](double time, const DeformingFrame& frame) { return time < frame.time; });
+    const auto next = std::upper_bound(
+        body.frames.begin(), body.frames.end(), t,
+        [](double time, const DeformingFrame& frame) { return time < frame.time; });
     const double until = next == body.frames.end() ? end : std::min(end, next->time);
     q += (until - t) * deforming_at(body, q, t).velocity;
     t = until;

@@ -13,8 +13,8 @@
 
 namespace foldproof {
 
-/// A closed mesh in motion: the same triangles at every frame. Between frames each vertex moves straight and
-/// evenly; before the first and after the last it rests.
+/// A closed mesh in motion: the same triangles at every frame. Between frames each vertex moves
+/// straight and evenly; before the first and after the last it rests.
 struct MeshSequence {
   std::vector<Triangle> triangles;      // M
   std::vector<double> times;            // F, rising [s]
@@ -32,25 +32,30 @@ MeshSequence deformed_mesh(const TriangleMesh& mesh, const Deformation& deformat
 PerParticle3 positions_at(const MeshSequence& sequence, double t);
 
 /// All files *.obj of a folder in the order of their names, `interval` [s] apart from time 0 on.
-/// Throws InputError naming the file: none, more than `most`, one whose triangles differ from the first's, what
-/// read_obj refuses.
+/// Throws InputError naming the file: none, more than `most`, one whose triangles differ from the
+/// first's, what read_obj refuses.
 MeshSequence read_obj_sequence(const std::string& folder, double interval, long most = 1000);
 
-/// A frame's level set. The displacement at a node is that of the surface point nearest to it, so that it is
-/// constant along N.
+/// A frame's level set. The displacement at a node is that of the surface point nearest to it, so
+/// that it is constant along N.
 struct DeformingFrame {
   double time;  // s
   Octree field;
-  std::vector<BranchNodes<Vector3>> to_next;  // one a branch, up to the next frame; last frame: none [m]
-  std::vector<BranchNodes<Vector3>> from_previous;  // one a branch, since the frame before; first: none [m]
-  long nodes = 0,
-       searches = 0;  // while it was built: distinct nodes, and those whose nearest point was looked for
+  // one a branch, up to the next frame; last frame: none [m]
+  std::vector<BranchNodes<Vector3>> to_next;
+  // one a branch, since the frame before; first: none [m]
+  std::vector<BranchNodes<Vector3>> from_previous;
+  // while it was built: distinct nodes, and those whose nearest point was looked for
+  long nodes = 0, searches = 0;
 };
 
 /// How phi and v are interpolated between two frames.
 enum class BetweenFrames {
-  blended,  // both linearly in time, at the point: a body that moves by more than its size vanishes in between
-  carried   // linearly in time, between the places that the point's own motion takes it to at the two frames
+  // both linearly in time, at the point: a body that moves by more than its size
+  // vanishes in between
+  blended,
+  // linearly in time, between the places that the point's own motion takes it to at the two frames
+  carried
 };
 
 struct DeformingBody {
@@ -58,11 +63,12 @@ struct DeformingBody {
   BetweenFrames between;
 };
 
-/// Level sets of every frame, as octrees that cover the cube of the settings. Within the settings' band of the surface
-/// a node's value is exact. Beyond it a frame keeps the frame before's nearest points where they are still near
-/// enough: there |phi| may be too large by half of what a cell may miss, beyond (|phi| - band)/2, and the displacement
-/// is that of the point that was kept. Throws what make_octree throws, and
-/// InputError for a sequence without frames, with times that do not rise or numbers of vertices that differ.
+/// Level sets of every frame, as octrees that cover the cube of the settings. Within the settings'
+/// band of the surface a node's value is exact. Beyond it a frame keeps the frame before's nearest
+/// points where they are still near enough: there |phi| may be too large by half of what a cell may
+/// miss, beyond (|phi| - band)/2, and the displacement is that of the point that was kept. Throws
+/// what make_octree throws, and InputError for a sequence without frames, with times that do not
+/// rise or numbers of vertices that differ.
 DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSettings& settings,
                                   BetweenFrames between);
 

@@ -35,8 +35,8 @@ Vector3 at_point_of(const Triangle& t, const Vector3& weight, const PerParticle3
 /// What is known of a node: its distance, and the surface point that it is measured to.
 struct NodeValue {
   double phi;  // m
-  double
-      least;  // |phi| is at least this; less than measured where the point is kept from the frame before [m]
+  // |phi| is at least this; less than measured where the point is kept from the frame before [m]
+  double least;
   int triangle;    // of the sequence
   Vector3 weight;  // of the triangle's corners, at the point
 };
@@ -44,17 +44,18 @@ struct NodeValue {
 /// The share of what a cell may miss beyond the band by which a kept value may be too large.
 constexpr double kept_share = 0.5;
 
-/// The values at the nodes of a frame's octree, each found once: every cell about a node asks for it anew,
-/// and so do the displacements once the octree stands.
+/// The values at the nodes of a frame's octree, each found once: every cell about a node asks for
+/// it anew, and so do the displacements once the octree stands.
 ///
-/// In the band the nearest point is looked for. Beyond it the point that was nearest in the frame before,
-/// moved along with the mesh, is kept if nothing is nearer by more than the share: to see that is a short
-/// search, which ends at every box that is farther away. The sign is the frame before's if the surface was
-/// farther than it has moved.
+/// In the band the nearest point is looked for. Beyond it the point that was nearest in the frame
+/// before, moved along with the mesh, is kept if nothing is nearer by more than the share: to see
+/// that is a short search, which ends at every box that is farther away. The sign is the frame
+/// before's if the surface was farther than it has moved.
 class NodeValues {
  public:
   NodeValues(const MeshSequence& sequence, std::size_t frame, const OctreeSettings& settings)
-      : mesh_(make_mesh_distance(sequence.positions[frame], sequence.triangles)), settings_(settings) {}
+      : mesh_(make_mesh_distance(sequence.positions[frame], sequence.triangles)),
+        settings_(settings) {}
 
   /// `displacement`: the farthest that a vertex has moved since the frame before [m].
   void follow(const NodeValues& before, double displacement) {
@@ -102,12 +103,13 @@ class NodeValues {
     const Triangle& t = mesh_.triangles[old.triangle];
     const double most = (p - at_point_of(t, old.weight, mesh_.x)).norm();
     const double share = kept_share * settings_.beyond;
-    // most - least = share (least - band); in the band least is above most, and the search finds the nearest
-    // point
+    // most - least = share (least - band); in the band least is above most, and the search finds
+    // the nearest point
     const double least = (most + share * settings_.band) / (1 + share);
     const NearestFeature nearer = nearest_feature(mesh_, p, least);
-    value = nearer.triangle < 0 ? NodeValue{std::copysign(most, old.phi), least, old.triangle, old.weight}
-                                : value_at(p, nearer);
+    value = nearer.triangle < 0
+                ? NodeValue{std::copysign(most, old.phi), least, old.triangle, old.weight}
+                : value_at(p, nearer);
     return true;
   }
 
@@ -132,7 +134,8 @@ std::vector<BranchNodes<Vector3>> node_displacements(const Octree& tree, NodeVal
       const NodeValue& node = values.at(node_position(tree.settings, places[b], n));
       all[b][n] = at_point_of(sequence.triangles[node.triangle], node.weight, moved);
     }
-    if (tree.settings.hanging == HangingNodes::constrained) constrain(hanging_nodes(tree, places[b]), all[b]);
+    if (tree.settings.hanging == HangingNodes::constrained)
+      constrain(hanging_nodes(tree, places[b]), all[b]);
   }
   return all;
 }
@@ -161,7 +164,8 @@ void require_usable(const MeshSequence& sequence) {
     throw InputError("mesh sequence: it needs a frame, and a time for each");
   for (std::size_t k = 1; k < frames; ++k) {
     const std::string where = "mesh sequence: frame " + std::to_string(k);
-    if (!(sequence.times[k] > sequence.times[k - 1])) throw InputError(where + ": the times must rise");
+    if (!(sequence.times[k] > sequence.times[k - 1]))
+      throw InputError(where + ": the times must rise");
     if (sequence.positions[k].cols() != sequence.positions[0].cols())
       throw InputError(where + ": it must have as many vertices as the first");
   }
@@ -223,7 +227,8 @@ DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSett
   for (std::size_t k = 0; k < sequence.times.size(); ++k) {
     auto values = std::make_unique<NodeValues>(sequence, k, settings);
     if (before)
-      values->follow(*before, largest_displacement(sequence.positions[k - 1], sequence.positions[k]));
+      values->follow(*before,
+                     largest_displacement(sequence.positions[k - 1], sequence.positions[k]));
     body.frames.push_back(make_frame(sequence, k, *values, settings));
     before = std::move(values);
   }

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A trial value that waits for its turn. Nearest first, then by index, so that the order is the same each
-/// time.
+/// A trial value that waits for its turn. Nearest first, then by index, so that the order is the
+/// same each time.
 struct Trial {
   double distance;  // |phi| [m]
   int node;
@@ -66,11 +66,12 @@ Upwind upwind(const March& march, const Node& node, int axis, double sign) {
   return {nearest, per_h2};
 }
 
-/// The larger root T of sum weight (T - value)^2 = 1 over the axes; those whose value lies at T or beyond are
-/// no upwind ones and are left out, the farthest first. Values count from the nearest, so that nothing large
-/// cancels.
+/// The larger root T of sum weight (T - value)^2 = 1 over the axes; those whose value lies at T or
+/// beyond are no upwind ones and are left out, the farthest first. Values count from the nearest,
+/// so that nothing large cancels.
 double solve(std::array<Upwind, 3> axes) {
-  std::sort(axes.begin(), axes.end(), [](const Upwind& a, const Upwind& b) { return a.value < b.value; });
+  std::sort(axes.begin(), axes.end(),
+            [](const Upwind& a, const Upwind& b) { return a.value < b.value; });
   const double nearest = axes[0].value;
   double beyond = infinity, sum = 0, mean = 0, squares = 0;  // T = nearest + beyond
   for (const Upwind& axis : axes) {
@@ -109,14 +110,16 @@ void update_neighbours(March& march, long index) {
     for (const int direction : {-1, 1}) {
       Node next = node;
       next[axis] += direction;
-      if (next[axis] < 0 || next[axis] >= lattice.nodes[axis] || march.known[lattice.index(next)]) continue;
+      if (next[axis] < 0 || next[axis] >= lattice.nodes[axis] || march.known[lattice.index(next)])
+        continue;
       update(march, next, sign);
     }
   }
 }
 
 March start_march(const Lattice& lattice, const Seeds& seeds, MarchingOrder order) {
-  if (seeds.nodes.empty()) throw InputError("march: no node lies next to the surface; give a finer grid");
+  if (seeds.nodes.empty())
+    throw InputError("march: no node lies next to the surface; give a finer grid");
   March march{{lattice, std::vector<double>(lattice.size(), infinity)},
               order,
               std::vector<std::uint8_t>(lattice.size(), 0),
@@ -128,8 +131,8 @@ March start_march(const Lattice& lattice, const Seeds& seeds, MarchingOrder orde
   return march;
 }
 
-/// 1/t^2 of the crossing between a node of value a and its neighbour of value b, in cells; 0 if there is
-/// none.
+/// 1/t^2 of the crossing between a node of value a and its neighbour of value b, in cells; 0
+/// if there is none.
 double crossing(float a, float b) {
   if ((a < 0) == (b < 0)) return 0;
   const double t = double(a) / (double(a) - double(b));

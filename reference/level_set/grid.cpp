@@ -32,18 +32,20 @@ double weight_along(const Vector3& within, int axis, int upper) {
   return upper ? within[axis] : 1 - within[axis];
 }
 
-/// The weights of the eight nodes of a cell: bit 0 of the corner's number is its step along x, and so on.
+/// The weights of the eight nodes of a cell: bit 0 of the corner's number is its step
+/// along x, and so on.
 std::array<double, 8> corner_weights(const Vector3& within) {
   std::array<double, 8> weights;
   for (int corner = 0; corner < 8; ++corner) {
     weights[corner] = 1;
-    for (int axis = 0; axis < 3; ++axis) weights[corner] *= weight_along(within, axis, corner >> axis & 1);
+    for (int axis = 0; axis < 3; ++axis)
+      weights[corner] *= weight_along(within, axis, corner >> axis & 1);
   }
   return weights;
 }
 
-/// The differences at a cell's two nodes along an axis, central or at the border one-sided, blended: the sum
-/// of weights times the values these steps away from the lower node.
+/// The differences at a cell's two nodes along an axis, central or at the border one-sided,
+/// blended: the sum of weights times the values these steps away from the lower node.
 struct Slope {
   std::array<long, 4> steps;
   std::array<double, 4> weights;  // 1/m
@@ -77,16 +79,18 @@ Distance blend_gradients(const Grid& grid, const Vector3& p) {
   Distance blend{0, Vector3::Zero()};
   for (int corner = 0; corner < 8; ++corner)
     blend.phi +=
-        weights[corner] *
-        lowest[(corner & 1) * strides[0] + (corner >> 1 & 1) * strides[1] + (corner >> 2) * strides[2]];
+        weights[corner] * lowest[(corner & 1) * strides[0] + (corner >> 1 & 1) * strides[1] +
+                                 (corner >> 2) * strides[2]];
   for (int axis = 0; axis < 3; ++axis) {
     const Slope slope = slope_along(grid.lattice, axis, place);
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     for (int row = 0; row < 4; ++row) {
       const int on_b = row & 1, on_c = row >> 1;
       const double* phi = lowest + on_b * strides[b] + on_c * strides[c];
-      const double weight = weight_along(place.within, b, on_b) * weight_along(place.within, c, on_c);
-      for (int k = 0; k < 4; ++k) blend.normal[axis] += weight * slope.weights[k] * phi[slope.steps[k]];
+      const double weight =
+          weight_along(place.within, b, on_b) * weight_along(place.within, c, on_c);
+      for (int k = 0; k < 4; ++k)
+        blend.normal[axis] += weight * slope.weights[k] * phi[slope.steps[k]];
     }
   }
   const double length = blend.normal.norm();
@@ -101,16 +105,21 @@ Node Lattice::node(long index) const {
   return {int(index % nodes[0]), int(row % nodes[1]), int(row / nodes[1])};
 }
 
-Bounds Lattice::bounds() const { return {origin, position({nodes[0] - 1, nodes[1] - 1, nodes[2] - 1})}; }
+Bounds Lattice::bounds() const {
+  return {origin, position({nodes[0] - 1, nodes[1] - 1, nodes[2] - 1})};
+}
 
 Lattice lattice_about(const Bounds& bounds, int cells, int margin) {
-  constexpr int most = 1 << 20;  // lattices that large have too many nodes, but their number is a long
+  // lattices that large have too many nodes, but their number is a long
+  constexpr int most = 1 << 20;
   if (cells < 4 || margin < 1 || cells > most || margin > most)
-    throw InputError("grid: " + std::to_string(cells) + " cells along the longest side and a margin of " +
-                     std::to_string(margin) + "; give at least 4 and 1, and at most 2^20");
+    throw InputError("grid: " + std::to_string(cells) +
+                     " cells along the longest side and a margin of " + std::to_string(margin) +
+                     "; give at least 4 and 1, and at most 2^20");
   const Vector3 sizes = bounds.sizes();
   if (!(sizes.maxCoeff() > 0) || !sizes.allFinite())
-    throw InputError("grid: the bounds to be covered have no extent; give a surface with positions in m");
+    throw InputError(
+        "grid: the bounds to be covered have no extent; give a surface with positions in m");
   const double spacing = sizes.maxCoeff() / cells;
   Lattice lattice{Vector3::Zero(), spacing, {}};
   for (int axis = 0; axis < 3; ++axis) {
@@ -125,8 +134,9 @@ Lattice lattice_about(const Bounds& bounds, int cells, int margin) {
   return lattice;
 }
 
-// Beyond the lattice: q on its border names the surface point s = q - phi N. Where the way from s to p leaves
-// the lattice is a better q: |p - s| never grows, and stands still where s is a nearest point of p.
+// Beyond the lattice: q on its border names the surface point s = q - phi N. Where the way from s
+// to p leaves the lattice is a better q: |p - s| never grows, and stands still where s is a
+// nearest point of p.
 Distance Grid::at(const Vector3& p) const {
   const Bounds bounds = lattice.bounds();
   if (bounds.contains(p)) return blend_gradients(*this, p);
@@ -149,8 +159,8 @@ Distance Grid::in_cell(const Vector3& p) const {
   std::array<double, 8> corners;
   Distance result{0, Vector3::Zero()};
   for (int corner = 0; corner < 8; ++corner) {
-    corners[corner] =
-        phi[lowest + (corner & 1) * strides[0] + (corner >> 1 & 1) * strides[1] + (corner >> 2) * strides[2]];
+    corners[corner] = phi[lowest + (corner & 1) * strides[0] + (corner >> 1 & 1) * strides[1] +
+                          (corner >> 2) * strides[2]];
     result.phi += weights[corner] * corners[corner];
   }
   for (int axis = 0; axis < 3; ++axis) {

@@ -27,27 +27,28 @@ struct Lattice {
   std::array<long, 3> strides() const { return {1, nodes[0], long(nodes[0]) * nodes[1]}; }
 };
 
-/// `cells` along the longest side of the bounds, and `margin` cells more on every side; the other sides are
-/// filled up to whole cells, the bounds in their middle. Throws InputError for bounds without extent, fewer
-/// than 4 cells, margin < 1, or more than 2^30 nodes.
+/// `cells` along the longest side of the bounds, and `margin` cells more on every side; the other
+/// sides are filled up to whole cells, the bounds in their middle. Throws InputError for bounds
+/// without extent, fewer than 4 cells, margin < 1, or more than 2^30 nodes.
 Lattice lattice_about(const Bounds& bounds, int cells, int margin);
 
 /// Signed distance at the nodes of a lattice.
 ///
-/// Accuracy between nodes, where phi is smooth and its nodes exact: value h^2 (second differences of phi)/8
-/// at most, gradient of the cell O(h), gradient of the nodes O(h^2). At a kink the gradient of the nodes is a
-/// blend over two cells.
+/// Accuracy between nodes, where phi is smooth and its nodes exact: value h^2 (second differences
+/// of phi)/8 at most, gradient of the cell O(h), gradient of the nodes O(h^2). At a kink the
+/// gradient of the nodes is a blend over two cells.
 struct Grid {
   Lattice lattice;
   std::vector<double> phi;  // at the nodes, in the order of Lattice::index [m]
 
-  /// Inside the lattice: the trilinear value, and the trilinear blend of the nodes' central differences (one-
-  /// sided at the lattice's border), made a unit vector. Beyond it: the distance to a point of the surface
-  /// that a few rounds of search from the border find; no less than the true distance but for the grid's own
-  /// error, and without a jump at the border. NaN for p that is not finite.
+  /// Inside the lattice: the trilinear value, and the trilinear blend of the nodes' central
+  /// differences (one- sided at the lattice's border), made a unit vector. Beyond it: the
+  /// distance to a point of the surface that a few rounds of search from the border find; no less
+  /// than the true distance but for the grid's own error, and without a jump at the border. NaN
+  /// for p that is not finite.
   Distance at(const Vector3& p) const;
-  /// The trilinear value and the gradient of the trilinear interpolant, which jumps from cell to cell and is
-  /// not made a unit vector. p must be in the lattice's bounds.
+  /// The trilinear value and the gradient of the trilinear interpolant, which jumps from cell to
+  /// cell and is not made a unit vector. p must be in the lattice's bounds.
   Distance in_cell(const Vector3& p) const;
 };
 

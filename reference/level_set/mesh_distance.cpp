@@ -10,7 +10,8 @@ namespace foldproof {
 namespace {
 
 constexpr int leaf_size = 4;
-constexpr int deepest = 64;  // of a median-cut tree over fewer than 2^31 items, with room for both children
+// of a median-cut tree over fewer than 2^31 items, with room for both children
+constexpr int deepest = 64;
 
 /// A unit vector, or zero for what has no direction.
 Vector3 unit(const Vector3& v) {
@@ -117,7 +118,8 @@ NearestFeature nearest_feature(const MeshDistance& mesh, const Vector3& p, doubl
   return best;
 }
 
-Distance signed_distance(const MeshDistance& mesh, const NearestFeature& nearest, const Vector3& p) {
+Distance signed_distance(const MeshDistance& mesh, const NearestFeature& nearest,
+                         const Vector3& p) {
   const Vector3 away = p - nearest.point;
   const Vector3& outward = mesh.normals[nearest.triangle][size_t(nearest.feature)];
   const double side = away.dot(outward) < 0 ? -1 : 1;
@@ -128,8 +130,8 @@ Distance signed_distance(const MeshDistance& mesh, const NearestFeature& nearest
 
 Distance MeshDistance::at(const Vector3& p) const {
   const NearestFeature nearest = nearest_feature(*this, p, std::numeric_limits<double>::infinity());
-  if (nearest.triangle < 0)
-    return {std::numeric_limits<double>::quiet_NaN(), Vector3::Zero()};  // p is not finite
+  // p is not finite
+  if (nearest.triangle < 0) return {std::numeric_limits<double>::quiet_NaN(), Vector3::Zero()};
   return signed_distance(*this, nearest, p);
 }
 

@@ -16,7 +16,8 @@ struct GridMethod {
   MarchingOrder order;  // of the values beyond
 };
 
-/// Exact signed distance in the band, fast marching beyond it. The mesh must be closed, see MeshDistance.
+/// Exact signed distance in the band, fast marching beyond it. The mesh must be closed,
+/// see MeshDistance.
 std::shared_ptr<const Grid> make_grid(const MeshDistance& mesh, const GridMethod& method);
 
 }  // namespace foldproof

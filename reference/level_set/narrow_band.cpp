@@ -16,9 +16,10 @@ bool is_near(const MeshDistance& mesh, const Lattice& lattice, const Node& first
   return nearest_feature(mesh, lattice.position(first) + half, width + half.norm()).triangle >= 0;
 }
 
-/// Adds the nodes of a row of the block, from `node` on. A node is at most one spacing farther away than the
-/// one before it, which shortens the search.
-void add_row(const MeshDistance& mesh, const Lattice& lattice, Node node, double width, Seeds& seeds) {
+/// Adds the nodes of a row of the block, from `node` on. A node is at most one spacing farther away
+/// than the one before it, which shortens the search.
+void add_row(const MeshDistance& mesh, const Lattice& lattice, Node node, double width,
+             Seeds& seeds) {
   double bound = width;
   const int end = std::min(node[0] + block, lattice.nodes[0]);
   for (; node[0] < end; ++node[0]) {
@@ -46,8 +47,10 @@ void add_block(const MeshDistance& mesh, const Lattice& lattice, const Node& fir
 }  // namespace
 
 Seeds narrow_band(const MeshDistance& mesh, const Lattice& lattice, double cells) {
-  if (!(cells >= 1)) throw InputError("narrow_band: " + std::to_string(cells) + " cells; give at least 1");
-  // a little more than asked for, so that neighbours of a node on the surface are in a band of one cell
+  if (!(cells >= 1))
+    throw InputError("narrow_band: " + std::to_string(cells) + " cells; give at least 1");
+  // a little more than asked for, so that neighbours of a node on the surface are in a
+  // band of one cell
   const double width = (1 + 1e-12) * cells * lattice.spacing;
   Seeds seeds;
   Node first;

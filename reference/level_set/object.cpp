@@ -7,10 +7,10 @@ namespace foldproof {
 
 namespace {
 
-// phi changes by no more than this per distance: a distance by 1. Each slope of its trilinear interpolant
-// along an axis is a mean of differences along edges of the cell, at most 1, so that all three make sqrt(3)
-// at most. Nodes that miss the distance by e (they hang, or marching missed) add 2 e/width to a slope: 2 is
-// enough for e = 0.077 widths.
+// phi changes by no more than this per distance: a distance by 1. Each slope of its trilinear
+// interpolant along an axis is a mean of differences along edges of the cell, at most 1, so that
+// all three make sqrt(3) at most. Nodes that miss the distance by e (they hang, or marching missed)
+// add 2 e/width to a slope: 2 is enough for e = 0.077 widths.
 constexpr double steepest = 2;
 
 }  // namespace
@@ -19,7 +19,8 @@ RigidOverSpan RigidObject::over(const Span& span) const {
   const Pose pose = pose_at(motion, span.start);
   const Pose now = after(pose, place);
   const Eigen::Matrix3d rotation = now.rotation.toRotationMatrix();
-  RigidOverSpan over{&solid, rotation, rotation.transpose(), now.translation, {}, {}, pose.translation};
+  RigidOverSpan over{&solid, rotation, rotation.transpose(), now.translation,
+                     {},     {},       pose.translation};
   if (span.end > span.start) {
     const Pose end = pose_at(motion, span.end);
     const Eigen::Matrix3d turn = (end.rotation * pose.rotation.conjugate()).toRotationMatrix();
@@ -28,14 +29,15 @@ RigidOverSpan RigidObject::over(const Span& span) const {
   } else {
     over.drift = velocity_at(motion, over.pivot, span.start);
     for (int axis = 0; axis < 3; ++axis)
-      over.spin.col(axis) = velocity_at(motion, over.pivot + Vector3::Unit(axis), span.start) - over.drift;
+      over.spin.col(axis) =
+          velocity_at(motion, over.pivot + Vector3::Unit(axis), span.start) - over.drift;
   }
   return over;
 }
 
 ObjectPoint RigidOverSpan::at(const Vector3& p) const {
-  // by columns: pairs of coordinates are written at once, as they are read; of single ones the reader would
-  // wait
+  // by columns: pairs of coordinates are written at once, as they are read; of single ones the
+  // reader would wait
   const Vector3 away = p - translation;
   const Distance distance =
       distance_to(*solid, inverse_rotation.col(0) * away.x() + inverse_rotation.col(1) * away.y() +
@@ -57,7 +59,8 @@ ObjectPoint DeformingOverSpan::at(const Vector3& p) const {
   const DeformingPoint now = deforming_at(*body, p, span.start);
   ObjectPoint point{now.phi, now.normal, now.velocity};
   if (span.end > span.start)
-    point.velocity = (advected_position(*body, p, span.start, span.end) - p) / (span.end - span.start);
+    point.velocity =
+        (advected_position(*body, p, span.start, span.end) - p) / (span.end - span.start);
   return point;
 }
 
@@ -86,8 +89,8 @@ std::span<ObjectPoint> ObjectsOverSpan::at(const Vector3& p) {
 
 bool ObjectsOverSpan::out_of_reach(const Vector3& p, const Vector3& v, double time) const {
   const double moved = steepest * (p - queried_point_).norm();  // NaN before the first question
-  for (const ObjectPoint& answer : answers_) {                  // in whatever order it was put since
-    const double clearance = answer.phi - moved;                // m, at least
+  for (const ObjectPoint& answer : answers_) {    // in whatever order it was put since
+    const double clearance = answer.phi - moved;  // m, at least
     if (!(clearance > 0) || std::isinf(clearance)) return false;
     const auto& body = bodies_[std::size_t(answer.part)];
     const double squared_speed =

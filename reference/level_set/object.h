@@ -15,7 +15,8 @@
 
 namespace foldproof {
 
-/// The times between which a velocity moves the cloth; start == end for a velocity that only ends a step.
+/// The times between which a velocity moves the cloth; start == end for a velocity that
+/// only ends a step.
 struct Span {
   double start, end;  // s
   double step;        // of the step that it belongs to [s]
@@ -25,16 +26,18 @@ struct Span {
 struct ObjectPoint {
   double phi = std::numeric_limits<double>::infinity();  // at the span's start, negative inside [m]
   Vector3 normal = Vector3::Zero();                      // N, outward, at the span's start [1]
-  Vector3 velocity = Vector3::Zero();  // v, of the object there: its mean over the span, so that a point that
-      // takes it rides along exactly; where the span is an instant, that of then [m/s]
+  // v, of the object there: its mean over the span, so that a point that
+  Vector3 velocity = Vector3::Zero();
+  // takes it rides along exactly; where the span is an instant, that of then [m/s]
   int part = -1;        // which of the objects; -1: there is none
   double friction = 0;  // mu, of that object [1]
 };
 
-/// A rigid object during a span: its poses and its velocity, which all points share, worked out once.
+/// A rigid object during a span: its poses and its velocity, which all points share,
+/// worked out once.
 struct RigidOverSpan {
   const Solid* solid;
-  Eigen::Matrix3d rotation;          // the solid's point X is at x = turned X + moved at the span's start
+  Eigen::Matrix3d rotation;  // the solid's point X is at x = turned X + moved at the span's start
   Eigen::Matrix3d inverse_rotation;  // turned's inverse
   Vector3 translation;               // m
   Eigen::Matrix3d spin;  // the object's point at p has the velocity drift + spin (p - pivot) [1/s]
@@ -84,8 +87,8 @@ struct Object {
   double friction = 0;  // mu, Coulomb's coefficient between it and cloth [1]
 };
 
-/// The two objects that a point is deepest in or nearest to, and how many it is inside of: inside two or more
-/// it is pinched (BMF03 section 5.1). The union's phi is the first's.
+/// The two objects that a point is deepest in or nearest to, and how many it is inside of: inside
+/// two or more it is pinched (BMF03 section 5.1). The union's phi is the first's.
 struct Nearest {
   ObjectPoint first, second;
   int inside = 0;
@@ -104,16 +107,16 @@ class ObjectsOverSpan {
   /// What each object says about p, in their order; overwritten by the next call.
   std::span<ObjectPoint> at(const Vector3& p);
 
-  /// True if the last answers prove, without asking, that a point at p with velocity v [m/s] cannot reach any
-  /// object within `time` [s].
+  /// True if the last answers prove, without asking, that a point at p with velocity v [m/s] cannot
+  /// reach any object within `time` [s].
   bool out_of_reach(const Vector3& p, const Vector3& v, double time) const;
 
  private:
   std::vector<std::variant<RigidOverSpan, DeformingOverSpan>> bodies_;
   std::vector<double> friction_;
   std::vector<ObjectPoint> answers_;
-  Vector3 queried_point_ =
-      Vector3::Constant(std::numeric_limits<double>::quiet_NaN());  // the point of the answers
+  // the point of the answers
+  Vector3 queried_point_ = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
 Nearest nearest_objects(std::span<const Object> objects, const Vector3& p, const Span& span);

@@ -24,8 +24,8 @@ Distance distance_in(const Octree& tree, int channel, const OctreeLeaf& leaf) {
   return distance_of(trilinear(tree.phi[channel], leaf.child, leaf.local));
 }
 
-/// A distance at q, the cube's nearest point to p, carried on to p: that of the surface point that it tells
-/// of.
+/// A distance at q, the cube's nearest point to p, carried on to p: that of the surface point
+/// that it tells of.
 Distance beyond_cube(const Distance& at_q, const Vector3& q, const Vector3& p) {
   const Vector3 away = p - (q - at_q.phi * at_q.normal);
   const double phi = away.norm();
@@ -53,13 +53,14 @@ OctreeLeaf leaf_at(const Octree& tree, const Vector3& p) {
   const Vector3 scaled = (p - cube.corner) * (1 / cube.width);
   std::array<int, 3> finest;
   for (int axis = 0; axis < 3; ++axis) {
-    const double place =
-        scaled[axis] * cells;  // that of a NaN is as good as any: what is interpolated there is NaN
+    // that of a NaN is as good as any: what is interpolated there is NaN
+    const double place = scaled[axis] * cells;
     finest[axis] = place >= cells ? cells - 1 : place > 0 ? int(place) : 0;
   }
   const auto& [x, y, z] = finest;
   const int first = tree.start_level, drop = cube.depth - first;
-  const OctreeStart start = tree.starts[std::size_t(((z >> drop) << first | y >> drop) << first | x >> drop)];
+  const OctreeStart start =
+      tree.starts[std::size_t(((z >> drop) << first | y >> drop) << first | x >> drop)];
   for (int b = start.branch, level = start.level + 1;; ++level) {
     const int width = cells >> level;  // of the branch's children, in finest cells
     const int c = int((x & width) != 0) | int((y & width) != 0) << 1 | int((z & width) != 0) << 2;
@@ -70,7 +71,8 @@ OctreeLeaf leaf_at(const Octree& tree, const Vector3& p) {
     }
     OctreeLeaf leaf{b, c, level, {}};
     for (int axis = 0; axis < 3; ++axis)
-      leaf.local[axis] = scaled[axis] * double(1 << level) - double(finest[axis] >> (cube.depth - level));
+      leaf.local[axis] =
+          scaled[axis] * double(1 << level) - double(finest[axis] >> (cube.depth - level));
     return leaf;
   }
 }
@@ -116,8 +118,9 @@ BranchNodes<NodeFlags> node_flags(const Octree& tree, int b) {
 std::size_t leaves(const Octree& tree) { return 7 * tree.branches.size() + 1; }
 
 std::size_t bytes(const Octree& tree) {
-  return sizeof(Octree) + tree.branches.size() * sizeof(OctreeBranch) + tree.part.size() * sizeof(int) +
-         tree.phi.size() * sizeof(BranchNodes<double>) + tree.starts.size() * sizeof(OctreeStart);
+  return sizeof(Octree) + tree.branches.size() * sizeof(OctreeBranch) +
+         tree.part.size() * sizeof(int) + tree.phi.size() * sizeof(BranchNodes<double>) +
+         tree.starts.size() * sizeof(OctreeStart);
 }
 
 void index_descent_starts(Octree& tree) {
@@ -137,19 +140,22 @@ void index_descent_starts(Octree& tree) {
   }
 }
 
-Vector3 lattice_position(const OctreeSettings& settings, int level, const std::array<int, 3>& index) {
+Vector3 lattice_position(const OctreeSettings& settings, int level,
+                         const std::array<int, 3>& index) {
   const Vector3 node(index[0], index[1], index[2]);
   return settings.corner + settings.width * (node / double(1 << level));
 }
 
 Vector3 node_position(const OctreeSettings& settings, const OctreePlace& place, int n) {
   const auto& [x, y, z] = place.cell;
-  return lattice_position(settings, place.level + 1, {2 * x + n % 3, 2 * y + n / 3 % 3, 2 * z + n / 9});
+  return lattice_position(settings, place.level + 1,
+                          {2 * x + n % 3, 2 * y + n / 3 % 3, 2 * z + n / 9});
 }
 
 OctreePlace child_place(const OctreePlace& place, int c) {
   return {place.level + 1,
-          {2 * place.cell[0] + (c & 1), 2 * place.cell[1] + (c >> 1 & 1), 2 * place.cell[2] + (c >> 2)}};
+          {2 * place.cell[0] + (c & 1), 2 * place.cell[1] + (c >> 1 & 1),
+           2 * place.cell[2] + (c >> 2)}};
 }
 
 std::vector<OctreePlace> branch_places(const Octree& tree) {

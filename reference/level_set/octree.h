@@ -1,5 +1,6 @@
-// Adaptively sampled distance: an octree of trilinear cells, fine where the distance is curved and near,
-// coarse elsewhere (BMF03 section 5.1, after Frisken et al. 2000); continuous where cells of two sizes meet.
+// Adaptively sampled distance: an octree of trilinear cells, fine where the distance is curved and
+// near, coarse elsewhere (BMF03 section 5.1, after Frisken et al. 2000); continuous where cells of
+// two sizes meet.
 #pragma once
 
 #include <array>
@@ -28,10 +29,11 @@ struct OctreeSettings {
   double width;       // of the cube [m]
   int depth;          // the finest cells are width / 2^depth wide
   int surface_depth;  // cells that may hold the surface are no wider than width / 2^surface_depth
-  double tolerance;   // cells are split where the trilinear interpolant misses by more, within `band` [m]
-  double band;        // of |phi| [m]
-  double beyond;      // what it may miss more per distance from the band [1]
-  double reach;       // of a union: parts nearer than this are kept beside the nearest one [m]
+  // cells are split where the trilinear interpolant misses by more, within `band` [m]
+  double tolerance;
+  double band;    // of |phi| [m]
+  double beyond;  // what it may miss more per distance from the band [1]
+  double reach;   // of a union: parts nearer than this are kept beside the nearest one [m]
   HangingNodes hanging;
 };
 
@@ -39,45 +41,47 @@ struct OctreeSettings {
 template <class T>
 using BranchNodes = std::array<T, 27>;
 
-/// A cell that is split in eight. Child c is at the upper half along x, y, z if its bits 0, 1, 2 are set.
+/// A cell that is split in eight. Child c is at the upper half along x, y, z if its bits
+/// 0, 1, 2 are set.
 struct OctreeBranch {
-  int children;         // the first of its children that are branches; the others follow in the order of c
-  int channels;         // the first of its channels
+  int children;  // the first of its children that are branches; the others follow in the order of c
+  int channels;  // the first of its channels
   unsigned char inner;  // bit c: child c is a branch, else it is a leaf
   unsigned char parts;  // how many channels it has, at least one
 };
 
-/// Where the descent to a leaf begins: the deepest branch, down to start_level, that holds a cell of that
-/// level.
+/// Where the descent to a leaf begins: the deepest branch, down to start_level, that holds a
+/// cell of that level.
 struct OctreeStart {
   int branch, level;
 };
 
-/// Of a union each branch holds a channel for every part that is nearest at one of its nodes, or nearer than
-/// the reach. Each channel is smooth where the part is, so that the crease of the union lies between nodes
-/// where it belongs.
+/// Of a union each branch holds a channel for every part that is nearest at one of its nodes, or
+/// nearer than the reach. Each channel is smooth where the part is, so that the crease of the union
+/// lies between nodes where it belongs.
 struct Octree {
   OctreeSettings settings;
   std::vector<OctreeBranch> branches;    // level by level; the first is the whole cube
   std::vector<int> part;                 // of each channel: which body
   std::vector<BranchNodes<double>> phi;  // of each channel [m]
   long evaluations = 0;                  // distances asked for while it was built
-  int start_level = 0;                   // the last that has no more cells than the tree has branches
+  int start_level = 0;  // the last that has no more cells than the tree has branches
   std::vector<OctreeStart> starts = {};  // of the 2^start_level cells along each axis, x fastest
 
   /// The union of all parts: the distance to the part that is nearest or entered deepest.
   Distance at(const Vector3& p) const;
 };
 
-/// Covers the union of bodies, which must lie inside the cube. Within the band the interpolant misses by the
-/// tolerance at most at the edge, face and cell midpoints where it was compared, unless the cells there are
-/// the finest; beyond the band by `beyond` times the distance more; a constrained node adds what its coarse
-/// neighbour misses. Neighbours, also across edges and corners, differ by one level at most. Throws
-/// InputError: no bodies, a setting out of range, a body that reaches the cube's boundary.
+/// Covers the union of bodies, which must lie inside the cube. Within the band the interpolant
+/// misses by the tolerance at most at the edge, face and cell midpoints where it was compared,
+/// unless the cells there are the finest; beyond the band by `beyond` times the distance more; a
+/// constrained node adds what its coarse neighbour misses. Neighbours, also across edges and
+/// corners, differ by one level at most. Throws InputError: no bodies, a setting out of range, a
+/// body that reaches the cube's boundary.
 Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings);
 
-/// Makes a tree whose branches stand ready to be asked: the levels down to start_level are looked up, for a
-/// descent waits for memory at each.
+/// Makes a tree whose branches stand ready to be asked: the levels down to start_level are looked
+/// up, for a descent waits for memory at each.
 void index_descent_starts(Octree& tree);
 
 /// The leaf that holds p, which lies in the cube.
@@ -95,11 +99,11 @@ inline const Distance nowhere{std::numeric_limits<double>::infinity(), Vector3::
 struct NearestParts {
   Distance first = nowhere, second = nowhere;
   int first_part = -1, second_part = -1;  // -1: no second part is within reach
-  int inside = 0;                         // parts that the point is inside of: two or more, and it is pinched
+  int inside = 0;  // parts that the point is inside of: two or more, and it is pinched
 };
 
-/// p anywhere; outside of the cube distances are measured from the surface point below the cube's nearest
-/// point.
+/// p anywhere; outside of the cube distances are measured from the surface point below the
+/// cube's nearest point.
 NearestParts nearest_parts(const Octree& tree, const Vector3& p);
 
 /// What a node of the union is: the part nearest to it, and whether two or more parts hold it.

@@ -23,7 +23,8 @@ void require_usable(const OctreeSettings& settings) {
   require(settings.reach >= 0, "the reach must not be negative");
 }
 
-/// Appends the branch to the tree, with the channels that are worth keeping; its children are set later.
+/// Appends the branch to the tree, with the channels that are worth keeping; its
+/// children are set later.
 void append(Octree& tree, const OctreeGrowth& growth, const GrowingBranch& branch) {
   const auto first = growth.phi.begin() + branch.channels;
   const std::vector<BranchNodes<double>> phi(first, first + branch.parts);
@@ -33,7 +34,8 @@ void append(Octree& tree, const OctreeGrowth& growth, const GrowingBranch& branc
       tree.part.push_back(growth.part[branch.channels + k]);
       tree.phi.push_back(phi[k]);
     }
-  tree.branches.push_back({0, channels, 0, static_cast<unsigned char>(int(tree.part.size()) - channels)});
+  tree.branches.push_back(
+      {0, channels, 0, static_cast<unsigned char>(int(tree.part.size()) - channels)});
 }
 
 /// The grown branches, children side by side behind those of the branches before.
@@ -88,7 +90,8 @@ Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSett
     if (settings.hanging == HangingNodes::free) continue;
     const std::uint32_t hanging = hanging_nodes(tree, places[b]);
     const OctreeBranch& branch = tree.branches[b];
-    for (int k = branch.channels; k < branch.channels + branch.parts; ++k) constrain(hanging, tree.phi[k]);
+    for (int k = branch.channels; k < branch.channels + branch.parts; ++k)
+      constrain(hanging, tree.phi[k]);
   }
   return tree;
 }

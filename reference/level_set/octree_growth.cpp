@@ -10,7 +10,9 @@ namespace {
 constexpr int centre = 13;                      // of the nodes of a branch
 constexpr std::size_t most_branches = 1 << 24;  // about 5 GB while they grow
 
-double cell_width(const OctreeSettings& settings, int level) { return std::ldexp(settings.width, -level); }
+double cell_width(const OctreeSettings& settings, int level) {
+  return std::ldexp(settings.width, -level);
+}
 
 double half_diagonal(const OctreeSettings& settings, int level) {
   return 0.5 * std::sqrt(3.0) * cell_width(settings, level);
@@ -27,7 +29,8 @@ struct Samples {
   std::vector<BranchNodes<double>> phi;
 };
 
-Samples take_samples(OctreeGrowth& growth, const std::vector<int>& parts, const OctreePlace& place) {
+Samples take_samples(OctreeGrowth& growth, const std::vector<int>& parts,
+                     const OctreePlace& place) {
   Samples samples{parts, std::vector<BranchNodes<double>>(parts.size())};
   for (std::size_t k = 0; k < parts.size(); ++k)
     for (int n = 0; n < 27; ++n)
@@ -75,8 +78,8 @@ BranchNodes<double> nodes_of_child(const FineNodes& fine, int c) {
   return nodes;
 }
 
-/// Which bodies may be nearest, or within reach, somewhere in the cell: a distance changes by no more than
-/// the way.
+/// Which bodies may be nearest, or within reach, somewhere in the cell: a distance changes by no
+/// more than the way.
 Samples near_parts(const Samples& samples, const OctreeSettings& settings, int level) {
   const double half_width = half_diagonal(settings, level);
   double nearest = samples.phi[0][centre];
@@ -102,9 +105,11 @@ bool is_missed(const BranchNodes<double>& phi, const OctreeSettings& settings) {
 
 bool wants_split(const Samples& samples, const OctreeSettings& settings, int level) {
   for (std::size_t k = 0; k < samples.phi.size(); ++k) {
-    const bool may_hold_surface = std::abs(samples.phi[k][centre]) <= half_diagonal(settings, level);
+    const bool may_hold_surface =
+        std::abs(samples.phi[k][centre]) <= half_diagonal(settings, level);
     if (level < settings.surface_depth && may_hold_surface) return true;
-    if (needs_channel(samples.phi, k, settings.reach) && is_missed(samples.phi[k], settings)) return true;
+    if (needs_channel(samples.phi, k, settings.reach) && is_missed(samples.phi[k], settings))
+      return true;
   }
   return false;
 }
@@ -129,7 +134,8 @@ void split_children(OctreeGrowth& growth, int b) {
 }
 
 int child_towards(const OctreePlace& place, int shift) {
-  return (place.cell[0] >> shift & 1) | (place.cell[1] >> shift & 1) << 1 | (place.cell[2] >> shift & 1) << 2;
+  return (place.cell[0] >> shift & 1) | (place.cell[1] >> shift & 1) << 1 |
+         (place.cell[2] >> shift & 1) << 2;
 }
 
 /// Splits leaves until there is a cell at this place.
@@ -142,15 +148,16 @@ void make_cell(OctreeGrowth& growth, const OctreePlace& place) {
       const auto first = growth.part.begin() + branch.channels;
       const std::vector<int> parts(first, first + branch.parts);
       const OctreePlace child = child_place(branch.place, c);
-      const Samples samples = near_parts(take_samples(growth, parts, child), growth.settings, child.level);
+      const Samples samples =
+          near_parts(take_samples(growth, parts, child), growth.settings, child.level);
       growth.branches[b].child[c] = add_branch(growth, child, samples);
     }
     b = growth.branches[b].child[c];
   }
 }
 
-/// The 26 cells about a branch have its width, or are split. Its place comes as a copy: new branches may move
-/// all others.
+/// The 26 cells about a branch have its width, or are split. Its place comes as a copy: new
+/// branches may move all others.
 void make_neighbours(OctreeGrowth& growth, OctreePlace place) {
   for (int d = 0; d < 27; ++d) {
     OctreePlace next = place;
@@ -175,11 +182,13 @@ bool needs_channel(const std::vector<BranchNodes<double>>& phi, std::size_t part
   const BranchNodes<double>& own = phi[part];
   if (std::ranges::any_of(own, [&](double value) { return value <= reach; })) return true;
   for (std::size_t other = 0; other < phi.size(); ++other)
-    if (other != part && is_in_front(phi[other], own) && (other < part || phi[other] != own)) return false;
+    if (other != part && is_in_front(phi[other], own) && (other < part || phi[other] != own))
+      return false;
   return true;
 }
 
-OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings) {
+OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies,
+                         const OctreeSettings& settings) {
   OctreeGrowth growth{bodies, settings, {}, {}, {}, 0};
   std::vector<int> all(bodies.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = int(k);
@@ -192,7 +201,8 @@ OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies, const Octr
 void balance(OctreeGrowth& growth) {
   for (int level = growth.settings.depth - 1; level > 0; --level)
     for (std::size_t b = 0; b < growth.branches.size(); ++b)
-      if (growth.branches[b].place.level == level) make_neighbours(growth, growth.branches[b].place);
+      if (growth.branches[b].place.level == level)
+        make_neighbours(growth, growth.branches[b].place);
 }
 
 }  // namespace foldproof

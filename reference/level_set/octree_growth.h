@@ -1,5 +1,5 @@
-// An octree while it grows: every body that may matter is sampled at every node, and children stand where
-// they were made.
+// An octree while it grows: every body that may matter is sampled at every node, and children stand
+// where they were made.
 #pragma once
 
 #include <array>
@@ -26,14 +26,15 @@ struct OctreeGrowth {
 };
 
 /// Splits cells, from the whole cube down, as long as the settings ask for it.
-OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings);
+OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies,
+                         const OctreeSettings& settings);
 
 /// Splits leaves that touch, be it at a corner, cells more than one level finer.
 void balance(OctreeGrowth& growth);
 
-/// Is a part worth a channel: nearer than the reach at one of the nodes, or not behind one and the same other
-/// part at all of them? Behind it at the nodes it is so between them, where phi is interpolated, and on
-/// neighbours' faces too.
+/// Is a part worth a channel: nearer than the reach at one of the nodes, or not behind one and the
+/// same other part at all of them? Behind it at the nodes it is so between them, where phi is
+/// interpolated, and on neighbours' faces too.
 bool needs_channel(const std::vector<BranchNodes<double>>& phi, std::size_t part, double reach);
 
 }  // namespace foldproof

@@ -13,7 +13,8 @@ bool is_leaf(const Octree& tree, int level, const Cell& cell) {
     if (axis < 0 || axis >= 1 << level) return false;
   int b = 0;
   for (int shift = level - 1; shift >= 0; --shift) {
-    const int c = (cell[0] >> shift & 1) | (cell[1] >> shift & 1) << 1 | (cell[2] >> shift & 1) << 2;
+    const int c =
+        (cell[0] >> shift & 1) | (cell[1] >> shift & 1) << 1 | (cell[2] >> shift & 1) << 2;
     const OctreeBranch& branch = tree.branches[b];
     if (!(branch.inner >> c & 1)) return true;
     b = inner_child(branch, c);
@@ -21,13 +22,15 @@ bool is_leaf(const Octree& tree, int level, const Cell& cell) {
   return false;
 }
 
-/// Direction d = 0 .. 26 is (d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1), so that node n lies towards neighbour n.
+/// Direction d = 0 .. 26 is (d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1), so that node n lies
+/// towards neighbour n.
 Cell neighbour(const Cell& cell, int d) {
   return {cell[0] + d % 3 - 1, cell[1] + d / 3 % 3 - 1, cell[2] + d / 9 - 1};
 }
 
-/// Bit d: the node n in the middle of an edge or a face lies on the neighbour in direction d, which is n's
-/// own direction or, for an edge, that of one of its two faces. 0 for corners and the centre.
+/// Bit d: the node n in the middle of an edge or a face lies on the neighbour in direction d,
+/// which is n's own direction or, for an edge, that of one of its two faces. 0 for corners
+/// and the centre.
 std::uint32_t neighbours_at(int n) {
   const std::array<int, 3> along = {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
   constexpr std::array<int, 3> step = {1, 3, 9};

@@ -19,8 +19,10 @@ struct OctreePlace {
 /// Of every branch, in the order of the branches.
 std::vector<OctreePlace> branch_places(const Octree& tree);
 
-/// The node with these indices among the 2^level + 1 along each axis [m]: the same bits on every level.
-Vector3 lattice_position(const OctreeSettings& settings, int level, const std::array<int, 3>& index);
+/// The node with these indices among the 2^level + 1 along each axis [m]: the same bits
+/// on every level.
+Vector3 lattice_position(const OctreeSettings& settings, int level,
+                         const std::array<int, 3>& index);
 
 /// Node n (0 .. 26) of the branch at this place [m].
 Vector3 node_position(const OctreeSettings& settings, const OctreePlace& place, int n);
@@ -37,10 +39,12 @@ inline int inner_child(const OctreeBranch& branch, int c) {
 inline int first_corner(int c) { return (c & 1) + 3 * ((c >> 1) & 1) + 9 * (c >> 2); }
 inline constexpr std::array<int, 8> corner_steps = {0, 1, 3, 4, 9, 10, 12, 13};
 
-/// Bit n: node n hangs, because a leaf as wide as the branch has it in the middle of an edge or a face.
+/// Bit n: node n hangs, because a leaf as wide as the branch has it in the middle of an
+/// edge or a face.
 std::uint32_t hanging_nodes(const Octree& tree, const OctreePlace& place);
 
-/// The mean of the 2, 4 or 8 corners of the branch that node n is in the middle of; itself for a corner.
+/// The mean of the 2, 4 or 8 corners of the branch that node n is in the middle
+/// of; itself for a corner.
 template <class T>
 T corner_mean(const BranchNodes<T>& nodes, int n) {
   const int x = n % 3, y = n / 3 % 3, z = n / 9;
@@ -53,7 +57,8 @@ T corner_mean(const BranchNodes<T>& nodes, int n) {
   return z == 1 ? T(0.5 * (along_y(0) + along_y(18))) : along_y(9 * z);
 }
 
-/// Puts each hanging node on the interpolant of the coarse neighbour: the mean of the corners about it.
+/// Puts each hanging node on the interpolant of the coarse neighbour: the mean of the
+/// corners about it.
 template <class T>
 void constrain(std::uint32_t hanging, BranchNodes<T>& nodes) {
   for (int n = 0; n < 27; ++n)

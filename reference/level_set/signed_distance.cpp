@@ -13,9 +13,10 @@ Vector3 direction_of(const Vector3& d, const Vector3& fallback) {
   return length > 0 ? Vector3(d / length) : fallback;
 }
 
-/// The distance to all points within `radius` of a core whose point nearest to p is `nearest`; `fallback` is
-/// N on the core itself.
-Distance round_off(const Vector3& p, const Vector3& nearest, double radius, const Vector3& fallback) {
+/// The distance to all points within `radius` of a core whose point nearest to p is `nearest`;
+/// `fallback` is N on the core itself.
+Distance round_off(const Vector3& p, const Vector3& nearest, double radius,
+                   const Vector3& fallback) {
   const Vector3 away = p - nearest;
   return {away.norm() - radius, direction_of(away, fallback)};
 }
@@ -41,7 +42,8 @@ Distance Box::at(const Vector3& p) const {
 }
 
 Distance Capsule::at(const Vector3& p) const {
-  return round_off(p, {0, 0, std::clamp(p.z(), -half_length, half_length)}, radius, Vector3::UnitX());
+  return round_off(p, {0, 0, std::clamp(p.z(), -half_length, half_length)}, radius,
+                   Vector3::UnitX());
 }
 
 Distance Torus::at(const Vector3& p) const {

@@ -1,5 +1,5 @@
-// Signed distance to solids, and the solids for which it is known in closed form. Each stands in a frame of
-// its own; objects place and move them.
+// Signed distance to solids, and the solids for which it is known in closed form. Each stands in a
+// frame of its own; objects place and move them.
 #pragma once
 
 #include <concepts>
@@ -10,8 +10,9 @@ namespace foldproof {
 
 /// What a solid says about a point.
 struct Distance {
-  double phi;      // signed distance to its surface, negative inside [m]
-  Vector3 normal;  // N = grad phi, outward, a unit vector; where phi has a kink, that of one of its sides
+  double phi;  // signed distance to its surface, negative inside [m]
+  // N = grad phi, outward, a unit vector; where phi has a kink, that of one of its sides
+  Vector3 normal;
 };
 
 /// A solid is anything that answers with its signed distance.

@@ -10,7 +10,8 @@
 
 namespace foldproof {
 
-using Solid = std::variant<HalfSpace, Sphere, Box, Capsule, Torus, MeshSolid, GridSolid, OctreeSolid>;
+using Solid =
+    std::variant<HalfSpace, Sphere, Box, Capsule, Torus, MeshSolid, GridSolid, OctreeSolid>;
 
 /// The solid's answer at p, in its own frame.
 inline Distance distance_to(const Solid& solid, const Vector3& p) {

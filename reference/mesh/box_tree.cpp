@@ -33,7 +33,8 @@ int Builder::longest_side(int first, int count) const {
   return int(axis);
 }
 
-/// Appends the node over these items and all below it; its index. Ties are broken by the items' numbers.
+/// Appends the node over these items and all below it; its index. Ties are broken by the
+/// items' numbers.
 int Builder::add(int first, int count) {
   const int node = int(tree.nodes.size());
   tree.nodes.push_back({bounds(first, count), first, count, -1});
@@ -69,6 +70,8 @@ std::vector<Bounds> triangle_bounds(const PerParticle3& x, const std::vector<Tri
   return boxes;
 }
 
-Bounds bounds_of(const PerParticle3& x) { return Bounds(x.rowwise().minCoeff(), x.rowwise().maxCoeff()); }
+Bounds bounds_of(const PerParticle3& x) {
+  return Bounds(x.rowwise().minCoeff(), x.rowwise().maxCoeff());
+}
 
 }  // namespace foldproof

@@ -1,4 +1,5 @@
-// A binary tree of axis-aligned boxes over the triangles of a mesh, for searches that look at few of them.
+// A binary tree of axis-aligned boxes over the triangles of a mesh, for searches that look
+// at few of them.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,8 +11,8 @@ namespace foldproof {
 
 using Bounds = Eigen::AlignedBox3d;  // m
 
-/// A node holds the items order[first] .. order[first + count - 1]. Its left child is the next node of the
-/// list, its right child nodes[right]; a leaf has right = -1.
+/// A node holds the items order[first] .. order[first + count - 1]. Its left child is the next node
+/// of the list, its right child nodes[right]; a leaf has right = -1.
 struct BoxNode {
   Bounds bounds;
   int first, count;
@@ -23,8 +24,8 @@ struct BoxTree {
   std::vector<int> order;      // M: the items, those of every node side by side
 };
 
-/// A tree over M boxes (at least one), each node cut at the median of the centres along the longest side of
-/// their bounds; leaves hold at most `leaf` items. The same boxes give the same tree.
+/// A tree over M boxes (at least one), each node cut at the median of the centres along the longest
+/// side of their bounds; leaves hold at most `leaf` items. The same boxes give the same tree.
 BoxTree make_box_tree(const std::vector<Bounds>& boxes, int leaf);
 
 /// The bounds of each triangle at the positions x (3 x N [m]).

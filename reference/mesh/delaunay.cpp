@@ -46,21 +46,24 @@ void reject_coincident(const std::vector<GridPoint>& grid) {
             [&grid](int i, int j) { return grid[i] == grid[j] ? i < j : grid[i] < grid[j]; });
   for (size_t k = 1; k < order.size(); ++k) {
     if (grid[order[k - 1]] != grid[order[k]]) continue;
-    throw InputError("delaunay: points " + std::to_string(order[k - 1]) + " and " + std::to_string(order[k]) +
-                     " coincide to 1e-9 of the extent; remove one");
+    throw InputError("delaunay: points " + std::to_string(order[k - 1]) + " and " +
+                     std::to_string(order[k]) + " coincide to 1e-9 of the extent; remove one");
   }
 }
 
-/// Higher than two units of the grid: rounding (0.71 units a point) cannot have turned such a triangle over.
+/// Higher than two units of the grid: rounding (0.71 units a point) cannot have turned such
+/// a triangle over.
 bool is_high(const std::vector<GridPoint>& grid, const Triangle& triangle) {
   const auto side = [&grid](int from, int to) {
     return std::array<std::int64_t, 2>{std::int64_t(grid[to].x()) - grid[from].x(),
                                        std::int64_t(grid[to].y()) - grid[from].y()};
   };
-  const std::array<std::int64_t, 2> s = side(triangle[0], triangle[1]), t = side(triangle[0], triangle[2]);
+  const std::array<std::int64_t, 2> s = side(triangle[0], triangle[1]),
+                                    t = side(triangle[0], triangle[2]);
   const std::array<std::int64_t, 2> u = side(triangle[1], triangle[2]);
   const double twice_area = double(s[0] * t[1] - s[1] * t[0]);  // below 2^62: exact in 64 bits
-  const double longest = std::max({std::hypot(s[0], s[1]), std::hypot(t[0], t[1]), std::hypot(u[0], u[1])});
+  const double longest =
+      std::max({std::hypot(s[0], s[1]), std::hypot(t[0], t[1]), std::hypot(u[0], u[1])});
   return twice_area > 2 * longest;
 }
 
@@ -69,8 +72,8 @@ Triangle from_smallest(Triangle triangle) {
   return triangle;
 }
 
-/// The points nearest to a vertex of the Voronoi diagram lie on a circle about it: three of them, or more in
-/// special position.
+/// The points nearest to a vertex of the Voronoi diagram lie on a circle about it: three of them,
+/// or more in special position.
 std::vector<int> points_around(const VoronoiDiagram::vertex_type& vertex) {
   std::vector<int> around;
   const VoronoiDiagram::edge_type* edge = vertex.incident_edge();
@@ -98,7 +101,8 @@ std::vector<Triangle> delaunay(const Eigen::Matrix2Xd& points) {
       if (is_high(grid, triangle)) triangles.push_back(from_smallest(triangle));
     }
   }
-  if (triangles.empty()) throw InputError("delaunay: all points lie on a line; give some beside it");
+  if (triangles.empty())
+    throw InputError("delaunay: all points lie on a line; give some beside it");
   std::sort(triangles.begin(), triangles.end());
   return triangles;
 }

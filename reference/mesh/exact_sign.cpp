@@ -9,7 +9,8 @@ namespace foldproof {
 
 namespace {
 
-// A number as the exact sum of doubles, in rising size, whose bits do not overlap. All steps below are exact:
+// A number as the exact sum of doubles, in rising size, whose bits do not overlap. All steps
+// below are exact:
 //   a + b = s + e with s = fl(a + b), e = (a - (s - z)) + (b - z), z = s - a       (Knuth)
 //   a * b = p + e with p = fl(a b), e = fma(a, b, -p)
 using ExactSum = std::vector<double>;
@@ -69,7 +70,8 @@ int side_of_plane(const Vector3& a, const Vector3& b, const Vector3& c, const Ve
   const Vector3 u = b - a, v = c - a, w = d - a;
   const double determinant = u.cross(v).dot(w);
   const Vector3 U = u.cwiseAbs(), V = v.cwiseAbs(), W = w.cwiseAbs();
-  const double size = W.x() * (U.y() * V.z() + U.z() * V.y()) + W.y() * (U.z() * V.x() + U.x() * V.z()) +
+  const double size = W.x() * (U.y() * V.z() + U.z() * V.y()) +
+                      W.y() * (U.z() * V.x() + U.x() * V.z()) +
                       W.z() * (U.x() * V.y() + U.y() * V.x());
   // differences, products and sums add fewer than eight roundings of half an epsilon to each term
   if (std::abs(determinant) > 8 * std::numeric_limits<double>::epsilon() * size)

@@ -1,5 +1,5 @@
-// Signs of determinants of coordinates, right whatever the rounding: on which side of a plane or a line a
-// point lies, and whether it lies on it.
+// Signs of determinants of coordinates, right whatever the rounding: on which side of a plane or a
+// line a point lies, and whether it lies on it.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,13 +8,15 @@
 
 namespace foldproof {
 
-/// The sign of (b - a) x (c - a) . (d - a): positive when d lies on the side that the triangle a, b, c shows
-/// its counter-clockwise face to; 0 when all four lie in a plane. Exact as long as no product of three
-/// differences of coordinates overflows or falls below 1e-290: computed in double first, and again in sums of
-/// doubles without rounding (Shewchuk 1997) where the double's own error bound leaves the sign open.
+/// The sign of (b - a) x (c - a) . (d - a): positive when d lies on the side that the triangle a,
+/// b, c shows its counter-clockwise face to; 0 when all four lie in a plane. Exact as long as no
+/// product of three differences of coordinates overflows or falls below 1e-290: computed in double
+/// first, and again in sums of doubles without rounding (Shewchuk 1997) where the double's own
+/// error bound leaves the sign open.
 int side_of_plane(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
 
-/// The sign of the area of a, b, c in the plane: positive when counter-clockwise; as exact as above.
+/// The sign of the area of a, b, c in the plane: positive when counter-clockwise; as
+/// exact as above.
 int side_of_line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
 
 }  // namespace foldproof

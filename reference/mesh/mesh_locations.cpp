@@ -14,11 +14,14 @@ std::string vertex_location(const MeshOrigin& origin, int v) {
   return origin.file + ":" + std::to_string(origin.vertex_lines[v]) + ": ";
 }
 
-std::string mesh_location(const MeshOrigin& origin) { return (origin.file.empty() ? "mesh" : origin.file) + ": "; }
+std::string mesh_location(const MeshOrigin& origin) {
+  return (origin.file.empty() ? "mesh" : origin.file) + ": ";
+}
 
 std::string vertex_name(const MeshOrigin& origin, int v) {
   if (origin.file.empty()) return "vertex " + std::to_string(v);
-  return "vertex " + std::to_string(v + 1) + " (line " + std::to_string(origin.vertex_lines[v]) + ")";
+  return "vertex " + std::to_string(v + 1) + " (line " + std::to_string(origin.vertex_lines[v]) +
+         ")";
 }
 
 std::string triangle_name(const MeshOrigin& origin, int t) {

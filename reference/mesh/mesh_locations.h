@@ -1,5 +1,5 @@
-// How refusals name the parts of a mesh: FILE:LINE for one that was read, counted from 0 for one made by
-// code.
+// How refusals name the parts of a mesh: FILE:LINE for one that was read, counted from 0 for
+// one made by code.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@ std::string triangle_location(const MeshOrigin& origin, int t);
 std::string vertex_location(const MeshOrigin& origin, int v);
 std::string mesh_location(const MeshOrigin& origin);
 
-// Inside a sentence: "vertex 4 (line 4)", "the face of line 17"; files count vertices from 1, as OBJ does.
+// Inside a sentence: "vertex 4 (line 4)", "the face of line 17"; files count vertices from
+// 1, as OBJ does.
 std::string vertex_name(const MeshOrigin& origin, int v);
 std::string triangle_name(const MeshOrigin& origin, int t);
 std::string edge_name(const MeshOrigin& origin, int a, int b);

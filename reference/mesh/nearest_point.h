@@ -21,7 +21,8 @@ struct NearestFeature {
 
 using Corners3 = std::array<Vector3, 3>;  // a, b, c of a triangle [m]
 
-/// The point of the triangle nearest to p and the feature that it lies on; `triangle` is left at -1.
+/// The point of the triangle nearest to p and the feature that it lies
+/// on; `triangle` is left at -1.
 NearestFeature nearest_on_triangle(const Corners3& corners, const Vector3& p);
 
 }  // namespace foldproof

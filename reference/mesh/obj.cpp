@@ -77,8 +77,8 @@ void skip_rest_of_record(Cursor& cursor) {
 // --- records ---
 
 double number(const Cursor& cursor, std::string_view word) {
-  const size_t plus =
-      word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0;  // from_chars knows no plus sign
+  // from_chars knows no plus sign
+  const size_t plus = word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0;
   const char* end = word.data() + word.size();
   double value = 0;
   const std::from_chars_result result = std::from_chars(word.data() + plus, end, value);
@@ -94,7 +94,8 @@ void read_vertex(Cursor& cursor, Contents& contents) {
   const int line = cursor.line;
   Vector3 vertex;
   int count = 0;
-  for (std::string_view word = next_word(cursor); !word.empty(); word = next_word(cursor), ++count) {
+  for (std::string_view word = next_word(cursor); !word.empty();
+       word = next_word(cursor), ++count) {
     const double value = number(cursor, word);
     if (count < 3) vertex[count] = value;
   }
@@ -110,7 +111,8 @@ void read_vertex(Cursor& cursor, Contents& contents) {
 /// Takes an integer off the front of the word.
 std::optional<int> take_index(std::string_view& word) {
   int index = 0;
-  const std::from_chars_result result = std::from_chars(word.data(), word.data() + word.size(), index);
+  const std::from_chars_result result =
+      std::from_chars(word.data(), word.data() + word.size(), index);
   if (result.ec != std::errc()) return std::nullopt;
   word.remove_prefix(size_t(result.ptr - word.data()));
   return index;
@@ -133,7 +135,8 @@ int vertex_index(const Cursor& cursor, std::string_view word, size_t vertices) {
   std::string_view rest = word;
   const std::optional<int> taken = take_index(rest);
   if (!taken || !ends_well(rest)) {
-    reject(cursor.file, cursor.line, quote(word) + " is no corner of a face; write a, a/b, a//c or a/b/c");
+    reject(cursor.file, cursor.line,
+           quote(word) + " is no corner of a face; write a, a/b, a//c or a/b/c");
   }
   const int index = *taken;
   if (index == 0)
@@ -156,7 +159,8 @@ void read_face(Cursor& cursor, Contents& contents) {
   const int line = cursor.line;
   Triangle fan{};
   int count = 0;
-  for (std::string_view word = next_word(cursor); !word.empty(); word = next_word(cursor), ++count) {
+  for (std::string_view word = next_word(cursor); !word.empty();
+       word = next_word(cursor), ++count) {
     const int index = vertex_index(cursor, word, contents.vertices.size());
     if (count > 2) fan[1] = fan[2];
     fan[std::min(count, 2)] = index;
@@ -171,18 +175,20 @@ void read_face(Cursor& cursor, Contents& contents) {
         add_once(int(contents.triangles.size()) - 1, contents.groups[name]);
   }
   if (count < 3)
-    reject(cursor.file, line, "a face of " + std::to_string(count) + " vertices; give at least three");
+    reject(cursor.file, line,
+           "a face of " + std::to_string(count) + " vertices; give at least three");
 }
 
-/// The words of a record, each once. Every face that follows is entered under each of them, so that without a
-/// limit a file could ask for memory that grows as the square of its length.
+/// The words of a record, each once. Every face that follows is entered under each of them, so that
+/// without a limit a file could ask for memory that grows as the square of its length.
 std::vector<std::string> read_names(Cursor& cursor) {
   std::vector<std::string> names;
   for (std::string_view word = next_word(cursor); !word.empty(); word = next_word(cursor)) {
     if (std::ranges::find(names, word) != names.end()) continue;
     if (names.size() == most_names)
-      reject(cursor.file, cursor.line,
-             "more than " + std::to_string(most_names) + " names of groups in a record; give fewer");
+      reject(
+          cursor.file, cursor.line,
+          "more than " + std::to_string(most_names) + " names of groups in a record; give fewer");
     names.emplace_back(word);
   }
   return names;
@@ -194,8 +200,8 @@ void reject_missing_vertices(const Contents& contents) {
     for (int v : contents.triangles[t]) {
       if (v < vertices) continue;
       reject(contents.origin.file, contents.origin.triangle_lines[t],
-             "index " + std::to_string(v + 1) + " is out of range; the file has " + std::to_string(vertices) +
-                 " vertices");
+             "index " + std::to_string(v + 1) + " is out of range; the file has " +
+                 std::to_string(vertices) + " vertices");
     }
   }
 }
@@ -206,7 +212,8 @@ Contents contents_of(std::string_view text, const std::string& file) {
   Contents contents;
   contents.origin.file = file;
   Cursor cursor{text, file};
-  if (cursor.text.starts_with("\xEF\xBB\xBF")) cursor.at = 3;  // the mark that some editors put before UTF-8
+  // the mark that some editors put before UTF-8
+  if (cursor.text.starts_with("\xEF\xBB\xBF")) cursor.at = 3;
   while (cursor.at < text.size()) {
     const std::string_view record = next_word(cursor);
     if (record == "v") read_vertex(cursor, contents);
@@ -268,8 +275,8 @@ void write_obj(const std::string& path, const PerParticle3& positions,
     text += 'v';
     for (int k = 0; k < 3; ++k) {
       // as %.17g, but the same in every locale
-      const std::to_chars_result end =
-          std::to_chars(digits, digits + sizeof digits, positions(k, v), std::chars_format::general, 17);
+      const std::to_chars_result end = std::to_chars(
+          digits, digits + sizeof digits, positions(k, v), std::chars_format::general, 17);
       text.append(1, ' ').append(digits, end.ptr);
     }
     text += '\n';
@@ -278,8 +285,9 @@ void write_obj(const std::string& path, const PerParticle3& positions,
     text += 'f';
     for (int v : triangles[t]) {
       if (v < 0 || v >= positions.cols()) {
-        throw InputError("write_obj: triangle " + std::to_string(t) + ": vertex index " + std::to_string(v) +
-                         " is out of range; there are " + std::to_string(positions.cols()) + " positions");
+        throw InputError("write_obj: triangle " + std::to_string(t) + ": vertex index " +
+                         std::to_string(v) + " is out of range; there are " +
+                         std::to_string(positions.cols()) + " positions");
       }
       text.append(1, ' ').append(std::to_string(v + 1));
     }

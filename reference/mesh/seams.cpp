@@ -18,7 +18,8 @@ Cell cell_of(const Vector3& x, double size) {
   return {std::floor(x[0] / size), std::floor(x[1] / size), std::floor(x[2] / size)};
 }
 
-/// The vertices that stay, in cells as wide as the distance: whoever is near stands in one of 27 cells.
+/// The vertices that stay, in cells as wide as the distance: whoever is near stands in
+/// one of 27 cells.
 class Kept {
  public:
   Kept(const PerParticle3& x, double distance) : x_(x), distance_(distance) {}
@@ -53,8 +54,8 @@ void reject_lost_side(const TriangleSoup& panels, const std::vector<int>& become
     if (becomes[size_t(a)] == becomes[size_t(b)] || becomes[size_t(b)] == becomes[size_t(c)] ||
         becomes[size_t(c)] == becomes[size_t(a)])
       throw InputError(triangle_location(panels.origin, int(t)) +
-                       "two corners of this triangle are so near that a seam would join them; give a smaller "
-                       "distance");
+                       "two corners of this triangle are so near that a seam would join them; give "
+                       "a smaller distance");
   }
 }
 
@@ -68,7 +69,8 @@ TriangleSoup close_seams(TriangleSoup panels, double distance) {
   std::vector<int> becomes, number(size_t(count), -1), lines, left;
   for (int v = 0; v < count; ++v) {
     if (!panels.rest.col(v).allFinite())
-      throw InputError(vertex_location(panels.origin, v) + "a coordinate is not finite; give numbers in m");
+      throw InputError(vertex_location(panels.origin, v) +
+                       "a coordinate is not finite; give numbers in m");
     const int other = kept.near(v);
     becomes.push_back(other < 0 ? v : other);
     if (other >= 0) continue;

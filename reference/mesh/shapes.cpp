@@ -9,7 +9,8 @@ namespace foldproof {
 namespace {
 
 void reject_bad_length(const std::string& name, double value) {
-  if (!(value > 0) || !std::isfinite(value)) reject_argument(name, value, "give a positive length in m");
+  if (!(value > 0) || !std::isfinite(value))
+    reject_argument(name, value, "give a positive length in m");
 }
 
 void reject_bad_count(const std::string& name, int value, int least, int most) {
@@ -29,13 +30,14 @@ int ring_start(int k) { return k == 0 ? 0 : 1 + 3 * k * (k - 1); }
 /// Vertex i of ring k, counted round and round.
 int on_ring(int k, int i) { return k == 0 ? 0 : ring_start(k) + i % (6 * k); }
 
-/// The triangles between ring k - 1 and ring k, in six sectors: k with two vertices on ring k, k - 1 with
-/// one.
+/// The triangles between ring k - 1 and ring k, in six sectors: k with two vertices on ring k,
+/// k - 1 with one.
 void add_ring(int k, std::vector<Triangle>& triangles) {
   for (int sector = 0; sector < 6; ++sector) {
     const int inner = sector * (k - 1), outer = sector * k;
     for (int i = 0; i < k; ++i) {
-      triangles.push_back({on_ring(k - 1, inner + i), on_ring(k, outer + i), on_ring(k, outer + i + 1)});
+      triangles.push_back(
+          {on_ring(k - 1, inner + i), on_ring(k, outer + i), on_ring(k, outer + i + 1)});
       if (i == k - 1) break;
       triangles.push_back(
           {on_ring(k - 1, inner + i), on_ring(k, outer + i + 1), on_ring(k - 1, inner + i + 1)});
@@ -45,7 +47,8 @@ void add_ring(int k, std::vector<Triangle>& triangles) {
 
 // --- pleats ---
 
-/// The x of the grid's columns: those of the vertices with the first vertex's y that precede all others.
+/// The x of the grid's columns: those of the vertices with the first vertex's y that
+/// precede all others.
 std::vector<double> grid_columns(const TriangleMesh& sheet) {
   std::vector<double> columns;
   for (int v = 0; v < sheet.particles() && sheet.rest(1, v) == sheet.rest(1, 0); ++v) {
@@ -57,11 +60,13 @@ std::vector<double> grid_columns(const TriangleMesh& sheet) {
 /// The x at which panels begin, and that at which the last one ends.
 std::vector<double> fold_lines(const TriangleMesh& sheet, int columns_per_pleat) {
   if (sheet.particles() == 0 || sheet.rest.row(2) != Eigen::RowVectorXd::Zero(sheet.particles())) {
-    throw InputError("pleated: the sheet is empty or leaves the plane z = 0; give one from make_sheet");
+    throw InputError(
+        "pleated: the sheet is empty or leaves the plane z = 0; give one from make_sheet");
   }
   const std::vector<double> columns = grid_columns(sheet);
   std::vector<double> lines;
-  for (size_t k = 0; k + 1 < columns.size(); k += size_t(columns_per_pleat)) lines.push_back(columns[k]);
+  for (size_t k = 0; k + 1 < columns.size(); k += size_t(columns_per_pleat))
+    lines.push_back(columns[k]);
   lines.push_back(columns.back());
   return lines;
 }
@@ -70,7 +75,8 @@ void reject_crossing(const TriangleMesh& sheet, const std::vector<double>& lines
   for (size_t t = 0; t < sheet.triangles.size(); ++t) {
     const auto [a, b, c] = sheet.triangles[t];
     const auto [left, right] = std::minmax({sheet.rest(0, a), sheet.rest(0, b), sheet.rest(0, c)});
-    const std::vector<double>::const_iterator line = std::upper_bound(lines.begin(), lines.end(), left);
+    const std::vector<double>::const_iterator line =
+        std::upper_bound(lines.begin(), lines.end(), left);
     if (line != lines.begin() && line != lines.end() && *line >= right) continue;
     throw InputError("pleated: triangle " + std::to_string(t) +
                      " crosses a fold line; give a sheet whose triangles" +
@@ -120,7 +126,8 @@ TriangleMesh make_cylinder(double radius, double height, int around, int along) 
       // d -- c
       // |    |   seen from outside
       // a -- b
-      const int a = j * around + i, b = j * around + (i + 1) % around, c = b + around, d = a + around;
+      const int a = j * around + i, b = j * around + (i + 1) % around, c = b + around,
+                d = a + around;
       triangles.push_back({a, b, c});
       triangles.push_back({a, c, d});
     }
@@ -145,7 +152,8 @@ PerParticle3 pleated_positions(const TriangleMesh& sheet, int columns_per_pleat,
   const std::vector<double> lines = fold_lines(sheet, columns_per_pleat);
   reject_crossing(sheet, lines);
 
-  // panel k starts at starts[k] and goes on along (cos, 0, +-sin): up if k is even, down if it is odd
+  // panel k starts at starts[k] and goes on along (cos, 0, +-sin): up if k is even,
+  // down if it is odd
   const auto direction = [angle](size_t k) {
     return Vector3(std::cos(angle / 2), 0, std::sin(k % 2 == 0 ? angle / 2 : -angle / 2));
   };
@@ -158,7 +166,8 @@ PerParticle3 pleated_positions(const TriangleMesh& sheet, int columns_per_pleat,
   for (int v = 0; v < sheet.particles(); ++v) {
     const auto line = std::upper_bound(lines.begin(), lines.end() - 1, sheet.rest(0, v));
     const size_t k = size_t(line - lines.begin()) - 1;
-    x.col(v) = starts[k] + (sheet.rest(0, v) - lines[k]) * direction(k) + Vector3(0, sheet.rest(1, v), 0);
+    x.col(v) =
+        starts[k] + (sheet.rest(0, v) - lines[k]) * direction(k) + Vector3(0, sheet.rest(1, v), 0);
   }
   return x;
 }

@@ -25,7 +25,8 @@ void reject_bad_arguments(const Sheet& sheet) {
     reject("width", sheet.width, "give a positive length in m");
   const bool height_follows = sheet.height == 0 && has_offset_rows(sheet.pattern);
   if ((!(sheet.height > 0) && !height_follows) || !std::isfinite(sheet.height)) {
-    reject("height", sheet.height, "give a positive length in m (or 0 for equilateral and jittered)");
+    reject("height", sheet.height,
+           "give a positive length in m (or 0 for equilateral and jittered)");
   }
   if (sheet.columns < 1) reject("columns", sheet.columns, "give at least 1");
   if (sheet.rows < 1) reject("rows", sheet.rows, "give at least 1");
@@ -38,7 +39,8 @@ void reject_bad_arguments(const Sheet& sheet) {
 
 void reject_bad_grading(const Sheet& sheet) {
   if (!(sheet.grading > 0) || !std::isfinite(sheet.grading))
-    reject("grading", sheet.grading, "give a positive ratio of the last cell's width to the first one's");
+    reject("grading", sheet.grading,
+           "give a positive ratio of the last cell's width to the first one's");
   const bool is_of_squares =
       !has_offset_rows(sheet.pattern) && sheet.pattern != SheetPattern::random_delaunay;
   if (sheet.grading == 1) return;
@@ -53,14 +55,15 @@ double row_height(const Sheet& sheet) {
   return sheet.height > 0 ? sheet.height / sheet.rows : row_ratio * sheet.width / sheet.columns;
 }
 
-/// Uniform in [0, 1): the 53 leading bits of the generator, which the standard fixes (it does not fix its
-/// distributions).
+/// Uniform in [0, 1): the 53 leading bits of the generator, which the standard fixes (it does not
+/// fix its distributions).
 double uniform(std::mt19937_64& random) { return double(random() >> 11) * 0x1p-53; }
 
 // --- squares ---
 
-/// Where line `i` of `cells` cells lies, as a fraction of the side: i/cells, or with q = grading^(1/(cells -
-/// 1)) (q^i - 1)/(q^cells - 1), so that each cell is q times as wide as the one before.
+/// Where line `i` of `cells` cells lies, as a fraction of the side: i/cells, or with q =
+/// grading^(1/(cells - 1)) (q^i - 1)/(q^cells - 1), so that each cell is q times as wide as
+/// the one before.
 double line_at(double i, int cells, double grading) {
   if (grading == 1) return i / cells;
   const double log_factor = std::log(grading) / (cells - 1);
@@ -114,9 +117,11 @@ TriangleMesh cross_squares(const Sheet& sheet) {
   triangles.reserve(size_t(4) * sheet.columns * sheet.rows);
   for (int j = 0; j < sheet.rows; ++j) {
     for (int i = 0; i < sheet.columns; ++i) {
-      const int a = j * stride + i, b = a + 1, c = b + stride, d = a + stride, centre = a + sheet.columns + 1;
+      const int a = j * stride + i, b = a + 1, c = b + stride, d = a + stride,
+                centre = a + sheet.columns + 1;
       x.col(centre) = grid_point(sheet, i + 0.5, j + 0.5);
-      for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, d}, std::pair{d, a}}) {
+      for (const auto& [from, to] :
+           {std::pair{a, b}, std::pair{b, c}, std::pair{c, d}, std::pair{d, a}}) {
         triangles.push_back({from, to, centre});
       }
     }
@@ -143,8 +148,8 @@ PerParticle3 place_offset_rows(const Sheet& sheet) {
   return x;
 }
 
-// Two columns: triangles with one vertex in the even row (the first and the last are halves) take turns with
-// those that have one vertex in the odd row.
+// Two columns: triangles with one vertex in the even row (the first and the last are halves) take
+// turns with those that have one vertex in the odd row.
 //
 //  odd  o0 o1 -- o2 o3      even  e0 ---- e1 ---- e2
 //       | /  \  /  \ |            | \    /  \    / |
@@ -188,7 +193,8 @@ TriangleMesh jittered_rows(const Sheet& sheet) {
 
 // --- random points ---
 
-/// Points with a least distance between them, found through square bins that hold at most one point each.
+/// Points with a least distance between them, found through square bins that hold at most
+/// one point each.
 struct Scatter {
   double least_distance;  // m
   double bin;             // side of a bin [m]: least_distance / sqrt(2)
@@ -198,11 +204,16 @@ struct Scatter {
 };
 
 Scatter empty_scatter(const Sheet& sheet) {
-  const double least_distance = 0.8 * std::min(sheet.width / sheet.columns, sheet.height / sheet.rows);
+  const double least_distance =
+      0.8 * std::min(sheet.width / sheet.columns, sheet.height / sheet.rows);
   const double bin = least_distance / std::sqrt(2.0);
   const int bin_columns = int(sheet.width / bin) + 1, bin_rows = int(sheet.height / bin) + 1;
-  return {
-      least_distance, bin, bin_columns, bin_rows, std::vector<int>(size_t(bin_columns) * bin_rows, -1), {}};
+  return {least_distance,
+          bin,
+          bin_columns,
+          bin_rows,
+          std::vector<int>(size_t(bin_columns) * bin_rows, -1),
+          {}};
 }
 
 void add_if_clear(const Eigen::Vector2d& p, Scatter& scatter) {
@@ -223,11 +234,13 @@ void add_border(const Sheet& sheet, Scatter& scatter) {
       add_if_clear({sheet.width * (double(i) / sheet.columns), y}, scatter);
   }
   for (int j = 1; j < sheet.rows; ++j) {
-    for (double x : {0.0, sheet.width}) add_if_clear({x, sheet.height * (double(j) / sheet.rows)}, scatter);
+    for (double x : {0.0, sheet.width})
+      add_if_clear({x, sheet.height * (double(j) / sheet.rows)}, scatter);
   }
 }
 
-/// Throws one dart into every empty bin, in random order, 20 times over: what room is left is small.
+/// Throws one dart into every empty bin, in random order, 20 times over: what room
+/// is left is small.
 void add_interior(const Sheet& sheet, Scatter& scatter) {
   std::mt19937_64 random(sheet.seed);
   std::vector<int> bins(scatter.in_bin.size());
@@ -239,7 +252,8 @@ void add_interior(const Sheet& sheet, Scatter& scatter) {
       if (scatter.in_bin[b] >= 0) continue;
       const double x = (b % scatter.bin_columns + uniform(random)) * scatter.bin;
       const double y = (b / scatter.bin_columns + uniform(random)) * scatter.bin;
-      const bool inside = x > margin && x < sheet.width - margin && y > margin && y < sheet.height - margin;
+      const bool inside =
+          x > margin && x < sheet.width - margin && y > margin && y < sheet.height - margin;
       if (inside) add_if_clear({x, y}, scatter);
     }
   }
@@ -248,7 +262,8 @@ void add_interior(const Sheet& sheet, Scatter& scatter) {
 TriangleMesh make_random_sheet(const Sheet& sheet) {
   const double aspect = sheet.width / sheet.columns / (sheet.height / sheet.rows);
   if (!(aspect > 0.25 && aspect < 4)) {
-    reject("cell width over cell height", aspect, "choose columns and rows that bring it between 1/4 and 4");
+    reject("cell width over cell height", aspect,
+           "choose columns and rows that bring it between 1/4 and 4");
   }
   Scatter scatter = empty_scatter(sheet);
   add_border(sheet, scatter);

@@ -7,8 +7,8 @@
 namespace foldproof {
 namespace {
 
-/// Three golden rectangles span the icosahedron: vertices (0, +-1, +-g) and their cyclic permutations, with
-/// g = (1 + sqrt 5)/2; here normalised.
+/// Three golden rectangles span the icosahedron: vertices (0, +-1, +-g) and their cyclic
+/// permutations, with g = (1 + sqrt 5)/2; here normalised.
 TriangleMesh icosahedron() {
   const double g = (1 + std::sqrt(5.0)) / 2;
   PerParticle3 x(3, 12);
@@ -22,8 +22,8 @@ TriangleMesh icosahedron() {
           {2, 7, 5},  {3, 10, 5}, {3, 1, 10}, {3, 11, 1}, {3, 7, 11}, {3, 5, 7}});
 }
 
-/// The numbers of the vertices of a mesh whose edges are divided: its own, then parts - 1 on each edge, then
-/// those inside of each triangle.
+/// The numbers of the vertices of a mesh whose edges are divided: its own, then parts - 1 on each
+/// edge, then those inside of each triangle.
 class DividedNumbers {
  public:
   DividedNumbers(const TriangleMesh& mesh, int parts)
@@ -42,7 +42,9 @@ class DividedNumbers {
   int count() const { return first_inside() + int(mesh_.triangles.size()) * inside(); }
 
   /// `steps` parts from the end a of the edge, 0 < steps < parts.
-  int on_edge(int edge, int steps) const { return mesh_.particles() + edge * (parts_ - 1) + steps - 1; }
+  int on_edge(int edge, int steps) const {
+    return mesh_.particles() + edge * (parts_ - 1) + steps - 1;
+  }
 
   /// i parts from the triangle's first corner towards its second, and j towards its third.
   int in_triangle(int t, int i, int j) const {
@@ -73,7 +75,8 @@ class DividedNumbers {
 };
 
 void require_radius(const char* name, double radius) {
-  if (!(radius > 0) || !std::isfinite(radius)) reject_argument(name, radius, "give a positive length in m");
+  if (!(radius > 0) || !std::isfinite(radius))
+    reject_argument(name, radius, "give a positive length in m");
 }
 
 }  // namespace
@@ -97,7 +100,8 @@ TriangleMesh divide_edges(const TriangleMesh& mesh, int parts) {
     for (int j = 1; j < parts; ++j)
       for (int i = 1; i + j < parts; ++i)
         x.col(numbers.in_triangle(t, i, j)) = share(parts - i - j) * mesh.rest.col(a) +
-                                              share(i) * mesh.rest.col(b) + share(j) * mesh.rest.col(c);
+                                              share(i) * mesh.rest.col(b) +
+                                              share(j) * mesh.rest.col(c);
     const auto vertex = [&](int i, int j) { return numbers.in_triangle(t, i, j); };
     for (int j = 0; j < parts; ++j)
       for (int i = 0; i + j < parts; ++i)

@@ -26,8 +26,8 @@ std::vector<int> number_fans(const std::vector<int>& fans, TriangleSoup& soup) {
   return copy_of;
 }
 
-//       a --- b      A triangle of the fan of v: the middle of the side that it turns to v is (a + b)/2.
-//        \   /
+//       a --- b      A triangle of the fan of v: the middle of the side that it turns to v is
+//        \   /      (a + b)/2.
 //          v
 /// Where the particles of the split mesh are, 3 x N' [m].
 PerParticle3 pulled_apart(const std::vector<Triangle>& split, const PerParticle3& x,

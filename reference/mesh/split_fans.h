@@ -1,4 +1,5 @@
-// Vertices at which a mesh hangs together by a point only: each of their fans of triangles gets its own.
+// Vertices at which a mesh hangs together by a point only: each of their fans of
+// triangles gets its own.
 #pragma once
 
 #include <vector>
@@ -7,8 +8,8 @@
 
 namespace foldproof {
 
-/// Of the way from a split vertex to the middle of its fan: fans that touched in a point come apart, so that
-/// cloth that is kept from itself may start from them.
+/// Of the way from a split vertex to the middle of its fan: fans that touched in a point come
+/// apart, so that cloth that is kept from itself may start from them.
 constexpr double split_share = 1e-3;
 
 struct SplitMesh {
@@ -16,12 +17,13 @@ struct SplitMesh {
   std::vector<int> copy_of;  // N': the vertex of the soup that a particle is, or is a copy of
 };
 
-/// Splits every vertex whose triangles form more than one fan. The fan of its first triangle keeps its number;
-/// the others get copies, numbered behind the N vertices of the soup in the order of their first triangles.
-/// Triangles keep their numbers. Each of those particles, the first fan's too, is moved by split_share of the
-/// way to the mean of the middles of the sides that its triangles turn to it; no other vertex moves. A fan all
-/// around a vertex of a flat sheet stays where it is. Throws InputError for what make_triangle_mesh refuses
-/// but several fans: an edge of three triangles is not split, since nothing says which two stay joined.
+/// Splits every vertex whose triangles form more than one fan. The fan of its first triangle keeps
+/// its number; the others get copies, numbered behind the N vertices of the soup in the order of
+/// their first triangles. Triangles keep their numbers. Each of those particles, the first fan's
+/// too, is moved by split_share of the way to the mean of the middles of the sides that its
+/// triangles turn to it; no other vertex moves. A fan all around a vertex of a flat sheet stays
+/// where it is. Throws InputError for what make_triangle_mesh refuses but several fans: an edge of
+/// three triangles is not split, since nothing says which two stay joined.
 SplitMesh split_fans(TriangleSoup soup);
 
 }  // namespace foldproof

@@ -10,7 +10,8 @@
 namespace foldproof {
 namespace {
 
-// --- the statue: an implicit surface d(p) = 0 one metre high, d about the distance, negative inside ---
+// --- the statue: an implicit surface d(p) = 0 one metre high, d about the distance,
+// negative inside ---
 
 /// An ellipsoid (semi-axes `radii` [m]) swept from one place to another.
 struct Limb {
@@ -96,9 +97,9 @@ LocalDistance local_distance(const std::vector<Limb>& limbs, const Vector3& p) {
   return local;
 }
 
-/// A ray from the figure's inner axis for every point of the unit sphere. From the lower pole to the upper,
-/// origins climb the axis and rays turn from straight down to straight up, so that no two rays cross; each
-/// leaves the figure once.
+/// A ray from the figure's inner axis for every point of the unit sphere. From the lower pole to
+/// the upper, origins climb the axis and rays turn from straight down to straight up, so that no
+/// two rays cross; each leaves the figure once.
 struct RayKnot {
   double height;     // on the unit sphere, from 0 to 1
   double origin;     // y on the axis [m]
@@ -106,7 +107,8 @@ struct RayKnot {
 };
 
 Vector3 ray_direction(const Vector3& unit, double elevation) {
-  const double angle = elevation * pi / 180, radius = std::max(std::hypot(unit.x(), unit.z()), 1e-12);
+  const double angle = elevation * pi / 180,
+               radius = std::max(std::hypot(unit.x(), unit.z()), 1e-12);
   const double outward = std::cos(angle) / radius;
   return Vector3(outward * unit.x(), std::sin(angle), outward * unit.z());
 }
@@ -155,13 +157,15 @@ bool has_edge(const TriangleMesh& mesh, int a, int b) {
   return edge != mesh.edges.end() && std::pair{edge->a, edge->b} == wanted;
 }
 
-/// Turns edges whose two opposite angles add up to more than pi, as Delaunay would; at most one a vertex.
+/// Turns edges whose two opposite angles add up to more than pi, as Delaunay would; at
+/// most one a vertex.
 void flip_edges(TriangleMesh& mesh) {
   std::vector<Triangle> triangles = mesh.triangles;
   std::vector<char> touched(mesh.particles(), 0);
   for (const Hinge& hinge : mesh.hinges) {
     const auto [v1, v2, v3, v4] = hinge.particles;
-    if (touched[v1] || touched[v2] || touched[v3] || touched[v4] || has_edge(mesh, v1, v2)) continue;
+    if (touched[v1] || touched[v2] || touched[v3] || touched[v4] || has_edge(mesh, v1, v2))
+      continue;
     const Vector3 x1 = mesh.rest.col(v1), x2 = mesh.rest.col(v2);
     const Vector3 x3 = mesh.rest.col(v3), x4 = mesh.rest.col(v4);
     if (!(cotangent(x3 - x1, x4 - x1) + cotangent(x3 - x2, x4 - x2) < -1e-6)) continue;
@@ -172,8 +176,9 @@ void flip_edges(TriangleMesh& mesh) {
   mesh = make_triangle_mesh(mesh.rest, triangles);
 }
 
-/// Moves every vertex along the surface towards the mean centre of its triangles, and turns edges. The
-/// triangles weigh as their areas to this power: the higher it is, the sooner they are of one size.
+/// Moves every vertex along the surface towards the mean centre of its triangles, and turns
+/// edges. The triangles weigh as their areas to this power: the higher it is, the sooner they
+/// are of one size.
 void relax(const std::vector<Limb>& limbs, int passes, int power, TriangleMesh& mesh) {
   for (int pass = 0; pass < passes; ++pass) {
     const Eigen::VectorXd areas = triangle_areas(mesh.triangles, mesh.rest);
@@ -221,7 +226,8 @@ void divide(const std::vector<Limb>& limbs, int parts, int power, TriangleMesh& 
 }
 
 void require_height(const char* name, double height) {
-  if (!(height > 0) || !std::isfinite(height)) reject_argument(name, height, "give a positive length in m");
+  if (!(height > 0) || !std::isfinite(height))
+    reject_argument(name, height, "give a positive length in m");
 }
 
 /// The smallest divisor >= 15, for fewer leave a limb without vertices. divisions >= 15.
@@ -250,7 +256,8 @@ TriangleMesh make_statue(double height, int subdivisions) {
 TriangleMesh make_even_statue(double height, int divisions) {
   require_height("make_even_statue: height", height);
   if (divisions < 15 || divisions > 256 || coarse_divisions(divisions) > 29)
-    reject_argument("make_even_statue: divisions", divisions, "give 15 to 256, with a divisor from 15 to 29");
+    reject_argument("make_even_statue: divisions", divisions,
+                    "give 15 to 256, with a divisor from 15 to 29");
   const std::vector<Limb> limbs = seated_figure();
   const int coarse = coarse_divisions(divisions);
   TriangleMesh mesh = make_geodesic_sphere(1, coarse);

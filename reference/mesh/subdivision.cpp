@@ -29,7 +29,8 @@ void add_edge_points(const TriangleMesh& mesh, SubdivisionRule rule, Weights& we
     const bool is_smooth = rule == SubdivisionRule::loop && edge.triangles[1] >= 0;
     for (int end : {edge.a, edge.b}) weights.emplace_back(row, end, is_smooth ? 3.0 / 8 : 0.5);
     if (!is_smooth) continue;
-    for (int t : edge.triangles) weights.emplace_back(row, across(mesh.triangles[size_t(t)], edge), 1.0 / 8);
+    for (int t : edge.triangles)
+      weights.emplace_back(row, across(mesh.triangles[size_t(t)], edge), 1.0 / 8);
   }
 }
 
@@ -56,7 +57,8 @@ double share_of_neighbour(std::size_t n) {
   return (5.0 / 8 - slope * slope) / double(n);
 }
 
-/// Inside: a share for each neighbour, the rest for itself. On the border: 1/8 for each neighbour along it.
+/// Inside: a share for each neighbour, the rest for itself. On the border: 1/8 for each
+/// neighbour along it.
 void add_old_points(const TriangleMesh& mesh, SubdivisionRule rule, Weights& weights) {
   const Neighbours neighbours = neighbours_of(mesh);
   for (int i = 0; i < mesh.particles(); ++i) {
@@ -77,7 +79,8 @@ std::vector<Triangle> quarter_triangles(const TriangleMesh& mesh) {
     const auto before = [](const Edge& edge, const std::pair<int, int>& ends) {
       return std::pair{edge.a, edge.b} < ends;
     };
-    const auto edge = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), std::pair{low, high}, before);
+    const auto edge =
+        std::lower_bound(mesh.edges.begin(), mesh.edges.end(), std::pair{low, high}, before);
     return mesh.particles() + int(edge - mesh.edges.begin());
   };
   std::vector<Triangle> quarters;

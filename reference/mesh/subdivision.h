@@ -21,8 +21,8 @@ struct Subdivision {
   PerParticle3 of(const PerParticle3& x) const { return x * weights.transpose(); }
 };
 
-/// `levels` >= 0; 0 is the cloth itself. Old particles keep their numbers, then comes a vertex for each edge.
-/// Throws InputError for levels < 0 or more than 8.
+/// `levels` >= 0; 0 is the cloth itself. Old particles keep their numbers, then comes a vertex for
+/// each edge. Throws InputError for levels < 0 or more than 8.
 Subdivision subdivision(const TriangleMesh& mesh, SubdivisionRule rule, int levels);
 
 }  // namespace foldproof

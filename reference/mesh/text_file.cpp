@@ -52,7 +52,8 @@ void reject_unless_regular(const std::string& path) {
 }
 
 [[noreturn]] void reject_size(const std::string& path, std::size_t most) {
-  throw InputError(path + ": longer than " + std::to_string(most) + " bytes, the most that is read");
+  throw InputError(path + ": longer than " + std::to_string(most) +
+                   " bytes, the most that is read");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Text files read whole, within limits: what is no file, too long or without ends of lines is refused before
-// it costs memory.
+// Text files read whole, within limits: what is no file, too long or without ends of lines is
+// refused before it costs memory.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,17 @@ struct TextLimits {
   std::size_t line;   // bytes of a line, without its end
 };
 
-/// Ten times the longest case that anyone is likely to write by hand; a list of ten thousand particles fits a
-/// line.
+/// Ten times the longest case that anyone is likely to write by hand; a list of ten thousand
+/// particles fits a line.
 constexpr TextLimits case_text_limits = {1 << 20, 1 << 16};
 
-/// A mesh of the most vertices and triangles that obj.h takes, in full precision; a table of as many rows.
+/// A mesh of the most vertices and triangles that obj.h takes, in full precision; a table
+/// of as many rows.
 constexpr TextLimits table_text_limits = {std::size_t(1) << 28, 1 << 16};
 
-/// The text of a regular file. Throws InputError "FILE: ..." or "FILE:LINE: ..." for a file that cannot be
-/// opened, a folder, pipe or device, and for one that exceeds a limit; it takes memory for no more than the
-/// limit says.
+/// The text of a regular file. Throws InputError "FILE: ..." or "FILE:LINE: ..." for a file that
+/// cannot be opened, a folder, pipe or device, and for one that exceeds a limit; it takes memory
+/// for no more than the limit says.
 std::string read_text_file(const std::string& path, const TextLimits& limits);
 
 }  // namespace foldproof

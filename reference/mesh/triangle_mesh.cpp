@@ -13,9 +13,9 @@
 namespace foldproof {
 namespace {
 
-/// A side of a triangle. Half edge 3 t + k runs from corner k of triangle t to the next one. In the list of
-/// particle a, the smaller of its two particles, it is held as (b, half), b the larger; the lists of all
-/// particles stand one behind the other.
+/// A side of a triangle. Half edge 3 t + k runs from corner k of triangle t to the next one. In the
+/// list of particle a, the smaller of its two particles, it is held as (b, half), b the larger; the
+/// lists of all particles stand one behind the other.
 struct Side {
   int b;     // the larger particle
   int half;  // 3 t + k
@@ -23,48 +23,59 @@ struct Side {
 };
 
 struct SideLists {
-  std::vector<int>
-      start;  // N + 1; the sides of particle a are start[a] .. start[a + 1] - 1, sorted by (b, half)
+  // N + 1; the sides of particle a are start[a] .. start[a + 1] - 1, sorted by (b, half)
+  std::vector<int> start;
   std::vector<Side> sides;  // 3 M
 };
 
 int tail(const std::vector<Triangle>& triangles, int half) { return triangles[half / 3][half % 3]; }
-int tip(const std::vector<Triangle>& triangles, int half) { return triangles[half / 3][(half + 1) % 3]; }
-int opposite(const std::vector<Triangle>& triangles, int half) { return triangles[half / 3][(half + 2) % 3]; }
+int tip(const std::vector<Triangle>& triangles, int half) {
+  return triangles[half / 3][(half + 1) % 3];
+}
+int opposite(const std::vector<Triangle>& triangles, int half) {
+  return triangles[half / 3][(half + 2) % 3];
+}
 
 // --- refusals that need no edges ---
 
 void reject_bad_sizes(const PerParticle3& rest, const std::vector<Triangle>& triangles,
                       const MeshOrigin& origin) {
-  if (triangles.empty()) throw InputError(mesh_location(origin) + "no triangles; give at least one");
+  if (triangles.empty())
+    throw InputError(mesh_location(origin) + "no triangles; give at least one");
   if (triangles.size() > size_t(std::numeric_limits<int>::max() / 3)) {
     throw InputError(mesh_location(origin) + std::to_string(triangles.size()) +
                      " triangles are too many to count; split the mesh");
   }
   if (origin.file.empty()) return;
-  if (origin.vertex_lines.size() != size_t(rest.cols()) || origin.triangle_lines.size() != triangles.size()) {
-    throw std::logic_error("make_triangle_mesh: origin must hold one line for each vertex and each triangle");
+  if (origin.vertex_lines.size() != size_t(rest.cols()) ||
+      origin.triangle_lines.size() != triangles.size()) {
+    throw std::logic_error(
+        "make_triangle_mesh: origin must hold one line for each vertex and each triangle");
   }
 }
 
 void reject_bad_coordinates(const PerParticle3& rest, const MeshOrigin& origin) {
   for (int v = 0; v < int(rest.cols()); ++v) {
     if (!rest.col(v).allFinite())
-      throw InputError(vertex_location(origin, v) + "a coordinate is not finite; give numbers in m");
+      throw InputError(vertex_location(origin, v) +
+                       "a coordinate is not finite; give numbers in m");
   }
 }
 
-void reject_bad_indices(int particles, const std::vector<Triangle>& triangles, const MeshOrigin& origin) {
+void reject_bad_indices(int particles, const std::vector<Triangle>& triangles,
+                        const MeshOrigin& origin) {
   for (int t = 0; t < int(triangles.size()); ++t) {
     for (int v : triangles[t]) {
       if (v >= 0 && v < particles) continue;
       throw InputError(triangle_location(origin, t) + "vertex index " + std::to_string(v) +
-                       " is out of range; the " + std::to_string(particles) + " vertices are counted from 0");
+                       " is out of range; the " + std::to_string(particles) +
+                       " vertices are counted from 0");
     }
   }
 }
 
-void reject_unused_vertices(int particles, const std::vector<Triangle>& triangles, const MeshOrigin& origin) {
+void reject_unused_vertices(int particles, const std::vector<Triangle>& triangles,
+                            const MeshOrigin& origin) {
   std::vector<char> used(particles, 0);
   for (const Triangle& triangle : triangles) {
     for (int v : triangle) used[v] = 1;
@@ -72,12 +83,13 @@ void reject_unused_vertices(int particles, const std::vector<Triangle>& triangle
   const long unused = std::count(used.begin(), used.end(), 0);
   if (unused == 0) return;
   const int first = int(std::find(used.begin(), used.end(), 0) - used.begin());
-  throw InputError(vertex_location(origin, first) + "in no triangle, the first of " + std::to_string(unused) +
+  throw InputError(vertex_location(origin, first) + "in no triangle, the first of " +
+                   std::to_string(unused) +
                    " unused vertices (they would have no mass); remove them");
 }
 
-/// True when the area exceeds 1e-12 of the longest side squared. Free of scale: the sides are divided by
-/// their largest component first, so that squares neither overflow nor vanish.
+/// True when the area exceeds 1e-12 of the longest side squared. Free of scale: the sides are
+/// divided by their largest component first, so that squares neither overflow nor vanish.
 bool has_area(const PerParticle3& rest, const Triangle& triangle) {
   Vector3 side1 = rest.col(triangle[1]) - rest.col(triangle[0]);
   Vector3 side2 = rest.col(triangle[2]) - rest.col(triangle[0]);
@@ -96,14 +108,15 @@ void reject_zero_areas(const PerParticle3& rest, const std::vector<Triangle>& tr
     throw InputError(
         triangle_location(origin, t) + "no area: " + vertex_name(origin, triangles[t][0]) + ", " +
         vertex_name(origin, triangles[t][1]) + " and " + vertex_name(origin, triangles[t][2]) +
-        " lie on a line (area at most 1e-12 of the longest side squared); remove or repair the triangle");
+        " lie on a line (area at most 1e-12 of the longest side squared); remove or repair the "
+        "triangle");
   }
 }
 
 // --- edges ---
 
-/// A counting sort by the smaller particle, then a sort of each particle's few sides: linear in the number of
-/// triangles.
+/// A counting sort by the smaller particle, then a sort of each particle's few sides: linear in the
+/// number of triangles.
 SideLists list_sides(int particles, const std::vector<Triangle>& triangles) {
   const int halves = 3 * int(triangles.size());
   SideLists lists{std::vector<int>(particles + 1, 0), std::vector<Side>(halves)};
@@ -124,29 +137,31 @@ SideLists list_sides(int particles, const std::vector<Triangle>& triangles) {
 }
 
 [[noreturn]] void reject_third_triangle(int a, const Side* first, const MeshOrigin& origin) {
-  throw InputError(
-      triangle_location(origin, first[2].half / 3) + edge_name(origin, a, first->b) +
-      " has three triangles or more (" + triangle_name(origin, first[0].half / 3) + ", " +
-      triangle_name(origin, first[1].half / 3) +
-      " and this one); a manifold has one or two. Remove one: repair = \"split\" parts fans at a "
-      "vertex, and cannot tell which two of these stay joined");
+  throw InputError(triangle_location(origin, first[2].half / 3) + edge_name(origin, a, first->b) +
+                   " has three triangles or more (" + triangle_name(origin, first[0].half / 3) +
+                   ", " + triangle_name(origin, first[1].half / 3) +
+                   " and this one); a manifold has one or two. Remove one: repair = \"split\" "
+                   "parts fans at a vertex, and cannot tell which two of these stay joined");
 }
 
 [[noreturn]] void reject_orientation(int a, const Side* first, const MeshOrigin& origin) {
-  throw InputError(triangle_location(origin, first[1].half / 3) + "opposite orientation to its neighbour, " +
+  throw InputError(triangle_location(origin, first[1].half / 3) +
+                   "opposite orientation to its neighbour, " +
                    triangle_name(origin, first[0].half / 3) + ": both run along " +
                    edge_name(origin, a, first->b) +
                    " the same way; reverse the order of one triangle's vertices");
 }
 
-/// Appends the edge from a that the `count` sides at `first` share, and its hinge if it has two triangles.
+/// Appends the edge from a that the `count` sides at `first` share, and its hinge if it
+/// has two triangles.
 void add_edge(int a, const Side* first, int count, const MeshOrigin& origin, TriangleMesh& mesh) {
   if (count > 2) reject_third_triangle(a, first, origin);
   if (count == 1) {
     mesh.edges.push_back({a, first->b, {first->half / 3, -1}});
     return;
   }
-  int forward = first[0].half, backward = first[1].half;  // forward runs from a to b: its triangle holds x1
+  // forward runs from a to b: its triangle holds x1
+  int forward = first[0].half, backward = first[1].half;
   if (tail(mesh.triangles, forward) != a) std::swap(forward, backward);
   if (tail(mesh.triangles, forward) != a || tail(mesh.triangles, backward) == a)
     reject_orientation(a, first, origin);
@@ -163,7 +178,8 @@ void find_edges(const SideLists& lists, const MeshOrigin& origin, TriangleMesh& 
     int i = lists.start[a];
     while (i < lists.start[a + 1]) {
       int count = 1;
-      while (i + count < lists.start[a + 1] && lists.sides[i + count].b == lists.sides[i].b) ++count;
+      while (i + count < lists.start[a + 1] && lists.sides[i + count].b == lists.sides[i].b)
+        ++count;
       add_edge(a, &lists.sides[i], count, origin, mesh);
       i += count;
     }
@@ -190,16 +206,17 @@ void reject_several_fans(const TriangleMesh& mesh, const MeshOrigin& origin) {
     if (known < 0) known = fans[corner];
     if (known == fans[corner]) continue;
     throw InputError(vertex_location(origin, tail(mesh.triangles, corner)) +
-                     "its triangles form more than one fan (" + triangle_name(origin, known / 3) + " and " +
-                     triangle_name(origin, corner / 3) +
-                     " meet in this vertex only); give each fan a vertex of its own, or, for cloth, set "
-                     "repair = \"split\"");
+                     "its triangles form more than one fan (" + triangle_name(origin, known / 3) +
+                     " and " + triangle_name(origin, corner / 3) +
+                     " meet in this vertex only); give each fan a vertex of its own, or, for "
+                     "cloth, set repair = \"split\"");
   }
 }
 
 }  // namespace
 
-TriangleMesh make_mesh_of_fans(PerParticle3 rest, std::vector<Triangle> triangles, const MeshOrigin& origin) {
+TriangleMesh make_mesh_of_fans(PerParticle3 rest, std::vector<Triangle> triangles,
+                               const MeshOrigin& origin) {
   const int particles = int(rest.cols());
   reject_bad_sizes(rest, triangles, origin);
   reject_bad_coordinates(rest, origin);

@@ -30,12 +30,13 @@ struct TriangleMesh {
   PerParticle3 rest;                // 3 x N rest positions [m]
   std::vector<Triangle> triangles;  // M
   std::vector<Edge> edges;          // sorted by (a, b)
-  std::vector<Hinge> hinges;        // one for each edge with two triangles, in the order of the edges
+  std::vector<Hinge> hinges;  // one for each edge with two triangles, in the order of the edges
 
   int particles() const { return int(rest.cols()); }
 };
 
-/// Where the parts of a mesh were read, so that a refusal can name the line. Empty for meshes made by code.
+/// Where the parts of a mesh were read, so that a refusal can name the line. Empty for
+/// meshes made by code.
 struct MeshOrigin {
   std::string file;
   std::vector<int> vertex_lines;    // N, 1-based
@@ -43,10 +44,10 @@ struct MeshOrigin {
 };
 
 /// Finds edges and hinges of the triangles over the N rest positions (3 x N [m]).
-/// Refuses (InputError naming origin's file and line, and the reason) what is no oriented manifold with
-/// boundary: no triangles, indices out of range, NaN or infinite coordinates, unused vertices, zero-area
-/// triangles, edges with three triangles or more, two neighbours of opposite orientation, a vertex whose
-/// triangles do not form one fan.
+/// Refuses (InputError naming origin's file and line, and the reason) what is no oriented manifold
+/// with boundary: no triangles, indices out of range, NaN or infinite coordinates, unused vertices,
+/// zero-area triangles, edges with three triangles or more, two neighbours of opposite orientation,
+/// a vertex whose triangles do not form one fan.
 TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangles,
                                 const MeshOrigin& origin = {});
 
@@ -54,8 +55,9 @@ TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangl
 TriangleMesh make_mesh_of_fans(PerParticle3 rest, std::vector<Triangle> triangles,
                                const MeshOrigin& origin = {});
 
-/// Corner k of triangle t is number 3 t + k. Corners of one vertex belong to the same fan when their triangles
-/// share an edge there, directly or through others: for each corner (3 M) the first one of its fan.
+/// Corner k of triangle t is number 3 t + k. Corners of one vertex belong to the same fan when
+/// their triangles share an edge there, directly or through others: for each corner (3 M) the first
+/// one of its fan.
 std::vector<int> fans_of(const TriangleMesh& mesh);
 
 /// Area of each triangle at the positions x (3 x N [m]); M values [m^2].
@@ -64,11 +66,12 @@ Eigen::VectorXd triangle_areas(const std::vector<Triangle>& triangles, const Per
 /// The least height of a triangle at the positions x [m]; infinite without triangles.
 double smallest_height(const std::vector<Triangle>& triangles, const PerParticle3& x);
 
-/// Lumped masses: a third of each adjacent triangle's rest area times the area density [kg/m^2]; N values
-/// [kg].
+/// Lumped masses: a third of each adjacent triangle's rest area times the area density
+/// [kg/m^2]; N values [kg].
 PerParticle lumped_masses(const TriangleMesh& mesh, double density);
 
-/// Rest length of each edge [m], and the sum of the full rest areas of its one or two triangles [m^2].
+/// Rest length of each edge [m], and the sum of the full rest areas of its one or two
+/// triangles [m^2].
 Eigen::VectorXd rest_lengths(const TriangleMesh& mesh);
 Eigen::VectorXd edge_areas(const TriangleMesh& mesh);
 

@@ -23,8 +23,10 @@ double active_duration(const Motion& motion, double t) {
 
 Vector3 position_at(const Motion& motion, const Vector3& start, double time) {
   const double t = active_duration(motion, time);
-  const double swing = std::sin(2 * pi * motion.frequency * t + motion.phase) - std::sin(motion.phase);
-  return motion.center + rotate_about_axis(motion, start, t) + t * motion.velocity + swing * motion.amplitude;
+  const double swing =
+      std::sin(2 * pi * motion.frequency * t + motion.phase) - std::sin(motion.phase);
+  return motion.center + rotate_about_axis(motion, start, t) + t * motion.velocity +
+         swing * motion.amplitude;
 }
 
 Vector3 velocity_at(const Motion& motion, const Vector3& start, double time) {
@@ -46,7 +48,8 @@ std::vector<double> event_times(const std::vector<PrescribedParticle>& prescribe
   return times;
 }
 
-PrescribedParticle smooth_continuation(const PrescribedParticle& prescribed, double t, double tolerance) {
+PrescribedParticle smooth_continuation(const PrescribedParticle& prescribed, double t,
+                                       double tolerance) {
   const Motion& motion = prescribed.motion;
   if (t + tolerance < motion.from) return {prescribed.particle, prescribed.start, {}};
   if (t + tolerance >= motion.until)
@@ -57,7 +60,8 @@ PrescribedParticle smooth_continuation(const PrescribedParticle& prescribed, dou
   return moving;
 }
 
-std::vector<KnownVelocity> velocities_at(const std::vector<PrescribedParticle>& prescribed, double t) {
+std::vector<KnownVelocity> velocities_at(const std::vector<PrescribedParticle>& prescribed,
+                                         double t) {
   std::vector<KnownVelocity> known;
   known.reserve(prescribed.size());
   for (const PrescribedParticle& p : prescribed)

@@ -8,9 +8,9 @@
 
 namespace foldproof {
 
-/// A motion given in closed form: rotation about a fixed axis, then a shift that drifts and oscillates. It
-/// acts from one time until another, at rest before and after, and is smooth between. With t counted from its
-/// start:
+/// A motion given in closed form: rotation about a fixed axis, then a shift that drifts and
+/// oscillates. It acts from one time until another, at rest before and after, and is smooth
+/// between. With t counted from its start:
 ///   X(t) = C + R(angular_velocity t) (X0 - C) + velocity t +
 ///          amplitude (sin(2 pi frequency t + phase) - sin(phase))
 /// All zero: held at rest. X0 is its place until it starts.
@@ -24,8 +24,8 @@ struct Motion {
   double from = 0, until = std::numeric_limits<double>::infinity();  // when it acts [s]
 };
 
-/// Position [m] and velocity [m/s] at time t [s] of the point that is at `start` [m] until the motion starts.
-/// Where the velocity jumps it is the later one.
+/// Position [m] and velocity [m/s] at time t [s] of the point that is at `start` [m] until the
+/// motion starts. Where the velocity jumps it is the later one.
 Vector3 position_at(const Motion& motion, const Vector3& start, double t);
 Vector3 velocity_at(const Motion& motion, const Vector3& start, double t);
 
@@ -39,9 +39,11 @@ struct PrescribedParticle {
 /// The times after `start` at which a motion starts or stops, ascending, each once [s].
 std::vector<double> event_times(const std::vector<PrescribedParticle>& prescribed, double start);
 
-/// The same particle with a motion that goes on smoothly for ever as it does just after `t` [s], and that is
-/// the given one until the next event. Events as little as `tolerance` [s] after t count as passed.
-PrescribedParticle smooth_continuation(const PrescribedParticle& prescribed, double t, double tolerance);
+/// The same particle with a motion that goes on smoothly for ever as it does just after `t` [s],
+/// and that is the given one until the next event. Events as little as `tolerance` [s] after t
+/// count as passed.
+PrescribedParticle smooth_continuation(const PrescribedParticle& prescribed, double t,
+                                       double tolerance);
 
 /// Velocities that a solve has to take as known.
 struct KnownVelocity {
@@ -50,7 +52,8 @@ struct KnownVelocity {
 };
 
 /// The velocities at time t.
-std::vector<KnownVelocity> velocities_at(const std::vector<PrescribedParticle>& prescribed, double t);
+std::vector<KnownVelocity> velocities_at(const std::vector<PrescribedParticle>& prescribed,
+                                         double t);
 
 /// The mean velocities over [t, t + h]: x + h v then ends exactly on the prescribed path.
 std::vector<KnownVelocity> mean_velocities(const std::vector<PrescribedParticle>& prescribed,

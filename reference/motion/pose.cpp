@@ -15,8 +15,9 @@ struct Interval {
 /// Empty pointers where the body rests: `from` then is the nearest keyframe.
 Interval interval_at(const Keyframes& motion, double t) {
   const std::vector<Keyframe>& keys = motion.keys;
-  const auto next = std::upper_bound(keys.begin(), keys.end(), t,
-                                     [](double time, const Keyframe& key) { return time < key.time; });
+  const auto next =
+      std::upper_bound(keys.begin(), keys.end(), t,
+                       [](double time, const Keyframe& key) { return time < key.time; });
   if (next == keys.begin()) return {&keys.front(), nullptr, 0};
   if (next == keys.end()) return {&keys.back(), nullptr, 0};
   const Keyframe& from = *(next - 1);
@@ -35,7 +36,8 @@ Pose pose_of(const Motion& motion, double t) {
   const double rate = motion.angular_velocity.norm();
   if (rate == 0) return {Eigen::Quaterniond::Identity(), origin};
   const double acted = std::clamp(t, motion.from, motion.until) - motion.from;
-  return {Eigen::Quaterniond(Eigen::AngleAxisd(rate * acted, motion.angular_velocity / rate)), origin};
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(rate * acted, motion.angular_velocity / rate)),
+          origin};
 }
 
 Pose pose_of(const Keyframes& motion, double t) {
@@ -43,7 +45,8 @@ Pose pose_of(const Keyframes& motion, double t) {
   if (!to) return from->pose;
   const Eigen::AngleAxisd whole = turn(*from, *to);
   const Eigen::Quaterniond partial(Eigen::AngleAxisd(part * whole.angle(), whole.axis()));
-  return {partial * from->pose.rotation, (1 - part) * from->pose.translation + part * to->pose.translation};
+  return {partial * from->pose.rotation,
+          (1 - part) * from->pose.translation + part * to->pose.translation};
 }
 
 Vector3 velocity_of(const Motion& motion, const Vector3& x, double t) {
@@ -57,12 +60,15 @@ Vector3 velocity_of(const Keyframes& motion, const Vector3& x, double t) {
   const Eigen::AngleAxisd whole = turn(*from, *to);
   const Vector3 angular_velocity = whole.angle() / duration * whole.axis();
   const Vector3 origin = pose_of(motion, t).translation;
-  return angular_velocity.cross(x - origin) + (to->pose.translation - from->pose.translation) / duration;
+  return angular_velocity.cross(x - origin) +
+         (to->pose.translation - from->pose.translation) / duration;
 }
 
 }  // namespace
 
-Vector3 to_world(const Pose& pose, const Vector3& X) { return pose.rotation * X + pose.translation; }
+Vector3 to_world(const Pose& pose, const Vector3& X) {
+  return pose.rotation * X + pose.translation;
+}
 
 Vector3 to_body(const Pose& pose, const Vector3& x) {
   return pose.rotation.conjugate() * (x - pose.translation);

@@ -25,8 +25,9 @@ struct Keyframe {
   Pose pose;
 };
 
-/// Poses at given times, in rising order: between two the translation is linear and the rotation turns at a
-/// constant rate about a fixed axis, the short way (slerp); before the first and after the last it rests.
+/// Poses at given times, in rising order: between two the translation is linear and the rotation
+/// turns at a constant rate about a fixed axis, the short way (slerp); before the first and after
+/// the last it rests.
 struct Keyframes {
   std::vector<Keyframe> keys;  // at least one
 };
@@ -38,8 +39,8 @@ Keyframes make_keyframes(std::vector<Keyframe> keys);
 
 Pose pose_at(const RigidMotion& motion, double t);
 
-/// Velocity [m/s] at time t [s] of the body's point that is at x [m] then. At a keyframe: that of the
-/// interval that begins.
+/// Velocity [m/s] at time t [s] of the body's point that is at x [m] then. At a keyframe: that of
+/// the interval that begins.
 Vector3 velocity_at(const RigidMotion& motion, const Vector3& x, double t);
 
 }  // namespace foldproof

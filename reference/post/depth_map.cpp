@@ -56,9 +56,9 @@ void check_band(const DepthBand& band) {
   const bool is_sound = band.nearest >= 0 && band.nearest < band.reach && band.deepest >= 0 &&
                         std::isfinite(band.reach) && std::isfinite(band.deepest);
   if (!is_sound)
-    throw InputError(
-        "a projection needs 0 <= eps < tau and 0 <= deepest, but eps = " + std::to_string(band.nearest) +
-        " m, tau = " + std::to_string(band.reach) + " m, deepest = " + std::to_string(band.deepest) + " m");
+    throw InputError("a projection needs 0 <= eps < tau and 0 <= deepest, but eps = " +
+                     std::to_string(band.nearest) + " m, tau = " + std::to_string(band.reach) +
+                     " m, deepest = " + std::to_string(band.deepest) + " m");
 }
 
 }  // namespace foldproof

@@ -1,5 +1,5 @@
-// Maps of signed distance that bring cloth out of an object and keep the order of its depths (BMF03 section
-// 5.3).
+// Maps of signed distance that bring cloth out of an object and keep the order of its depths
+// (BMF03 section 5.3).
 #pragma once
 
 #include <string_view>
@@ -14,8 +14,8 @@ struct DepthBand {
   double deepest;  // t^: the deepest penetration that is told from deeper ones [m]
 };
 
-/// One row of the table of maps f: phi [m] -> the signed distance to be reached [m]. All leave phi >= tau
-/// alone.
+/// One row of the table of maps f: phi [m] -> the signed distance to be reached [m]. All leave
+/// phi >= tau alone.
 struct DepthMap {
   std::string_view name, title, source;
   double (*at)(const DepthBand& band, double phi);

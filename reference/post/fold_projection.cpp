@@ -26,13 +26,15 @@ struct Union {
 };
 
 /// Moves p, where the objects say `here`, until phi is f or a little more.
-Place move_point(Union& solids, const FoldProjection& projection, Vector3 p, ObjectPoint here, double f) {
+Place move_point(Union& solids, const FoldProjection& projection, Vector3 p, ObjectPoint here,
+                 double f) {
   const double aim = f + projection.tolerance / 2;
   Place best{p, here.phi, ProjectionOutcome::unfinished};
   for (int move = 0; move < projection.max_moves; ++move) {
     p += (aim - here.phi) * here.normal;
     here = solids.at(p).first;
-    if (f <= here.phi && here.phi <= f + projection.tolerance) return {p, here.phi, ProjectionOutcome::moved};
+    if (f <= here.phi && here.phi <= f + projection.tolerance)
+      return {p, here.phi, ProjectionOutcome::moved};
     if (std::abs(here.phi - aim) < std::abs(best.phi - aim))
       best = {p, here.phi, ProjectionOutcome::unfinished};
   }
@@ -40,8 +42,8 @@ Place move_point(Union& solids, const FoldProjection& projection, Vector3 p, Obj
 }
 
 /// What becomes of p, of which the objects say `nearest`.
-Place project_point(Union& solids, const FoldProjection& projection, const DepthMap& map, const Vector3& p,
-                    const Nearest& nearest) {
+Place project_point(Union& solids, const FoldProjection& projection, const DepthMap& map,
+                    const Vector3& p, const Nearest& nearest) {
   const double phi = nearest.first.phi, f = map.at(projection.band, phi);
   if (nearest.pinched() && projection.pinched == PinchedPoints::left_alone)
     return {p, phi, ProjectionOutcome::pinched};
@@ -51,9 +53,11 @@ Place project_point(Union& solids, const FoldProjection& projection, const Depth
 
 void check_projection(const FoldProjection& projection) {
   check_band(projection.band);
-  if (projection.tolerance > 0 && std::isfinite(projection.tolerance) && projection.max_moves > 0) return;
-  throw InputError("a projection needs a tolerance above 0 and a move or more for a point, but has " +
-                   std::to_string(projection.tolerance) + " m and " + std::to_string(projection.max_moves));
+  if (projection.tolerance > 0 && std::isfinite(projection.tolerance) && projection.max_moves > 0)
+    return;
+  throw InputError(
+      "a projection needs a tolerance above 0 and a move or more for a point, but has " +
+      std::to_string(projection.tolerance) + " m and " + std::to_string(projection.max_moves));
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ Scene scene_at_rest(TriangleMesh mesh, double density) {
 
 namespace {
 
-ObjectCollision object_collision(const Scene& scene, const System& system, std::vector<Object> objects) {
+ObjectCollision object_collision(const Scene& scene, const System& system,
+                                 std::vector<Object> objects) {
   ObjectCollision filter;
   filter.objects = std::move(objects);
   filter.points = collision_points(scene.mesh, system.inverse_mass, scene.collision.points);
@@ -56,7 +57,8 @@ BuiltScene build(const Scene& scene, const LevelSetProvider& level_sets) {
   System system = make_system(lumped_masses(scene.mesh, scene.density));
   if (scene.gravity) system.forces.push_back(Gravity{*scene.gravity, system.mass});
   if (scene.stretch) system.forces.push_back(make_springs(scene.mesh, *scene.stretch));
-  if (scene.bending) system.forces.push_back(make_bending(scene.mesh, *scene.bending, scene.rest_angles));
+  if (scene.bending)
+    system.forces.push_back(make_bending(scene.mesh, *scene.bending, scene.rest_angles));
   if (!scene.sticky.empty()) system.forces.push_back(Sticking{scene.sticky});
   for (const PrescribedParticle& particle : scene.prescribed) prescribe(system, particle);
   if (scene.strain_limits) system.filters.push_back(strain_limiter(scene, system.inverse_mass));
@@ -103,8 +105,9 @@ State start_state(const Scene& scene) {
 namespace {
 
 std::string describe(const BendingMaterial& material) {
-  return std::string(material.weighting == Weighting::rest ? "rest" : "current") + " weighting, law '" +
-         std::string(material.law) + "'" + (material.damping > 0 ? ", damped" : "");
+  return std::string(material.weighting == Weighting::rest ? "rest" : "current") +
+         " weighting, law '" + std::string(material.law) + "'" +
+         (material.damping > 0 ? ", damped" : "");
 }
 
 std::string describe(const SceneObject& part) {
@@ -112,13 +115,14 @@ std::string describe(const SceneObject& part) {
   std::snprintf(friction, sizeof friction, "%.6g", part.object.friction);
   const std::string frames =
       part.animation ? ", " + std::to_string(part.animation->times.size()) + " level sets" : "";
-  return "object '" + part.object.name + "' (" + part.shape + frames + ", friction " + friction + ")";
+  return "object '" + part.object.name + "' (" + part.shape + frames + ", friction " + friction +
+         ")";
 }
 
 std::string describe(const StickyPatch& patch) {
-  return "sticky '" + patch.name + "' (" + std::to_string(patch.triangles.size()) + " triangles of " +
-         (patch.place ? "an object" : "the cloth") + ", " + std::to_string(patch.particles.size()) +
-         " particles that may stick)";
+  return "sticky '" + patch.name + "' (" + std::to_string(patch.triangles.size()) +
+         " triangles of " + (patch.place ? "an object" : "the cloth") + ", " +
+         std::to_string(patch.particles.size()) + " particles that may stick)";
 }
 
 std::string describe(const StrainLimiter& limiter) {
@@ -141,8 +145,9 @@ std::string describe(const SelfCollision& self) {
   char numbers[80];
   std::snprintf(numbers, sizeof numbers, "self-collision (thickness %.6g m, friction %.6g)",
                 self.settings.thickness, self.settings.friction);
-  return numbers +
-         (self.at_start.empty() ? "" : ", which starts crossing itself: " + list_triangles(self.at_start));
+  return numbers + (self.at_start.empty()
+                        ? ""
+                        : ", which starts crossing itself: " + list_triangles(self.at_start));
 }
 
 /// "1 hinge", "5 hinges".
@@ -159,8 +164,8 @@ std::string described_split(const std::vector<int>& copy_of) {
     split.insert(copy_of[size_t(i)]);
     ++copies;
   }
-  return std::to_string(split.size()) + (split.size() == 1 ? " vertex" : " vertices") + " split into " +
-         std::to_string(split.size() + copies) + " particles";
+  return std::to_string(split.size()) + (split.size() == 1 ? " vertex" : " vertices") +
+         " split into " + std::to_string(split.size() + copies) + " particles";
 }
 
 }  // namespace
@@ -175,16 +180,19 @@ std::vector<std::string> describe_parts(const Scene& scene, const System& system
       parts.push_back(count_text(springs->springs.size(), "spring") +
                       (scene.stretch->damping > 0 ? ", damped" : ""));
     if (const auto* bending = std::get_if<Bending>(&force))
-      parts.push_back(count_text(bending->hinges.size(), "hinge") + ", " + describe(bending->material));
+      parts.push_back(count_text(bending->hinges.size(), "hinge") + ", " +
+                      describe(bending->material));
   }
   if (!system.prescribed.empty())
     parts.push_back(count_text(system.prescribed.size(), "particle") + " with prescribed motion");
   for (const SceneObject& part : scene.objects) parts.push_back(describe(part));
   for (const StickyPatch& patch : scene.sticky) parts.push_back(describe(patch));
   for (const Filter& filter : system.filters)
-    if (const auto* limiter = std::get_if<StrainLimiter>(&filter)) parts.push_back(describe(*limiter));
+    if (const auto* limiter = std::get_if<StrainLimiter>(&filter))
+      parts.push_back(describe(*limiter));
   for (const Filter& filter : system.filters)
-    if (const auto* collision = std::get_if<ObjectCollision>(&filter)) parts.push_back(describe(*collision));
+    if (const auto* collision = std::get_if<ObjectCollision>(&filter))
+      parts.push_back(describe(*collision));
   for (const Filter& filter : system.filters)
     if (const auto* self = std::get_if<SelfCollision>(&filter)) parts.push_back(describe(*self));
   return parts;

@@ -16,7 +16,8 @@ struct FieldMaker {
     put(OctreeSolid{make_octree(level_sets, octree.x, octree.triangles, octree.settings)});
   }
   void operator()(const ExactRecipe& exact) const {
-    put(MeshSolid{std::make_shared<const MeshDistance>(make_mesh_distance(exact.x, exact.triangles))});
+    put(MeshSolid{
+        std::make_shared<const MeshDistance>(make_mesh_distance(exact.x, exact.triangles))});
   }
   void operator()(const AnimationRecipe& of) const {
     body = DeformingObject{level_sets.make_deforming_body(*of.animation, of.settings, of.between)};

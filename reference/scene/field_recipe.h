@@ -40,8 +40,8 @@ struct FieldRecipe {
   std::string where;  // "file:line" of the key that says how fine it is; for refusals
 };
 
-/// Gives the body the field that the recipe describes. Throws InputError with the recipe's place for a field
-/// that is too fine, and what the maker throws.
+/// Gives the body the field that the recipe describes. Throws InputError with the recipe's place
+/// for a field that is too fine, and what the maker throws.
 void make_field(const FieldRecipe& recipe, const LevelSetProvider& level_sets, Body& body);
 
 }  // namespace foldproof

@@ -18,8 +18,9 @@ constexpr int most_nested = 32;  // tables and lists in each other
 constexpr int most_dots = 200;   // in a line
 
 std::string place(const std::string& file, const toml::source_region& source) {
-  return source.begin.line == 0 || file.starts_with("--") ? file
-                                                          : file + ":" + std::to_string(source.begin.line);
+  return source.begin.line == 0 || file.starts_with("--")
+             ? file
+             : file + ":" + std::to_string(source.begin.line);
 }
 
 /// What is converted: its full name, its file, and how many tables and lists it is in.
@@ -34,7 +35,8 @@ std::shared_ptr<KeyTable> convert(const toml::table& table, const Place& at);
 KeyValue convert(const toml::node& node, const Place& at) {
   const std::string &name = at.name, where = place(at.file, node.source());
   if (at.depth > most_nested)
-    throw InputError(where + ": tables and lists in more than " + std::to_string(most_nested) + " others");
+    throw InputError(where + ": tables and lists in more than " + std::to_string(most_nested) +
+                     " others");
   if (const auto* value = node.as_boolean()) return {value->get(), where};
   if (const auto* value = node.as_integer()) return {long(value->get()), where};
   if (const auto* value = node.as_floating_point()) return {value->get(), where};
@@ -42,7 +44,8 @@ KeyValue convert(const toml::node& node, const Place& at) {
   if (const auto* value = node.as_table()) return {convert(*value, at), where};
   if (const auto* list = node.as_array()) {
     std::vector<KeyValue> values;
-    for (const toml::node& entry : *list) values.push_back(convert(entry, {name, at.file, at.depth + 1}));
+    for (const toml::node& entry : *list)
+      values.push_back(convert(entry, {name, at.file, at.depth + 1}));
     return {values, where};
   }
   throw InputError(where + ": '" + name + "' is a date or time, which no key takes");
@@ -54,7 +57,8 @@ std::shared_ptr<KeyTable> convert(const toml::table& table, const Place& at) {
   for (const auto& [key, node] : table) {
     const std::string full = name.empty() ? std::string(key) : name + "." + std::string(key);
     KeyValue value = convert(node, {full, file, depth + 1});
-    value.where = file.starts_with("--") ? file : file + ":" + std::to_string(key.source().begin.line);
+    value.where =
+        file.starts_with("--") ? file : file + ":" + std::to_string(key.source().begin.line);
     result->entries.emplace(std::string(key), std::move(value));
   }
   return result;
@@ -90,8 +94,8 @@ bool KeyTable::has(const std::string& key) const {
 
 const KeyValue& KeyTable::require_key(const std::string& key) const {
   if (!has(key))
-    throw InputError(where_ + ": " + (name_.empty() ? "the file" : "[" + name_ + "]") + " needs the key '" +
-                     key + "'");
+    throw InputError(where_ + ": " + (name_.empty() ? "the file" : "[" + name_ + "]") +
+                     " needs the key '" + key + "'");
   return entries.at(key);
 }
 
@@ -227,7 +231,8 @@ void KeyTable::reject_unused() const {
       throw InputError(value.where + ": unknown key '" + key + "' in " +
                        (name_.empty() ? "the file" : "[" + name_ + "]") + "; known here: " + known);
     if (left_.contains(key)) continue;
-    if (const auto* below = std::get_if<std::shared_ptr<KeyTable>>(&value.data)) (*below)->reject_unused();
+    if (const auto* below = std::get_if<std::shared_ptr<KeyTable>>(&value.data))
+      (*below)->reject_unused();
     if (const auto* list = std::get_if<std::vector<KeyValue>>(&value.data))
       for (const KeyValue& entry : *list)
         if (const auto* below = std::get_if<std::shared_ptr<KeyTable>>(&entry.data))
@@ -237,7 +242,8 @@ void KeyTable::reject_unused() const {
 
 namespace {
 
-/// Behind the text in quotes that begins at `at`; at the end of the line or file in which it does not end.
+/// Behind the text in quotes that begins at `at`; at the end of the line or file in which
+/// it does not end.
 size_t behind_quotes(std::string_view text, size_t at) {
   const std::string one(1, text[at]), three(3, text[at]);
   const bool has_escapes = text[at] == '"', is_long = text.substr(at).starts_with(three);
@@ -248,8 +254,8 @@ size_t behind_quotes(std::string_view text, size_t at) {
     at += has_escapes && text[at] == '\\' ? 2 : 1;
   }
   at = std::min(at + end.size(), text.size());
-  while (is_long && at < text.size() && text[at] == one[0])
-    ++at;  // quotes of the text itself, before its end
+  // quotes of the text itself, before its end
+  while (is_long && at < text.size() && text[at] == one[0]) ++at;
   return at;
 }
 
@@ -258,18 +264,19 @@ struct Unbearable {
   std::string why;
 };
 
-/// What the parser does not bear outside of comments and texts in quotes. A key of as many parts as a line
-/// has room for nests as many tables, and the parser's stack with them: a line may have a few hundred dots,
-/// in whatever meaning. Where toml++ 3.3 looks for blanks, letters outside ASCII lead it to where it must
-/// never come: in keys, too.
+/// What the parser does not bear outside of comments and texts in quotes. A key of as many parts as
+/// a line has room for nests as many tables, and the parser's stack with them: a line may have a
+/// few hundred dots, in whatever meaning. Where toml++ 3.3 looks for blanks, letters outside ASCII
+/// lead it to where it must never come: in keys, too.
 std::optional<Unbearable> unbearable(std::string_view text) {
   int line = 1, dots = 0;
-  size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // the mark that some editors put before UTF-8
+  // the mark that some editors put before UTF-8
+  size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
   while (at < text.size()) {
     const size_t start = at;
     const char c = text[at];
-    const bool may_begin =
-        start == 0 || std::string_view(" \t\r\n=,.[{").find(text[start - 1]) != std::string_view::npos;
+    const bool may_begin = start == 0 || std::string_view(" \t\r\n=,.[{").find(text[start - 1]) !=
+                                             std::string_view::npos;
     if ((c == '"' || c == '\'') && may_begin) at = behind_quotes(text, at);
     if (c == '#') at = std::min(text.find('\n', at), text.size());
     if (at == start) ++at;
@@ -283,13 +290,14 @@ std::optional<Unbearable> unbearable(std::string_view text) {
   return {};
 }
 
-/// Tried without its letters outside ASCII first: what is well formed has them in comments and texts alone,
-/// where the parser bears them. On the way to a complaint it does not.
+/// Tried without its letters outside ASCII first: what is well formed has them in comments and
+/// texts alone, where the parser bears them. On the way to a complaint it does not.
 toml::table parse_toml(const std::string& text, const std::string& file) {
   std::string plain = text;
   const auto mark = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
   std::replace_if(
-      plain.begin() + mark, plain.end(), [](char c) { return static_cast<unsigned char>(c) > 127; }, 'x');
+      plain.begin() + mark, plain.end(), [](char c) { return static_cast<unsigned char>(c) > 127; },
+      'x');
   if (plain != text) static_cast<void>(toml::parse(plain, file));
   return toml::parse(text, file);
 }
@@ -332,18 +340,21 @@ KeyTable& table_below(KeyTable& table, const std::string& step, const std::strin
 KeyTable& list_entry(KeyTable& table, const std::string& step, const std::string& number,
                      const std::string& assignment) {
   const auto entry = table.entries.find(step);
-  auto* list =
-      entry == table.entries.end() ? nullptr : std::get_if<std::vector<KeyValue>>(&entry->second.data);
+  auto* list = entry == table.entries.end()
+                   ? nullptr
+                   : std::get_if<std::vector<KeyValue>>(&entry->second.data);
   const size_t index = std::stoul(number);
   if (!list || index >= list->size())
     throw InputError("--set " + assignment + ": there is no " + step + "." + number);
   auto* below = std::get_if<std::shared_ptr<KeyTable>>(&(*list)[index].data);
-  if (!below) throw InputError("--set " + assignment + ": " + step + "." + number + " is not a table");
+  if (!below)
+    throw InputError("--set " + assignment + ": " + step + "." + number + " is not a table");
   return **below;
 }
 
 bool is_number(const std::string& text) {
-  return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+  return !text.empty() && text.size() < 10 &&
+         text.find_first_not_of("0123456789") == std::string::npos;
 }
 
 }  // namespace
@@ -371,7 +382,8 @@ void set_key(KeyTable& root, const std::string& assignment) {
   const auto written = table->entries.find(path.back());
   if (written != table->entries.end() && !is_override(written->second.where))
     table->replaced.insert(*written);
-  table->entries.insert_or_assign(path.back(), parsed_value(assignment.substr(equals + 1), "--set " + assignment));
+  table->entries.insert_or_assign(
+      path.back(), parsed_value(assignment.substr(equals + 1), "--set " + assignment));
 }
 
 std::string read_text(const std::string& path) {

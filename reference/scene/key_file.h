@@ -15,15 +15,17 @@ namespace foldproof {
 class KeyTable;
 
 struct KeyValue {
-  std::variant<bool, long, double, std::string, std::vector<KeyValue>, std::shared_ptr<KeyTable>> data;
+  std::variant<bool, long, double, std::string, std::vector<KeyValue>, std::shared_ptr<KeyTable>>
+      data;
   std::string where;  // "file:line", or "--set KEY=VALUE"
 };
 
-/// One table of keys. Every reader throws InputError "file:line: ..." for a missing key, a wrong type or a
-/// number that is not finite.
+/// One table of keys. Every reader throws InputError "file:line: ..." for a missing key, a wrong
+/// type or a number that is not finite.
 class KeyTable {
  public:
-  KeyTable(std::string name, std::string where) : name_(std::move(name)), where_(std::move(where)) {}
+  KeyTable(std::string name, std::string where)
+      : name_(std::move(name)), where_(std::move(where)) {}
 
   bool has(const std::string& key) const;  // asking makes the key known
   double number(const std::string& key) const;
@@ -46,14 +48,16 @@ class KeyTable {
   /// The tables of [[key]]; empty if there is none.
   std::vector<std::shared_ptr<KeyTable>> tables(const std::string& key) const;
 
-  /// Leaves the key to another reader: it is known, and neither read nor searched by reject_unused here.
+  /// Leaves the key to another reader: it is known, and neither read nor searched by
+  /// reject_unused here.
   void leave(const std::string& key) const;
 
   /// "file:line" of the key, or of the table if it lacks the key.
   std::string where(const std::string& key) const;
   const std::string& where() const { return where_; }
 
-  /// Throws InputError for the first key, here or below, that no one asked for, and lists those that were.
+  /// Throws InputError for the first key, here or below, that no one asked for, and lists
+  /// those that were.
   void reject_unused() const;
 
   std::map<std::string, KeyValue> entries;
@@ -67,21 +71,21 @@ class KeyTable {
   mutable std::set<std::string> requested_, left_;
 };
 
-/// Parses TOML text; `file` names it in messages. Throws InputError "file:line: ..." for a syntax error, for
-/// tables and lists in more than 32 others, and, outside of quotes and comments, for a line with more than
-/// 200 dots, and for a character outside ASCII.
+/// Parses TOML text; `file` names it in messages. Throws InputError "file:line: ..." for a syntax
+/// error, for tables and lists in more than 32 others, and, outside of quotes and comments, for a
+/// line with more than 200 dots, and for a character outside ASCII.
 std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file);
 
 /// Whether a value's place is an override on the command line, not a line of a file.
 bool is_override(const std::string& where);
 
-/// Overrides "a.b.c=value" (value as in TOML; what does not parse as such is taken for a string; a number in
-/// the path picks an entry of a list, and the only entry needs none). Missing tables are made. Throws
-/// InputError for an override without '=' or a path through a value.
+/// Overrides "a.b.c=value" (value as in TOML; what does not parse as such is taken for a string; a
+/// number in the path picks an entry of a list, and the only entry needs none). Missing tables are
+/// made. Throws InputError for an override without '=' or a path through a value.
 void set_key(KeyTable& root, const std::string& assignment);
 
-/// The whole file. Throws InputError if it cannot be read, is empty, or is longer than case_text_limits
-/// (mesh/text_file.h).
+/// The whole file. Throws InputError if it cannot be read, is empty, or is longer than
+/// case_text_limits (mesh/text_file.h).
 std::string read_text(const std::string& path);
 
 }  // namespace foldproof

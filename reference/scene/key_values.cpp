@@ -36,8 +36,8 @@ void reject_many_triangles(const KeyTable& keys, const std::string& key, double 
                            const SceneLimits& limits) {
   if (triangles <= limits.triangles) return;
   char message[100];
-  std::snprintf(message, sizeof message, " asks for %.4g triangles; %.4g at most are made", triangles,
-                limits.triangles);
+  std::snprintf(message, sizeof message, " asks for %.4g triangles; %.4g at most are made",
+                triangles, limits.triangles);
   throw InputError(keys.where(key) + ": '" + key + "'" + message);
 }
 
@@ -48,7 +48,8 @@ Motion read_motion(const KeyTable& keys) {
   motion.frequency = keys.number_or("frequency", 0);
   motion.phase = keys.number_or("phase", 0) * radians_per_degree;
   motion.center = keys.vector_or("center", Vector3::Zero());
-  motion.angular_velocity = keys.vector_or("angular_velocity", Vector3::Zero()) * radians_per_degree;
+  motion.angular_velocity =
+      keys.vector_or("angular_velocity", Vector3::Zero()) * radians_per_degree;
   motion.from = keys.number_or("from", 0);
   motion.until = keys.number_or("until", motion.until);
   if (!(motion.from >= 0)) throw InputError(keys.where("from") + ": 'from' must be a time >= 0 s");

@@ -44,19 +44,20 @@ auto with_error_location(const std::string& where, const Make& make) {
   }
 }
 
-/// The closed-form motion of [[hold]] and [[object]]: velocity, amplitude, frequency, phase, center,
-/// angular_velocity, from, until. At rest if none is given.
+/// The closed-form motion of [[hold]] and [[object]]: velocity, amplitude, frequency, phase,
+/// center, angular_velocity, from, until. At rest if none is given.
 Motion read_motion(const KeyTable& keys);
 
 /// turn = { axis, angle }, in degrees; no rotation if there is none.
 Eigen::AngleAxisd read_turn(const KeyTable& keys);
 
-/// The file or folder that the key names. In a case file it is relative to the file's folder and may not
-/// leave it, by an absolute path, by "..", or by a link; what was given by --set is taken as it was typed,
-/// from the working folder.
+/// The file or folder that the key names. In a case file it is relative to the file's folder and
+/// may not leave it, by an absolute path, by "..", or by a link; what was given by --set is taken
+/// as it was typed, from the working folder.
 std::string path_of(const KeyTable& keys, const std::string& key, const std::string& folder);
 
-/// Throws InputError, naming `where`, if the file does not lie in the folder or one below it, links followed.
+/// Throws InputError, naming `where`, if the file does not lie in the folder or one below it,
+/// links followed.
 void reject_outside(const std::string& file, const std::string& folder, const std::string& where);
 
 }  // namespace foldproof

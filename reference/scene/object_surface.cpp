@@ -16,8 +16,8 @@ struct ProfilePoint {
   double r, z;  // m
 };
 
-/// The profile turned about the z axis; it runs upwards (counter-clockwise if it closes), so that triangles
-/// point away from the axis. Points on the axis must not be in it.
+/// The profile turned about the z axis; it runs upwards (counter-clockwise if it closes), so that
+/// triangles point away from the axis. Points on the axis must not be in it.
 ObjectSurface revolve(const std::vector<ProfilePoint>& profile, bool closes) {
   const int rings = int(profile.size());
   ObjectSurface surface;
@@ -31,7 +31,8 @@ ObjectSurface revolve(const std::vector<ProfilePoint>& profile, bool closes) {
   for (int k = 0; k + (closes ? 0 : 1) < rings; ++k)
     for (int i = 0; i < context; ++i) {
       const int a = k * context + i, b = k * context + (i + 1) % context;
-      const int c = (k + 1) % rings * context + i, d = (k + 1) % rings * context + (i + 1) % context;
+      const int c = (k + 1) % rings * context + i,
+                d = (k + 1) % rings * context + (i + 1) % context;
       surface.triangles.push_back({a, b, d});
       surface.triangles.push_back({a, d, c});
     }
@@ -75,7 +76,8 @@ ObjectSurface capsule_surface(double radius, double half_length) {
   std::vector<ProfilePoint> profile;
   for (const double end : {-half_length, half_length})
     for (int k = 0; k <= along_arc; ++k) {
-      const double latitude = pi / 2 * (end < 0 ? double(k) / along_arc - 1 : double(k) / along_arc);
+      const double latitude =
+          pi / 2 * (end < 0 ? double(k) / along_arc - 1 : double(k) / along_arc);
       const double r = radius * std::max(std::cos(latitude), 1e-3);  // a pinhole at the poles
       profile.push_back({r, end + radius * std::sin(latitude)});
     }

@@ -39,14 +39,15 @@ double read_cell(const KeyTable& keys, const PerParticle3& x) {
   return bounds_of(x).sizes().maxCoeff() / double(count_or(keys, "cells", 64));
 }
 
-/// An octree about the bounds, its finest cells `cell` [m] wide and the bounds four of them away from its
-/// sides. By default it may miss a tenth of a cell: what a finest cell misses of a surface of 2.5 cells'
-/// radius r, cell^2/(4 r). Cells that may hold the surface are no wider than four finest ones, and the band
-/// is three to either side.
+/// An octree about the bounds, its finest cells `cell` [m] wide and the bounds four of them away
+/// from its sides. By default it may miss a tenth of a cell: what a finest cell misses of a surface
+/// of 2.5 cells' radius r, cell^2/(4 r). Cells that may hold the surface are no wider than four
+/// finest ones, and the band is three to either side.
 OctreeSettings read_octree(const KeyTable& keys, const Bounds& bounds, double cell) {
   const double least = bounds.sizes().maxCoeff() / cell + 8;
   const double levels = std::ceil(std::log2(least));
-  if (!(levels <= 20)) throw InputError(keys.where("cells") + ": 'cells' must be below 2^20 for an octree");
+  if (!(levels <= 20))
+    throw InputError(keys.where("cells") + ": 'cells' must be below 2^20 for an octree");
   const int depth = std::max(2, int(levels));
   const double width = std::ldexp(cell, depth);
   const Vector3 corner = bounds.center() - Vector3::Constant(width / 2);
@@ -54,16 +55,16 @@ OctreeSettings read_octree(const KeyTable& keys, const Bounds& bounds, double ce
   return {corner, width, depth, depth - 2, tolerance, 3 * cell, 0.25, 0, HangingNodes::constrained};
 }
 
-/// The refusal of make_closed_mesh with what the frame is called, and another remedy: no repair is offered
-/// here.
+/// The refusal of make_closed_mesh with what the frame is called, and another remedy: no repair
+/// is offered here.
 void reject_open_frame(const MeshSequence& animation, size_t k, const std::string& where) {
   try {
     make_closed_mesh({animation.positions[k], animation.triangles, {}});
   } catch (const InputError& error) {
     const std::string message = error.what();
-    throw InputError(where + ": frame " + std::to_string(k) + " (" + std::to_string(animation.times[k]) +
-                     " s): " + message.substr(0, message.rfind(';')) +
-                     "; mend it, or give a smaller amplitude");
+    throw InputError(
+        where + ": frame " + std::to_string(k) + " (" + std::to_string(animation.times[k]) +
+        " s): " + message.substr(0, message.rfind(';')) + "; mend it, or give a smaller amplitude");
   }
 }
 
@@ -87,8 +88,8 @@ MeshSequence read_frames(const KeyTable& keys, const CaseContext& context) {
   if (!is_override(where)) reject_links_outside(folder, context.folder, where);
   MeshSequence animation;
   try {
-    animation =
-        read_obj_sequence(folder, positive_or(keys, "interval", 1.0 / 30), long(context.limits.frames));
+    animation = read_obj_sequence(folder, positive_or(keys, "interval", 1.0 / 30),
+                                  long(context.limits.frames));
   } catch (const InputError& error) {
     throw InputError(where + ": " + error.what());
   }
@@ -112,7 +113,8 @@ std::vector<double> read_times(const KeyTable& keys, const CaseContext& context)
   const double until = positive_or(keys, "until", context.end);
   const double count = std::ceil(until / interval * (1 - 1e-9));
   if (!(count < context.limits.frames))
-    throw InputError(keys.where("interval") + ": more than " + std::to_string(long(context.limits.frames)) +
+    throw InputError(keys.where("interval") + ": more than " +
+                     std::to_string(long(context.limits.frames)) +
                      " level sets; a longer 'interval' or an earlier 'until' gives fewer");
   std::vector<double> times;
   for (long k = 0; k <= long(count); ++k) times.push_back(double(k) * interval);
@@ -144,13 +146,14 @@ BodyShape read_mesh_body(const KeyTable& keys, const CaseContext& context) {
       keys, "field", {{"grid", Field::grid}, {"octree", Field::octree}, {"exact", Field::exact}});
   const auto repair =
       choice<Repair>(keys, "repair", {{"refuse", Repair::refuse}, {"winding", Repair::winding}});
-  const int cells =
-      int(count_or(keys, "cells", 64));  // known to all fields, so that one --set changes between them
+  // known to all fields, so that one --set changes between them
+  const int cells = int(count_or(keys, "cells", 64));
   ObjectSurface surface{soup.rest, soup.triangles};
   if (field == Field::grid) {
     if (repair == Repair::refuse) make_closed_mesh(soup);  // for its refusals
     const GridMethod method{cells, 4, 3, MarchingOrder::second};
-    return {GridSolid{}, std::move(surface), recipe_of(keys, GridRecipe{std::move(soup), method, repair})};
+    return {GridSolid{}, std::move(surface),
+            recipe_of(keys, GridRecipe{std::move(soup), method, repair})};
   }
   if (repair != Repair::refuse)
     throw InputError(
@@ -158,18 +161,21 @@ BodyShape read_mesh_body(const KeyTable& keys, const CaseContext& context) {
         ": 'repair' needs field = \"grid\": over holes the distance is marched from node to node");
   const TriangleMesh mesh = make_closed_mesh(std::move(soup));
   if (field == Field::octree) {
-    const OctreeSettings settings = read_octree(keys, bounds_of(mesh.rest), read_cell(keys, mesh.rest));
+    const OctreeSettings settings =
+        read_octree(keys, bounds_of(mesh.rest), read_cell(keys, mesh.rest));
     return {OctreeSolid{}, std::move(surface),
             recipe_of(keys, OctreeRecipe{mesh.rest, mesh.triangles, settings})};
   }
   return {MeshSolid{}, std::move(surface), recipe_of(keys, ExactRecipe{mesh.rest, mesh.triangles})};
 }
 
-DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, const CaseContext& context) {
+DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place,
+                                   const CaseContext& context) {
   enum class Field { octree };
   choice<Field>(keys, "field", {{"octree", Field::octree}});
   const auto between = choice<BetweenFrames>(
-      keys, "interpolation", {{"carried", BetweenFrames::carried}, {"blended", BetweenFrames::blended}});
+      keys, "interpolation",
+      {{"carried", BetweenFrames::carried}, {"blended", BetweenFrames::blended}});
   const bool is_read = keys.has("frames");
   if (is_read && keys.has("deform"))
     throw InputError(keys.where("deform") +
@@ -182,7 +188,8 @@ DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, cons
     reject_open_frame(animation, k, keys.where(is_read ? "frames" : "deform"));
     bounds.extend(bounds_of(animation.positions[k]));
   }
-  const OctreeSettings settings = read_octree(keys, bounds, read_cell(keys, animation.positions.front()));
+  const OctreeSettings settings =
+      read_octree(keys, bounds, read_cell(keys, animation.positions.front()));
   const auto shared = std::make_shared<const MeshSequence>(std::move(animation));
   return {shared, recipe_of(keys, AnimationRecipe{shared, settings, between})};
 }

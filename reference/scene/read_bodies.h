@@ -1,4 +1,5 @@
-// Bodies of triangles in [[object]]: rigid ones in a frame of their own, deforming ones in the world's.
+// Bodies of triangles in [[object]]: rigid ones in a frame of their own, deforming ones
+// in the world's.
 #pragma once
 
 #include <memory>
@@ -30,8 +31,9 @@ struct BodyShape {
 /// Do the keys say that the body deforms: `frames` or [[object.deform]]?
 bool is_deforming(const KeyTable& keys);
 
-/// `shape = "statue"` or `mesh`, as the exact distance, a grid or an octree of it: `field`, `cells`,
-/// `tolerance`. Throws InputError for a mesh that is not closed, unless it is to be repaired.
+/// `shape = "statue"` or `mesh`, as the exact distance, a grid or an octree of
+/// it: `field`, `cells`, `tolerance`. Throws InputError for a mesh that is not
+/// closed, unless it is to be repaired.
 BodyShape read_mesh_body(const KeyTable& keys, const CaseContext& context);
 
 struct DeformingShape {
@@ -39,8 +41,9 @@ struct DeformingShape {
   std::shared_ptr<const FieldRecipe> field;
 };
 
-/// `frames` or [[object.deform]] of a body of triangles, in its place before it deforms. Throws InputError
-/// "file:line: frame ..." for a frame that is no closed mesh.
-DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place, const CaseContext& context);
+/// `frames` or [[object.deform]] of a body of triangles, in its place before it deforms. Throws
+/// InputError "file:line: frame ..." for a frame that is no closed mesh.
+DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place,
+                                   const CaseContext& context);
 
 }  // namespace foldproof

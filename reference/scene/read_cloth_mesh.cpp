@@ -49,7 +49,8 @@ TriangleMesh read_sheet(const KeyTable& keys, const SceneLimits& limits) {
   sheet.height = keys.number("height");
   sheet.columns = count(keys, "columns");
   sheet.rows = count(keys, "rows");
-  const double in_a_cell = sheet.pattern == SheetPattern::criss_cross ? 4 : 3;  // three at most in the others
+  // three at most in the others
+  const double in_a_cell = sheet.pattern == SheetPattern::criss_cross ? 4 : 3;
   reject_many_triangles(keys, "columns", in_a_cell * sheet.columns * sheet.rows, limits);
   sheet.jitter = keys.number_or("jitter", 0);
   const long seed = keys.integer_or("seed", 1);
@@ -72,8 +73,8 @@ TriangleMesh read_cylinder(const KeyTable& keys, const SceneLimits& limits) {
   return make_cylinder(keys.number("radius"), keys.number("height"), context, along);
 }
 
-/// How finely an icosahedron is divided: its edges are halved `subdivisions` times, or are in `divisions`
-/// parts.
+/// How finely an icosahedron is divided: its edges are halved `subdivisions` times, or are in
+/// `divisions` parts.
 struct Fineness {
   int subdivisions, divisions;  // one of them is 0
 };
@@ -112,18 +113,19 @@ TriangleMesh make_shape(const KeyTable& keys, const SceneLimits& limits) {
   if (shape == "cylinder") return read_cylinder(keys, limits);
   if (shape == "sphere") return read_sphere(keys, limits);
   if (shape == "statue") return read_statue(keys, limits);
-  if (shape == "hinge") return make_hinge(keys.number("length"), keys.number("angle") * radians_per_degree);
+  if (shape == "hinge")
+    return make_hinge(keys.number("length"), keys.number("angle") * radians_per_degree);
   throw InputError(keys.where("shape") + ": unknown shape '" + shape +
                    "'; known: sheet, disc, cylinder, sphere, statue, hinge");
 }
 
-/// The mesh file; its panels sewn together if `seams` says so, then split where they meet in a point if
-/// `repair` does.
+/// The mesh file; its panels sewn together if `seams` says so, then split where they meet in a
+/// point if `repair` does.
 SplitMesh read_mesh(const KeyTable& keys, const std::string& folder) {
   enum class ClothRepair { refuse, split };
   const std::string file = mesh_file(keys, folder, "cloth");
-  const auto repair =
-      choice<ClothRepair>(keys, "repair", {{"refuse", ClothRepair::refuse}, {"split", ClothRepair::split}});
+  const auto repair = choice<ClothRepair>(
+      keys, "repair", {{"refuse", ClothRepair::refuse}, {"split", ClothRepair::split}});
   TriangleSoup soup = read_obj_soup(file);
   if (keys.has("seams")) soup = close_seams(std::move(soup), positive(keys, "seams"));
   if (repair == ClothRepair::refuse)
@@ -134,7 +136,8 @@ SplitMesh read_mesh(const KeyTable& keys, const std::string& folder) {
   return split;
 }
 
-PlacedMesh read_or_make(const KeyTable& cloth, const std::string& folder, const SceneLimits& limits) {
+PlacedMesh read_or_make(const KeyTable& cloth, const std::string& folder,
+                        const SceneLimits& limits) {
   if (cloth.has("mesh")) {
     SplitMesh read = read_mesh(cloth, folder);
     return {std::move(read.mesh), {}, std::move(read.copy_of)};
@@ -153,14 +156,16 @@ void place(const KeyTable& keys, PerParticle3& x) {
 }
 
 /// The positions (3 x n [m]) and copies of them, each turned and moved on from the one before.
-PerParticle3 repeat(const PerParticle3& x, int copies, const Eigen::Matrix3d& turn, const Vector3& move) {
+PerParticle3 repeat(const PerParticle3& x, int copies, const Eigen::Matrix3d& turn,
+                    const Vector3& move) {
   const Eigen::Index n = x.cols();
   PerParticle3 all(3, n * copies);
   all.leftCols(n) = x;
   for (Eigen::Index c = 1; c < copies; ++c) {
     const PerParticle3 before = all.middleCols((c - 1) * n, n);
     const Vector3 middle = before.rowwise().mean();
-    all.middleCols(c * n, n) = (turn * (before.colwise() - middle)).colwise() + Vector3(middle + move);
+    all.middleCols(c * n, n) =
+        (turn * (before.colwise() - middle)).colwise() + Vector3(middle + move);
   }
   return all;
 }
@@ -168,14 +173,16 @@ PerParticle3 repeat(const PerParticle3& x, int copies, const Eigen::Matrix3d& tu
 /// So many pieces of the cloth in place of one; rest shapes are moved, too, so that they lie apart.
 void copy(const KeyTable& keys, const SceneLimits& limits, PlacedMesh& cloth) {
   const int copies = count(keys, "count"), n = cloth.mesh.particles();
-  reject_many_triangles(keys, "count", double(copies) * double(cloth.mesh.triangles.size()), limits);
+  reject_many_triangles(keys, "count", double(copies) * double(cloth.mesh.triangles.size()),
+                        limits);
   const Vector3 move = keys.vector("move");
   const Eigen::Matrix3d turn = read_turn(keys).toRotationMatrix();
   std::vector<Triangle> triangles;
   for (int c = 0; c < copies; ++c)
     for (const Triangle& t : cloth.mesh.triangles)
       triangles.push_back({c * n + t[0], c * n + t[1], c * n + t[2]});
-  cloth.mesh = make_triangle_mesh(repeat(cloth.mesh.rest, copies, turn, move), std::move(triangles));
+  cloth.mesh =
+      make_triangle_mesh(repeat(cloth.mesh.rest, copies, turn, move), std::move(triangles));
   cloth.start = repeat(cloth.start, copies, turn, move);
   const std::vector<int> of_one = cloth.copy_of;
   for (int c = 1; c < copies; ++c)
@@ -188,8 +195,10 @@ std::string mesh_file(const KeyTable& keys, const std::string& folder, const std
   const std::string file = path_of(keys, "mesh", folder);
   const std::string where = keys.where("mesh");
   if (file.empty())
-    throw InputError(where + ": this case takes a mesh of yours: --set " + table + ".mesh=FILE.obj");
-  if (!std::filesystem::exists(file)) throw InputError(where + ": there is no mesh file '" + file + "'");
+    throw InputError(where + ": this case takes a mesh of yours: --set " + table +
+                     ".mesh=FILE.obj");
+  if (!std::filesystem::exists(file))
+    throw InputError(where + ": there is no mesh file '" + file + "'");
   return file;
 }
 
@@ -203,7 +212,8 @@ double fit_factor(const KeyTable& keys, const PerParticle3& x) {
 
 void scale_to_fit(const KeyTable& keys, PerParticle3& x) { x *= fit_factor(keys, x); }
 
-PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder, const SceneLimits& limits) {
+PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder,
+                           const SceneLimits& limits) {
   if (cloth.has("shape") == cloth.has("mesh"))
     throw InputError(cloth.where("mesh") +
                      ": [cloth] needs either 'shape' or 'mesh' (an OBJ file), and not both");
@@ -213,7 +223,8 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder, con
   result.start = result.mesh.rest;
   if (pleats) {
     result.mesh.rest = with_error_location(cloth.where("pleats"), [&] {
-      return pleated_positions(result.mesh, count(*pleats, "columns"), pleats->number("angle") * radians_per_degree);
+      return pleated_positions(result.mesh, count(*pleats, "columns"),
+                               pleats->number("angle") * radians_per_degree);
     });
     if (!pleats->flag_or("start_flat", true)) result.start = result.mesh.rest;
   }
@@ -221,7 +232,8 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder, con
   if (!pleats) result.mesh.rest = result.start;
   if (const auto copies = cloth.table("copies"))
     with_error_location(cloth.where("copies"), [&] { copy(*copies, limits, result); });
-  if (pleats && cloth.has("fit")) throw InputError(cloth.where("fit") + ": 'fit' does not go with pleats");
+  if (pleats && cloth.has("fit"))
+    throw InputError(cloth.where("fit") + ": 'fit' does not go with pleats");
   return result;
 }
 

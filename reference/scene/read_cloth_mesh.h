@@ -16,11 +16,13 @@ struct PlacedMesh {
   std::vector<int> copy_of = {};  // as that of Scene
 };
 
-/// Reads the keys of [cloth] that say shape and place. folder: where relative files of the case are looked
-/// for.
-PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder, const SceneLimits& limits);
+/// Reads the keys of [cloth] that say shape and place. folder: where relative files of the case
+/// are looked for.
+PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder,
+                           const SceneLimits& limits);
 
-/// Where the OBJ file is that the key 'mesh' names. table: its name in messages, "cloth" or "object".
+/// Where the OBJ file is that the key 'mesh' names. table: its name in messages,
+/// "cloth" or "object".
 std::string mesh_file(const KeyTable& keys, const std::string& folder, const std::string& table);
 
 /// By how much 'fit' scales the positions x (3 x N [m]); 1 if it is not given.

@@ -21,7 +21,8 @@ BodyShape read_sphere(const KeyTable& keys) {
 
 BodyShape read_box(const KeyTable& keys) {
   const Vector3 size = keys.vector("size");
-  if (!(size.minCoeff() > 0)) throw InputError(keys.where("size") + ": 'size' must be > 0 along each axis");
+  if (!(size.minCoeff() > 0))
+    throw InputError(keys.where("size") + ": 'size' must be > 0 along each axis");
   return {Box{size / 2}, box_surface(size / 2)};
 }
 
@@ -33,7 +34,8 @@ BodyShape read_capsule(const KeyTable& keys) {
 BodyShape read_torus(const KeyTable& keys) {
   const double ring = positive(keys, "ring_radius"), tube = positive(keys, "tube_radius");
   if (!(tube < ring))
-    throw InputError(keys.where("tube_radius") + ": 'tube_radius' must be smaller than 'ring_radius'");
+    throw InputError(keys.where("tube_radius") +
+                     ": 'tube_radius' must be smaller than 'ring_radius'");
   return {Torus{ring, tube}, torus_surface(ring, tube)};
 }
 
@@ -64,7 +66,8 @@ RigidMotion read_rigid_motion(const KeyTable& keys) {
   }
 }
 
-void read_rigid(const KeyTable& keys, const Pose& place, const CaseContext& context, SceneObject& part) {
+void read_rigid(const KeyTable& keys, const Pose& place, const CaseContext& context,
+                SceneObject& part) {
   BodyShape shape = keys.has("mesh") ? read_mesh_body(keys, context) : read_shape(keys, context);
   part.vertices.resize(3, shape.surface.vertices.cols());
   for (Eigen::Index i = 0; i < part.vertices.cols(); ++i)
@@ -74,7 +77,8 @@ void read_rigid(const KeyTable& keys, const Pose& place, const CaseContext& cont
   part.field = std::move(shape.field);
 }
 
-void read_deforming(const KeyTable& keys, const Pose& place, const CaseContext& context, SceneObject& part) {
+void read_deforming(const KeyTable& keys, const Pose& place, const CaseContext& context,
+                    SceneObject& part) {
   DeformingShape shape = read_deforming_body(keys, place, context);
   part.vertices = shape.animation->positions.front();
   part.triangles = shape.animation->triangles;
@@ -84,12 +88,12 @@ void read_deforming(const KeyTable& keys, const Pose& place, const CaseContext& 
 }
 
 SceneObject read_object(const KeyTable& keys, const CaseContext& context, size_t number) {
-  const bool is_shape = keys.has("shape"), is_mesh = keys.has("mesh"), is_animation = keys.has("frames");
+  const bool is_shape = keys.has("shape"), is_mesh = keys.has("mesh"),
+             is_animation = keys.has("frames");
   if (int(is_shape) + int(is_mesh) + int(is_animation) != 1)
-    throw InputError(
-        keys.where("mesh") +
-        ": [[object]] needs either 'shape' or 'mesh' (an OBJ file) or 'frames' (a folder of such "
-        "files), and not both");
+    throw InputError(keys.where("mesh") +
+                     ": [[object]] needs either 'shape' or 'mesh' (an OBJ file) or 'frames' (a "
+                     "folder of such files), and not both");
   SceneObject part;
   part.shape = is_shape ? keys.text("shape") : is_mesh ? "mesh" : "animation";
   part.object.name = keys.text_or("name", part.shape + " " + std::to_string(number + 1));
@@ -102,9 +106,10 @@ SceneObject read_object(const KeyTable& keys, const CaseContext& context, size_t
 
 void read_collision(const KeyTable& keys, CollisionSettings& collision) {
   collision.forecast_time = positive_or(keys, "forecast_time", 0);
-  collision.points = choice<PointKind>(
-      keys, "points",
-      {{"particles", PointKind::particles}, {"edges", PointKind::edges}, {"faces", PointKind::faces}});
+  collision.points = choice<PointKind>(keys, "points",
+                                       {{"particles", PointKind::particles},
+                                        {"edges", PointKind::edges},
+                                        {"faces", PointKind::faces}});
   std::vector<std::pair<std::string, std::string>> names;
   for (const Response& response : responses()) names.emplace_back(response.name, response.name);
   collision.response = choice<std::string>(keys, "response", names);
@@ -117,7 +122,8 @@ void read_objects(const KeyTable& keys, const CaseContext& context, Scene& scene
     scene.objects.push_back(read_object(*object, context, scene.objects.size()));
   const auto collision = keys.table("collision");
   if (!collision) return;
-  if (scene.objects.empty()) throw InputError(collision->where() + ": [collision] needs an [[object]]");
+  if (scene.objects.empty())
+    throw InputError(collision->where() + ": [collision] needs an [[object]]");
   read_collision(*collision, scene.collision);
 }
 

@@ -32,8 +32,8 @@ std::vector<int> numbered(const KeyTable& keys, const std::string& key, Eigen::I
   std::vector<int> chosen;
   for (long i : keys.integers(key)) {
     if (i < 0 || i >= count)
-      throw InputError(keys.where(key) + ": " + key.substr(0, key.size() - 1) + " " + std::to_string(i) +
-                       " does not exist; there are " + std::to_string(count));
+      throw InputError(keys.where(key) + ": " + key.substr(0, key.size() - 1) + " " +
+                       std::to_string(i) + " does not exist; there are " + std::to_string(count));
     chosen.push_back(int(i));
   }
   return chosen;

@@ -30,11 +30,12 @@ BendingMaterial read_bending(const KeyTable& keys) {
   BendingMaterial material;
   material.stiffness = non_negative_or(keys, "stiffness", keys.number("stiffness"));
   material.damping = non_negative_or(keys, "damping", 0);
-  material.weighting =
-      choice<Weighting>(keys, "weighting", {{"rest", Weighting::rest}, {"current", Weighting::current}});
-  material.damping_factor = choice<DampingFactor>(
-      keys, "damping_factor",
-      {{"edge", DampingFactor::edge}, {"edge_squared_over_area", DampingFactor::edge_squared_over_area}});
+  material.weighting = choice<Weighting>(
+      keys, "weighting", {{"rest", Weighting::rest}, {"current", Weighting::current}});
+  material.damping_factor =
+      choice<DampingFactor>(keys, "damping_factor",
+                            {{"edge", DampingFactor::edge},
+                             {"edge_squared_over_area", DampingFactor::edge_squared_over_area}});
   std::vector<std::pair<std::string, std::string_view>> laws;
   for (const BendingLaw& law : bending_laws()) laws.emplace_back(std::string(law.name), law.name);
   material.law = choice<std::string_view>(keys, "law", laws);
@@ -49,8 +50,8 @@ std::vector<double> read_rest_angles(const KeyTable& keys, const TriangleMesh& m
     return std::vector<double>(mesh.hinges.size(), degrees * radians_per_degree);
   }
   enum class Source { rest_shape, flat };
-  const Source source =
-      choice<Source>(keys, "rest_angle", {{"rest_shape", Source::rest_shape}, {"flat", Source::flat}});
+  const Source source = choice<Source>(
+      keys, "rest_angle", {{"rest_shape", Source::rest_shape}, {"flat", Source::flat}});
   if (source == Source::flat) return std::vector<double>(mesh.hinges.size(), 0.0);
   return hinge_angles(mesh, mesh.rest);
 }
@@ -68,9 +69,10 @@ void read_hold(const KeyTable& keys, Scene& scene) {
   if (int(keys.has("particles")) + int(keys.has("box")) + int(keys.has("top")) != 1)
     throw InputError(keys.where() + ": [[hold]] needs one of 'particles', 'box', 'top'");
   const std::vector<int> chosen =
-      keys.has("particles") ? with_copies(numbered(keys, "particles", scene.x.cols()), scene.copy_of)
-      : keys.has("box")     ? select_in_box(keys, scene.x)
-                            : particles_at_top(keys, scene.x);
+      keys.has("particles")
+          ? with_copies(numbered(keys, "particles", scene.x.cols()), scene.copy_of)
+      : keys.has("box") ? select_in_box(keys, scene.x)
+                        : particles_at_top(keys, scene.x);
   if (chosen.empty()) throw InputError(keys.where() + ": [[hold]] names no particle");
   const Motion motion = read_motion(keys);
   std::vector<char> is_held(size_t(scene.x.cols()), 0);
@@ -106,34 +108,36 @@ void read_time(const KeyTable& keys, Scene& scene) {
 void read_solver(const KeyTable& keys, SolverSettings& solver) {
   solver.tolerance = positive_or(keys, "tolerance", solver.tolerance);
   solver.max_iterations = int(count_or(keys, "max_iterations", solver.max_iterations));
-  solver.scale = choice<ResidualScale>(
-      keys, "relative_to",
-      {{"momentum", ResidualScale::momentum}, {"initial_residual", ResidualScale::initial_residual}});
+  solver.scale = choice<ResidualScale>(keys, "relative_to",
+                                       {{"momentum", ResidualScale::momentum},
+                                        {"initial_residual", ResidualScale::initial_residual}});
 }
 
 constexpr size_t longest_name = 100;
 
-/// A case's name becomes a part of file names, and of names of findings: it must not lead anywhere, nor need
-/// quoting.
+/// A case's name becomes a part of file names, and of names of findings: it must not lead anywhere,
+/// nor need quoting.
 void reject_name(const std::string& name, const std::string& path) {
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-' || c == '.';
   };
-  const bool is_good = !name.empty() && name.size() <= longest_name && std::ranges::all_of(name, is_plain) &&
-                       name.front() != '.' && name.front() != '-' && name.find("..") == std::string::npos;
+  const bool is_good = !name.empty() && name.size() <= longest_name &&
+                       std::ranges::all_of(name, is_plain) && name.front() != '.' &&
+                       name.front() != '-' && name.find("..") == std::string::npos;
   if (!is_good)
-    throw InputError(
-        path + ": a case is named after its file, by at most " + std::to_string(longest_name) +
-        " letters a-z, digits and '_', '-', '.', the first no hyphen or dot and no two dots in a row; "
-        "rename the file");
+    throw InputError(path + ": a case is named after its file, by at most " +
+                     std::to_string(longest_name) +
+                     " letters a-z, digits and '_', '-', '.', the first no hyphen or dot and no "
+                     "two dots in a row; rename the file");
 }
 
 /// Numbers of a case can each be sound and yet come to more than a double holds, or to less.
 void reject_overflow(const KeyTable& cloth, const Scene& scene) {
   const State start = start_state(scene);
   if (!start.x.allFinite() || !start.v.allFinite() || !scene.mesh.rest.allFinite())
-    throw InputError(cloth.where() + ": a place or velocity at the start, or at rest, is not finite");
+    throw InputError(cloth.where() +
+                     ": a place or velocity at the start, or at rest, is not finite");
   const PerParticle masses = lumped_masses(scene.mesh, scene.density);
   if (!(masses.minCoeff() > 0) || !masses.allFinite())
     throw InputError(cloth.where() + ": a particle has the mass 0, or one that is not finite");
@@ -146,7 +150,8 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   const std::string folder = file.parent_path().string();
   const KeyTable& keys = *of.keys;
   const auto cloth = keys.table("cloth"), time = keys.table("time");
-  if (!cloth || !time) throw InputError(keys.where() + ": a case needs the tables [cloth] and [time]");
+  if (!cloth || !time)
+    throw InputError(keys.where() + ": a case needs the tables [cloth] and [time]");
   PlacedMesh placed = read_cloth_mesh(*cloth, folder, limits);
   Scene scene = scene_at_rest(std::move(placed.mesh), positive(*cloth, "density"));
   scene.x = std::move(placed.start);
@@ -191,7 +196,8 @@ CaseKeys parse_case_text(const std::string& text, const std::string& path,
 }
 
 CaseKeys parse_case(const std::string& path, const std::vector<std::string>& overrides) {
-  if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": there is no such case file");
+  if (!std::filesystem::is_regular_file(path))
+    throw InputError(path + ": there is no such case file");
   return parse_case_text(read_text(path), path, overrides);
 }
 

@@ -17,9 +17,10 @@ SelfCollisionSettings read_self_collision(const KeyTable& keys, const TriangleMe
   const double least = smallest_height(mesh.triangles, mesh.rest);
   if (!(settings.thickness < least / 2)) {
     char message[120];
-    std::snprintf(message, sizeof message,
-                  ": 'thickness' is %.4g m; it must be less than half the least height of a triangle, %.4g m",
-                  settings.thickness, least / 2);
+    std::snprintf(
+        message, sizeof message,
+        ": 'thickness' is %.4g m; it must be less than half the least height of a triangle, %.4g m",
+        settings.thickness, least / 2);
     throw InputError(keys.where("thickness") + message);
   }
   return settings;
@@ -30,7 +31,8 @@ void reject_tangled_start(const KeyTable& keys, const Scene& scene) {
   const CrossingTriangles crossing = self_intersections(start_state(scene).x, scene.mesh.triangles);
   if (!crossing.empty())
     throw InputError(keys.where("untangle") + ": the cloth crosses itself at the start, in " +
-                     list_triangles(crossing) + "; with untangle = true it is run and pushed apart");
+                     list_triangles(crossing) +
+                     "; with untangle = true it is run and pushed apart");
 }
 
 }  // namespace foldproof

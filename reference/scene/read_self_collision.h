@@ -8,11 +8,12 @@
 
 namespace foldproof {
 
-/// Throws InputError "file:line: ..." for values out of range, and for a thickness of half the least height
-/// of a triangle or more: neighbours would repel each other at rest.
+/// Throws InputError "file:line: ..." for values out of range, and for a thickness of half the
+/// least height of a triangle or more: neighbours would repel each other at rest.
 SelfCollisionSettings read_self_collision(const KeyTable& keys, const TriangleMesh& mesh);
 
-/// With untangle = false, throws InputError naming the first triangles of a start that crosses itself.
+/// With untangle = false, throws InputError naming the first triangles of a start that
+/// crosses itself.
 void reject_tangled_start(const KeyTable& keys, const Scene& scene);
 
 }  // namespace foldproof

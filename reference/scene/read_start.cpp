@@ -53,16 +53,19 @@ void fold(const KeyTable& keys, PerParticle3& x) {
   const double start = s.minCoeff(), length = s.maxCoeff() - start,
                turns = double(layers - 1) * pi * gap / 2;
   if (!(height.maxCoeff() - height.minCoeff() <= 1e-6 * length))
-    throw InputError(keys.where() + ": the cloth must lie flat, square to 'up', before it is folded");
+    throw InputError(keys.where() +
+                     ": the cloth must lie flat, square to 'up', before it is folded");
   const Serpentine serpentine{(length - turns) / double(layers), gap, double(layers - 1)};
   if (!(serpentine.run > gap))
-    throw InputError(keys.where("layers") + ": the cloth is too short for so many layers with that gap");
+    throw InputError(keys.where("layers") +
+                     ": the cloth is too short for so many layers with that gap");
   const double dip = keys.number_or("dip", 0);
   const Eigen::RowVectorXd across = along.cross(up).transpose() * x;
   const double width = across.maxCoeff() - across.minCoeff();
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const Eigen::Vector2d place = serpentine.at(s[i] - start);
-    const double to_corner = serpentine.along_last(s[i] - start) * (across[i] - across.minCoeff()) / width;
+    const double to_corner =
+        serpentine.along_last(s[i] - start) * (across[i] - across.minCoeff()) / width;
     x.col(i) += (start + place[0] - s[i]) * along + (place[1] - dip * to_corner) * up;
   }
 }
@@ -71,7 +74,8 @@ void fold(const KeyTable& keys, PerParticle3& x) {
 Vector3 read_start_stretch(const KeyTable& keys) {
   if (!keys.is_list("stretch")) return Vector3::Constant(positive_or(keys, "stretch", 1));
   const Vector3 stretch = keys.vector("stretch");
-  if (!(stretch.minCoeff() > 0)) throw InputError(keys.where("stretch") + ": 'stretch' must be > 0");
+  if (!(stretch.minCoeff() > 0))
+    throw InputError(keys.where("stretch") + ": 'stretch' must be > 0");
   return stretch;
 }
 

@@ -23,8 +23,8 @@ struct StickySheet {
 };
 
 /// Groups of the OBJ file that the table's key `mesh` names.
-std::function<FaceGroups()> groups_of(const std::shared_ptr<KeyTable>& keys, const std::string& folder,
-                                      const std::string& table) {
+std::function<FaceGroups()> groups_of(const std::shared_ptr<KeyTable>& keys,
+                                      const std::string& folder, const std::string& table) {
   if (!keys->has("mesh")) return {};
   return [=] { return read_obj_groups(mesh_file(*keys, folder, table)); };
 }
@@ -71,7 +71,8 @@ std::vector<Triangle> read_triangles(const KeyTable& keys, const StickySheet& sh
     centres.col(Eigen::Index(t)) = (sheet.x.col(a) + sheet.x.col(b) + sheet.x.col(c)) / 3;
   }
   std::vector<Triangle> chosen;
-  for (const int t : read_region(keys, "triangles", centres, [&] { return triangles_of_group(keys, sheet); }))
+  for (const int t :
+       read_region(keys, "triangles", centres, [&] { return triangles_of_group(keys, sheet); }))
     chosen.push_back(sheet.triangles[size_t(t)]);
   return chosen;
 }
@@ -93,7 +94,8 @@ std::vector<int> read_particles(const KeyTable& keys, const StickySheet& cloth,
 void carry(StickyPatch& patch, const SceneObject& by) {
   std::map<int, int> place_of;  // of a vertex among those that are used
   for (Triangle& triangle : patch.triangles)
-    for (int& corner : triangle) corner = place_of.try_emplace(corner, int(place_of.size())).first->second;
+    for (int& corner : triangle)
+      corner = place_of.try_emplace(corner, int(place_of.size())).first->second;
   auto part = std::make_shared<SceneObject>(by);
   PerParticle3 kept(3, place_of.size());
   for (const auto& [vertex, place] : place_of) kept.col(place) = by.vertices.col(vertex);
@@ -124,10 +126,12 @@ void read_surface(const KeyTable& keys, const KeyTable& case_keys, const std::st
     known += ", " + part.object.name;
     if (part.object.name != of) continue;
     const PerParticle3 x = surface_at(part, 0);
-    patch.triangles = read_triangles(keys, {x, part.triangles, groups_of(tables[k], folder, "object")});
+    patch.triangles =
+        read_triangles(keys, {x, part.triangles, groups_of(tables[k], folder, "object")});
     return carry(patch, part);
   }
-  throw InputError(keys.where("of") + ": there is nothing named '" + of + "' to stick to; known: " + known);
+  throw InputError(keys.where("of") + ": there is nothing named '" + of +
+                   "' to stick to; known: " + known);
 }
 
 StickyPatch read_patch(const KeyTable& keys, const KeyTable& case_keys, const std::string& folder,
@@ -141,7 +145,8 @@ StickyPatch read_patch(const KeyTable& keys, const KeyTable& case_keys, const st
   StickyPatch patch;
   read_surface(*surface, case_keys, folder, scene, cloth, patch);
   patch.particles = read_particles(*particles, cloth, scene.copy_of);
-  patch.name = keys.text_or("name", surface->text("of") + " " + std::to_string(scene.sticky.size() + 1));
+  patch.name =
+      keys.text_or("name", surface->text("of") + " " + std::to_string(scene.sticky.size() + 1));
   patch.stiffness = positive(keys, "stiffness");
   patch.forecast_time = non_negative_or(keys, "forecast_time", keys.number("forecast_time"));
   patch.near = positive(keys, "near");

@@ -8,7 +8,8 @@ void read_strain_limits(const KeyTable& keys, Scene& scene) {
   const auto table = keys.table("strain_limits");
   if (!table) return;
   if (!scene.stretch)
-    throw InputError(table->where() + ": [strain_limits] limits springs; the case needs a [stretch] table");
+    throw InputError(table->where() +
+                     ": [strain_limits] limits springs; the case needs a [stretch] table");
   StrainLimits limits;
   limits.extension = non_negative_or(*table, "extension", limits.extension);
   limits.compression = non_negative_or(*table, "compression", limits.compression);
@@ -22,9 +23,11 @@ void read_strain_limits(const KeyTable& keys, Scene& scene) {
   limits.sweeps = int(count_or(*table, "sweeps", limits.sweeps));
   limits.tolerance = positive_or(*table, "tolerance", limits.tolerance);
   limits.threads = int(count_or(*table, "threads", limits.threads));
-  if (limits.threads > 256) throw InputError(table->where("threads") + ": 'threads' must lie in 1 .. 256");
+  if (limits.threads > 256)
+    throw InputError(table->where("threads") + ": 'threads' must lie in 1 .. 256");
   if (limits.threads > 1 && limits.order != SweepOrder::coloured)
-    throw InputError(table->where("threads") + ": only sweeps in the order \"coloured\" have threads");
+    throw InputError(table->where("threads") +
+                     ": only sweeps in the order \"coloured\" have threads");
   scene.strain_limits = limits;
 }
 

@@ -20,15 +20,15 @@
 namespace foldproof {
 
 struct LevelSetProvider;  // bodies/level_set_provider.h
-struct FieldRecipe;     // scene/field_recipe.h
+struct FieldRecipe;       // scene/field_recipe.h
 
 /// An object, and its surface as triangles: for pictures, not for the collisions.
 struct SceneObject {
   Object object;  // if there is a recipe of its body's field, the body lacks it until it is built
   std::shared_ptr<const FieldRecipe> field;  // of a body of triangles, else none
   std::string shape;                         // in words
-  PerParticle3 vertices;            // 3 x V, before its motion, or in its first frame if it deforms [m]
-  std::vector<Triangle> triangles;  // outward
+  PerParticle3 vertices;  // 3 x V, before its motion, or in its first frame if it deforms [m]
+  std::vector<Triangle> triangles;                // outward
   std::shared_ptr<const MeshSequence> animation;  // of a body that deforms, else none
 };
 
@@ -49,14 +49,15 @@ struct CollisionSettings {
 struct Scene {
   std::string name, title, about;
   std::string text;  // the case file with its overrides, empty for scenes made by code
-  std::string
-      folder;  // of the case file, where its relative files are looked for; empty for scenes made by code
+  // of the case file, where its relative files are looked for; empty for scenes made by code
+  std::string folder;
 
   TriangleMesh mesh;   // with the rest shape
   PerParticle3 x, v;   // start, 3 x N [m], [m/s]
   double density = 0;  // area density [kg/m^2]
-  std::vector<int> copy_of = {};  // N: the particle that each is, or is a copy of where its vertex was split
-                                  // (mesh/split_fans.h); empty where none was
+  // N: the particle that each is, or is a copy of where its vertex was split (mesh/split_fans.h);
+  // empty where none was
+  std::vector<int> copy_of = {};
 
   std::optional<Vector3> gravity;  // m/s^2
   std::optional<StretchMaterial> stretch;
@@ -91,26 +92,29 @@ CaseKeys parse_case(const std::string& path, const std::vector<std::string>& ove
 CaseKeys parse_case_text(const std::string& text, const std::string& path,
                          const std::vector<std::string>& overrides);
 
-/// The scene that the keys describe; no level set is computed. Throws InputError "file:line: ..." for
-/// anything that it does not understand, but leaves keys that it does not know to reject_unused of the tree,
-/// after all of it was read. See cases/KEYS.md for the keys.
+/// The scene that the keys describe; no level set is computed. Throws InputError "file:line: ..."
+/// for anything that it does not understand, but leaves keys that it does not know to reject_unused
+/// of the tree, after all of it was read. See cases/KEYS.md for the keys.
 Scene scene_from(const CaseKeys& of, const SceneLimits& limits = {});
 
-/// The scene of a case file alone: its tables [expect] and [ablation] are left aside. Throws InputError as
-/// above, and for any other key that nobody knows.
+/// The scene of a case file alone: its tables [expect] and [ablation] are left aside. Throws
+/// InputError as above, and for any other key that nobody knows.
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
 Scene read_scene_text(const std::string& text, const std::string& path,
-                      const std::vector<std::string>& overrides = {}, const SceneLimits& limits = {});
+                      const std::vector<std::string>& overrides = {},
+                      const SceneLimits& limits = {});
 
 /// What moves, and where it starts.
 struct BuiltScene {
   System system;
   State start;
-  std::vector<Object> objects;  // with the fields of their bodies; whoever judges asks these, not the system's own
+  // with the fields of their bodies; whoever judges asks these, not the system's own
+  std::vector<Object> objects;
 };
 
 /// Builds what the scene names, and nothing else. level_sets: who makes those of its bodies. Throws
-/// InputError, that names the key's place where it was read from a file, for a level set that cannot be made.
+/// InputError, that names the key's place where it was read from a file, for a level set that
+/// cannot be made.
 BuiltScene build(const Scene& scene, const LevelSetProvider& level_sets);
 
 /// The system of build(), its level sets computed.
@@ -121,7 +125,8 @@ State start_state(const Scene& scene);
 /// The scene's objects, with the fields of their bodies.
 std::vector<Object> build_objects(const Scene& scene, const LevelSetProvider& level_sets);
 
-/// What was built, a phrase for each part: "289 particles, 512 triangles", "gravity", "800 springs", ...
+/// What was built, a phrase for each part: "289 particles, 512 triangles", "gravity",
+/// "800 springs", ...
 std::vector<std::string> describe_parts(const Scene& scene, const System& system);
 
 }  // namespace foldproof

@@ -1,4 +1,5 @@
-// How much a case may ask for, so that no number in a file can ask for more memory than a machine has.
+// How much a case may ask for, so that no number in a file can ask for more memory
+// than a machine has.
 #pragma once
 
 #include <string>

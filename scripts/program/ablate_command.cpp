@@ -1,5 +1,5 @@
-// foldproof ablate: runs a case without each of its parts, and with those that it lacks and that need no numbers
-// from its author, and says which it needs.
+// foldproof ablate: runs a case without each of its parts, and with those that it lacks and that
+// need no numbers from its author, and says which it needs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ namespace {
 /// A case and all runs that are asked of it.
 struct Ablation {
   Case input_case;
-  LevelSetProvider level_sets;    // of all its runs; each is made once
+  LevelSetProvider level_sets;  // of all its runs; each is made once
   std::optional<Case> coarser;  // with the coarser mesh that it names
   std::vector<ScenePart> parts;
   ObservedRun scene, half_steps, other_mesh;
@@ -47,10 +47,12 @@ double ablation_end(const Case& input_case) {
   return input_case.ablated_until > 0 ? std::min(whole, input_case.ablated_until) : whole;
 }
 
-Ablation plan_ablation(const std::string& file, const Options& options, const LevelSetProvider& level_sets) {
+Ablation plan_ablation(const std::string& file, const Options& options,
+                       const LevelSetProvider& level_sets) {
   Ablation plan{read_case(file, options.overrides), level_sets, {}, {}, {}, {}, {}, {}, 0, {}, {}};
   const Case& input_case = plan.input_case;
-  build(input_case.scene, level_sets);  // refuses now what cannot be built; its level sets serve every run
+  // refuses now what cannot be built; its level sets serve every run
+  build(input_case.scene, level_sets);
   plan.parts = parts_of(input_case.scene);
   reject_unknown_parts(input_case, plan.parts);
   plan.toggled.resize(plan.parts.size());
@@ -64,9 +66,9 @@ Ablation plan_ablation(const std::string& file, const Options& options, const Le
   try {
     coarseness(input_case.scene.mesh, plan.coarser->scene.mesh);
   } catch (const InputError& error) {
-    throw InputError(
-        fmt::format("{}: [ablation] coarser_mesh: {}, or --set 'ablation.coarser_mesh=\"\"' for a finer one",
-                    file, error.what()));
+    throw InputError(fmt::format(
+        "{}: [ablation] coarser_mesh: {}, or --set 'ablation.coarser_mesh=\"\"' for a finer one",
+        file, error.what()));
   }
   return plan;
 }
@@ -75,8 +77,8 @@ Ablation plan_ablation(const std::string& file, const Options& options, const Le
 using AfterRun = std::function<void(Ablation&)>;
 
 /// The run of `input_case`, which `one` asks for and finds in `into`.
-Job job_of(Ablation& one, double length, const Case& input_case, std::function<Scene(const Scene&)> change,
-           ObservedRun& into, const AfterRun& after) {
+Job job_of(Ablation& one, double length, const Case& input_case,
+           std::function<Scene(const Scene&)> change, ObservedRun& into, const AfterRun& after) {
   ++one.runs_left;
   return {one.input_case.scene.name, length,
           [&one, &input_case, change = std::move(change), &into, after](const Progress&) {
@@ -84,7 +86,8 @@ Job job_of(Ablation& one, double length, const Case& input_case, std::function<S
             try {
               Scene scene = change(input_case.scene);
               scene.schedule.end = ablation_end(input_case);
-              into = observe_run(with_scene(input_case, std::move(scene)), one.level_sets, particles);
+              into =
+                  observe_run(with_scene(input_case, std::move(scene)), one.level_sets, particles);
             } catch (const std::exception& error) {
               into.stopped = error.what();
             }
@@ -93,7 +96,8 @@ Job job_of(Ablation& one, double length, const Case& input_case, std::function<S
           }};
 }
 
-/// Case by case, so that what is cut off has whole cases. Finer meshes take some ten times as long: four times the particles, and smaller steps.
+/// Case by case, so that what is cut off has whole cases. Finer meshes take some ten times as long:
+/// four times the particles, and smaller steps.
 std::vector<Job> jobs_of(std::vector<Ablation>& all, const AfterRun& after) {
   const auto as_it_is = [](const Scene& s) { return s; };
   std::vector<Job> jobs;
@@ -120,10 +124,12 @@ double extent_of(const PerParticle3& x) {
 DiscretisationError own_error(const Ablation& one, const PerParticle& mass) {
   const TriangleMesh& mesh = one.input_case.scene.mesh;
   DiscretisationError error{nan, nan, 1e-6 * extent_of(mesh.rest)};
-  if (one.half_steps.stopped.empty()) error.time = position_difference(one.scene, one.half_steps, mass);
+  if (one.half_steps.stopped.empty())
+    error.time = position_difference(one.scene, one.half_steps, mass);
   if (one.other_mesh.stopped.empty())
-    error.mesh = one.coarser ? error_from_coarser(one.scene, mesh, one.other_mesh, one.coarser->scene.mesh)
-                           : position_difference(one.scene, one.other_mesh, mass);
+    error.mesh = one.coarser
+                     ? error_from_coarser(one.scene, mesh, one.other_mesh, one.coarser->scene.mesh)
+                     : position_difference(one.scene, one.other_mesh, mass);
   return error;
 }
 
@@ -137,17 +143,21 @@ void judge(Ablation& one) {
   const PerParticle mass = lumped_masses(one.input_case.scene.mesh, one.input_case.scene.density);
   one.error = own_error(one, mass);
   for (size_t k = 0; k < one.parts.size(); ++k) {
-    one.judged_parts.push_back(judge_part(one.parts[k], one.scene, std::move(one.toggled[k]), one.error, mass));
+    one.judged_parts.push_back(
+        judge_part(one.parts[k], one.scene, std::move(one.toggled[k]), one.error, mass));
     one.judged_parts.back().declared = declared_reason(one.input_case, one.parts[k].name);
   }
   forget_positions(one);
 }
 
-/// Why nothing can be said of the scene's parts: its own run is not what its author wants; "" if it is.
+/// Why nothing can be said of the scene's parts: its own run is not what its author
+/// wants; "" if it is.
 std::string wrong_by_itself(const Ablation& one) {
-  if (!one.scene.stopped.empty()) return "the scene itself does not come to its end: " + one.scene.stopped;
+  if (!one.scene.stopped.empty())
+    return "the scene itself does not come to its end: " + one.scene.stopped;
   if (one.scene.failed_keys.empty()) return "";
-  return fmt::format("expectations of the scene itself fail: {}", fmt::join(one.scene.failed_keys, ", "));
+  return fmt::format("expectations of the scene itself fail: {}",
+                     fmt::join(one.scene.failed_keys, ", "));
 }
 
 nlohmann::json to_json(const ObservedRun& run) {
@@ -234,11 +244,15 @@ std::string error_text(double error, const std::string& why_unknown) {
 }
 
 void print(const Ablation& one) {
-  const double whole = one.input_case.scene.schedule.end, expected_keys = ablation_end(one.input_case);
-  const std::string first = expected_keys < whole ? fmt::format(" (its first {:g} s of {:g})", expected_keys, whole) : "";
-  fmt::print("{}{}: {:.2f} s; own error {:.2g} m (half the step {}; {} {})\n", one.input_case.scene.name, first,
-             one.scene.seconds, one.error.value(), error_text(one.error.time, one.half_steps.stopped),
-             one.coarser ? fmt::format("from a coarser mesh, {},", fmt::join(one.input_case.coarser_mesh, ", "))
+  const double whole = one.input_case.scene.schedule.end,
+               expected_keys = ablation_end(one.input_case);
+  const std::string first =
+      expected_keys < whole ? fmt::format(" (its first {:g} s of {:g})", expected_keys, whole) : "";
+  fmt::print("{}{}: {:.2f} s; own error {:.2g} m (half the step {}; {} {})\n",
+             one.input_case.scene.name, first, one.scene.seconds, one.error.value(),
+             error_text(one.error.time, one.half_steps.stopped),
+             one.coarser ? fmt::format("from a coarser mesh, {},",
+                                       fmt::join(one.input_case.coarser_mesh, ", "))
                          : "finer mesh",
              error_text(one.error.mesh, one.other_mesh.stopped));
   if (const std::string wrong = wrong_by_itself(one); !wrong.empty()) fmt::print("! {}\n", wrong);
@@ -257,11 +271,13 @@ std::vector<Ablation> ablations_of(const Options& options) {
   if (files.empty())
     for (const std::string& name : built_in_cases(tier_of(options)))
       files.push_back(shipped_case_file(name));
-  for (const std::string& file : files) all.push_back(plan_ablation(case_file(file), options, level_sets));
+  for (const std::string& file : files)
+    all.push_back(plan_ablation(case_file(file), options, level_sets));
   return all;
 }
 
-/// Writes what is found so far: a run of hours that is cut off leaves the cases that it was through with.
+/// Writes what is found so far: a run of hours that is cut off leaves the cases that it
+/// was through with.
 void write(const std::vector<Ablation>& all, const Options& options) {
   const std::string path = options.out + "/ablation.json";
   write_text(path, json_text(with_others_of(path, to_json(all, options))) + "\n");

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// A square sheet of n x n cells, gently waved and moving, damping ratio 0.1 of springs and hinges at the
-/// bound on omega.
+/// A square sheet of n x n cells, gently waved and moving, damping ratio 0.1 of springs and hinges
+/// at the bound on omega.
 struct Load {
   Scene scene;
   System system;
@@ -30,23 +30,28 @@ struct Load {
 Load make_load(int cells) {
   constexpr double damping_ratio = 0.1, density = 0.2, young = 60, bending_stiffness = 3e-5;
   Load load{
-      scene_at_rest(make_sheet({SheetPattern::alternating, 1, 1, cells, cells, 0, 1}), density), {}, {}, 0};
+      scene_at_rest(make_sheet({SheetPattern::alternating, 1, 1, cells, cells, 0, 1}), density),
+      {},
+      {},
+      0};
   Scene& scene = load.scene;
   scene.stretch = StretchMaterial{young, 0, 1};
-  scene.bending = BendingMaterial{bending_stiffness, 0, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.bending =
+      BendingMaterial{bending_stiffness, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   std::mt19937_64 random(7);
   const double amplitude = 0.1 / cells;
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     scene.x(2, i) += amplitude * (std::sin(17 * scene.x(0, i)) + double(random() >> 11) * 0x1p-53);
-    scene.v.col(i) =
-        Vector3(std::sin(5 * scene.x(1, i)), std::cos(3 * scene.x(0, i)), double(random() >> 11) * 0x1p-53);
+    scene.v.col(i) = Vector3(std::sin(5 * scene.x(1, i)), std::cos(3 * scene.x(0, i)),
+                             double(random() >> 11) * 0x1p-53);
   }
+  // 2 zeta/omega [s]
   const double time_scale =
-      2 * damping_ratio / (2 / elastic_limit(build_system(scene), start_state(scene)));  // 2 zeta/omega [s]
+      2 * damping_ratio / (2 / elastic_limit(build_system(scene), start_state(scene)));
   scene.stretch->damping = young * time_scale;
-  const double hinge_slope =
-      bending_stiffness / 2 * cells;  // ke c/2 over |E|, with c near 1 and |E| near 1/cells
+  // ke c/2 over |E|, with c near 1 and |E| near 1/cells
+  const double hinge_slope = bending_stiffness / 2 * cells;
   scene.bending->damping = hinge_slope * time_scale;
   scene.gravity = Vector3(0, -9.80665, 0);
   scene.solver.tolerance = 1e-6;
@@ -57,8 +62,8 @@ Load make_load(int cells) {
 }
 
 struct Speeds {
-  double particles, hinges, bending, springs, product, preparation, iteration, step,
-      iterations;  // seconds of each, but counts first and last
+  // seconds of each, but counts first and last
+  double particles, hinges, bending, springs, product, preparation, iteration, step, iterations;
 };
 
 Speeds measure(const Load& load) {
@@ -82,7 +87,8 @@ Speeds measure(const Load& load) {
   const auto solve = [&](int iterations) {
     settings.max_iterations = iterations;
     PerParticle3 v = s.v;
-    solve_velocity(damping, load.limit / 4, load.system.mass, load.system.inverse_mass, settings, v, work);
+    solve_velocity(damping, load.limit / 4, load.system.mass, load.system.inverse_mass, settings, v,
+                   work);
   };
   speeds.iteration = (least_seconds([&] { solve(12); }) - least_seconds([&] { solve(2); })) / 10;
 
@@ -118,15 +124,16 @@ Figure growth_figure(const std::vector<Speeds>& all) {
                 {"particles", "1", Scale::log},
                 {"time", "s", Scale::log},
                 1,
-                "Least time of repeats on one thread; the slope triangle is linear growth. Where the data "
-                "outgrow the caches, each particle costs more.",
+                "Least time of repeats on one thread; the slope triangle is linear growth. Where "
+                "the data outgrow the caches, each particle costs more.",
                 {}};
-  figure.curves = {{"bending, elastic", particles, column(all, &Speeds::bending), not_a_number, {}},
-                   {"springs, elastic", particles, column(all, &Speeds::springs), not_a_number, {}},
-                   {"damping, terms", particles, column(all, &Speeds::preparation), not_a_number, {}},
-                   {"damping, product", particles, column(all, &Speeds::product), not_a_number, {}},
-                   {"CG iteration", particles, column(all, &Speeds::iteration), not_a_number, {}},
-                   {"step of scheme C", particles, column(all, &Speeds::step), not_a_number, {}}};
+  figure.curves = {
+      {"bending, elastic", particles, column(all, &Speeds::bending), not_a_number, {}},
+      {"springs, elastic", particles, column(all, &Speeds::springs), not_a_number, {}},
+      {"damping, terms", particles, column(all, &Speeds::preparation), not_a_number, {}},
+      {"damping, product", particles, column(all, &Speeds::product), not_a_number, {}},
+      {"CG iteration", particles, column(all, &Speeds::iteration), not_a_number, {}},
+      {"step of scheme C", particles, column(all, &Speeds::step), not_a_number, {}}};
   return figure;
 }
 
@@ -143,8 +150,8 @@ Table growth_table(const std::vector<Speeds>& all) {
                {"step of scheme C", "ms"},
                {"CG iterations a solve", "1"}}};
   for (const Speeds& s : all)
-    table.row(s.particles, s.hinges, 1e3 * s.bending, 1e3 * s.springs, 1e3 * s.preparation, 1e3 * s.product,
-              1e3 * s.iteration, 1e3 * s.step, s.iterations);
+    table.row(s.particles, s.hinges, 1e3 * s.bending, 1e3 * s.springs, 1e3 * s.preparation,
+              1e3 * s.product, 1e3 * s.iteration, 1e3 * s.step, s.iterations);
   return table;
 }
 
@@ -155,34 +162,37 @@ std::vector<Record> rates(const std::vector<Speeds>& all, double megabytes) {
   std::vector<double> evaluations;
   for (const Speeds& s : all) evaluations.push_back(s.bending + s.springs);
   return {
-      rate("bending-elastic", fmt::format("Elastic bending forces a second, {:.0f} hinges.", large.hinges),
+      rate("bending-elastic",
+           fmt::format("Elastic bending forces a second, {:.0f} hinges.", large.hinges),
            large.hinges / large.bending / 1e6,
            {20, "million hinges/s", "higher",
-            "50 ns a hinge: four square roots, a few divisions and some 150 other operations, with twelve "
-            "numbers gathered and twelve scattered"}),
-      rate(
-          "step-C",
-          fmt::format(
-              "One step of scheme C, {:.0f} particles, damping ratio 0.1, half the elastic limit, CG to 1e-6 "
-              "({:.1f} iterations a solve).",
-              large.particles, large.iterations),
-          large.step,
-          {0.3, "s", "lower",
-           "two solves of some ten passes over springs and hinges, at memory speed; ten seconds of animation "
-           "in steps of 2 ms then take 25 minutes"}),
-      rate("memory", fmt::format("Peak memory of the process with {:.0f} particles.", large.particles),
+            "50 ns a hinge: four square roots, a few divisions and some 150 other operations, with "
+            "twelve numbers gathered and twelve scattered"}),
+      rate("step-C",
+           fmt::format("One step of scheme C, {:.0f} particles, damping ratio 0.1, half the "
+                       "elastic limit, CG to 1e-6 ({:.1f} iterations a solve).",
+                       large.particles, large.iterations),
+           large.step,
+           {0.3, "s", "lower",
+            "two solves of some ten passes over springs and hinges, at memory speed; ten seconds "
+            "of animation in steps of 2 ms then take 25 minutes"}),
+      rate("memory",
+           fmt::format("Peak memory of the process with {:.0f} particles.", large.particles),
            megabytes,
            {500, "MB", "lower",
-            "5 kB a particle: its state and that of a step under way, and the kept terms of its three "
-            "springs and three hinges; a million particles then fit 5 GB"}),
-      rate("growth-of-iteration", "Growth exponent of the time per CG iteration in the number of particles.",
+            "5 kB a particle: its state and that of a step under way, and the kept terms of its "
+            "three springs and three hinges; a million particles then fit 5 GB"}),
+      rate("growth-of-iteration",
+           "Growth exponent of the time per CG iteration in the number of particles.",
            exponent(particles, column(all, &Speeds::iteration)),
            {1.1, "1", "lower",
-            "work is proportional to particles: 1; a tenth is left for data that outgrow the caches"}),
+            "work is proportional to particles: 1; a tenth is left for data that outgrow the "
+            "caches"}),
       rate("growth-of-forces", "Growth exponent of the time per evaluation of the elastic forces.",
            exponent(particles, evaluations),
            {1.1, "1", "lower",
-            "work is proportional to particles: 1; a tenth is left for data that outgrow the caches"}),
+            "work is proportional to particles: 1; a tenth is left for data that outgrow the "
+            "caches"}),
   };
 }
 
@@ -217,15 +227,16 @@ RunRecord bench(int most_particles) {
   for (Record& record : level_set_rates()) run.records.push_back(std::move(record));
   for (Record& record : octree_rates()) run.records.push_back(std::move(record));
   run.records.push_back(crossing_rate());
-  run.studies.push_back({"bench",
-                         "How time and memory grow with the number of particles.",
-                         "measured",
-                         "A square sheet of alternating diagonals, gently waved, springs and hinges damped "
-                         "at a ratio of 0.1. Times are of a shared machine: compare them as ratios.",
-                         seconds,
-                         {growth_figure(all)},
-                         {},
-                         {growth_table(all)}});
+  run.studies.push_back(
+      {"bench",
+       "How time and memory grow with the number of particles.",
+       "measured",
+       "A square sheet of alternating diagonals, gently waved, springs and hinges damped at a "
+       "ratio of 0.1. Times are of a shared machine: compare them as ratios.",
+       seconds,
+       {growth_figure(all)},
+       {},
+       {growth_table(all)}});
   return run;
 }
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int side = 128;  // nodes
 
-/// A cube of 128 nodes along each side about the mesh, three cells of it beyond the longest side's ends.
+/// A cube of 128 nodes along each side about the mesh, three cells of it beyond the
+/// longest side's ends.
 Lattice cube_about(const Bounds& bounds) {
   Lattice lattice = lattice_about(bounds, side - 7, 3);
   lattice.nodes = {side, side, side};
@@ -61,31 +62,34 @@ std::vector<Record> level_set_rates() {
   const double before = resident_megabytes("VmRSS");
   Grid grid;
   const double whole = ready + seconds_of([&] {
-                         grid = march(lattice, narrow_band(mesh, lattice, 3), MarchingOrder::second);
+                         grid =
+                             march(lattice, narrow_band(mesh, lattice, 3), MarchingOrder::second);
                        });
   const double over = resident_megabytes("VmHWM") - before - 8e-6 * double(lattice.size());
   const std::string on = fmt::format(" {} triangles, 128^3 nodes.", body.triangles.size());
   const std::string measured_on =
       "as measured for comparable programs on 20,000 triangles, scaled to as many again";
-  return {rate("level-set-band",
-               "Exact signed distance in a band of three cells, tree and normals included;" + on, band,
-               {1.5, "s", "lower", "some 400,000 nodes at 3 microseconds a search, " + measured_on}),
-          rate("level-set-whole", "Band, and second-order marching of all nodes;" + on, whole,
-               {8, "s", "lower",
-                "two million nodes at 3 microseconds each: a heap of the front, three quadratics, " +
-                    measured_on}),
-          rate("level-set-memory", "Peak memory over the grid itself while it is made;" + on, over,
-               {100, "MB", "lower", "a flag a node, the front, the band's seeds: less than 50 bytes a node"}),
-          rate("level-set-intersections",
-               fmt::format("All pairs of {} triangles that intersect.", body.triangles.size()), pairs,
-               {1, "s", "lower", "a dozen neighbours a triangle at a microsecond each"}),
-          rate("level-set-mesh-queries", "Exact signed distance and N at random points about the mesh.",
-               queries(mesh, {points.begin(), points.begin() + 5000}),
-               {0.1, "million/s", "higher", "some hundred boxes and triangles a search"}),
-          rate("level-set-grid-queries", "Trilinear phi and blended N on the grid, at random points.",
-               queries(grid, points),
-               {3, "million/s", "higher",
-                "fifty values gathered from two million, most of them not in the cache"})};
+  return {
+      rate("level-set-band",
+           "Exact signed distance in a band of three cells, tree and normals included;" + on, band,
+           {1.5, "s", "lower", "some 400,000 nodes at 3 microseconds a search, " + measured_on}),
+      rate("level-set-whole", "Band, and second-order marching of all nodes;" + on, whole,
+           {8, "s", "lower",
+            "two million nodes at 3 microseconds each: a heap of the front, three quadratics, " +
+                measured_on}),
+      rate("level-set-memory", "Peak memory over the grid itself while it is made;" + on, over,
+           {100, "MB", "lower",
+            "a flag a node, the front, the band's seeds: less than 50 bytes a node"}),
+      rate("level-set-intersections",
+           fmt::format("All pairs of {} triangles that intersect.", body.triangles.size()), pairs,
+           {1, "s", "lower", "a dozen neighbours a triangle at a microsecond each"}),
+      rate("level-set-mesh-queries", "Exact signed distance and N at random points about the mesh.",
+           queries(mesh, {points.begin(), points.begin() + 5000}),
+           {0.1, "million/s", "higher", "some hundred boxes and triangles a search"}),
+      rate("level-set-grid-queries", "Trilinear phi and blended N on the grid, at random points.",
+           queries(grid, points),
+           {3, "million/s", "higher",
+            "fifty values gathered from two million, most of them not in the cache"})};
 }
 
 }  // namespace foldproof

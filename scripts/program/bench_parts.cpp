@@ -38,10 +38,12 @@ void forget_peak() {
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 
-Record rate(const std::string& name, const std::string& claim, double measured, const Target& target) {
+Record rate(const std::string& name, const std::string& claim, double measured,
+            const Target& target) {
   const Verdict verdict{measured, target.value, 0, target.unit, target.why};
-  return {"bench." + name, "bench",       "", claim, "", {verdict, {}, "one thread, least of repeats"},
-          std::nullopt,    target.better, 0,  {}};
+  return {
+      "bench." + name, "bench",       "", claim, "", {verdict, {}, "one thread, least of repeats"},
+      std::nullopt,    target.better, 0,  {}};
 }
 
 }  // namespace foldproof

@@ -15,11 +15,12 @@ double seconds_of(const std::function<void()>& run);
 /// The least time of enough repeats to fill a fifth of a second, at least three [s].
 double least_seconds(const std::function<void()>& run);
 
-/// "VmHWM" (largest resident memory since forgotten) or "VmRSS" (now) of this process [MB]; NaN where the
-/// system does not say.
+/// "VmHWM" (largest resident memory since forgotten) or "VmRSS" (now) of this process [MB]; NaN
+/// where the system does not say.
 double resident_megabytes(const std::string& what);
 
-/// Gives free memory back and forgets the peak, so that what follows is not hidden in what was used before.
+/// Gives free memory back and forgets the peak, so that what follows is not hidden in what
+/// was used before.
 void forget_peak();
 
 struct Target {
@@ -29,17 +30,18 @@ struct Target {
 };
 
 /// A measured number beside its target.
-Record rate(const std::string& name, const std::string& claim, double measured, const Target& target);
+Record rate(const std::string& name, const std::string& claim, double measured,
+            const Target& target);
 
-/// bench_contact.cpp: a scene's particles on an object, against a step of its own [s] that takes
-/// step_seconds.
+/// bench_contact.cpp: a scene's particles on an object, against a step of its own [s] that
+/// takes step_seconds.
 Record contact_rate(const Scene& scene, double step, double step_seconds);
 
 /// bench_strain.cpp: a sweep of strain limits over the scene's springs, likewise.
 Record strain_rate(const Scene& scene, double step, double step_seconds);
 
-Record self_collision_rate();           // bench_self.cpp: a step of cloth that lies on itself
-Record crossing_rate();                 // bench_crossings.cpp: the test for crossings of moving features
+Record self_collision_rate();  // bench_self.cpp: a step of cloth that lies on itself
+Record crossing_rate();        // bench_crossings.cpp: the test for crossings of moving features
 std::vector<Record> octree_rates();     // bench_octree.cpp: an octree of a mesh, queries
 std::vector<Record> level_set_rates();  // bench_level_set.cpp: grids about a mesh, queries
 

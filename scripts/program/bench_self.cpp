@@ -10,8 +10,8 @@ namespace foldproof {
 
 namespace {
 
-/// Eight sheets of 36 x 36 particles, 1.8 mm apart, the lowest of them held: `fold_stack` as it lies, without
-/// its folds.
+/// Eight sheets of 36 x 36 particles, 1.8 mm apart, the lowest of them held: `fold_stack` as it
+/// lies, without its folds.
 Scene stack() {
   Sheet sheet;
   sheet.pattern = SheetPattern::equilateral;
@@ -51,14 +51,13 @@ Record self_collision_rate() {
   const double start = processor_seconds();
   for (int k = 0; k < steps; ++k) past = {integrator.step(system, past, h, work)};
   const double seconds = (processor_seconds() - start) / steps;
-  return rate(
-      "self-collision-step",
-      fmt::format("A step of scheme C of eight layers in contact, {} particles: {} close pairs and {} asked "
-                  "whether they "
-                  "cross, a step.",
-                  scene.x.cols(), work.close_pairs / steps, work.crossing_queries / steps),
-      seconds,
-      {0.5, "s", "lower", "a minute of cloth at 10,000 particles and a millisecond a step in a working day"});
+  return rate("self-collision-step",
+              fmt::format("A step of scheme C of eight layers in contact, {} particles: {} close "
+                          "pairs and {} asked whether they cross, a step.",
+                          scene.x.cols(), work.close_pairs / steps, work.crossing_queries / steps),
+              seconds,
+              {0.5, "s", "lower",
+               "a minute of cloth at 10,000 particles and a millisecond a step in a working day"});
 }
 
 }  // namespace foldproof

@@ -14,8 +14,8 @@ Record strain_rate(const Scene& load, double step, double step_seconds) {
       make_strain_limiter(limits, springs.springs, PerParticle::Ones(load.x.cols()));
   long beyond = 0;
   for (const Spring& spring : springs.springs) {
-    const Vector3 p =
-        load.x.col(spring.b) - load.x.col(spring.a) + step * (load.v.col(spring.b) - load.v.col(spring.a));
+    const Vector3 p = load.x.col(spring.b) - load.x.col(spring.a) +
+                      step * (load.v.col(spring.b) - load.v.col(spring.a));
     const double strain = p.norm() / spring.rest_length - 1;
     if (strain > limits.extension || strain < -limits.compression) ++beyond;
   }
@@ -26,15 +26,16 @@ Record strain_rate(const Scene& load, double step, double step_seconds) {
   });
   return rate(
       "strain-sweep",
-      fmt::format("One sweep of strain limits, and the look at what it left, over that step without limits: "
-                  "{} springs, {:.0f} % of them beyond a limit; the sweep takes {:.1f} ms.",
-                  springs.springs.size(), 100.0 * double(beyond) / double(springs.springs.size()),
-                  1e3 * seconds),
+      fmt::format(
+          "One sweep of strain limits, and the look at what it left, over that step without "
+          "limits: {} springs, {:.0f} % of them beyond a limit; the sweep takes {:.1f} ms.",
+          springs.springs.size(), 100.0 * double(beyond) / double(springs.springs.size()),
+          1e3 * seconds),
       seconds / step_seconds,
       {0.08, "1", "lower",
-       "a sweep gathers the positions and velocities of two particles a spring, as one of some ten passes "
-       "over "
-       "springs of each of a step's two solves does; the look at what is left is another"});
+       "a sweep gathers the positions and velocities of two particles a spring, as one of some ten "
+       "passes over springs of each of a step's two solves does; the look at what is left is "
+       "another"});
 }
 
 }  // namespace foldproof

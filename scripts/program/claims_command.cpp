@@ -25,18 +25,18 @@ json findings_of(const std::string& folder) {
   if (!std::filesystem::exists(path))
     throw InputError(path + ": there is no finished run; make one with `" + program_command() +
                      " verify --out " + folder + "`, or name its folder with --out");
-  const json whole =
-      json::parse(read_text_file(path, {table_text_limits.bytes, table_text_limits.bytes}), nullptr, false);
+  const json whole = json::parse(
+      read_text_file(path, {table_text_limits.bytes, table_text_limits.bytes}), nullptr, false);
   if (!whole.is_object() || !whole.contains("findings"))
     throw InputError(path + ": not the verdicts of a run; make them anew with `" +
                      program_command() + " verify`");
   const json& findings = whole["findings"];
-  const bool are_rows =
-      findings.is_array() && std::ranges::all_of(findings, [](const json& row) { return row.is_object(); });
+  const bool are_rows = findings.is_array() && std::ranges::all_of(findings, [](const json& row) {
+                          return row.is_object();
+                        });
   if (!are_rows)
-    throw InputError(path +
-                     ": its findings are no list of findings; make them anew with `" + program_command() +
-                     " verify`");
+    throw InputError(path + ": its findings are no list of findings; make them anew with `" +
+                     program_command() + " verify`");
   return findings;
 }
 
@@ -45,8 +45,7 @@ json claims_in(const json& findings, const std::string& folder) {
   for (const json& row : findings)
     if (text_of(row, "kind") == "claim") claims.push_back(row);
   if (claims.empty())
-    throw InputError(folder +
-                     "/verdicts.json: this run decided no claim; `" + program_command() +
+    throw InputError(folder + "/verdicts.json: this run decided no claim; `" + program_command() +
                      " verify` decides all");
   return claims;
 }
@@ -55,8 +54,8 @@ json chosen_of(const json& claims, const std::vector<std::string>& ids) {
   if (ids.empty()) return claims;
   json chosen = json::array();
   for (const std::string& id : ids) {
-    const auto found =
-        std::find_if(claims.begin(), claims.end(), [&](const json& row) { return text_of(row, "id") == id; });
+    const auto found = std::find_if(claims.begin(), claims.end(),
+                                    [&](const json& row) { return text_of(row, "id") == id; });
     if (found == claims.end())
       throw InputError("there is no claim '" + id + "' in this run; `foldproof claims` shows all");
     chosen.push_back(*found);
@@ -67,7 +66,8 @@ json chosen_of(const json& claims, const std::vector<std::string>& ids) {
 void print_row(const json& claim) {
   const bool differs = text_of(claim, "ruling") != text_of(claim, "recorded");
   fmt::print("{:<4} {:<27} {}{}\n", text_of(claim, "id"), text_of(claim, "ruling"),
-             text_of(claim, "statement"), differs ? "  [recorded: " + text_of(claim, "recorded") + "]" : "");
+             text_of(claim, "statement"),
+             differs ? "  [recorded: " + text_of(claim, "recorded") + "]" : "");
 }
 
 /// One finding that decides a claim, with its numbers if the run has it.
@@ -76,23 +76,28 @@ void print_decider(const json& decider, const json& findings) {
   const auto found = std::find_if(findings.begin(), findings.end(),
                                   [&](const json& row) { return text_of(row, "name") == name; });
   const auto number = [&](const char* key) {
-    return found->value(key, json()).is_number() ? fmt::format("{:.4g}", (*found)[key].get<double>()) : "nan";
+    return found->value(key, json()).is_number()
+               ? fmt::format("{:.4g}", (*found)[key].get<double>())
+               : "nan";
   };
   std::string numbers;
   if (found != findings.end()) {
     const std::string unit = text_of(*found, "unit");
-    numbers = fmt::format("{} <= {}{}", number("measured"), number("bound"), unit == "1" ? "" : " " + unit);
+    numbers = fmt::format("{} <= {}{}", number("measured"), number("bound"),
+                          unit == "1" ? "" : " " + unit);
   }
-  fmt::print("  {:<12} {:<14} {:<58} {}\n", text_of(decider, "role"), text_of(decider, "outcome"), name,
-             numbers);
+  fmt::print("  {:<12} {:<14} {:<58} {}\n", text_of(decider, "role"), text_of(decider, "outcome"),
+             name, numbers);
 }
 
 void print_whole(const json& claim, const json& findings) {
   print_row(claim);
-  if (!text_of(claim, "condition").empty()) fmt::print("\nCondition: {}.\n", text_of(claim, "condition"));
+  if (!text_of(claim, "condition").empty())
+    fmt::print("\nCondition: {}.\n", text_of(claim, "condition"));
   if (!text_of(claim, "why").empty()) fmt::print("\n{}\n", text_of(claim, "why"));
   fmt::print("\n");
-  for (const json& decider : claim.value("decided_by", json::array())) print_decider(decider, findings);
+  for (const json& decider : claim.value("decided_by", json::array()))
+    print_decider(decider, findings);
 }
 
 }  // namespace

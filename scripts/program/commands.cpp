@@ -45,7 +45,8 @@ RunRecord new_run(const Options& options) {
   const Subject subject = reference_subject();
   seed_shift = options.seed_shift;
   run.seed = options.seed_shift;
-  if (seed_shift > 0) log_line(fmt::format("the seeds of all samples are shifted by {}", seed_shift));
+  if (seed_shift > 0)
+    log_line(fmt::format("the seeds of all samples are shifted by {}", seed_shift));
   run.subject = subject.name;
   run.subject_version = subject.version;
   return run;
@@ -91,8 +92,8 @@ std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance
   for (const std::string& name : shown_cases(tier_of(options)))
     jobs.push_back({"case." + name, length,
                     [name, provider, folder = options.out, provenance](const Progress& progress) {
-                      CaseRun done =
-                          run_case(built_case(built_in_case(name), provider), folder, provenance, progress);
+                      CaseRun done = run_case(built_case(built_in_case(name), provider), folder,
+                                              provenance, progress);
                       RunRecord part;
                       part.cases = {done.record};
                       part.records = std::move(done.findings);
@@ -101,10 +102,12 @@ std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance
   return jobs;
 }
 
-/// Writes verdicts of a run that has not ended, so that one which never does is not taken for the one before.
+/// Writes verdicts of a run that has not ended, so that one which never does is not taken for
+/// the one before.
 void announce(const std::vector<Job>& jobs, RunRecord begun, const std::string& folder) {
   for (const Job& job : jobs)
-    begun.records.push_back(unfinished_record(job.name, std::nullopt, "the run has not come to its end"));
+    begun.records.push_back(
+        unfinished_record(job.name, std::nullopt, "the run has not come to its end"));
   write_verdicts(folder, begun);
 }
 
@@ -113,9 +116,11 @@ void announce(const std::vector<Job>& jobs, RunRecord begun, const std::string& 
 int list(const Options& options) {
   nlohmann::json json = {{"checks", nlohmann::json::array()}, {"studies", nlohmann::json::array()}};
   for (const Check& check : all_checks())
-    json["checks"].push_back({{"name", check.name}, {"claim", check.claim}, {"source", check.source}});
+    json["checks"].push_back(
+        {{"name", check.name}, {"claim", check.claim}, {"source", check.source}});
   for (const Study& study : all_studies())
-    json["studies"].push_back({{"name", study.name}, {"claim", study.claim}, {"source", study.source}});
+    json["studies"].push_back(
+        {{"name", study.name}, {"claim", study.claim}, {"source", study.source}});
   json["cases"] = built_in_cases(Tier::full);
   json["cases_folder"] = data_folder() + "/cases";
   json["long_cases"] = long_cases();
@@ -149,7 +154,8 @@ int run_checks(const Options& options) {
   const std::vector<Claim> claims = written_claims();
   RunRecord run = new_run(options);
   const Tier tier = tier_of(options);
-  run_selection(select({options.names, {"check"}}, tier), reference_subject(), tier, options.running, run);
+  run_selection(select({options.names, {"check"}}, tier), reference_subject(), tier,
+                options.running, run);
   rule_covered_claims(claims, run);
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
 }
@@ -159,7 +165,8 @@ int run_studies(const Options& options) {
   const std::vector<Claim> claims = written_claims();
   RunRecord run = new_run(options);
   const Tier tier = tier_of(options);
-  run_selection(select({options.names, {"study"}}, tier), reference_subject(), tier, options.running, run);
+  run_selection(select({options.names, {"study"}}, tier), reference_subject(), tier,
+                options.running, run);
   if (options.names.empty()) {
     reject_claims_of_lost_findings(claims, run);
     reject_faults_of_lost_findings(read_faults(faults_folder()), run);

@@ -20,24 +20,29 @@ namespace {
 using nlohmann::json;
 
 /// The level's run as a job; the result is left in `into`.
-Job job_of(Level level, double length, const LevelSetProvider& level_sets, ResultStore& store, LevelRun& into) {
+Job job_of(Level level, double length, const LevelSetProvider& level_sets, ResultStore& store,
+           LevelRun& into) {
   return {level.input_case.scene.name, length,
-          [level = std::move(level), &level_sets, &store, &into, program = program_identity()](const Progress&) {
+          [level = std::move(level), &level_sets, &store, &into,
+           program = program_identity()](const Progress&) {
             into = stored_level(level, level_sets, store, program);
             return RunRecord{};
           }};
 }
 
 /// The first level alone, since the others divide its steps; then all others at a time.
-std::vector<LevelRun> ladder_runs(const LadderPlan& plan, const LevelSetProvider& level_sets, ResultStore& store,
-                                  const JobSettings& running) {
+std::vector<LevelRun> ladder_runs(const LadderPlan& plan, const LevelSetProvider& level_sets,
+                                  ResultStore& store, const JobSettings& running) {
   std::vector<LevelRun> runs(size_t(plan.levels));
   RunRecord unused;
-  run_jobs({job_of(time_level(plan, 0, {}), 1, level_sets, store, runs[0])}, "the case as it is", running, unused);
-  if (!runs[0].stopped.empty()) throw InputError("the case itself comes to no end: " + runs[0].stopped);
+  run_jobs({job_of(time_level(plan, 0, {}), 1, level_sets, store, runs[0])}, "the case as it is",
+           running, unused);
+  if (!runs[0].stopped.empty())
+    throw InputError("the case itself comes to no end: " + runs[0].stopped);
   std::vector<Job> jobs;
   for (int k = 1; k < plan.levels; ++k)
-    jobs.push_back(job_of(time_level(plan, k, runs[0].step_ends), 1 << k, level_sets, store, runs[size_t(k)]));
+    jobs.push_back(
+        job_of(time_level(plan, k, runs[0].step_ends), 1 << k, level_sets, store, runs[size_t(k)]));
   run_jobs(jobs, "its steps divided", running, unused);
   return runs;
 }
@@ -46,22 +51,25 @@ std::string number(double value) { return std::isnan(value) ? "-" : fmt::format(
 
 std::string orders_in_words(const ErrorBar& bar) {
   std::string words;
-  for (const double order : bar.orders) words += (words.empty() ? "" : " ") + (std::isnan(order) ? "-" : fmt::format("{:.2f}", order));
+  for (const double order : bar.orders)
+    words += (words.empty() ? "" : " ") + (std::isnan(order) ? "-" : fmt::format("{:.2f}", order));
   return words;
 }
 
 void print(const LadderAnswer& answer) {
-  fmt::print("{}, method {}, in {}: {} levels; mean step {:.3g} s down to {:.3g} s\n\n", answer.scene, answer.method,
-             answer.in, answer.sizes.size(), answer.sizes.front(), answer.sizes.back());
-  fmt::print("{:<24} {:<10} {:<16} {:>12} {:>10} {:>10}  {}\n", "quantity", "unit", "order by pair", "limit", "+-",
-             "as it is", "reading");
+  fmt::print("{}, method {}, in {}: {} levels; mean step {:.3g} s down to {:.3g} s\n\n",
+             answer.scene, answer.method, answer.in, answer.sizes.size(), answer.sizes.front(),
+             answer.sizes.back());
+  fmt::print("{:<24} {:<10} {:<16} {:>12} {:>10} {:>10}  {}\n", "quantity", "unit", "order by pair",
+             "limit", "+-", "as it is", "reading");
   for (const QuantityOverLevels& q : answer.quantities)
-    fmt::print("{:<24} {:<10} {:<16} {:>12} {:>10.2g} {:>10.2g}  {}\n", q.name, q.unit, orders_in_words(q.bar),
-               number(q.bar.limit), q.bar.half_width, q.first_error,
+    fmt::print("{:<24} {:<10} {:<16} {:>12} {:>10.2g} {:>10.2g}  {}\n", q.name, q.unit,
+               orders_in_words(q.bar), number(q.bar.limit), q.bar.half_width, q.first_error,
                q.bar.reason.empty() ? std::string(name_of(q.bar.reading))
-                                     : fmt::format("{}: {}", name_of(q.bar.reading), q.bar.reason));
+                                    : fmt::format("{}: {}", name_of(q.bar.reading), q.bar.reason));
   fmt::print(
-      "\nlimit: Richardson's value for steps of no length; +-: error bar of the finest level (grid convergence index);\n"
+      "\nlimit: Richardson's value for steps of no length; +-: error bar of the finest level (grid "
+      "convergence index);\n"
       "as it is: error of the case with its own step, bar included.\n");
 }
 
@@ -81,10 +89,12 @@ json to_json(const QuantityOverLevels& q) {
 }
 
 json to_json(const LadderAnswer& answer) {
-  json answer_json = {{"case", answer.scene},   {"method", answer.method}, {"in", answer.in},
-               {"mean_step", answer.sizes}, {"work", answer.work},  {"seconds", answer.seconds},
-               {"stopped", answer.stopped}, {"quantities", json::array()}};
-  for (const QuantityOverLevels& q : answer.quantities) answer_json["quantities"].push_back(to_json(q));
+  json answer_json = {{"case", answer.scene},      {"method", answer.method},
+                      {"in", answer.in},           {"mean_step", answer.sizes},
+                      {"work", answer.work},       {"seconds", answer.seconds},
+                      {"stopped", answer.stopped}, {"quantities", json::array()}};
+  for (const QuantityOverLevels& q : answer.quantities)
+    answer_json["quantities"].push_back(to_json(q));
   return answer_json;
 }
 
@@ -94,12 +104,15 @@ int converge(const Options& options) {
   const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
   LadderPlan plan{read_case(case_file(options.file), options.overrides), options.levels, {}};
   if (!options.methods.empty()) plan.input_case.scene.integrator = options.methods.front();
-  if (options.until > 0) plan.input_case.scene.schedule.end = std::min(options.until, plan.input_case.scene.schedule.end);
+  if (options.until > 0)
+    plan.input_case.scene.schedule.end =
+        std::min(options.until, plan.input_case.scene.schedule.end);
   plan.measurements = measurements_of(plan.input_case);
   build(plan.input_case.scene, level_sets);  // refuses now what cannot be built
   const OutFolder folder(options.out);
   ResultStore store(options.out + "/store");
-  const LadderAnswer answer = time_answer(plan, ladder_runs(plan, level_sets, store, options.running));
+  const LadderAnswer answer =
+      time_answer(plan, ladder_runs(plan, level_sets, store, options.running));
   if (options.json)
     fmt::print("{}\n", json_text(to_json(answer)));
   else

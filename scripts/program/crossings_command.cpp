@@ -1,4 +1,5 @@
-// foldproof crossings: does a cloth pass through itself? Of stored runs, and of meshes of any other program.
+// foldproof crossings: does a cloth pass through itself? Of stored runs, and of meshes of
+// any other program.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -21,8 +22,8 @@ struct JudgedFrame {
   std::vector<oracles::EdgeInTriangle> pairs;
 };
 
-JudgedFrame judge_frame(const std::string& file, std::size_t frame, double time, const PerParticle3& x,
-                        const std::vector<Triangle>& triangles) {
+JudgedFrame judge_frame(const std::string& file, std::size_t frame, double time,
+                        const PerParticle3& x, const std::vector<Triangle>& triangles) {
   if (!x.allFinite())
     throw InputError(fmt::format("{}: frame {} has positions that are not finite", file, frame));
   return {file, frame, time, oracles::exact_crossings(x, triangles)};
@@ -46,8 +47,10 @@ void print(const std::vector<JudgedFrame>& all) {
     if (frame.pairs.empty()) continue;
     ++crossed;
     const auto& [edge, triangle] = frame.pairs.front();
-    fmt::print("{}: frame {}, t = {:.6g} s: {} pairs; the first: edge from particle {} to {}, triangle {}\n",
-               frame.file, frame.frame, frame.time, frame.pairs.size(), edge[0], edge[1], triangle);
+    fmt::print(
+        "{}: frame {}, t = {:.6g} s: {} pairs; the first: edge from particle {} to {}, triangle "
+        "{}\n",
+        frame.file, frame.frame, frame.time, frame.pairs.size(), edge[0], edge[1], triangle);
   }
   fmt::print("{} frames, {} of them with crossings\n", all.size(), crossed);
 }
@@ -55,10 +58,13 @@ void print(const std::vector<JudgedFrame>& all) {
 nlohmann::json to_json(const std::vector<JudgedFrame>& all) {
   nlohmann::json frames = nlohmann::json::array();
   for (const JudgedFrame& frame : all) {
-    nlohmann::json row = {
-        {"file", frame.file}, {"frame", frame.frame}, {"time", frame.time}, {"pairs", frame.pairs.size()}};
+    nlohmann::json row = {{"file", frame.file},
+                          {"frame", frame.frame},
+                          {"time", frame.time},
+                          {"pairs", frame.pairs.size()}};
     if (!frame.pairs.empty())
-      row["first"] = {{"edge", frame.pairs.front().edge}, {"triangle", frame.pairs.front().triangle}};
+      row["first"] = {{"edge", frame.pairs.front().edge},
+                      {"triangle", frame.pairs.front().triangle}};
     frames.push_back(std::move(row));
   }
   return frames;

@@ -26,10 +26,13 @@ bool holds_data(const fs::path& folder) {
 std::string data_folder() {
   for (const fs::path& folder : {installed_data(), fs::path(source_folder())})
     if (holds_data(folder)) return folder.string();
-  throw InputError("shipped cases and reports are neither in " + installed_data().string() + " nor in " +
-                   source_folder() + "; install foldproof again, with its share folder");
+  throw InputError("shipped cases and reports are neither in " + installed_data().string() +
+                   " nor in " + source_folder() +
+                   "; install foldproof again, with its share folder");
 }
 
-std::string program_command() { return holds_data(installed_data()) ? "foldproof" : "build/foldproof"; }
+std::string program_command() {
+  return holds_data(installed_data()) ? "foldproof" : "build/foldproof";
+}
 
 }  // namespace foldproof

@@ -12,7 +12,8 @@ namespace {
 
 void print_csv(const GoldenTable& table) {
   std::string heading;
-  for (const GoldenColumn& column : table.columns) heading += (heading.empty() ? "" : ",") + column.name;
+  for (const GoldenColumn& column : table.columns)
+    heading += (heading.empty() ? "" : ",") + column.name;
   fmt::print("{}\n", heading);
   for (const std::vector<double>& row : table.rows) fmt::print("{:.17g}\n", fmt::join(row, ","));
 }
@@ -21,12 +22,14 @@ void print_csv(const GoldenTable& table) {
 void print_json(const GoldenTable& table) {
   nlohmann::json columns = nlohmann::json::array();
   for (const GoldenColumn& column : table.columns)
-    columns.push_back(
-        {{"name", column.name}, {"unit", column.unit}, {"kind", column.is_input ? "input" : "output"}});
-  fmt::print("{}\n",
-             nlohmann::json{
-                 {"table", table.name}, {"about", table.about}, {"columns", columns}, {"rows", table.rows}}
-                 .dump(1));
+    columns.push_back({{"name", column.name},
+                       {"unit", column.unit},
+                       {"kind", column.is_input ? "input" : "output"}});
+  fmt::print(
+      "{}\n",
+      nlohmann::json{
+          {"table", table.name}, {"about", table.about}, {"columns", columns}, {"rows", table.rows}}
+          .dump(1));
 }
 
 }  // namespace

@@ -13,7 +13,9 @@ namespace foldproof {
 
 namespace {
 
-std::string point(const Vector3& p) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z()); }
+std::string point(const Vector3& p) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
+}
 
 void print(const std::string& file, const MeshInspection& found) {
   const bool is_solid = found.rejection.empty();
@@ -28,10 +30,10 @@ void print(const std::string& file, const MeshInspection& found) {
   if (!found.repair_failure.empty()) fmt::print("no repair: {}\n", found.repair_failure);
   if (found.nodes > 0)
     fmt::print(
-        "second opinion: at {} of {} nodes rays deny what {} say of inside and outside; at {} they differ "
-        "among "
-        "themselves\n",
-        found.against_sign, found.nodes, is_solid ? "normals" : "winding numbers", found.among_rays);
+        "second opinion: at {} of {} nodes rays deny what {} say of inside and outside; at {} they "
+        "differ among themselves\n",
+        found.against_sign, found.nodes, is_solid ? "normals" : "winding numbers",
+        found.among_rays);
 }
 
 nlohmann::json to_json(const std::string& file, const MeshInspection& found) {

@@ -3,13 +3,14 @@
 
 namespace foldproof {
 
-/// What a long command throws when it finds itself interrupted; no std::exception, so that nothing that
-/// reports errors takes it for one.
+/// What a long command throws when it finds itself interrupted; no std::exception, so that nothing
+/// that reports errors takes it for one.
 struct Interrupted {
   int signal;
 };
 
-/// While it lives, the first SIGINT or SIGTERM is only remembered. The second ends the program as always.
+/// While it lives, the first SIGINT or SIGTERM is only remembered. The second ends the
+/// program as always.
 class InterruptionWatch {
  public:
   InterruptionWatch();
@@ -21,7 +22,8 @@ class InterruptionWatch {
   void check() const;
 };
 
-/// Ends the program by the signal, so that a shell sees 130 (Ctrl-C) or 143 (SIGTERM) and stops its loop.
+/// Ends the program by the signal, so that a shell sees 130 (Ctrl-C) or 143 (SIGTERM) and
+/// stops its loop.
 [[noreturn]] void end_by(const Interrupted& interrupted);
 
 }  // namespace foldproof

@@ -20,8 +20,8 @@ namespace {
 void log_unless_it_holds(const Record& record) {
   if (record.outcome == Outcome::holds) return;
   const Verdict& v = record.finding.verdict;
-  log_line(fmt::format("  {}: {} (measured {:.4g}, bound {:.4g} {}) {}", outcome_text(record), record.name,
-                       v.measured, v.bound, v.unit, record.finding.note));
+  log_line(fmt::format("  {}: {} (measured {:.4g}, bound {:.4g} {}) {}", outcome_text(record),
+                       record.name, v.measured, v.bound, v.unit, record.finding.note));
 }
 
 template <class T>
@@ -33,9 +33,11 @@ void append(std::vector<T>& from, std::vector<T>& to) {
 std::vector<size_t> order_of_jobs(const std::vector<Job>& jobs, unsigned order) {
   std::vector<size_t> numbers(jobs.size());
   std::iota(numbers.begin(), numbers.end(), size_t(0));
-  std::ranges::stable_sort(numbers, {}, [&](size_t i) { return std::pair(-jobs[i].group, jobs[i].length); });
+  std::ranges::stable_sort(numbers, {},
+                           [&](size_t i) { return std::pair(-jobs[i].group, jobs[i].length); });
   std::mt19937 random(order);
-  for (size_t k = numbers.size(); order > 0 && k > 1; --k) std::swap(numbers[k - 1], numbers[random() % k]);
+  for (size_t k = numbers.size(); order > 0 && k > 1; --k)
+    std::swap(numbers[k - 1], numbers[random() % k]);
   return numbers;
 }
 
@@ -58,8 +60,8 @@ class Queue {
         parts_[i] = jobs_[i].run([&, i](double part) { show(i, part); });
       } catch (const std::exception& error) {
         parts_[i] = {};
-        parts_[i].records = {unfinished_record(jobs_[i].name, Outcome::fails,
-                                               std::string("stopped by an error: ") + error.what())};
+        parts_[i].records = {unfinished_record(
+            jobs_[i].name, Outcome::fails, std::string("stopped by an error: ") + error.what())};
       }
       show(i, 1);
       const std::lock_guard held(mutex_);
@@ -102,7 +104,8 @@ class Queue {
 
 }  // namespace
 
-Record unfinished_record(const std::string& name, std::optional<Outcome> outcome, const std::string& note) {
+Record unfinished_record(const std::string& name, std::optional<Outcome> outcome,
+                         const std::string& note) {
   Record record;
   record.name = name;
   record.kind = "check";
@@ -116,9 +119,11 @@ void run_jobs(const std::vector<Job>& jobs, const std::string& label, const JobS
               RunRecord& run) {
   Queue queue(jobs, label, settings.order);
   {
-    const size_t threads = settings.threads > 0 ? settings.threads : std::thread::hardware_concurrency();
+    const size_t threads =
+        settings.threads > 0 ? settings.threads : std::thread::hardware_concurrency();
     std::vector<std::jthread> others;
-    for (size_t k = 1; k < std::min(threads, jobs.size()); ++k) others.emplace_back([&] { queue.work(); });
+    for (size_t k = 1; k < std::min(threads, jobs.size()); ++k)
+      others.emplace_back([&] { queue.work(); });
     queue.work();
   }
   queue.gather(run);

@@ -16,12 +16,13 @@ void add_ruled(const Claim& claim, RunRecord& run) {
   const ClaimRecord& record = run.claims.back();
   if (record.ruling != claim.recorded)
     log_line(fmt::format("  claim {}: {}, where {} is recorded", claim.id, name_of(record.ruling),
-                    name_of(claim.recorded)));
+                         name_of(claim.recorded)));
 }
 
 bool is_made_by_a_study(const std::string& finding, const RunRecord& run) {
-  return std::any_of(run.studies.begin(), run.studies.end(),
-                     [&](const StudyRecord& study) { return finding.starts_with(study.name + "."); });
+  return std::any_of(run.studies.begin(), run.studies.end(), [&](const StudyRecord& study) {
+    return finding.starts_with(study.name + ".");
+  });
 }
 
 bool is_in(const std::string& finding, const RunRecord& run) {
@@ -43,17 +44,18 @@ void rule_covered_claims(const std::vector<Claim>& claims, RunRecord& run) {
 void reject_claims_of_lost_findings(const std::vector<Claim>& claims, const RunRecord& run) {
   for (const Claim& claim : claims)
     for (const std::string& finding : findings_named_in(claim))
-      if (claim.recorded != Ruling::undecided && is_made_by_a_study(finding, run) && !is_in(finding, run))
-        throw InputError(
-            fmt::format("claim {} names the finding '{}', which its study does not make", claim.id, finding));
+      if (claim.recorded != Ruling::undecided && is_made_by_a_study(finding, run) &&
+          !is_in(finding, run))
+        throw InputError(fmt::format(
+            "claim {} names the finding '{}', which its study does not make", claim.id, finding));
 }
 
 void reject_faults_of_lost_findings(const std::vector<Fault>& faults, const RunRecord& run) {
   for (const Fault& fault : faults)
     for (const std::string& finding : fault.caught_by)
       if (is_made_by_a_study(finding, run) && !is_in(finding, run))
-        throw InputError(
-            fmt::format("fault {} names the finding '{}', which its study does not make", fault.name, finding));
+        throw InputError(fmt::format(
+            "fault {} names the finding '{}', which its study does not make", fault.name, finding));
 }
 
 }  // namespace foldproof

@@ -20,24 +20,27 @@ struct Options {
   std::string cache;               // folder that keeps level sets; none if empty
   std::string map, rule = "loop";  // of project: a depth map, a rule of subdivision
   double reach = 0, eps = 0;       // of project [m]
-  double deepest = std::numeric_limits<double>::quiet_NaN();  // of project [m]; NaN: the deepest in the run
-  std::string kind;              // of evaluate crossings: of pair; of export: of file
-  std::string field, size, fps;  // of film: as its script takes them
-  double keep = 1e-6;            // of evaluate crossings [m]
-  int count = 10;                // of golden: rows
-  unsigned seed = 1;             // of golden
-  unsigned seed_shift = 0;       // of check, study and verify (verification/seeds.h)
+  // of project [m]; NaN: the deepest in the run
+  double deepest = std::numeric_limits<double>::quiet_NaN();
+  std::string kind;                  // of evaluate crossings: of pair; of export: of file
+  std::string field, size, fps;      // of film: as its script takes them
+  double keep = 1e-6;                // of evaluate crossings [m]
+  int count = 10;                    // of golden: rows
+  unsigned seed = 1;                 // of golden
+  unsigned seed_shift = 0;           // of check, study and verify (verification/seeds.h)
   JobSettings running;               // of check, study and verify
-  int cells = 64;                // of inspect: along the longest side
-  int subdivisions = 0;          // of project
-  int levels = 4;                // of converge: runs
+  int cells = 64;                    // of inspect: along the longest side
+  int subdivisions = 0;              // of project
+  int levels = 4;                    // of converge: runs
   std::vector<std::string> methods;  // of converge: integrators
-  double until = 0;              // of converge: how much of the run is asked [s]; 0: all of it
+  double until = 0;                  // of converge: how much of the run is asked [s]; 0: all of it
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,
        restarts = false, pdf = false, papers = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code
 };
 
-inline Tier tier_of(const Options& options) { return options.tier == "full" ? Tier::full : Tier::quick; }
+inline Tier tier_of(const Options& options) {
+  return options.tier == "full" ? Tier::full : Tier::quick;
+}
 
 }  // namespace foldproof

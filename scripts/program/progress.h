@@ -1,4 +1,5 @@
-// Progress on standard error: a bar with the time left on a terminal, a plain line now and then elsewhere.
+// Progress on standard error: a bar with the time left on a terminal, a plain line now and
+// then elsewhere.
 #pragma once
 
 #include <chrono>

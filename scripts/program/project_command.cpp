@@ -1,5 +1,5 @@
-// foldproof project: a stored run with its cloth brought out of the objects, and what that leaves of its
-// wrinkles.
+// foldproof project: a stored run with its cloth brought out of the objects, and what that leaves
+// of its wrinkles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,9 +47,11 @@ Source source_of(const Options& options) {
   Source source;
   source.run = read_stored_run(options.file);
   const Scene& scene = source.run.scene;
-  if (scene.objects.empty()) throw InputError(options.file + ": its case names no object to project out of");
+  if (scene.objects.empty())
+    throw InputError(options.file + ": its case names no object to project out of");
   source.objects = build_objects(scene, provider_for(options.cache));
-  const SubdivisionRule rule = options.rule == "loop" ? SubdivisionRule::loop : SubdivisionRule::midpoint;
+  const SubdivisionRule rule =
+      options.rule == "loop" ? SubdivisionRule::loop : SubdivisionRule::midpoint;
   source.finer = subdivision(scene.mesh, rule, options.subdivisions);
   source.scene = scene;
   source.scene.mesh = make_triangle_mesh(source.finer.of(scene.mesh.rest), source.finer.triangles);
@@ -82,7 +84,8 @@ FoldProjection projection_of(const Options& options, const Source& source) {
           100};
 }
 
-/// How high the wrinkles are that were inside [m], and how long, along sections across x, y and z [m].
+/// How high the wrinkles are that were inside [m], and how long, along sections across
+/// x, y and z [m].
 struct Wrinkles {
   std::string of;
   double deviation;
@@ -126,7 +129,8 @@ void compare_last_frame(const Source& source, Report& report) {
   const ProjectedCloth mapped = project_folds(source.objects, s.x, s.time, report.projection);
   report.inside = std::size_t((mapped.before.array() < 0).count());
   for (const Edge& edge : source.scene.mesh.edges)
-    report.longest_edge = std::max(report.longest_edge, (mapped.x.col(edge.a) - mapped.x.col(edge.b)).norm());
+    report.longest_edge =
+        std::max(report.longest_edge, (mapped.x.col(edge.a) - mapped.x.col(edge.b)).norm());
   report.wrinkles = {wrinkles_of("before", source, mapped.before, mapped.before),
                      wrinkles_of("plain", source, mapped.before, plain.after),
                      wrinkles_of(report.projection.map, source, mapped.before, mapped.after)};
@@ -138,8 +142,8 @@ Report project_all(const Source& source, const Options& options) {
   check_band(report.projection.band);  // before a file is begun
   report.file = source.scene.name + ".h5";
   const System system = make_system(lumped_masses(source.scene.mesh, source.scene.density));
-  TrajectoryFile file((std::filesystem::path(options.out) / report.file).string(), source.scene, system,
-                      source.objects, provenance(options.command));
+  TrajectoryFile file((std::filesystem::path(options.out) / report.file).string(), source.scene,
+                      system, source.objects, provenance(options.command));
   ProgressLine progress("project " + source.run.scene.name);
   for (std::size_t k = 0; k < source.run.times.size(); ++k) {
     State s = source.frame(k);
@@ -154,14 +158,16 @@ Report project_all(const Source& source, const Options& options) {
   return report;
 }
 
-std::string length_text(double length) { return std::isnan(length) ? "-" : fmt::format("{:.3g}", length); }
+std::string length_text(double length) {
+  return std::isnan(length) ? "-" : fmt::format("{:.3g}", length);
+}
 
 void print(const Report& report, const std::string& folder) {
   const DepthBand& band = report.projection.band;
-  fmt::print("map '{}': eps {:.3g} m, tau {:.3g} m, deepest {:.3g} m; {} frames\n", report.projection.map,
-             band.nearest, band.reach, band.deepest, report.frames);
-  fmt::print("points over all frames: {} moved, {} pinched and left alone, {} without room\n", report.moved,
-             report.pinched, report.unfinished);
+  fmt::print("map '{}': eps {:.3g} m, tau {:.3g} m, deepest {:.3g} m; {} frames\n",
+             report.projection.map, band.nearest, band.reach, band.deepest, report.frames);
+  fmt::print("points over all frames: {} moved, {} pinched and left alone, {} without room\n",
+             report.moved, report.pinched, report.unfinished);
   fmt::print("last frame, {} points that were inside:\n", report.inside);
   fmt::print("  {:<8} {:>22} {:>40}\n", "", "deviation of depths [m]",
              "dominant wavelength across x, y, z [m]");
@@ -169,8 +175,9 @@ void print(const Report& report, const std::string& folder) {
     fmt::print("  {:<8} {:>22} {:>16} {:>11} {:>11}\n", row.of, length_text(row.deviation),
                length_text(row.wavelength[0]), length_text(row.wavelength[1]),
                length_text(row.wavelength[2]));
-  fmt::print("edges up to {:.3g} m: whatever the objects, eps = {:.3g} m would keep every triangle out\n",
-             report.longest_edge, report.longest_edge / std::sqrt(3.0));
+  fmt::print(
+      "edges up to {:.3g} m: whatever the objects, eps = {:.3g} m would keep every triangle out\n",
+      report.longest_edge, report.longest_edge / std::sqrt(3.0));
   fmt::print("{}/{}\n", folder, report.file);
 }
 

@@ -47,7 +47,8 @@ Provenance provenance(const std::string& command) {
 
 std::string program_identity() {
   std::ifstream code("/proc/self/exe", std::ios::binary);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(code), std::istreambuf_iterator<char>()};
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(code),
+                                std::istreambuf_iterator<char>()};
   ContentKey key;
   key.add(bytes);
   return std::string(FOLDPROOF_VERSION) + ", commit " + FOLDPROOF_COMMIT + ", code " + key.text();

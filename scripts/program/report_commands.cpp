@@ -15,8 +15,8 @@ namespace {
 
 constexpr int not_started = 127;  // as a shell says it
 
-/// Debian's. It is called by its full path: from a bare name it would look for its packages beside the first python3
-/// on the PATH.
+/// Debian's. It is called by its full path: from a bare name it would look for its packages beside
+/// the first python3 on the PATH.
 constexpr const char* python = "/usr/bin/python3";
 
 void add(std::vector<std::string>& arguments, const std::string& option, const std::string& value) {
@@ -31,7 +31,8 @@ int run_report_script(const std::string& makes, const std::string& script,
                       const std::vector<std::string>& arguments) {
   const std::string path = data_folder() + "/reports/" + script;
   std::vector<char*> words = {const_cast<char*>(python), const_cast<char*>(path.c_str())};
-  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  for (const std::string& argument : arguments)
+    words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
   const pid_t child = fork();
   if (child == 0) {

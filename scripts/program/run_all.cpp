@@ -37,12 +37,13 @@ bool is_named(const std::vector<std::string>& kinds, const char* kind) {
   for (const Check& check : checks) add(check.name);
   for (const Study& study : studies) add(study.name);
   for (const std::string& file : built_in_cases(Tier::full)) add(group_of_case(file));
-  throw InputError(fmt::format("there is no check, study or case '{}' (`foldproof list` shows all){}", name,
-                               did_you_mean(nearest_names(name, known))));
+  throw InputError(
+      fmt::format("there is no check, study or case '{}' (`foldproof list` shows all){}", name,
+                  did_you_mean(nearest_names(name, known))));
 }
 
-bool add_named(const std::string& name, const std::vector<Check>& checks, const std::vector<Study>& studies,
-               Selection& selection) {
+bool add_named(const std::string& name, const std::vector<Check>& checks,
+               const std::vector<Study>& studies, Selection& selection) {
   bool found = false;
   for (const Check& check : checks)
     if (chooses(name, check.name)) {
@@ -61,7 +62,8 @@ bool add_named(const std::string& name, const std::vector<Check>& checks, const 
   return found;
 }
 
-/// Adds the shipped cases that "case" (those of the tier), "case.NAME" or "case.NAME.FINDING" chooses.
+/// Adds the shipped cases that "case" (those of the tier), "case.NAME" or
+/// "case.NAME.FINDING" chooses.
 bool add_cases(const std::string& name, Tier tier, Selection& selection) {
   bool found = false;
   for (const std::string& built_in : built_in_cases(name == "case" ? tier : Tier::full)) {
@@ -78,8 +80,9 @@ bool add_cases(const std::string& name, Tier tier, Selection& selection) {
 }
 
 /// Of the records those that are wanted: all, if none is named, and always that of `name` itself.
-std::vector<Record> select_records(std::vector<Record> records, const std::vector<std::string>& wanted,
-                              const std::string& name) {
+std::vector<Record> select_records(std::vector<Record> records,
+                                   const std::vector<std::string>& wanted,
+                                   const std::string& name) {
   std::erase_if(records, [&](const Record& record) {
     const auto chosen = [&](const std::string& one) { return chooses(one, record.name); };
     return !wanted.empty() && record.name != name && std::ranges::none_of(wanted, chosen);
@@ -95,7 +98,8 @@ Job job_of(const Check& check, const Subject& subject) {
           }};
 }
 
-Job job_of(const Study& study, const Subject& subject, Tier tier, const std::vector<std::string>& wanted) {
+Job job_of(const Study& study, const Subject& subject, Tier tier,
+           const std::vector<std::string>& wanted) {
   return {study.name, 30, [study, &subject, tier, wanted](const Progress& progress) {
             auto [records, whole] = run_study(study, subject, tier, progress);
             RunRecord part;
@@ -108,7 +112,8 @@ Job job_of(const Study& study, const Subject& subject, Tier tier, const std::vec
 Job job_of(const Case& input_case, const std::vector<std::string>& wanted) {
   return {"case." + input_case.scene.name, 60, [input_case, wanted](const Progress& progress) {
             RunRecord part;
-            part.records = select_records(judge_case(built_case(input_case, computing_provider()), progress), wanted, "");
+            part.records = select_records(
+                judge_case(built_case(input_case, computing_provider()), progress), wanted, "");
             return part;
           }};
 }
@@ -134,19 +139,22 @@ std::vector<Job> jobs_of(const Selection& selection, const Subject& subject, Tie
   for (const Check& check : selection.checks) jobs.push_back(job_of(check, subject));
   for (const Study& study : selection.studies)
     jobs.push_back(job_of(study, subject, tier, selection.findings));
-  for (const Case& input_case : selection.cases) jobs.push_back(job_of(input_case, selection.findings));
+  for (const Case& input_case : selection.cases)
+    jobs.push_back(job_of(input_case, selection.findings));
   return jobs;
 }
 
-void run_selection(const Selection& selection, const Subject& subject, Tier tier, const JobSettings& settings,
-                   RunRecord& run) {
-  run_jobs(jobs_of(selection, subject, tier), selection.studies.empty() ? "checks" : "checks and studies",
-           settings, run);
+void run_selection(const Selection& selection, const Subject& subject, Tier tier,
+                   const JobSettings& settings, RunRecord& run) {
+  run_jobs(jobs_of(selection, subject, tier),
+           selection.studies.empty() ? "checks" : "checks and studies", settings, run);
   for (const std::string& name : selection.findings)
-    if (std::none_of(run.records.begin(), run.records.end(),
-                     [&](const Record& r) { return chooses(name, r.name) || r.outcome == Outcome::fails; }))
-      throw InputError(fmt::format("there is no finding '{}'; `foldproof check {}` shows those there are", name,
-                                   name.substr(0, name.rfind('.'))));
+    if (std::none_of(run.records.begin(), run.records.end(), [&](const Record& r) {
+          return chooses(name, r.name) || r.outcome == Outcome::fails;
+        }))
+      throw InputError(
+          fmt::format("there is no finding '{}'; `foldproof check {}` shows those there are", name,
+                      name.substr(0, name.rfind('.'))));
 }
 
 std::string summary(const RunRecord& run) {
@@ -158,9 +166,9 @@ std::string summary(const RunRecord& run) {
     return std::count_if(run.claims.begin(), run.claims.end(),
                          [&](const ClaimRecord& c) { return outcome_of(c) == outcome; });
   };
-  const std::string findings =
-      fmt::format("{} hold, {} fail, {} inconclusive, {} not applicable", count(Outcome::holds),
-                  count(Outcome::fails), count(Outcome::inconclusive), count(Outcome::not_applicable));
+  const std::string findings = fmt::format(
+      "{} hold, {} fail, {} inconclusive, {} not applicable", count(Outcome::holds),
+      count(Outcome::fails), count(Outcome::inconclusive), count(Outcome::not_applicable));
   if (run.claims.empty()) return findings;
   return findings + fmt::format("; {} claims ruled as recorded, {} otherwise, {} undecided",
                                 claims(Outcome::holds), claims(Outcome::fails),
@@ -172,7 +180,8 @@ int exit_code(const RunRecord& run) {
     return r.outcome == Outcome::fails || r.outcome == Outcome::inconclusive;
   };
   const auto is_wrong = [&](const ClaimRecord& c) {
-    return outcome_of(c) == Outcome::fails || (outcome_of(c) == Outcome::inconclusive && run.tier == "full");
+    return outcome_of(c) == Outcome::fails ||
+           (outcome_of(c) == Outcome::inconclusive && run.tier == "full");
   };
   const bool passes = std::none_of(run.records.begin(), run.records.end(), is_bad) &&
                       std::none_of(run.claims.begin(), run.claims.end(), is_wrong);
@@ -187,8 +196,9 @@ std::string listing(const RunRecord& run) {
       continue;
     }
     const Verdict& v = r.finding.verdict;
-    text += fmt::format("{:<14} {:<60} {:>11.4g} {} {:<9.4g} {}\n", outcome_text(r), r.name, v.measured,
-                        r.kind == "bench" ? "target" : "<=", v.bound, v.unit == "1" ? "" : v.unit);
+    text +=
+        fmt::format("{:<14} {:<60} {:>11.4g} {} {:<9.4g} {}\n", outcome_text(r), r.name, v.measured,
+                    r.kind == "bench" ? "target" : "<=", v.bound, v.unit == "1" ? "" : v.unit);
     if (r.outcome == Outcome::fails)
       text += fmt::format("{:<14} {}\n{:<14} The bound: {}\n", "", r.claim, "", v.why_bound);
   }

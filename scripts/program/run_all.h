@@ -16,14 +16,14 @@ struct Selection {
   std::vector<Check> checks;
   std::vector<Study> studies;
   std::vector<Case> cases;
-  std::vector<std::string>
-      findings;  // if not empty: only these of the studies' and cases' findings are wanted
+  // if not empty: only these of the studies' and cases' findings are wanted
+  std::vector<std::string> findings;
 };
 
-/// What the names choose: checks, studies, single findings of studies, or groups ("bending" for all that
-/// begins with "bending."), "case.NAME" for what is expected of a shipped case, whatever its tier, and "case"
-/// for all shipped cases of the tier. No name: all of the kinds. Throws InputError for a name that chooses
-/// nothing, with the nearest known ones.
+/// What the names choose: checks, studies, single findings of studies, or groups ("bending" for all
+/// that begins with "bending."), "case.NAME" for what is expected of a shipped case, whatever its
+/// tier, and "case" for all shipped cases of the tier. No name: all of the kinds. Throws InputError
+/// for a name that chooses nothing, with the nearest known ones.
 struct NameFilter {
   std::vector<std::string> names;
   std::vector<std::string> kinds;  // of "check", "study": what a missing name stands for
@@ -33,14 +33,16 @@ Selection select(const NameFilter& wanted, Tier tier);
 /// A job for each check, study and case of the selection. The subject must outlive them.
 std::vector<Job> jobs_of(const Selection& selection, const Subject& subject, Tier tier);
 
-/// Runs the selection with progress, adds to the run, and says a line about each that does not hold.
-void run_selection(const Selection& selection, const Subject& subject, Tier tier, const JobSettings& settings,
-                   RunRecord& run);
+/// Runs the selection with progress, adds to the run, and says a line about each
+/// that does not hold.
+void run_selection(const Selection& selection, const Subject& subject, Tier tier,
+                   const JobSettings& settings, RunRecord& run);
 
 /// "121 hold, 0 fail, 0 inconclusive, 0 not applicable", and the claims if any were ruled.
 std::string summary(const RunRecord& run);
 
-/// 0 if every finding holds (or is not applicable, or measured only) and every claim is ruled as recorded, else
+/// 0 if every finding holds (or is not applicable, or measured only) and every claim is ruled
+/// as recorded, else
 /// 1. A claim that is undecided, and recorded so, fails the full tier only.
 int exit_code(const RunRecord& run);
 

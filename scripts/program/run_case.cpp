@@ -25,8 +25,8 @@ using Runner = std::function<RunResult(const Observer&)>;
 Runner from_the_start(const BuiltCase& of) {
   return [&of](const Observer& observer) {
     const Scene& scene = of.input_case.scene;
-    return simulate(of.built.system, integrator_named(scene.integrator), of.built.start, scene.schedule,
-                    observer);
+    return simulate(of.built.system, integrator_named(scene.integrator), of.built.start,
+                    scene.schedule, observer);
   };
 }
 
@@ -59,8 +59,8 @@ Runner from_checkpoints(const BuiltCase& of, const CheckpointFolder& checkpoints
     else
       last = checkpoints.replay(replay, log_line);
     if (start == Start::last_checkpoint)
-      log_line(last ? fmt::format("resumed from frame {}, t = {:.6g} s, after {} steps", last->frame,
-                                  last->past.back().time, last->steps)
+      log_line(last ? fmt::format("resumed from frame {}, t = {:.6g} s, after {} steps",
+                                  last->frame, last->past.back().time, last->steps)
                     : "there is no checkpoint to resume from: started anew");
     std::vector<Diagnostics> rows;
     const Observer all = writing_checkpoints(observer, checkpoints, rows);
@@ -99,7 +99,8 @@ CaseRun recorded_run(const BuiltCase& of, const Runner& run, TrajectoryFile& tra
                              {[&](const State& s) { trajectory.add_frame(s); },
                               [&](const Diagnostics& row) { trajectory.add_diagnostics(row); }},
                              progress, done.result);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   done.record = {scene.name,  scene.name + ".h5",
                  scene.title, scene.about,
                  seconds,     done.result.stop ? describe(*done.result.stop) : ""};
@@ -107,7 +108,8 @@ CaseRun recorded_run(const BuiltCase& of, const Runner& run, TrajectoryFile& tra
   return done;
 }
 
-TrajectoryFile trajectory_file(const BuiltCase& of, const std::string& folder, const Provenance& provenance) {
+TrajectoryFile trajectory_file(const BuiltCase& of, const std::string& folder,
+                               const Provenance& provenance) {
   const Scene& scene = of.input_case.scene;
   const std::string path = (std::filesystem::path(folder) / (scene.name + ".h5")).string();
   return TrajectoryFile(path, scene, of.built.system, of.built.objects, provenance);
@@ -161,11 +163,14 @@ std::vector<std::string> shown_cases(Tier tier) {
 }
 
 std::vector<std::string> hard_cases() {
-  return {
-      "hard/stiff_bending", "hard/soft_bending",      "hard/heavy_damping",     "hard/slivers",
-      "hard/graded_mesh",   "hard/sharp_fold",        "hard/inextensible",      "hard/flat_hanging",
-      "hard/flat_standing", "hard/strip_below_euler", "hard/strip_above_euler", "hard/hundred_thousand_steps",
-      "hard/reef_fold",     "hard/sticky_layers",     "hard/biphasic_pull",     "hard/buckle"};
+  return {"hard/stiff_bending",     "hard/soft_bending",
+          "hard/heavy_damping",     "hard/slivers",
+          "hard/graded_mesh",       "hard/sharp_fold",
+          "hard/inextensible",      "hard/flat_hanging",
+          "hard/flat_standing",     "hard/strip_below_euler",
+          "hard/strip_above_euler", "hard/hundred_thousand_steps",
+          "hard/reef_fold",         "hard/sticky_layers",
+          "hard/biphasic_pull",     "hard/buckle"};
 }
 
 std::vector<std::string> long_cases() {
@@ -179,7 +184,9 @@ std::vector<std::string> built_in_cases(Tier tier) {
   return all;
 }
 
-std::string shipped_case_file(const std::string& name) { return data_folder() + "/cases/" + name + ".toml"; }
+std::string shipped_case_file(const std::string& name) {
+  return data_folder() + "/cases/" + name + ".toml";
+}
 
 Case built_in_case(const std::string& name) {
   return with_usual_expectations(read_case(shipped_case_file(name)));

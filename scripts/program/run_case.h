@@ -42,16 +42,16 @@ enum class Start {
   last_checkpoint
 };
 
-/// The same, and the same to the bit, with a checkpoint at every frame in <folder>/<name>.checkpoints, which
-/// is removed when the run's files are whole.
+/// The same, and the same to the bit, with a checkpoint at every frame in
+/// <folder>/<name>.checkpoints, which is removed when the run's files are whole.
 CaseRun run_case_with_checkpoints(const BuiltCase& of, const std::string& folder, Start start,
                                   const Provenance& provenance, const Progress& progress);
 
 /// The same without files: what is expected, judged.
 std::vector<Record> judge_case(const BuiltCase& of, const Progress& progress);
 
-/// The cases that `verify` runs, cases/<name>.toml of the project: those that it shows, and those at the edge
-/// of what the method takes, which it only judges.
+/// The cases that `verify` runs, cases/<name>.toml of the project: those that it shows, and those
+/// at the edge of what the method takes, which it only judges.
 std::vector<std::string> shown_cases(Tier tier);
 std::vector<std::string> hard_cases();
 std::vector<std::string> long_cases();  // those that only the full tier shows

@@ -28,13 +28,15 @@ void refuse_to_lose(const KeptRun& kept, const Scene& scene, const Options& opti
   const std::string folder = checkpoint_path(scene, options.out);
   const char* const over = "start over with --restart, which deletes it";
   if (kept.frame < 0)
-    throw InputError(fmt::format("{}: holds an interrupted run that cannot be read; {}", folder, over));
+    throw InputError(
+        fmt::format("{}: holds an interrupted run that cannot be read; {}", folder, over));
   if (!kept.differs.empty())
-    throw InputError(fmt::format("{}: holds an interrupted run ({}) of {}; choose another --out, or {}",
-                                 folder, reached_text(kept), kept.differs, over));
-  throw InputError(fmt::format("{}: holds this run, interrupted at {} of {:.6g} s; resume it with `{}`, or {}",
-                               folder, reached_text(kept), scene.schedule.end,
-                               with_option(options.words, "--resume"), over));
+    throw InputError(
+        fmt::format("{}: holds an interrupted run ({}) of {}; choose another --out, or {}", folder,
+                    reached_text(kept), kept.differs, over));
+  throw InputError(fmt::format(
+      "{}: holds this run, interrupted at {} of {:.6g} s; resume it with `{}`, or {}", folder,
+      reached_text(kept), scene.schedule.end, with_option(options.words, "--resume"), over));
 }
 
 void say_how_to_resume(const Scene& scene, const Options& options) {
@@ -43,7 +45,7 @@ void say_how_to_resume(const Scene& scene, const Options& options) {
     log_line("interrupted before the first frame: there is nothing to resume");
   else
     log_line(fmt::format("interrupted at {} of {:.6g} s; resume with: {}", reached_text(*kept),
-                    scene.schedule.end, with_option(options.words, "--resume")));
+                         scene.schedule.end, with_option(options.words, "--resume")));
 }
 
 nlohmann::json to_json(const CaseRun& run, const Options& options) {
@@ -74,11 +76,12 @@ int report(const CaseRun& run, const Options& options) {
     fmt::print("{}\n", json_text(to_json(run, options)));
   else
     fmt::print("{}{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n",
-               listing(expected), options.out, run.record.file, run.result.last.time, run.result.steps,
-               double(work.cg_iterations) / double(std::max(1L, work.solves)), run.record.seconds);
+               listing(expected), options.out, run.record.file, run.result.last.time,
+               run.result.steps, double(work.cg_iterations) / double(std::max(1L, work.solves)),
+               run.record.seconds);
   if (work.unfinished_solves > 0)
-    log_line(fmt::format("warning: {} of {} solves hit the cap on iterations", work.unfinished_solves,
-                    work.solves));
+    log_line(fmt::format("warning: {} of {} solves hit the cap on iterations",
+                         work.unfinished_solves, work.solves));
   if (!run.record.stopped.empty()) log_line("stopped: " + run.record.stopped);
   return run.record.stopped.empty() ? exit_code(expected) : some_fail;
 }
@@ -86,7 +89,8 @@ int report(const CaseRun& run, const Options& options) {
 CaseRun run_of(const BuiltCase& of, const Options& options) {
   const InterruptionWatch watch;
   ProgressLine line("simulate " + of.input_case.scene.name);
-  return run_case_with_checkpoints(of, options.out, options.resumes ? Start::last_checkpoint : Start::fresh,
+  return run_case_with_checkpoints(of, options.out,
+                                   options.resumes ? Start::last_checkpoint : Start::fresh,
                                    provenance(options.command), [&](double part) {
                                      line.show(part);
                                      watch.check();
@@ -103,7 +107,8 @@ int simulate_case(const Options& options) {
   const OutFolder folder(options.out);
   const BuiltCase of = built_case(std::move(input_case), provider_for(options.cache));
   const Scene& scene = of.input_case.scene;
-  log_line(fmt::format("{}: {}", scene.name, fmt::join(describe_parts(scene, of.built.system), "; ")));
+  log_line(
+      fmt::format("{}: {}", scene.name, fmt::join(describe_parts(scene, of.built.system), "; ")));
   try {
     return report(run_of(of, options), options);
   } catch (const Interrupted& interrupted) {

@@ -25,13 +25,17 @@ Expectation read_entry(const KeyTable& expect, const std::string& key, const Sce
   if (!quantity) reject_unknown(where, key);
   const auto entry = expect.table(key);
   const char* bound = quantity->sense == Sense::at_most ? "at_most" : "at_least";
-  const bool is_for_this_run = quantity->scope == Scope::any_cloth || is_override(entry->where(bound));
+  const bool is_for_this_run =
+      quantity->scope == Scope::any_cloth || is_override(entry->where(bound));
   const std::string not_asked = is_for_this_run ? "" : replaced;
-  const std::string rejection = quantity->rejection && not_asked.empty() ? quantity->rejection(scene) : "";
-  if (!rejection.empty()) throw InputError(where + ": '" + key + "' cannot be expected: " + rejection);
+  const std::string rejection =
+      quantity->rejection && not_asked.empty() ? quantity->rejection(scene) : "";
+  if (!rejection.empty())
+    throw InputError(where + ": '" + key + "' cannot be expected: " + rejection);
   Expectation expectation{key, entry->number(bound), entry->text("why"), not_asked};
   if (quantity->sense == Sense::at_least && !(expectation.bound > 0))
-    throw InputError(entry->where(bound) + ": at_least must be > 0, for nothing falls short of less");
+    throw InputError(entry->where(bound) +
+                     ": at_least must be > 0, for nothing falls short of less");
   if (expectation.why.empty())
     throw InputError(entry->where("why") + ": 'why' is empty; a bound carries its reason in words");
   return expectation;
@@ -44,7 +48,8 @@ DeclaredPart read_declared(const KeyTable& ablation, const std::string& part) {
   return declared;
 }
 
-/// Overrides that change numbers: no mesh is named by them, which a case from anyone must not reach so.
+/// Overrides that change numbers: no mesh is named by them, which a case from anyone
+/// must not reach so.
 std::vector<std::string> read_coarser_mesh(const KeyTable& ablation) {
   const char* key = "coarser_mesh";
   if (!ablation.has(key)) return {};
@@ -53,7 +58,8 @@ std::vector<std::string> read_coarser_mesh(const KeyTable& ablation) {
   if (overrides == std::vector<std::string>{""}) return {};
   for (const std::string& one : overrides) {
     const size_t value = one.find('=') + 1;
-    if (value == 0 || value == one.size() || one.find_first_not_of("0123456789.", value) != std::string::npos)
+    if (value == 0 || value == one.size() ||
+        one.find_first_not_of("0123456789.", value) != std::string::npos)
       throw InputError(ablation.where(key) + ": '" + one + "' is not table.key=number");
   }
   return overrides;
@@ -67,18 +73,21 @@ void read_ablation(const KeyTable& ablation, Case& input_case) {
       throw InputError(ablation.where("until") + ": 'until' must be > 0 s");
   }
   for (const auto& [key, value] : ablation.entries)
-    if (key != "coarser_mesh" && key != "until") input_case.declared.push_back(read_declared(ablation, key));
+    if (key != "coarser_mesh" && key != "until")
+      input_case.declared.push_back(read_declared(ablation, key));
 }
 
 bool is_driven(const Scene& scene) {
   for (const PrescribedParticle& p : scene.prescribed)
-    if (p.motion.velocity.norm() > 0 || p.motion.amplitude.norm() > 0 || p.motion.angular_velocity.norm() > 0)
+    if (p.motion.velocity.norm() > 0 || p.motion.amplitude.norm() > 0 ||
+        p.motion.angular_velocity.norm() > 0)
       return true;
   return false;
 }
 
 bool is_stated(std::string_view key, const std::vector<Expectation>& all) {
-  return std::any_of(all.begin(), all.end(), [&](const Expectation& stated) { return stated.key == key; });
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Expectation& stated) { return stated.key == key; });
 }
 
 void add_unless_stated(const Expectation& usual, std::vector<Expectation>& all) {
@@ -103,26 +112,28 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
 
 Case with_usual_expectations(Case input_case) {
   const Scene& scene = input_case.scene;
-  add_unless_stated({"runs_to_its_end", 0, "a shipped case must not stop early"}, input_case.expectations);
+  add_unless_stated({"runs_to_its_end", 0, "a shipped case must not stop early"},
+                    input_case.expectations);
   const bool has_energy = !scene.bending || scene.bending->weighting == Weighting::rest;
   if (has_energy && scene.objects.empty() && scene.sticky.empty() && !scene.strain_limits &&
       !scene.self_collision && !is_driven(scene))
     add_unless_stated(
         {"energy_is_accounted_for", 0.01,
          "schemes of second order at half the elastic limit: an oscillation of (omega h)^2/8 in "
-         "energy where the stiffest modes carry a small part of it; one percent leaves no room "
-         "for a force that is not the gradient of its energy"},
+         "energy where the stiffest modes carry a small part of it; one percent leaves no room for "
+         "a force that is not the gradient of its energy"},
         input_case.expectations);
   add_unless_stated(
       {"is_reproducible", 0, "the same numbers in the same order give the same bits, whoever asks"},
       input_case.expectations);
-  if (is_stated("tangle_does_not_grow", input_case.expectations)) return input_case;  // it starts crossed
+  // it starts crossed
+  if (is_stated("tangle_does_not_grow", input_case.expectations)) return input_case;
   add_unless_stated(
       {"never_crosses_itself", 0,
-       scene.self_collision ? "what starts free of crossings stays free of them: repulsion and impulses may "
-                              "fail, impact zones may not"
-                            : "no part of the scene keeps the cloth from itself, and none has to: cloth that "
-                              "would pass through itself needs [self_collision]"},
+       scene.self_collision ? "what starts free of crossings stays free of them: repulsion and "
+                              "impulses may fail, impact zones may not"
+                            : "no part of the scene keeps the cloth from itself, and none has to: "
+                              "cloth that would pass through itself needs [self_collision]"},
       input_case.expectations);
   return input_case;
 }

@@ -10,7 +10,8 @@ namespace {
 
 /// A quantity to be reached is judged by what it lacks.
 Verdict verdict_of(const Quantity& quantity, const Expectation& expectation, double value) {
-  if (quantity.sense == Sense::at_most) return {value, expectation.bound, 0, quantity.unit, expectation.why};
+  if (quantity.sense == Sense::at_most)
+    return {value, expectation.bound, 0, quantity.unit, expectation.why};
   const std::string unit = quantity.unit;
   const std::string lacks =
       fmt::format("{}short of {:.6g}", unit == "1" ? "" : unit + " ", expectation.bound);
@@ -58,8 +59,8 @@ std::vector<Record> CaseJudge::records(const RunResult& result) const {
     record.claim = find_quantity(expectation.key)->claim;
     record.source = case_.scene.title;
     record.finding = finding_of(k, run);
-    record.outcome =
-        expectation.not_asked.empty() ? outcome_of(record.finding.verdict) : Outcome::not_applicable;
+    record.outcome = expectation.not_asked.empty() ? outcome_of(record.finding.verdict)
+                                                   : Outcome::not_applicable;
     records.push_back(std::move(record));
   }
   return records;

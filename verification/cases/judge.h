@@ -16,7 +16,10 @@ class CaseJudge {
   ///   level_sets   for a system built anew; they should remember those that were made
   ///                (bodies/level_set_provider.h)
   CaseJudge(const Case& of, std::span<const Object> objects, const LevelSetProvider& level_sets)
-      : case_(of), objects_(objects), repetition_(of.scene, level_sets), observed_(of.expectations.size()) {}
+      : case_(of),
+        objects_(objects),
+        repetition_(of.scene, level_sets),
+        observed_(of.expectations.size()) {}
 
   void record(const Diagnostics& row) {
     summary_.record(row, case_.scene.schedule.end);
@@ -26,8 +29,8 @@ class CaseJudge {
   void record(const State& frame);
 
   /// One record for each expectation, named finding_name(...). Of a run that stopped, all but
-  /// runs_to_its_end fail: nothing is known of what was to come. One that is not asked is not applicable, with
-  /// the reason as its note.
+  /// runs_to_its_end fail: nothing is known of what was to come. One that is not asked is not
+  /// applicable, with the reason as its note.
   std::vector<Record> records(const RunResult& result) const;
 
  private:

@@ -67,8 +67,8 @@ double angle(const FrameView& frame, const Measurement&, const std::vector<int>&
   return std::atan2(a.cross(b).norm(), a.dot(b)) * in_degrees;
 }
 
-/// Of a surface bent along lines, curvature k across them: the angles of its hinges times their lengths sum up to k
-/// times its area, and |H| = k/2.
+/// Of a surface bent along lines, curvature k across them: the angles of its hinges times their
+/// lengths sum up to k times its area, and |H| = k/2.
 double mean_curvature(const FrameView& frame, const Measurement&, const std::vector<int>&) {
   const PerParticle3& x = frame.state.x;
   const TriangleMesh& mesh = frame.scene.mesh;
@@ -79,7 +79,8 @@ double mean_curvature(const FrameView& frame, const Measurement&, const std::vec
     turned += std::abs(angles[h]) * (x.col(hinge.particles[3]) - x.col(hinge.particles[2])).norm();
   }
   for (const Triangle& t : mesh.triangles)
-    area += 0.5 * Vector3(x.col(t[1]) - x.col(t[0])).cross(Vector3(x.col(t[2]) - x.col(t[0]))).norm();
+    area +=
+        0.5 * Vector3(x.col(t[1]) - x.col(t[0])).cross(Vector3(x.col(t[2]) - x.col(t[0]))).norm();
   return turned / (2 * area);
 }
 
@@ -142,15 +143,17 @@ const Measurable* find_measurable(std::string_view what) {
 
 std::string known_measurements() {
   std::string known;
-  for (const Measurable& row : measurable()) known += (known.empty() ? "" : ", ") + std::string(row.what);
+  for (const Measurable& row : measurable())
+    known += (known.empty() ? "" : ", ") + std::string(row.what);
   return known + ", and the keys of [expect]";
 }
 
 ParticleRegion read_region(const KeyTable& keys, const Scene& scene) {
   if (keys.is_text("of")) {
     if (keys.text("of") != "all")
-      throw InputError(keys.where("of") +
-                       ": 'of' must be \"all\", { particles = [...] } or { box = [[x, y, z], [x, y, z]] }");
+      throw InputError(
+          keys.where("of") +
+          ": 'of' must be \"all\", { particles = [...] } or { box = [[x, y, z], [x, y, z]] }");
     return {};
   }
   const auto of = keys.table("of");
@@ -177,7 +180,8 @@ void read_instant(const KeyTable& keys, const Scene& scene, Measurement& m) {
     return;
   }
   m.when = choice<Instant>(
-      keys, "when", {{"end", Instant::end}, {"maximum", Instant::maximum}, {"minimum", Instant::minimum}});
+      keys, "when",
+      {{"end", Instant::end}, {"maximum", Instant::maximum}, {"minimum", Instant::minimum}});
 }
 
 }  // namespace
@@ -187,7 +191,8 @@ std::vector<int> particles_in(const ParticleRegion& region, const Scene& scene) 
   std::vector<int> all;
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     const auto x = scene.x.col(i).array();
-    if (!region.box || ((x >= region.box->first.array()).all() && (x <= region.box->second.array()).all()))
+    if (!region.box ||
+        ((x >= region.box->first.array()).all() && (x <= region.box->second.array()).all()))
       all.push_back(int(i));
   }
   return all;
@@ -210,7 +215,8 @@ const std::vector<Measurable>& measurable() {
       {"energy", "J", "kinetic, elastic and gravitational", 0, total_energy},
       {"momentum", "kg m/s", "size of the linear momentum", 0, momentum},
       {"angular_momentum", "kg m^2/s", "size, about the origin", 0, spin},
-      {"contact_points", "1", "points that objects corrected in the step before", 0, contact_points},
+      {"contact_points", "1", "points that objects corrected in the step before", 0,
+       contact_points},
       {"depth", "m", "of the deepest free particle inside an object", 0, depth},
   };
   return table;
@@ -229,31 +235,37 @@ Measurement read_measurement(const KeyTable& keys, const Scene& scene) {
   read_instant(keys, scene, m);
   if (const Measurable* row = find_measurable(m.what)) {
     if (row->particles > 0 && int(m.of.particles.size()) != row->particles)
-      throw InputError(keys.where("what") + fmt::format(": '{}' needs of = {{ particles = [...] }} with {} numbers",
-                                                        m.what, row->particles));
+      throw InputError(keys.where("what") +
+                       fmt::format(": '{}' needs of = {{ particles = [...] }} with {} numbers",
+                                   m.what, row->particles));
     if (m.what == "position") m.along = keys.vector_or("along", Vector3::Zero());
     return m;
   }
   const Quantity* quantity = find_quantity(m.what);
   if (!quantity)
-    throw InputError(keys.where("what") + ": unknown quantity '" + m.what + "'; known: " + known_measurements());
+    throw InputError(keys.where("what") + ": unknown quantity '" + m.what +
+                     "'; known: " + known_measurements());
   const std::string rejection = quantity->rejection ? quantity->rejection(scene) : "";
-  if (!rejection.empty()) throw InputError(keys.where("what") + ": '" + m.what + "' makes no sense here: " + rejection);
+  if (!rejection.empty())
+    throw InputError(keys.where("what") + ": '" + m.what + "' makes no sense here: " + rejection);
   return m;
 }
 
-std::vector<Measurement> usual_measurements(const Scene& scene, const std::vector<std::string>& expected) {
+std::vector<Measurement> usual_measurements(const Scene& scene,
+                                            const std::vector<std::string>& expected) {
   std::vector<Measurement> usual;
   for (const char* what : {"kinetic_energy", "elastic_energy"}) usual.push_back({what, what});
   if (scene.gravity)
     for (const char* what : {"height", "lowest"}) usual.push_back({what, what});
   for (const std::string& key : expected)
-    if (key != "runs_to_its_end" && key != "is_reproducible" && key != "takes_steps" && key != "solves_converge")
+    if (key != "runs_to_its_end" && key != "is_reproducible" && key != "takes_steps" &&
+        key != "solves_converge")
       usual.push_back({key, key});
   return usual;
 }
 
-Measurer::Measurer(const Scene& scene, const BuiltScene& built, const std::vector<Measurement>& measurements)
+Measurer::Measurer(const Scene& scene, const BuiltScene& built,
+                   const std::vector<Measurement>& measurements)
     : scene_(scene), built_(built), measurements_(measurements), values_(measurements.size(), nan) {
   for (const Measurement& m : measurements) particles_.push_back(particles_in(m.of, scene));
 }
@@ -276,9 +288,14 @@ void Measurer::record(const State& frame) {
   const double close = 1e-9 * scene_.schedule.frame_interval;
   for (size_t k = 0; k < measurements_.size(); ++k) {
     const Measurement& m = measurements_[k];
-    const bool is_expected = !find_measurable(m.what);  // its largest over the frames, as [expect] takes it
-    if (m.when == Instant::at_time && std::abs(frame.time - m.time) > scene_.schedule.frame_interval / 2) continue;
-    if (m.when == Instant::end && !is_expected && std::abs(frame.time - scene_.schedule.end) > close) continue;
+    // its largest over the frames, as [expect] takes it
+    const bool is_expected = !find_measurable(m.what);
+    if (m.when == Instant::at_time &&
+        std::abs(frame.time - m.time) > scene_.schedule.frame_interval / 2)
+      continue;
+    if (m.when == Instant::end && !is_expected &&
+        std::abs(frame.time - scene_.schedule.end) > close)
+      continue;
     const double value = at_frame(k, frame);
     const double before = values_[k];
     if (is_first || m.when == Instant::at_time || (m.when == Instant::end && !is_expected))
@@ -294,7 +311,8 @@ std::vector<double> Measurer::values(const RunResult& result) const {
   std::vector<double> all = values_;
   const Repetition never_asked(scene_, computing_provider());
   for (size_t k = 0; k < measurements_.size(); ++k) {
-    const Quantity* quantity = find_measurable(measurements_[k].what) ? nullptr : find_quantity(measurements_[k].what);
+    const Quantity* quantity =
+        find_measurable(measurements_[k].what) ? nullptr : find_quantity(measurements_[k].what);
     if (quantity && quantity->of_run)
       all[k] = quantity->of_run({scene_, summary_, result, never_asked, built_.objects});
   }

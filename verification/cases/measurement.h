@@ -13,9 +13,10 @@
 
 namespace foldproof {
 
-/// Particles of a cloth, as the case names them; a finer mesh of the same cloth has more of them in a box.
+/// Particles of a cloth, as the case names them; a finer mesh of the same cloth has more
+/// of them in a box.
 struct ParticleRegion {
-  std::vector<int> particles;                     // by number
+  std::vector<int> particles;                      // by number
   std::optional<std::pair<Vector3, Vector3>> box;  // lowest and highest corner, of the start [m]
   // neither: all
 };
@@ -56,19 +57,21 @@ const std::vector<Measurable>& measurable();
 /// The unit of a measurement, of measurable() or of quantities().
 std::string unit_of(const Measurement& m);
 
-/// One entry of [[quantity]]. Throws InputError "file:line: ..." for an unknown `what` or `when`, a region
-/// without particles, and a quantity that makes no sense for the scene.
+/// One entry of [[quantity]]. Throws InputError "file:line: ..." for an unknown `what` or `when`, a
+/// region without particles, and a quantity that makes no sense for the scene.
 Measurement read_measurement(const KeyTable& keys, const Scene& scene);
 
-/// What is measured of a case that names nothing itself: energies at the end, heights at the end (where there is gravity),
-/// and the quantities of its expectations.
-std::vector<Measurement> usual_measurements(const Scene& scene, const std::vector<std::string>& expected);
+/// What is measured of a case that names nothing itself: energies at the end, heights at the end
+/// (where there is gravity), and the quantities of its expectations.
+std::vector<Measurement> usual_measurements(const Scene& scene,
+                                            const std::vector<std::string>& expected);
 
 /// Takes measurements while a run goes on: give it every row and every frame, then ask.
 class Measurer {
  public:
   /// All must outlive it.
-  Measurer(const Scene& scene, const BuiltScene& built, const std::vector<Measurement>& measurements);
+  Measurer(const Scene& scene, const BuiltScene& built,
+           const std::vector<Measurement>& measurements);
 
   void record(const Diagnostics& row);
   void record(const State& frame);

@@ -29,15 +29,20 @@ double energy_drift(const RunView& run) {
 
 /// An upper bound on sum m |v| at any time, by Cauchy and Schwarz from the kinetic energy [kg m/s].
 double momentum_scale(const RunView& run) {
-  return std::sqrt(2 * lumped_masses(run.scene.mesh, run.scene.density).sum() * run.summary.largest_kinetic);
+  return std::sqrt(2 * lumped_masses(run.scene.mesh, run.scene.density).sum() *
+                   run.summary.largest_kinetic);
 }
 
-double linear_change(const RunView& run) { return run.summary.linear.value() / momentum_scale(run); }
+double linear_change(const RunView& run) {
+  return run.summary.linear.value() / momentum_scale(run);
+}
 
-/// An upper bound on sum m |x| |v| while the cloth is no farther from the origin than at its start or end.
+/// An upper bound on sum m |x| |v| while the cloth is no farther from the origin than at
+/// its start or end.
 double angular_change(const RunView& run) {
-  const double reach = std::sqrt(std::max(run.scene.x.colwise().squaredNorm().maxCoeff(),
-                                          run.result.last.x.colwise().squaredNorm().maxCoeff()));  // m
+  const double reach =
+      std::sqrt(std::max(run.scene.x.colwise().squaredNorm().maxCoeff(),
+                         run.result.last.x.colwise().squaredNorm().maxCoeff()));  // m
   return run.summary.angular.value() / (reach * momentum_scale(run));
 }
 
@@ -45,7 +50,9 @@ double steps(const RunView& run) { return double(run.result.steps); }
 
 double contacts(const RunView& run) { return double(run.summary.contacts); }
 
-double kinetic_at_end(const RunView& run) { return run.summary.last_kinetic / run.summary.largest_kinetic; }
+double kinetic_at_end(const RunView& run) {
+  return run.summary.last_kinetic / run.summary.largest_kinetic;
+}
 
 double unfinished_solves(const RunView& run) { return double(run.result.work.unfinished_solves); }
 
@@ -53,7 +60,8 @@ double unfinished_solves(const RunView& run) { return double(run.result.work.unf
 
 double distance_from_plane(const Scene& scene, const State& s) {
   Worst worst;
-  for (Eigen::Index i = 0; i < s.x.cols(); ++i) worst.observe(std::abs(s.x(2, i) - scene.mesh.rest(2, 0)));
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i)
+    worst.observe(std::abs(s.x(2, i) - scene.mesh.rest(2, 0)));
   return worst.value();
 }
 
@@ -61,7 +69,8 @@ double angle_change(const Scene& scene, const State& s) {
   const std::vector<double> angles = hinge_angles(scene.mesh, s.x);
   Worst worst;
   for (size_t h = 0; h < angles.size(); ++h)
-    worst.observe(std::abs(std::remainder(angles[h] - scene.rest_angles[h], 2 * pi)) * degrees_per_radian);
+    worst.observe(std::abs(std::remainder(angles[h] - scene.rest_angles[h], 2 * pi)) *
+                  degrees_per_radian);
   return worst.value();
 }
 
@@ -82,7 +91,8 @@ double length_change(const Scene& scene, const State& s) {
   Worst worst;
   for (size_t e = 0; e < scene.mesh.edges.size(); ++e) {
     const Edge& edge = scene.mesh.edges[e];
-    worst.observe(std::abs((s.x.col(edge.b) - s.x.col(edge.a)).norm() / lengths[Eigen::Index(e)] - 1));
+    worst.observe(
+        std::abs((s.x.col(edge.b) - s.x.col(edge.a)).norm() / lengths[Eigen::Index(e)] - 1));
   }
   return worst.value();
 }
@@ -106,7 +116,9 @@ double penetration(const Scene& scene, std::span<const Object> objects, const St
   return worst.value();
 }
 
-double depth_at_end(const RunView& run) { return penetration(run.scene, run.objects, run.result.last); }
+double depth_at_end(const RunView& run) {
+  return penetration(run.scene, run.objects, run.result.last);
+}
 
 /// How far a pinched particle is from the surface where its two objects are equally deep, at most.
 double off_centre(const Scene&, std::span<const Object> objects, const State& s) {
@@ -131,8 +143,8 @@ double fastest(const Scene&, const State& s) {
   return worst.value();
 }
 
-/// The rate of the rigid turn about the vertical axis through the origin that has the cloth's angular
-/// momentum.
+/// The rate of the rigid turn about the vertical axis through the origin that has the cloth's
+/// angular momentum.
 double turning_rate(const Scene& scene, const State& s) {
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   double momentum = 0, inertia = 0;  // kg m^2/s, kg m^2
@@ -150,7 +162,8 @@ double shift(const Scene& scene, const State& s) {
 
 /// Across gravity.
 double shift_aside(const Scene& scene, const State& s) {
-  const Vector3 moved = s.x.rowwise().mean() - scene.x.rowwise().mean(), down = scene.gravity->normalized();
+  const Vector3 moved = s.x.rowwise().mean() - scene.x.rowwise().mean(),
+                down = scene.gravity->normalized();
   return (moved - moved.dot(down) * down).norm();
 }
 
@@ -175,19 +188,24 @@ std::string without_gravity(const Scene& scene) {
   return scene.gravity && scene.gravity->norm() > 0 ? "" : "the case has no [gravity]";
 }
 
-std::string without_bending(const Scene& scene) { return scene.bending ? "" : "the case has no [bending]"; }
+std::string without_bending(const Scene& scene) {
+  return scene.bending ? "" : "the case has no [bending]";
+}
 
-std::string without_springs(const Scene& scene) { return scene.stretch ? "" : "the case has no [stretch]"; }
+std::string without_springs(const Scene& scene) {
+  return scene.stretch ? "" : "the case has no [stretch]";
+}
 
 void DiagnosticsSummary::record(const Diagnostics& row, double end) {
   if (!is_begun_) start = row;
   is_begun_ = true;
   const auto balance_of = [](const Diagnostics& of) { return of.energy.total() - of.damping_work; };
   balance.observe(std::abs(balance_of(row) - balance_of(start)));
-  largest_exchange = std::max({largest_exchange, std::abs(row.energy.kinetic - start.energy.kinetic),
-                               std::abs(row.energy.stretch - start.energy.stretch),
-                               std::abs(row.energy.bending - start.energy.bending),
-                               std::abs(row.energy.gravity - start.energy.gravity)});
+  largest_exchange =
+      std::max({largest_exchange, std::abs(row.energy.kinetic - start.energy.kinetic),
+                std::abs(row.energy.stretch - start.energy.stretch),
+                std::abs(row.energy.bending - start.energy.bending),
+                std::abs(row.energy.gravity - start.energy.gravity)});
   largest_kinetic = std::max(largest_kinetic, row.energy.kinetic);
   linear.observe((row.linear_momentum - start.linear_momentum).norm());
   contacts = std::max(contacts, row.work.object_contacts);
@@ -210,26 +228,28 @@ std::vector<Quantity> quantities_of_the_run() {
       {"runs_to_its_end", "stops", "The run reaches its end with finite values.", Sense::at_most,
        Scope::any_cloth, nullptr, stops, nullptr},
       {"is_reproducible", "steps",
-       "Ten steps after the start, after the middle frame and before the last have the same bits when they "
-       "are taken again, "
-       "in another thread.",
+       "Ten steps after the start, after the middle frame and before the last have the same bits "
+       "when they are taken again, in another thread.",
        Sense::at_most, Scope::any_cloth, nullptr, differing_steps, nullptr},
       {"takes_steps", "steps", "The run takes as many steps as it should.", Sense::at_least,
        Scope::this_shape, nullptr, steps, nullptr},
-      {"solves_converge", "solves", "The linear solves keep their tolerance before their cap on iterations.",
-       Sense::at_most, Scope::any_cloth, nullptr, unfinished_solves, nullptr},
+      {"solves_converge", "solves",
+       "The linear solves keep their tolerance before their cap on iterations.", Sense::at_most,
+       Scope::any_cloth, nullptr, unfinished_solves, nullptr},
       {"energy_is_accounted_for", "1",
-       "Kinetic, elastic and gravitational energy less the work of damping stays what it was, over the "
-       "energy exchanged.",
+       "Kinetic, elastic and gravitational energy less the work of damping stays what it was, over "
+       "the energy exchanged.",
        Sense::at_most, Scope::any_cloth, nullptr, energy_unaccounted, nullptr},
       {"energy_does_not_drift", "1",
-       "The mean of that energy over the last tenth of the run is that over the first tenth, over the energy "
-       "exchanged.",
+       "The mean of that energy over the last tenth of the run is that over the first tenth, over "
+       "the energy exchanged.",
        Sense::at_most, Scope::any_cloth, nullptr, energy_drift, nullptr},
-      {"linear_momentum_is_conserved", "1", "Linear momentum stays what it was, over sqrt(2 m E_kin).",
-       Sense::at_most, Scope::any_cloth, nullptr, linear_change, nullptr},
+      {"linear_momentum_is_conserved", "1",
+       "Linear momentum stays what it was, over sqrt(2 m E_kin).", Sense::at_most, Scope::any_cloth,
+       nullptr, linear_change, nullptr},
       {"angular_momentum_is_conserved", "1",
-       "Angular momentum about the origin stays what it was, over the cloth's reach times sqrt(2 m E_kin).",
+       "Angular momentum about the origin stays what it was, over the cloth's reach times sqrt(2 m "
+       "E_kin).",
        Sense::at_most, Scope::any_cloth, nullptr, angular_change, nullptr},
   };
 }
@@ -238,46 +258,49 @@ std::vector<Quantity> quantities_of_shape_and_place() {
   return {
       {"stays_flat", "m", "No particle leaves the plane of constant z in which the cloth lies.",
        Sense::at_most, Scope::this_shape, distance_from_plane, nullptr, without_plane},
-      {"leaves_its_plane", "m", "Some particle leaves the plane of constant z in which the cloth lies.",
-       Sense::at_least, Scope::this_shape, distance_from_plane, nullptr, without_plane},
+      {"leaves_its_plane", "m",
+       "Some particle leaves the plane of constant z in which the cloth lies.", Sense::at_least,
+       Scope::this_shape, distance_from_plane, nullptr, without_plane},
       {"keeps_its_angles", "degrees", "Every hinge stays near its rest angle.", Sense::at_most,
        Scope::this_shape, angle_change, nullptr, without_bending},
       {"folds_to", "degrees", "Some hinge folds this far to the positive side.", Sense::at_least,
        Scope::this_shape, folded_forward, nullptr, without_bending},
-      {"folds_back_to", "degrees", "Some hinge folds this far to the negative side.", Sense::at_least,
-       Scope::this_shape, folded_back, nullptr, without_bending},
-      {"keeps_its_lengths", "1", "Every edge stays near its rest length.", Sense::at_most, Scope::this_shape,
-       length_change, nullptr, without_springs},
+      {"folds_back_to", "degrees", "Some hinge folds this far to the negative side.",
+       Sense::at_least, Scope::this_shape, folded_back, nullptr, without_bending},
+      {"keeps_its_lengths", "1", "Every edge stays near its rest length.", Sense::at_most,
+       Scope::this_shape, length_change, nullptr, without_springs},
       {"stays_outside", "m",
-       "No free particle is deeper inside an object than this, those between two apart.", Sense::at_most,
-       Scope::any_cloth, nullptr, nullptr, without_objects, penetration},
+       "No free particle is deeper inside an object than this, those between two apart.",
+       Sense::at_most, Scope::any_cloth, nullptr, nullptr, without_objects, penetration},
       {"lies_inside", "m",
        "At the end some free particle is this deep inside an object, those between two apart.",
        Sense::at_least, Scope::this_shape, nullptr, depth_at_end, without_objects},
-      {"makes_contact", "points", "Objects correct the motion of some points in some step.", Sense::at_least,
-       Scope::this_shape, nullptr, contacts, without_objects},
+      {"makes_contact", "points", "Objects correct the motion of some points in some step.",
+       Sense::at_least, Scope::this_shape, nullptr, contacts, without_objects},
       {"is_pinched", "particles", "Particles are inside two objects at once.", Sense::at_least,
        Scope::this_shape, nullptr, nullptr, without_objects, pinched_particles},
-      {"stays_between", "m", "Particles inside two objects stay where they are equally deep in both.",
-       Sense::at_most, Scope::any_cloth, nullptr, nullptr, without_objects, off_centre},
+      {"stays_between", "m",
+       "Particles inside two objects stay where they are equally deep in both.", Sense::at_most,
+       Scope::any_cloth, nullptr, nullptr, without_objects, off_centre},
       {"never_crosses_itself", "pairs",
-       "In no frame does an edge of the cloth meet a triangle of it, touching included.", Sense::at_most,
-       Scope::any_cloth, self_crossings, nullptr, nullptr},
+       "In no frame does an edge of the cloth meet a triangle of it, touching included.",
+       Sense::at_most, Scope::any_cloth, self_crossings, nullptr, nullptr},
       {"tangle_does_not_grow", "pairs",
        "In no frame do more edges of the cloth meet triangles of it than this.", Sense::at_most,
        Scope::this_shape, self_crossings, nullptr, nullptr},
-      {"ends_untangled", "pairs", "At the end no edge of the cloth meets a triangle of it.", Sense::at_most,
-       Scope::any_cloth, nullptr, self_crossings_at_end, nullptr},
+      {"ends_untangled", "pairs", "At the end no edge of the cloth meets a triangle of it.",
+       Sense::at_most, Scope::any_cloth, nullptr, self_crossings_at_end, nullptr},
       {"keeps_its_place", "m", "The mean of all particles stays where it was.", Sense::at_most,
        Scope::this_shape, shift, nullptr, nullptr},
-      {"is_carried", "m", "The mean of all particles is carried away from where it was.", Sense::at_least,
-       Scope::this_shape, shift, nullptr, nullptr},
+      {"is_carried", "m", "The mean of all particles is carried away from where it was.",
+       Sense::at_least, Scope::this_shape, shift, nullptr, nullptr},
       {"is_carried_aside", "m", "The mean of all particles is carried aside, across gravity.",
        Sense::at_least, Scope::this_shape, shift_aside, nullptr, without_gravity},
-      {"speed_is_limited", "m/s", "No particle is faster than this.", Sense::at_most, Scope::this_shape,
-       fastest, nullptr, nullptr},
-      {"reaches_turning_rate", "degrees/s", "The cloth comes to turn about the vertical axis at this rate.",
-       Sense::at_least, Scope::this_shape, turning_rate, nullptr, nullptr},
+      {"speed_is_limited", "m/s", "No particle is faster than this.", Sense::at_most,
+       Scope::this_shape, fastest, nullptr, nullptr},
+      {"reaches_turning_rate", "degrees/s",
+       "The cloth comes to turn about the vertical axis at this rate.", Sense::at_least,
+       Scope::this_shape, turning_rate, nullptr, nullptr},
       {"comes_to_rest", "1", "At the end the kinetic energy is small, over its largest value.",
        Sense::at_most, Scope::this_shape, nullptr, kinetic_at_end, nullptr},
   };
@@ -300,7 +323,8 @@ const std::vector<Quantity>& quantities() {
 
 double value_at(const Quantity& quantity, const Scene& scene, std::span<const Object> objects,
                 const State& frame) {
-  return quantity.of_objects ? quantity.of_objects(scene, objects, frame) : quantity.of_frame(scene, frame);
+  return quantity.of_objects ? quantity.of_objects(scene, objects, frame)
+                             : quantity.of_frame(scene, frame);
 }
 
 const Quantity* find_quantity(std::string_view key) {

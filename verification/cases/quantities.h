@@ -1,4 +1,5 @@
-// What can be expected of a case: quantities measured while it runs, each with its unit and its claim.
+// What can be expected of a case: quantities measured while it runs, each with its
+// unit and its claim.
 #pragma once
 
 #include <span>
@@ -16,12 +17,14 @@ namespace foldproof {
 /// What all rows of diagnostics say together.
 struct DiagnosticsSummary {
   Diagnostics start;  // the first row
-  Worst balance;      // |kinetic + elastic + gravitational energy - work of damping - that at the start| [J]
+  // |kinetic + elastic + gravitational energy - work of damping - that at the start| [J]
+  Worst balance;
   double largest_exchange = 0;                   // the largest change of one form of energy [J]
   double largest_kinetic = 0, last_kinetic = 0;  // J
-  Worst linear, angular;                         // change of momentum since the start [kg m/s], [kg m^2/s]
-  long contacts = 0;           // largest number of points whose motion objects corrected in one step
-  double early = 0, late = 0;  // energy balance over the first and the last tenth of the run [J s] ...
+  Worst linear, angular;  // change of momentum since the start [kg m/s], [kg m^2/s]
+  long contacts = 0;      // largest number of points whose motion objects corrected in one step
+  // energy balance over the first and the last tenth of the run [J s] ...
+  double early = 0, late = 0;
   double early_time = 0, late_time = 0;  // ... and how long these are [s]
 
   /// end: of the run [s].
@@ -42,8 +45,8 @@ struct RunView {
 
 enum class Sense { at_most, at_least };
 
-/// What a bound on the quantity is written for: every cloth, since the method or its forces promise it; or the
-/// mesh and the objects of the case, since other ones come to something else.
+/// What a bound on the quantity is written for: every cloth, since the method or its forces promise
+/// it; or the mesh and the objects of the case, since other ones come to something else.
 enum class Scope { any_cloth, this_shape };
 
 struct Quantity {
@@ -51,17 +54,19 @@ struct Quantity {
   const char* claim;  // one sentence, true when the expectation holds
   Sense sense;
   Scope scope;
-  /// At one frame's state; the largest over all frames counts. nullptr: the quantity belongs to the whole
-  /// run, or asks the objects.
+  /// At one frame's state; the largest over all frames counts. nullptr: the quantity belongs to the
+  /// whole run, or asks the objects.
   double (*of_frame)(const Scene& scene, const State& frame);
   double (*of_run)(const RunView& run);  // nullptr: the quantity belongs to frames
-  std::string (*rejection)(
-      const Scene& scene);  // why it makes no sense for the scene, or ""; nullptr: always does
+  // why it makes no sense for the scene, or ""; nullptr: always does
+  std::string (*rejection)(const Scene& scene);
   /// As of_frame, of a quantity that asks the objects.
-  double (*of_objects)(const Scene& scene, std::span<const Object> objects, const State& frame) = nullptr;
+  double (*of_objects)(const Scene& scene, std::span<const Object> objects,
+                       const State& frame) = nullptr;
 };
 
-/// The quantity's value at a frame; it must not belong to the whole run. objects: the scene's, as built.
+/// The quantity's value at a frame; it must not belong to the whole run. objects: the
+/// scene's, as built.
 double value_at(const Quantity& quantity, const Scene& scene, std::span<const Object> objects,
                 const State& frame);
 

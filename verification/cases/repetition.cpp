@@ -38,7 +38,8 @@ std::vector<Diagnostics> rows_after(const Checkpoint& from, const Scene& scene,
 
 void Repetition::record(const Checkpoint& at) {
   const Schedule& schedule = scene_.schedule;
-  const long last = std::lround(std::ceil((schedule.end - at.start_time) / schedule.frame_interval));
+  const long last =
+      std::lround(std::ceil((schedule.end - at.start_time) / schedule.frame_interval));
   if (at.frame == 0 || at.frame == last / 2 || at.frame == last - 1) parts_.push_back({at, {}});
 }
 

@@ -9,8 +9,8 @@
 
 namespace foldproof {
 
-/// Give it every checkpoint and every row of diagnostics of a run; then ask. It keeps the state at the start,
-/// in the middle and before the last frame, and the ten steps after each.
+/// Give it every checkpoint and every row of diagnostics of a run; then ask. It keeps the state at
+/// the start, in the middle and before the last frame, and the ten steps after each.
 class Repetition {
  public:
   /// scene: must outlive it. level_sets: of the system built anew.
@@ -20,8 +20,9 @@ class Repetition {
   void record(const Checkpoint& at);
   void record(const Diagnostics& row);
 
-  /// Goes on from the kept states anew, with a system built anew, and counts the steps whose diagnostics have
-  /// other bits than before, clock time apart, and those that are missing. NaN if no step was seen.
+  /// Goes on from the kept states anew, with a system built anew, and counts the steps whose
+  /// diagnostics have other bits than before, clock time apart, and those that are missing. NaN if
+  /// no step was seen.
   double count_differing_steps() const;
 
  private:

@@ -20,7 +20,8 @@ struct Replaced {
 };
 
 /// The two paths, that of the case file relative to its folder, name one file.
-bool is_one_file(const std::filesystem::path& folder, const std::string& written, const std::string& used) {
+bool is_one_file(const std::filesystem::path& folder, const std::string& written,
+                 const std::string& used) {
   std::error_code none;  // what is not there is no one file
   return std::filesystem::equivalent(folder / written, used, none);
 }

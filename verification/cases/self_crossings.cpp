@@ -11,6 +11,8 @@ double self_crossings(const Scene& scene, const State& frame) {
   return double(oracles::exact_crossings(frame.x, scene.mesh.triangles).size());
 }
 
-double self_crossings_at_end(const RunView& run) { return self_crossings(run.scene, run.result.last); }
+double self_crossings_at_end(const RunView& run) {
+  return self_crossings(run.scene, run.result.last);
+}
 
 }  // namespace foldproof

@@ -1,4 +1,5 @@
-// Quantities of a shell that stands or collapses: what is left of its height and of its angles at the end.
+// Quantities of a shell that stands or collapses: what is left of its height and of its
+// angles at the end.
 #include <cmath>
 
 #include "verification/cases/quantities.h"
@@ -33,15 +34,18 @@ double mean_turn(const RunView& run) {
 
 std::vector<Quantity> standing_quantities() {
   return {
-      {"keeps_its_height", "1", "At the end the cloth is still this high, over its height at the start.",
-       Sense::at_least, Scope::this_shape, nullptr, height_left, without_gravity},
-      {"collapses_to", "1", "At the end the cloth has sunk to this height, over its height at the start.",
+      {"keeps_its_height", "1",
+       "At the end the cloth is still this high, over its height at the start.", Sense::at_least,
+       Scope::this_shape, nullptr, height_left, without_gravity},
+      {"collapses_to", "1",
+       "At the end the cloth has sunk to this height, over its height at the start.",
        Sense::at_most, Scope::this_shape, nullptr, height_left, without_gravity},
-      {"keeps_most_angles", "degrees", "At the end hinges are near their rest angles in the mean square.",
-       Sense::at_most, Scope::this_shape, nullptr, mean_turn, without_bending},
-      {"crumples_by", "degrees",
-       "At the end hinges are turned away from their rest angles in the mean square.", Sense::at_least,
+      {"keeps_most_angles", "degrees",
+       "At the end hinges are near their rest angles in the mean square.", Sense::at_most,
        Scope::this_shape, nullptr, mean_turn, without_bending},
+      {"crumples_by", "degrees",
+       "At the end hinges are turned away from their rest angles in the mean square.",
+       Sense::at_least, Scope::this_shape, nullptr, mean_turn, without_bending},
   };
 }
 

@@ -1,5 +1,5 @@
-// Quantities of wrinkles at the end of a run. A crease is a line of hinges, each turned to the same side and
-// joined to the next by a particle; a wrinkle has one to either side.
+// Quantities of wrinkles at the end of a run. A crease is a line of hinges, each turned to the same
+// side and joined to the next by a particle; a wrinkle has one to either side.
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -66,8 +66,8 @@ double creases_at_end(const RunView& run) {
   return creases_of(run.scene, x, 1).count + creases_of(run.scene, x, -1).count;
 }
 
-/// Twice the mean straight distance, in the rest shape, from a hinge in a crease to the nearest hinge in a crease to
-/// the other side [m]; NaN if there are none to one of them.
+/// Twice the mean straight distance, in the rest shape, from a hinge in a crease to the nearest
+/// hinge in a crease to the other side [m]; NaN if there are none to one of them.
 double wavelength_at_end(const RunView& run) {
   const Creases ridges = creases_of(run.scene, run.result.last.x, 1),
                 valleys = creases_of(run.scene, run.result.last.x, -1);
@@ -90,13 +90,12 @@ double wavelength_at_end(const RunView& run) {
 std::vector<Quantity> wrinkle_quantities() {
   return {
       {"forms_creases", "1",
-       "At the end there are so many creases: lines of three hinges or more, each turned by over 20 degrees "
-       "to the same side.",
+       "At the end there are so many creases: lines of three hinges or more, each turned by over "
+       "20 degrees to the same side.",
        Sense::at_least, Scope::this_shape, nullptr, creases_at_end, without_bending},
       {"wrinkles_stay_short", "m",
-       "At the end wrinkles are at most this long: twice the mean straight distance, in the rest shape, from "
-       "a "
-       "hinge in a crease to the nearest in one of the other side.",
+       "At the end wrinkles are at most this long: twice the mean straight distance, in the rest "
+       "shape, from a hinge in a crease to the nearest in one of the other side.",
        Sense::at_most, Scope::this_shape, nullptr, wavelength_at_end, without_bending},
   };
 }

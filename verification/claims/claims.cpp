@@ -14,8 +14,8 @@ namespace foldproof {
 namespace {
 
 const Record* record_named(const std::string& name, const std::vector<Record>& records) {
-  const auto found =
-      std::find_if(records.begin(), records.end(), [&](const Record& record) { return record.name == name; });
+  const auto found = std::find_if(records.begin(), records.end(),
+                                  [&](const Record& record) { return record.name == name; });
   return found == records.end() ? nullptr : &*found;
 }
 
@@ -27,8 +27,8 @@ Answer answer_of(const Record* record) {
   if (!record) return Answer::silent;
   if (record->outcome == Outcome::holds) return Answer::held;
   const Verdict& verdict = record->finding.verdict;
-  const bool is_measured =
-      std::isfinite(verdict.measured) && std::isfinite(verdict.bound) && std::isfinite(verdict.uncertainty);
+  const bool is_measured = std::isfinite(verdict.measured) && std::isfinite(verdict.bound) &&
+                           std::isfinite(verdict.uncertainty);
   return record->outcome == Outcome::fails && is_measured ? Answer::failed : Answer::silent;
 }
 
@@ -68,8 +68,8 @@ std::string_view name_of(Ruling ruling) {
   throw std::logic_error("name_of: a ruling without a name");
 }
 
-// A finding is held, failed (with numbers), or silent: missing from the run, inconclusive, not applicable, or
-// stopped by an error. The first row that fits decides.
+// A finding is held, failed (with numbers), or silent: missing from the run, inconclusive, not
+// applicable, or stopped by an error. The first row that fits decides.
 //
 //       | silent      | contradicts      | supports              | limits           | ruling      |
 //   |---|-------------|------------------|-----------------------|------------------|-------------|
@@ -85,10 +85,12 @@ std::string_view name_of(Ruling ruling) {
 //   3: what the claim needs is not there; is the paper or the program wrong? no finding says
 //   5: contradictions and limits were sought, not found
 //
-// So a claim is refuted only by something found, never by something that is not found: a broken program can
-// lose a ruling, not make one.
+// So a claim is refuted only by something found, never by something that is not found: a broken
+// program can lose a ruling, not make one.
 Ruling ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records) {
-  const auto count = [&](Role role, Answer answer) { return count_of(deciders, records, role, answer); };
+  const auto count = [&](Role role, Answer answer) {
+    return count_of(deciders, records, role, answer);
+  };
   for (const Role role : {Role::supports, Role::limits, Role::contradicts})
     if (count(role, Answer::silent) > 0) return Ruling::undecided;
   if (count(Role::contradicts, Answer::held) > 0) return Ruling::refuted;
@@ -107,7 +109,8 @@ namespace {
 
 /// One number that a text asks for.
 struct Place {
-  std::string finding, column, row;  // column: "" for the measured number, "bound", or of the evidence
+  // column: "" for the measured number, "bound", or of the evidence
+  std::string finding, column, row;
 };
 
 struct Placeholder {
@@ -116,7 +119,8 @@ struct Placeholder {
   std::vector<Place> places;  // the largest of them is meant
 };
 
-/// A column's name may hold '|' itself: the finding ends at the first, the row begins after the last.
+/// A column's name may hold '|' itself: the finding ends at the first, the row begins
+/// after the last.
 Place place_of(const std::string& text) {
   const size_t first = text.find('|'), last = text.rfind('|');
   if (first == std::string::npos) return {text, "", ""};
@@ -151,7 +155,8 @@ struct Quantity {
 
 /// The exponent of ten as the report writes it.
 std::string superscript(int exponent) {
-  static const std::array<const char*, 10> digits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  static const std::array<const char*, 10> digits = {"⁰", "¹", "²", "³", "⁴",
+                                                     "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string text = exponent < 0 ? "⁻" : "";
   for (const char digit : std::to_string(std::abs(exponent))) text += digits[size_t(digit - '0')];
   return text;
@@ -194,8 +199,8 @@ double extreme(const std::string& row, const std::vector<double>& values) {
   return result;
 }
 
-double entry_of(const Placeholder& wanted, const std::string& row, const std::vector<Column>& columns,
-                const std::vector<double>& values) {
+double entry_of(const Placeholder& wanted, const std::string& row,
+                const std::vector<Column>& columns, const std::vector<double>& values) {
   if (values.empty()) reject(wanted.text, "the column is empty");
   if (row == "smallest" || row == "largest") return extreme(row, values);
   if (row == "first") return values.front();
@@ -206,7 +211,8 @@ double entry_of(const Placeholder& wanted, const std::string& row, const std::ve
   return values[index];
 }
 
-Quantity quantity_at(const Placeholder& wanted, const Place& place, const std::vector<Record>& records) {
+Quantity quantity_at(const Placeholder& wanted, const Place& place,
+                     const std::vector<Record>& records) {
   const Record* record = record_named(place.finding, records);
   if (!record) reject(wanted.text, "the run has no such finding");
   const Verdict& verdict = record->finding.verdict;
@@ -240,7 +246,8 @@ std::string with_placeholders(const std::string& text, const Visit& visit) {
   for (size_t open = text.find('{'); open != std::string::npos; open = text.find('{', at)) {
     const size_t close = text.find('}', open);
     if (close == std::string::npos) reject(text.substr(open + 1), "the brace is not closed");
-    result += text.substr(at, open - at) + visit(parse_placeholder(text.substr(open + 1, close - open - 1)));
+    result += text.substr(at, open - at) +
+              visit(parse_placeholder(text.substr(open + 1, close - open - 1)));
     at = close + 1;
   }
   return result + text.substr(at);
@@ -249,7 +256,8 @@ std::string with_placeholders(const std::string& text, const Visit& visit) {
 }  // namespace
 
 std::string fill_placeholders(const std::string& text, const std::vector<Record>& records) {
-  return with_placeholders(text, [&](const Placeholder& wanted) { return value_of(wanted, records); });
+  return with_placeholders(text,
+                           [&](const Placeholder& wanted) { return value_of(wanted, records); });
 }
 
 std::vector<std::string> findings_in_text(const std::string& text) {
@@ -273,8 +281,9 @@ std::vector<std::string> findings_named_in(const Claim& claim) {
 
 bool is_covered(const Claim& claim, const std::vector<Record>& records) {
   const std::vector<std::string> names = findings_named_in(claim);
-  return std::all_of(names.begin(), names.end(),
-                     [&](const std::string& name) { return record_named(name, records) != nullptr; });
+  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return record_named(name, records) != nullptr;
+  });
 }
 
 ClaimRecord rule_claim(const Claim& claim, const std::vector<Record>& records) {

@@ -1,5 +1,5 @@
-// A claim of a paper, and the rule by which findings decide it. The claims themselves are data: see
-// read_claims.h.
+// A claim of a paper, and the rule by which findings decide it. The claims themselves are
+// data: see read_claims.h.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ enum class Role {
 enum class Ruling { confirmed, conditional, refuted, undecided };
 
 std::string_view name_of(Role role);  // "supports", "limits", "contradicts"
-std::string_view name_of(
-    Ruling ruling);  // "confirmed", "confirmed under a condition", "refuted", "undecided"
+// "confirmed", "confirmed under a condition", "refuted", "undecided"
+std::string_view name_of(Ruling ruling);
 
 /// A finding's name and what it says about the claim.
 struct Decider {
@@ -41,16 +41,17 @@ struct Claim {
 
 /// Ruling of a claim in one run.
 struct ClaimRecord {
-  Claim claim;                        // with the placeholders of condition and why filled
-  std::vector<std::string> outcomes;  // of the deciders, in their order; "missing" if the run has none
+  Claim claim;  // with the placeholders of condition and why filled
+  // of the deciders, in their order; "missing" if the run has none
+  std::vector<std::string> outcomes;
   Ruling ruling;
 };
 
 /// The ruling that these findings give; the table stands above its definition.
 Ruling ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records);
 
-/// The text with each placeholder replaced by a number of the run: three digits, a power of ten where the
-/// first is beyond the third place or the sixth, and its unit:
+/// The text with each placeholder replaced by a number of the run: three digits, a power of ten
+/// where the first is beyond the third place or the sixth, and its unit:
 ///   {name}                    what the finding measured
 ///   {name|bound}              its bound
 ///   {name|column|row}         evidence: a row counted from 1, "first", "last", "smallest",
@@ -62,8 +63,8 @@ Ruling ruling(const std::vector<Decider>& deciders, const std::vector<Record>& r
 /// Throws std::runtime_error naming the placeholder if the run has no such number.
 std::string fill_placeholders(const std::string& text, const std::vector<Record>& records);
 
-/// The findings whose numbers the placeholders of a text ask for. Throws std::runtime_error for a brace that
-/// is not closed.
+/// The findings whose numbers the placeholders of a text ask for. Throws std::runtime_error for a
+/// brace that is not closed.
 std::vector<std::string> findings_in_text(const std::string& text);
 
 /// The findings that a claim rests on or takes numbers from; some more than once.
@@ -72,8 +73,9 @@ std::vector<std::string> findings_named_in(const Claim& claim);
 /// Are all findings that the claim names in the run?
 bool is_covered(const Claim& claim, const std::vector<Record>& records);
 
-/// Rules a claim. The text of a claim that stays undecided keeps a placeholder whose number is missing.
-/// Throws std::runtime_error naming the claim for a placeholder that cannot be filled otherwise.
+/// Rules a claim. The text of a claim that stays undecided keeps a placeholder whose number
+/// is missing. Throws std::runtime_error naming the claim for a placeholder that cannot be
+/// filled otherwise.
 ClaimRecord rule_claim(const Claim& claim, const std::vector<Record>& records);
 
 /// holds if the ruling is the recorded one, fails if not; inconclusive if both are undecided.

@@ -47,7 +47,8 @@ std::string id_of(const KeyTable& row) {
   const std::string id = written_text(row, "id");
   const auto is_allowed = [](unsigned char c) { return std::isalnum(c) || c == '-'; };
   if (!std::ranges::all_of(id, is_allowed))
-    throw InputError(row.where("id") + ": the id '" + id + "' may have letters, digits and '-' only");
+    throw InputError(row.where("id") + ": the id '" + id +
+                     "' may have letters, digits and '-' only");
   return id;
 }
 
@@ -56,7 +57,8 @@ std::string paper_of(const KeyTable& root) {
   const auto paper = root.table("paper");
   if (!paper) throw InputError(root.where() + ": there is no [paper]");
   written_text(*paper, "title");
-  if (paper->texts("authors").empty()) throw InputError(paper->where("authors") + ": 'authors' is empty");
+  if (paper->texts("authors").empty())
+    throw InputError(paper->where("authors") + ": 'authors' is empty");
   paper->integer("year");
   return written_text(*paper, "key");
 }
@@ -65,11 +67,14 @@ std::vector<Decider> deciders_of(const KeyTable& row) {
   std::vector<Decider> deciders;
   for (const auto& entry : row.tables("decided_by")) {
     const std::string finding = written_text(*entry, "finding");
-    if (std::ranges::any_of(deciders, [&](const Decider& earlier) { return earlier.finding == finding; }))
+    if (std::ranges::any_of(deciders,
+                            [&](const Decider& earlier) { return earlier.finding == finding; }))
       throw InputError(entry->where("finding") + ": the finding '" + finding + "' is named twice");
-    deciders.push_back({finding, word_of(*entry, "role", {Role::supports, Role::limits, Role::contradicts})});
+    deciders.push_back(
+        {finding, word_of(*entry, "role", {Role::supports, Role::limits, Role::contradicts})});
   }
-  if (deciders.empty()) throw InputError(row.where("decided_by") + ": no finding decides this claim");
+  if (deciders.empty())
+    throw InputError(row.where("decided_by") + ": no finding decides this claim");
   return deciders;
 }
 
@@ -88,15 +93,15 @@ std::string condition_of(const KeyTable& row, Ruling recorded) {
 }
 
 Claim claim_of(const KeyTable& row, const std::string& paper) {
-  Claim claim{
-      paper,
-      id_of(row),
-      written_text(row, "section"),
-      written_text(row, "statement"),
-      deciders_of(row),
-      word_of(row, "recorded", {Ruling::confirmed, Ruling::conditional, Ruling::refuted, Ruling::undecided}),
-      "",
-      text_with_numbers(row, "why")};
+  Claim claim{paper,
+              id_of(row),
+              written_text(row, "section"),
+              written_text(row, "statement"),
+              deciders_of(row),
+              word_of(row, "recorded",
+                      {Ruling::confirmed, Ruling::conditional, Ruling::refuted, Ruling::undecided}),
+              "",
+              text_with_numbers(row, "why")};
   claim.condition = condition_of(row, claim.recorded);
   return claim;
 }

@@ -8,8 +8,8 @@
 
 namespace foldproof {
 
-/// The claims of every *.toml in the folder: papers in the order of file names, claims in the order of their
-/// file. The keys are explained at the top of bmf03.toml. Throws InputError
+/// The claims of every *.toml in the folder: papers in the order of file names, claims in the order
+/// of their file. The keys are explained at the top of bmf03.toml. Throws InputError
 ///   - "file:line: ..." for an unknown key, role or ruling; a missing or empty text; an id that is
 ///     taken or no name; a claim that nothing decides, or that names a finding twice; a condition
 ///     where the recorded ruling is not conditional, or none where it is; a placeholder whose brace

@@ -11,13 +11,19 @@ namespace foldproof {
 namespace {
 
 Fault fault_of(const KeyTable& row) {
-  Fault fault{
-      row.text("name"), row.text("file"), row.text("find"), row.text("replace"), row.text("law"), {}, {},
-      "not run"};
+  Fault fault{row.text("name"),
+              row.text("file"),
+              row.text("find"),
+              row.text("replace"),
+              row.text("law"),
+              {},
+              {},
+              "not run"};
   if (row.has("equivalent")) fault.outcome = "equivalent: " + row.text("equivalent");
   if (row.has("caught_by")) fault.caught_by = row.texts("caught_by");
   if (row.has("caught_by_tests")) fault.caught_by_tests = row.texts("caught_by_tests");
-  for (const char* mark : {"fast", "loops", "crash"}) row.flag_or(mark, false);  // for the runner alone
+  // for the runner alone
+  for (const char* mark : {"fast", "loops", "crash"}) row.flag_or(mark, false);
   return fault;
 }
 
@@ -52,7 +58,8 @@ std::vector<Fault> read_faults(const std::string& folder) {
       const Fault& fault = faults.back();
       const auto [first, is_new] = places.try_emplace(fault.name, row->where("name"));
       if (!is_new)
-        throw InputError(row->where("name") + ": the name '" + fault.name + "' is taken at " + first->second);
+        throw InputError(row->where("name") + ": the name '" + fault.name + "' is taken at " +
+                         first->second);
       if (const std::string room = room_of(fault.file); room != path.stem())
         throw InputError(row->where("file") + ": a fault in '" + fault.file + "' belongs in " +
                          (room.empty() ? "no list" : room + ".toml"));
@@ -65,7 +72,8 @@ std::vector<Fault> read_faults(const std::string& folder) {
 void name_faults(const std::vector<Fault>& faults, std::vector<Record>& records) {
   for (Record& record : records)
     for (const Fault& fault : faults)
-      if (std::find(fault.caught_by.begin(), fault.caught_by.end(), record.name) != fault.caught_by.end())
+      if (std::find(fault.caught_by.begin(), fault.caught_by.end(), record.name) !=
+          fault.caught_by.end())
         record.faults.push_back(fault.name);
 }
 

@@ -1,4 +1,5 @@
-// The seeded faults: verification/faults/ROOM.toml, one file for each room of the code that they edit.
+// The seeded faults: verification/faults/ROOM.toml, one file for each room of the code
+// that they edit.
 #pragma once
 
 #include <string>
@@ -17,13 +18,14 @@ struct Fault {
 };
 
 /// The room of a source file, which names the file of its faults: the folder below reference/ or
-/// verification/, or the file's name without its ending if it is right there; "convergence"; "program" for
-/// scripts/program/. Empty for any other file.
+/// verification/, or the file's name without its ending if it is right there; "convergence";
+/// "program" for scripts/program/. Empty for any other file.
 std::string room_of(const std::string& file);
 
-/// The faults of every *.toml in the folder but equivalent_mutants.toml, in the order of file names. Throws
-/// InputError "file:line: ..." for a row that lacks a key, has an unknown one, stands in the file of another
-/// room, or has the name of an earlier row; "folder: ..." for a folder without such files.
+/// The faults of every *.toml in the folder but equivalent_mutants.toml, in the order of file
+/// names. Throws InputError "file:line: ..." for a row that lacks a key, has an unknown one, stands
+/// in the file of another room, or has the name of an earlier row; "folder: ..." for a folder
+/// without such files.
 std::vector<Fault> read_faults(const std::string& folder);
 
 /// Writes into each record the names of the faults that it catches.

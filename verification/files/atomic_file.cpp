@@ -21,7 +21,8 @@ namespace {
 /// An open file; closed when it goes out of scope.
 class Descriptor {
  public:
-  Descriptor(const std::string& path, int flags) : id_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  Descriptor(const std::string& path, int flags)
+      : id_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
   ~Descriptor() {
     if (id_ >= 0) close(id_);
   }
@@ -46,8 +47,8 @@ int write_error(const std::string& path, const std::string& text) {
   return fsync(out.id()) == 0 ? 0 : errno;
 }
 
-/// A new name is on the disk when its folder is. Folders of some file systems cannot be synced, or not be opened to be
-/// read: there the system's own word has to do.
+/// A new name is on the disk when its folder is. Folders of some file systems cannot be synced, or
+/// not be opened to be read: there the system's own word has to do.
 void sync_folder_of(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const Descriptor open_folder(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);

@@ -58,7 +58,8 @@ void pass(Diagnostics& row, Numbers64& numbers) {
 /// All of a checkpoint but the states.
 void pass(Checkpoint& c, Numbers64& numbers) {
   for (long* count : {&c.frame, &c.steps}) numbers.pass(*count);
-  for (double* value : {&c.start_time, &c.size, &c.event_time, &c.damping_work, &c.damping_power, &c.seconds})
+  for (double* value :
+       {&c.start_time, &c.size, &c.event_time, &c.damping_work, &c.damping_power, &c.seconds})
     numbers.pass(*value);
   for_each_counter(c.work, [&](auto& number) { numbers.pass(number); });
 }
@@ -71,8 +72,8 @@ std::vector<double> numbers_of(const CheckpointRecord& record) {
   return numbers.values();
 }
 
-/// A state as two arrays: time, positions, velocities, places of bonds; and patch, triangle and particle of
-/// each bond.
+/// A state as two arrays: time, positions, velocities, places of bonds; and patch, triangle and
+/// particle of each bond.
 struct StateArrays {
   std::vector<double> numbers;
   std::vector<int> bonds;
@@ -144,10 +145,12 @@ void write_stored(const Hdf5& file, const StoredCheckpoint& stored) {
 /// Throws std::runtime_error if it is not what was written.
 StoredCheckpoint read_stored(const std::string& path) {
   const Hdf5 file = Hdf5::open_file(path);
-  if (file.read_text("format") != checkpoint_format) throw std::runtime_error("it is of another version");
-  StoredCheckpoint stored{{file.read_text("case_text"), file.read_text("meshes"), file.read_text("program")},
-                          file.read_doubles("numbers"),
-                          {}};
+  if (file.read_text("format") != checkpoint_format)
+    throw std::runtime_error("it is of another version");
+  StoredCheckpoint stored{
+      {file.read_text("case_text"), file.read_text("meshes"), file.read_text("program")},
+      file.read_doubles("numbers"),
+      {}};
   const Hdf5 past = file.open_group("past");
   for (int k = 0; past.has(std::to_string(k)); ++k) {
     const Hdf5 state = past.open_group(std::to_string(k));
@@ -174,15 +177,16 @@ std::string difference(const RunIdentity& stored, const RunIdentity& mine) {
   if (stored.case_text != mine.case_text) what = "another case text, or other overrides";
   if (stored.meshes != mine.meshes) what += std::string(what.empty() ? "" : "; ") + "other meshes";
   if (stored.program != mine.program)
-    what += std::string(what.empty() ? "" : "; ") + "another program (" + stored.program + ", this is " +
-            mine.program + ")";
+    what += std::string(what.empty() ? "" : "; ") + "another program (" + stored.program +
+            ", this is " + mine.program + ")";
   return what;
 }
 
 void reject_other(const std::string& path, const RunIdentity& stored, const RunIdentity& mine) {
   if (const std::string what = difference(stored, mine); !what.empty())
-    throw InputError(path + ": this checkpoint is of " + what +
-                     ". Resume with what it was made with, or start over with --restart, which deletes it");
+    throw InputError(
+        path + ": this checkpoint is of " + what +
+        ". Resume with what it was made with, or start over with --restart, which deletes it");
 }
 
 /// The number in the name of a checkpoint; -1 for other files.
@@ -221,7 +225,9 @@ RunIdentity identity_of(const Scene& scene, const std::string& program) {
 CheckpointFolder::CheckpointFolder(std::string folder, RunIdentity identity)
     : folder_(std::move(folder)), identity_(std::move(identity)) {}
 
-std::string CheckpointFolder::file(long frame) const { return fmt::format("{}/{:06}.h5", folder_, frame); }
+std::string CheckpointFolder::file(long frame) const {
+  return fmt::format("{}/{:06}.h5", folder_, frame);
+}
 
 void CheckpointFolder::write(const CheckpointRecord& record) const {
   std::error_code error;
@@ -264,7 +270,8 @@ std::optional<KeptRun> CheckpointFolder::kept_run() const {
   for (long frame = frames - 1; frame >= 0; --frame) {
     try {
       const StoredCheckpoint stored = read_stored(file(frame));
-      return KeptRun{frame, record_of(stored).at.past.back().time, difference(stored.identity, identity_)};
+      return KeptRun{frame, record_of(stored).at.past.back().time,
+                     difference(stored.identity, identity_)};
     } catch (const std::exception&) {  // damaged: the one before it counts
     }
   }

@@ -33,8 +33,8 @@ void write_record(const Hdf5& parent, const Record& record, int order) {
 void write_columns(const Hdf5& parent, const std::vector<Column>& columns) {
   int order = 0;
   for (const Column& column : columns) {
-    const Hdf5 set =
-        std::visit([&](const auto& values) { return parent.dataset(column.name, values); }, column.values);
+    const Hdf5 set = std::visit(
+        [&](const auto& values) { return parent.dataset(column.name, values); }, column.values);
     set.attribute("order", order++);
     set.attribute("unit", column.unit);
   }

@@ -22,7 +22,8 @@ namespace {
 /// The library serves one thread at a time: whatever calls it holds this.
 std::recursive_mutex library;
 
-/// Errors are thrown, not printed; and what could not be written is not tried again when the program ends.
+/// Errors are thrown, not printed; and what could not be written is not tried again when
+/// the program ends.
 void begin() {
   static const herr_t never_at_exit = H5dont_atexit();
   static_cast<void>(never_at_exit);
@@ -37,7 +38,8 @@ void require(bool is_good, const std::string& what) {
   if (!is_good) throw std::runtime_error("HDF5: cannot read " + what);
 }
 
-/// '/' parts the names of groups in HDF5; in a name it becomes a division slash, which looks the same.
+/// '/' parts the names of groups in HDF5; in a name it becomes a division slash, which
+/// looks the same.
 std::string without_slash(const std::string& name) {
   std::string result;
   for (const char c : name) result += c == '/' ? std::string("\u2215") : std::string(1, c);
@@ -77,15 +79,17 @@ Handle space_of(const Shape& shape) {
 void write_attribute(hid_t object, const std::string& name, hid_t type, const Shape& shape,
                      const void* data) {
   const Handle space = space_of(shape);
-  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
   succeed(H5Awrite(attribute, type, data), name);
 }
 
 /// The identifier of a new dataset that holds these values.
-hid_t write_values(hid_t parent, const std::string& name, hid_t type, const Shape& shape, const void* data) {
+hid_t write_values(hid_t parent, const std::string& name, hid_t type, const Shape& shape,
+                   const void* data) {
   const Handle space = space_of(shape);
-  const hid_t set =
-      H5Dcreate2(parent, without_slash(name).c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t set = H5Dcreate2(parent, without_slash(name).c_str(), type, space, H5P_DEFAULT,
+                               H5P_DEFAULT, H5P_DEFAULT);
   if (set >= 0 && data) succeed(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), name);
   return set;
 }
@@ -107,7 +111,8 @@ hid_t growing(hid_t parent, const std::string& name, const Shape& row) {
   const Handle space(H5Screate_simple(int(start.size()), start.data(), most.data()), H5Sclose);
   const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_chunk(layout, int(chunk.size()), chunk.data());
-  return H5Dcreate2(parent, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+  return H5Dcreate2(parent, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, layout,
+                    H5P_DEFAULT);
 }
 
 Handle open_object(hid_t parent, const std::string& name) {
@@ -124,8 +129,8 @@ Shape shape_of_space(hid_t space) {
   return shape;
 }
 
-/// How many numbers a dataset may claim. Without compression it is stored as it is, so that the file is
-/// larger; with it (other programs' files) this many are taken, 2 GB.
+/// How many numbers a dataset may claim. Without compression it is stored as it is, so that the
+/// file is larger; with it (other programs' files) this many are taken, 2 GB.
 constexpr unsigned long long most_unpacked = 1ULL << 28;
 
 unsigned long long most_values(hid_t set, std::size_t size_of_one) {
@@ -141,7 +146,8 @@ unsigned long long most_values(hid_t set, std::size_t size_of_one) {
 unsigned long long count_of(const Shape& shape, unsigned long long most, const std::string& name) {
   unsigned long long count = 1;
   for (const auto length : shape) {
-    require(length == 0 || count <= most / length, name + ": it claims more than the file can hold");
+    require(length == 0 || count <= most / length,
+            name + ": it claims more than the file can hold");
     count *= length;
   }
   return count;
@@ -156,7 +162,8 @@ std::vector<T> read_values(hid_t parent, const std::string& name, hid_t type) {
   const Shape shape = shape_of_space(Handle(H5Dget_space(set), H5Sclose));
   const auto count = count_of(shape, most_values(set, sizeof(T)), name);
   std::vector<T> values(count);
-  if (count > 0) require(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
+  if (count > 0)
+    require(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
   return values;
 }
 
@@ -181,7 +188,8 @@ bool is_readable(hid_t set) {
     Shape start(shape.size(), 0), count = shape;
     start[0] = first;
     count[0] = std::min(step, rows - first);
-    if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0)
+    if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) <
+        0)
       return false;
     if (H5Dread(set, type, space_of(count), space, H5P_DEFAULT, values.data()) < 0) return false;
   }
@@ -203,7 +211,8 @@ herr_t read_attribute(hid_t object, const char* name, const H5A_info_t*, void*) 
     const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
     const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
     const hssize_t count = H5Sget_simple_extent_npoints(space);
-    if (count < 0 || hsize_t(count) > bytes_at_once / std::max<std::size_t>(1, H5Tget_size(type))) return -1;
+    if (count < 0 || hsize_t(count) > bytes_at_once / std::max<std::size_t>(1, H5Tget_size(type)))
+      return -1;
     std::vector<char> values(std::size_t(count) * H5Tget_size(type));
     return count == 0 ? 0 : H5Aread(attribute, type, values.data());
   });
@@ -212,14 +221,15 @@ herr_t read_attribute(hid_t object, const char* name, const H5A_info_t*, void*) 
 herr_t read_object(hid_t file, const char* name, const H5O_info_t* about, void*) {
   return without_error_stack([&] {
     const Handle object(H5Oopen(file, name, H5P_DEFAULT), H5Oclose);
-    if (H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, read_attribute, nullptr) < 0) return -1;
+    if (H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, read_attribute, nullptr) < 0)
+      return -1;
     return about->type != H5O_TYPE_DATASET || is_readable(object) ? 0 : -1;
   });
 }
 
-/// Reads all that is in a file: groups, attributes, datasets. The library may crash or run without end where
-/// the structures of a file are damaged, so this is done apart; it takes no lock, which a copy of this
-/// process could not hold.
+/// Reads all that is in a file: groups, attributes, datasets. The library may crash or run without
+/// end where the structures of a file are damaged, so this is done apart; it takes no lock, which a
+/// copy of this process could not hold.
 bool all_is_readable(const std::string& path) {
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   return H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, read_object, nullptr) >= 0;
@@ -227,7 +237,8 @@ bool all_is_readable(const std::string& path) {
 
 }  // namespace
 
-Hdf5::Hdf5(std::int64_t id, int (*close)(std::int64_t), const std::string& what) : id_(id), close_(close) {
+Hdf5::Hdf5(std::int64_t id, int (*close)(std::int64_t), const std::string& what)
+    : id_(id), close_(close) {
   if (id < 0) throw std::runtime_error("HDF5: cannot make " + what);
 }
 
@@ -240,14 +251,15 @@ Hdf5 Hdf5::create_file(const std::string& path) {
   const std::lock_guard held(library);
   begin();
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  if (file < 0) throw std::runtime_error(path + ": cannot be written; is the folder there and writable?");
+  if (file < 0)
+    throw std::runtime_error(path + ": cannot be written; is the folder there and writable?");
   return {file, H5Fclose, path};
 }
 
 Hdf5 Hdf5::group(const std::string& name) const {
   const std::lock_guard held(library);
-  return {H5Gcreate2(id_, without_slash(name).c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-          name};
+  return {H5Gcreate2(id_, without_slash(name).c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+          H5Gclose, name};
 }
 
 void Hdf5::attribute(const std::string& name, const std::string& value) const {
@@ -268,7 +280,8 @@ void Hdf5::attribute(const std::string& name, int value) const {
 
 void Hdf5::attribute(const std::string& name, const std::vector<std::string>& values) const {
   const std::lock_guard held(library);
-  if (values.empty()) return;  // HDF5 1.10 has no empty simple attribute of texts; absent means none
+  // HDF5 1.10 has no empty simple attribute of texts; absent means none
+  if (values.empty()) return;
   write_attribute(id_, name, text_type(), {values.size()}, pointers(values).data());
 }
 
@@ -280,8 +293,9 @@ Hdf5 Hdf5::dataset(const std::string& name, const std::vector<double>& values) c
 Hdf5 Hdf5::dataset(const std::string& name, const std::vector<std::string>& values) const {
   const std::lock_guard held(library);
   const std::vector<const char*> texts = pointers(values);
-  return {write_values(id_, name, text_type(), {texts.size()}, texts.empty() ? nullptr : texts.data()),
-          H5Dclose, name};
+  return {
+      write_values(id_, name, text_type(), {texts.size()}, texts.empty() ? nullptr : texts.data()),
+      H5Dclose, name};
 }
 
 Hdf5 Hdf5::array(const std::string& name, const Shape& shape, const double* values) const {
@@ -325,7 +339,8 @@ std::string Hdf5::read_text(const std::string& attribute) const {
   const std::lock_guard held(library);
   const hid_t id = H5Aopen(id_, attribute.c_str(), H5P_DEFAULT);
   require(id >= 0, attribute);
-  const Handle open(id, H5Aclose), space(H5Aget_space(id), H5Sclose), type(H5Aget_type(id), H5Tclose);
+  const Handle open(id, H5Aclose), space(H5Aget_space(id), H5Sclose),
+      type(H5Aget_type(id), H5Tclose);
   require(H5Sget_simple_extent_npoints(space) == 1 && H5Tis_variable_str(type) > 0,
           attribute + ": it is no text");
   char* text = nullptr;

@@ -9,18 +9,19 @@
 
 namespace foldproof {
 
-using Shape =
-    std::vector<unsigned long long>;  // lengths of an array's dimensions, outermost first; {}: one number
+// lengths of an array's dimensions, outermost first; {}: one number
+using Shape = std::vector<unsigned long long>;
 
-/// An open file, a group or a dataset; closed when it goes out of scope. Every call throws std::runtime_error
-/// naming what could not be made, written or read. A '/' in a name becomes U+2215, which looks the same.
+/// An open file, a group or a dataset; closed when it goes out of scope. Every call throws
+/// std::runtime_error naming what could not be made, written or read. A '/' in a name becomes
+/// U+2215, which looks the same.
 class Hdf5 {
  public:
   /// A new file, in place of any that has this path.
   static Hdf5 create_file(const std::string& path);
 
-  /// An existing file, to be read only. All of it is read once before, in a process of its own, which a
-  /// damaged file may bring down.
+  /// An existing file, to be read only. All of it is read once before, in a process of its own,
+  /// which a damaged file may bring down.
   static Hdf5 open_file(const std::string& path);
 
   Hdf5(Hdf5&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
@@ -31,7 +32,8 @@ class Hdf5 {
   void attribute(const std::string& name, const std::string& value) const;
   void attribute(const std::string& name, double value) const;
   void attribute(const std::string& name, int value) const;
-  void attribute(const std::string& name, const std::vector<std::string>& values) const;  // none: left out
+  // none: left out
+  void attribute(const std::string& name, const std::vector<std::string>& values) const;
   Hdf5 dataset(const std::string& name, const std::vector<double>& values) const;
   Hdf5 dataset(const std::string& name, const std::vector<std::string>& values) const;
 
@@ -40,8 +42,8 @@ class Hdf5 {
   Hdf5 array(const std::string& name, const Shape& shape, const int* values) const;
   Hdf5 array(const std::string& name, const Shape& shape, const unsigned char* values) const;
 
-  /// What is there to be read, of any length; what has another type than asked for is refused, and so is a
-  /// dataset that claims more numbers than its file can hold.
+  /// What is there to be read, of any length; what has another type than asked for is refused, and
+  /// so is a dataset that claims more numbers than its file can hold.
   Hdf5 open_group(const std::string& name) const;
   bool has(const std::string& name) const;
   std::string read_text(const std::string& attribute) const;
@@ -51,8 +53,8 @@ class Hdf5 {
   /// Hands what was written so far to the operating system.
   void flush() const;
 
-  /// Closes a file nothing of which is open any longer; throws if what was still buffered cannot be written.
-  /// A file that merely goes out of scope may not be whole.
+  /// Closes a file nothing of which is open any longer; throws if what was still buffered cannot be
+  /// written. A file that merely goes out of scope may not be whole.
   void close();
 
  private:
@@ -63,9 +65,9 @@ class Hdf5 {
   int (*close_)(std::int64_t);
 };
 
-/// Writes a new file as `write` says, under the name "<path>.partial", and renames it when it is whole.
-/// Throws std::runtime_error naming the file; what was at `path` is then still there, and no partial file is
-/// left.
+/// Writes a new file as `write` says, under the name "<path>.partial", and renames it when it is
+/// whole. Throws std::runtime_error naming the file; what was at `path` is then still there, and no
+/// partial file is left.
 void write_hdf5(const std::string& path, const std::function<void(const Hdf5& file)>& write);
 
 /// A dataset of doubles that grows along its first dimension, a row of the given shape at a time.

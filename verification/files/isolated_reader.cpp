@@ -37,7 +37,8 @@ std::uintmax_t memory_in_use() {
 [[noreturn]] void read_and_leave(std::uintmax_t size, const std::function<bool()>& read) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, usual_seconds + size / bytes_per_second);
-  if (const std::uintmax_t used = memory_in_use(); used > 0) limit(RLIMIT_AS, used + usual_memory + 2 * size);
+  if (const std::uintmax_t used = memory_in_use(); used > 0)
+    limit(RLIMIT_AS, used + usual_memory + 2 * size);
   bool is_good = false;
   try {
     is_good = read();

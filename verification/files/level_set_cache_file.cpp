@@ -28,17 +28,20 @@ void write_frame(const Hdf5& group, const DeformingFrame& frame) {
       branches.push_back(value);
   group.array("branches", {tree.branches.size(), 4}, branches.data());
   group.array("part", {tree.part.size()}, tree.part.data());
-  group.array("phi", {tree.phi.size(), 27}, tree.phi.front().data()).attribute("unit", std::string("m"));
+  group.array("phi", {tree.phi.size(), 27}, tree.phi.front().data())
+      .attribute("unit", std::string("m"));
   write_displacements(group, "to_next", frame.to_next);
   write_displacements(group, "from_previous", frame.from_previous);
 }
 
 /// The values of a dataset as rows of 27 entries of T, each made of `size` doubles.
 template <class T>
-std::vector<BranchNodes<T>> read_nodes(const Hdf5& group, const std::string& name, std::size_t size) {
+std::vector<BranchNodes<T>> read_nodes(const Hdf5& group, const std::string& name,
+                                       std::size_t size) {
   const std::vector<double> values = group.read_doubles(name);
   std::vector<BranchNodes<T>> nodes(values.size() / (27 * size));
-  if (values.size() != nodes.size() * 27 * size) throw std::runtime_error(name + " has no whole rows");
+  if (values.size() != nodes.size() * 27 * size)
+    throw std::runtime_error(name + " has no whole rows");
   static_assert(sizeof(BranchNodes<T>) == 27 * sizeof(T));
   std::copy(values.begin(), values.end(), reinterpret_cast<double*>(nodes.data()));
   return nodes;
@@ -46,7 +49,9 @@ std::vector<BranchNodes<T>> read_nodes(const Hdf5& group, const std::string& nam
 
 DeformingFrame read_frame(const Hdf5& group, double time, const OctreeSettings& settings) {
   DeformingFrame frame{
-      time, {settings, {}, group.read_ints("part"), read_nodes<double>(group, "phi", 1), 0}, {}, {}, 0, 0};
+      time, {settings, {}, group.read_ints("part"), read_nodes<double>(group, "phi", 1), 0},
+      {},   {},
+      0,    0};
   const std::vector<int> rows = group.read_ints("branches");
   for (std::size_t i = 0; i + 3 < rows.size(); i += 4)
     frame.field.branches.push_back({rows[i], rows[i + 1], static_cast<unsigned char>(rows[i + 2]),
@@ -62,7 +67,8 @@ void require(bool is_met, const std::string& path, const std::string& why) {
 
 }  // namespace
 
-void write_level_sets(const std::string& path, const DeformingBody& body, const std::string& origin) {
+void write_level_sets(const std::string& path, const DeformingBody& body,
+                      const std::string& origin) {
   write_hdf5(path, [&](const Hdf5& file) {
     file.attribute("format", std::string(file_format));
     file.attribute("origin", origin);
@@ -87,7 +93,8 @@ DeformingBody read_level_sets(const std::string& path, const std::string& origin
   const Hdf5 frames = file.open_group("frames");
   for (std::size_t k = 0; k < times.size(); ++k)
     body.frames.push_back(read_frame(frames.open_group(std::to_string(k)), times[k], settings));
-  require(content_key(body) == file.read_text("content"), path, "its content is not what was written");
+  require(content_key(body) == file.read_text("content"), path,
+          "its content is not what was written");
   require_valid_content(body);
   for (DeformingFrame& frame : body.frames) index_descent_starts(frame.field);
   return body;

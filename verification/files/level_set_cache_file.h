@@ -7,13 +7,14 @@
 
 namespace foldproof {
 
-/// Writes the frames with the key of what they were computed from, under a temporary name until they are
-/// whole.
-void write_level_sets(const std::string& path, const DeformingBody& body, const std::string& origin);
+/// Writes the frames with the key of what they were computed from, under a temporary name until
+/// they are whole.
+void write_level_sets(const std::string& path, const DeformingBody& body,
+                      const std::string& origin);
 
-/// Reads them. Throws std::runtime_error saying why the file is refused: not there, no HDF5 file or not
-/// whole, not a file of level sets, computed from something else than `origin` names (stale), not what was
-/// written, unsound.
+/// Reads them. Throws std::runtime_error saying why the file is refused: not there, no HDF5 file or
+/// not whole, not a file of level sets, computed from something else than `origin` names (stale),
+/// not what was written, unsound.
 DeformingBody read_level_sets(const std::string& path, const std::string& origin,
                               const OctreeSettings& settings, BetweenFrames between);
 

@@ -37,10 +37,13 @@ std::shared_ptr<const Grid> read_grid(const std::string& path, const std::string
   };
   require(file.read_text("format") == grid_format, "it holds no grid of this version");
   require(file.read_text("origin") == origin, "it was computed from another mesh or settings");
-  const std::vector<double> corner = file.read_doubles("corner"), spacing = file.read_doubles("spacing");
+  const std::vector<double> corner = file.read_doubles("corner"),
+                            spacing = file.read_doubles("spacing");
   const std::vector<int> nodes = file.read_ints("nodes");
-  require(corner.size() == 3 && spacing.size() == 1 && nodes.size() == 3, "its lattice is not whole");
-  const Lattice lattice{{corner[0], corner[1], corner[2]}, spacing[0], {nodes[0], nodes[1], nodes[2]}};
+  require(corner.size() == 3 && spacing.size() == 1 && nodes.size() == 3,
+          "its lattice is not whole");
+  const Lattice lattice{
+      {corner[0], corner[1], corner[2]}, spacing[0], {nodes[0], nodes[1], nodes[2]}};
   auto grid = std::make_shared<const Grid>(Grid{lattice, file.read_doubles("phi")});
   require(content_key(*grid) == file.read_text("content"), "its content is not what was written");
   require_valid_content(*grid);
@@ -50,11 +53,11 @@ std::shared_ptr<const Grid> read_grid(const std::string& path, const std::string
 /// Of cases that run at the same time and name the same body, the second finds the first's file.
 std::mutex one_at_a_time;
 
-/// What the file holds, or else what is made and then written; `read` throws std::runtime_error for a file
-/// that it refuses.
+/// What the file holds, or else what is made and then written; `read` throws std::runtime_error for
+/// a file that it refuses.
 template <class Read, class Make, class Write>
-auto kept(const std::string& path, const std::function<void(const std::string&)>& log_line, const Read& read,
-          const Make& make, const Write& write) {
+auto kept(const std::string& path, const std::function<void(const std::string&)>& log_line,
+          const Read& read, const Make& make, const Write& write) {
   const std::lock_guard held(one_at_a_time);
   if (std::filesystem::exists(path)) {
     try {
@@ -73,10 +76,13 @@ auto kept(const std::string& path, const std::function<void(const std::string&)>
 
 }  // namespace
 
-LevelSetProvider caching_provider(const std::string& folder, std::function<void(const std::string&)> log_line) {
+LevelSetProvider caching_provider(const std::string& folder,
+                                  std::function<void(const std::string&)> log_line) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(folder + ": cannot make this folder for level sets: " + error.message() + "; choose another --cache");
+  if (error)
+    throw InputError(folder + ": cannot make this folder for level sets: " + error.message() +
+                     "; choose another --cache");
   const auto file = [folder](const std::string& key) {
     return (std::filesystem::path(folder) / (key + ".h5")).string();
   };
@@ -91,10 +97,12 @@ LevelSetProvider caching_provider(const std::string& folder, std::function<void(
           [=](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
             const std::string origin = input_key(sequence, settings), path = file(origin);
             const auto read = [&] {
-              return std::make_shared<const DeformingBody>(read_level_sets(path, origin, settings, between));
+              return std::make_shared<const DeformingBody>(
+                  read_level_sets(path, origin, settings, between));
             };
             return kept(
-                path, log_line, read, [&] { return compute.make_deforming_body(sequence, settings, between); },
+                path, log_line, read,
+                [&] { return compute.make_deforming_body(sequence, settings, between); },
                 [&](const DeformingBody& body) { write_level_sets(path, body, origin); });
           }};
 }

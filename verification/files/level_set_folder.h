@@ -8,9 +8,10 @@
 
 namespace foldproof {
 
-/// Makers that keep what they make in the folder, one file each, named after the key of all that it is
-/// computed from. `log_line` is told of every file that is loaded, written, or refused and replaced, and why. A
-/// folder or file that cannot be written throws.
-LevelSetProvider caching_provider(const std::string& folder, std::function<void(const std::string&)> log_line);
+/// Makers that keep what they make in the folder, one file each, named after the key of all that it
+/// is computed from. `log_line` is told of every file that is loaded, written, or refused and
+/// replaced, and why. A folder or file that cannot be written throws.
+LevelSetProvider caching_provider(const std::string& folder,
+                                  std::function<void(const std::string&)> log_line);
 
 }  // namespace foldproof

@@ -30,13 +30,15 @@ std::string new_shard_name() {
   gethostname(host, sizeof host - 1);
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::string(host) + "-" + std::to_string(getpid()) + "-" +
-         std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(now).count()) + ".jsonl";
+         std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(now).count()) +
+         ".jsonl";
 }
 
 /// The whole text in one call, so that lines of two writers never mix.
 void append_to_file(const std::string& path, const std::string& text) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  const bool is_written = file >= 0 && write(file, text.data(), text.size()) == ssize_t(text.size());
+  const bool is_written =
+      file >= 0 && write(file, text.data(), text.size()) == ssize_t(text.size());
   if (file >= 0) close(file);
   if (!is_written) throw std::runtime_error(path + ": cannot be written");
 }
@@ -56,7 +58,8 @@ ResultStore::ResultStore(std::string folder) : folder_(std::move(folder)) {
       if (!record.is_object()) continue;  // torn
       if (record.contains("start")) ++starts_[record["start"].get<std::string>()];
       if (record.contains("result"))
-        texts_[record["result"].get<std::string>()] = record.value("texts", std::map<std::string, std::string>());
+        texts_[record["result"].get<std::string>()] =
+            record.value("texts", std::map<std::string, std::string>());
     }
   }
 }
@@ -75,7 +78,8 @@ std::optional<StoredResult> ResultStore::find(const std::string& key) const {
   }
   try {
     const Hdf5 file = Hdf5::open_file(arrays_file(key));
-    for (const std::string& name : json::parse(file.read_text("names")).get<std::vector<std::string>>())
+    for (const std::string& name :
+         json::parse(file.read_text("names")).get<std::vector<std::string>>())
       result.arrays[name] = file.read_doubles(name);
   } catch (const std::exception&) {
     return {};  // as if it had never been made

@@ -20,15 +20,15 @@ struct StoredResult {
 ///                      when a run begins, and {"result": key, "texts": ..., "arrays":
 ///                      {name: length}} when it has ended; a torn last line is ignored
 ///   arrays/kk/key.h5   the arrays of a result, there before its line is written
-/// The key is the caller's: a digest of all that the result depends on. A run that was started and has no result was cut
-/// off, and is made again. Safe to call from several threads.
+/// The key is the caller's: a digest of all that the result depends on. A run that was started and
+/// has no result was cut off, and is made again. Safe to call from several threads.
 class ResultStore {
  public:
   /// Keeps nothing, finds nothing.
   ResultStore() = default;
 
-  /// Reads what the folder has; makes nothing before the first result. Throws InputError naming the folder if
-  /// it is something else than a folder.
+  /// Reads what the folder has; makes nothing before the first result. Throws InputError naming the
+  /// folder if it is something else than a folder.
   explicit ResultStore(std::string folder);
 
   /// The result of this key, if there is one that can be read.

@@ -43,7 +43,8 @@ void write_faults(const Hdf5& file, const std::vector<Fault>& faults) {
   write_columns(file.group("faults"), table.columns());
 }
 
-/// `/claims/<id>`: the ruling and what it rests on; the claim's findings and their roles in the same order.
+/// `/claims/<id>`: the ruling and what it rests on; the claim's findings and their roles in
+/// the same order.
 void write_claims(const Hdf5& file, const std::vector<ClaimRecord>& claims) {
   const Hdf5 parent = file.group("claims");
   int order = 0;

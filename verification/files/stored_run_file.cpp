@@ -27,15 +27,16 @@ Scene scene_of_text(const std::string& text, const std::string& path) {
 State StoredRun::frame(std::size_t k) const {
   const Eigen::Index particles = scene.mesh.particles();
   const auto of = [&](const std::vector<double>& rows) {
-    return PerParticle3(
-        Eigen::Map<const PerParticle3>(rows.data() + 3 * particles * Eigen::Index(k), 3, particles));
+    return PerParticle3(Eigen::Map<const PerParticle3>(
+        rows.data() + 3 * particles * Eigen::Index(k), 3, particles));
   };
   return {times[k], of(positions), of(velocities)};
 }
 
 PerParticle3 StoredFrames::frame(std::size_t k) const {
   const Eigen::Index particles = Eigen::Index(positions.size() / times.size() / 3);
-  return Eigen::Map<const PerParticle3>(positions.data() + 3 * particles * Eigen::Index(k), 3, particles);
+  return Eigen::Map<const PerParticle3>(positions.data() + 3 * particles * Eigen::Index(k), 3,
+                                        particles);
 }
 
 StoredFrames read_stored_frames(const std::string& path) {
@@ -49,9 +50,11 @@ StoredFrames read_stored_frames(const std::string& path) {
   } catch (const std::runtime_error& error) {
     throw InputError(path + ": is no stored simulation: " + error.what());
   }
-  if (run.times.empty() || run.positions.size() % (3 * run.times.size()) != 0 || corners.size() % 3 != 0)
+  if (run.times.empty() || run.positions.size() % (3 * run.times.size()) != 0 ||
+      corners.size() % 3 != 0)
     throw InputError(
-        path + ": its positions are not three a particle in every frame, or its triangles not of three");
+        path +
+        ": its positions are not three a particle in every frame, or its triangles not of three");
   const auto particles = int(run.positions.size() / run.times.size() / 3);
   for (const int corner : corners)
     if (corner < 0 || corner >= particles)
@@ -66,7 +69,8 @@ StoredRun read_stored_run(const std::string& path) {
   StoredRun run;
   try {
     const Hdf5 file = Hdf5::open_file(path);
-    const std::string case_file = file.read_text("case_folder") + "/" + file.read_text("case_name") + ".toml";
+    const std::string case_file =
+        file.read_text("case_folder") + "/" + file.read_text("case_name") + ".toml";
     run.scene = scene_of_text(file.read_text("case_text"), case_file);
     run.scene.title = file.read_text("title");
     const Hdf5 frames = file.open_group("frames");
@@ -80,8 +84,8 @@ StoredRun read_stored_run(const std::string& path) {
   }
   const std::size_t numbers = run.times.size() * 3 * std::size_t(run.scene.mesh.particles());
   if (run.times.empty() || run.positions.size() != numbers || run.velocities.size() != numbers)
-    throw InputError(path + ": its frames are not of the " + std::to_string(run.scene.mesh.particles()) +
-                     " particles that its case says");
+    throw InputError(path + ": its frames are not of the " +
+                     std::to_string(run.scene.mesh.particles()) + " particles that its case says");
   return run;
 }
 

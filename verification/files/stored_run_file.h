@@ -28,9 +28,9 @@ struct StoredFrames {
 /// Throws InputError naming the file if it lacks one of these, or they do not fit together.
 StoredFrames read_stored_frames(const std::string& path);
 
-/// Reads a stored simulation; meshes that its case names by a relative path are looked for beside the case
-/// file that was simulated, those of --set from the working folder. Throws InputError naming the file if it
-/// holds no simulation, or one of another cloth than its case text says.
+/// Reads a stored simulation; meshes that its case names by a relative path are looked for beside
+/// the case file that was simulated, those of --set from the working folder. Throws InputError
+/// naming the file if it holds no simulation, or one of another cloth than its case text says.
 StoredRun read_stored_run(const std::string& path);
 
 }  // namespace foldproof

@@ -17,8 +17,9 @@ std::string scale_name(Scale scale) { return scale == Scale::log ? "log" : "line
 /// The names of the marks, one a point.
 std::vector<std::string> names_of(const Curve& curve) {
   if (curve.marks.size() != curve.x.size())
-    throw std::logic_error(fmt::format("curve '{}': {} marks for {} points; give one for each, or none",
-                                       curve.label, curve.marks.size(), curve.x.size()));
+    throw std::logic_error(
+        fmt::format("curve '{}': {} marks for {} points; give one for each, or none", curve.label,
+                    curve.marks.size(), curve.x.size()));
   std::vector<std::string> names;
   for (const Mark mark : curve.marks) names.emplace_back(name_of(mark));
   return names;
@@ -62,8 +63,8 @@ void write_figure(const Hdf5& parent, const Figure& figure, int order) {
 void reject_misshapen(const Map& map) {
   if (map.values.size() != map.x_values.size() * map.y_values.size())
     throw std::logic_error(
-        fmt::format("map '{}': {} values for {} x {} points; give one for each, row by row", map.name,
-                    map.values.size(), map.x_values.size(), map.y_values.size()));
+        fmt::format("map '{}': {} values for {} x {} points; give one for each, row by row",
+                    map.name, map.values.size(), map.x_values.size(), map.y_values.size()));
 }
 
 void write_map(const Hdf5& parent, const Map& map, int order) {

@@ -9,7 +9,8 @@ namespace foldproof {
 
 class Hdf5;
 
-/// `/studies/<name>`. Throws std::logic_error for a map that has not one value for each of its points.
+/// `/studies/<name>`. Throws std::logic_error for a map that has not one value for
+/// each of its points.
 void write_studies(const Hdf5& file, const std::vector<StudyRecord>& studies);
 
 }  // namespace foldproof

@@ -16,16 +16,19 @@ namespace {
 
 void write_mesh(const Hdf5& file, const Scene& scene, const System& system) {
   const Hdf5 mesh = file.group("mesh");
-  const Shape::value_type particles = scene.mesh.particles(), triangles = scene.mesh.triangles.size();
+  const Shape::value_type particles = scene.mesh.particles(),
+                          triangles = scene.mesh.triangles.size();
   mesh.array("triangles", {triangles, 3}, scene.mesh.triangles.data()->data());
   mesh.array("rest_positions", {particles, 3}, scene.mesh.rest.data()).attribute("unit", "m");
   mesh.array("mass", {particles}, system.mass.data()).attribute("unit", "kg");
   std::vector<unsigned char> held;
-  for (Eigen::Index i = 0; i < system.inverse_mass.size(); ++i) held.push_back(system.inverse_mass[i] == 0);
+  for (Eigen::Index i = 0; i < system.inverse_mass.size(); ++i)
+    held.push_back(system.inverse_mass[i] == 0);
   mesh.array("held", {particles}, held.data());
 }
 
-/// Groups /objects/<k>: the surface at rest, and in every frame its pose, or its vertices if it deforms.
+/// Groups /objects/<k>: the surface at rest, and in every frame its pose, or its
+/// vertices if it deforms.
 struct ObjectRows {
   const SceneObject* part;
   std::vector<GrowingDataset> rows;  // rotation and translation, or positions
@@ -68,8 +71,8 @@ void add_place(double t, ObjectRows& object) {
   object.rows[1].add(pose.translation.data());
 }
 
-/// Group /sticky: the patches, and the bonds of all frames one after the other. A frame has as many as
-/// bond_counts says.
+/// Group /sticky: the patches, and the bonds of all frames one after the other. A frame has as many
+/// as bond_counts says.
 struct BondRows {
   GrowingDataset counts, bonds, places;
 
@@ -168,10 +171,11 @@ struct TrajectoryFile::Content {
   std::string xdmf() const {
     std::string text = xdmf_head;
     for (size_t k = 0; k < frame_times.size(); ++k)
-      text += fmt::format(fmt::runtime(xdmf_frame), fmt::arg("frame", k), fmt::arg("time", frame_times[k]),
-                          fmt::arg("triangles", triangles), fmt::arg("particles", particles),
-                          fmt::arg("frames", frame_times.size()),
-                          fmt::arg("file", xml_text(std::filesystem::path(path).filename().string())));
+      text +=
+          fmt::format(fmt::runtime(xdmf_frame), fmt::arg("frame", k),
+                      fmt::arg("time", frame_times[k]), fmt::arg("triangles", triangles),
+                      fmt::arg("particles", particles), fmt::arg("frames", frame_times.size()),
+                      fmt::arg("file", xml_text(std::filesystem::path(path).filename().string())));
     return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
   }
 };
@@ -195,7 +199,8 @@ constexpr Scalar scalars[] = {
     {"damping_work", "J", [](const Diagnostics& d) { return d.damping_work; }},
     {"cg_iterations", "1", [](const Diagnostics& d) { return double(d.work.cg_iterations); }},
     {"cg_residual", "1", [](const Diagnostics& d) { return d.work.worst_residual; }},
-    {"step_over_elastic_limit", "1", [](const Diagnostics& d) { return d.step_over_elastic_limit; }},
+    {"step_over_elastic_limit", "1",
+     [](const Diagnostics& d) { return d.step_over_elastic_limit; }},
     {"object_contacts", "1", [](const Diagnostics& d) { return double(d.work.object_contacts); }},
     {"strain_left", "1", [](const Diagnostics& d) { return d.work.strain_left; }},
     {"close_pairs", "1", [](const Diagnostics& d) { return double(d.work.close_pairs); }},
@@ -211,7 +216,8 @@ void named(const std::string& path, const Write& write) {
   try {
     write();
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(path + ": cannot be written (" + error.what() + "); is the disk full?");
+    throw std::runtime_error(path + ": cannot be written (" + error.what() +
+                             "); is the disk full?");
   }
 }
 
@@ -230,8 +236,9 @@ TrajectoryFile::TrajectoryFile(const std::string& path, const Scene& scene, cons
   file.attribute("case_folder", scene.text.empty() ? "" : (here / scene.folder).string());
   file.attribute("integrator", scene.integrator);
   file.attribute("built", describe_parts(scene, system));
-  file.attribute("frames_wanted",
-                 int(std::lround(std::ceil(scene.schedule.end / scene.schedule.frame_interval - 1e-9))) + 1);
+  file.attribute(
+      "frames_wanted",
+      int(std::lround(std::ceil(scene.schedule.end / scene.schedule.frame_interval - 1e-9))) + 1);
   write_mesh(file, scene, system);
   if (scene.gravity) file.array("gravity", {3}, scene.gravity->data()).attribute("unit", "m/s^2");
   for (const Scalar& scalar : scalars)
@@ -264,7 +271,8 @@ void TrajectoryFile::add_diagnostics(const Diagnostics& row) {
   });
 }
 
-void TrajectoryFile::finish(const std::string& stopped, double seconds, const std::vector<Record>& findings) {
+void TrajectoryFile::finish(const std::string& stopped, double seconds,
+                            const std::vector<Record>& findings) {
   const std::string path = content_->path, xdmf = content_->xdmf();
   named(path, [&] {
     content_->file.attribute("stopped", stopped);

@@ -13,9 +13,9 @@
 
 namespace foldproof {
 
-/// Writes a simulation while it runs: to "<path>.partial", renamed to `path` by finish(), with an XDMF file
-/// beside it that ParaView opens. What was written before a stop or an interruption is kept in the partial
-/// file.
+/// Writes a simulation while it runs: to "<path>.partial", renamed to `path` by finish(), with an
+/// XDMF file beside it that ParaView opens. What was written before a stop or an interruption is
+/// kept in the partial file.
 class TrajectoryFile {
  public:
   /// scene, and its objects as they were built: must outlive the file.

@@ -56,17 +56,18 @@ nlohmann::json to_json(const ClaimRecord& record) {
 
 std::string junit_case(const Record& record) {
   const Verdict& v = record.finding.verdict;
-  std::string text = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", record.kind,
-                                 xml_text(record.name), record.seconds);
-  const std::string message =
-      xml_text(fmt::format("measured {:.6g}, uncertainty {:.3g}, bound {:.6g} [{}]. {} {}", v.measured,
-                           v.uncertainty, v.bound, v.unit, record.claim, record.finding.note));
-  if (record.outcome == Outcome::holds || (!record.outcome && !did_not_run(record))) return text + "/>\n";
+  std::string text = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"",
+                                 record.kind, xml_text(record.name), record.seconds);
+  const std::string message = xml_text(
+      fmt::format("measured {:.6g}, uncertainty {:.3g}, bound {:.6g} [{}]. {} {}", v.measured,
+                  v.uncertainty, v.bound, v.unit, record.claim, record.finding.note));
+  if (record.outcome == Outcome::holds || (!record.outcome && !did_not_run(record)))
+    return text + "/>\n";
   const char* kind = record.outcome == Outcome::not_applicable ? "skipped"
                      : did_not_run(record)                     ? "error"
                                                                : "failure";
-  return text + fmt::format(">\n    <{0} message=\"{1}: {2}\"/>\n  </testcase>\n", kind, outcome_text(record),
-                            message);
+  return text + fmt::format(">\n    <{0} message=\"{1}: {2}\"/>\n  </testcase>\n", kind,
+                            outcome_text(record), message);
 }
 
 std::string junit_case(const ClaimRecord& record) {
@@ -74,9 +75,10 @@ std::string junit_case(const ClaimRecord& record) {
   const std::string text =
       fmt::format("  <testcase classname=\"claim\" name=\"{}\" time=\"0\"", record.claim.id);
   if (outcome == Outcome::holds) return text + "/>\n";
-  return text + fmt::format(">\n    <{} message=\"ruling: {}; recorded: {}. {}\"/>\n  </testcase>\n",
-                            outcome == Outcome::fails ? "failure" : "skipped", name_of(record.ruling),
-                            name_of(record.claim.recorded), xml_text(record.claim.statement));
+  return text +
+         fmt::format(">\n    <{} message=\"ruling: {}; recorded: {}. {}\"/>\n  </testcase>\n",
+                     outcome == Outcome::fails ? "failure" : "skipped", name_of(record.ruling),
+                     name_of(record.claim.recorded), xml_text(record.claim.statement));
 }
 
 std::string junit_xml(const RunRecord& run) {
@@ -95,8 +97,8 @@ std::string junit_xml(const RunRecord& run) {
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"foldproof\" tests=\"{}\" "
-      "failures=\"{}\" errors=\"{}\" "
-      "skipped=\"{}\" time=\"{:.3f}\" timestamp=\"{}\">\n{}</testsuite>\n",
+      "failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\" "
+      "timestamp=\"{}\">\n{}</testsuite>\n",
       run.records.size() + run.claims.size(), failures, errors, skipped, run.seconds,
       xml_text(run.provenance.date), cases);
 }

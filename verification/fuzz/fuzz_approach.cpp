@@ -1,9 +1,9 @@
-// Do two moving features meet? The reference's answer against the exact judge's: a meeting that is not told
-// is a finding, and so are a time too late or outside the motion, a number that is none, and features that
-// come nearer than promised.
+// Do two moving features meet? The reference's answer against the exact judge's: a meeting that is
+// not told is a finding, and so are a time too late or outside the motion, a number that is none,
+// and features that come nearer than promised.
 //
-// An input is a byte of kind, one of scale, one of what is to be kept, and 24 whole numbers of one byte or of
-// two.
+// An input is a byte of kind, one of scale, one of what is to be kept, and 24 whole numbers of one
+// byte or of two.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -25,7 +25,8 @@ struct Query {
   double keep;               // m
 };
 
-/// Coordinates up to 128 or 32768 units of 2^-10 to 2^10 m, near the origin or up to 2^20 units away from it.
+/// Coordinates up to 128 or 32768 units of 2^-10 to 2^10 m, near the origin or up to 2^20
+/// units away from it.
 bool read_query(const std::uint8_t* data, std::size_t size, Query& query) {
   const std::size_t bytes = size >= 51 ? 2 : 1;
   if (size < 3 + 24 * bytes) return false;
@@ -44,9 +45,12 @@ bool read_query(const std::uint8_t* data, std::size_t size, Query& query) {
 }
 
 void require_valid_approach(const Query& query, const Approach& approach, double noise) {
-  require(approach.time >= 0 && approach.time <= 1, "an approach is told at a time within the motion");
-  require(std::isfinite(approach.at.distance) && approach.at.distance >= 0, "its distance is a number");
-  require(approach.at.weights.allFinite() && approach.at.normal.allFinite(), "its place is a place");
+  require(approach.time >= 0 && approach.time <= 1,
+          "an approach is told at a time within the motion");
+  require(std::isfinite(approach.at.distance) && approach.at.distance >= 0,
+          "its distance is a number");
+  require(approach.at.weights.allFinite() && approach.at.normal.allFinite(),
+          "its place is a place");
   const Corners4 then = query.x + approach.time * query.displacement;
   require(std::abs((then * approach.at.weights).norm() - approach.at.distance) <= noise,
           "its weights lead over its distance");
@@ -59,8 +63,9 @@ void require_apart(const Query& query, double kept, double noise) {
             "features of which nothing is told stay farther apart than what is kept");
 }
 
-/// Does the first feature stay beyond the second all the time, seen along one of 26 directions? Sums of three
-/// whole numbers of the unit have no rounding, so that such features need not be shown to the exact judge.
+/// Does the first feature stay beyond the second all the time, seen along one of 26 directions?
+/// Sums of three whole numbers of the unit have no rounding, so that such features need not be
+/// shown to the exact judge.
 bool stay_beyond(const Query& query) {
   const int first = query.kind == PairKind::vertex_triangle ? 1 : 2;
   const Corners4 end = query.x + query.displacement;
@@ -75,10 +80,11 @@ bool stay_beyond(const Query& query) {
 
 /// Until so much of the motion is over.
 bool truly_meet(const Query& query, double until) {
-  const auto features = query.kind == PairKind::vertex_triangle ? oracles::Features::vertex_and_triangle
-                                                                : oracles::Features::edge_and_edge;
-  return oracles::ever_meet(features,
-                            oracles::until(oracles::exact_motion(query.x, query.displacement), until));
+  const auto features = query.kind == PairKind::vertex_triangle
+                            ? oracles::Features::vertex_and_triangle
+                            : oracles::Features::edge_and_edge;
+  return oracles::ever_meet(
+      features, oracles::until(oracles::exact_motion(query.x, query.displacement), until));
 }
 
 }  // namespace

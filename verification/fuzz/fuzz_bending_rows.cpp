@@ -1,5 +1,5 @@
-// The reader of `evaluate bending`: whatever the text, 24 finite numbers a row, or an InputError that names
-// its line. A zero byte parts the rows from those of the rest positions.
+// The reader of `evaluate bending`: whatever the text, 24 finite numbers a row, or an InputError
+// that names its line. A zero byte parts the rows from those of the rest positions.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -39,7 +39,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require_finite_rows(bending_of_rows({text.substr(0, end), "rows.csv"}, {rest, "rest.csv"}));
   } catch (const InputError& error) {
     const std::string said = error.what();
-    require(said.starts_with("rows.csv:") || said.starts_with("rest.csv:"), "a refusal names its file");
+    require(said.starts_with("rows.csv:") || said.starts_with("rest.csv:"),
+            "a refusal names its file");
   }
   return 0;
 }

@@ -1,5 +1,5 @@
-// The reader of `evaluate crossings`: whatever the text, a judgement in which every query is counted, or an
-// InputError that names its place. The first byte says the kind of pair.
+// The reader of `evaluate crossings`: whatever the text, a judgement in which every query is
+// counted, or an InputError that names its place. The first byte says the kind of pair.
 #include <cstdint>
 #include <string>
 

@@ -1,5 +1,5 @@
-// The readers of OBJ files: whatever the text, a mesh whose indices and coordinates are sound, a body that is
-// closed and points outward, or an InputError.
+// The readers of OBJ files: whatever the text, a mesh whose indices and coordinates are sound, a
+// body that is closed and points outward, or an InputError.
 #include <cstdint>
 #include <string_view>
 
@@ -18,15 +18,16 @@ void require_valid_content(const PerParticle3& rest, const std::vector<Triangle>
       require(v >= 0 && v < rest.cols(), "the corners of a triangle are vertices of the mesh");
 }
 
-/// What read(text, name) answers is handed to `look`; a refusal names a line. Returns whether there was an
-/// answer.
+/// What read(text, name) answers is handed to `look`; a refusal names a line. Returns whether
+/// there was an answer.
 template <class Read, class Look>
 bool read_with(const Read& read, std::string_view text, const Look& look) {
   try {
     look(read(text, "fuzz.obj"));
     return true;
   } catch (const InputError& error) {
-    require(std::string_view(error.what()).starts_with("fuzz.obj:"), "a refusal names file and line");
+    require(std::string_view(error.what()).starts_with("fuzz.obj:"),
+            "a refusal names file and line");
     return false;
   }
 }

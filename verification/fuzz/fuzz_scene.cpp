@@ -1,6 +1,6 @@
-// The reader of case files: whatever the text, a scene of finite numbers, or an InputError that names its
-// place. Reading computes no level set; OBJ files are read from the folder beside the targets alone, and
-// meshes are small.
+// The reader of case files: whatever the text, a scene of finite numbers, or an InputError that
+// names its place. Reading computes no level set; OBJ files are read from the folder beside the
+// targets alone, and meshes are small.
 #include <cstdint>
 #include <string>
 
@@ -44,11 +44,14 @@ bool names_other_files(const KeyTable& table) {
 
 void require_valid_content(const Scene& scene) {
   const State start = start_state(scene);
-  require(start.x.allFinite() && start.v.allFinite(), "places and velocities at the start are finite");
+  require(start.x.allFinite() && start.v.allFinite(),
+          "places and velocities at the start are finite");
   require(scene.mesh.rest.allFinite(), "the rest shape is finite");
   require(start.x.cols() == scene.mesh.particles(), "every particle has a place");
-  for (const double angle : scene.rest_angles) require(std::isfinite(angle), "rest angles are finite");
-  for (const SceneObject& part : scene.objects) require(part.vertices.allFinite(), "surfaces are finite");
+  for (const double angle : scene.rest_angles)
+    require(std::isfinite(angle), "rest angles are finite");
+  for (const SceneObject& part : scene.objects)
+    require(part.vertices.allFinite(), "surfaces are finite");
   for (const StickyPatch& patch : scene.sticky)
     for (const int i : patch.particles)
       require(i >= 0 && i < scene.mesh.particles(), "what sticks is a particle of the cloth");

@@ -40,7 +40,8 @@ Complex factor(std::string_view method, Complex z) {
   if (method == "backward-euler" || method == "linear-backward-euler") return 1.0 / (1.0 - z);
   if (method == "implicit-midpoint") return (1.0 + z / 2.0) / (1.0 - z / 2.0);
   if (method == "BDF2") return (2.0 + std::sqrt(1.0 + 2.0 * z)) / (3.0 - 2.0 * z);
-  throw InputError("oracle amplification: no factors are known of the method '" + std::string(method) + "'");
+  throw InputError("oracle amplification: no factors are known of the method '" +
+                   std::string(method) + "'");
 }
 
 }  // namespace

@@ -6,12 +6,13 @@
 
 #include "verification/oracles/exact_solutions.h"
 
-// What one step of a method makes of a linear oscillator: the numbers by which its two modes are multiplied.
+// What one step of a method makes of a linear oscillator: the numbers by which its two modes
+// are multiplied.
 
 namespace foldproof::oracles {
 
-/// The factors of the two modes, in the order of the roots of lambda^2 + c lambda + k = 0 with + and - before
-/// the square root. Good to about ten roundings of 1.
+/// The factors of the two modes, in the order of the roots of lambda^2 + c lambda + k = 0 with +
+/// and - before the square root. Good to about ten roundings of 1.
 using Factors = std::array<std::complex<double>, 2>;
 
 /// e^{lambda h}, the truth. h [s] > 0.

@@ -66,7 +66,8 @@ SpringLaw<double> law(const ClothMaterial& material, const SpringDefinition& spr
   return {material.young, material.spring_damping, spring.area, spring.rest_length};
 }
 
-void add_spring_forces(const ClothDefinition& cloth, const Vectors& x, const Vectors& v, Vectors& f) {
+void add_spring_forces(const ClothDefinition& cloth, const Vectors& x, const Vectors& v,
+                       Vectors& f) {
   for (const SpringDefinition& spring : cloth.springs) {
     const std::size_t a = index(spring.a), b = index(spring.b);
     const SpringLaw<double> spring_law = law(cloth.material, spring);
@@ -77,15 +78,18 @@ void add_spring_forces(const ClothDefinition& cloth, const Vectors& x, const Vec
   }
 }
 
-double damping_factor(const ClothMaterial& material, const HingeDefinition& hinge, const Quad<double>& x) {
+double damping_factor(const ClothMaterial& material, const HingeDefinition& hinge,
+                      const Quad<double>& x) {
   const bool at_rest = material.damping_geometry == Geometry::rest;
   if (material.damping_factor == DampingFactor::edge_length)
     return at_rest ? hinge.rest_edge_length : edge_length(x);
   return at_rest ? hinge.rest_anisotropy : anisotropy_factor(x);
 }
 
-// sin(theta/2) from the angle and not as printed, which is off by 1e-8 near flat in double precision.
-void add_bending_forces(const ClothDefinition& cloth, const Vectors& x, const Vectors& v, Vectors& f) {
+// sin(theta/2) from the angle and not as printed, which is off by 1e-8 near flat in
+// double precision.
+void add_bending_forces(const ClothDefinition& cloth, const Vectors& x, const Vectors& v,
+                        Vectors& f) {
   const ClothMaterial& material = cloth.material;
   for (const HingeDefinition& hinge : cloth.hinges) {
     const Quad<double> corners = gather(x, hinge.corners);
@@ -132,7 +136,8 @@ struct ClothEquation {
     }
   }
 
-  Triple<double> acceleration_of(int particle, double t, const Triple<double>& internal_force) const {
+  Triple<double> acceleration_of(int particle, double t,
+                                 const Triple<double>& internal_force) const {
     const double mass = cloth.masses[index(particle)];
     Triple<double> force = internal_force + gravity_force(mass, triple(cloth.gravity));
     if (cloth.external_force) force = force + triple(cloth.external_force(particle, t));
@@ -148,12 +153,13 @@ Motion fixed_motion(const Vector3& x) {
 
 Motion harmonic_motion(const Harmonic& harmonic) {
   const double rate = 2 * pi * harmonic.frequency;
-  return {[harmonic, rate](double t) {
-            return Vector3(harmonic.centre + std::sin(rate * t + harmonic.phase) * harmonic.amplitude);
-          },
-          [harmonic, rate](double t) {
-            return Vector3(rate * std::cos(rate * t + harmonic.phase) * harmonic.amplitude);
-          }};
+  return {
+      [harmonic, rate](double t) {
+        return Vector3(harmonic.centre + std::sin(rate * t + harmonic.phase) * harmonic.amplitude);
+      },
+      [harmonic, rate](double t) {
+        return Vector3(rate * std::cos(rate * t + harmonic.phase) * harmonic.amplitude);
+      }};
 }
 
 HingeDefinition hinge_at_rest(const std::array<int, 4>& corners, const PerParticle3& rest,
@@ -165,7 +171,8 @@ HingeDefinition hinge_at_rest(const std::array<int, 4>& corners, const PerPartic
     x[i] = triple(rest.col(corners[i]));
   }
   const HingeShape<double> shape = hinge_shape(x);
-  require(length(shape.N1) > 0 && length(shape.N2) > 0, "hinge_at_rest: both triangles must have an area");
+  require(length(shape.N1) > 0 && length(shape.N2) > 0,
+          "hinge_at_rest: both triangles must have an area");
   return {corners, rest_angle, anisotropy_factor(x), edge_length(x)};
 }
 

@@ -10,9 +10,9 @@
 #include "verification/oracles/definitions.h"
 #include "verification/oracles/ode.h"
 
-// A whole sheet as an ordinary differential equation, M x'' = F(t, x, x') with the forces of definitions.h in
-// double precision, for an ODE solver that knows nothing of cloth. Everything is plain data: particles are
-// numbered from 0.
+// A whole sheet as an ordinary differential equation, M x'' = F(t, x, x') with the forces of
+// definitions.h in double precision, for an ODE solver that knows nothing of cloth. Everything is
+// plain data: particles are numbered from 0.
 
 namespace foldproof::oracles {
 
@@ -42,8 +42,9 @@ struct ClothMaterial {
   DampingFactor damping_factor = DampingFactor::edge_length;
 };
 
-/// A given motion: position [m] and velocity [m/s] at any time [s], the second being the derivative of the
-/// first. A lambda written for it must return a Vector3, not an Eigen expression, whose operands die.
+/// A given motion: position [m] and velocity [m/s] at any time [s], the second being the
+/// derivative of the first. A lambda written for it must return a Vector3, not an Eigen
+/// expression, whose operands die.
 struct Motion {
   std::function<Vector3(double t)> x, v;
 };
@@ -75,24 +76,27 @@ Motion fixed_motion(const Vector3& x);
 Motion harmonic_motion(const Harmonic& harmonic);
 
 /// A hinge whose two factors are measured on the rest positions 3 x N [m].
-HingeDefinition hinge_at_rest(const std::array<int, 4>& corners, const PerParticle3& rest, double rest_angle);
+HingeDefinition hinge_at_rest(const std::array<int, 4>& corners, const PerParticle3& rest,
+                              double rest_angle);
 
-/// The right-hand side for y = (positions of the free particles in ascending order, then their velocities); 6
-/// numbers a free particle. It keeps a copy of the definition and may be called from several threads.
-/// Particles out of range, quantities not positive, no free particle: InputError naming the entry.
+/// The right-hand side for y = (positions of the free particles in ascending order, then their
+/// velocities); 6 numbers a free particle. It keeps a copy of the definition and may be called from
+/// several threads. Particles out of range, quantities not positive, no free particle: InputError
+/// naming the entry.
 RightHandSide cloth_rhs(const ClothDefinition& cloth);
 
 /// y of a state: prescribed particles are left out.
 std::vector<double> free_coordinates(const ClothDefinition& cloth, const ClothState& state);
 
-/// The state of a y at time t [s]; prescribed particles are where their motions say. Wrong size: InputError.
+/// The state of a y at time t [s]; prescribed particles are where their motions say. Wrong
+/// size: InputError.
 ClothState cloth_state(const ClothDefinition& cloth, double t, std::span<const double> y);
 
-/// Kinetic, spring, bending and gravity energy of all particles [J]. With elastic_geometry at rest, without
-/// damping, external force or moving particles it is constant in time until a hinge folds through theta = pi.
-/// There theta jumps to -pi and sin(theta/2) changes sign: the bending energy jumps by
-/// 2 pi ke c sin(theta0/2), c being the factor at rest, and the right-hand side is not continuous. No order
-/// study may pass through it.
+/// Kinetic, spring, bending and gravity energy of all particles [J]. With elastic_geometry at rest,
+/// without damping, external force or moving particles it is constant in time until a hinge folds
+/// through theta = pi. There theta jumps to -pi and sin(theta/2) changes sign: the bending energy
+/// jumps by 2 pi ke c sin(theta0/2), c being the factor at rest, and the right-hand side is not
+/// continuous. No order study may pass through it.
 double mechanical_energy(const ClothDefinition& cloth, const ClothState& state);
 
 }  // namespace foldproof::oracles

@@ -16,7 +16,8 @@ struct Stretch {
 };
 
 Corners corners_of(Features features, const Quad<Whole>& x) {
-  if (features == Features::edge_and_edge) return {x[2] - x[0], x[3] - x[0], x[3] - x[1], x[2] - x[1]};
+  if (features == Features::edge_and_edge)
+    return {x[2] - x[0], x[3] - x[0], x[3] - x[1], x[2] - x[1]};
   return {x[1] - x[0], x[2] - x[0], x[3] - x[0]};
 }
 
@@ -41,11 +42,12 @@ bool all_beyond(const Corners& corners, const Exact& direction) {
 }
 
 bool parted_along(const Stretch& s, const Exact& u) {
-  return (all_beyond(s.from, u) && all_beyond(s.to, u)) || (all_beyond(s.from, -u) && all_beyond(s.to, -u));
+  return (all_beyond(s.from, u) && all_beyond(s.to, u)) ||
+         (all_beyond(s.from, -u) && all_beyond(s.to, -u));
 }
 
-/// Directions that may part the origin from the polygon: across it, away from its corners, and across its
-/// sides.
+/// Directions that may part the origin from the polygon: across it, away from its corners, and
+/// across its sides.
 std::vector<Exact> directions(const Corners& middle) {
   const Exact n = normal_of(middle);
   std::vector<Exact> all{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, n};
@@ -64,8 +66,8 @@ bool is_parted(const Stretch& s) {
   return false;
 }
 
-/// Does (d_i x d_{i+1}) . u, quadratic in time, keep the sign `side`? Its three Bernstein coefficients say
-/// so.
+/// Does (d_i x d_{i+1}) . u, quadratic in time, keep the sign `side`? Its three Bernstein
+/// coefficients say so.
 bool keeps_turning(const Stretch& s, std::size_t i, const Exact& u, int side) {
   const std::size_t k = (i + 1) % s.from.size();
   const auto turn = [&](const Exact& p, const Exact& q) { return dot(cross(p, q), u); };

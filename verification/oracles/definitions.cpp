@@ -12,8 +12,8 @@ using Corners = std::array<Vector3, 4>;
 template <int N>
 using Gradient = Dual<Digits50, N>;
 
-/// How far sin(theta/2) as printed may be off in 50 digits: 1 - n1.n2 carries a few 1e-50, its root at most
-/// 1e-24.
+/// How far sin(theta/2) as printed may be off in 50 digits: 1 - n1.n2 carries a few 1e-50, its
+/// root at most 1e-24.
 constexpr double printed_half_angle_error = 1e-24;
 
 template <class Scalar>
@@ -34,8 +34,8 @@ Triple<Gradient<N>> lift_as_variables(const Vector3& p, int first) {
 }
 
 Quad<Gradient<12>> lift_as_variables(const Corners& x) {
-  return {lift_as_variables<12>(x[0], 0), lift_as_variables<12>(x[1], 3), lift_as_variables<12>(x[2], 6),
-          lift_as_variables<12>(x[3], 9)};
+  return {lift_as_variables<12>(x[0], 0), lift_as_variables<12>(x[1], 3),
+          lift_as_variables<12>(x[2], 6), lift_as_variables<12>(x[3], 9)};
 }
 
 Vector3 rounded(const Triple<Digits50>& p) {
@@ -80,7 +80,8 @@ Quad<Digits50> check_finite(const Corners& x, const std::string& quantity) {
   require_finite(x, quantity);
   const Quad<Digits50> corners = lift<Digits50>(x);
   const HingeShape<Digits50> shape = hinge_shape(corners);
-  require(length(shape.N1) > 0 && length(shape.N2) > 0, quantity, "corners of two triangles with an area");
+  require(length(shape.N1) > 0 && length(shape.N2) > 0, quantity,
+          "corners of two triangles with an area");
   return corners;
 }
 
@@ -105,7 +106,8 @@ SpringLaw<Scalar> check_finite(const SpringInput& spring) {
 /// The largest force [N] on a corner where the deflection is 1.
 double force_at_unit_deflection(const Quad<Digits50>& x, double ke, const Digits50& factor) {
   Digits50 largest = 0;
-  for (const Triple<Digits50>& u : bending_mode(x)) largest = length(u) > largest ? length(u) : largest;
+  for (const Triple<Digits50>& u : bending_mode(x))
+    largest = length(u) > largest ? length(u) : largest;
   return std::abs(ke) * Digits50(factor * largest).convert_to<double>();
 }
 
@@ -119,15 +121,19 @@ Estimate sin_half_angle_50(const Corners& x) {
   return result;
 }
 
-VectorsEstimate<4> bending_mode_50(const Corners& x) { return rounded(bending_mode(check_finite(x, "x"))); }
+VectorsEstimate<4> bending_mode_50(const Corners& x) {
+  return rounded(bending_mode(check_finite(x, "x")));
+}
 
 VectorsEstimate<4> bending_elastic_50(const HingeInput& hinge) {
   require_material(hinge);
   const Quad<Digits50> x = check_finite(hinge.x, "HingeInput x");
   const bool at_rest = hinge.elastic_geometry == Geometry::rest;
-  const Digits50 factor = anisotropy_factor(at_rest ? check_finite(hinge.rest, "HingeInput rest") : x);
+  const Digits50 factor =
+      anisotropy_factor(at_rest ? check_finite(hinge.rest, "HingeInput rest") : x);
   const Digits50 deflection = sin_half_angle(x) - sin(Digits50(hinge.theta0) / 2);
-  VectorsEstimate<4> force = rounded(bending_elastic_force(x, Digits50(hinge.ke), factor, deflection));
+  VectorsEstimate<4> force =
+      rounded(bending_elastic_force(x, Digits50(hinge.ke), factor, deflection));
   force.uncertainty += printed_half_angle_error * force_at_unit_deflection(x, hinge.ke, factor);
   return force;
 }
@@ -155,8 +161,8 @@ VectorsEstimate<4> theta_gradient_autodiff(const Corners& x) {
   return rounded_gradient<4>(hinge_angle(lift_as_variables(x)));
 }
 
-// The error of a central difference is step^2/6 theta''' + rounding/step: at 1e-16 of the hinge's size both
-// are below 1e-30 of the gradient, far under the rounding of the result.
+// The error of a central difference is step^2/6 theta''' + rounding/step: at 1e-16 of the hinge's
+// size both are below 1e-30 of the gradient, far under the rounding of the result.
 VectorsEstimate<4> theta_gradient_differences(const Corners& x) {
   const Quad<Digits50> corners = check_finite(x, "x");
   const Digits50 step = Digits50("1e-16") * edge_length(corners);
@@ -178,7 +184,8 @@ Estimate theta_rate_autodiff(const Corners& x, const Corners& v) {
   require_finite(v, "v");
   const Gradient<1> t = variable<Digits50, 1>(Digits50(0), 0);
   Quad<Gradient<1>> moving;
-  for (std::size_t i = 0; i < 4; ++i) moving[i] = lift<Gradient<1>>(x[i]) + t * lift<Gradient<1>>(v[i]);
+  for (std::size_t i = 0; i < 4; ++i)
+    moving[i] = lift<Gradient<1>>(x[i]) + t * lift<Gradient<1>>(v[i]);
   return rounded(hinge_angle(moving).derivative[0]);
 }
 
@@ -197,7 +204,8 @@ template <class Scalar>
 Quad<Scalar> smooth_elastic_force(const HingeInput& hinge, const Quad<Scalar>& x) {
   using std::sin;
   const Digits50 factor = anisotropy_factor(check_finite(hinge.rest, "HingeInput rest"));
-  const Scalar deflection = sin(hinge_angle(x) / Scalar(2)) - Scalar(sin(Digits50(hinge.theta0) / 2));
+  const Scalar deflection =
+      sin(hinge_angle(x) / Scalar(2)) - Scalar(sin(Digits50(hinge.theta0) / 2));
   return bending_elastic_force(x, Scalar(Digits50(hinge.ke)), Scalar(factor), deflection);
 }
 
@@ -232,10 +240,12 @@ MatrixEstimate bending_elastic_derivative_differences(const HingeInput& hinge) {
     Quad<Digits50> ahead = x, behind = x;
     component(ahead[size_t(column / 3)], column % 3) += step;
     component(behind[size_t(column / 3)], column % 3) -= step;
-    Quad<Digits50> up = smooth_elastic_force(hinge, ahead), down = smooth_elastic_force(hinge, behind);
+    Quad<Digits50> up = smooth_elastic_force(hinge, ahead),
+                   down = smooth_elastic_force(hinge, behind);
     for (int row = 0; row < 12; ++row) {
       const Digits50 entry =
-          (component(up[size_t(row / 3)], row % 3) - component(down[size_t(row / 3)], row % 3)) / (2 * step);
+          (component(up[size_t(row / 3)], row % 3) - component(down[size_t(row / 3)], row % 3)) /
+          (2 * step);
       result.value(row, column) = rounded(entry).value;
       result.uncertainty = std::max(result.uncertainty, rounded(entry).uncertainty);
     }
@@ -253,8 +263,8 @@ VectorsEstimate<2> spring_elastic_50(const SpringInput& spring) {
 VectorsEstimate<2> spring_damping_50(const SpringInput& spring) {
   const SpringLaw<Digits50> law = check_finite<Digits50>(spring);
   const Triple<Digits50> difference = lift<Digits50>(spring.v[1]) - lift<Digits50>(spring.v[0]);
-  const Triple<Digits50> on_a =
-      spring_damping_force(lift<Digits50>(spring.x[0]), lift<Digits50>(spring.x[1]), difference, law);
+  const Triple<Digits50> on_a = spring_damping_force(lift<Digits50>(spring.x[0]),
+                                                     lift<Digits50>(spring.x[1]), difference, law);
   return rounded(std::array{on_a, -on_a});
 }
 
@@ -265,8 +275,8 @@ Estimate spring_energy_50(const SpringInput& spring) {
 
 VectorsEstimate<2> spring_energy_gradient_autodiff(const SpringInput& spring) {
   const SpringLaw<Gradient<6>> law = check_finite<Gradient<6>>(spring);
-  return rounded_gradient<2>(
-      spring_energy(lift_as_variables<6>(spring.x[0], 0), lift_as_variables<6>(spring.x[1], 3), law));
+  return rounded_gradient<2>(spring_energy(lift_as_variables<6>(spring.x[0], 0),
+                                           lift_as_variables<6>(spring.x[1], 3), law));
 }
 
 }  // namespace foldproof::oracles

@@ -7,9 +7,10 @@
 #include "verification/oracles/estimate.h"
 #include "verification/oracles/triple.h"
 
-// The forces of the paper, written down as they are defined and with no thought of speed or of rounding. The
-// templates run in any scalar (double, 50 digits, automatically differentiated numbers); the functions at the
-// end of the file run them in 50 digits and hand back doubles. They share nothing with the code they judge.
+// The forces of the paper, written down as they are defined and with no thought of speed or of
+// rounding. The templates run in any scalar (double, 50 digits, automatically differentiated
+// numbers); the functions at the end of the file run them in 50 digits and hand back doubles. They
+// share nothing with the code they judge.
 //
 //      x1
 //     /  \      N1 = (x1 - x3) x (x1 - x4)      |N1| = twice the area [m^2]
@@ -41,9 +42,9 @@ Scalar hinge_angle(const Quad<Scalar>& x) {
   return atan2(dot(cross(n1, n2), unit(shape.E)), dot(n1, n2));
 }
 
-/// sin(theta/2) [1] as printed: +- sqrt((1 - n1.n2)/2) with the sign of (n1 x n2).e (BMF03 section 4). Half
-/// of the scalar's digits are lost near theta = 0, where rounding may put n1.n2 above 1: that counts as flat.
-/// A zero sine counts as positive.
+/// sin(theta/2) [1] as printed: +- sqrt((1 - n1.n2)/2) with the sign of (n1 x n2).e (BMF03 section
+/// 4). Half of the scalar's digits are lost near theta = 0, where rounding may put n1.n2 above 1:
+/// that counts as flat. A zero sine counts as positive.
 template <class Scalar>
 Scalar sin_half_angle(const Quad<Scalar>& x) {
   using std::sqrt;
@@ -71,15 +72,16 @@ Scalar edge_length(const Quad<Scalar>& x) {
   return length(hinge_shape(x).E);
 }
 
-/// |E|^2 / (|N1| + |N2|) [1], the factor of the elastic force. Hand it the rest corners or the current ones.
+/// |E|^2 / (|N1| + |N2|) [1], the factor of the elastic force. Hand it the rest corners or
+/// the current ones.
 template <class Scalar>
 Scalar anisotropy_factor(const Quad<Scalar>& x) {
   const HingeShape<Scalar> shape = hinge_shape(x);
   return dot(shape.E, shape.E) / (length(shape.N1) + length(shape.N2));
 }
 
-/// F_i = ke factor deflection u_i [N] with deflection = sin(theta/2) - sin(theta0/2) [1], ke [J] (BMF03
-/// section 4).
+/// F_i = ke factor deflection u_i [N] with deflection = sin(theta/2) - sin(theta0/2) [1], ke [J]
+/// (BMF03 section 4).
 template <class Scalar>
 Quad<Scalar> bending_elastic_force(const Quad<Scalar>& x, const Scalar& ke, const Scalar& factor,
                                    const Scalar& deflection) {
@@ -88,8 +90,8 @@ Quad<Scalar> bending_elastic_force(const Quad<Scalar>& x, const Scalar& ke, cons
   return {magnitude * u[0], magnitude * u[1], magnitude * u[2], magnitude * u[3]};
 }
 
-/// F_i = -kd factor (u.v) u_i [N] with v [m/s] (BMF03 section 4); kd in N s with the factor |E|, in J s with
-/// |E|^2/(|N1| + |N2|).
+/// F_i = -kd factor (u.v) u_i [N] with v [m/s] (BMF03 section 4); kd in N s with the factor |E|, in
+/// J s with |E|^2/(|N1| + |N2|).
 template <class Scalar>
 Quad<Scalar> bending_damping_force(const Quad<Scalar>& x, const Quad<Scalar>& v, const Scalar& kd,
                                    const Scalar& factor) {
@@ -120,7 +122,8 @@ struct SpringLaw {
 
 /// W = Y A_e/2 (|d|/L0 - 1)^2 [J], d = x_b - x_a.
 template <class Scalar>
-Scalar spring_energy(const Triple<Scalar>& xa, const Triple<Scalar>& xb, const SpringLaw<Scalar>& law) {
+Scalar spring_energy(const Triple<Scalar>& xa, const Triple<Scalar>& xb,
+                     const SpringLaw<Scalar>& law) {
   const Scalar strain = length(xb - xa) / law.rest_length - Scalar(1);
   return law.young * law.area * strain * strain / Scalar(2);
 }
@@ -130,15 +133,17 @@ template <class Scalar>
 Triple<Scalar> spring_elastic_force(const Triple<Scalar>& xa, const Triple<Scalar>& xb,
                                     const SpringLaw<Scalar>& law) {
   const Triple<Scalar> d = xb - xa;
-  const Scalar tension = law.young * law.area / law.rest_length * (length(d) / law.rest_length - Scalar(1));
+  const Scalar tension =
+      law.young * law.area / law.rest_length * (length(d) / law.rest_length - Scalar(1));
   return tension * unit(d);
 }
 
-/// Damping force on end a [N] for the velocity difference v_b - v_a [m/s]; end b feels the opposite.
-/// kd_s (A_e/L0^2) ((v_b - v_a).d^) d^.
+/// Damping force on end a [N] for the velocity difference v_b - v_a [m/s]; end b feels the
+/// opposite. kd_s (A_e/L0^2) ((v_b - v_a).d^) d^.
 template <class Scalar>
 Triple<Scalar> spring_damping_force(const Triple<Scalar>& xa, const Triple<Scalar>& xb,
-                                    const Triple<Scalar>& velocity_difference, const SpringLaw<Scalar>& law) {
+                                    const Triple<Scalar>& velocity_difference,
+                                    const SpringLaw<Scalar>& law) {
   const Triple<Scalar> direction = unit(xb - xa);
   const Scalar coefficient = law.damping * law.area / (law.rest_length * law.rest_length);
   return (coefficient * dot(velocity_difference, direction)) * direction;
@@ -187,9 +192,10 @@ struct VectorsEstimate {
   double uncertainty = 0;
 };
 
-// 50 digits inside, doubles outside; the inputs count as exact and the uncertainty is one rounding to double,
-// to which sin(theta/2) as printed, losing half of the digits, adds 1e-24. A hinge with a triangle of no
-// area, a spring of no length, an input that is not finite: InputError naming the quantity.
+// 50 digits inside, doubles outside; the inputs count as exact and the uncertainty is one
+// rounding to double, to which sin(theta/2) as printed, losing half of the digits, adds
+// 1e-24. A hinge with a triangle of no area, a spring of no length, an input that is not
+// finite: InputError naming the quantity.
 
 /// theta [rad] by atan2.
 Estimate hinge_angle_50(const std::array<Vector3, 4>& x);
@@ -200,8 +206,8 @@ Estimate sin_half_angle_50(const std::array<Vector3, 4>& x);
 /// u [1/m] as printed.
 VectorsEstimate<4> bending_mode_50(const std::array<Vector3, 4>& x);
 
-/// Elastic and damping forces on the four corners [N], and the energy [J]. The energy takes its factor at
-/// rest, whatever elastic_geometry says: at the current geometry there is none.
+/// Elastic and damping forces on the four corners [N], and the energy [J]. The energy takes its
+/// factor at rest, whatever elastic_geometry says: at the current geometry there is none.
 VectorsEstimate<4> bending_elastic_50(const HingeInput& hinge);
 VectorsEstimate<4> bending_damping_50(const HingeInput& hinge);
 Estimate bending_energy_50(const HingeInput& hinge);
@@ -212,14 +218,16 @@ VectorsEstimate<4> theta_gradient_autodiff(const std::array<Vector3, 4>& x);
 /// The same by central differences in 50 digits: shares no derivative rule with the former.
 VectorsEstimate<4> theta_gradient_differences(const std::array<Vector3, 4>& x);
 
-/// d(theta)/dt [rad/s] for corners moving with v [m/s], by automatic differentiation along the motion.
+/// d(theta)/dt [rad/s] for corners moving with v [m/s], by automatic differentiation
+/// along the motion.
 Estimate theta_rate_autodiff(const std::array<Vector3, 4>& x, const std::array<Vector3, 4>& v);
 
-/// Gradient of the bending energy with respect to the corners [N], by automatic differentiation; the elastic
-/// force with its factor at rest is minus this.
+/// Gradient of the bending energy with respect to the corners [N], by automatic differentiation;
+/// the elastic force with its factor at rest is minus this.
 VectorsEstimate<4> energy_gradient_autodiff(const HingeInput& hinge);
 
-/// A 12 x 12 matrix, three rows and columns a corner, and how far any entry of the truth may lie from it.
+/// A 12 x 12 matrix, three rows and columns a corner, and how far any entry of the truth
+/// may lie from it.
 struct MatrixEstimate {
   Eigen::Matrix<double, 12, 12> value;
   double uncertainty = 0;
@@ -229,10 +237,12 @@ struct MatrixEstimate {
 /// differentiation of the force as printed, with sin(theta/2) from the atan2 form.
 MatrixEstimate bending_elastic_derivative_autodiff(const HingeInput& hinge);
 
-/// The same by central differences of the force in 50 digits: shares no derivative rule with the former.
+/// The same by central differences of the force in 50 digits: shares no derivative rule
+/// with the former.
 MatrixEstimate bending_elastic_derivative_differences(const HingeInput& hinge);
 
-/// Forces on the two ends of a spring [N], its energy [J], and the gradient of that energy by autodiff [N].
+/// Forces on the two ends of a spring [N], its energy [J], and the gradient of that energy
+/// by autodiff [N].
 VectorsEstimate<2> spring_elastic_50(const SpringInput& spring);
 VectorsEstimate<2> spring_damping_50(const SpringInput& spring);
 Estimate spring_energy_50(const SpringInput& spring);

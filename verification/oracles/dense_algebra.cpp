@@ -13,7 +13,8 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
 }
 
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
+      .eigenvalues();
 }
 
 SymmetricModes symmetric_modes(const Eigen::MatrixXd& K) {
@@ -49,7 +50,8 @@ Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Ve
     return {0, axis.x(), axis.y(), axis.z()};
   }
   const Eigen::Vector3d v = a.cross(b) / (2 * half);
-  return Eigen::Quaterniond(half, v.x(), v.y(), v.z()).normalized();  // a small half is known to few digits
+  // a small half is known to few digits
+  return Eigen::Quaterniond(half, v.x(), v.y(), v.z()).normalized();
 }
 
 }  // namespace foldproof::oracles

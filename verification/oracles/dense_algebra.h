@@ -1,5 +1,5 @@
-// Eigenvalues, solutions and turns by Eigen's decompositions. Each takes seconds to compile wherever it
-// stands: here they are compiled once.
+// Eigenvalues, solutions and turns by Eigen's decompositions. Each takes seconds to compile
+// wherever it stands: here they are compiled once.
 #pragma once
 
 #include <Eigen/Core>

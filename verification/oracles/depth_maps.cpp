@@ -7,12 +7,14 @@ namespace foldproof::oracles {
 Estimate power_map(const Band& band, double phi) {
   const Digits50 low = band.nearest, high = band.reach, deepest = band.deepest;
   const Digits50 u = (phi + deepest) / (high + deepest);
-  const Digits50 exponent = (high + deepest) / (high - low);  // f'(tau) = (tau - eps) p/(tau + t^) = 1
+  // f'(tau) = (tau - eps) p/(tau + t^) = 1
+  const Digits50 exponent = (high + deepest) / (high - low);
   return rounded(Digits50(low + (high - low) * pow(u, exponent)));
 }
 
 Estimate blend_map(const Band& band, double phi) {
-  const Digits50 low = band.nearest, high = band.reach, whole = high + band.deepest, climb = high - low;
+  const Digits50 low = band.nearest, high = band.reach, whole = high + band.deepest,
+                 climb = high - low;
   const Digits50 w = climb / 2, s = phi + Digits50(band.deepest), bend = whole - w;
   // climb = m bend + w (m + 1)/2
   const Digits50 m = (climb - w / 2) / (bend + w / 2);

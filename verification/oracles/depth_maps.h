@@ -10,11 +10,13 @@ struct Band {
   double nearest, reach, deepest;
 };
 
-/// f(phi) = eps + (tau - eps) u^p with the exponent found from f'(tau) = 1. Right for -t^ <= phi <= tau [m].
+/// f(phi) = eps + (tau - eps) u^p with the exponent found from f'(tau) = 1. Right for -t^ <=
+/// phi <= tau [m].
 Estimate power_map(const Band& band, double phi);
 
-/// The map whose slope is m from -t^ on and rises from m to 1 over the last w = (tau - eps)/2, m such that f
-/// climbs from eps to tau: found by integrating the slope from -t^. Right for -t^ <= phi <= tau [m].
+/// The map whose slope is m from -t^ on and rises from m to 1 over the last w = (tau - eps)/2, m
+/// such that f climbs from eps to tau: found by integrating the slope from -t^. Right for -t^ <=
+/// phi <= tau [m].
 Estimate blend_map(const Band& band, double phi);
 
 }  // namespace foldproof::oracles

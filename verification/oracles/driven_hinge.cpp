@@ -12,7 +12,8 @@ PerParticle3 as_columns(const std::array<Vector3, 4>& corners) {
   return columns;
 }
 
-/// Area of a triangle by Heron's formula from its sides [m^2]: another road than the hinge's cross products.
+/// Area of a triangle by Heron's formula from its sides [m^2]: another road than the hinge's
+/// cross products.
 double triangle_area(const Vector3& p, const Vector3& q, const Vector3& r) {
   const double a = (q - p).norm(), b = (r - q).norm(), c = (p - r).norm(), half = (a + b + c) / 2;
   return std::sqrt(half * (half - a) * (half - b) * (half - c));
@@ -38,8 +39,8 @@ ClothDefinition driven_hinge(const DrivenHinge& problem) {
     return SpringDefinition{
         a, b, (rest[static_cast<std::size_t>(b)] - rest[static_cast<std::size_t>(a)]).norm(), area};
   };
-  cloth.springs = {spring(0, 2, first), spring(0, 3, first), spring(1, 2, second), spring(1, 3, second),
-                   spring(2, 3, both)};
+  cloth.springs = {spring(0, 2, first), spring(0, 3, first), spring(1, 2, second),
+                   spring(1, 3, second), spring(2, 3, both)};
   cloth.hinges = {hinge_at_rest({0, 1, 2, 3}, as_columns(rest), problem.hinge.theta0)};
   cloth.material = {problem.young,
                     problem.spring_damping,
@@ -55,7 +56,8 @@ ClothDefinition driven_hinge(const DrivenHinge& problem) {
 }
 
 std::vector<double> driven_hinge_start(const DrivenHinge& problem) {
-  return free_coordinates(driven_hinge(problem), {as_columns(problem.hinge.x), as_columns(problem.hinge.v)});
+  return free_coordinates(driven_hinge(problem),
+                          {as_columns(problem.hinge.x), as_columns(problem.hinge.v)});
 }
 
 }  // namespace foldproof::oracles

@@ -62,7 +62,8 @@ bool is_between(const std::vector<Triple<Scalar>>& crosses, const std::vector<Sc
 
 /// Is the origin in the polygon, seen along an axis on which n has the sign s?
 template <class Scalar, class Sign>
-bool turns_one_way(const Polygon<Scalar>& polygon, Scalar Triple<Scalar>::*axis, int s, const Sign& sign) {
+bool turns_one_way(const Polygon<Scalar>& polygon, Scalar Triple<Scalar>::*axis, int s,
+                   const Sign& sign) {
   for (const Triple<Scalar>& turn : polygon.turns)
     if (s * sign(turn.*axis) < 0) return false;
   return true;
@@ -86,14 +87,16 @@ std::vector<Polynomial> events(const Polygon<Polynomial>& polygon) {
   std::vector<Triple<Polynomial>> vectors = polygon.turns;
   vectors.insert(vectors.end(), polygon.other_crosses.begin(), polygon.other_crosses.end());
   vectors.push_back(polygon.n);
-  for (const Triple<Polynomial>& vector : vectors) all.insert(all.end(), {vector.x, vector.y, vector.z});
+  for (const Triple<Polynomial>& vector : vectors)
+    all.insert(all.end(), {vector.x, vector.y, vector.z});
   std::erase_if(all, [](const Polynomial& p) { return p.is_zero(); });
   return all;
 }
 
 bool ever_holds_origin(const Polygon<Polynomial>& polygon) {
   for (const int end : {0, 1})
-    if (holds_origin(polygon, [&](const Polynomial& p) { return sign_at(p, Dyadic{end, 0}); })) return true;
+    if (holds_origin(polygon, [&](const Polynomial& p) { return sign_at(p, Dyadic{end, 0}); }))
+      return true;
   for (const Polynomial& event : events(polygon)) {
     if (definite_sign(event) != 0) continue;
     for (const Root& root : roots_within(event))
@@ -102,7 +105,8 @@ bool ever_holds_origin(const Polygon<Polynomial>& polygon) {
   return false;
 }
 
-/// Are all d_i on one side of a plane across an axis, at the start and at the end, and so throughout?
+/// Are all d_i on one side of a plane across an axis, at the start and at the end,
+/// and so throughout?
 bool separated_by_an_axis(const std::vector<Exact>& at_start, const std::vector<Exact>& at_end) {
   for (const auto axis : {&Exact::x, &Exact::y, &Exact::z})
     for (const int side : {-1, 1}) {
@@ -136,8 +140,9 @@ Quad<Whole> exact_points(const FourPoints& x, int exponent) {
 }  // namespace
 
 Motion exact_motion(const FourPoints& start, const FourPoints& displacement) {
-  const int k = common_exponent({start.col(0), start.col(1), start.col(2), start.col(3), displacement.col(0),
-                                 displacement.col(1), displacement.col(2), displacement.col(3)});
+  const int k =
+      common_exponent({start.col(0), start.col(1), start.col(2), start.col(3), displacement.col(0),
+                       displacement.col(1), displacement.col(2), displacement.col(3)});
   return {exact_points(start, k), exact_points(displacement, k)};
 }
 
@@ -161,7 +166,8 @@ Motion motion_between(const std::array<std::array<Fraction, 3>, 8>& points) {
     const auto times_common = [&](const Fraction& f) {
       return Whole(f.numerator * (common / f.denominator));
     };
-    return Exact{times_common(points[i][0]), times_common(points[i][1]), times_common(points[i][2])};
+    return Exact{times_common(points[i][0]), times_common(points[i][1]),
+                 times_common(points[i][2])};
   };
   Motion motion;
   for (std::size_t i = 0; i < 4; ++i) {

@@ -24,8 +24,8 @@ bool boxes_meet(const Box& a, const Box& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
-/// An edge from p to q, and a triangle; if they share a particle, then it is p and the triangle's first
-/// corner.
+/// An edge from p to q, and a triangle; if they share a particle, then it is p and the
+/// triangle's first corner.
 struct Pair {
   Vector3 p, q;  // m
   Corners3 t;    // m
@@ -34,20 +34,21 @@ struct Pair {
 
 // ---- what doubles can say for sure
 
-/// Sign of the area of a, b, c seen along an axis, or 0 if doubles cannot tell: Shewchuk (1997), (3 + 16 e) e
-/// times the same sum of absolute values, e half the spacing of doubles at 1; the least normal number is
-/// there for underflow.
+/// Sign of the area of a, b, c seen along an axis, or 0 if doubles cannot tell: Shewchuk (1997),
+/// (3 + 16 e) e times the same sum of absolute values, e half the spacing of doubles at 1; the
+/// least normal number is there for underflow.
 int sure_turn(const Vector3& a, const Vector3& b, const Vector3& c, int axis) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const double left = (b[u] - a[u]) * (c[v] - a[v]), right = (b[v] - a[v]) * (c[u] - a[u]);
   const double bound =
-      4 * (0.5 * std::numeric_limits<double>::epsilon()) * (std::abs(left) + std::abs(right)) + 1e-290;
+      4 * (0.5 * std::numeric_limits<double>::epsilon()) * (std::abs(left) + std::abs(right)) +
+      1e-290;
   const double area = left - right;
   return area > bound ? 1 : area < -bound ? -1 : 0;
 }
 
-/// Seen along the axis, is the edge surely on the outer side of one of the triangle's? A shared corner may
-/// lie on it.
+/// Seen along the axis, is the edge surely on the outer side of one of the triangle's? A shared
+/// corner may lie on it.
 bool is_beyond_a_side(const Pair& pair, int axis) {
   const Corners3& t = pair.t;
   const int inner = sure_turn(t[0], t[1], t[2], axis);
@@ -142,9 +143,11 @@ Box box_of(const PerParticle3& x, const Corners& t) {
 /// Boxes by where they begin along an axis, and the farthest end of each and those before it.
 class Sweep {
  public:
-  Sweep(std::vector<Box> boxes, int axis) : boxes_(std::move(boxes)), axis_(axis), order_(boxes_.size()) {
+  Sweep(std::vector<Box> boxes, int axis)
+      : boxes_(std::move(boxes)), axis_(axis), order_(boxes_.size()) {
     std::iota(order_.begin(), order_.end(), 0);
-    std::sort(order_.begin(), order_.end(), [&](int i, int k) { return begin_of(i) < begin_of(k); });
+    std::sort(order_.begin(), order_.end(),
+              [&](int i, int k) { return begin_of(i) < begin_of(k); });
     double farthest = -std::numeric_limits<double>::infinity();
     for (const int i : order_)
       farthest_.push_back(farthest = std::max(farthest, boxes_[std::size_t(i)].high[axis_]));
@@ -155,7 +158,8 @@ class Sweep {
   void meeting(const Box& box, const Visit& visit) const {
     const auto first =
         std::lower_bound(farthest_.begin(), farthest_.end(), box.low[axis_]) - farthest_.begin();
-    for (std::size_t k = std::size_t(first); k < order_.size() && begin_of(order_[k]) <= box.high[axis_]; ++k)
+    for (std::size_t k = std::size_t(first);
+         k < order_.size() && begin_of(order_[k]) <= box.high[axis_]; ++k)
       if (boxes_meet(boxes_[std::size_t(order_[k])], box)) visit(order_[k]);
   }
 
@@ -178,18 +182,22 @@ Sweep sweep_over(const PerParticle3& x, const std::vector<Corners>& triangles) {
 
 /// The pair, turned so that what is shared comes first; false if the edge is the triangle's own.
 bool make_pair(const PerParticle3& x, Ends edge, Corners t, Pair& pair) {
-  const auto belongs = [&](int particle) { return std::find(t.begin(), t.end(), particle) != t.end(); };
+  const auto belongs = [&](int particle) {
+    return std::find(t.begin(), t.end(), particle) != t.end();
+  };
   if (belongs(edge[1])) std::swap(edge[0], edge[1]);
   if (belongs(edge[1])) return false;
   const auto shared = std::find(t.begin(), t.end(), edge[0]);
   if (shared != t.end()) std::rotate(t.begin(), shared, t.end());
-  pair = {x.col(edge[0]), x.col(edge[1]), {x.col(t[0]), x.col(t[1]), x.col(t[2])}, shared != t.end()};
+  pair = {
+      x.col(edge[0]), x.col(edge[1]), {x.col(t[0]), x.col(t[1]), x.col(t[2])}, shared != t.end()};
   return true;
 }
 
 }  // namespace
 
-std::vector<EdgeInTriangle> exact_crossings(const PerParticle3& x, const std::vector<Corners>& triangles) {
+std::vector<EdgeInTriangle> exact_crossings(const PerParticle3& x,
+                                            const std::vector<Corners>& triangles) {
   if (!x.allFinite()) throw std::invalid_argument("positions that are not finite cross nothing");
   if (triangles.empty()) return {};
   const Sweep sweep = sweep_over(x, triangles);
@@ -198,7 +206,8 @@ std::vector<EdgeInTriangle> exact_crossings(const PerParticle3& x, const std::ve
     const Vector3 a = x.col(edge[0]), b = x.col(edge[1]);
     sweep.meeting({a.cwiseMin(b), a.cwiseMax(b)}, [&](int t) {
       Pair pair;
-      if (make_pair(x, edge, triangles[std::size_t(t)], pair) && is_counted(pair)) found.push_back({edge, t});
+      if (make_pair(x, edge, triangles[std::size_t(t)], pair) && is_counted(pair))
+        found.push_back({edge, t});
     });
   }
   std::sort(found.begin(), found.end());

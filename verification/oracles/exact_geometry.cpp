@@ -46,17 +46,19 @@ bool holds(const Corners3& t, const Vector3& p, int axis) {
   return !(left && right);
 }
 
-/// Have the closed segments p q and a b a point in common? All lie in one plane; at least one of p, q, a, b
-/// is off the line of the other two, or nothing but an end can be common, which `holds` has seen.
-bool segments_cross(const Vector3& p, const Vector3& q, const Vector3& a, const Vector3& b, int axis) {
+/// Have the closed segments p q and a b a point in common? All lie in one plane; at least one of
+/// p, q, a, b is off the line of the other two, or nothing but an end can be common, which
+/// `holds` has seen.
+bool segments_cross(const Vector3& p, const Vector3& q, const Vector3& a, const Vector3& b,
+                    int axis) {
   const int pa = turn(p, q, a, axis), pb = turn(p, q, b, axis);
   const int ap = turn(a, b, p, axis), aq = turn(a, b, q, axis);
   if (pa == 0 && pb == 0) return false;
   return pa * pb <= 0 && ap * aq <= 0;
 }
 
-/// The same for a segment in the triangle's plane. A segment along an edge has an end in the triangle, or
-/// crosses the two other edges at that edge's ends.
+/// The same for a segment in the triangle's plane. A segment along an edge has an end in the
+/// triangle, or crosses the two other edges at that edge's ends.
 bool coplanar_segment_meets(const Vector3& p, const Vector3& q, const Corners3& t) {
   const int axis = axis_of(t);
   if (holds(t, p, axis) || holds(t, q, axis)) return true;
@@ -65,8 +67,8 @@ bool coplanar_segment_meets(const Vector3& p, const Vector3& q, const Corners3& 
   return false;
 }
 
-/// How a line from p to q passes a triangle whose plane it crosses: the signs of its three turns about the
-/// edges.
+/// How a line from p to q passes a triangle whose plane it crosses: the signs of its three turns
+/// about the edges.
 struct Passage {
   bool misses, touches_edge;
 };
@@ -86,7 +88,8 @@ bool segment_meets(const Vector3& p, const Vector3& q, const Corners3& t) {
 }
 
 bool an_edge_meets(const Corners3& s, const Corners3& t) {
-  return segment_meets(s[0], s[1], t) || segment_meets(s[1], s[2], t) || segment_meets(s[2], s[0], t);
+  return segment_meets(s[0], s[1], t) || segment_meets(s[1], s[2], t) ||
+         segment_meets(s[2], s[0], t);
 }
 
 struct Bounds {
@@ -103,11 +106,13 @@ bool boxes_meet(const Bounds& a, const Bounds& b) {
 
 std::vector<Bounds> all_bounds(const TriangleSoup& soup) {
   std::vector<Bounds> bounds;
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t) bounds.push_back(bounds_of(corners(soup, t)));
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    bounds.push_back(bounds_of(corners(soup, t)));
   return bounds;
 }
 
-/// A point far outside the surface, each time another, so placed that the box of the segment from p is slim.
+/// A point far outside the surface, each time another, so placed that the box of the segment
+/// from p is slim.
 Vector3 far_point(const TriangleSoup& surface, const Vector3& p, std::mt19937_64& bits) {
   const Vector3 high = surface.x.rowwise().maxCoeff(), low = surface.x.rowwise().minCoeff();
   const double size = (high - low).maxCoeff();
@@ -119,8 +124,8 @@ Vector3 far_point(const TriangleSoup& surface, const Vector3& p, std::mt19937_64
 /// What a segment from p says.
 enum class Crossings { even, odd, on_surface, unclear };
 
-Crossings crossings(const TriangleSoup& surface, const std::vector<Bounds>& bounds, const Vector3& p,
-                    const Vector3& far) {
+Crossings crossings(const TriangleSoup& surface, const std::vector<Bounds>& bounds,
+                    const Vector3& p, const Vector3& far) {
   const Bounds box{p.cwiseMin(far), p.cwiseMax(far)};
   bool is_odd = false;
   for (std::size_t k = 0; k < bounds.size(); ++k) {
@@ -159,7 +164,8 @@ bool edge_clears(const Exact& a, const Exact& b, const Whole& squared_radius) {
 /// Is no point within the triangle within r of the origin, its edges apart?
 bool face_clears(const std::array<Exact, 3>& t, const Whole& squared_radius) {
   const Exact n = cross(t[1] - t[0], t[2] - t[0]);
-  for (int k = 0; k < 3; ++k)  // the origin's foot is outside an edge: the nearest point is on the border
+  // the origin's foot is outside an edge: the nearest point is on the border
+  for (int k = 0; k < 3; ++k)
     if (dot(cross(n, t[(k + 1) % 3] - t[k]), t[k]) >= 0) return true;
   const Whole height = dot(n, t[0]);
   return height * height > squared_radius * dot(n, n);
@@ -191,9 +197,9 @@ TriangleSoup box_between(const Vector3& low, const Vector3& high) {
   return box;
 }
 
-// The determinant in double is right in sign where it exceeds the bound of Shewchuk (1997), (7 + 56 e) e
-// times the same sum of absolute values, e half the spacing of doubles at 1; the least normal number is there
-// for underflow.
+// The determinant in double is right in sign where it exceeds the bound of Shewchuk (1997), (7 + 56
+// e) e times the same sum of absolute values, e half the spacing of doubles at 1; the least normal
+// number is there for underflow.
 int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
   const Vector3 p = b - a, q = c - a, r = d - a;
   const double xy = p.x() * q.y(), yx = p.y() * q.x(), yz = p.y() * q.z();
@@ -243,7 +249,8 @@ std::vector<int> triangles_in_body(const TriangleSoup& cloth, const TriangleSoup
   return found;
 }
 
-std::vector<int> triangles_in_ball(const TriangleSoup& cloth, const Vector3& centre, double radius) {
+std::vector<int> triangles_in_ball(const TriangleSoup& cloth, const Vector3& centre,
+                                   double radius) {
   std::vector<int> found;
   for (std::size_t k = 0; k < cloth.triangles.size(); ++k)
     if (!clears_ball(corners(cloth, k), centre, radius)) found.push_back(int(k));

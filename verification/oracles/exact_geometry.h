@@ -1,5 +1,5 @@
-// Who is inside what, decided without rounding: the given doubles are taken as exact numbers, and every
-// decision is the sign of a polynomial of them in rational arithmetic.
+// Who is inside what, decided without rounding: the given doubles are taken as exact numbers, and
+// every decision is the sign of a polynomial of them in rational arithmetic.
 #pragma once
 
 #include <array>
@@ -19,7 +19,8 @@ struct TriangleSoup {
 
 Corners3 corners(const TriangleSoup& soup, std::size_t triangle);
 
-/// The surface of a box along the axes, two triangles a side, its corners exactly of these coordinates [m].
+/// The surface of a box along the axes, two triangles a side, its corners exactly of these
+/// coordinates [m].
 TriangleSoup box_between(const Vector3& low, const Vector3& high);
 
 /// The sign of det(b - a, c - a, d - a): +1, 0 or -1.
@@ -30,16 +31,16 @@ bool triangles_meet(const Corners3& s, const Corners3& t);
 
 enum class Side { inside, on_surface, outside };
 
-/// Of a closed surface, by the number of times that a segment to a point far off crosses it; of segments that
-/// touch an edge or a corner another is tried. Orientation does not matter. Throws std::runtime_error if none
-/// of a hundred segments is clean.
+/// Of a closed surface, by the number of times that a segment to a point far off crosses it; of
+/// segments that touch an edge or a corner another is tried. Orientation does not matter. Throws
+/// std::runtime_error if none of a hundred segments is clean.
 Side side_of(const TriangleSoup& surface, const Vector3& p);
 
 /// Is every point of the triangle farther from `centre` than `radius` [m]?
 bool clears_ball(const Corners3& t, const Vector3& centre, double radius);
 
-/// Triangles of the cloth that have a point in common with the closed body, surface or inside: those that
-/// meet a triangle of the surface, or have a corner inside. Ascending.
+/// Triangles of the cloth that have a point in common with the closed body, surface or inside:
+/// those that meet a triangle of the surface, or have a corner inside. Ascending.
 std::vector<int> triangles_in_body(const TriangleSoup& cloth, const TriangleSoup& body);
 std::vector<int> triangles_in_ball(const TriangleSoup& cloth, const Vector3& centre, double radius);
 

@@ -68,20 +68,22 @@ StepEntries step_entries(Scheme scheme, const Oscillator& oscillator, double h) 
     case Scheme::central_newmark:
       return {(p - b) / p, step / p, -b / step * (2 - b) / p, (1 - a - b) / p};
     case Scheme::variable_step_newmark:
-      return {(p - b) / p, step / p, -b / step * (2 * p - b) / (p * p), ((1 - a) * p - b) / (p * p)};
+      return {(p - b) / p, step / p, -b / step * (2 * p - b) / (p * p),
+              ((1 - a) * p - b) / (p * p)};
   }
   throw InputError("oracle exact_solutions: step_matrix: no such scheme");
 }
 
 }  // namespace
 
-// With gamma = c/2: x(t) = e^{-gamma t} (x0 even + (v0 + gamma x0) odd), y = x e^{gamma t} solving
-// y'' = -(k - gamma^2) y; the velocity follows from v'' = -k v - c v' with v(0) = v0, v'(0) = -k x0 - c v0.
+// With gamma = c/2: x(t) = e^{-gamma t} (x0 even + (v0 + gamma x0) odd), y = x e^{gamma t}
+// solving y'' = -(k - gamma^2) y; the velocity follows from v'' = -k v - c v' with v(0) = v0,
+// v'(0) = -k x0 - c v0.
 OscillatorEstimate oscillator_at(const Oscillator& oscillator, double t) {
   require_oscillator(oscillator);
   require(t >= 0 && std::isfinite(t), "time must be at least 0 and finite");
-  const Digits50 k = oscillator.stiffness, c = oscillator.damping, x0 = oscillator.x0, v0 = oscillator.v0,
-                 time = t;
+  const Digits50 k = oscillator.stiffness, c = oscillator.damping, x0 = oscillator.x0,
+                 v0 = oscillator.v0, time = t;
   const Digits50 gamma = c / 2;
   const Fundamental y = fundamental(k - gamma * gamma, time);
   const Digits50 decay = exp(-gamma * time);
@@ -152,8 +154,9 @@ Estimate steady_rotation_length(const SpringPair& pair, double omega) {
   const Digits50 rest_length = pair.rest_length, spin = omega;
   const Digits50 stiffness = Digits50(pair.young) * pair.area / (rest_length * rest_length);
   const Digits50 remaining = 1 - mass * spin * spin / stiffness;
-  require(remaining > 0,
-          "steady_rotation_length: omega is too fast for the spring, lower it or stiffen the spring");
+  require(
+      remaining > 0,
+      "steady_rotation_length: omega is too fast for the spring, lower it or stiffen the spring");
   return rounded(rest_length / remaining);
 }
 

@@ -5,8 +5,8 @@
 #include "reference/types.h"
 #include "verification/oracles/estimate.h"
 
-// Motions and equilibria known in closed form. Each is evaluated in 50 digits, so the uncertainty is one
-// rounding of the answer. A parameter out of its range: InputError naming it and the range.
+// Motions and equilibria known in closed form. Each is evaluated in 50 digits, so the uncertainty
+// is one rounding of the answer. A parameter out of its range: InputError naming it and the range.
 
 namespace foldproof::oracles {
 
@@ -27,24 +27,27 @@ struct OscillatorEstimate {
 /// Exact state at time t [s] >= 0; under-, over- and critically damped.
 OscillatorEstimate oscillator_at(const Oscillator& oscillator, double t);
 
-/// What velocity Verlet makes of the undamped oscillator after n steps of h [s]: with sin(phi) = omega h/2,
+/// What velocity Verlet makes of the undamped oscillator after n steps of h [s]: with
+/// sin(phi) = omega h/2,
 ///   x_n = x0 cos(2 n phi) + v0/(omega cos(phi)) sin(2 n phi)
 ///   v_n = v0 cos(2 n phi) - x0 omega cos(phi) sin(2 n phi)
-/// Needs damping = 0, stiffness > 0 and omega h < 2. Undamped, schemes A, B and C all are velocity Verlet.
+/// Needs damping = 0, stiffness > 0 and omega h < 2. Undamped, schemes A, B and C all are
+/// velocity Verlet.
 OscillatorEstimate verlet_oscillator(const Oscillator& oscillator, double h, long n);
 
 /// The three mixed schemes of BMF03 section 3, in the paper's order.
 enum class Scheme { mixed, central_newmark, variable_step_newmark };
 
-/// The 2 x 2 matrix that takes (x_n, v_n) to (x_{n+1}, v_{n+1}) in one step h [s] > 0; the oscillator's x0,
-/// v0 are not used. Derived by hand from the lines of the scheme; rounded to double at the end.
+/// The 2 x 2 matrix that takes (x_n, v_n) to (x_{n+1}, v_{n+1}) in one step h [s] > 0; the
+/// oscillator's x0, v0 are not used. Derived by hand from the lines of the scheme; rounded to
+/// double at the end.
 Eigen::Matrix2d step_matrix(Scheme scheme, const Oscillator& oscillator, double h);
 
 /// x and v after one step h [s] > 0 of the scheme from the oscillator's x0, v0.
 OscillatorEstimate stepped_oscillator(Scheme scheme, const Oscillator& oscillator, double h);
 
-/// The step h [s] at which the spectral radius of step_matrix leaves 1: 2/omega for A and B,
-/// (c + sqrt(c^2 + 4 k))/k for C. Needs stiffness > 0.
+/// The step h [s] at which the spectral radius of step_matrix leaves 1: 2/omega for A and B, (c +
+/// sqrt(c^2 + 4 k))/k for C. Needs stiffness > 0.
 Estimate largest_stable_step(Scheme scheme, const Oscillator& oscillator);
 
 /// Position [m] or, per coordinate, v0 + g t [m/s] of a body in the field g [m/s^2] at time t [s].
@@ -71,9 +74,10 @@ struct SpringPair {
   double mass_b = 0;       // [kg], > 0
 };
 
-/// Length [m] at which the pair turns steadily about its centre of mass at omega [rad/s]: spring force = m
-/// omega^2 length with the reduced mass m = m_a m_b/(m_a + m_b), so length = L0/(1 - m omega^2 L0^2/(Y A_e)).
-/// At or above the omega where that denominator vanishes no such motion exists: InputError.
+/// Length [m] at which the pair turns steadily about its centre of mass at omega [rad/s]: spring
+/// force = m omega^2 length with the reduced mass m = m_a m_b/(m_a + m_b), so length = L0/(1 - m
+/// omega^2 L0^2/(Y A_e)). At or above the omega where that denominator vanishes no such motion
+/// exists: InputError.
 Estimate steady_rotation_length(const SpringPair& pair, double omega);
 
 /// Two-dimensional elastic moduli of a sheet.
@@ -82,9 +86,10 @@ struct SheetModuli {
   Estimate poisson;  // [1]
 };
 
-/// A sheet of equilateral triangles whose edges are springs of modulus Y [N/m] with A_e = both triangles:
-/// strain energy per area (Y/2) sum over the three directions of (n.strain n)^2, whose fourth-order mean
-/// 3/8 (dd + dd + dd) gives C1111 = 9 Y/8, C1122 = 3 Y/8, hence Young's modulus Y and Poisson's ratio 1/3.
+/// A sheet of equilateral triangles whose edges are springs of modulus Y [N/m] with A_e = both
+/// triangles: strain energy per area (Y/2) sum over the three directions of (n.strain n)^2, whose
+/// fourth-order mean 3/8 (dd + dd + dd) gives C1111 = 9 Y/8, C1122 = 3 Y/8, hence Young's modulus Y
+/// and Poisson's ratio 1/3.
 SheetModuli equilateral_sheet_moduli(double young);
 
 }  // namespace foldproof::oracles

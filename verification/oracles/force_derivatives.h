@@ -14,7 +14,8 @@ MatrixEstimate bending_force_derivative_autodiff(const HingeInput& hinge);
 /// The same by central differences: shares no derivative rule with the former.
 MatrixEstimate bending_force_derivative_differences(const HingeInput& hinge);
 
-/// By the two ends of a spring: a 6 x 6 matrix [N/m], and how far any entry of the truth may lie from it.
+/// By the two ends of a spring: a 6 x 6 matrix [N/m], and how far any entry of the truth
+/// may lie from it.
 struct SpringMatrixEstimate {
   Eigen::Matrix<double, 6, 6> value;
   double uncertainty = 0;

@@ -24,7 +24,8 @@ ForecastAnswer forecast_answer(const ForecastInput& input) {
   const Triple<Digits50> sliding = relative - along * N;
   const Digits50 speed = length(sliding);
   const Digits50 kept = 1 - input.friction * push / speed;
-  const Digits50 lost = speed == 0 ? Digits50(0) : Digits50(kept > 0 ? Digits50(1 - kept) : Digits50(1));
+  const Digits50 lost =
+      speed == 0 ? Digits50(0) : Digits50(kept > 0 ? Digits50(1 - kept) : Digits50(1));
   return {rounded(phi_new).value, nearest(v + push * N - lost * sliding)};
 }
 

@@ -19,7 +19,9 @@ namespace {
 class Draw {
  public:
   explicit Draw(unsigned seed) : engine_(seed) {}
-  double between(double low, double high) { return low + (high - low) * double(engine_() >> 11) * 0x1p-53; }
+  double between(double low, double high) {
+    return low + (high - low) * double(engine_() >> 11) * 0x1p-53;
+  }
   Vector3 vector(double size) {
     const double x = between(-size, size), y = between(-size, size), z = between(-size, size);
     return {x, y, z};
@@ -42,11 +44,15 @@ class RowMaker {
     table.rows.emplace_back();
   }
 
-  void input(const std::string& name, const std::string& unit, double value) { put(name, unit, true, value); }
+  void input(const std::string& name, const std::string& unit, double value) {
+    put(name, unit, true, value);
+  }
   void output(const std::string& name, const std::string& unit, double value) {
     put(name, unit, false, value);
   }
-  void input(const std::string& name, const std::string& unit, const Vector3& v) { put(name, unit, true, v); }
+  void input(const std::string& name, const std::string& unit, const Vector3& v) {
+    put(name, unit, true, v);
+  }
   void output(const std::string& name, const std::string& unit, const Vector3& v) {
     put(name, unit, false, v);
   }
@@ -74,8 +80,8 @@ void put_corners(RowMaker& row, const std::string& name, const std::string& unit
   }
 }
 
-/// A hinge of edges of some centimetres: x1 and x2 on either side of the edge from x3 to x4, folded by any
-/// angle.
+/// A hinge of edges of some centimetres: x1 and x2 on either side of the edge from x3 to x4,
+/// folded by any angle.
 Corners hinge_corners(Draw& draw) {
   const double angle = draw.between(-2.9, 2.9), length = draw.between(0.01, 0.05);
   const double width1 = draw.between(0.005, 0.05), foot1 = draw.between(-0.01, 0.06);
@@ -104,7 +110,8 @@ void bending_row(Draw& draw, RowMaker& row) {
   put_corners(row, "u", "1/m", false, oracles::bending_mode_50(hinge.x).value);
   put_corners(row, "elastic_rest_weighted", "N", false, oracles::bending_elastic_50(hinge).value);
   hinge.elastic_geometry = oracles::Geometry::current;
-  put_corners(row, "elastic_current_weighted", "N", false, oracles::bending_elastic_50(hinge).value);
+  put_corners(row, "elastic_current_weighted", "N", false,
+              oracles::bending_elastic_50(hinge).value);
   put_corners(row, "damping", "N", false, oracles::bending_damping_50(hinge).value);
   row.output("energy_rest_weighted", "J", oracles::bending_energy_50(hinge).value);
 }
@@ -204,7 +211,8 @@ void sticking_row(Draw& draw, RowMaker& row) {
   // within the distance at which bonds break
   const Vector3 aside = draw.direction();
   const double distance = stuck.far * draw.between(0.01, 0.95);
-  stuck.x = a + weight_b * ab + weight_c * ac + height * ab.cross(ac).normalized() + distance * aside;
+  stuck.x =
+      a + weight_b * ab + weight_c * ac + height * ab.cross(ac).normalized() + distance * aside;
   const oracles::StickingAnswer answer = oracles::sticking_answer(stuck);
   row.input("x", "m", stuck.x);
   row.input("a", "m", stuck.corners[0][0]);
@@ -231,42 +239,35 @@ struct Maker {
 
 constexpr std::array<Maker, 7> makers{{
     {"bending",
-     "Forces of a hinge, BMF03 section 4: ke |E|^2/(|N1| + |N2|) (sin(theta/2) - sin(theta0/2)) u, the "
-     "factor at rest "
-     "or now; -kd |E| (u.v) u; the energy of the rest-weighted force. Corners x1, x2 opposite, x3 to x4 the "
-     "edge.",
+     "Forces of a hinge, BMF03 section 4: ke |E|^2/(|N1| + |N2|) (sin(theta/2) - sin(theta0/2)) u, "
+     "the factor at rest or now; -kd |E| (u.v) u; the energy of the rest-weighted force. Corners "
+     "x1, x2 opposite, x3 to x4 the edge.",
      bending_row},
     {"springs",
-     "Force of a spring on its end a, BMF03 section 3: Y A/L0 (|d|/L0 - 1) d^, kd A/L0^2 ((vb - va).d^) d^, "
-     "d = xb - "
-     "xa, and Y A/2 (|d|/L0 - 1)^2. A: rest area of the edge's triangles.",
+     "Force of a spring on its end a, BMF03 section 3: Y A/L0 (|d|/L0 - 1) d^, kd A/L0^2 ((vb - "
+     "va).d^) d^, d = xb - xa, and Y A/2 (|d|/L0 - 1)^2. A: rest area of the edge's triangles.",
      spring_row},
     {"integrator",
-     "One step h of schemes A, B, C of BMF03 section 3 on x'' = -k x - c v (elastic part explicit, damping "
-     "implicit), "
-     "and the exact motion.",
+     "One step h of schemes A, B, C of BMF03 section 3 on x'' = -k x - c v (elastic part explicit, "
+     "damping implicit), and the exact motion.",
      integrator_row},
     {"forecast",
-     "Interface forecasting without friction, BMF03 section 5.2: phi_new = phi + tau (v - v_object).N; if it "
-     "is "
-     "negative, v_new = v - (phi_new/tau) N. N counts as it stands.",
+     "Interface forecasting without friction, BMF03 section 5.2: phi_new = phi + tau (v - "
+     "v_object).N; if it is negative, v_new = v - (phi_new/tau) N. N counts as it stands.",
      forecast_row},
     {"friction",
-     "The same with Coulomb friction: the tangential relative velocity is multiplied by max(0, 1 - mu "
-     "(-phi_new/tau)/|v_T|).",
+     "The same with Coulomb friction: the tangential relative velocity is multiplied by max(0, 1 - "
+     "mu (-phi_new/tau)/|v_T|).",
      friction_row},
     {"projection",
-     "Maps of signed distance of the fold-preserving projection, BMF03 section 5.3: max(phi, eps); eps + "
-     "(tau - eps) "
-     "((phi + deepest)/(tau + deepest))^((tau + deepest)/(tau - eps)); and linear up to w = (tau - eps)/2 "
-     "before tau, "
-     "its slope rising evenly to 1 from there.",
+     "Maps of signed distance of the fold-preserving projection, BMF03 section 5.3: max(phi, eps); "
+     "eps + (tau - eps) ((phi + deepest)/(tau + deepest))^((tau + deepest)/(tau - eps)); and "
+     "linear up to w = (tau - eps)/2 before tau, its slope rising evenly to 1 from there.",
      projection_row},
     {"sticking",
-     "A particle bound to a triangle, BMF03 section 6: target = a + weight_b (b - a) + weight_c (c - a) + "
-     "height n, k = "
-     "k0 (1 - d^2/far^2)^2, and minus the gradient of k0 (d^2/2 - d^4/(2 far^2) + d^6/(6 far^4)) by x, a, b, "
-     "c.",
+     "A particle bound to a triangle, BMF03 section 6: target = a + weight_b (b - a) + weight_c (c "
+     "- a) + height n, k = k0 (1 - d^2/far^2)^2, and minus the gradient of k0 (d^2/2 - d^4/(2 "
+     "far^2) + d^6/(6 far^4)) by x, a, b, c.",
      sticking_row},
 }};
 

@@ -1,5 +1,5 @@
-// Golden values: inputs and outputs of the paper's formulas, each output the double next to the truth, for
-// unit tests of any code in any language.
+// Golden values: inputs and outputs of the paper's formulas, each output the double next to the
+// truth, for unit tests of any code in any language.
 #pragma once
 
 #include <string>
@@ -21,8 +21,8 @@ struct GoldenTable {
 /// bending, springs, integrator, forecast, friction, projection, sticking.
 std::vector<std::string> golden_names();
 
-/// `count` >= 1 rows; the same seed gives the same rows. All computed with 50 digits and rounded once. Throws
-/// InputError that lists the names.
+/// `count` >= 1 rows; the same seed gives the same rows. All computed with 50 digits and rounded
+/// once. Throws InputError that lists the names.
 GoldenTable golden_values(const std::string& name, int count, unsigned seed);
 
 }  // namespace foldproof

@@ -34,7 +34,8 @@ bool all_finite(std::span<const double> y) {
   return std::all_of(y.begin(), y.end(), [](double component) { return std::isfinite(component); });
 }
 
-/// A right-hand side as GSL calls it, and what went wrong in it: exceptions must not pass through C.
+/// A right-hand side as GSL calls it, and what went wrong in it: exceptions must not
+/// pass through C.
 struct GuardedRightHandSide {
   const RightHandSide& rhs;
   std::size_t dimension;
@@ -70,11 +71,12 @@ struct Problem {
 std::string failure(const gsl_odeiv2_step_type* method, double t, int status) {
   const std::string reason =
       status == GSL_EBADFUNC ? "the right-hand side is not finite" : gsl_strerror(status);
-  return std::string("oracle gsl: ") + method->name + " stopped at t = " + std::to_string(t) + ": " + reason;
+  return std::string("oracle gsl: ") + method->name + " stopped at t = " + std::to_string(t) +
+         ": " + reason;
 }
 
-std::vector<std::vector<double>> integrate(const Problem& problem, const gsl_odeiv2_step_type* method,
-                                           double tolerance) {
+std::vector<std::vector<double>> integrate(const Problem& problem,
+                                           const gsl_odeiv2_step_type* method, double tolerance) {
   GuardedRightHandSide guarded{problem.rhs, problem.y0.size()};
   gsl_odeiv2_system system{call_right_hand_side, nullptr, guarded.dimension, &guarded};
   const double span = problem.times.back() - problem.t0;
@@ -88,7 +90,8 @@ std::vector<std::vector<double>> integrate(const Problem& problem, const gsl_ode
   std::vector<double> y(problem.y0.begin(), problem.y0.end());
   std::vector<std::vector<double>> values;
   for (const double wanted : problem.times) {
-    const int status = wanted > t ? gsl_odeiv2_driver_apply(driver.get(), &t, wanted, y.data()) : GSL_SUCCESS;
+    const int status =
+        wanted > t ? gsl_odeiv2_driver_apply(driver.get(), &t, wanted, y.data()) : GSL_SUCCESS;
     if (guarded.thrown) std::rethrow_exception(guarded.thrown);
     if (status != GSL_SUCCESS) throw std::runtime_error(failure(method, t, status));
     if (!all_finite(y)) throw std::runtime_error(failure(method, t, GSL_EOVRFLW));
@@ -125,21 +128,24 @@ struct FreeRootSolver {
 
 }  // namespace
 
-ReferenceSolution reference_solution(const RightHandSide& rhs, std::span<const double> y0, double t0,
-                                     std::span<const double> times, double tolerance) {
+ReferenceSolution reference_solution(const RightHandSide& rhs, std::span<const double> y0,
+                                     double t0, std::span<const double> times, double tolerance) {
   require(!y0.empty() && !times.empty(), "reference_solution: y0 and times must not be empty");
   require(all_finite(y0) && std::isfinite(t0), "reference_solution: y0 and t0 must be finite");
   require(times.front() >= t0 && std::is_sorted(times.begin(), times.end()),
           "reference_solution: times must ascend from t0");
   require(std::isfinite(times.back()), "reference_solution: times must be finite");
-  require(tolerance >= 1e-14 && tolerance <= 1e-3, "reference_solution: tolerance must be in [1e-14, 1e-3]");
+  require(tolerance >= 1e-14 && tolerance <= 1e-3,
+          "reference_solution: tolerance must be in [1e-14, 1e-3]");
   gsl_set_error_handler_off();
 
   const Problem problem{rhs, y0, t0, times};
   ReferenceSolution solution{
       {times.begin(), times.end()}, integrate(problem, gsl_odeiv2_step_rk8pd, tolerance), {}};
-  const std::vector<std::vector<double>> looser = integrate(problem, gsl_odeiv2_step_rk8pd, 10 * tolerance);
-  const std::vector<std::vector<double>> other = integrate(problem, gsl_odeiv2_step_rkck, tolerance);
+  const std::vector<std::vector<double>> looser =
+      integrate(problem, gsl_odeiv2_step_rk8pd, 10 * tolerance);
+  const std::vector<std::vector<double>> other =
+      integrate(problem, gsl_odeiv2_step_rkck, tolerance);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const std::vector<double>& y = solution.values[i];
     solution.uncertainty.push_back(
@@ -148,7 +154,8 @@ ReferenceSolution reference_solution(const RightHandSide& rhs, std::span<const d
   return solution;
 }
 
-Estimate bracketed_root(const std::function<double(double)>& f, double lower, double upper, double width) {
+Estimate bracketed_root(const std::function<double(double)>& f, double lower, double upper,
+                        double width) {
   require(lower < upper && std::isfinite(lower) && std::isfinite(upper),
           "bracketed_root: lower must be below upper");
   require(width >= 0, "bracketed_root: width must be at least 0");
@@ -164,14 +171,16 @@ Estimate bracketed_root(const std::function<double(double)>& f, double lower, do
   require(status != GSL_EINVAL, "bracketed_root: f must have opposite signs at lower and upper");
   for (int i = 0; i < most_root_steps && status == GSL_SUCCESS; ++i) {
     const double root = gsl_root_fsolver_root(solver.get());
-    const double bracket = gsl_root_fsolver_x_upper(solver.get()) - gsl_root_fsolver_x_lower(solver.get());
+    const double bracket =
+        gsl_root_fsolver_x_upper(solver.get()) - gsl_root_fsolver_x_lower(solver.get());
     if (bracket <= std::max(width, 4 * std::numeric_limits<double>::epsilon() * std::abs(root))) {
       return {root, bracket};
     }
     status = gsl_root_fsolver_iterate(solver.get());
     if (guarded.thrown) std::rethrow_exception(guarded.thrown);
   }
-  const std::string reason = status == GSL_SUCCESS ? "the bracket does not shrink" : gsl_strerror(status);
+  const std::string reason =
+      status == GSL_SUCCESS ? "the bracket does not shrink" : gsl_strerror(status);
   throw std::runtime_error("oracle gsl: bracketed_root: " + reason);
 }
 

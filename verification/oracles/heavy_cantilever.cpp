@@ -9,11 +9,12 @@
 
 // Shooting from the tip. With u = 1 - s and phi = pi/2 - theta the strip obeys
 //   phi'' = gamma u sin(phi),   phi'(0) = 0,   phi(1) = pi/2,
-// and phi(0) = b is to be found. For large gamma b is as small as exp(-2/3 sqrt(gamma)), so the unknown is ln
-// b, and what is integrated are l = ln(phi) and r = phi'/phi, which stay of moderate size:
+// and phi(0) = b is to be found. For large gamma b is as small as exp(-2/3 sqrt(gamma)), so
+// the unknown is ln b, and what is integrated are l = ln(phi) and r = phi'/phi, which stay
+// of moderate size:
 //   l' = r,   r' = gamma u sin(phi)/phi - r^2,   H' = cos(phi),   W' = sin(phi).
-// Beyond phi = pi/2, which the solution only reaches at the clamp, sin(phi) is held at 1: phi(1) then rises
-// monotonically with b, and the strips with loops, which are other solutions, drop out.
+// Beyond phi = pi/2, which the solution only reaches at the clamp, sin(phi) is held at 1: phi(1)
+// then rises monotonically with b, and the strips with loops, which are other solutions, drop out.
 
 namespace foldproof::oracles {
 
@@ -47,9 +48,11 @@ Shot shoot(double gamma, double log_b) {
 }  // namespace
 
 CantileverTip heavy_cantilever(double gamma) {
-  if (!(gamma > 0 && gamma <= 1e5)) throw InputError("oracle heavy_cantilever: gamma must be in (0, 1e5]");
+  if (!(gamma > 0 && gamma <= 1e5))
+    throw InputError("oracle heavy_cantilever: gamma must be in (0, 1e5]");
 
-  // phi'/phi never exceeds sqrt(gamma u), whose integral bounds the growth of ln(phi) up to the clamp
+  // phi'/phi never exceeds sqrt(gamma u), whose integral bounds the growth of ln(phi)
+  // up to the clamp
   const double most_growth = 2.0 / 3.0 * std::sqrt(gamma) + 0.1;
   const auto miss = [gamma](double log_b) { return shoot(gamma, log_b).miss; };
   const Estimate log_b = bracketed_root(miss, log_right_angle - most_growth, log_right_angle, 0);

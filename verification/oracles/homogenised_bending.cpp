@@ -20,8 +20,8 @@ namespace {
 //     \  /           below, away from the edge:                    (w2 - (1 - b) w3 - b w4)/h2
 //      x2            theta, to first order in w: the sum of both slopes
 
-/// One hinge in the plane: theta = sum of turn[i] w_i for small heights w [1/m], its factor c and a third of
-/// the area of its triangles [m^2].
+/// One hinge in the plane: theta = sum of turn[i] w_i for small heights w [1/m], its factor c and a
+/// third of the area of its triangles [m^2].
 struct FlatHinge {
   std::array<double, 4> turn;
   double factor, area_third;
@@ -35,7 +35,9 @@ FlatHinge flat_hinge(const std::array<Eigen::Vector2d, 4>& x) {
   if (!(h1 > 0 && h2 > 0))
     throw InputError("oracle homogenised_bending: a triangle has no area or is turned over");
   const double a = along.dot(above) / l, b = along.dot(below) / l;
-  return {{1 / h1, 1 / h2, -(1 - a) / h1 - (1 - b) / h2, -a / h1 - b / h2}, l / (h1 + h2), l * (h1 + h2) / 6};
+  return {{1 / h1, 1 / h2, -(1 - a) / h1 - (1 - b) / h2, -a / h1 - b / h2},
+          l / (h1 + h2),
+          l * (h1 + h2) / 6};
 }
 
 /// w of the three unit curvatures k at p [m^2].
@@ -43,7 +45,8 @@ Eigen::Vector3d unit_heights(const Eigen::Vector2d& p) {
   return 0.5 * Eigen::Vector3d(p.x() * p.x(), p.y() * p.y(), p.x() * p.y());
 }
 
-/// (n.n) of the direction as a row that takes k to the curvature along it, and the k of a unit cylinder.
+/// (n.n) of the direction as a row that takes k to the curvature along it, and the k of
+/// a unit cylinder.
 Eigen::Vector3d curvature_along(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * c, s * s, c * s};
@@ -78,10 +81,12 @@ std::map<EdgeKey, Side> sides_of(const PeriodicMesh& mesh) {
 }
 
 Eigen::Vector2d place(const PeriodicMesh& mesh, const PeriodicCorner& corner) {
-  return mesh.sites[size_t(corner.site)] + corner.along_a * mesh.period_a + corner.along_b * mesh.period_b;
+  return mesh.sites[size_t(corner.site)] + corner.along_a * mesh.period_a +
+         corner.along_b * mesh.period_b;
 }
 
-/// The quadratic form of a cell's energy per area in units of ke/2, in k and the displacements of its sites.
+/// The quadratic form of a cell's energy per area in units of ke/2, in k and the
+/// displacements of its sites.
 Eigen::MatrixXd cell_energy(const PeriodicMesh& mesh) {
   const std::map<EdgeKey, Side> sides = sides_of(mesh);
   const Eigen::Index size = 3 + Eigen::Index(mesh.sites.size());
@@ -89,15 +94,16 @@ Eigen::MatrixXd cell_energy(const PeriodicMesh& mesh) {
   for (const auto& [key, side] : sides) {
     const auto [from, to, along_a, along_b] = key;
     const EdgeKey back{to, from, -along_a, -along_b};
-    if (sides.count(back) == 0) throw InputError("oracle homogenised_bending: an edge has one triangle");
+    if (sides.count(back) == 0)
+      throw InputError("oracle homogenised_bending: an edge has one triangle");
     if (back < key) continue;  // each hinge once
     const Side& other = sides.at(back);
     PeriodicCorner x2 = other.opposite;  // moved by whole periods to where the two edges meet
     x2.along_a += side.to.along_a - other.from.along_a;
     x2.along_b += side.to.along_b - other.from.along_b;
     const std::array<PeriodicCorner, 4> corners{side.opposite, x2, side.from, side.to};
-    const FlatHinge hinge = flat_hinge(
-        {place(mesh, corners[0]), place(mesh, corners[1]), place(mesh, corners[2]), place(mesh, corners[3])});
+    const FlatHinge hinge = flat_hinge({place(mesh, corners[0]), place(mesh, corners[1]),
+                                        place(mesh, corners[2]), place(mesh, corners[3])});
     Eigen::VectorXd theta = Eigen::VectorXd::Zero(size);
     for (size_t i = 0; i < 4; ++i) {
       theta.head<3>() += hinge.turn[i] * unit_heights(place(mesh, corners[i]));
@@ -105,15 +111,16 @@ Eigen::MatrixXd cell_energy(const PeriodicMesh& mesh) {
     }
     energy += hinge.factor / 2 * theta * theta.transpose();
   }
-  const double cell = std::abs(mesh.period_a.x() * mesh.period_b.y() - mesh.period_a.y() * mesh.period_b.x());
+  const double cell =
+      std::abs(mesh.period_a.x() * mesh.period_b.y() - mesh.period_a.y() * mesh.period_b.x());
   return energy / cell;
 }
 
 // --- finite meshes ---
 
 FlatHinge flat_hinge_of(const PlaneSheet& sheet, const std::array<int, 4>& corners) {
-  return flat_hinge({sheet.points.col(corners[0]), sheet.points.col(corners[1]), sheet.points.col(corners[2]),
-                     sheet.points.col(corners[3])});
+  return flat_hinge({sheet.points.col(corners[0]), sheet.points.col(corners[1]),
+                     sheet.points.col(corners[2]), sheet.points.col(corners[3])});
 }
 
 /// D/ke of heights w [m^2 for unit curvature].
@@ -165,8 +172,8 @@ PeriodicMesh split_rectangles(const SplitBlock& block) {
   for (int j = 0; j < block.rows; ++j) {
     for (int i = 0; i < block.columns; ++i) {
       mesh.sites.emplace_back(i * block.width, j * block.height);
-      const PeriodicCorner low_left = corner(i, j), low_right = corner(i + 1, j), left = corner(i, j + 1),
-                           right = corner(i + 1, j + 1);
+      const PeriodicCorner low_left = corner(i, j), low_right = corner(i + 1, j),
+                           left = corner(i, j + 1), right = corner(i + 1, j + 1);
       const bool rises = block.rises == nullptr || block.rises(i, j);
       mesh.triangles.push_back({low_left, low_right, rises ? right : left});
       mesh.triangles.push_back({rises ? low_left : low_right, right, left});
@@ -191,11 +198,14 @@ PeriodicMesh equilateral_triangles(double edge) {
           {{a, b, d}, {b, c, d}}};
 }
 
-Eigen::Matrix3d forced_rigidity(const PeriodicMesh& mesh) { return cell_energy(mesh).topLeftCorner<3, 3>(); }
+Eigen::Matrix3d forced_rigidity(const PeriodicMesh& mesh) {
+  return cell_energy(mesh).topLeftCorner<3, 3>();
+}
 
 Eigen::Matrix3d relaxed_rigidity(const PeriodicMesh& mesh) {
   const Eigen::MatrixXd energy = cell_energy(mesh);
-  const Eigen::Index others = energy.rows() - 4;  // the first site stays: moving all alike changes nothing
+  // the first site stays: moving all alike changes nothing
+  const Eigen::Index others = energy.rows() - 4;
   Eigen::Matrix3d R = energy.topLeftCorner<3, 3>();
   if (others == 0) return R;
   const Eigen::MatrixXd mixed = energy.bottomLeftCorner(others, 3);
@@ -213,8 +223,8 @@ double strip_rigidity(const Eigen::Matrix3d& R, double angle) {
 }
 
 RigidityRange cylinder_range(const Eigen::Matrix3d& R) {
-  // D is a trigonometric polynomial of degree 4: half a step away from an extremum it has changed by at most
-  // 8 (pi/8000)^2 = 1.2e-6 of its swing
+  // D is a trigonometric polynomial of degree 4: half a step away from an extremum it has changed
+  // by at most 8 (pi/8000)^2 = 1.2e-6 of its swing
   constexpr int directions = 4000;
   RigidityRange range{cylinder_rigidity(R, 0), cylinder_rigidity(R, 0)};
   for (int i = 1; i < directions; ++i) {

@@ -6,11 +6,12 @@
 
 // What a flat mesh of hinges resists to small curvature, from the definition of a hinge alone. With
 //   w = (K11 x^2 + 2 K12 x y + K22 y^2)/2,   k = (K11, K22, 2 K12) [1/m],
-// each hinge turns by theta = q.k and stores ke c theta^2/4, c = |E|^2/(|N1| + |N2|); the sum over a cell is
+// each hinge turns by theta = q.k and stores ke c theta^2/4, c = |E|^2/(|N1| + |N2|); the
+// sum over a cell is
 //   energy per area = ke/2 k.R k,   R in units of ke [1].
-// A mesh that repeats itself has a cell; where a cell has several vertices, these may leave the curved
-// surface by a periodic displacement: "forced" is R without it, "relaxed" with the displacement of least
-// energy.
+// A mesh that repeats itself has a cell; where a cell has several vertices, these may leave the
+// curved surface by a periodic displacement: "forced" is R without it, "relaxed" with the
+// displacement of least energy.
 
 namespace foldproof::oracles {
 
@@ -64,9 +65,9 @@ struct PlaneSheet {
   std::vector<char> held;                  // one a point: whether it stays on the curved surface
 };
 
-/// D/ke of the counted hinges at small curvature along `angle` [rad], each standing for a third of its two
-/// triangles' areas [1]. Forced: all points on the cylinder. Relaxed: those not held move out of it until the
-/// energy of all hinges is least (a sparse direct solve).
+/// D/ke of the counted hinges at small curvature along `angle` [rad], each standing for a third of
+/// its two triangles' areas [1]. Forced: all points on the cylinder. Relaxed: those not held move
+/// out of it until the energy of all hinges is least (a sparse direct solve).
 double forced_cylinder_rigidity(const PlaneSheet& sheet, double angle);
 double relaxed_cylinder_rigidity(const PlaneSheet& sheet, double angle);
 

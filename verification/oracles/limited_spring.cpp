@@ -40,7 +40,8 @@ LimitedSpringAnswer limited_spring(const LimitedSpringInput& input) {
   answer.length = length(after * along + across).convert_to<double>();
   const Digits50 rate = dot(u, along);
   answer.energy_taken =
-      Digits50((rate * rate - (rate + gained) * (rate + gained)) / (2 * (wa + wb))).convert_to<double>();
+      Digits50((rate * rate - (rate + gained) * (rate + gained)) / (2 * (wa + wb)))
+          .convert_to<double>();
   if (after > 0) answer.sensitivity = std::max(1.0, Digits50(limit / after).convert_to<double>());
   return answer;
 }

@@ -13,18 +13,19 @@ struct LimitedSpringInput {
 };
 
 struct LimitedSpringAnswer {
-  Vector3 v_a, v_b;         // m/s
-  double length;            // that they predict [m]
-  double energy_taken;      // from the kinetic energy of ends with masses; of two free ends only [J]
+  Vector3 v_a, v_b;     // m/s
+  double length;        // that they predict [m]
+  double energy_taken;  // from the kinetic energy of ends with masses; of two free ends only [J]
   bool is_violated = true;  // false: within the limits, nothing changes
   bool is_reachable = true;
-  double sensitivity =
-      1;  // change of the answer along d over that of the given motion across it, at least 1 [1]
+  // change of the answer along d over that of the given motion across it, at least 1 [1]
+  double sensitivity = 1;
 };
 
-/// Equal and opposite impulses along d = x_b - x_a that take |d + h (v_b - v_a)| to the limit that it is
-/// beyond (BMF03 section 3, after Provot 1995), or as near to it as they can, with (d + h dv).d >= 0
-/// afterwards. By Pythagoras in 50 digits: the part across d stays, the part along d becomes the other leg.
+/// Equal and opposite impulses along d = x_b - x_a that take |d + h (v_b - v_a)| to the limit that
+/// it is beyond (BMF03 section 3, after Provot 1995), or as near to it as they can, with (d + h
+/// dv).d >= 0 afterwards. By Pythagoras in 50 digits: the part across d stays, the part along d
+/// becomes the other leg.
 LimitedSpringAnswer limited_spring(const LimitedSpringInput& input);
 
 }  // namespace foldproof::oracles

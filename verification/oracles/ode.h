@@ -7,7 +7,8 @@
 namespace foldproof::oracles {
 
 /// dydt = f(t, y): writes as many numbers as y has. Must not keep the spans.
-using RightHandSide = std::function<void(double t, std::span<const double> y, std::span<double> dydt)>;
+using RightHandSide =
+    std::function<void(double t, std::span<const double> y, std::span<double> dydt)>;
 
 /// A solution at some times, and how far each of its components may be from the truth.
 struct ReferenceSolution {

@@ -13,18 +13,19 @@
 
 namespace foldproof::oracles {
 
-/// Fifty decimal digits: a formula that loses half of them to cancellation still leaves a correctly rounded
-/// double. This header is the project's only door to Boost.
+/// Fifty decimal digits: a formula that loses half of them to cancellation still leaves a correctly
+/// rounded double. This header is the project's only door to Boost.
 using Digits50 = boost::multiprecision::cpp_bin_float_50;
 
-/// Whole numbers of any length. A double is a whole number times a power of two, so that sums and products of
-/// doubles over a common power are exact.
+/// Whole numbers of any length. A double is a whole number times a power of two, so that sums and
+/// products of doubles over a common power are exact.
 using Whole = boost::multiprecision::cpp_int;
 
-/// The error of rounding a number near value to double: half a unit in the last place, and the smallest
-/// normal number in its stead at zero.
+/// The error of rounding a number near value to double: half a unit in the last place, and the
+/// smallest normal number in its stead at zero.
 inline double one_rounding(double value) {
-  return 0.5 * std::numeric_limits<double>::epsilon() * std::abs(value) + std::numeric_limits<double>::min();
+  return 0.5 * std::numeric_limits<double>::epsilon() * std::abs(value) +
+         std::numeric_limits<double>::min();
 }
 
 /// The nearest double and its rounding.
@@ -33,10 +34,11 @@ inline Estimate rounded(const Digits50& value) {
   return {nearest, one_rounding(nearest)};
 }
 
-/// A number that carries its derivatives with respect to N variables (forward automatic differentiation):
-/// value + sum_i derivative[i] dx_i, exact to the rounding of Scalar. Scalar may itself be a Dual, which
-/// gives second derivatives. Where a function has no derivative (sqrt, abs, atan2 at the origin; acos at +-1)
-/// the derivatives come out as infinity or NaN, never as a plausible number.
+/// A number that carries its derivatives with respect to N variables (forward automatic
+/// differentiation): value + sum_i derivative[i] dx_i, exact to the rounding of Scalar. Scalar may
+/// itself be a Dual, which gives second derivatives. Where a function has no derivative (sqrt, abs,
+/// atan2 at the origin; acos at +-1) the derivatives come out as infinity or NaN, never as a
+/// plausible number.
 template <class Scalar, int N>
 struct Dual {
   Scalar value{};
@@ -48,8 +50,12 @@ struct Dual {
   template <class Number>
   requires std::convertible_to<Number, Scalar> Dual(const Number& constant) : value(constant) {}
 
-  friend Dual operator+(const Dual& p, const Dual& q) { return p.combined(p.value + q.value, 1, q, 1); }
-  friend Dual operator-(const Dual& p, const Dual& q) { return p.combined(p.value - q.value, 1, q, -1); }
+  friend Dual operator+(const Dual& p, const Dual& q) {
+    return p.combined(p.value + q.value, 1, q, 1);
+  }
+  friend Dual operator-(const Dual& p, const Dual& q) {
+    return p.combined(p.value - q.value, 1, q, -1);
+  }
   friend Dual operator-(const Dual& p) { return p.chained(-p.value, -1); }
   friend Dual operator*(const Dual& p, const Dual& q) {
     return p.combined(p.value * q.value, q.value, q, p.value);
@@ -96,14 +102,16 @@ struct Dual {
   friend Dual atan2(const Dual& y, const Dual& x) {
     using std::atan2;
     const Scalar squared_radius = x.value * x.value + y.value * y.value;
-    return y.combined(atan2(y.value, x.value), x.value / squared_radius, x, -y.value / squared_radius);
+    return y.combined(atan2(y.value, x.value), x.value / squared_radius, x,
+                      -y.value / squared_radius);
   }
 
  private:
   /// f(this), given the value and the slope of f there.
   Dual chained(const Scalar& image, const Scalar& slope) const {
     Dual result(image);
-    for (std::size_t i = 0; i < derivative.size(); ++i) result.derivative[i] = slope * derivative[i];
+    for (std::size_t i = 0; i < derivative.size(); ++i)
+      result.derivative[i] = slope * derivative[i];
     return result;
   }
 

@@ -24,7 +24,8 @@ bool are_separated(const Corners3& s, const Corners3& t) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3 edge = s[(i + 1) % 3] - s[i], other = t[(i + 1) % 3] - t[i];
     is_separated |= parted_along(m.cross(edge), s, t) || parted_along(n.cross(other), s, t);
-    for (std::size_t j = 0; j < 3; ++j) is_separated |= parted_along(edge.cross(t[(j + 1) % 3] - t[j]), s, t);
+    for (std::size_t j = 0; j < 3; ++j)
+      is_separated |= parted_along(edge.cross(t[(j + 1) % 3] - t[j]), s, t);
   }
   return is_separated;
 }

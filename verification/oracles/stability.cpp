@@ -58,7 +58,8 @@ std::vector<Complex> oscillator_rates(double omega, double zeta) {
 std::vector<Complex> system_rates(const Eigen::MatrixXd& K, const Eigen::MatrixXd& C) {
   const Eigen::Index n = K.rows();
   require(K.allFinite() && C.allFinite(), "K and C must be finite");
-  require(K.cols() == n && C.rows() == n && C.cols() == n, "K and C must be square and of one size");
+  require(K.cols() == n && C.rows() == n && C.cols() == n,
+          "K and C must be square and of one size");
   // (omega0 q, v)' = (omega0 v, -K q - C v): scaled, so that both halves are of one size
   const double omega0 = std::sqrt(K.norm());
   Eigen::MatrixXd matrix(2 * n, 2 * n);
@@ -67,8 +68,8 @@ std::vector<Complex> system_rates(const Eigen::MatrixXd& K, const Eigen::MatrixX
   return {values.begin(), values.end()};
 }
 
-// No stability region of these four reaches further than |z| = 3.4 from 0; the search goes out in
-// thousandths.
+// No stability region of these four reaches further than |z| = 3.4 from 0; the search goes out
+// in thousandths.
 Estimate largest_runge_kutta_step(int order, const std::vector<Complex>& rates) {
   require(order >= 1 && order <= 4, "order must be 1, 2, 3 or 4");
   double fastest = 0;
@@ -81,7 +82,8 @@ Estimate largest_runge_kutta_step(int order, const std::vector<Complex>& rates) 
   for (int i = 1; i < 4000; ++i) {
     if (is_stable(order, rates, i * stride)) continue;
     if (i == 1) return {0, 0};
-    return bisect((i - 1) * stride, i * stride, [&](double h) { return is_stable(order, rates, h); });
+    return bisect((i - 1) * stride, i * stride,
+                  [&](double h) { return is_stable(order, rates, h); });
   }
   throw InputError("oracle stability: no limit of Runge-Kutta of order " + std::to_string(order));
 }
@@ -97,7 +99,8 @@ Estimate largest_leapfrog_step(const Eigen::MatrixXd& K) {
 // The smallest eigenvalue of (4 + 2 h C - h^2 K)/h^2 falls with h: it changes its sign once.
 Estimate largest_variable_newmark_step(const Eigen::MatrixXd& K, const Eigen::MatrixXd& C) {
   const auto is_positive = [&](double h) {
-    const Eigen::MatrixXd matrix = 4 * Eigen::MatrixXd::Identity(K.rows(), K.rows()) + 2 * h * C - h * h * K;
+    const Eigen::MatrixXd matrix =
+        4 * Eigen::MatrixXd::Identity(K.rows(), K.rows()) + 2 * h * C - h * h * K;
     return symmetric_eigenvalues(matrix)[0] > 0;
   };
   const double least = largest_leapfrog_step(K).value * (1 - 1e-9);

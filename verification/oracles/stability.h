@@ -1,5 +1,5 @@
-// Stability limits of methods on linear motion, from what the literature and a few lines of algebra say of
-// them.
+// Stability limits of methods on linear motion, from what the literature and a few lines of
+// algebra say of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,29 +10,33 @@
 
 namespace foldproof::oracles {
 
-/// The rates lambda of exp(lambda t), the solutions of x'' = -omega^2 x - 2 zeta omega x': two values [1/s].
-/// InputError unless omega > 0 and zeta >= 0.
+/// The rates lambda of exp(lambda t), the solutions of x'' = -omega^2 x - 2 zeta omega x': two
+/// values [1/s]. InputError unless omega > 0 and zeta >= 0.
 std::vector<std::complex<double>> oscillator_rates(double omega, double zeta);
 
-/// The same for q'' = -K q - C q': 2 n values. K, C: n x n [1/s^2], [1/s], in mass-weighted coordinates.
+/// The same for q'' = -K q - C q': 2 n values. K, C: n x n [1/s^2], [1/s], in
+/// mass-weighted coordinates.
 std::vector<std::complex<double>> system_rates(const Eigen::MatrixXd& K, const Eigen::MatrixXd& C);
 
-/// The step h [s] at which an explicit Runge-Kutta method of as many stages as its order (1 to 4) leaves
-/// stability: |R(h lambda)| <= 1 for all rates up to there, R(z) = sum_{k <= order} z^k/k! (Hairer, Wanner,
-/// Solving ODEs II, section IV.2). 0 if it is unstable however small the step. Rates have real parts <= 0.
+/// The step h [s] at which an explicit Runge-Kutta method of as many stages as its order (1 to 4)
+/// leaves stability: |R(h lambda)| <= 1 for all rates up to there, R(z) = sum_{k <= order} z^k/k!
+/// (Hairer, Wanner, Solving ODEs II, section IV.2). 0 if it is unstable however small the step.
+/// Rates have real parts <= 0.
 Estimate largest_runge_kutta_step(int order, const std::vector<std::complex<double>>& rates);
 
-/// The step h [s] at which schemes A and B leave stability on q'' = -K q - C q': 2/sqrt of the largest
-/// eigenvalue of K, whatever C. There the eigenvalue of the step is -1, for with q' = -q, v' = -v the
-/// trapezoidal line v' - v = -h/2 (K (q + q') + C (v + v')) says v = 0 and the move -2 q = -h^2/2 K q.
+/// The step h [s] at which schemes A and B leave stability on q'' = -K q - C q': 2/sqrt of the
+/// largest eigenvalue of K, whatever C. There the eigenvalue of the step is -1, for with q' = -q,
+/// v' = -v the trapezoidal line v' - v = -h/2 (K (q + q') + C (v + v')) says v = 0 and the move -2
+/// q = -h^2/2 K q.
 Estimate largest_leapfrog_step(const Eigen::MatrixXd& K);
 
-/// The same for scheme C: the eigenvalue is -1 where 4 + 2 h C - h^2 K becomes singular, for there v = 0 and
-/// the move -2 q = h (1 + h/2 C)^{-1} (-h/2 K q).
+/// The same for scheme C: the eigenvalue is -1 where 4 + 2 h C - h^2 K becomes singular, for there
+/// v = 0 and the move -2 q = h (1 + h/2 C)^{-1} (-h/2 K q).
 Estimate largest_variable_newmark_step(const Eigen::MatrixXd& K, const Eigen::MatrixXd& C);
 
-/// The ratio of neighbouring steps from which on BDF2 with steps of that constant ratio r amplifies
-/// differences of y' = 0: they are multiplied by r^2/(1 + 2 r) a step, which is 1 at r = 1 + sqrt(2).
+/// The ratio of neighbouring steps from which on BDF2 with steps of that constant ratio r
+/// amplifies differences of y' = 0: they are multiplied by r^2/(1 + 2 r) a step, which is 1 at
+/// r = 1 + sqrt(2).
 Estimate bdf2_largest_ratio();
 
 /// Largest sqrt(energy) over the start's in the undamped leapfrog: with c = omega h/2 it keeps

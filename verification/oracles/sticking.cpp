@@ -41,8 +41,8 @@ StickingAnswer sticking_answer(const StuckParticle& stuck) {
   const Point target = sum / constant(count), u = target - x;
   const Number d2 = dot(u, u), far2 = constant(stuck.far) * constant(stuck.far),
                k0 = constant(stuck.stiffness);
-  const Number energy =
-      k0 * (d2 / constant(2) - d2 * d2 / (constant(2) * far2) + d2 * d2 * d2 / (constant(6) * far2 * far2));
+  const Number energy = k0 * (d2 / constant(2) - d2 * d2 / (constant(2) * far2) +
+                              d2 * d2 * d2 / (constant(6) * far2 * far2));
   const Number left = constant(1) - d2 / far2, stiffness = k0 * left * left;
 
   StickingAnswer answer;

@@ -1,6 +1,6 @@
-// Sticking as it is defined, in 50 digits with automatic differentiation: where a target is, how it moves
-// with the corners of its triangles, and the spring's force as minus the gradient of its energy (BMF03
-// section 6).
+// Sticking as it is defined, in 50 digits with automatic differentiation: where a target is, how it
+// moves with the corners of its triangles, and the spring's force as minus the gradient of its
+// energy (BMF03 section 6).
 #pragma once
 
 #include <Eigen/Core>

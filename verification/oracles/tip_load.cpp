@@ -21,12 +21,13 @@ struct Elliptic {
   long double first, second;  // K(k) - F(phi, k), E(k) - E(phi, k)
 };
 
-/// The slope of the tip is pi/2 - 2 eta. Then k = cos(eta), and 1 - k^2 = sin(eta)^2. In extended precision:
-/// the library's integrals are good to a thousand roundings only.
+/// The slope of the tip is pi/2 - 2 eta. Then k = cos(eta), and 1 - k^2 = sin(eta)^2. In extended
+/// precision: the library's integrals are good to a thousand roundings only.
 Elliptic elliptic(double eta) {
   const long double k = std::cos((long double)eta);
   const long double phi = std::asin(std::min(1.0L, 1 / (k * std::numbers::sqrt2_v<long double>)));
-  return {std::comp_ellint_1(k) - std::ellint_1(k, phi), std::comp_ellint_2(k) - std::ellint_2(k, phi)};
+  return {std::comp_ellint_1(k) - std::ellint_1(k, phi),
+          std::comp_ellint_2(k) - std::ellint_2(k, phi)};
 }
 
 /// What shooting with one curvature at the clamp finds at the tip: slope, curvature, drop, reach.
@@ -68,8 +69,8 @@ LoadedTip tip_load_by_shooting(double alpha) {
   const double most = std::min(alpha, std::sqrt(2 * alpha) * (1 - 1e-9));
   const Estimate curvature = bracketed_root(miss, 0, most, 1e-14);
   const ReferenceSolution hit = shoot(alpha, curvature.value);
-  const double off =
-      10 * (curvature.uncertainty + hit.uncertainty[0]);  // a tip moves less than 10 times that
+  // a tip moves less than 10 times that
+  const double off = 10 * (curvature.uncertainty + hit.uncertainty[0]);
   return {{hit.values[0][2], off}, {hit.values[0][3], off}};
 }
 

@@ -9,10 +9,10 @@
 
 namespace foldproof::oracles {
 
-/// The least distance from p to the triangles over the positions x (3 x N [m]) in extended precision [m]: to
-/// the foot on the plane if that lies in the triangle, and to the three edges. The uncertainty is its own
-/// rounding.
-Estimate distance_to_triangles(const PerParticle3& x, const std::vector<std::array<int, 3>>& triangles,
-                               const Vector3& p);
+/// The least distance from p to the triangles over the positions x (3 x N [m]) in extended
+/// precision [m]: to the foot on the plane if that lies in the triangle, and to the three edges.
+/// The uncertainty is its own rounding.
+Estimate distance_to_triangles(const PerParticle3& x,
+                               const std::vector<std::array<int, 3>>& triangles, const Vector3& p);
 
 }  // namespace foldproof::oracles

@@ -5,14 +5,19 @@
 
 namespace foldproof::oracles {
 
-/// A vector in space over any scalar: double, 50 digits, or an automatically differentiated number. Plain on
-/// purpose: linear algebra libraries ask a scalar for traits, this asks it only for + - * / and sqrt.
+/// A vector in space over any scalar: double, 50 digits, or an automatically differentiated number.
+/// Plain on purpose: linear algebra libraries ask a scalar for traits, this asks it only
+/// for + - * / and sqrt.
 template <class Scalar>
 struct Triple {
   Scalar x{}, y{}, z{};
 
-  friend Triple operator+(const Triple& p, const Triple& q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
-  friend Triple operator-(const Triple& p, const Triple& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
+  friend Triple operator+(const Triple& p, const Triple& q) {
+    return {p.x + q.x, p.y + q.y, p.z + q.z};
+  }
+  friend Triple operator-(const Triple& p, const Triple& q) {
+    return {p.x - q.x, p.y - q.y, p.z - q.z};
+  }
   friend Triple operator-(const Triple& p) { return {-p.x, -p.y, -p.z}; }
   friend Triple operator*(const Scalar& s, const Triple& p) { return {s * p.x, s * p.y, s * p.z}; }
   friend Triple operator/(const Triple& p, const Scalar& s) { return {p.x / s, p.y / s, p.z / s}; }

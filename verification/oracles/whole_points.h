@@ -1,4 +1,5 @@
-// Points whose coordinates are doubles, taken as exact numbers: whole numbers times one power of two.
+// Points whose coordinates are doubles, taken as exact numbers: whole numbers times
+// one power of two.
 #pragma once
 
 #include <initializer_list>
@@ -13,8 +14,8 @@ using Exact = Triple<Whole>;
 
 inline int sign_of(const Whole& value) { return value.sign(); }
 
-/// The exponent of the largest power of two that divides all coordinates, which must be finite; 0 if all are
-/// zero.
+/// The exponent of the largest power of two that divides all coordinates, which must be finite; 0
+/// if all are zero.
 int common_exponent(std::initializer_list<Vector3> points);
 
 /// value / 2^exponent, where that is a whole number.

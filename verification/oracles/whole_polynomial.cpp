@@ -28,7 +28,8 @@ Polynomial minus_remainder(Polynomial p, const Polynomial& q) {
   return p;
 }
 
-/// p, p'q, and so on: each minus the remainder of the two before it, up to the last that is not zero.
+/// p, p'q, and so on: each minus the remainder of the two before it, up to the last
+/// that is not zero.
 std::vector<Polynomial> signed_remainders(const Polynomial& p, const Polynomial& q) {
   std::vector<Polynomial> all{p};
   Polynomial next = derivative(p) * q;
@@ -49,8 +50,8 @@ int sign_changes(const std::vector<Polynomial>& sequence, const Dyadic& t) {
   return changes;
 }
 
-/// A number between that is no root: one of the fractions 1/2, 1/4, 3/4, 1/8, ... of the way, a few of which
-/// are roots.
+/// A number between that is no root: one of the fractions 1/2, 1/4, 3/4, 1/8, ... of the way, a few
+/// of which are roots.
 Dyadic between(const Polynomial& p, const Dyadic& low, const Dyadic& high) {
   for (int halvings = 1;; ++halvings) {
     const int common = std::max(low.halvings, high.halvings);
@@ -76,7 +77,8 @@ void isolate(const std::vector<Polynomial>& sturm, const Dyadic& low, const Dyad
   isolate(sturm, middle, high, roots);
 }
 
-/// p over t and over 1 - t as often as these divide it: the same roots between 0 and 1, none at either.
+/// p over t and over 1 - t as often as these divide it: the same roots between 0 and 1,
+/// none at either.
 Polynomial without_ends(Polynomial p) {
   while (sign_at(p, {0, 0}) == 0) p.c.erase(p.c.begin());
   while (sign_at(p, {1, 0}) == 0) {  // p = (1 - t) q: q_0 = p_0, q_k = p_k + q_{k-1}

@@ -1,5 +1,5 @@
-// Polynomials with whole coefficients, and the signs of some at the roots of others, decided without
-// rounding.
+// Polynomials with whole coefficients, and the signs of some at the roots of others, decided
+// without rounding.
 #pragma once
 
 #include <vector>
@@ -40,9 +40,9 @@ struct Root {
 /// The roots strictly between 0 and 1, ascending, each once. p is not zero.
 std::vector<Root> roots_within(const Polynomial& p);
 
-/// By Sturm and Tarski: how often the signed remainders of p and p'q change sign at `low`, less how often at
-/// `high`, is the sum of the signs of q at the roots of p between (Basu, Pollack and Roy 2006, theorem 2.61).
-/// Here there is one.
+/// By Sturm and Tarski: how often the signed remainders of p and p'q change sign at `low`, less how
+/// often at `high`, is the sum of the signs of q at the roots of p between (Basu, Pollack and Roy
+/// 2006, theorem 2.61). Here there is one.
 int sign_at(const Polynomial& q, const Root& root);
 
 /// +1 or -1 if that is plainly the sign on all of [0, 1], else 0: says the hull of the Bernstein

@@ -8,8 +8,8 @@ namespace foldproof {
 /// |sum of F| over epsilon times sum |F_i|; NaN without any force. f: 3 x N [N].
 double net_force(const PerParticle3& f);
 
-/// |sum of x_i x F_i| about the mean of x, over epsilon times sum |x_i||F_i|; NaN without any force. x: 3 x N
-/// [m].
+/// |sum of x_i x F_i| about the mean of x, over epsilon times sum |x_i||F_i|; NaN without any
+/// force. x: 3 x N [m].
 double net_torque(const PerParticle3& x, const PerParticle3& f);
 
 /// Velocity [m/s] of particles at x moved rigidly: v + w x (x - mean).

@@ -26,8 +26,9 @@ std::array<Vector3, 4> constant_lengths(const Corners& x, const Corners&) {
 
 double cotangent(const Vector3& a, const Vector3& b) { return a.dot(b) / a.cross(b).norm(); }
 
-// Quadratic bending: W = 3/(2 A) |K1 x1 + K2 x2 + K3 x3 + K4 x4|^2 with A the area of both triangles, and K
-// from the cotangents of the angles at x3 and x4 at rest: constant, so that F = -3/A K_i (sum K_j x_j).
+// Quadratic bending: W = 3/(2 A) |K1 x1 + K2 x2 + K3 x3 + K4 x4|^2 with A the area of both
+// triangles, and K from the cotangents of the angles at x3 and x4 at rest: constant, so that F =
+// -3/A K_i (sum K_j x_j).
 //
 //      x1      c01, c03: cotangents of the angles that the edge makes at x3 and x4 in the triangle
 //     /  \              of x1
@@ -38,7 +39,8 @@ std::array<Vector3, 4> quadratic(const Corners& x, const Corners& rest) {
   const Vector3 edge = rest[3] - rest[2];
   const double c01 = cotangent(edge, rest[0] - rest[2]), c02 = cotangent(edge, rest[1] - rest[2]);
   const double c03 = cotangent(-edge, rest[0] - rest[3]), c04 = cotangent(-edge, rest[1] - rest[3]);
-  const double area = (edge.cross(rest[0] - rest[2]).norm() + edge.cross(rest[1] - rest[2]).norm()) / 2;
+  const double area =
+      (edge.cross(rest[0] - rest[2]).norm() + edge.cross(rest[1] - rest[2]).norm()) / 2;
   const std::array<double, 4> weights = {-(c01 + c03), -(c02 + c04), c03 + c04, c01 + c02};
   Vector3 sum = Vector3::Zero();
   for (int k = 0; k < 4; ++k) sum += weights[k] * x[k];
@@ -49,8 +51,8 @@ std::array<Vector3, 4> quadratic(const Corners& x, const Corners& rest) {
 
 }  // namespace
 
-// theta from sin = (n1 x n2).e and cos = n1.n2: d(theta) = cos d(sin) - sin d(cos), with the shortcut
-// dn = dN/|N|, de = dE/|E|, in which the lengths stand still.
+// theta from sin = (n1 x n2).e and cos = n1.n2: d(theta) = cos d(sin) - sin d(cos), with the
+// shortcut dn = dN/|N|, de = dE/|E|, in which the lengths stand still.
 std::array<Vector3, 4> shortcut_gradient(const Corners& x, EdgeLength edge_length) {
   const Vector3 N1 = (x[0] - x[2]).cross(x[0] - x[3]), N2 = (x[1] - x[3]).cross(x[1] - x[2]);
   const Vector3 E = x[3] - x[2], n1 = N1.normalized(), n2 = N2.normalized(), e = E.normalized();
@@ -73,14 +75,15 @@ std::array<Vector3, 4> shortcut_gradient(const Corners& x, EdgeLength edge_lengt
 }
 
 std::vector<BendingAlternative> bending_alternatives() {
-  return {{"bending.spring-across-the-hinge-acts-in-plane", "A spring between the far corners",
-           "springs between second neighbours, as in Provot 1995 and Choi and Ko 2002", spring_across},
-          {"bending.constant-length-gradients-act-in-plane",
-           "Bending with gradients that take the lengths of normals and edge as constant",
-           "Baraff and Witkin 1998, section 4.3, gradients as usually implemented", constant_lengths},
-          {"bending.quadratic-bending-acts-in-plane",
-           "Quadratic bending, with weights constant from the rest shape",
-           "Bergou, Wardetzky, Harmon, Zorin, Grinspun 2006", quadratic}};
+  return {
+      {"bending.spring-across-the-hinge-acts-in-plane", "A spring between the far corners",
+       "springs between second neighbours, as in Provot 1995 and Choi and Ko 2002", spring_across},
+      {"bending.constant-length-gradients-act-in-plane",
+       "Bending with gradients that take the lengths of normals and edge as constant",
+       "Baraff and Witkin 1998, section 4.3, gradients as usually implemented", constant_lengths},
+      {"bending.quadratic-bending-acts-in-plane",
+       "Quadratic bending, with weights constant from the rest shape",
+       "Bergou, Wardetzky, Harmon, Zorin, Grinspun 2006", quadratic}};
 }
 
 }  // namespace foldproof

@@ -1,4 +1,5 @@
-// The usual alternatives to the paper's bending element, as their authors define them: forces on one hinge.
+// The usual alternatives to the paper's bending element, as their authors define
+// them: forces on one hinge.
 #pragma once
 
 #include <array>
@@ -10,8 +11,8 @@
 
 namespace foldproof {
 
-/// A bending model of two triangles: forces on x1..x4 [N] at the corners x, for rest corners and stiffness 1
-/// in the model's own unit (only their directions and proportions are compared).
+/// A bending model of two triangles: forces on x1..x4 [N] at the corners x, for rest corners and
+/// stiffness 1 in the model's own unit (only their directions and proportions are compared).
 struct BendingAlternative {
   std::string name, words, source;
   std::function<std::array<Vector3, 4>(const Corners& x, const Corners& rest)> force;

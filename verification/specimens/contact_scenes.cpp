@@ -21,7 +21,8 @@ Vector3 carry(const Motion& motion, const Vector3& p, double t, double h) {
 Vector3 mean_velocity(const Motion& motion, const Vector3& p, const Span& span) {
   const double h = span.end - span.start;
   if (h > 0) return (carry(motion, p, span.start, h) - p) / h;
-  return motion.velocity + motion.angular_velocity.cross(p - motion.center - motion.velocity * span.start);
+  return motion.velocity +
+         motion.angular_velocity.cross(p - motion.center - motion.velocity * span.start);
 }
 
 Motion bent_path() {
@@ -32,7 +33,8 @@ Motion bent_path() {
   return motion;
 }
 
-std::function<KnownPoint(const Vector3&, const Span&)> known_ball(const Vector3& centre, double radius,
+std::function<KnownPoint(const Vector3&, const Span&)> known_ball(const Vector3& centre,
+                                                                  double radius,
                                                                   const Motion& motion) {
   return [=](const Vector3& p, const Span& span) {
     const Vector3 away = p - carry(motion, centre, 0, span.start);
@@ -50,8 +52,8 @@ std::function<KnownPoint(const Vector3&, const Span&)> known_slope(const Vector3
   };
 }
 
-/// Puts the particle at a depth in [-0.04, 0.04] m below the surface point nearest to it, with a random
-/// velocity.
+/// Puts the particle at a depth in [-0.04, 0.04] m below the surface point nearest to it, with a
+/// random velocity.
 void scatter(Contact& contact, Eigen::Index i, Random& random) {
   Vector3 p = contact.state.x.col(i);
   const KnownPoint far = contact.known(p, contact.span);
@@ -68,7 +70,8 @@ void scatter(Contact& contact, Eigen::Index i, Random& random) {
 
 Contact contact_of(const std::string& name, const SceneObject& part, double tau,
                    const std::function<KnownPoint(const Vector3&, const Span&)>& known) {
-  Contact contact{name, loose_particles(20), {}, {0.61, 0.61 + step, step}, tau, part.object.friction, known};
+  Contact contact{name, loose_particles(20),  {},   {0.61, 0.61 + step, step},
+                  tau,  part.object.friction, known};
   contact.scene.objects.push_back(part);
   contact.scene.collision.forecast_time = tau;
   Random random(17);
@@ -113,15 +116,16 @@ std::vector<Contact> known_contacts() {
   const Eigen::AngleAxisd tilt(0.73, Vector3(0.3, -0.8, 0.5).normalized());
   for (const double times : {1.0, 2.7, 0.6}) {
     const std::string words = times == 1 ? "the step" : times > 1 ? "2.7 steps" : "0.6 steps";
-    all.push_back(
-        contact_of("ball, forecast time " + words,
-                   with_motion(object_at("ball", Sphere{0.43}, {Eigen::Quaterniond::Identity(), centre}),
-                               bent_path(), 0.37),
-                   times * step, known_ball(centre, 0.43, bent_path())));
     all.push_back(contact_of(
-        "slope, forecast time " + words,
-        with_motion(object_at("slope", HalfSpace{}, {Eigen::Quaterniond(tilt), origin}), rising, 0.81),
-        times * step, known_slope(origin, tilt * Vector3::UnitZ(), rising)));
+        "ball, forecast time " + words,
+        with_motion(object_at("ball", Sphere{0.43}, {Eigen::Quaterniond::Identity(), centre}),
+                    bent_path(), 0.37),
+        times * step, known_ball(centre, 0.43, bent_path())));
+    all.push_back(
+        contact_of("slope, forecast time " + words,
+                   with_motion(object_at("slope", HalfSpace{}, {Eigen::Quaterniond(tilt), origin}),
+                               rising, 0.81),
+                   times * step, known_slope(origin, tilt * Vector3::UnitZ(), rising)));
   }
   return all;
 }
@@ -139,10 +143,10 @@ Pinch known_pinch() {
               known_ball(right, 0.35, other),
               0.21,
               0.34};
-  pinch.scene.objects.push_back(
-      with_motion(object_at("left", Sphere{0.4}, {Eigen::Quaterniond::Identity(), left}), bent_path(), 0.21));
-  pinch.scene.objects.push_back(
-      with_motion(object_at("right", Sphere{0.35}, {Eigen::Quaterniond::Identity(), right}), other, 0.34));
+  pinch.scene.objects.push_back(with_motion(
+      object_at("left", Sphere{0.4}, {Eigen::Quaterniond::Identity(), left}), bent_path(), 0.21));
+  pinch.scene.objects.push_back(with_motion(
+      object_at("right", Sphere{0.35}, {Eigen::Quaterniond::Identity(), right}), other, 0.34));
   Random random(23);
   pinch.state = {0, pinch.scene.x, random.vectors(pinch.scene.x.cols(), 2)};
   for (Eigen::Index i = 0; i < pinch.state.x.cols(); ++i) {
@@ -156,7 +160,8 @@ Pinch known_pinch() {
 
 PerParticle3 corrected_by_objects(const Subject& subject, const Scene& scene, const Span& span,
                                   const State& state) {
-  const std::unique_ptr<PreparedScene> prepared = require_offered(subject.prepare, "prepare")(scene);
+  const std::unique_ptr<PreparedScene> prepared =
+      require_offered(subject.prepare, "prepare")(scene);
   return require_offered(subject.avoid_objects, "avoid_objects")(*prepared, span, state, state.v);
 }
 

@@ -1,4 +1,5 @@
-// Free particles about objects whose distance, normal and velocity are known by formulas of their own.
+// Free particles about objects whose distance, normal and velocity are known by
+// formulas of their own.
 #pragma once
 
 #include <functional>
@@ -29,9 +30,9 @@ struct Contact {
   std::function<KnownPoint(const Vector3& p, const Span& span)> known;
 };
 
-/// A ball on a bent path that turns as it goes, and a slope that rises and turns; each with forecast times of
-/// the step, shorter and longer. A twentieth of the particles has no velocity along the surface but the
-/// object's, and as many rest on it.
+/// A ball on a bent path that turns as it goes, and a slope that rises and turns; each with
+/// forecast times of the step, shorter and longer. A twentieth of the particles has no velocity
+/// along the surface but the object's, and as many rest on it.
 std::vector<Contact> known_contacts();
 
 /// Two balls that overlap, both moving, and particles inside both.

@@ -22,9 +22,12 @@ double extent(const PerParticle3& x) {
 }
 
 std::string smallest_defect(double bound, const std::string& scale) {
-  return fmt::format("The smallest defect that this notices is {:.1e} of the {}.", bound * epsilon, scale);
+  return fmt::format("The smallest defect that this notices is {:.1e} of the {}.", bound * epsilon,
+                     scale);
 }
 
-double largest_speed(const PerParticle3& v) { return largest_difference(v, PerParticle3::Zero(3, v.cols())); }
+double largest_speed(const PerParticle3& v) {
+  return largest_difference(v, PerParticle3::Zero(3, v.cols()));
+}
 
 }  // namespace foldproof

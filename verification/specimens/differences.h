@@ -13,11 +13,12 @@ double largest_difference(const PerParticle3& a, const PerParticle3& b);
 /// How many numbers of two 3 x N arrays differ; NaN differs from everything.
 double count_differing_entries(const PerParticle3& a, const PerParticle3& b);
 
-/// Half the diagonal of the box around all positions, plus the distance of its centre from the origin [m].
+/// Half the diagonal of the box around all positions, plus the distance of its centre from
+/// the origin [m].
 double extent(const PerParticle3& x);
 
-/// Says in a note what a bound in roundings lets through: "The smallest defect that this notices is 3.1e-13
-/// of the extent." bound: in epsilon of the scale.
+/// Says in a note what a bound in roundings lets through: "The smallest defect that this notices is
+/// 3.1e-13 of the extent." bound: in epsilon of the scale.
 std::string smallest_defect(double bound, const std::string& scale);
 
 double largest_speed(const PerParticle3& v);  // m/s

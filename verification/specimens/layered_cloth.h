@@ -17,12 +17,13 @@ struct LayeredSheets {
   unsigned seed = 1;
 };
 
-/// Sheets of 5 x 6 jittered cells of 2 cm, 42 particles each, one above the other; nothing but self-collision
-/// is named.
+/// Sheets of 5 x 6 jittered cells of 2 cm, 42 particles each, one above the other; nothing but
+/// self-collision is named.
 Scene layered_scene(const LayeredSheets& wanted);
 
-/// What the subject's self-collision makes of the start's velocities over a step of `step` [s] from time 0:
-/// of the velocity that moves the cloth, or, with `moves` = false, of one that ends a step. 3 x N [m/s].
+/// What the subject's self-collision makes of the start's velocities over a step of `step` [s]
+/// from time 0: of the velocity that moves the cloth, or, with `moves` = false, of one that ends a
+/// step. 3 x N [m/s].
 struct StepRequest {
   double step;
   bool moves;
@@ -33,7 +34,8 @@ PerParticle3 corrected_by_self_collision(const Subject& subject, const Scene& sc
 /// All pairs of a vertex and a triangle and of two edges without a common particle, each once.
 std::vector<FeaturePair> all_pairs(const TriangleMesh& mesh);
 
-/// sum m v [kg m/s], sum m x x v about the mean [kg m^2/s] and sum m v^2/2 [J] of velocities v at x.
+/// sum m v [kg m/s], sum m x x v about the mean [kg m^2/s] and sum m v^2/2 [J] of
+/// velocities v at x.
 Vector3 linear_momentum_of(const PerParticle& mass, const PerParticle3& v);
 Vector3 angular_momentum_of(const PerParticle& mass, const PerParticle3& x, const PerParticle3& v);
 double kinetic_energy_of(const PerParticle& mass, const PerParticle3& v);

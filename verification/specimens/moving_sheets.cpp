@@ -32,12 +32,13 @@ Sheet jittered_sheet() {
   return sheet;
 }
 
-/// Displaces and sets in motion at random: a tenth of an edge in the plane, a third of one across it, and
-/// less where triangles are thin: they are neither to be turned over nor folded back.
+/// Displaces and sets in motion at random: a tenth of an edge in the plane, a third of one across
+/// it, and less where triangles are thin: they are neither to be turned over nor folded back.
 void crumple(Scene& scene, unsigned seed) {
   Random random(seed);
   const Eigen::Index count = scene.x.cols();
-  const double size = std::min(0.013, 0.2 * smallest_height(scene.mesh.triangles, scene.mesh.rest));  // m
+  // m
+  const double size = std::min(0.013, 0.2 * smallest_height(scene.mesh.triangles, scene.mesh.rest));
   PerParticle3 shift = random.vectors(count, size);
   shift.row(2) *= 3;
   scene.x += shift;
@@ -77,7 +78,8 @@ Scene partly_prescribed_sheet() {
   turn.velocity = Vector3(-0.05, 0.23, 0.03);
   turn.center = Vector3(0.37, -0.21, 0.15);
   turn.angular_velocity = Vector3(0.8, -1.3, 2.1);
-  scene.prescribed = {{0, scene.x.col(0), Motion{}}, {4, scene.x.col(4), swing}, {13, scene.x.col(13), turn}};
+  scene.prescribed = {
+      {0, scene.x.col(0), Motion{}}, {4, scene.x.col(4), swing}, {13, scene.x.col(13), turn}};
   return scene;
 }
 

@@ -5,15 +5,16 @@
 
 namespace foldproof {
 
-/// A free crumpled sheet of irregular triangles that moves at random: stretched and folded, with rest angles
-/// of its own. Springs and bending, both damped; no gravity. Elastic limit about 6 ms.
+/// A free crumpled sheet of irregular triangles that moves at random: stretched and folded, with
+/// rest angles of its own. Springs and bending, both damped; no gravity. Elastic limit about 6 ms.
 Scene free_sheet();
 
 /// The same without any damping.
 Scene undamped_sheet();
 
-/// A jittered sheet under gravity, damped, moving: one corner is held, two particles are led (an oscillation
-/// with drift, a rotation with drift), the others are free. Elastic limit about 2 ms, by the bound.
+/// A jittered sheet under gravity, damped, moving: one corner is held, two particles are led (an
+/// oscillation with drift, a rotation with drift), the others are free. Elastic limit about 2
+/// ms, by the bound.
 Scene partly_prescribed_sheet();
 
 }  // namespace foldproof

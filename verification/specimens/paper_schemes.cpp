@@ -4,8 +4,9 @@
 
 namespace foldproof {
 
-void add_for_each_scheme(std::vector<Check>& list, const Check& pattern,
-                         const std::function<Finding(const Subject&, const std::string& integrator)>& run) {
+void add_for_each_scheme(
+    std::vector<Check>& list, const Check& pattern,
+    const std::function<Finding(const Subject&, const std::string& integrator)>& run) {
   for (const Integrator& integrator : paper_schemes()) {
     const std::string name(integrator.name);
     Check check = pattern;

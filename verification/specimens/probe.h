@@ -8,7 +8,8 @@
 
 namespace foldproof {
 
-/// A scene made ready by a subject. Each call throws NotOffered if the subject has no such operation.
+/// A scene made ready by a subject. Each call throws NotOffered if the subject has no
+/// such operation.
 class Probe {
  public:
   Probe(const Subject& subject, const Scene& scene);

@@ -23,7 +23,8 @@ Object resting(const std::string& name, const Solid& solid, const Vector3& at) {
   return {name, RigidObject{solid, {Eigen::Quaterniond::Identity(), at}, Motion{}}, 0.3};
 }
 
-/// Random points of the cube of half-side `reach` about `centre` whose distance lies between the two [m].
+/// Random points of the cube of half-side `reach` about `centre` whose distance lies
+/// between the two [m].
 PerParticle3 points_around(const ProjectionCase& specimen, const Vector3& centre, double reach) {
   constexpr int wanted = 300;
   constexpr double deepest = -0.13, farthest = 0.08;
@@ -40,14 +41,16 @@ PerParticle3 points_around(const ProjectionCase& specimen, const Vector3& centre
 }  // namespace
 
 std::vector<ProjectionCase> solids_with_points() {
-  std::vector<ProjectionCase> cases = {{"half space", {moving("half space", HalfSpace{})}, 0.37, {}},
-                                       {"sphere", {moving("sphere", Sphere{0.41})}, 0.37, {}},
-                                       {"box", {moving("box", Box{{0.31, 0.22, 0.43}})}, 0.37, {}},
-                                       {"capsule", {moving("capsule", Capsule{0.19, 0.27})}, 0.37, {}},
-                                       {"torus", {moving("torus", Torus{0.37, 0.16})}, 0.37, {}}};
+  std::vector<ProjectionCase> cases = {
+      {"half space", {moving("half space", HalfSpace{})}, 0.37, {}},
+      {"sphere", {moving("sphere", Sphere{0.41})}, 0.37, {}},
+      {"box", {moving("box", Box{{0.31, 0.22, 0.43}})}, 0.37, {}},
+      {"capsule", {moving("capsule", Capsule{0.19, 0.27})}, 0.37, {}},
+      {"torus", {moving("torus", Torus{0.37, 0.16})}, 0.37, {}}};
   for (ProjectionCase& one : cases) {
     const RigidObject& body = std::get<RigidObject>(one.objects[0].body);
-    one.x = points_around(one, to_world(pose_at(body.motion, one.time), body.place.translation), 0.7);
+    one.x =
+        points_around(one, to_world(pose_at(body.motion, one.time), body.place.translation), 0.7);
   }
   return cases;
 }

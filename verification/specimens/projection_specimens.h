@@ -16,8 +16,8 @@ struct ProjectionCase {
   PerParticle3 x;  // 3 x N points in and around the objects [m]
 };
 
-/// Every solid in closed form, placed, turned and in motion, each with points around its surface, from 0.13 m
-/// inside to 0.08 m outside.
+/// Every solid in closed form, placed, turned and in motion, each with points around its surface,
+/// from 0.13 m inside to 0.08 m outside.
 std::vector<ProjectionCase> solids_with_points();
 
 /// Two balls apart: with points around both of them.

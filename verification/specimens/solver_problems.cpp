@@ -17,8 +17,9 @@ Eigen::MatrixXd dense_damping(const DampingOperator& damping, Eigen::Index parti
   };
   for (const PairDamper& p : damping.pairs) add({p.a, p.b}, {-p.along, p.along});
   for (const HingeDamper& h : damping.hinges)
-    add({h.particles.begin(), h.particles.end()}, {h.w1, h.w2, -(h.weight1 * h.w1 + h.weight2 * h.w2),
-                                                   -((1 - h.weight1) * h.w1 + (1 - h.weight2) * h.w2)});
+    add({h.particles.begin(), h.particles.end()},
+        {h.w1, h.w2, -(h.weight1 * h.w1 + h.weight2 * h.w2),
+         -((1 - h.weight1) * h.w1 + (1 - h.weight2) * h.w2)});
   return D;
 }
 

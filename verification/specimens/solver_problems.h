@@ -1,4 +1,5 @@
-// One implicit velocity to be solved for, as the reference solves it and as dense linear algebra does.
+// One implicit velocity to be solved for, as the reference solves it and as dense
+// linear algebra does.
 #pragma once
 
 #include <Eigen/Core>

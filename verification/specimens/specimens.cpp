@@ -64,25 +64,29 @@ TriangleMesh pleats() {
 
 double aspect_ratio(const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 normal = (b - a).cross(c - a);
-  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  const double longest =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
   return longest / normal.norm();
 }
 
 }  // namespace
 
 std::vector<Specimen> crumpled_sheets() {
-  return {crumple_specimen("one_diagonal", make_sheet(sheet_of(SheetPattern::one_diagonal)), 0.066, 3),
-          crumple_specimen("equilateral", make_sheet(sheet_of(SheetPattern::equilateral)), 0.066, 5),
-          crumple_specimen("union_jack", make_sheet(sheet_of(SheetPattern::union_jack)), 0.066, 7),
-          crumple_specimen("criss_cross", make_sheet(sheet_of(SheetPattern::criss_cross)), 0.044, 11),
-          crumple_specimen("jittered", make_sheet(sheet_of(SheetPattern::jittered)), 0.066, 13),
-          crumple_specimen("random_delaunay", make_sheet(sheet_of(SheetPattern::random_delaunay)), 0.05, 17),
-          crumple_specimen("disc", make_disc(0.29, 4), 0.07, 19),
-          crumple_specimen("icosphere", make_icosphere(0.17, 1), 0.1, 23)};
+  return {
+      crumple_specimen("one_diagonal", make_sheet(sheet_of(SheetPattern::one_diagonal)), 0.066, 3),
+      crumple_specimen("equilateral", make_sheet(sheet_of(SheetPattern::equilateral)), 0.066, 5),
+      crumple_specimen("union_jack", make_sheet(sheet_of(SheetPattern::union_jack)), 0.066, 7),
+      crumple_specimen("criss_cross", make_sheet(sheet_of(SheetPattern::criss_cross)), 0.044, 11),
+      crumple_specimen("jittered", make_sheet(sheet_of(SheetPattern::jittered)), 0.066, 13),
+      crumple_specimen("random_delaunay", make_sheet(sheet_of(SheetPattern::random_delaunay)), 0.05,
+                       17),
+      crumple_specimen("disc", make_disc(0.29, 4), 0.07, 19),
+      crumple_specimen("icosphere", make_icosphere(0.17, 1), 0.1, 23)};
 }
 
 std::vector<Specimen> small_crumpled_sheets() {
-  Sheet even = sheet_of(SheetPattern::one_diagonal), irregular = sheet_of(SheetPattern::random_delaunay);
+  Sheet even = sheet_of(SheetPattern::one_diagonal),
+        irregular = sheet_of(SheetPattern::random_delaunay);
   even.columns = irregular.columns = 3;
   even.rows = irregular.rows = 2;
   return {crumple_specimen("one_diagonal", make_sheet(even), 0.14, 29),
@@ -105,8 +109,8 @@ Corners random_corners(Random& random, double angle) {
   const double foot1 = random.uniform(-0.4, 1.4) * edge, foot2 = random.uniform(-0.4, 1.4) * edge;
   const double height1 = random.uniform(0.4, 1.5) * edge, height2 = random.uniform(0.4, 1.5) * edge;
   Corners corners = {Vector3(foot1, height1, 0),
-                     Vector3(foot2, -height2 * std::cos(angle), -height2 * std::sin(angle)), Vector3(0, 0, 0),
-                     Vector3(edge, 0, 0)};
+                     Vector3(foot2, -height2 * std::cos(angle), -height2 * std::sin(angle)),
+                     Vector3(0, 0, 0), Vector3(edge, 0, 0)};
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(random.uniform(-3, 3), random.vectors(1, 1).col(0).normalized()).matrix();
   const Vector3 shift = random.vectors(1, 0.3).col(0);
@@ -117,7 +121,8 @@ Corners random_corners(Random& random, double angle) {
 Specimen random_hinge(unsigned seed, double angle) {
   Random random(seed);
   const Corners rest = random_corners(random, random.uniform(-2.6, 2.6));
-  Specimen specimen{"hinge " + std::to_string(seed), hinge_scene(rest, random.uniform(-2.3, 2.3)), {}};
+  Specimen specimen{
+      "hinge " + std::to_string(seed), hinge_scene(rest, random.uniform(-2.3, 2.3)), {}};
   specimen.state = state_of(random_corners(random, angle));
   specimen.state.v = random.vectors(4, 1.7);
   return specimen;
@@ -126,7 +131,8 @@ Specimen random_hinge(unsigned seed, double angle) {
 std::vector<Specimen> hinges_of_all_angles() {
   std::vector<Specimen> hinges;
   unsigned seed = 101;
-  for (const double angle : {0.0, 1e-9, 1e-4, 0.03, 0.4, 1.1, 1.5707, 1.5709, 2.2, 2.9, 3.1, 3.1411}) {
+  for (const double angle :
+       {0.0, 1e-9, 1e-4, 0.03, 0.4, 1.1, 1.5707, 1.5709, 2.2, 2.9, 3.1, 3.1411}) {
     hinges.push_back(random_hinge(seed++, angle));
     if (angle > 0) hinges.push_back(random_hinge(seed++, -angle));
   }
@@ -168,8 +174,9 @@ oracles::HingeInput hinge_input(const Specimen& specimen, size_t hinge) {
   input.theta0 = scene.rest_angles.at(hinge);
   input.elastic_geometry =
       material.weighting == Weighting::rest ? oracles::Geometry::rest : oracles::Geometry::current;
-  input.damping_factor = material.damping_factor == DampingFactor::edge ? oracles::DampingFactor::edge_length
-                                                                        : oracles::DampingFactor::anisotropy;
+  input.damping_factor = material.damping_factor == DampingFactor::edge
+                             ? oracles::DampingFactor::edge_length
+                             : oracles::DampingFactor::anisotropy;
   return input;
 }
 
@@ -191,8 +198,10 @@ std::vector<BendingMaterial> damped_bending_variants() {
 
 std::string describe(const Specimen& specimen, const BendingMaterial& material) {
   const std::string weighting = material.weighting == Weighting::rest ? "rest" : "current";
-  if (material.damping == 0) return specimen.name + ", " + weighting + ", " + std::string(material.law);
-  return specimen.name + (material.damping_factor == DampingFactor::edge ? ", |E|" : ", |E|^2/(|N1|+|N2|)");
+  if (material.damping == 0)
+    return specimen.name + ", " + weighting + ", " + std::string(material.law);
+  return specimen.name +
+         (material.damping_factor == DampingFactor::edge ? ", |E|" : ", |E|^2/(|N1|+|N2|)");
 }
 
 }  // namespace foldproof

@@ -1,5 +1,5 @@
-// Cloth to try forces on: crumpled sheets of every pattern, hinges of any shape and angle, shapes that are
-// curved at rest.
+// Cloth to try forces on: crumpled sheets of every pattern, hinges of any shape and angle, shapes
+// that are curved at rest.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace foldproof {
 
-/// A scene and a state of it. The scene names no force: who uses it adds the one that is asked about. Its
-/// rest angles are there, one a hinge.
+/// A scene and a state of it. The scene names no force: who uses it adds the one that is asked
+/// about. Its rest angles are there, one a hinge.
 struct Specimen {
   std::string name;
   Scene scene;
@@ -23,30 +23,32 @@ struct Specimen {
 /// x1, x2, x3, x4 of a hinge [m].
 using Corners = std::array<Vector3, 4>;
 
-/// Sheets of six patterns, a disc and a sphere, 80 triangles or so each, with random displacements (normal
-/// and in-plane, up to 0.35 and 0.2 of an edge), random velocities (up to 1.5 m/s) and random rest angles (up
-/// to 0.9 rad).
+/// Sheets of six patterns, a disc and a sphere, 80 triangles or so each, with random displacements
+/// (normal and in-plane, up to 0.35 and 0.2 of an edge), random velocities (up to 1.5 m/s) and
+/// random rest angles (up to 0.9 rad).
 std::vector<Specimen> crumpled_sheets();
 
-/// Three of them, small enough for dense matrices: an even pattern, an irregular one, a closed surface.
+/// Three of them, small enough for dense matrices: an even pattern, an irregular one, a
+/// closed surface.
 std::vector<Specimen> small_crumpled_sheets();
 
-/// Shapes that are curved at rest, in their rest shape, with the angles of that shape as rest angles: a
-/// statue, a sphere, a cylinder, pleats.
+/// Shapes that are curved at rest, in their rest shape, with the angles of that shape as rest
+/// angles: a statue, a sphere, a cylinder, pleats.
 std::vector<Specimen> curved_shapes();
 
 /// The seated statue of 1280 triangles, .37 m high; made once.
 const TriangleMesh& small_statue();
 
-/// Two triangles of random shape (heights .4 to 1.5 of the edge, feet up to .4 of it beyond its ends), place
-/// and orientation, folded by `angle` [rad] to rounding.
+/// Two triangles of random shape (heights .4 to 1.5 of the edge, feet up to .4 of it beyond its
+/// ends), place and orientation, folded by `angle` [rad] to rounding.
 Corners random_corners(Random& random, double angle);
 
-/// A random hinge at `angle` [rad] with random velocities; its rest shape is another random hinge, its rest
-/// angle random too.
+/// A random hinge at `angle` [rad] with random velocities; its rest shape is another random hinge,
+/// its rest angle random too.
 Specimen random_hinge(unsigned seed, double angle);
 
-/// Random hinges at angles all round the circle [rad]: flat, slight, right, obtuse, sharp, of both signs.
+/// Random hinges at angles all round the circle [rad]: flat, slight, right, obtuse,
+/// sharp, of both signs.
 std::vector<Specimen> hinges_of_all_angles();
 
 /// A scene of one hinge: particles 0, 1, 2, 3 are x1, x2, x3, x4 of it.
@@ -62,8 +64,8 @@ Corners corners_of(const Hinge& hinge, const PerParticle3& x);
 /// What the oracles ask of one hinge of a specimen, with the constants of its scene's bending.
 oracles::HingeInput hinge_input(const Specimen& specimen, size_t hinge);
 
-/// Longest side squared over twice the area, of the worse of the two triangles [1]: by how much rounding in
-/// the normals is magnified. 1.15 for equilateral triangles.
+/// Longest side squared over twice the area, of the worse of the two triangles [1]: by how much
+/// rounding in the normals is magnified. 1.15 for equilateral triangles.
 double aspect_ratio(const Corners& x);
 
 /// Bending with rest and with current weighting by each law; constants pairwise distinct.

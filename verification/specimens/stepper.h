@@ -30,8 +30,9 @@ class Stepper {
   Work work_;
 };
 
-/// How many times a small disturbance of the start has grown at most, in all of `steps` steps of h [1], at
-/// least 1. It is random, its velocities scaled with 1/(steps h); rounding errors on the way grow no faster.
+/// How many times a small disturbance of the start has grown at most, in all of `steps` steps of h
+/// [1], at least 1. It is random, its velocities scaled with 1/(steps h); rounding errors on the
+/// way grow no faster.
 double growth(Stepper& stepper, const State& start, double h, int steps);
 
 }  // namespace foldproof

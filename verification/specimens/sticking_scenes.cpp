@@ -23,16 +23,17 @@ void give_trial_values(StickyPatch& patch) {
   patch.far = 0.053;
 }
 
-/// Sticks the particle to triangles of the patch whose corners are at y (3 x ...), at random places in them,
-/// and puts it away from their mean by part of `far`.
-void stick(StuckSpecimen& specimen, int particle, const std::vector<int>& triangles, const PerParticle3& y,
-           double part, Random& random) {
+/// Sticks the particle to triangles of the patch whose corners are at y (3 x ...), at random places
+/// in them, and puts it away from their mean by part of `far`.
+void stick(StuckSpecimen& specimen, int particle, const std::vector<int>& triangles,
+           const PerParticle3& y, double part, Random& random) {
   const StickyPatch& patch = specimen.patch();
   oracles::StuckParticle stuck{Vector3::Zero(), {}, {}, patch.stiffness, patch.far};
   std::vector<int> particles = {particle};
   for (const int t : triangles) {
     const auto [a, b, c] = patch.triangles[size_t(t)];
-    const Vector3 place(random.uniform(-0.1, 0.7), random.uniform(-0.1, 0.6), random.uniform(-0.02, 0.03));
+    const Vector3 place(random.uniform(-0.1, 0.7), random.uniform(-0.1, 0.6),
+                        random.uniform(-0.02, 0.03));
     stuck.corners.push_back({y.col(a), y.col(b), y.col(c)});
     stuck.places.push_back(place);
     if (!patch.place) particles.insert(particles.end(), {a, b, c});
@@ -71,7 +72,8 @@ std::vector<StuckSpecimen> stuck_layers() {
       StickyPatch patch = layer_patch(specimen.scene.mesh);
       give_trial_values(patch);
       specimen.scene.sticky = {patch};
-      specimen.state = {0.37, specimen.scene.x + random.vectors(2 * n, 0.011), random.vectors(2 * n, 1.3)};
+      specimen.state = {0.37, specimen.scene.x + random.vectors(2 * n, 0.011),
+                        random.vectors(2 * n, 1.3)};
       for (int i = int(n); i < 2 * int(n); ++i) {
         std::vector<int> to = {i % int(patch.triangles.size())};
         if (each == 2) to.push_back(to[0] == 5 ? 7 : 5);
@@ -86,7 +88,8 @@ std::vector<StuckSpecimen> stuck_layers() {
 StuckSpecimen stuck_to_turning_surface() {
   StuckSpecimen specimen;
   specimen.name = "a surface that turns and drifts";
-  specimen.scene = scene_at_rest(make_sheet({SheetPattern::jittered, 0.2, 0.2, cells, cells, 0.2, 3}), 0.31);
+  specimen.scene =
+      scene_at_rest(make_sheet({SheetPattern::jittered, 0.2, 0.2, cells, cells, 0.2, 3}), 0.31);
   StickyPatch patch;
   give_trial_values(patch);
   patch.triangles = specimen.scene.mesh.triangles;
@@ -101,14 +104,16 @@ StuckSpecimen stuck_to_turning_surface() {
   };
   patch.velocity = [=](double t) {
     PerParticle3 v(3, X.cols());
-    for (Eigen::Index i = 0; i < X.cols(); ++i) v.col(i) = spin.cross(rotate(X.col(i), t * spin)) + drift;
+    for (Eigen::Index i = 0; i < X.cols(); ++i)
+      v.col(i) = spin.cross(rotate(X.col(i), t * spin)) + drift;
     return v;
   };
   specimen.scene.sticky = {patch};
   Random random(89);
   specimen.state = {0.41, specimen.scene.x, random.vectors(X.cols(), 1.1)};
   const PerParticle3 y = patch.place(specimen.state.time);
-  for (int i = 0; i < int(X.cols()); ++i) stick(specimen, i, {i % 3, 5}, y, 0.09 * i + 0.05, random);
+  for (int i = 0; i < int(X.cols()); ++i)
+    stick(specimen, i, {i % 3, 5}, y, 0.09 * i + 0.05, random);
   return specimen;
 }
 
@@ -124,7 +129,8 @@ PerParticle3 expected_elastic(const StuckSpecimen& specimen) {
 
 double expected_energy(const StuckSpecimen& specimen) {
   double sum = 0;
-  for (const oracles::StuckParticle& stuck : specimen.stuck) sum += oracles::sticking_answer(stuck).energy;
+  for (const oracles::StuckParticle& stuck : specimen.stuck)
+    sum += oracles::sticking_answer(stuck).energy;
   return sum;
 }
 
@@ -137,7 +143,8 @@ Eigen::MatrixXd expected_damping(const StuckSpecimen& specimen) {
     const std::vector<int>& particles = specimen.particles[k];
     G.block<3, 3>(0, 3 * particles[0]) = -Eigen::Matrix3d::Identity();
     for (size_t j = 1; j < particles.size(); ++j)
-      G.block<3, 3>(0, 3 * particles[j]) += answer.derivative.block<3, 3>(0, Eigen::Index(3 * (j - 1)));
+      G.block<3, 3>(0, 3 * particles[j]) +=
+          answer.derivative.block<3, 3>(0, Eigen::Index(3 * (j - 1)));
     D -= answer.stiffness * specimen.patch().forecast_time * G.transpose() * G;
   }
   return D;

@@ -15,35 +15,39 @@ struct StuckSpecimen {
   Scene scene;  // no force but sticking
   State state;
   std::vector<oracles::StuckParticle> stuck;
-  std::vector<std::vector<int>> particles;  // of each: the particle, and the corners if these are cloth
+  // of each: the particle, and the corners if these are cloth
+  std::vector<std::vector<int>> particles;
 
   const StickyPatch& patch() const { return scene.sticky.front(); }
 };
 
-/// Two small irregular sheets, one above the other; the upper one's particles stick to one or two triangles
-/// of the lower one, drawn away from their targets by 7, 44, 83 and 99 hundredths of `far`.
+/// Two small irregular sheets, one above the other; the upper one's particles stick to one or
+/// two triangles of the lower one, drawn away from their targets by 7, 44, 83 and 99
+/// hundredths of `far`.
 std::vector<StuckSpecimen> stuck_layers();
 
-/// The upper sheet alone, stuck to a surface that turns and drifts as the formula says: rates are known.
+/// The upper sheet alone, stuck to a surface that turns and drifts as the formula
+/// says: rates are known.
 StuckSpecimen stuck_to_turning_surface();
 
 /// What the oracle says of the specimen's elastic forces (3 x N [N]) and energy [J].
 PerParticle3 expected_elastic(const StuckSpecimen& specimen);
 double expected_energy(const StuckSpecimen& specimen);
 
-/// -k tau_s G^T G over all particles, G = (-1 at the particle, the target's derivative at the corners): 3N x
-/// 3N [N s/m].
+/// -k tau_s G^T G over all particles, G = (-1 at the particle, the target's derivative at the
+/// corners): 3N x 3N [N s/m].
 Eigen::MatrixXd expected_damping(const StuckSpecimen& specimen);
 
-/// Two sheets of n x n cells, `gap` apart in z, each a part of one mesh: particles of the lower one first.
-/// [m]
+/// Two sheets of n x n cells, `gap` apart in z, each a part of one mesh: particles of the
+/// lower one first. [m]
 TriangleMesh two_sheets(int n, double side, double gap);
 
-/// The second half of the particles may stick to the triangles of the first half; nothing else is said.
+/// The second half of the particles may stick to the triangles of the first
+/// half; nothing else is said.
 StickyPatch layer_patch(const TriangleMesh& mesh);
 
-/// A horizontal square to stick to, of two triangles that face upwards, about the origin at rest: a patch for
-/// all particles of the scene. The square moves as the motion says.
+/// A horizontal square to stick to, of two triangles that face upwards, about the origin at rest: a
+/// patch for all particles of the scene. The square moves as the motion says.
 StickyPatch palm(const Scene& scene, double side, const RigidMotion& motion);
 
 }  // namespace foldproof

@@ -19,8 +19,8 @@ struct Strains {
 Strains strains_of(const Scene& scene, const PerParticle3& x) {
   Strains strains;
   for (const Edge& edge : scene.mesh.edges) {
-    const double rest =
-        scene.stretch->rest_length_scale * (scene.mesh.rest.col(edge.b) - scene.mesh.rest.col(edge.a)).norm();
+    const double rest = scene.stretch->rest_length_scale *
+                        (scene.mesh.rest.col(edge.b) - scene.mesh.rest.col(edge.a)).norm();
     const double strain = (x.col(edge.b) - x.col(edge.a)).norm() / rest - 1;
     if (std::isnan(strain)) return {strain, strain};
     strains.least = std::min(strains.least, strain);
@@ -46,8 +46,8 @@ void limit_about(LimitedCloth& cloth) {
   cloth.scene.strain_limits->compression = std::max(0.0, -strains.least) + 0.017;
 }
 
-/// The sheet displaced as the specimen is, or by a share of it: on a random mesh a short edge must not be
-/// more than halved nor doubled.
+/// The sheet displaced as the specimen is, or by a share of it: on a random mesh a short edge must
+/// not be more than halved nor doubled.
 LimitedCloth crumpled_cloth(const Specimen& specimen, const StrainLimits& limits) {
   const PerParticle3& rest = specimen.scene.mesh.rest;
   for (double share = 1;; share *= 0.7) {
@@ -60,8 +60,9 @@ LimitedCloth crumpled_cloth(const Specimen& specimen, const StrainLimits& limits
   }
 }
 
-/// The sheet stretched by 5 %, with a share of its displacements that leaves all springs within their limits:
-/// of 6 %, unless that shortens a short edge of a random mesh by more than it is stretched.
+/// The sheet stretched by 5 %, with a share of its displacements that leaves all springs
+/// within their limits: of 6 %, unless that shortens a short edge of a random mesh by more
+/// than it is stretched.
 LimitedCloth stretched_cloth(const Specimen& specimen, const StrainLimits& limits) {
   const PerParticle3& rest = specimen.scene.mesh.rest;
   for (double share = 0.06;; share *= 0.7) {
@@ -72,13 +73,14 @@ LimitedCloth stretched_cloth(const Specimen& specimen, const StrainLimits& limit
   }
 }
 
-/// The spring with the largest strain is pulled by a tenth of its length in a step: not all random motions
-/// break limits.
+/// The spring with the largest strain is pulled by a tenth of its length in a step: not all random
+/// motions break limits.
 void pull(LimitedCloth& cloth) {
   const Edge* longest = nullptr;
   double largest = -infinity;
   for (const Edge& edge : cloth.scene.mesh.edges) {
-    const double rest = (cloth.scene.mesh.rest.col(edge.b) - cloth.scene.mesh.rest.col(edge.a)).norm();
+    const double rest =
+        (cloth.scene.mesh.rest.col(edge.b) - cloth.scene.mesh.rest.col(edge.a)).norm();
     const double strain = (cloth.state.x.col(edge.b) - cloth.state.x.col(edge.a)).norm() / rest;
     if (strain > largest) largest = strain, longest = &edge;
   }
@@ -88,8 +90,8 @@ void pull(LimitedCloth& cloth) {
   cloth.state.v.col(longest->b) = mean + 0.05 / cloth.step * d;
 }
 
-/// Makes the step so short that the ends of a spring move against each other by .3 of its length at most; its
-/// motion breaks limits then, too.
+/// Makes the step so short that the ends of a spring move against each other by .3 of its length at
+/// most; its motion breaks limits then, too.
 void moderate(LimitedCloth& cloth) {
   cloth.step *= std::min(1.0, 0.3 / relative_motion(cloth, cloth.step));
   if (strain_violation(cloth.scene, cloth.state.x + cloth.step * cloth.state.v) < 0.05) pull(cloth);
@@ -101,7 +103,8 @@ double relative_motion(const LimitedCloth& cloth, double h) {
   double largest = 0;
   for (const Edge& edge : cloth.scene.mesh.edges) {
     const double length = (cloth.state.x.col(edge.b) - cloth.state.x.col(edge.a)).norm();
-    largest = std::max(largest, h * (cloth.state.v.col(edge.b) - cloth.state.v.col(edge.a)).norm() / length);
+    largest = std::max(largest,
+                       h * (cloth.state.v.col(edge.b) - cloth.state.v.col(edge.a)).norm() / length);
   }
   return largest;
 }
@@ -138,8 +141,8 @@ double strain_violation(const Scene& scene, const PerParticle3& x) {
 PerParticle3 corrected_by_strain_limits(const Subject& subject, const LimitedCloth& cloth,
                                         const PerParticle3& v) {
   const auto prepared = require_offered(subject.prepare, "prepare")(cloth.scene);
-  return require_offered(subject.limit_strain, "limit_strain")(*prepared, {0, cloth.step, cloth.step},
-                                                               cloth.state, v);
+  return require_offered(subject.limit_strain, "limit_strain")(
+      *prepared, {0, cloth.step, cloth.step}, cloth.state, v);
 }
 
 }  // namespace foldproof

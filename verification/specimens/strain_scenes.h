@@ -17,13 +17,14 @@ struct LimitedCloth {
   double step;  // in which springs would leave their limits [s]
 };
 
-/// Crumpled sheets of every pattern, a disc and a sphere, each twice: as they are, with limits just outside
-/// of their strains, and nearly flat, stretched by 5 %, with limits of +10 % and 0 %. Random velocities move
-/// the ends of a spring against each other by up to .3 of its length in a step: at half, sweeps may lead ever
-/// farther from the limits.
+/// Crumpled sheets of every pattern, a disc and a sphere, each twice: as they are, with limits just
+/// outside of their strains, and nearly flat, stretched by 5 %, with limits of +10 % and 0 %.
+/// Random velocities move the ends of a spring against each other by up to .3 of its length in a
+/// step: at half, sweeps may lead ever farther from the limits.
 std::vector<LimitedCloth> limited_cloths(SweepOrder order);
 
-/// How far the ends of a spring move against each other in a step h [s], over its length: the largest [1].
+/// How far the ends of a spring move against each other in a step h [s], over its
+/// length: the largest [1].
 double relative_motion(const LimitedCloth& cloth, double h);
 
 /// The four orders with the names that case files give them.
@@ -33,8 +34,8 @@ struct NamedOrder {
 };
 const std::vector<NamedOrder>& sweep_orders();
 
-/// The largest violation of the scene's strain limits at the positions x (3 x N [m]), over rest lengths [1];
-/// negative: all are within.
+/// The largest violation of the scene's strain limits at the positions x (3 x N [m]), over rest
+/// lengths [1]; negative: all are within.
 double strain_violation(const Scene& scene, const PerParticle3& x);
 
 /// The velocities that the subject's strain limits make of v (3 x N [m/s]) for the cloth's step.

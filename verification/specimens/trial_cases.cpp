@@ -24,14 +24,16 @@ PerParticle3 plain_positions() {
 
 Table no_differences() { return {{"what", "1"}, {"difference", "epsilon of the size"}}; }
 
-double in_roundings(double difference, double size) { return std::abs(difference) / (epsilon * size); }
+double in_roundings(double difference, double size) {
+  return std::abs(difference) / (epsilon * size);
+}
 
 double infinite_unless(bool right) { return right ? 0 : INFINITY; }
 
 Finding judged_differences(const Table& differences, double bound, const std::string& why_bound) {
-  return judge_worst(
-      differences, bound, why_bound,
-      "Each difference is over the size of what is compared; a wrong statement counts as infinite.");
+  return judge_worst(differences, bound, why_bound,
+                     "Each difference is over the size of what is compared; a wrong statement "
+                     "counts as infinite.");
 }
 
 Finding rejected_cases(const std::vector<RejectedCase>& cases, const std::string& path) {
@@ -50,7 +52,9 @@ Finding rejected_cases(const std::vector<RejectedCase>& cases, const std::string
     answers.row(message.empty() ? "accepted: " + rejected.tables : message.substr(0, 200), lacks);
     wrong += !lacks.empty();
   }
-  return {{wrong, 0, 0, "cases", "each must be refused with file, line and what is known"}, answers, ""};
+  return {{wrong, 0, 0, "cases", "each must be refused with file, line and what is known"},
+          answers,
+          ""};
 }
 
 }  // namespace foldproof

@@ -40,13 +40,14 @@ struct RejectedCase {
 };
 
 /// How many are accepted and built, or refused without file and line or one of the words.
-Finding rejected_cases(const std::vector<RejectedCase>& cases, const std::string& path = "trial.toml");
+Finding rejected_cases(const std::vector<RejectedCase>& cases,
+                       const std::string& path = "trial.toml");
 
 /// The positions of that sheet, 3 x N [m].
 PerParticle3 plain_positions();
 
-/// For differences between what was read and what was written, a row each: in words, and in roundings of the
-/// size of what is compared.
+/// For differences between what was read and what was written, a row each: in words, and in
+/// roundings of the size of what is compared.
 Table no_differences();
 
 /// |difference| over epsilon times its size, which is in the same unit.

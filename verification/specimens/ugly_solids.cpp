@@ -10,9 +10,10 @@ using oracles::Whole2;
 using oracles::Whole3;
 using oracles::WholePrism;
 
-/// Counter-clockwise about the origin, every vertex in sight of it; the rays' tips are two to nine degrees
-/// sharp.
-const std::vector<Whole2> star = {{40, 1}, {2, 2}, {3, 31}, {-2, 3}, {-37, 2}, {-3, -2}, {-1, -29}, {2, -3}};
+/// Counter-clockwise about the origin, every vertex in sight of it; the rays' tips are two to
+/// nine degrees sharp.
+const std::vector<Whole2> star = {{40, 1},  {2, 2},   {3, 31},   {-2, 3},
+                                  {-37, 2}, {-3, -2}, {-1, -29}, {2, -3}};
 
 // A shear with whole-number inverse:  X = x + 2 z, Y = y + x + 2 z, Z = z - Y
 Vector3 shear(const Vector3& p) {
@@ -25,8 +26,9 @@ Whole3 unshear(const Whole3& p) {
   return {x, y, z};
 }
 
-/// Appends the prism's triangles: fans about the centres of its two caps, and the sides, each cut along the
-/// diagonal from its lower first corner. shell: even numbers face outward, odd ones inward.
+/// Appends the prism's triangles: fans about the centres of its two caps, and the sides,
+/// each cut along the diagonal from its lower first corner. shell: even numbers face
+/// outward, odd ones inward.
 void add_prism(const WholePrism& prism, int shell, std::vector<Vector3>& vertices,
                std::vector<Triangle>& triangles) {
   const int first = int(vertices.size()), n = int(prism.polygon.size());
@@ -82,9 +84,9 @@ std::vector<UglySolid> ugly_solids() {
 
 int inside_exactly(const UglySolid& solid, const Vector3& p) {
   const Vector3 scaled_star = double(units) * p;
-  return oracles::inside_nested(
-      solid.prisms,
-      unshear({std::lround(scaled_star.x()), std::lround(scaled_star.y()), std::lround(scaled_star.z())}));
+  return oracles::inside_nested(solid.prisms,
+                                unshear({std::lround(scaled_star.x()), std::lround(scaled_star.y()),
+                                         std::lround(scaled_star.z())}));
 }
 
 }  // namespace foldproof

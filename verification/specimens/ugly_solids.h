@@ -9,8 +9,8 @@
 
 namespace foldproof {
 
-/// Nested prisms over a star with thin rays, sheared so that no face lies along an axis. Corners are whole
-/// numbers.
+/// Nested prisms over a star with thin rays, sheared so that no face lies along an axis. Corners
+/// are whole numbers.
 struct UglySolid {
   std::string name;
   TriangleSoup soup;                        // closed, normals outward [m]

@@ -24,7 +24,8 @@ struct Row {
 
 double parse_number(const std::string& field, const std::string& where) {
   const size_t first = field.find_first_not_of(" \t\r"), last = field.find_last_not_of(" \t\r");
-  const std::string trimmed = first == std::string::npos ? "" : field.substr(first, last - first + 1);
+  const std::string trimmed =
+      first == std::string::npos ? "" : field.substr(first, last - first + 1);
   const char* begin = trimmed.c_str() + (trimmed.starts_with('+') ? 1 : 0);
   double value = 0;
   const auto [end, error] = std::from_chars(begin, trimmed.c_str() + trimmed.size(), value);
@@ -33,8 +34,8 @@ double parse_number(const std::string& field, const std::string& where) {
   return value;
 }
 
-/// Rows of `columns` comma-separated numbers; lines that start with '#' or a letter (a heading) are passed
-/// over.
+/// Rows of `columns` comma-separated numbers; lines that start with '#' or a letter (a heading)
+/// are passed over.
 std::vector<Row> read_rows(const NamedText& named, size_t columns) {
   const std::string& file = named.name;
   std::istringstream in(named.text);
@@ -50,12 +51,14 @@ std::vector<Row> read_rows(const NamedText& named, size_t columns) {
       continue;  // a heading
     Row row{file + ":" + std::to_string(number), {}};
     if (rows.size() == most_rows)
-      throw InputError(fmt::format("{}: more than {} rows, the most that is read", row.where, most_rows));
+      throw InputError(
+          fmt::format("{}: more than {} rows, the most that is read", row.where, most_rows));
     std::istringstream fields(line);
     for (std::string field; std::getline(fields, field, ',');)
       row.values.push_back(parse_number(field, row.where));
     if (row.values.size() != columns)
-      throw InputError(fmt::format("{}: {} values, but a row has {}", row.where, row.values.size(), columns));
+      throw InputError(
+          fmt::format("{}: {} values, but a row has {}", row.where, row.values.size(), columns));
     rows.push_back(std::move(row));
   }
   if (rows.empty()) throw InputError(file + ": there is no row of numbers in it");
@@ -116,15 +119,17 @@ std::string bending_of_rows(const NamedText& named, const NamedText& rest_named)
         output += fmt::format("{}{}_{}{}", output.empty() ? "" : ",", kind, axis, particle);
   output += "\n";
   for (size_t k = 0; k < rows.size(); ++k) {
-    const PerParticle3 rest = four_columns(rest_rows.empty() ? rows[k].values : rest_rows[k].values, 0);
+    const PerParticle3 rest =
+        four_columns(rest_rows.empty() ? rows[k].values : rest_rows[k].values, 0);
     output += evaluate_row(rows[k], rest, rest_rows.empty() ? Weighting::current : Weighting::rest);
   }
   return output;
 }
 
 void evaluate_bending(const std::string& file, const std::string& rest_file) {
-  const NamedText rest =
-      rest_file.empty() ? NamedText{} : NamedText{read_text_file(rest_file, table_text_limits), rest_file};
+  const NamedText rest = rest_file.empty()
+                             ? NamedText{}
+                             : NamedText{read_text_file(rest_file, table_text_limits), rest_file};
   fmt::print("{}", bending_of_rows({read_text_file(file, table_text_limits), file}, rest));
 }
 

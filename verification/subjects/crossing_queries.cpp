@@ -19,7 +19,8 @@ namespace {
 using oracles::Fraction;
 using oracles::Whole;
 
-constexpr std::size_t most_query_rows = 4'000'000;  // of six long whole numbers: a gigabyte of memory
+// of six long whole numbers: a gigabyte of memory
+constexpr std::size_t most_query_rows = 4'000'000;
 // Of a number: exact arithmetic takes the time of their square, and a double has a numerator and a
 // denominator of at most 309 and 324.
 constexpr std::size_t most_digits = 1000;
@@ -31,15 +32,16 @@ struct FileQuery {
 };
 
 Whole parse_whole(const std::string& field, const std::string& where) {
-  const std::size_t first = field.find_first_not_of(" \t\r"), last = field.find_last_not_of(" \t\r");
+  const std::size_t first = field.find_first_not_of(" \t\r"),
+                    last = field.find_last_not_of(" \t\r");
   const std::string text = first == std::string::npos ? "" : field.substr(first, last - first + 1);
   const std::string digits = text.starts_with('-') ? text.substr(1) : text;
   if (digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos)
     throw InputError(where + ": '" + text + "' is not a whole number");
   if (digits.size() > most_digits)
     throw InputError(fmt::format("{}: a number has more than {} digits", where, most_digits));
-  const std::size_t nonzero =
-      std::min(digits.find_first_not_of('0'), digits.size() - 1);  // 012 would be octal
+  // 012 would be octal
+  const std::size_t nonzero = std::min(digits.find_first_not_of('0'), digits.size() - 1);
   const Whole size(digits.substr(nonzero));
   return text.starts_with('-') ? Whole(-size) : size;
 }
@@ -50,7 +52,8 @@ std::array<Whole, 7> parsed_row(const std::string& line, const std::string& wher
   std::size_t count = 0;
   for (std::string field; std::getline(fields, field, ','); ++count)
     if (count < row.size()) row[count] = parse_whole(field, where);
-  if (count != row.size()) throw InputError(fmt::format("{}: {} values, but a row has 7", where, count));
+  if (count != row.size())
+    throw InputError(fmt::format("{}: {} values, but a row has 7", where, count));
   if (row[1] == 0 || row[3] == 0 || row[5] == 0) throw InputError(where + ": a denominator is 0");
   if (row[6] != 0 && row[6] != 1) throw InputError(where + ": the last value must be 0 or 1");
   return row;
@@ -66,7 +69,8 @@ std::vector<FileQuery> read_queries(const std::string& text, const std::string& 
     const std::string where = fmt::format("{}:{}", file, number);
     const auto row = parsed_row(line, where);
     if (rows == most_query_rows)
-      throw InputError(fmt::format("{}: more than {} rows, the most that is read", where, most_query_rows));
+      throw InputError(
+          fmt::format("{}: more than {} rows, the most that is read", where, most_query_rows));
     if (rows % 8 == 0) queries.push_back({{}, row[6] == 1, where});
     if (queries.back().meets != (row[6] == 1))
       throw InputError(where + ": the rows of a query disagree on its truth");
@@ -74,12 +78,14 @@ std::vector<FileQuery> read_queries(const std::string& text, const std::string& 
                                        Fraction{row[4], row[5]}};
     ++rows;
   }
-  if (rows == 0 || rows % 8 != 0) throw InputError(fmt::format("{}: {} rows, but a query has 8", file, rows));
+  if (rows == 0 || rows % 8 != 0)
+    throw InputError(fmt::format("{}: {} rows, but a query has 8", file, rows));
   return queries;
 }
 
 double nearest_double(const Fraction& f) {
-  const oracles::Digits50 quotient = oracles::Digits50(f.numerator) / oracles::Digits50(f.denominator);
+  const oracles::Digits50 quotient =
+      oracles::Digits50(f.numerator) / oracles::Digits50(f.denominator);
   return quotient.convert_to<double>();
 }
 
@@ -113,20 +119,22 @@ bool evaluate_file(const std::string& file, const std::string& given, double kee
 
 }  // namespace
 
-JudgedQueries judge_queries(const std::string& text, const std::string& name, const std::string& kind,
-                            double keep) {
+JudgedQueries judge_queries(const std::string& text, const std::string& name,
+                            const std::string& kind, double keep) {
   const bool is_vertex = kind_of(name, kind) == "vertex-face";
   const PairKind pair = is_vertex ? PairKind::vertex_triangle : PairKind::edge_edge;
-  const auto features = is_vertex ? oracles::Features::vertex_and_triangle : oracles::Features::edge_and_edge;
+  const auto features =
+      is_vertex ? oracles::Features::vertex_and_triangle : oracles::Features::edge_and_edge;
   const std::vector<FileQuery> queries = read_queries(text, name);
   JudgedQueries judged;
   judged.queries = queries.size();
   for (const FileQuery& query : queries) {
     judged.meetings += query.meets;
     const Corners4 start = corners_at(query, 0);
-    judged.reference.record(query.meets,
-                            first_approach(pair, start, corners_at(query, 4) - start, keep).has_value());
-    judged.exact.record(query.meets, oracles::ever_meet(features, oracles::motion_between(query.points)));
+    judged.reference.record(
+        query.meets, first_approach(pair, start, corners_at(query, 4) - start, keep).has_value());
+    judged.exact.record(query.meets,
+                        oracles::ever_meet(features, oracles::motion_between(query.points)));
   }
   return judged;
 }

@@ -34,8 +34,8 @@ PerParticle3 filter_velocity(const PreparedScene& prepared, const Span& span, co
 
 /// Is there anything that forms or breaks?
 bool sticks(const System& system) {
-  return std::ranges::any_of(system.forces,
-                             [](const Force& force) { return std::holds_alternative<Sticking>(force); });
+  return std::ranges::any_of(
+      system.forces, [](const Force& force) { return std::holds_alternative<Sticking>(force); });
 }
 
 }  // namespace
@@ -44,7 +44,9 @@ Subject reference_subject() {
   Subject subject;
   subject.name = "foldproof reference";
   subject.version = "0.2.0";
-  subject.prepare = [](const Scene& scene) { return std::make_unique<PreparedReferenceScene>(scene); };
+  subject.prepare = [](const Scene& scene) {
+    return std::make_unique<PreparedReferenceScene>(scene);
+  };
   subject.elastic_forces = [](PreparedScene& prepared, const State& s) {
     Work uncounted;
     return elastic_forces(own(prepared).system.forces, s, uncounted);
@@ -64,7 +66,8 @@ Subject reference_subject() {
   subject.avoid_itself = filter_velocity<SelfCollision>;
   subject.step = [](PreparedScene& prepared, std::span<const State> past, double dt, Work& work) {
     const PreparedReferenceScene& reference = own(prepared);
-    if (!sticks(reference.system)) return reference.integrator.step(reference.system, past, dt, work);
+    if (!sticks(reference.system))
+      return reference.integrator.step(reference.system, past, dt, work);
     std::vector<State> begun(past.begin(), past.end());
     begin_step(reference.system, begun.back());
     work.bonds += long(begun.back().bonds.size());

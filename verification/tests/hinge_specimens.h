@@ -10,8 +10,8 @@ namespace foldproof::oracles {
 
 using Corners = std::array<Vector3, 4>;
 
-// u and the forces are rounded once each; sums of up to twelve such numbers stay within this many times
-// epsilon
+// u and the forces are rounded once each; sums of up to twelve such numbers stay within this
+// many times epsilon
 constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
 
 inline HingeInput first_hinge() {
@@ -20,7 +20,8 @@ inline HingeInput first_hinge() {
              Vector3(-.06, .05, .83)};
   hinge.v = {Vector3(.31, -1.2, .45), Vector3(-.62, .83, .17), Vector3(.92, .24, -.53),
              Vector3(-.14, .37, .76)};
-  hinge.rest = {Vector3(-.8, .02, .3), Vector3(.67, 0, .41), Vector3(.01, 0, -.07), Vector3(0, .03, .9)};
+  hinge.rest = {Vector3(-.8, .02, .3), Vector3(.67, 0, .41), Vector3(.01, 0, -.07),
+                Vector3(0, .03, .9)};
   hinge.ke = 3.7e-3;
   hinge.kd = 4.1e-4;
   hinge.theta0 = .63;
@@ -32,7 +33,8 @@ inline HingeInput second_hinge() {
   HingeInput hinge;
   hinge.x = {Vector3(.045, .014, .017), Vector3(.031, .052, .024), Vector3(.003, .001, .002),
              Vector3(.009, .012, .061)};
-  hinge.v = {Vector3(1.7, .3, -.6), Vector3(-.9, 2.3, .8), Vector3(.5, -.7, 1.1), Vector3(.2, .6, -1.3)};
+  hinge.v = {Vector3(1.7, .3, -.6), Vector3(-.9, 2.3, .8), Vector3(.5, -.7, 1.1),
+             Vector3(.2, .6, -1.3)};
   hinge.rest = {Vector3(-.05, .003, .01), Vector3(.06, .002, .02), Vector3(0, .001, 0),
                 Vector3(.004, 0, .057)};
   hinge.ke = 2.9e-5;

@@ -1,5 +1,5 @@
-// The exact judges of crossings: against distances in 50 digits, against halved times, against hand-made
-// configurations.
+// The exact judges of crossings: against distances in 50 digits, against halved times, against
+// hand-made configurations.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <limits>
@@ -31,7 +31,8 @@ FourPoints points(const Vector3& a, const Vector3& b, const Vector3& c, const Ve
   return x;
 }
 
-/// The first point moves by `displacement` [m] over a triangle in the plane z = 0 with corners (0, 0), (4, 0), (0, 4).
+/// The first point moves by `displacement` [m] over a triangle in the plane z = 0 with corners (0,
+/// 0), (4, 0), (0, 4).
 Motion vertex_over_triangle(const Vector3& from, const Vector3& displacement) {
   return exact_motion(points(from, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}),
                       points(displacement, Vector3::Zero(), Vector3::Zero(), Vector3::Zero()));
@@ -102,7 +103,8 @@ TEST_CASE("roots and halved times agree on who ever meets") {
   std::mt19937 bits(31);
   int meetings = 0, unclear = 0;
   for (int k = 0; k < 4000; ++k) {
-    const FourPoints x = small_points(bits, 9), displacement = small_points(bits, k % 2 == 0 ? 9 : 3);
+    const FourPoints x = small_points(bits, 9),
+                     displacement = small_points(bits, k % 2 == 0 ? 9 : 3);
     for (const Features kind : kinds) {
       const Motion motion = exact_motion(x, displacement);
       const bool ever = ever_meet(kind, motion);
@@ -133,10 +135,12 @@ TEST_CASE("a vertex hits a triangle within, on its border, at either end of the 
 
 TEST_CASE("degenerate features meet as what is left of them") {
   const Vector3 o(0, 0, 0), still(0, 0, 0);
-  const FourPoints line = points({1, -1, 0}, o, {4, 0, 0}, {2, 0, 0});  // a triangle that is a segment
-  CHECK(ever_meet(Features::vertex_and_triangle, exact_motion(line, points({0, 3, 0}, still, still, still))));
-  CHECK_FALSE(
-      ever_meet(Features::vertex_and_triangle, exact_motion(line, points({0, 3, 1}, still, still, still))));
+  // a triangle that is a segment
+  const FourPoints line = points({1, -1, 0}, o, {4, 0, 0}, {2, 0, 0});
+  CHECK(ever_meet(Features::vertex_and_triangle,
+                  exact_motion(line, points({0, 3, 0}, still, still, still))));
+  CHECK_FALSE(ever_meet(Features::vertex_and_triangle,
+                        exact_motion(line, points({0, 3, 1}, still, still, still))));
   const FourPoints dot = points({1, 1, 1}, {1, 1, 1}, o, o);  // edges that are points
   CHECK(ever_meet(Features::edge_and_edge,
                   exact_motion(dot, points({-3, -3, -3}, {-3, -3, -3}, still, still))));
@@ -161,7 +165,8 @@ TEST_CASE("fractions are exact: a third of the way") {
   x.fill({Fraction{0, 1}, Fraction{0, 1}, Fraction{0, 1}});
   x[0] = x[4] = {Fraction{1, 3}, Fraction{1, 3}, Fraction{1, 7}};
   x[4][2] = {-1, 5};
-  x[2][0] = x[6][0] = x[3][1] = x[7][1] = {2, 3};  // (1/3, 1/3) is on the edge from (2/3, 0) to (0, 2/3)
+  // (1/3, 1/3) is on the edge from (2/3, 0) to (0, 2/3)
+  x[2][0] = x[6][0] = x[3][1] = x[7][1] = {2, 3};
   CHECK(ever_meet(Features::vertex_and_triangle, motion_between(x)));
   x[0][0] = x[4][0] = {333333334, 1000000000};
   CHECK_FALSE(ever_meet(Features::vertex_and_triangle, motion_between(x)));
@@ -187,7 +192,8 @@ TEST_CASE("an edge crosses a triangle, touches it, or stays clear") {
 
 TEST_CASE("neighbours are counted when one is folded onto the other, not side by side") {
   const auto hinge = [](const Vector3& tip) {  // triangles on both sides of the edge 0 1
-    return exact_crossings(columns({{0, 0, 0}, {4, 0, 0}, {1, 3, 0}, tip}), {{0, 1, 2}, {1, 0, 3}}).size();
+    return exact_crossings(columns({{0, 0, 0}, {4, 0, 0}, {1, 3, 0}, tip}), {{0, 1, 2}, {1, 0, 3}})
+        .size();
   };
   CHECK(hinge({1, -3, 0}) == 0);
   CHECK(hinge({1, 2, 1}) == 0);
@@ -214,7 +220,9 @@ TEST_CASE("crossings are found as all pairs of triangles say") {
     std::sort(met.begin(), met.end());
     met.erase(std::unique(met.begin(), met.end()), met.end());
     bool has_lines = false;
-    const auto corner = [&](int t) { return Corners3{x.col(3 * t), x.col(3 * t + 1), x.col(3 * t + 2)}; };
+    const auto corner = [&](int t) {
+      return Corners3{x.col(3 * t), x.col(3 * t + 1), x.col(3 * t + 2)};
+    };
     for (int t = 0; t < 6; ++t)
       has_lines |= (corner(t)[1] - corner(t)[0]).cross(corner(t)[2] - corner(t)[0]).isZero(0);
     if (has_lines) continue;  // not for triangles_meet

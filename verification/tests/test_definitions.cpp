@@ -18,21 +18,26 @@ TEST_CASE("dual numbers carry first and second derivatives of every function the
   using First = Dual<Digits50, 2>;
   using Second = Dual<First, 2>;
   const auto f = [](const auto& x, const auto& y) {
-    return atan2(y, x) * sqrt(x + y * y) - sin(x * y) / (2 + cos(x)) + acos(x / 3 - y / 5) * abs(y - x);
+    return atan2(y, x) * sqrt(x + y * y) - sin(x * y) / (2 + cos(x)) +
+           acos(x / 3 - y / 5) * abs(y - x);
   };
   for (const auto& [px, py] : {std::pair{.7, .4}, std::pair{-.3, 1.9}}) {
     const Digits50 x = px, y = py, step("1e-12");
     const Second value = f(variable<First, 2>(variable<Digits50, 2>(x, 0), 0),
                            variable<First, 2>(variable<Digits50, 2>(y, 1), 1));
     const auto at = [&](int i, int j) { return f(Digits50(x + i * step), Digits50(y + j * step)); };
-    const auto close = [](const Digits50& p, const Digits50& q) { return abs(p - q) < Digits50("1e-20"); };
+    const auto close = [](const Digits50& p, const Digits50& q) {
+      return abs(p - q) < Digits50("1e-20");
+    };
     CHECK(close(value.value.value, at(0, 0)));
     CHECK(close(value.derivative[0].value, (at(1, 0) - at(-1, 0)) / (2 * step)));
     CHECK(close(value.value.derivative[1], (at(0, 1) - at(0, -1)) / (2 * step)));
-    CHECK(close(value.derivative[0].derivative[0], (at(1, 0) - 2 * at(0, 0) + at(-1, 0)) / (step * step)));
+    CHECK(close(value.derivative[0].derivative[0],
+                (at(1, 0) - 2 * at(0, 0) + at(-1, 0)) / (step * step)));
     CHECK(close(value.derivative[1].derivative[0],
                 (at(1, 1) - at(1, -1) - at(-1, 1) + at(-1, -1)) / (4 * step * step)));
-    CHECK(value.derivative[1].derivative[0] - value.derivative[0].derivative[1] < Digits50("1e-45"));
+    CHECK(value.derivative[1].derivative[0] - value.derivative[0].derivative[1] <
+          Digits50("1e-45"));
   }
 }
 
@@ -82,18 +87,22 @@ TEST_CASE("u is minus the gradient of theta, by autodiff and by differences") {
 TEST_CASE("the elastic force is minus the gradient of the energy, if its factor is taken at rest") {
   for (HingeInput hinge : hinges()) {
     const Corners force = bending_elastic_50(hinge).value;
-    CHECK(distance(force, scaled(-1, energy_gradient_autodiff(hinge).value)) < roundings * size(force));
+    CHECK(distance(force, scaled(-1, energy_gradient_autodiff(hinge).value)) <
+          roundings * size(force));
     const auto factor = [](const Corners& x) {
       const double twice_areas =
           (x[0] - x[2]).cross(x[0] - x[3]).norm() + (x[1] - x[2]).cross(x[1] - x[3]).norm();
       return (x[3] - x[2]).squaredNorm() / twice_areas;
     };
-    const double deflection = std::sin(hinge_angle_50(hinge.x).value / 2) - std::sin(hinge.theta0 / 2);
+    const double deflection =
+        std::sin(hinge_angle_50(hinge.x).value / 2) - std::sin(hinge.theta0 / 2);
     const Corners u = bending_mode_50(hinge.x).value;
-    CHECK(distance(force, scaled(hinge.ke * factor(hinge.rest) * deflection, u)) < roundings * size(force));
+    CHECK(distance(force, scaled(hinge.ke * factor(hinge.rest) * deflection, u)) <
+          roundings * size(force));
     hinge.elastic_geometry = Geometry::current;
     const Corners now = bending_elastic_50(hinge).value;
-    CHECK(distance(now, scaled(hinge.ke * factor(hinge.x) * deflection, u)) < roundings * size(now));
+    CHECK(distance(now, scaled(hinge.ke * factor(hinge.x) * deflection, u)) <
+          roundings * size(now));
     CHECK(distance(now, force) > 1e-3 * size(force));
     hinge.theta0 = hinge_angle_50(hinge.x).value;
     CHECK(std::abs(bending_energy_50(hinge).value) < roundings * hinge.ke);
@@ -109,8 +118,9 @@ TEST_CASE("the damping force takes kd factor (d theta/dt)^2 of power, whichever 
       const double edge = (shape[3] - shape[2]).norm();
       const double N1 = (shape[0] - shape[2]).cross(shape[0] - shape[3]).norm();
       const double N2 = (shape[1] - shape[2]).cross(shape[1] - shape[3]).norm();
-      for (const auto& [kind, factor] : {std::pair{DampingFactor::edge_length, edge},
-                                         std::pair{DampingFactor::anisotropy, edge * edge / (N1 + N2)}}) {
+      for (const auto& [kind, factor] :
+           {std::pair{DampingFactor::edge_length, edge},
+            std::pair{DampingFactor::anisotropy, edge * edge / (N1 + N2)}}) {
         hinge.damping_geometry = geometry;
         hinge.damping_factor = kind;
         const Corners force = bending_damping_50(hinge).value;
@@ -122,7 +132,9 @@ TEST_CASE("the damping force takes kd factor (d theta/dt)^2 of power, whichever 
   }
 }
 
-TEST_CASE("a spring's force is minus the gradient of its energy, and its damping takes power along it only") {
+TEST_CASE(
+    "a spring's force is minus the gradient of its energy, and its damping takes power along it "
+    "only") {
   const SpringInput first{{Vector3(.1, .2, -.3), Vector3(.9, -.4, .5)},
                           {Vector3(1, .7, .2), Vector3(-.4, 2, .6)},
                           {53, .21, .34, .91}};
@@ -130,19 +142,23 @@ TEST_CASE("a spring's force is minus the gradient of its energy, and its damping
                            {Vector3(.3, -.9, 3), Vector3(.8, .5, -.2)},
                            {710, 1.9, .067, 3.3}};
   for (const SpringInput& spring : {first, second}) {
-    const auto force = spring_elastic_50(spring), gradient = spring_energy_gradient_autodiff(spring);
+    const auto force = spring_elastic_50(spring),
+               gradient = spring_energy_gradient_autodiff(spring);
     const Vector3 d = spring.x[1] - spring.x[0], direction = d.normalized();
     const SpringLaw<double>& law = spring.law;
     const double strain = d.norm() / law.rest_length - 1;
-    for (std::size_t i : {0, 1}) CHECK((force.value[i] + gradient.value[i]).norm() <= 4 * force.uncertainty);
+    for (std::size_t i : {0, 1})
+      CHECK((force.value[i] + gradient.value[i]).norm() <= 4 * force.uncertainty);
     const double tension = law.young * law.area / law.rest_length * strain;
-    CHECK((force.value[0] - tension * direction).norm() < roundings * law.young * law.area / law.rest_length);
+    CHECK((force.value[0] - tension * direction).norm() <
+          roundings * law.young * law.area / law.rest_length);
     const double energy = law.young * law.area / 2 * strain * strain;
     CHECK(std::abs(spring_energy_50(spring).value - energy) < roundings * law.young * law.area);
     const auto damping = spring_damping_50(spring);
     const double closing = (spring.v[1] - spring.v[0]).dot(direction);
     const double coefficient = law.damping * law.area / (law.rest_length * law.rest_length);
-    CHECK((damping.value[0] - coefficient * closing * direction).norm() < roundings * coefficient * 10);
+    CHECK((damping.value[0] - coefficient * closing * direction).norm() <
+          roundings * coefficient * 10);
     CHECK((damping.value[0] + damping.value[1]).norm() == 0);
   }
 }

@@ -1,5 +1,5 @@
-// The exact decisions against separating directions, cubes and dense sampling. Small whole numbers as
-// coordinates, so that planes, edges and corners coincide often.
+// The exact decisions against separating directions, cubes and dense sampling. Small whole numbers
+// as coordinates, so that planes, edges and corners coincide often.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <limits>
@@ -17,7 +17,8 @@ Corners3 small_triangle(std::mt19937& bits) {
   std::uniform_int_distribution<int> coordinate(-2, 2);
   Corners3 t;
   do
-    for (Vector3& corner : t) corner = Vector3(coordinate(bits), coordinate(bits), coordinate(bits));
+    for (Vector3& corner : t)
+      corner = Vector3(coordinate(bits), coordinate(bits), coordinate(bits));
   while (normal_of(t).isZero(0));
   return t;
 }
@@ -46,8 +47,8 @@ TEST_CASE("a last bit decides on which side of a plane a point is") {
   CHECK(orientation(a, b, c, {0.7, 0.4, 0.3}) == 0);
   CHECK(orientation(a, c, b, {0.7, 0.4, above}) == -1);
   const Vector3 far(0, 0, std::numeric_limits<double>::denorm_min());
-  CHECK(orientation({0, 0, 0}, {1e-200, 0, 0}, {0, 1e-200, 0}, far) ==
-        1);  // the product underflows in double
+  // the product underflows in double
+  CHECK(orientation({0, 0, 0}, {1e-200, 0, 0}, {0, 1e-200, 0}, far) == 1);
 }
 
 TEST_CASE("points are inside a cube, on it or outside") {

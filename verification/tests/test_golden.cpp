@@ -1,5 +1,5 @@
-// Golden values against the reference, which knows nothing of how they were made: the column order, the
-// signs, the laws.
+// Golden values against the reference, which knows nothing of how they were made: the column order,
+// the signs, the laws.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -61,13 +61,15 @@ TEST_CASE("golden depths are those of the reference's maps") {
   for_each_row("projection", [](const Row& row) {
     const DepthBand band{row["eps"], row["tau"], row["deepest"]};
     for (const DepthMap& map : depth_maps())
-      CHECK(std::abs(map.at(band, row["phi"]) - row["phi_" + std::string(map.name)]) < 1e-14 * band.reach);
+      CHECK(std::abs(map.at(band, row["phi"]) - row["phi_" + std::string(map.name)]) <
+            1e-14 * band.reach);
   });
 }
 
 TEST_CASE("golden forces add up to nothing, and so do their torques") {
   for_each_row("bending", [](const Row& row) {
-    for (const std::string force : {"elastic_rest_weighted", "elastic_current_weighted", "damping"}) {
+    for (const std::string force :
+         {"elastic_rest_weighted", "elastic_current_weighted", "damping"}) {
       Vector3 sum = Vector3::Zero(), torque = Vector3::Zero();
       double size = 0;
       for (const std::string k : {"1", "2", "3", "4"}) {
@@ -89,12 +91,14 @@ TEST_CASE("golden forces add up to nothing, and so do their torques") {
   });
 }
 
-TEST_CASE("golden springs pull along themselves, golden steps are near the truth where they are short") {
+TEST_CASE(
+    "golden springs pull along themselves, golden steps are near the truth where they are short") {
   for_each_row("springs", [](const Row& row) {
     const Vector3 d = row.vector("xb") - row.vector("xa");
     const double strain = d.norm() / row["L0"] - 1;
     const double stiffness = row["Y"] * row["A"] / row["L0"];
-    CHECK(std::abs(row.vector("elastic_a").dot(d.normalized()) - stiffness * strain) <= 1e-14 * stiffness);
+    CHECK(std::abs(row.vector("elastic_a").dot(d.normalized()) - stiffness * strain) <=
+          1e-14 * stiffness);
     CHECK(std::abs(row["energy"] - stiffness * row["L0"] / 2 * strain * strain) <=
           1e-14 * stiffness * row["L0"] * std::abs(strain));
     CHECK(row.vector("damping_a").dot(row.vector("va") - row.vector("vb")) <= 0);

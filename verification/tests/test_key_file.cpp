@@ -46,7 +46,8 @@ TEST_CASE("a key that nobody asked for is refused with its line and what is know
   root->tables("hold")[0]->has("top");
   root->table("cloth")->number("width");
   CHECK_THROWS_WITH(root->reject_unused(), Contains("some.toml:4") && Contains("columns") &&
-                                               Contains("[cloth]") && Contains("known here: width"));
+                                               Contains("[cloth]") &&
+                                               Contains("known here: width"));
 }
 
 TEST_CASE("wrong types and missing keys are refused with file, line and what is wanted") {
@@ -57,7 +58,8 @@ TEST_CASE("wrong types and missing keys are refused with file, line and what is 
   CHECK_THROWS_WITH(cloth->vector("ids"), Contains("three numbers"));
   CHECK_THROWS_WITH(cloth->number("height"), Contains("some.toml:2") && Contains("height"));
   CHECK_THROWS_WITH(root->table("title"), Contains("a table"));
-  CHECK_THROWS_WITH(parse_keys("a = nan", "n.toml")->number("a"), Contains("n.toml:1") && Contains("finite"));
+  CHECK_THROWS_WITH(parse_keys("a = nan", "n.toml")->number("a"),
+                    Contains("n.toml:1") && Contains("finite"));
   CHECK_THROWS_WITH(parse_keys("a = [", "broken.toml"), Contains("broken.toml:1"));
 }
 
@@ -93,7 +95,8 @@ TEST_CASE("tables nested deeper than anyone needs are refused with their line") 
 
 TEST_CASE("letters outside ASCII stand in quotes and comments, and are refused elsewhere") {
   const auto root = parse_keys(
-      "\xEF\xBB\xBF# gr\u00f6\u00dfe\na = \"\u0496 \\\" \u0496\"\nb = '''\n\u00b5''''\nc = '\u0496'\n",
+      "\xEF\xBB\xBF# gr\u00f6\u00dfe\na = \"\u0496 \\\" \u0496\"\nb = '''\n\u00b5''''\nc = "
+      "'\u0496'\n",
       "some.toml");
   CHECK(root->text("a") == "\u0496 \" \u0496");
   CHECK(root->text("b") == "\u00b5'");

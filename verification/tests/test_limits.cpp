@@ -18,7 +18,8 @@ Scene cloth_of(const std::string& keys) {
 }
 
 std::string sheet_of(const std::string& columns, const std::string& more) {
-  return "shape = \"sheet\"\nwidth = 1\nheight = 1\ncolumns = " + columns + "\nrows = 1000000\n" + more;
+  return "shape = \"sheet\"\nwidth = 1\nheight = 1\ncolumns = " + columns + "\nrows = 1000000\n" +
+         more;
 }
 
 }  // namespace
@@ -28,27 +29,30 @@ TEST_CASE("a cloth of more triangles than a machine holds is refused before it i
                     Contains("some.toml:6: 'columns' asks for 3e+12 triangles"));
   CHECK_THROWS_WITH(cloth_of("shape = \"disc\"\nradius = 1\nrings = 10000\n"),
                     Contains("'rings' asks for 6e+08"));
-  CHECK_THROWS_WITH(cloth_of("shape = \"cylinder\"\nradius = 1\nheight = 1\naround = 10000\nalong = 10000\n"),
-                    Contains("'around' asks for 2e+08"));
+  CHECK_THROWS_WITH(
+      cloth_of("shape = \"cylinder\"\nradius = 1\nheight = 1\naround = 10000\nalong = 10000\n"),
+      Contains("'around' asks for 2e+08"));
   CHECK_THROWS_WITH(cloth_of("shape = \"sphere\"\nradius = 1\nsubdivisions = 1000000\n"),
                     Contains("'subdivisions' asks for inf"));
-  CHECK_THROWS_WITH(
-      cloth_of(
-          "shape = \"hinge\"\nlength = 1\nangle = 9\ncopies = { count = 1000000000, move = [1, 0, 0] }\n"),
-      Contains("'count' must lie in"));
-  CHECK_THROWS_WITH(
-      cloth_of(
-          "shape = \"disc\"\nradius = 1\nrings = 20\n[cloth.copies]\ncount = 1000000\nmove = [1, 0, 0]\n"),
-      Contains("some.toml:7: 'count' asks for 2.4e+09 triangles"));
+  CHECK_THROWS_WITH(cloth_of("shape = \"hinge\"\nlength = 1\nangle = 9\ncopies = { count = "
+                             "1000000000, move = [1, 0, 0] }\n"),
+                    Contains("'count' must lie in"));
+  CHECK_THROWS_WITH(cloth_of("shape = \"disc\"\nradius = 1\nrings = 20\n[cloth.copies]\ncount = "
+                             "1000000\nmove = [1, 0, 0]\n"),
+                    Contains("some.toml:7: 'count' asks for 2.4e+09 triangles"));
 }
 
 TEST_CASE("numbers of a case that come to more than a double holds are refused with their place") {
   const std::string hinge = "shape = \"hinge\"\nlength = 1\nangle = 9\n";
-  CHECK_THROWS_WITH(cloth_of(hinge + "fit = 1e-200\n"), Contains("some.toml:1: a particle has the mass 0"));
-  CHECK_THROWS_WITH(cloth_of(hinge + "fit = 1e200\n"), Contains("some.toml:1: a particle has the mass 0"));
-  CHECK_THROWS_WITH(cloth_of(hinge + "fit = 1.7e308\nmove = [1.7e308, 0, 0]\n"), Contains("is not finite"));
+  CHECK_THROWS_WITH(cloth_of(hinge + "fit = 1e-200\n"),
+                    Contains("some.toml:1: a particle has the mass 0"));
+  CHECK_THROWS_WITH(cloth_of(hinge + "fit = 1e200\n"),
+                    Contains("some.toml:1: a particle has the mass 0"));
+  CHECK_THROWS_WITH(cloth_of(hinge + "fit = 1.7e308\nmove = [1.7e308, 0, 0]\n"),
+                    Contains("is not finite"));
   CHECK_THROWS_WITH(
-      cloth_of(hinge + "[[object]]\nshape = \"sphere\"\nradius = 1.7e308\nmove = [1.7e308, 0, 0]\n"),
+      cloth_of(hinge +
+               "[[object]]\nshape = \"sphere\"\nradius = 1.7e308\nmove = [1.7e308, 0, 0]\n"),
       Contains("some.toml:6: a place of its surface is not finite"));
 }
 
@@ -63,7 +67,8 @@ TEST_CASE("level sets of more cells than a machine holds are refused with the pl
   const std::string cloth = "shape = \"hinge\"\nlength = 1\nangle = 9\n";
   const std::string body =
       "[[object]]\nshape = \"statue\"\nheight = 1\nsubdivisions = 3\ncells = 1000000000\n";
-  CHECK_THROWS_WITH(build_system(cloth_of(cloth + body)), Contains("some.toml:10: grid: 1000000000 cells"));
+  CHECK_THROWS_WITH(build_system(cloth_of(cloth + body)),
+                    Contains("some.toml:10: grid: 1000000000 cells"));
   CHECK_THROWS_WITH(cloth_of(cloth + body + "field = \"octree\"\n"),
                     Contains("some.toml:10: 'cells' must be"));
 }

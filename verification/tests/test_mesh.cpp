@@ -15,10 +15,10 @@ namespace {
 
 const double epsilon = std::numeric_limits<double>::epsilon();
 
-const std::vector<SheetPattern> all_patterns = {SheetPattern::one_diagonal,   SheetPattern::alternating,
-                                                SheetPattern::union_jack,     SheetPattern::criss_cross,
-                                                SheetPattern::equilateral,    SheetPattern::jittered,
-                                                SheetPattern::random_delaunay};
+const std::vector<SheetPattern> all_patterns = {
+    SheetPattern::one_diagonal,   SheetPattern::alternating, SheetPattern::union_jack,
+    SheetPattern::criss_cross,    SheetPattern::equilateral, SheetPattern::jittered,
+    SheetPattern::random_delaunay};
 
 Sheet sheet_of(SheetPattern pattern) { return {pattern, 1.3, 0.9, 13, 10, 0.3, 7}; }
 
@@ -32,19 +32,23 @@ struct Shape {
 std::vector<Shape> all_shapes() {
   std::vector<Shape> shapes;
   for (SheetPattern pattern : all_patterns) {
-    shapes.push_back({"sheet " + std::to_string(int(pattern)), make_sheet(sheet_of(pattern)), 1, 1.3 * 0.9});
+    shapes.push_back(
+        {"sheet " + std::to_string(int(pattern)), make_sheet(sheet_of(pattern)), 1, 1.3 * 0.9});
   }
   const double ico_edge = 4 * 0.7 / std::sqrt(10 + 2 * std::sqrt(5.0));
   shapes.push_back({"disc", make_disc(0.7, 5), 1, 30 * 0.5 * 0.7 * 0.7 * std::sin(2 * pi / 30)});
-  shapes.push_back({"cylinder", make_cylinder(0.3, 1.1, 17, 9), 0, 17 * 2 * 0.3 * std::sin(pi / 17) * 1.1});
-  shapes.push_back({"icosahedron", make_icosphere(0.7, 0), 2, 5 * std::sqrt(3.0) * ico_edge * ico_edge});
+  shapes.push_back(
+      {"cylinder", make_cylinder(0.3, 1.1, 17, 9), 0, 17 * 2 * 0.3 * std::sin(pi / 17) * 1.1});
+  shapes.push_back(
+      {"icosahedron", make_icosphere(0.7, 0), 2, 5 * std::sqrt(3.0) * ico_edge * ico_edge});
   shapes.push_back({"sphere", make_icosphere(0.7, 3), 2, 0});
   shapes.push_back({"statue", make_statue(1.7, 3), 2, 0});
   shapes.push_back({"hinge", make_hinge(0.3, 0.6), 1, 0.5 * 0.3 * 0.3 * (0.9 + 0.6)});
   return shapes;
 }
 
-/// Triangles compared from their smallest particle on: orientation counts, the first corner does not.
+/// Triangles compared from their smallest particle on: orientation counts, the first
+/// corner does not.
 Triangle from_smallest(Triangle t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
@@ -91,22 +95,25 @@ double six_volumes(const Vector3& a, const Vector3& b, const Vector3& c, const V
   return (b - a).cross(c - a).dot(d - a);
 }
 
-/// Edges that pierce a triangle with which they share no particle, by more than 1e-9 m on both sides (a flat
-/// base does not count).
+/// Edges that pierce a triangle with which they share no particle, by more than 1e-9 m on both
+/// sides (a flat base does not count).
 int piercings(const TriangleMesh& mesh) {
   int count = 0;
   for (const Triangle& t : mesh.triangles) {
     const Vector3 a = mesh.rest.col(t[0]), b = mesh.rest.col(t[1]), c = mesh.rest.col(t[2]);
     const Vector3 lower = a.cwiseMin(b).cwiseMin(c), upper = a.cwiseMax(b).cwiseMax(c);
     for (const Edge& edge : mesh.edges) {
-      if (std::count(t.begin(), t.end(), edge.a) + std::count(t.begin(), t.end(), edge.b) > 0) continue;
+      if (std::count(t.begin(), t.end(), edge.a) + std::count(t.begin(), t.end(), edge.b) > 0)
+        continue;
       const Vector3 p = mesh.rest.col(edge.a), q = mesh.rest.col(edge.b);
-      if ((p.cwiseMax(q).array() < lower.array()).any() || (p.cwiseMin(q).array() > upper.array()).any())
+      if ((p.cwiseMax(q).array() < lower.array()).any() ||
+          (p.cwiseMin(q).array() > upper.array()).any())
         continue;
       const Vector3 normal = (b - a).cross(c - a).normalized();
       const double side_p = normal.dot(p - a), side_q = normal.dot(q - a);
       if (!(std::min(side_p, side_q) < -1e-9 && std::max(side_p, side_q) > 1e-9)) continue;
-      const double s = six_volumes(p, q, a, b), u = six_volumes(p, q, b, c), w = six_volumes(p, q, c, a);
+      const double s = six_volumes(p, q, a, b), u = six_volumes(p, q, b, c),
+                   w = six_volumes(p, q, c, a);
       count += (s >= 0 && u >= 0 && w >= 0) || (s <= 0 && u <= 0 && w <= 0);
     }
   }
@@ -116,7 +123,9 @@ int piercings(const TriangleMesh& mesh) {
 double volume(const TriangleMesh& mesh) {
   double sum = 0;
   for (const Triangle& t : mesh.triangles) {
-    sum += six_volumes(Vector3::Zero(), mesh.rest.col(t[0]), mesh.rest.col(t[1]), mesh.rest.col(t[2])) / 6;
+    sum += six_volumes(Vector3::Zero(), mesh.rest.col(t[0]), mesh.rest.col(t[1]),
+                       mesh.rest.col(t[2])) /
+           6;
   }
   return sum;
 }
@@ -131,7 +140,8 @@ TEST_CASE("mesh: every hinge names the triangles (x1, x3, x4) and (x2, x4, x3) o
     for (int e = 0; e < int(mesh.edges.size()); ++e) {
       const Edge& edge = mesh.edges[e];
       wrong += !(edge.a < edge.b);
-      if (e > 0) wrong += !(std::pair{mesh.edges[e - 1].a, mesh.edges[e - 1].b} < std::pair{edge.a, edge.b});
+      if (e > 0)
+        wrong += !(std::pair{mesh.edges[e - 1].a, mesh.edges[e - 1].b} < std::pair{edge.a, edge.b});
       if (edge.triangles[1] < 0) continue;
       const auto [x1, x2, x3, x4] = mesh.hinges.at(hinge).particles;
       wrong += mesh.hinges[hinge].edge != e || x3 != edge.a || x4 != edge.b;
@@ -168,14 +178,16 @@ TEST_CASE("mesh: masses, lengths and areas of one cell are those worked out by h
   const std::vector<std::array<double, 4>> by_hand = {
       {0, 1, 3, 6}, {0, 2, 4, 6}, {0, 3, 5, 12}, {1, 3, 4, 6}, {2, 3, 3, 6}};  // a, b, length, area
   for (int e = 0; e < 5; ++e) {
-    CHECK(std::array<double, 4>{double(mesh.edges[e].a), double(mesh.edges[e].b), lengths[e], areas[e]} ==
-          by_hand[e]);
+    CHECK(std::array<double, 4>{double(mesh.edges[e].a), double(mesh.edges[e].b), lengths[e],
+                                areas[e]} == by_hand[e]);
   }
   CHECK(mesh.hinges[0].particles == std::array<int, 4>{2, 1, 0, 3});
 }
 
 TEST_CASE("mesh: patterns have the vertex degrees that define them") {
-  const auto degrees = [](SheetPattern pattern) { return interior_degrees(make_sheet(sheet_of(pattern))); };
+  const auto degrees = [](SheetPattern pattern) {
+    return interior_degrees(make_sheet(sheet_of(pattern)));
+  };
   CHECK(degrees(SheetPattern::one_diagonal) == std::map<int, int>{{6, 108}});
   CHECK(degrees(SheetPattern::alternating) == std::map<int, int>{{6, 108}});
   // the first triangle of the second row of cells tells the two apart
@@ -208,7 +220,8 @@ TEST_CASE("mesh: graded sheets grow by one factor from cell to cell, and refuse 
   const double growth = std::pow(1000.0, 1.0 / 7);
   const TriangleMesh mesh = make_sheet({SheetPattern::union_jack, 1.3, 0.9, 8, 5, 0, 0, 1000});
   const auto width = [&](int column) { return mesh.rest(0, column + 1) - mesh.rest(0, column); };
-  for (int column = 0; column < 7; ++column) CHECK(width(column + 1) / width(column) == Approx(growth));
+  for (int column = 0; column < 7; ++column)
+    CHECK(width(column + 1) / width(column) == Approx(growth));
   CHECK(width(7) / width(0) == Approx(1000));
   CHECK(mesh.rest.rowwise().maxCoeff() == Vector3(1.3, 0.9, 0));
   CHECK(triangle_areas(mesh.triangles, mesh.rest).sum() == Approx(1.3 * 0.9));
@@ -223,7 +236,8 @@ TEST_CASE("mesh: graded sheets grow by one factor from cell to cell, and refuse 
                     Catch::Matchers::Contains("two columns and rows"));
 }
 
-TEST_CASE("mesh: equilateral sheets of free height have equal edges, but for the halves on the border") {
+TEST_CASE(
+    "mesh: equilateral sheets of free height have equal edges, but for the halves on the border") {
   const TriangleMesh mesh = make_sheet({SheetPattern::equilateral, 1.3, 0, 13, 10, 0, 0});
   const Eigen::VectorXd lengths = rest_lengths(mesh);
   const double edge = 1.3 / 13;
@@ -237,7 +251,8 @@ TEST_CASE("mesh: equilateral sheets of free height have equal edges, but for the
   CHECK(std::abs(mesh.rest.row(1).maxCoeff() - 10 * edge * std::sqrt(0.75)) < 20 * epsilon);
 }
 
-TEST_CASE("mesh: jitter moves interior vertices by at most its fraction of the edge, and no others") {
+TEST_CASE(
+    "mesh: jitter moves interior vertices by at most its fraction of the edge, and no others") {
   Sheet sheet = sheet_of(SheetPattern::jittered);
   sheet.height = 0;
   const PerParticle3 jittered = make_sheet(sheet).rest;
@@ -252,7 +267,8 @@ TEST_CASE("mesh: jitter moves interior vertices by at most its fraction of the e
   CHECK(moved == 5 * 13 + 4 * 12);
 }
 
-TEST_CASE("mesh: random sheets keep their least distance, leave no slivers and depend on the seed") {
+TEST_CASE(
+    "mesh: random sheets keep their least distance, leave no slivers and depend on the seed") {
   Sheet sheet = {SheetPattern::random_delaunay, 1.2, 0.8, 30, 20, 0, 11};
   const TriangleMesh mesh = make_sheet(sheet);
   CHECK(rest_lengths(mesh).minCoeff() >= 0.8 * 0.04 * (1 - 8 * epsilon));
@@ -292,7 +308,8 @@ TEST_CASE("mesh: pleats keep every length and fold the pleat lines alone, up and
 }
 
 TEST_CASE(
-    "mesh: a finer icosphere has four times the triangles, normals outward, the coarse vertices first") {
+    "mesh: a finer icosphere has four times the triangles, normals outward, the coarse vertices "
+    "first") {
   const TriangleMesh coarse = make_icosphere(0.7, 2), fine = make_icosphere(0.7, 3);
   CHECK(fine.triangles.size() == 20 * 64);
   CHECK((fine.rest.leftCols(coarse.particles()) - coarse.rest).cwiseAbs().maxCoeff() <= epsilon);

@@ -19,8 +19,10 @@ using namespace foldproof::oracles;
 
 namespace {
 
-/// One step of the scheme's lines as printed, on x'' = -k x - c x', with numbers for a and no algebra.
-Eigen::Vector2d step_by_lines(Scheme scheme, const Oscillator& o, double h, const Eigen::Vector2d& state) {
+/// One step of the scheme's lines as printed, on x'' = -k x - c x', with numbers for a
+/// and no algebra.
+Eigen::Vector2d step_by_lines(Scheme scheme, const Oscillator& o, double h,
+                              const Eigen::Vector2d& state) {
   const auto explicit_half = [&](double x, double v) {
     return v + h / 2 * (-o.stiffness * x - o.damping * v);
   };
@@ -69,13 +71,14 @@ TEST_CASE("step matrices are the scheme's lines, with the table's determinants a
       {{0, 2.}, {.1, 2.21}, {.5, 3.2361}, {1, 4.8284}, {2, 8.4721}, {10, 40.10}}};
   for (const auto& [zeta, omega_h] : table) {
     const Oscillator o{49, 2 * zeta * 7, 0, 0};
-    CHECK(std::abs(7 * largest_stable_step(Scheme::variable_step_newmark, o).value - omega_h) < 5.1e-3);
+    CHECK(std::abs(7 * largest_stable_step(Scheme::variable_step_newmark, o).value - omega_h) <
+          5.1e-3);
   }
 }
 
 TEST_CASE("velocity Verlet's closed form is what a thousand undamped steps of every scheme give") {
-  for (const auto& [o, h] :
-       {std::pair{Oscillator{29, 0, .7, -1.3}, .041}, std::pair{Oscillator{3.1, 0, -2.3, .6}, .93}}) {
+  for (const auto& [o, h] : {std::pair{Oscillator{29, 0, .7, -1.3}, .041},
+                             std::pair{Oscillator{3.1, 0, -2.3, .6}, .93}}) {
     const OscillatorEstimate expected = verlet_oscillator(o, h, 1000);
     for (const Scheme scheme : schemes) {
       Eigen::Vector2d state(o.x0, o.v0);
@@ -88,8 +91,8 @@ TEST_CASE("velocity Verlet's closed form is what a thousand undamped steps of ev
 
 TEST_CASE("GSL and the closed forms of the damped oscillator and of free fall agree") {
   const std::array<double, 2> times{.37, 2.9};
-  for (const Oscillator& o :
-       {Oscillator{31, 1.7, .8, -.3}, Oscillator{2.9, 9.1, -.4, 1.6}, Oscillator{6.25, 5, .9, .7}}) {
+  for (const Oscillator& o : {Oscillator{31, 1.7, .8, -.3}, Oscillator{2.9, 9.1, -.4, 1.6},
+                              Oscillator{6.25, 5, .9, .7}}) {
     const RightHandSide rhs = [&o](double, std::span<const double> y, std::span<double> dy) {
       dy[0] = y[1];
       dy[1] = -o.stiffness * y[0] - o.damping * y[1];
@@ -99,8 +102,10 @@ TEST_CASE("GSL and the closed forms of the damped oscillator and of free fall ag
     for (std::size_t i : {0, 1}) {
       const OscillatorEstimate exact = oscillator_at(o, times[i]);
       CHECK(solution.uncertainty[i] < 2e-11);
-      CHECK(std::abs(solution.values[i][0] - exact.x.value) <= solution.uncertainty[i] + exact.x.uncertainty);
-      CHECK(std::abs(solution.values[i][1] - exact.v.value) <= solution.uncertainty[i] + exact.v.uncertainty);
+      CHECK(std::abs(solution.values[i][0] - exact.x.value) <=
+            solution.uncertainty[i] + exact.x.uncertainty);
+      CHECK(std::abs(solution.values[i][1] - exact.v.value) <=
+            solution.uncertainty[i] + exact.v.uncertainty);
     }
   }
   const FallEstimate fall =
@@ -127,7 +132,8 @@ TEST_CASE("GSL's doors refuse what has no answer and pass exceptions on") {
 
 namespace {
 
-/// H/L and W/L by shooting from the clamp with the curvature there as the unknown: the equation as printed.
+/// H/L and W/L by shooting from the clamp with the curvature there as the unknown: the
+/// equation as printed.
 std::array<double, 2> cantilever_from_clamp(double gamma) {
   const auto integrate = [gamma](double curvature) {
     const RightHandSide rhs = [gamma](double s, std::span<const double> y, std::span<double> dy) {
@@ -168,13 +174,15 @@ TEST_CASE("the heavy cantilever's tip is the table's, and that of shooting from 
   };
   CHECK(std::abs(slope(1e-3) * 8 / 1e-3 - 1) < 1e-6);
   const double test_angle = std::tan(41.5 * pi / 180);
-  const Estimate gamma = bracketed_root([&](double g) { return slope(g) - test_angle; }, 7, 9, 1e-9);
+  const Estimate gamma =
+      bracketed_root([&](double g) { return slope(g) - test_angle; }, 7, 9, 1e-9);
   CHECK(std::abs(gamma.value - 8.004197) < 5.1e-7);
 }
 
 namespace {
 
-/// A corner shaken, a corner pushed by a force of time, an edge of which one end is held: not autonomous.
+/// A corner shaken, a corner pushed by a force of time, an edge of which one end is
+/// held: not autonomous.
 DrivenHinge drive(const HingeInput& hinge) {
   DrivenHinge problem{hinge, .23, 31, .017, Vector3(.4, -.9, -9.80665), {}, {}};
   problem.prescribed[2] = fixed_motion(hinge.x[2]);
@@ -202,17 +210,21 @@ Corners accelerations_50(const DrivenHinge& problem, const HingeInput& now, doub
   const double first = .5 * (rest[0] - rest[2]).cross(rest[0] - rest[3]).norm();
   const double second = .5 * (rest[1] - rest[2]).cross(rest[1] - rest[3]).norm();
   Corners force = bending_elastic_50(now).value;
-  for (int i = 0; i < 4; ++i) force[i] += bending_damping_50(now).value[i] + problem.external_force(i, t);
-  for (const auto& [a, b, area] : {std::tuple{0, 2, first}, std::tuple{0, 3, first}, std::tuple{1, 2, second},
-                                   std::tuple{1, 3, second}, std::tuple{2, 3, first + second}}) {
+  for (int i = 0; i < 4; ++i)
+    force[i] += bending_damping_50(now).value[i] + problem.external_force(i, t);
+  for (const auto& [a, b, area] :
+       {std::tuple{0, 2, first}, std::tuple{0, 3, first}, std::tuple{1, 2, second},
+        std::tuple{1, 3, second}, std::tuple{2, 3, first + second}}) {
     const double length = (rest[a] - rest[b]).norm();
-    const SpringInput spring{
-        {now.x[a], now.x[b]}, {now.v[a], now.v[b]}, {problem.young, problem.spring_damping, area, length}};
+    const SpringInput spring{{now.x[a], now.x[b]},
+                             {now.v[a], now.v[b]},
+                             {problem.young, problem.spring_damping, area, length}};
     force[a] += spring_elastic_50(spring).value[0] + spring_damping_50(spring).value[0];
     force[b] += spring_elastic_50(spring).value[1] + spring_damping_50(spring).value[1];
   }
   const double third = problem.density / 3, both = first + second;
-  return {force[0] / (third * first) + problem.gravity, force[1] / (third * second) + problem.gravity,
+  return {force[0] / (third * first) + problem.gravity,
+          force[1] / (third * second) + problem.gravity,
           force[2] / (third * both) + problem.gravity, force[3] / (third * both) + problem.gravity};
 }
 
@@ -261,16 +273,19 @@ TEST_CASE("a hinge with all corners free accelerates as the 50-digit forces say"
   }
 }
 
-TEST_CASE("a free hinge falls with its centre of mass, keeps its spin, and loses what damping takes") {
+TEST_CASE(
+    "a free hinge falls with its centre of mass, keeps its spin, and loses what damping takes") {
   for (const HingeInput& hinge : hinges()) {
     DrivenHinge problem = drive(hinge);
     problem.prescribed.clear();
     problem.external_force = nullptr;
-    const double end_time = .07;  // the second hinge folds through pi at .077 s, where its energy jumps
+    // the second hinge folds through pi at .077 s, where its energy jumps
+    const double end_time = .07;
     const auto run = [end_time](const DrivenHinge& p) {
       const ClothDefinition cloth = driven_hinge(p);
       const std::array<double, 1> times{end_time};
-      const auto solution = reference_solution(cloth_rhs(cloth), driven_hinge_start(p), 0, times, 1e-13);
+      const auto solution =
+          reference_solution(cloth_rhs(cloth), driven_hinge_start(p), 0, times, 1e-13);
       CHECK(solution.uncertainty[0] < 1e-9);
       return std::pair{cloth, cloth_state(cloth, times[0], solution.values[0])};
     };
@@ -278,7 +293,8 @@ TEST_CASE("a free hinge falls with its centre of mass, keeps its spin, and loses
     const ClothState start = cloth_state(cloth, 0, driven_hinge_start(problem));
     const Eigen::Map<const Eigen::VectorXd> m(cloth.masses.data(), 4);
     const Vector3 centre = start.x * m / m.sum(), drift = start.v * m / m.sum();
-    CHECK((end.x * m / m.sum() - free_fall({centre, drift, problem.gravity}, end_time).x).norm() < 1e-11);
+    CHECK((end.x * m / m.sum() - free_fall({centre, drift, problem.gravity}, end_time).x).norm() <
+          1e-11);
     const auto spin = [&m](const ClothState& state) {
       const Vector3 x = state.x * m / m.sum(), v = state.v * m / m.sum();
       Vector3 total = Vector3::Zero();
@@ -298,7 +314,8 @@ TEST_CASE("a free hinge falls with its centre of mass, keeps its spin, and loses
 TEST_CASE("a pre-stretched pair turns steadily at the length of the closed form") {
   for (const auto& [pair, omega] : {std::pair{SpringPair{41, .13, .7, .05, .09}, 7.3},
                                     std::pair{SpringPair{9, 2.1, 1.6, .4, .23}, 1.9}}) {
-    const double length = steady_rotation_length(pair, omega).value, total = pair.mass_a + pair.mass_b;
+    const double length = steady_rotation_length(pair, omega).value,
+                 total = pair.mass_a + pair.mass_b;
     const double reach_a = length * pair.mass_b / total, reach_b = length * pair.mass_a / total;
     ClothDefinition cloth;
     cloth.masses = {pair.mass_a, pair.mass_b};
@@ -316,7 +333,9 @@ TEST_CASE("a pre-stretched pair turns steadily at the length of the closed form"
   }
 }
 
-TEST_CASE("an equilateral sheet's springs store the energy of Young's modulus Y and Poisson's ratio 1/3") {
+TEST_CASE(
+    "an equilateral sheet's springs store the energy of Young's modulus Y and Poisson's ratio "
+    "1/3") {
   for (const auto& [young, side] : {std::pair{7.9, .31}, std::pair{430., 1.7}}) {
     const SheetModuli moduli = equilateral_sheet_moduli(young);
     const double cell = std::sqrt(3.) / 2 * side * side, strain = 1e-5;
@@ -330,9 +349,12 @@ TEST_CASE("an equilateral sheet's springs store the energy of Young's modulus Y 
     };
     const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
     const double nu = moduli.poisson.value;
-    const Eigen::Matrix2d uniaxial = unit + strain * Eigen::Vector2d(1, -nu).asDiagonal().toDenseMatrix();
-    CHECK(std::abs(energy(uniaxial) / (strain * strain / 2) / moduli.young.value - 1) < 10 * strain);
+    const Eigen::Matrix2d uniaxial =
+        unit + strain * Eigen::Vector2d(1, -nu).asDiagonal().toDenseMatrix();
+    CHECK(std::abs(energy(uniaxial) / (strain * strain / 2) / moduli.young.value - 1) <
+          10 * strain);
     const Eigen::Matrix2d equal = unit + strain * unit;
-    CHECK(std::abs(energy(equal) / (strain * strain) * (1 - nu) / moduli.young.value - 1) < 10 * strain);
+    CHECK(std::abs(energy(equal) / (strain * strain) * (1 - nu) / moduli.young.value - 1) <
+          10 * strain);
   }
 }

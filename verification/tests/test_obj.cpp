@@ -82,9 +82,10 @@ TEST_CASE("obj: what is written is read back bit for bit") {
 TEST_CASE("obj: every way to write a face gives the same square") {
   const std::vector<Triangle> fan = {{0, 1, 2}, {0, 2, 3}};
   for (const std::string face :
-       {"f 1 2 3 4\n", "f 1/1 2/2 3/3 4/4", "f 1//5 2//5 3//5 4//5\n", "f 1/1/1 2/2/2 3/3/3 4/4/4\n",
-        "f -4 -3 -2 -1\n", "f 1 -3 3/7 -1//2\n", "f 1 2 3\nf 1 3 4\n", "f 1 2 \\\n 3 4\n",
-        "f 1 2\\\r\n3 4\r\n", "\tf  1\t2 3   4  # a comment\n",
+       {"f 1 2 3 4\n", "f 1/1 2/2 3/3 4/4", "f 1//5 2//5 3//5 4//5\n",
+        "f 1/1/1 2/2/2 3/3/3 4/4/4\n", "f -4 -3 -2 -1\n", "f 1 -3 3/7 -1//2\n",
+        "f 1 2 3\nf 1 3 4\n", "f 1 2 \\\n 3 4\n", "f 1 2\\\r\n3 4\r\n",
+        "\tf  1\t2 3   4  # a comment\n",
         "o thing\ng a b\ns 1\nusemtl m\nvt 0 0\nvn 0 0 1\nl 1 2\np 1\nf 1 2 3 4\n"}) {
     INFO(face);
     CHECK(read_text(square + face).triangles == fan);
@@ -93,13 +94,16 @@ TEST_CASE("obj: every way to write a face gives the same square") {
   }
 }
 
-TEST_CASE("obj: numbers may carry plus signs, w, colours, comments, CR LF, a byte order mark; any locale") {
+TEST_CASE(
+    "obj: numbers may carry plus signs, w, colours, comments, CR LF, a byte order mark; any "
+    "locale") {
   const TriangleMesh plain = read_text("v 0.5 0 0\nv 1e1 0 0\nv 1 .25 0\nf 1 2 3\n");
   CHECK(plain.rest.col(0) == Vector3(0.5, 0, 0));
   CHECK(plain.rest.col(1) == Vector3(10, 0, 0));
   CHECK(plain.rest.col(2) == Vector3(1, 0.25, 0));
   const std::string decorated =
-      "\xEF\xBB\xBF# head\r\n\r\nv +0.5 0 0 1\r\nv 1e+1 0 0 .1 .2 .3\r\n   v 1 0.25 0 # c\r\nf 1 2 3";
+      "\xEF\xBB\xBF# head\r\n\r\nv +0.5 0 0 1\r\nv 1e+1 0 0 .1 .2 .3\r\n   v 1 0.25 0 # c\r\nf 1 2 "
+      "3";
   CHECK(read_text(decorated).rest == plain.rest);
   std::setlocale(LC_ALL, "de_DE.UTF-8");  // writes 0,5 where a machine has it
   CHECK(read_text(decorated).rest == plain.rest);
@@ -114,7 +118,8 @@ TEST_CASE("obj: every refusal names the file, the line, the reason and a remedy"
       {"\nv 1 2 3 4 5 6 7 8\n", ":2: a vertex of 8 numbers; write 'v x y z'"},
       {"v 1 2 x3\n", ":1: 'x3' is not a number; a vertex is written 'v x y z'"},
       {"v 1 2,5 3\n", ":1: '2,5' is not a number; a vertex is written 'v x y z'"},
-      {"# a\nv 1 2 \\\n3e999\n", ":3: '3e999' does not fit a double; a vertex is written 'v x y z'"},
+      {"# a\nv 1 2 \\\n3e999\n",
+       ":3: '3e999' does not fit a double; a vertex is written 'v x y z'"},
       {square + "f 1 2 3\nf 1 2\n", ":6: a face of 2 vertices; give at least three"},
       {square + "f\n", ":5: a face of 0 vertices; give at least three"},
       {square + "f 1 0 3\n", ":5: index 0 in '0'; vertices are counted from 1"},
@@ -122,23 +127,27 @@ TEST_CASE("obj: every refusal names the file, the line, the reason and a remedy"
       {square + "f 1 2 3 4\nf 1 2 9\n", ":6: index 9 is out of range; the file has 4 vertices"},
       {square + "f 1 2 3.5\n", ":5: '3.5' is no corner of a face; write a, a/b, a//c or a/b/c"},
       {square + "f 1/ 2/ 3/\n", ":5: '1/' is no corner of a face; write a, a/b, a//c or a/b/c"},
-      {square + "f 1/1/1/1 2 3\n", ":5: '1/1/1/1' is no corner of a face; write a, a/b, a//c or a/b/c"},
+      {square + "f 1/1/1/1 2 3\n",
+       ":5: '1/1/1/1' is no corner of a face; write a, a/b, a//c or a/b/c"},
       {square + "v 2 nan 0\nf 1 2 3 4 5\n", ":5: a coordinate is not finite; give numbers in m"},
       {square + "v 5 5 5\n\nv 6 6 6\nf 1 2 3 4\n",
        ":5: in no triangle, the first of 2 unused vertices (they would have no mass); remove them"},
       {square + "v 2 0 0\nf 1 2 3 4\nf 1 2 5\n",
-       ":7: no area: vertex 1 (line 1), vertex 2 (line 2) and vertex 5 (line 5) lie on a line (area at most "
-       "1e-12 of the longest side squared); remove or repair the triangle"},
+       ":7: no area: vertex 1 (line 1), vertex 2 (line 2) and vertex 5 (line 5) lie on a line "
+       "(area at most 1e-12 of the longest side squared); remove or repair the triangle"},
       {square + "f 1 2 3\n\nf 1 4 3\n",
-       ":7: opposite orientation to its neighbour, the face of line 5: both run along the edge between "
-       "vertex 1 (line 1) and vertex 3 (line 3) the same way; reverse the order of one triangle's vertices"},
+       ":7: opposite orientation to its neighbour, the face of line 5: both run along the edge "
+       "between vertex 1 (line 1) and vertex 3 (line 3) the same way; reverse the order of one "
+       "triangle's vertices"},
       {square + "v 0 0 1\nf 1 2 3\nf 1 3 4\nf 3 1 5\n",
-       ":8: the edge between vertex 1 (line 1) and vertex 3 (line 3) has three triangles or more (the face "
-       "of line 6, the face of line 7 and this one); a manifold has one or two. Remove one: repair = "
-       "\"split\" parts fans at a vertex, and cannot tell which two of these stay joined"},
+       ":8: the edge between vertex 1 (line 1) and vertex 3 (line 3) has three triangles or more "
+       "(the face of line 6, the face of line 7 and this one); a manifold has one or two. Remove "
+       "one: repair = \"split\" parts fans at a vertex, and cannot tell which two of these stay "
+       "joined"},
       {square + "v 2 1 0\nv 2 2 0\nf 1 2 3 4\n\nf 3 5 6\n",
-       ":3: its triangles form more than one fan (the face of line 7 and the face of line 9 meet in this "
-       "vertex only); give each fan a vertex of its own, or, for cloth, set repair = \"split\""}};
+       ":3: its triangles form more than one fan (the face of line 7 and the face of line 9 meet "
+       "in this vertex only); give each fan a vertex of its own, or, for cloth, set repair = "
+       "\"split\""}};
   for (const auto& [text, message] : cases) CHECK(rejection_of(text) == message);
 }
 
@@ -146,7 +155,8 @@ TEST_CASE("obj: a file that cannot be opened, read or written is named") {
   const std::string folder = std::filesystem::temp_directory_path().string();
   CHECK(rejection_message([] { read_obj("no_such_file.obj"); }) ==
         "no_such_file.obj: cannot be opened (No such file or directory); check the path");
-  CHECK(rejection_message([&] { read_obj(folder); }) == folder + ": cannot be read; give a regular file");
+  CHECK(rejection_message([&] { read_obj(folder); }) ==
+        folder + ": cannot be read; give a regular file");
   CHECK(rejection_message([&] {
           write_obj(folder, five_points(), {{0, 1, 2}});
         }) == folder + ": cannot be written; check the folder and the space left");
@@ -163,7 +173,8 @@ TEST_CASE("mesh: what is no oriented manifold is refused, with the triangle or t
   CHECK(rejection_of(x, {}) == "mesh: no triangles; give at least one");
   CHECK(rejection_of(x, {{0, 1, 2}, {1, 3, 5}})
             .starts_with("mesh: triangle 1: vertex index 5 is out of range"));
-  CHECK(rejection_of(x, {{0, -1, 2}}).starts_with("mesh: triangle 0: vertex index -1 is out of range"));
+  CHECK(rejection_of(x, {{0, -1, 2}})
+            .starts_with("mesh: triangle 0: vertex index -1 is out of range"));
   CHECK(rejection_of(x, {{0, 1, 2}})
             .starts_with("mesh: vertex 3: in no triangle, the first of 2 unused vertices"));
   CHECK(rejection_of(x, {{0, 1, 2}, {3, 4, 3}}).starts_with("mesh: triangle 1: no area"));
@@ -175,7 +186,8 @@ TEST_CASE("mesh: what is no oriented manifold is refused, with the triangle or t
             .starts_with("mesh: vertex 0: its triangles form more than one fan"));
   for (double bad : {not_a_number, infinity}) {
     x(1, 3) = bad;
-    CHECK(rejection_of(x, {{0, 1, 2}, {2, 3, 4}}).starts_with("mesh: vertex 3: a coordinate is not finite"));
+    CHECK(rejection_of(x, {{0, 1, 2}, {2, 3, 4}})
+              .starts_with("mesh: vertex 3: a coordinate is not finite"));
   }
   // two closed fans about one vertex: no edge is wrong, and there is no border
   PerParticle3 seven(3, 7);
@@ -186,7 +198,8 @@ TEST_CASE("mesh: what is no oriented manifold is refused, with the triangle or t
                                                 {0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}};
   CHECK(rejection_of(seven, two_tetrahedra)
             .starts_with("mesh: vertex 0: its triangles form more than one fan"));
-  CHECK_THROWS_AS(make_triangle_mesh(x, {{0, 1, 2}, {2, 3, 4}}, {"a.obj", {1, 2}, {3}}), std::logic_error);
+  CHECK_THROWS_AS(make_triangle_mesh(x, {{0, 1, 2}, {2, 3, 4}}, {"a.obj", {1, 2}, {3}}),
+                  std::logic_error);
 }
 
 TEST_CASE("mesh: zero area is judged by shape, not by size") {
@@ -209,8 +222,12 @@ TEST_CASE("shapes: every bad argument is refused by name and value") {
     return rejection_message([&] { make_sheet(sheet); });
   };
   CHECK(rejection_with([](Sheet& s) { s.width = -2; }).starts_with("make_sheet: width is -2"));
-  CHECK(rejection_with([](Sheet& s) { s.width = not_a_number; }).starts_with("make_sheet: width is nan"));
-  CHECK(rejection_with([](Sheet& s) { s.height = infinity; }).starts_with("make_sheet: height is inf"));
+  CHECK(rejection_with([](Sheet& s) {
+          s.width = not_a_number;
+        }).starts_with("make_sheet: width is nan"));
+  CHECK(rejection_with([](Sheet& s) {
+          s.height = infinity;
+        }).starts_with("make_sheet: height is inf"));
   CHECK(rejection_with([](Sheet& s) {
           s.height = 0, s.pattern = SheetPattern::union_jack;
         }).starts_with("make_sheet: height"));
@@ -220,7 +237,9 @@ TEST_CASE("shapes: every bad argument is refused by name and value") {
           s.columns = s.rows = 20000;
         }).starts_with("make_sheet: columns * rows is 4"));
   CHECK(rejection_with([](Sheet& s) { s.jitter = 0.5; }).starts_with("make_sheet: jitter is 0.5"));
-  CHECK(rejection_with([](Sheet& s) { s.jitter = not_a_number; }).starts_with("make_sheet: jitter is nan"));
+  CHECK(rejection_with([](Sheet& s) {
+          s.jitter = not_a_number;
+        }).starts_with("make_sheet: jitter is nan"));
   CHECK(rejection_with([](Sheet& s) {
           s.pattern = SheetPattern(99);
         }).starts_with("make_sheet: pattern is 99"));
@@ -233,14 +252,26 @@ TEST_CASE("shapes: every bad argument is refused by name and value") {
   CHECK(rejection_message([] {
           make_cylinder(not_a_number, 1, 5, 4);
         }).starts_with("make_cylinder: radius is nan"));
-  CHECK(rejection_message([] { make_cylinder(1, 0, 5, 4); }).starts_with("make_cylinder: height is 0"));
-  CHECK(rejection_message([] { make_cylinder(1, 3, 2, 4); }).starts_with("make_cylinder: around is 2"));
-  CHECK(rejection_message([] { make_cylinder(1, 3, 5, 0); }).starts_with("make_cylinder: along is 0"));
+  CHECK(rejection_message([] {
+          make_cylinder(1, 0, 5, 4);
+        }).starts_with("make_cylinder: height is 0"));
+  CHECK(rejection_message([] {
+          make_cylinder(1, 3, 2, 4);
+        }).starts_with("make_cylinder: around is 2"));
+  CHECK(rejection_message([] {
+          make_cylinder(1, 3, 5, 0);
+        }).starts_with("make_cylinder: along is 0"));
   CHECK(rejection_message([] { make_icosphere(0, 3); }).starts_with("make_icosphere: radius is 0"));
-  CHECK(rejection_message([] { make_icosphere(1, 10); }).starts_with("make_icosphere: subdivisions is 10"));
-  CHECK(rejection_message([] { make_statue(infinity, 4); }).starts_with("make_statue: height is inf"));
+  CHECK(rejection_message([] {
+          make_icosphere(1, 10);
+        }).starts_with("make_icosphere: subdivisions is 10"));
+  CHECK(rejection_message([] {
+          make_statue(infinity, 4);
+        }).starts_with("make_statue: height is inf"));
   CHECK(rejection_message([] { make_statue(1, 2); }).starts_with("make_statue: subdivisions is 2"));
-  CHECK(rejection_message([] { make_hinge(not_a_number, 1); }).starts_with("make_hinge: length is nan"));
+  CHECK(rejection_message([] {
+          make_hinge(not_a_number, 1);
+        }).starts_with("make_hinge: length is nan"));
   CHECK(rejection_message([] { make_hinge(1, 3.2); }).starts_with("make_hinge: angle is 3.2"));
   CHECK(rejection_message([] {
           lumped_masses(make_hinge(1, 1), -3);
@@ -256,8 +287,9 @@ TEST_CASE("shapes: every bad argument is refused by name and value") {
   CHECK(rejection_message([&] {
           pleated_positions(make_hinge(1, 1), 2, 1);
         }).starts_with("pleated: the sheet is empty or leaves"));
-  CHECK(rejection_message([&] { pleated_positions(make_sheet(good), 2, 1); }).find("crosses a fold line") !=
-        std::string::npos);
+  CHECK(rejection_message([&] {
+          pleated_positions(make_sheet(good), 2, 1);
+        }).find("crosses a fold line") != std::string::npos);
 }
 
 TEST_CASE("delaunay: no point lies inside the circle through a triangle's corners") {
@@ -270,20 +302,25 @@ TEST_CASE("delaunay: no point lies inside the circle through a triangle's corner
   for (const Triangle& t : triangles) {
     const Eigen::Vector2d a = points.col(t[0]), b = points.col(t[1]) - a, c = points.col(t[2]) - a;
     const double twice_area = b.x() * c.y() - b.y() * c.x();
-    const Eigen::Vector2d centre = Eigen::Vector2d(c.y() * b.squaredNorm() - b.y() * c.squaredNorm(),
-                                                   b.x() * c.squaredNorm() - c.x() * b.squaredNorm()) /
-                                   (2 * twice_area);
-    for (int i = 0; i < 120; ++i) inside += (points.col(i) - a - centre).norm() < centre.norm() * (1 - 1e-6);
+    const Eigen::Vector2d centre =
+        Eigen::Vector2d(c.y() * b.squaredNorm() - b.y() * c.squaredNorm(),
+                        b.x() * c.squaredNorm() - c.x() * b.squaredNorm()) /
+        (2 * twice_area);
+    for (int i = 0; i < 120; ++i)
+      inside += (points.col(i) - a - centre).norm() < centre.norm() * (1 - 1e-6);
   }
   CHECK(inside == 0);
   PerParticle3 x = PerParticle3::Zero(3, 120);
   x.topRows<2>() = points;
-  const TriangleMesh mesh = make_triangle_mesh(x, triangles);  // oriented, manifold, every point used
+  // oriented, manifold, every point used
+  const TriangleMesh mesh = make_triangle_mesh(x, triangles);
   const int border = int(mesh.edges.size() - mesh.hinges.size());
   CHECK(int(triangles.size()) == 2 * 120 - 2 - border);
 }
 
-TEST_CASE("delaunay: points on common circles are triangulated too, and points on a line but for rounding") {
+TEST_CASE(
+    "delaunay: points on common circles are triangulated too, and points on a line but for "
+    "rounding") {
   Eigen::Matrix2Xd grid(2, 7 * 9);
   for (int i = 0; i < 63; ++i) grid.col(i) << (i % 7) * 0.3, (i / 7) * 0.3;
   CHECK(delaunay(grid).size() == 2 * 6 * 8);
@@ -297,13 +334,19 @@ TEST_CASE("delaunay: too few, coincident, collinear and infinite points are refu
   CHECK(rejection_message([&] { delaunay(points.leftCols(2)); }) ==
         "delaunay: 2 points; give at least three");
   points.col(7) = points.col(3);
-  CHECK(rejection_message([&] { delaunay(points); }).starts_with("delaunay: points 3 and 7 coincide"));
+  CHECK(rejection_message([&] {
+          delaunay(points);
+        }).starts_with("delaunay: points 3 and 7 coincide"));
   points(1, 7) = not_a_number;
   CHECK(rejection_message([&] {
           delaunay(points);
         }).starts_with("delaunay: point 7: a coordinate is not finite"));
   points.setConstant(0.3);
-  CHECK(rejection_message([&] { delaunay(points); }).starts_with("delaunay: the points' extent is 0"));
+  CHECK(rejection_message([&] {
+          delaunay(points);
+        }).starts_with("delaunay: the points' extent is 0"));
   points.row(0).setLinSpaced(0.1, 1.7);
-  CHECK(rejection_message([&] { delaunay(points); }).starts_with("delaunay: all points lie on a line"));
+  CHECK(rejection_message([&] {
+          delaunay(points);
+        }).starts_with("delaunay: all points lie on a line"));
 }

@@ -49,7 +49,8 @@ std::vector<Claim> read(const std::string& text) {
 }
 
 /// The claims with one part of the claim replaced are refused at this line, with these words.
-void rejected(const std::string& part, const std::string& other, int line, const std::string& words) {
+void rejected(const std::string& part, const std::string& other, int line,
+              const std::string& words) {
   INFO(part << " -> " << other);
   CHECK_THROWS_AS(read(paper + with(claim, part, other)), InputError);
   CHECK_THROWS_WITH(read(paper + with(claim, part, other)),
@@ -107,10 +108,11 @@ TEST_CASE("an unknown key of a claim, of a decider or of a paper is refused") {
 }
 
 TEST_CASE("an unknown role and an unknown ruling are refused, with those that are known") {
-  rejected("\"limits\"", "\"limit\"", 15, "unknown role 'limit'; known: supports, limits, contradicts");
-  rejected(
-      "confirmed under a condition", "conditional", 17,
-      "unknown recorded 'conditional'; known: confirmed, confirmed under a condition, refuted, undecided");
+  rejected("\"limits\"", "\"limit\"", 15,
+           "unknown role 'limit'; known: supports, limits, contradicts");
+  rejected("confirmed under a condition", "conditional", 17,
+           "unknown recorded 'conditional'; known: confirmed, confirmed under a condition, "
+           "refuted, undecided");
 }
 
 TEST_CASE("a text of a claim that is missing or empty is refused") {
@@ -126,7 +128,8 @@ TEST_CASE("a text of a claim that is missing or empty is refused") {
 TEST_CASE("a paper without its key, title, authors or year is refused") {
   CHECK_THROWS_WITH(read(claim), Contains("abc99.toml") && Contains("there is no [paper]"));
   CHECK_THROWS_WITH(read(paper), Contains("abc99.toml: there is no [[claim]]"));
-  CHECK_THROWS_WITH(read(with(paper, "\"ABC99\"", "\"\"") + claim), Contains("abc99.toml:2: 'key' is empty"));
+  CHECK_THROWS_WITH(read(with(paper, "\"ABC99\"", "\"\"") + claim),
+                    Contains("abc99.toml:2: 'key' is empty"));
   CHECK_THROWS_WITH(read(with(paper, "\"Sums\"", "\"\"") + claim),
                     Contains("abc99.toml:3: 'title' is empty"));
   CHECK_THROWS_WITH(read(with(paper, "\"A. Adder\", \"B. Bee\"", "") + claim),
@@ -141,15 +144,20 @@ TEST_CASE("a condition is given if and only if the recorded ruling is conditiona
 }
 
 TEST_CASE("a claim that nothing decides, or that names a finding twice, is refused") {
-  const std::string deciders = with(claim, "  {role = \"supports\", finding = \"sums.add-up\"},\n", "");
-  CHECK_THROWS_WITH(read(paper + with(deciders, "  {role = \"limits\", finding = \"sums.overflow\"},\n", "")),
-                    Contains("abc99.toml:13: no finding decides this claim"));
-  rejected("\"sums.overflow\"}", "\"sums.add-up\"}", 15, "the finding 'sums.add-up' is named twice");
+  const std::string deciders =
+      with(claim, "  {role = \"supports\", finding = \"sums.add-up\"},\n", "");
+  CHECK_THROWS_WITH(
+      read(paper + with(deciders, "  {role = \"limits\", finding = \"sums.overflow\"},\n", "")),
+      Contains("abc99.toml:13: no finding decides this claim"));
+  rejected("\"sums.overflow\"}", "\"sums.add-up\"}", 15,
+           "the finding 'sums.add-up' is named twice");
 }
 
-TEST_CASE("an id that is taken, in the same file or in another, and one that is no name are refused") {
-  CHECK_THROWS_WITH(read(std::string(paper) + claim + claim),
-                    Contains("abc99.toml:22: the id 'ABC-1' is taken at ") && Contains("abc99.toml:8"));
+TEST_CASE(
+    "an id that is taken, in the same file or in another, and one that is no name are refused") {
+  CHECK_THROWS_WITH(
+      read(std::string(paper) + claim + claim),
+      Contains("abc99.toml:22: the id 'ABC-1' is taken at ") && Contains("abc99.toml:8"));
   const ScratchFolder folder;
   for (const char* file : {"a.toml", "b.toml"}) std::ofstream(folder.file(file)) << paper << claim;
   CHECK_THROWS_WITH(read_claims(folder.file(".")),

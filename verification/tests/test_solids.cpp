@@ -12,7 +12,8 @@ namespace foldproof {
 using oracles::WholePrism;
 
 TEST_CASE("a prism's inside has its polygon's area and its height") {
-  const WholePrism prism{{{0, 0}, {12, 0}, {12, 8}, {6, 2}, {0, 8}}, -3, 2};  // a notch: area 96 - 36
+  // a notch: area 96 - 36
+  const WholePrism prism{{{0, 0}, {12, 0}, {12, 8}, {6, 2}, {0, 8}}, -3, 2};
   long inside = 0, surface = 0;
   for (long x = -1; x <= 13; ++x)
     for (long y = -1; y <= 9; ++y)
@@ -40,8 +41,8 @@ TEST_CASE("distance to a triangle is that to a fine sampling of it") {
   PerParticle3 x(3, 3);
   x << 0.3, 1.9, -0.4, 0.1, 0.7, 1.3, -0.2, 0.5, 0.9;
   constexpr int fine = 400;
-  for (const Vector3& p :
-       {Vector3(0.5, 0.6, 2.1), Vector3(-1, -1, 0.3), Vector3(2.5, 1.7, 0.1), Vector3(0.6, 0.7, 0.4)}) {
+  for (const Vector3& p : {Vector3(0.5, 0.6, 2.1), Vector3(-1, -1, 0.3), Vector3(2.5, 1.7, 0.1),
+                           Vector3(0.6, 0.7, 0.4)}) {
     double least = INFINITY;
     for (int i = 0; i <= fine; ++i)
       for (int j = 0; i + j <= fine; ++j)

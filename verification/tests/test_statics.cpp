@@ -19,8 +19,10 @@ TEST_CASE("the loaded tip by elliptic integrals is that of shooting, and the tab
     CHECK(std::abs(1 - tip.reach.value - shortening) < 5.1e-9 + tip.reach.uncertainty);
     CHECK(std::abs(tip.drop.value - drop) < 5.1e-9 + tip.drop.uncertainty);
     CHECK(tip.drop.uncertainty < 1e-10);
-    CHECK(std::abs(tip.drop.value - other.drop.value) <= tip.drop.uncertainty + other.drop.uncertainty);
-    CHECK(std::abs(tip.reach.value - other.reach.value) <= tip.reach.uncertainty + other.reach.uncertainty);
+    CHECK(std::abs(tip.drop.value - other.drop.value) <=
+          tip.drop.uncertainty + other.drop.uncertainty);
+    CHECK(std::abs(tip.reach.value - other.reach.value) <=
+          tip.reach.uncertainty + other.reach.uncertainty);
     CHECK(other.drop.uncertainty < 1e-8);
   }
   CHECK(std::abs(tip_load(1e-3).drop.value / (1e-3 / 3) - 1) < 1e-5);
@@ -29,8 +31,8 @@ TEST_CASE("the loaded tip by elliptic integrals is that of shooting, and the tab
 
 namespace {
 
-/// w of a periodic mesh's vertices on a quadratic surface: the energy of whole cells, hinge by hinge, from
-/// normals in space.
+/// w of a periodic mesh's vertices on a quadratic surface: the energy of whole cells, hinge by
+/// hinge, from normals in space.
 double angle_by_normals(const std::array<Eigen::Vector3d, 4>& x) {
   const Eigen::Vector3d above = (x[0] - x[2]).cross(x[0] - x[3]).normalized(),
                         below = (x[1] - x[3]).cross(x[1] - x[2]).normalized();
@@ -40,7 +42,8 @@ double angle_by_normals(const std::array<Eigen::Vector3d, 4>& x) {
 }  // namespace
 
 TEST_CASE("homogenised rigidities are the table's") {
-  const PeriodicMesh alternating = split_rectangles({.7, .7, 1, 2, [](int, int j) { return j % 2 == 0; }});
+  const PeriodicMesh alternating =
+      split_rectangles({.7, .7, 1, 2, [](int, int j) { return j % 2 == 0; }});
   const PeriodicMesh union_jack =
       split_rectangles({1.3, 1.3, 2, 2, [](int i, int j) { return (i + j) % 2 == 0; }});
   struct Row {
@@ -48,17 +51,17 @@ TEST_CASE("homogenised rigidities are the table's") {
     std::array<double, 4> relaxed;  // at 0, 45, 90, 135 degrees
     double tolerance;               // of the table's last digit
   };
-  const std::array<Row, 6> table{{{equilateral_triangles(.3), {.25, .25, .25, .25}, 1e-12},
-                                  {split_rectangles({}), {.25, .75, .25, .25}, 1e-12},
-                                  {alternating, {.25, .4375, .25, .4375}, 1e-12},
-                                  {union_jack, {.2083, .3333, .2083, .3333}, 5e-5},
-                                  {crossed_squares(2.1), {.3333, .2083, .3333, .2083}, 5e-5},
-                                  {split_rectangles({4, 1, 1, 1, nullptr}), {.25, 2.789, .25, 1.727}, 5e-4}}};
+  const std::array<Row, 6> table{
+      {{equilateral_triangles(.3), {.25, .25, .25, .25}, 1e-12},
+       {split_rectangles({}), {.25, .75, .25, .25}, 1e-12},
+       {alternating, {.25, .4375, .25, .4375}, 1e-12},
+       {union_jack, {.2083, .3333, .2083, .3333}, 5e-5},
+       {crossed_squares(2.1), {.3333, .2083, .3333, .2083}, 5e-5},
+       {split_rectangles({4, 1, 1, 1, nullptr}), {.25, 2.789, .25, 1.727}, 5e-4}}};
   for (const Row& row : table) {
     const Eigen::Matrix3d R = relaxed_rigidity(row.mesh);
     for (size_t k = 0; k < 4; ++k)
-      CHECK(std::abs(cylinder_rigidity(R, double(k) * pi / 4) - row.relaxed[k]) <=
-            row.tolerance);
+      CHECK(std::abs(cylinder_rigidity(R, double(k) * pi / 4) - row.relaxed[k]) <= row.tolerance);
     const Eigen::Matrix3d stiffer = forced_rigidity(row.mesh) - R;
     CHECK(stiffer.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > -1e-12);
   }
@@ -70,11 +73,11 @@ TEST_CASE("homogenised rigidities are the table's") {
 }
 
 TEST_CASE("union jack and criss-cross are one mesh, turned by 45 degrees") {
-  const PeriodicMesh jack = split_rectangles({1, 1, 2, 2, [](int i, int j) { return (i + j) % 2 == 0; }});
+  const PeriodicMesh jack =
+      split_rectangles({1, 1, 2, 2, [](int i, int j) { return (i + j) % 2 == 0; }});
   for (const double angle : {.1, .9, 2.2}) {
     CHECK(std::abs(cylinder_rigidity(forced_rigidity(jack), angle) -
-                   cylinder_rigidity(forced_rigidity(crossed_squares(1)), angle + pi / 4)) <
-          1e-12);
+                   cylinder_rigidity(forced_rigidity(crossed_squares(1)), angle + pi / 4)) < 1e-12);
     CHECK(std::abs(cylinder_rigidity(relaxed_rigidity(jack), angle) -
                    cylinder_rigidity(relaxed_rigidity(crossed_squares(1)), angle + pi / 4)) <
           1e-12);
@@ -94,8 +97,10 @@ TEST_CASE("one hinge of a plane sheet turns by the angle between its normals") {
     const double s = std::cos(angle) * sheet.points(0, i) + std::sin(angle) * sheet.points(1, i);
     x[size_t(i)] = Eigen::Vector3d(sheet.points(0, i), sheet.points(1, i), curvature * s * s / 2);
   }
-  const double areas = (x[0] - x[2]).cross(x[0] - x[3]).norm() + (x[1] - x[3]).cross(x[1] - x[2]).norm();
-  const double factor = (x[3] - x[2]).squaredNorm() / areas, theta = angle_by_normals(x) / curvature;
+  const double areas =
+      (x[0] - x[2]).cross(x[0] - x[3]).norm() + (x[1] - x[3]).cross(x[1] - x[2]).norm();
+  const double factor = (x[3] - x[2]).squaredNorm() / areas,
+               theta = angle_by_normals(x) / curvature;
   const double expected = factor / 2 * theta * theta / (areas / 6);
   CHECK(std::abs(forced_cylinder_rigidity(sheet, angle) / expected - 1) < 1e-8);
   CHECK(relaxed_cylinder_rigidity(sheet, angle) == forced_cylinder_rigidity(sheet, angle));

@@ -63,19 +63,22 @@ TEST_CASE("a table fills its columns row by row, numbers and texts") {
   CHECK(table.columns().back().name == "order");
 }
 
-TEST_CASE("a row of another length or type, a short column and an unknown name are refused by name") {
+TEST_CASE(
+    "a row of another length or type, a short column and an unknown name are refused by name") {
   Table table{"orders", "Observed orders", {{"scheme", "1"}, {"order", "1"}}};
   const auto rejection = Catch::Contains("table 'orders' of columns [scheme, order]: ");
   CHECK_THROWS_WITH(table.row("A"), rejection && Catch::Contains("a row of 1 for 2 columns"));
   table.row("A", 2.0);
-  CHECK_THROWS_WITH(table.row(1, 2.0), rejection && Catch::Contains("'scheme' holds texts, and row 2"));
+  CHECK_THROWS_WITH(table.row(1, 2.0),
+                    rejection && Catch::Contains("'scheme' holds texts, and row 2"));
   CHECK_THROWS_WITH(table.row("B", "two"), rejection && Catch::Contains("'order' holds numbers"));
   CHECK(table.rows() == 1);
   CHECK_THROWS_WITH(table.add({"floor", "1"}), rejection && Catch::Contains("0 values"));
   CHECK_THROWS_WITH(table.numbers("error"), rejection && Catch::Contains("no column 'error'"));
   CHECK_THROWS_WITH(table.numbers("scheme"), rejection && Catch::Contains("holds texts"));
-  CHECK_THROWS_AS((Table{{"a", "1", std::vector<double>{1, 2}}, {"b", "1", std::vector<double>{1}}}),
-                  std::logic_error);
+  CHECK_THROWS_AS(
+      (Table{{"a", "1", std::vector<double>{1, 2}}, {"b", "1", std::vector<double>{1}}}),
+      std::logic_error);
 }
 
 TEST_CASE("the worst of a column keeps NaN, and is not a number where there is no row") {
@@ -116,7 +119,8 @@ TEST_CASE("the worst row is judged in its column's unit, with the largest uncert
 TEST_CASE("a check that throws fails and says why; one that is not offered is not applicable") {
   const Subject subject = reference_subject();
   const Record broken = run_check(
-      check_that([](const Subject&) -> Finding { throw std::runtime_error("out of cloth"); }), subject);
+      check_that([](const Subject&) -> Finding { throw std::runtime_error("out of cloth"); }),
+      subject);
   CHECK(broken.outcome == Outcome::fails);
   CHECK(broken.finding.note.find("out of cloth") != std::string::npos);
   const Record absent =
@@ -142,7 +146,8 @@ TEST_CASE("verdicts as JSON: NaN becomes null, names stay") {
   CHECK(json.find("odd \\\"name\\\" <b>") != std::string::npos);
 }
 
-TEST_CASE("verdicts as JSON and XML: each outcome stands as it is, and none but what holds passes") {
+TEST_CASE(
+    "verdicts as JSON and XML: each outcome stands as it is, and none but what holds passes") {
   RunRecord run;
   for (const Outcome outcome :
        {Outcome::holds, Outcome::fails, Outcome::inconclusive, Outcome::not_applicable}) {
@@ -197,7 +202,8 @@ TEST_CASE("a fault in the file of another room, and a name that is taken, are re
   };
   const ScratchFolder folder;
   CHECK_THROWS_WITH(read_faults(folder.file(".")), Catch::Contains("there is no list of faults"));
-  CHECK_THROWS_WITH(read_faults(folder.file("nowhere")), Catch::Contains("there is no list of faults"));
+  CHECK_THROWS_WITH(read_faults(folder.file("nowhere")),
+                    Catch::Contains("there is no list of faults"));
   std::ofstream(folder.file("forces.toml")) << row("one", "reference/forces/a.cpp");
   std::ofstream(folder.file("mesh.toml")) << row("two", "reference/mesh/a.cpp");
   CHECK(read_faults(folder.file(".")).size() == 2);
@@ -208,9 +214,9 @@ TEST_CASE("a fault in the file of another room, and a name that is taken, are re
   CHECK_THROWS_WITH(read_faults(folder.file(".")),
                     Catch::Contains("mesh.toml:3: ") && Catch::Contains("no list"));
   std::ofstream(folder.file("mesh.toml")) << row("one", "reference/mesh/a.cpp");
-  CHECK_THROWS_WITH(
-      read_faults(folder.file(".")),
-      Catch::Contains("mesh.toml:2: the name 'one' is taken at ") && Catch::Contains("forces.toml:2"));
+  CHECK_THROWS_WITH(read_faults(folder.file(".")),
+                    Catch::Contains("mesh.toml:2: the name 'one' is taken at ") &&
+                        Catch::Contains("forces.toml:2"));
 }
 
 TEST_CASE("the room of a file is its folder, or its name where it has none") {

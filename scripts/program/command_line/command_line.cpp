@@ -36,7 +36,9 @@ bool takes_many(const CLI::Option& option) {
   return option.get_expected_max() >= CLI::detail::expected_max_vector_size;
 }
 
-bool is_switch(const CLI::Option* option) { return option->nonpositional() && !option->get_positional(); }
+bool is_switch(const CLI::Option* option) {
+  return option->nonpositional() && !option->get_positional();
+}
 
 /// "foldproof evaluate bending"
 std::string full_name(const CLI::App& app) {
@@ -75,7 +77,8 @@ std::string usage_of(const CLI::App& app) {
 /// "--out DIR" with what it means
 std::string explained(const CLI::Option& option) {
   std::string text = option.get_description();
-  if (!option.get_default_str().empty()) text += fmt::format(" (default: {})", option.get_default_str());
+  if (!option.get_default_str().empty())
+    text += fmt::format(" (default: {})", option.get_default_str());
   if (option.get_required() && is_switch(&option)) text += " (required)";
   return text;
 }
@@ -92,7 +95,8 @@ std::string unknown_word(const CLI::App& app, const std::string& word) {
   for (const CLI::App* command : commands_of(app)) known.push_back(command->get_name());
   if (known.empty()) return fmt::format("unexpected word '{}'; usage: {}", word, usage_of(app));
   const std::vector<std::string> near = nearest_names(word, known);
-  const std::string meant = near.empty() ? fmt::format("; known: {}", fmt::join(known, ", ")) : did_you_mean(near);
+  const std::string meant =
+      near.empty() ? fmt::format("; known: {}", fmt::join(known, ", ")) : did_you_mean(near);
   return fmt::format("unknown command '{}'{}", word, meant);
 }
 
@@ -100,7 +104,8 @@ std::string unknown_word(const CLI::App& app, const std::string& word) {
 std::string mismatch(const CLI::App& app, const std::string& what) {
   const std::string name = what.substr(0, what.find_first_of(": "));
   const CLI::Option* option = app.get_option_no_throw(name);
-  if (!option) return "--" + name + " takes no value";  // the library names a flag without its dashes
+  // the library names a flag without its dashes
+  if (!option) return "--" + name + " takes no value";
   if (what.find("At Most") == std::string::npos)
     return fmt::format("{} needs a value: {} {}", name, name, option->get_type_name());
   if (is_switch(option)) return name + " is given more than once";
@@ -116,7 +121,8 @@ std::string describe(const CLI::App& app, const CLI::ParseError& error) {
     return unknown_word(command, words.front());
   if (kind == "RequiredError") {
     std::string name = what.substr(0, what.find(' '));
-    if (const CLI::Option* option = command.get_option_no_throw(name); option && option->get_positional())
+    if (const CLI::Option* option = command.get_option_no_throw(name);
+        option && option->get_positional())
       name = option->get_name(true, false);
     return fmt::format("{} is missing; usage: {}", name, usage_of(command));
   }
@@ -134,7 +140,8 @@ bool is_whole(const std::string& text, long& value) {
 bool is_no_value(const std::string& typed) { return typed.empty() || typed.starts_with("--"); }
 
 /// A value that is refused is shown with what would do; "" lets it pass.
-CLI::Validator validator(const std::string& wanted, const std::function<bool(const std::string&)>& suits) {
+CLI::Validator validator(const std::string& wanted,
+                         const std::function<bool(const std::string&)>& suits) {
   return {[=](std::string& typed) {
             if (is_no_value(typed)) return "a value is missing; give " + wanted;
             return suits(typed) ? "" : fmt::format("'{}' is not {}", typed, wanted);
@@ -165,8 +172,8 @@ std::string PlainHelp::make_option(const CLI::Option* option, bool is_positional
 
 std::string PlainHelp::make_subcommand(const CLI::App* command) const {
   std::stringstream out;
-  CLI::detail::format_help(out, command->get_name(), wrapped(command->get_description(), page - indent / 2),
-                           indent / 2);
+  CLI::detail::format_help(out, command->get_name(),
+                           wrapped(command->get_description(), page - indent / 2), indent / 2);
   return out.str();
 }
 
@@ -175,16 +182,18 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
             const std::string known = fmt::format("{}", fmt::join(names, ", "));
             if (std::ranges::find(names, typed) != names.end()) return std::string();
             if (is_no_value(typed)) return "a value is missing; give one of " + known;
-            return fmt::format("'{}' is none of {}{}", typed, known, did_you_mean(nearest_names(typed, names)));
+            return fmt::format("'{}' is none of {}{}", typed, known,
+                               did_you_mean(nearest_names(typed, names)));
           },
           ""};
 }
 
 CLI::Validator whole_number(long least, long most) {
-  return validator(fmt::format("a whole number from {} to {}", least, most), [=](const std::string& typed) {
-    long value = 0;
-    return is_whole(typed, value) && value >= least && value <= most;
-  });
+  return validator(fmt::format("a whole number from {} to {}", least, most),
+                   [=](const std::string& typed) {
+                     long value = 0;
+                     return is_whole(typed, value) && value >= least && value <= most;
+                   });
 }
 
 CLI::Validator finite_number() {
@@ -212,7 +221,8 @@ int end_parse(const CLI::App& app, const CLI::ParseError& error) {
     fmt::print("{}", command.help());
     return all_hold;
   }
-  log_line(fmt::format("foldproof: {} (see `{} --help`)", describe(app, error), full_name(command)));
+  log_line(
+      fmt::format("foldproof: {} (see `{} --help`)", describe(app, error), full_name(command)));
   return bad_input;
 }
 
@@ -220,8 +230,8 @@ int reject_missing_command(const CLI::App& app) {
   const CLI::App& typed = innermost(app);
   std::vector<std::string> known;
   for (const CLI::App* command : commands_of(typed)) known.push_back(command->get_name());
-  log_line(fmt::format("foldproof: a command is missing, one of {} (see `{} --help`)", fmt::join(known, ", "),
-                  full_name(typed)));
+  log_line(fmt::format("foldproof: a command is missing, one of {} (see `{} --help`)",
+                       fmt::join(known, ", "), full_name(typed)));
   return bad_input;
 }
 

@@ -8,7 +8,8 @@
 
 namespace foldproof {
 
-/// Help in words: names of values without their types, defaults and requirements in the text, at most 100 columns.
+/// Help in words: names of values without their types, defaults and requirements in the text, at
+/// most 100 columns.
 class PlainHelp : public CLI::Formatter {
  public:
   PlainHelp();
@@ -24,8 +25,8 @@ CLI::Validator finite_number();
 CLI::Validator positive_number();
 CLI::Validator some_text(const std::string& wanted);
 
-/// Ends a parse that failed: prints help if it was asked for, else one line on standard error, that says what is wrong
-/// and what would do. Returns the exit code.
+/// Ends a parse that failed: prints help if it was asked for, else one line on standard error, that
+/// says what is wrong and what would do. Returns the exit code.
 int end_parse(const CLI::App& app, const CLI::ParseError& error);
 
 /// Says in one line that a command is missing, and which there are. Returns the exit code.

@@ -1,4 +1,5 @@
-// What `--help` shows below the options: notes, examples that can be typed as they stand, exit codes.
+// What `--help` shows below the options: notes, examples that can be typed as they
+// stand, exit codes.
 #pragma once
 
 namespace foldproof::help {

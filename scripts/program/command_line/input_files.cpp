@@ -48,7 +48,8 @@ std::string suggestion(const std::string& typed, const FileKind& kind) {
   for (const std::string& name : nearest_names(fs::path(typed).stem().string(), names))
     meant.push_back(words.at(name));
   if (!meant.empty()) return did_you_mean(meant);
-  return &kind == &case_kind ? "; `" + program_command() + " list` shows the shipped ones" : "; check the path";
+  return &kind == &case_kind ? "; `" + program_command() + " list` shows the shipped ones"
+                             : "; check the path";
 }
 
 }  // namespace
@@ -68,7 +69,8 @@ void require_input(const std::string& path, const FileKind& kind) {
 }
 
 std::string case_file(const std::string& typed) {
-  const std::string name = typed.ends_with(case_kind.ending) ? fs::path(typed).replace_extension().string() : typed;
+  const std::string name =
+      typed.ends_with(case_kind.ending) ? fs::path(typed).replace_extension().string() : typed;
   std::error_code unreadable;
   for (const std::string& file : {typed, name + case_kind.ending})
     if (fs::is_regular_file(file, unreadable)) {

@@ -11,7 +11,8 @@ namespace foldproof {
 
 namespace fs = std::filesystem;
 
-OutFolder::OutFolder(const std::string& path) : OutFolder() {  // so that what throws below is undone
+// so that what throws below is undone
+OutFolder::OutFolder(const std::string& path) : OutFolder() {
   if (path.empty()) return;
   const auto reject = [&](const std::string& what, const std::error_code& why) {
     throw InputError(path + ": " + what + ": " + why.message() + "; choose another --out");
@@ -21,7 +22,8 @@ OutFolder::OutFolder(const std::string& path) : OutFolder() {  // so that what t
   const auto is_taken = [&] { return fs::exists(part, error) && !fs::is_directory(part, error); };
   for (const fs::path& name : fs::path(path)) {
     part /= name;
-    if (is_taken()) reject("cannot make this folder", std::make_error_code(std::errc::not_a_directory));
+    if (is_taken())
+      reject("cannot make this folder", std::make_error_code(std::errc::not_a_directory));
     if (fs::create_directory(part, error)) made_.push_back(part);
     if (error) reject("cannot make this folder", error);
   }

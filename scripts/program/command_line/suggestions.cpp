@@ -32,10 +32,12 @@ size_t distance(const std::string& typed, const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> nearest_names(const std::string& typed, const std::vector<std::string>& known) {
+std::vector<std::string> nearest_names(const std::string& typed,
+                                       const std::vector<std::string>& known) {
   std::vector<std::pair<size_t, std::string>> near;
   for (const std::string& name : known)
-    if (const size_t edits = distance(typed, name); edits <= typed.size() / 2) near.emplace_back(edits, name);
+    if (const size_t edits = distance(typed, name); edits <= typed.size() / 2)
+      near.emplace_back(edits, name);
   std::ranges::sort(near);
   const auto [first, last] = std::ranges::unique(near);
   near.erase(first, last);

@@ -6,8 +6,8 @@
 
 namespace foldproof {
 
-/// A line for a shell that does the same with one more option; words: what was typed, the program's name first.
-/// --resume and --restart, which exclude each other, are left out of the words.
+/// A line for a shell that does the same with one more option; words: what was typed, the program's
+/// name first. --resume and --restart, which exclude each other, are left out of the words.
 std::string with_option(const std::vector<std::string>& words, const std::string& option);
 
 }  // namespace foldproof

@@ -1,4 +1,5 @@
-// Checks of bodies: which meshes are solids, how they are repaired and kept. A function a file; the list of all is verification/checks.cpp.
+// Checks of bodies: which meshes are solids, how they are repaired and kept. A function a file; the
+// list of all is verification/checks.cpp.
 #pragma once
 
 #include <vector>

@@ -61,17 +61,20 @@ std::vector<BadSolid> bad_solids() {
   open.triangles.erase(open.triangles.begin() + 17);
   std::swap(flipped.triangles[133][1], flipped.triangles[133][2]);
   pierced.rest.col(5) *= -1.2;  // pulled out through the far side
-  return {{"two holes", open, {"a hole", "6 such edges around 2 holes", "repair"}},
-          {"a flipped triangle", flipped, {"opposite orientation"}},
-          {"a vertex pulled through the far side", pierced, {"meets", "intersecting pairs", "repair"}},
-          {"two balls that overlap", join(whole, whole, {0.5, 0.31, 0.22}), {"meets", "intersecting pairs"}},
-          {"a ball inside out", turned_round(whole), {line_of(whole, 0), "320 triangles", "inward"}},
-          {"a ball in a ball, both outward",
-           join(whole, ball(0.3), {0.1, 0.05, 0}),
-           {":" + std::to_string(2 + 2 * 162 + 320) + ":", "within another piece"}},
-          {"a ball beside another, inside out",
-           join(whole, turned_round(ball(0.3)), {1.7, 0.05, 0}),
-           {":" + std::to_string(2 + 2 * 162 + 320) + ":", "inward"}}};
+  return {
+      {"two holes", open, {"a hole", "6 such edges around 2 holes", "repair"}},
+      {"a flipped triangle", flipped, {"opposite orientation"}},
+      {"a vertex pulled through the far side", pierced, {"meets", "intersecting pairs", "repair"}},
+      {"two balls that overlap",
+       join(whole, whole, {0.5, 0.31, 0.22}),
+       {"meets", "intersecting pairs"}},
+      {"a ball inside out", turned_round(whole), {line_of(whole, 0), "320 triangles", "inward"}},
+      {"a ball in a ball, both outward",
+       join(whole, ball(0.3), {0.1, 0.05, 0}),
+       {":" + std::to_string(2 + 2 * 162 + 320) + ":", "within another piece"}},
+      {"a ball beside another, inside out",
+       join(whole, turned_round(ball(0.3)), {1.7, 0.05, 0}),
+       {":" + std::to_string(2 + 2 * 162 + 320) + ":", "inward"}}};
 }
 
 Finding bad_solids_are_rejected(const Subject&) {
@@ -117,10 +120,12 @@ Finding solids_are_accepted(const Subject&) {
       {"statue", soup_of(small_statue())},
       {"two balls", join(ball(0.7), ball(0.4), {1.3, 0.2, 0.1})},
       {"ball with a cavity and a ball in it",
-       join(join(ball(0.7), turned_round(ball(0.5)), {0.02, 0.01, 0}), ball(0.3), {0.05, -0.02, 0.01})}};
+       join(join(ball(0.7), turned_round(ball(0.5)), {0.02, 0.01, 0}), ball(0.3),
+            {0.05, -0.02, 0.01})}};
   for (const UglySolid& solid : ugly_solids()) good.emplace_back(solid.name, solid.soup);
   for (const auto& [name, soup] : good)
-    measured.row(name, rejection_message([&soup = soup] { make_closed_mesh(soup); }).empty() ? 0 : 1);
+    measured.row(name,
+                 rejection_message([&soup = soup] { make_closed_mesh(soup); }).empty() ? 0 : 1);
   return judge_worst(measured, 0, "each of them parts inside from outside");
 }
 
@@ -133,8 +138,8 @@ Vector3 whole(Random& random, double size) {
   return {std::round(v.x()), std::round(v.y()), std::round(v.z())};
 }
 
-/// Three vectors with 1, 2 and 3 times of them adding up to zero: the origin is inside the triangle that they
-/// span.
+/// Three vectors with 1, 2 and 3 times of them adding up to zero: the origin is inside the triangle
+/// that they span.
 std::array<Vector3, 3> around_origin(Random& random) {
   const Vector3 a = 6 * whole(random, 50), b = 6 * whole(random, 50);
   return {a, b, -(a + 2 * b) / 3};
@@ -158,8 +163,8 @@ Six touching(Random& random) {
   return x;
 }
 
-/// The same, the second moved away by `gap` along an axis. The smallest gap that these numbers have room for
-/// is 2^-44.
+/// The same, the second moved away by `gap` along an axis. The smallest gap that these numbers have
+/// room for is 2^-44.
 Six apart(Random& random, double gap) {
   Six x = touching(random);
   const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
@@ -173,7 +178,8 @@ Six apart(Random& random, double gap) {
 Six in_plane(Random& random, bool overlapping) {
   const Vector3 u = whole(random, 50), v = whole(random, 50), at = whole(random, 1000);
   const auto point = [&](double a, double b) { return Vector3(at + a * u + b * v); };
-  if (overlapping) return {point(0, 0), point(9, 1), point(2, 8), point(2, 2), point(4, 2), point(3, 4)};
+  if (overlapping)
+    return {point(0, 0), point(9, 1), point(2, 8), point(2, 2), point(4, 2), point(3, 4)};
   return {point(0, 0), point(9, 1), point(2, 8), point(9, 2), point(8, 7), point(6, 6)};
 }
 
@@ -188,8 +194,10 @@ std::vector<Family> families() {
           {"vertex on face", touching, true},
           {"vertex off face", [](Random& random) { return apart(random, 1); }, false},
           {"vertex a hair off face", [](Random& random) { return apart(random, 0x1p-44); }, false},
-          {"in one plane, one in the other", [](Random& random) { return in_plane(random, true); }, true},
-          {"in one plane, side by side", [](Random& random) { return in_plane(random, false); }, false}};
+          {"in one plane, one in the other", [](Random& random) { return in_plane(random, true); },
+           true},
+          {"in one plane, side by side", [](Random& random) { return in_plane(random, false); },
+           false}};
 }
 
 bool has_area(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -212,8 +220,8 @@ Finding intersections_are_found(const Subject&) {
     }
     measured.row(family.name, wrong);
   }
-  return judge_worst(measured, 0,
-                     "coordinates are whole numbers over 1024, and signs of determinants are exact");
+  return judge_worst(
+      measured, 0, "coordinates are whole numbers over 1024, and signs of determinants are exact");
 }
 
 /// Triangles that share an edge or a vertex.
@@ -227,14 +235,14 @@ Finding neighbours_are_told_apart(const Subject&) {
       {"edge shared, flat", {2, 1, 3}, false},
       {"edge shared, folded flat onto the other", {2, 1, 4}, true},
       {"edge shared, folded", {2, 1, 5}, false},
-      {"vertex shared, an edge over the other",
-       {0, 5, 3},
-       true},  // 3 is in the plane, but 0-3 runs over the base
+      // 3 is in the plane, but 0-3 runs over the base
+      {"vertex shared, an edge over the other", {0, 5, 3}, true},
       {"vertex shared, through the other", {0, 5, 6}, true},
       {"vertex shared, away from the other", {1, 5, 3}, false}};
   Table measured{{"case", ""}, {"wrong answers", "1"}};
   for (const auto& [name, triangle, meets] : cases)
-    measured.row(name, (intersect(x, base, triangle) != meets) + (intersect(x, triangle, base) != meets));
+    measured.row(name,
+                 (intersect(x, base, triangle) != meets) + (intersect(x, triangle, base) != meets));
   return judge_worst(measured, 0, "what they share by number does not count, anything more does");
 }
 
@@ -251,7 +259,8 @@ Finding pairs_are_complete(const Subject&) {
     std::vector<std::pair<int, int>> differing;
     std::set_symmetric_difference(all.begin(), all.end(), found.begin(), found.end(),
                                   std::back_inserter(differing));
-    measured.row(std::to_string(all.size()) + " pairs", double(differing.size()) + (all.empty() ? 1 : 0));
+    measured.row(std::to_string(all.size()) + " pairs",
+                 double(differing.size()) + (all.empty() ? 1 : 0));
   }
   return judge_worst(measured, 0, "boxes that do not meet hold no triangles that do");
 }
@@ -260,12 +269,14 @@ Finding pairs_are_complete(const Subject&) {
 
 std::vector<Check> closed_mesh_checks() {
   return {{"level-set.invalid-solids-are-rejected",
-           "Holes, flipped triangles, intersections and pieces inside out are refused by name and number.",
+           "Holes, flipped triangles, intersections and pieces inside out are refused by name and "
+           "number.",
            "ours", bad_solids_are_rejected},
-          {"level-set.reported-edges-belong-to-holes", "The edge that a refusal names is one of the hole's.",
-           "ours", places_are_right},
+          {"level-set.reported-edges-belong-to-holes",
+           "The edge that a refusal names is one of the hole's.", "ours", places_are_right},
           {"level-set.valid-solids-are-accepted",
-           "Bodies, bodies beside others, and nested shells are accepted, thin rays and fins among them.",
+           "Bodies, bodies beside others, and nested shells are accepted, thin rays and fins among "
+           "them.",
            "ours", solids_are_accepted},
           {"level-set.triangle-intersections-are-exact",
            "Whether two triangles meet is answered right, contact and common planes included.",
@@ -273,8 +284,8 @@ std::vector<Check> closed_mesh_checks() {
           {"level-set.neighbouring-triangles-may-touch",
            "Triangles may meet in the edge or vertex that they share, and in nothing more.", "ours",
            neighbours_are_told_apart},
-          {"level-set.all-intersecting-pairs-are-found", "The tree finds all intersecting pairs.", "ours",
-           pairs_are_complete}};
+          {"level-set.all-intersecting-pairs-are-found", "The tree finds all intersecting pairs.",
+           "ours", pairs_are_complete}};
 }
 
 }  // namespace foldproof

@@ -1,5 +1,5 @@
-// What is kept of level sets between runs: keys that change with everything they are made of, and content
-// that must not be trusted.
+// What is kept of level sets between runs: keys that change with everything they are made of, and
+// content that must not be trusted.
 #include <array>
 #include <cmath>
 #include <functional>
@@ -23,8 +23,8 @@ struct Change {
   std::function<void(T&)> act;
 };
 
-/// For each change alone: is the key of the original kept? It must not be. `key` of an unchanged copy must be
-/// the same.
+/// For each change alone: is the key of the original kept? It must not be. `key` of an unchanged
+/// copy must be the same.
 template <class T>
 Finding keys_are_distinct(const T& original, const std::vector<Change<T>>& changes,
                           const std::function<std::string(const T&)>& key) {
@@ -48,9 +48,11 @@ Finding rejections_of(const T& sound, const std::vector<Change<T>>& breaks) {
     T broken = sound;
     breaking.act(broken);
     const std::string reason = breaking.what.substr(breaking.what.find(": ") + 2);
-    measured.row(
-        breaking.what,
-        rejection_message([&] { require_valid_content(broken); }).find(reason) != std::string::npos ? 0 : 1);
+    measured.row(breaking.what, rejection_message([&] {
+                                  require_valid_content(broken);
+                                }).find(reason) != std::string::npos
+                                    ? 0
+                                    : 1);
   }
   return judge_worst(measured, 0, "content that no build made is refused before anything asks it");
 }
@@ -105,13 +107,14 @@ Finding grid_content_finding(const Subject&) {
 
 Finding grid_sound_finding(const Subject&) {
   return rejections_of<Grid>(
-      small_grid(), {{"no place: place", [](Grid& grid) { grid.lattice.origin[0] = NAN; }},
-                     {"infinitely far: place", [](Grid& grid) { grid.lattice.origin[2] = INFINITY; }},
-                     {"no spacing: spacing", [](Grid& grid) { grid.lattice.spacing = 0; }},
-                     {"one node along an axis: no cells", [](Grid& grid) { grid.lattice.nodes[1] = 1; }},
-                     {"a value too many: as many as its nodes", [](Grid& grid) { grid.phi.push_back(1); }},
-                     {"a value that is none: not finite", [](Grid& grid) { grid.phi.back() = NAN; }},
-                     {"an infinite value: not finite", [](Grid& grid) { grid.phi[5] = -INFINITY; }}});
+      small_grid(),
+      {{"no place: place", [](Grid& grid) { grid.lattice.origin[0] = NAN; }},
+       {"infinitely far: place", [](Grid& grid) { grid.lattice.origin[2] = INFINITY; }},
+       {"no spacing: spacing", [](Grid& grid) { grid.lattice.spacing = 0; }},
+       {"one node along an axis: no cells", [](Grid& grid) { grid.lattice.nodes[1] = 1; }},
+       {"a value too many: as many as its nodes", [](Grid& grid) { grid.phi.push_back(1); }},
+       {"a value that is none: not finite", [](Grid& grid) { grid.phi.back() = NAN; }},
+       {"an infinite value: not finite", [](Grid& grid) { grid.phi[5] = -INFINITY; }}});
 }
 
 // ---- deforming bodies
@@ -133,7 +136,9 @@ Finding body_origin_finding(const Subject&) {
   using Settings = OctreeSettings;
   std::vector<Change<BodyInput>> changes = {
       {"a coordinate of a later frame, by a rounding",
-       [](BodyInput& of) { of.sequence.positions[2](1, 5) = next_after(of.sequence.positions[2](1, 5)); }},
+       [](BodyInput& of) {
+         of.sequence.positions[2](1, 5) = next_after(of.sequence.positions[2](1, 5));
+       }},
       {"a triangle turned",
        [](BodyInput& of) { std::swap(of.sequence.triangles[3][0], of.sequence.triangles[3][2]); }},
       {"a time", [](BodyInput& of) { of.sequence.times[1] = next_after(0.3); }},
@@ -151,8 +156,9 @@ Finding body_origin_finding(const Subject&) {
   setting("beyond", [](Settings& how) { how.beyond = next_after(how.beyond); });
   setting("reach", [](Settings& how) { how.reach = 1e-300; });
   setting("hanging nodes", [](Settings& how) { how.hanging = HangingNodes::free; });
-  return keys_are_distinct<BodyInput>(
-      body_input(), changes, [](const BodyInput& of) { return input_key(of.sequence, of.settings); });
+  return keys_are_distinct<BodyInput>(body_input(), changes, [](const BodyInput& of) {
+    return input_key(of.sequence, of.settings);
+  });
 }
 
 DeformingBody small_body() {
@@ -166,9 +172,13 @@ Finding body_content_finding(const Subject&) {
   return keys_are_distinct<Body>(
       small_body(),
       {{"a value, by a rounding",
-        [](Body& body) { body.frames[1].field.phi[3][7] = next_after(body.frames[1].field.phi[3][7]); }},
+        [](Body& body) {
+          body.frames[1].field.phi[3][7] = next_after(body.frames[1].field.phi[3][7]);
+        }},
        {"a displacement ahead",
-        [](Body& body) { body.frames[0].to_next[2][1][0] = next_after(body.frames[0].to_next[2][1][0]); }},
+        [](Body& body) {
+          body.frames[0].to_next[2][1][0] = next_after(body.frames[0].to_next[2][1][0]);
+        }},
        {"a displacement since",
         [](Body& body) {
           body.frames[2].from_previous[2][1][2] = next_after(body.frames[2].from_previous[2][1][2]);
@@ -186,18 +196,22 @@ Finding body_sound_finding(const Subject&) {
       small_body(),
       {{"no frames: no frame", [](Body& body) { body.frames.clear(); }},
        {"times that do not rise: time is not later", [](Body& body) { body.frames[1].time = 0; }},
-       {"no branches: branches do not fit", [](Body& body) { body.frames[1].field.branches.clear(); }},
+       {"no branches: branches do not fit",
+        [](Body& body) { body.frames[1].field.branches.clear(); }},
        {"children out of order: branches do not fit",
         [](Body& body) { ++body.frames[1].field.branches[1].children; }},
        {"channels out of order: branches do not fit",
         [](Body& body) { ++body.frames[1].field.branches[1].channels; }},
        {"a branch without channels: branches do not fit",
         [](Body& body) { body.frames[1].field.branches[2].parts = 0; }},
-       {"a value less: branches do not fit", [](Body& body) { body.frames[1].field.phi.pop_back(); }},
-       {"a part less: branches do not fit", [](Body& body) { body.frames[1].field.part.pop_back(); }},
+       {"a value less: branches do not fit",
+        [](Body& body) { body.frames[1].field.phi.pop_back(); }},
+       {"a part less: branches do not fit",
+        [](Body& body) { body.frames[1].field.part.pop_back(); }},
        {"branches below the finest: deeper than its depth",
         [](Body& body) { body.frames[1].field.settings.depth = 2; }},
-       {"no way on: displacements to the next frame", [](Body& body) { body.frames[1].to_next.clear(); }},
+       {"no way on: displacements to the next frame",
+        [](Body& body) { body.frames[1].to_next.clear(); }},
        {"a way on from the last: displacements to the next frame",
         [](Body& body) { body.frames[2].to_next = body.frames[1].to_next; }},
        {"no way back: displacements from the frame before",
@@ -205,7 +219,8 @@ Finding body_sound_finding(const Subject&) {
        {"a way back from the first: displacements from the frame before",
         [](Body& body) { body.frames[0].from_previous = body.frames[1].from_previous; }},
        {"a time that is none: not finite", [](Body& body) { body.frames[0].time = -INFINITY; }},
-       {"a value that is none: not finite", [](Body& body) { body.frames[2].field.phi[4][26] = NAN; }},
+       {"a value that is none: not finite",
+        [](Body& body) { body.frames[2].field.phi[4][26] = NAN; }},
        {"a displacement that is none: not finite",
         [](Body& body) { body.frames[0].to_next[0][13][1] = INFINITY; }},
        {"a displacement back that is none: not finite",
@@ -221,18 +236,20 @@ std::vector<Check> content_checks() {
        "The key of what a grid is made of follows every kind of number in it, bit for bit.",
        "Fowler, Noll and Vo 1991", grid_origin_finding},
       {"content.grid-keys-cover-every-value",
-       "The key of a grid follows its values and its lattice, bit for bit.", "Fowler, Noll and Vo 1991",
-       grid_content_finding},
-      {"content.invalid-grids-are-rejected", "A grid that no build made is refused, with the reason.", source,
-       grid_sound_finding},
+       "The key of a grid follows its values and its lattice, bit for bit.",
+       "Fowler, Noll and Vo 1991", grid_content_finding},
+      {"content.invalid-grids-are-rejected",
+       "A grid that no build made is refused, with the reason.", source, grid_sound_finding},
       {"content.deforming-recipe-keys-cover-every-number",
-       "The key of what a deforming body is made of follows every kind of number in it, bit for bit.",
+       "The key of what a deforming body is made of follows every kind of number in it, bit for "
+       "bit.",
        "Fowler, Noll and Vo 1991", body_origin_finding},
       {"content.deforming-body-keys-cover-every-value",
        "The key of a deforming body follows every kind of number in it, bit for bit.",
        "Fowler, Noll and Vo 1991", body_content_finding},
       {"content.invalid-deforming-bodies-are-rejected",
-       "A deforming body that no build made is refused, with the reason.", source, body_sound_finding},
+       "A deforming body that no build made is refused, with the reason.", source,
+       body_sound_finding},
   };
 }
 

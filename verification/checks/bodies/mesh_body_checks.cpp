@@ -20,7 +20,8 @@ namespace {
 constexpr double radius = 0.7;  // m
 
 std::string body(const std::string& file, const std::string& keys) {
-  return "[[object]]\nmesh = \"" + std::filesystem::path(file).filename().string() + "\"\n" + keys + "\n";
+  return "[[object]]\nmesh = \"" + std::filesystem::path(file).filename().string() + "\"\n" + keys +
+         "\n";
 }
 
 /// A case that lies beside the file.
@@ -35,8 +36,8 @@ Vector3 above_the_hole() {
   return ball.rest.col(ball.triangles[0][1]).normalized();
 }
 
-/// A ball of 1280 triangles; the first `missing` are left out, those from 100 to 100 + `flipped` turned
-/// round.
+/// A ball of 1280 triangles; the first `missing` are left out, those from 100 to 100 +
+/// `flipped` turned round.
 std::string write_ball(const ScratchFolder& folder, int missing, int flipped) {
   TriangleMesh ball = make_icosphere(radius, 3);
   for (int t = 100; t < 100 + flipped; ++t) std::swap(ball.triangles[t][0], ball.triangles[t][1]);
@@ -49,24 +50,25 @@ std::string write_ball(const ScratchFolder& folder, int missing, int flipped) {
 Finding open_bodies_are_rejected(const Subject&) {
   const ScratchFolder folder;
   Table measured{{"case", ""}, {"file, reason or remedy missing from the refusal", "1"}};
-  const auto observe = [&](const std::string& name, const std::string& file, const std::string& keys,
-                           const std::vector<std::string>& parts) {
+  const auto observe = [&](const std::string& name, const std::string& file,
+                           const std::string& keys, const std::vector<std::string>& parts) {
     const std::string message = rejection_message([&] { read_case_beside(file, keys); });
     int missing = 0;
     for (const std::string& part : parts) missing += message.find(part) == std::string::npos;
     measured.row(name, missing);
   };
   observe("hole", write_ball(folder, 1, 0), "", {"ball.obj:", "a hole", "repair"});
-  observe("hole, exact distance", write_ball(folder, 1, 0), "field = \"exact\"", {"ball.obj:", "a hole"});
+  observe("hole, exact distance", write_ball(folder, 1, 0), "field = \"exact\"",
+          {"ball.obj:", "a hole"});
   observe("flipped triangles", write_ball(folder, 0, 3), "", {"ball.obj:", "opposite orientation"});
-  observe("exact distance and repair", write_ball(folder, 1, 0), "field = \"exact\"\nrepair = \"winding\"",
-          {"repair", "grid"});
+  observe("exact distance and repair", write_ball(folder, 1, 0),
+          "field = \"exact\"\nrepair = \"winding\"", {"repair", "grid"});
   observe("an unknown repair", write_ball(folder, 1, 0), "repair = \"glue\"", {"glue", "winding"});
   return judge_worst(measured, 0, "each refusal must name the file or the key, and the reason");
 }
 
-/// Largest error of phi over points at distances 0.5 to 1.2 from the ball's centre, half of them below or
-/// above where triangles may be missing [cells].
+/// Largest error of phi over points at distances 0.5 to 1.2 from the ball's centre, half of them
+/// below or above where triangles may be missing [cells].
 double error_of(const Scene& scene, double cell) {
   const auto solid = std::get<RigidObject>(build_objects(scene, computing_provider()).at(0).body);
   Random random(109);
@@ -83,12 +85,14 @@ Finding bodies_are_solid(const Subject&) {
   const ScratchFolder folder;
   constexpr double cell = 2 * radius / 32;
   Table measured{{"case", ""}, {"largest error of phi", "cells"}};
-  measured.row("whole, grid", error_of(read_case_beside(write_ball(folder, 0, 0), "cells = 32"), cell));
+  measured.row("whole, grid",
+               error_of(read_case_beside(write_ball(folder, 0, 0), "cells = 32"), cell));
   measured.row("whole, exact",
                error_of(read_case_beside(write_ball(folder, 0, 0), "field = \"exact\""), cell));
   measured.row(
       "four triangles missing, seven flipped",
-      error_of(read_case_beside(write_ball(folder, 4, 7), "cells = 32\nrepair = \"winding\""), cell));
+      error_of(read_case_beside(write_ball(folder, 4, 7), "cells = 32\nrepair = \"winding\""),
+               cell));
   return judge_worst(
       measured, 1,
       "faces lie up to 0.15 cells within the ball; a hole of four triangles is three cells wide, "
@@ -99,10 +103,12 @@ Finding bodies_are_solid(const Subject&) {
 
 std::vector<Check> mesh_body_checks() {
   return {{"level-set.cases-reject-open-bodies",
-           "A case whose body has holes or flipped triangles is refused with the line of the body's file.",
+           "A case whose body has holes or flipped triangles is refused with the line of the "
+           "body's file.",
            "ours", open_bodies_are_rejected},
           {"level-set.bodies-from-obj-files-have-the-right-distance",
-           "A body from an OBJ file, whole or repaired, has the distance of the ball that it was made of.",
+           "A body from an OBJ file, whole or repaired, has the distance of the ball that it was "
+           "made of.",
            "ours", bodies_are_solid}};
 }
 

@@ -1,4 +1,5 @@
-// Checks of the second opinions on inside and outside: ray parity, winding numbers, and the repair by them.
+// Checks of the second opinions on inside and outside: ray parity, winding numbers, and the
+// repair by them.
 #include <cmath>
 
 #include "reference/bodies/closed_mesh.h"
@@ -34,12 +35,13 @@ Finding parity_agrees(const Subject&) {
   for (const UglySolid& solid : ugly_solids()) soups.emplace_back(solid.name, solid.soup);
   for (const auto& [name, soup] : soups) {
     const auto grid = grid_of(soup);
-    const Disagreement found = disagreement(*grid, ray_parity(soup.rest, soup.triangles, grid->lattice),
-                                            1e-9 * grid->lattice.spacing);
+    const Disagreement found = disagreement(
+        *grid, ray_parity(soup.rest, soup.triangles, grid->lattice), 1e-9 * grid->lattice.spacing);
     measured.row(name, double(found.with_sign.size() + found.among_rays.size()));
   }
-  return judge_worst(measured, 0,
-                     "on closed surfaces all three rays and the pseudonormal answer the same question");
+  return judge_worst(
+      measured, 0,
+      "on closed surfaces all three rays and the pseudonormal answer the same question");
 }
 
 /// What is said of meshes whose defects are known.
@@ -49,19 +51,21 @@ Finding inspection_tells(const Subject&) {
   open.triangles.erase(open.triangles.begin());
   std::swap(flipped.triangles[7][0], flipped.triangles[7][1]);
   const TriangleSoup sheet{ball.rest, {ball.triangles[0]}, {}};
-  const MeshInspection a = inspect_mesh(whole, 20), b = inspect_mesh(open, 20), c = inspect_mesh(flipped, 20),
-                       d = inspect_mesh(sheet, 20);
+  const MeshInspection a = inspect_mesh(whole, 20), b = inspect_mesh(open, 20),
+                       c = inspect_mesh(flipped, 20), d = inspect_mesh(sheet, 20);
   const auto lacks = [](const std::string& text, const char* part) {
     return text.find(part) == std::string::npos;
   };
   Table measured{{"case", ""}, {"what is said wrongly", "1"}};
   measured.row("a ball is a solid", !a.rejection.empty() || a.pieces != 1 || a.triangles != 1280);
-  measured.row("its volume, over 1 percent", std::abs(a.volume / (4 * EIGEN_PI / 3 * 0.343) - 1) > 0.01);
+  measured.row("its volume, over 1 percent",
+               std::abs(a.volume / (4 * EIGEN_PI / 3 * 0.343) - 1) > 0.01);
   measured.row("no opinion differs", double(a.against_sign + a.among_rays));
   measured.row("a hole", lacks(b.rejection, "a hole") || !b.repair_failure.empty());
   measured.row("rays differ behind it", b.among_rays > b.against_sign ? 0 : 1);
   measured.row("a flipped triangle", lacks(c.rejection, "opposite orientation"));
-  measured.row("a triangle alone has no inside", lacks(d.repair_failure, "no inside") || d.nodes != 0);
+  measured.row("a triangle alone has no inside",
+               lacks(d.repair_failure, "no inside") || d.nodes != 0);
   return judge_worst(measured, 0, "each defect must be told, and none made up");
 }
 
@@ -73,24 +77,27 @@ Finding parity_shows_holes(const Subject&) {
   for (int t = 11; t < 1280; t += 97) {
     TriangleSoup open = whole;
     open.triangles.erase(open.triangles.begin() + t, open.triangles.begin() + t + 6);
-    const Disagreement found = disagreement(*grid, ray_parity(open.rest, open.triangles, grid->lattice),
-                                            1e-9 * grid->lattice.spacing);
-    const double in_streaks = double(found.among_rays.size()), with_sign = double(found.with_sign.size());
+    const Disagreement found = disagreement(
+        *grid, ray_parity(open.rest, open.triangles, grid->lattice), 1e-9 * grid->lattice.spacing);
+    const double in_streaks = double(found.among_rays.size()),
+                 with_sign = double(found.with_sign.size());
     streaks.observe(in_streaks);
     denied.observe(with_sign);
     if (found.among_rays.empty()) ++unseen;
     outvoting.observe(with_sign / std::max(in_streaks, 1.0));
   }
-  Table measured{
-      {"case", ""},
-      {"holes of six triangles that no ray shows, and the largest share of streaks that wins the vote", "1"}};
+  Table measured{{"case", ""},
+                 {"holes of six triangles that no ray shows, and the largest share of streaks that "
+                  "wins the vote",
+                  "1"}};
   measured.row("unseen", unseen);
   measured.row("share", outvoting.value());
   return judge_worst(measured, 0.25,
                      "every hole lies across at least one row of nodes, and streaks along two axes "
                      "meet in few of their nodes only",
                      "nodes in streaks, and denied signs, of the worst hole: " +
-                         std::to_string(int(streaks.value())) + ", " + std::to_string(int(denied.value())));
+                         std::to_string(int(streaks.value())) + ", " +
+                         std::to_string(int(denied.value())));
 }
 
 Vector3 about(Random& random, const Bounds& bounds) {
@@ -106,24 +113,27 @@ Finding winding_is_whole(const Subject&) {
     Worst worst;
     for (int i = 0; i < 2000; ++i) {
       const Vector3 p =
-          (about(random, bounds_of(solid.soup.rest)) * double(units)).array().round() / double(units);
+          (about(random, bounds_of(solid.soup.rest)) * double(units)).array().round() /
+          double(units);
       const int inside = inside_exactly(solid, p);
       if (inside == 0) continue;
-      worst.observe(
-          std::abs(winding_number(solid.soup.rest, solid.soup.triangles, p) - (inside > 0 ? 1 : 0)));
+      worst.observe(std::abs(winding_number(solid.soup.rest, solid.soup.triangles, p) -
+                             (inside > 0 ? 1 : 0)));
     }
     measured.row(solid.name, worst.value());
   }
-  return judge_worst(measured, 1e-8,
-                     "solid angles add up to full turns; seen from close to a face's plane, one of them has "
-                     "lost its digits to cancellation, epsilon times the squared ratio of sizes");
+  return judge_worst(
+      measured, 1e-8,
+      "solid angles add up to full turns; seen from close to a face's plane, one of them has lost "
+      "its digits to cancellation, epsilon times the squared ratio of sizes");
 }
 
 Finding tree_is_near(const Subject&) {
   const TriangleMesh& mesh = small_statue();
   const MeshDistance distance = make_mesh_distance(mesh.rest, mesh.triangles);
   const std::vector<Dipole> dipoles = make_dipoles(distance);
-  Table measured{{"case", ""}, {"deviation from the sum over all triangles, times far squared", "1"}};
+  Table measured{{"case", ""},
+                 {"deviation from the sum over all triangles, times far squared", "1"}};
   std::vector<Triangle> part(mesh.triangles.begin(), mesh.triangles.end() - 200);
   const MeshDistance open = make_mesh_distance(mesh.rest, part);
   const std::vector<Dipole> open_dipoles = make_dipoles(open);
@@ -132,21 +142,21 @@ Finding tree_is_near(const Subject&) {
     Worst worst;
     for (int i = 0; i < 400; ++i) {
       const Vector3 p = about(random, bounds_of(mesh.rest));
-      worst.observe(
-          std::abs(winding_number(distance, dipoles, p, far) - winding_number(mesh.rest, mesh.triangles, p)));
-      worst.observe(
-          std::abs(winding_number(open, open_dipoles, p, far) - winding_number(mesh.rest, part, p)));
+      worst.observe(std::abs(winding_number(distance, dipoles, p, far) -
+                             winding_number(mesh.rest, mesh.triangles, p)));
+      worst.observe(std::abs(winding_number(open, open_dipoles, p, far) -
+                             winding_number(mesh.rest, part, p)));
     }
     measured.row("far = " + std::to_string(far), far * far * worst.value());
   }
   return judge_worst(measured, 0.5,
-                     "what is left out of a patch is its second moment, at most the square of radius over "
-                     "distance of its own angle; the angles of all patches seen, sizes added, are about half "
-                     "of the full turn that cancels");
+                     "what is left out of a patch is its second moment, at most the square of "
+                     "radius over distance of its own angle; the angles of all patches seen, sizes "
+                     "added, are about half of the full turn that cancels");
 }
 
-/// Nodes where the repaired grid is on the wrong side, and the mean error of the rest, against the whole
-/// surface.
+/// Nodes where the repaired grid is on the wrong side, and the mean error of the rest, against
+/// the whole surface.
 struct Mended {
   double wrong_sides, mean_error;  // 1; cells
 };
@@ -168,7 +178,8 @@ TriangleSoup overlapping_balls() {
   soup.rest << ball.rest.colwise() - Vector3(0.35, 0.02, 0.01),
       ball.rest.colwise() + Vector3(0.35, 0.02, 0.01);
   for (const Triangle& t : ball.triangles)
-    soup.triangles.push_back({t[0] + ball.particles(), t[1] + ball.particles(), t[2] + ball.particles()});
+    soup.triangles.push_back(
+        {t[0] + ball.particles(), t[1] + ball.particles(), t[2] + ball.particles()});
   return soup;
 }
 
@@ -179,7 +190,8 @@ Mended against_union(const Grid& mended) {
   for (long i = 0; i < mended.lattice.size(); ++i) {
     const Vector3 p = mended.lattice.position(mended.lattice.node(i)), c(0.35, 0.02, 0.01);
     const double phi = std::min((p - c).norm(), (p + c).norm()) - 0.7;
-    if (std::abs(phi) > mended.lattice.spacing && (phi < 0) != (mended.phi[i] < 0)) ++result.wrong_sides;
+    if (std::abs(phi) > mended.lattice.spacing && (phi < 0) != (mended.phi[i] < 0))
+      ++result.wrong_sides;
     if (phi < 0) continue;
     ++outside;
     result.mean_error += std::abs(phi - mended.phi[i]) / mended.lattice.spacing;
@@ -195,24 +207,24 @@ Finding repair_mends(const Subject&) {
   for (int t = 1200; t > 0; t -= 97)
     open.triangles.erase(open.triangles.begin() + t, open.triangles.begin() + t + 2);
   for (int t = 5; t < 1280; t += 7) std::swap(flipped.triangles[t][0], flipped.triangles[t][1]);
-  Table measured{
-      {"case", ""},
-      {"twice the nodes on the wrong side more than a cell from the surface, and mean error in tenths of a "
-       "cell",
-       "1"}};
+  Table measured{{"case", ""},
+                 {"twice the nodes on the wrong side more than a cell from the surface, and mean "
+                  "error in tenths of a cell",
+                  "1"}};
   const auto observe = [&](const std::string& name, const Mended& mended) {
     measured.row(name + ", wrong sides", 2 * mended.wrong_sides);
     measured.row(name + ", mean error", 10 * mended.mean_error);
   };
   observe("nothing to mend", compare(*truth, *make_repaired_grid(whole, method)));
   observe("thirteen holes of two triangles", compare(*truth, *make_repaired_grid(open, method)));
-  observe("a seventh of the triangles flipped", compare(*truth, *make_repaired_grid(flipped, method)));
-  observe("two balls that overlap", against_union(*make_repaired_grid(overlapping_balls(), method)));
-  return judge_worst(
-      measured, 1,
-      "a start from sides alone would leave the surface off by 0.13 cells in the mean; exact "
-      "distances where a triangle parts the sides must do better, though marching begins in first "
-      "order from a single layer of nodes");
+  observe("a seventh of the triangles flipped",
+          compare(*truth, *make_repaired_grid(flipped, method)));
+  observe("two balls that overlap",
+          against_union(*make_repaired_grid(overlapping_balls(), method)));
+  return judge_worst(measured, 1,
+                     "a start from sides alone would leave the surface off by 0.13 cells in the "
+                     "mean; exact distances where a triangle parts the sides must do better, "
+                     "though marching begins in first order from a single layer of nodes");
 }
 
 }  // namespace
@@ -220,25 +232,25 @@ Finding repair_mends(const Subject&) {
 std::vector<Check> repair_checks() {
   return {
       {"level-set.ray-parity-agrees-with-the-sign",
-       "Rays along three axes find every node on the side of its sign, through edges "
-       "and vertices too.",
+       "Rays along three axes find every node on the side of its sign, through edges and vertices "
+       "too.",
        "ours", parity_agrees},
       {"level-set.inspection-classifies-meshes",
-       "A mesh that is inspected is said to be a solid if it is, and else why not; rays are a second "
-       "opinion.",
+       "A mesh that is inspected is said to be a solid if it is, and else why not; rays are a "
+       "second opinion.",
        "ours", inspection_tells},
       {"level-set.ray-parity-reveals-holes",
-       "Rays show where triangles are missing, and seldom win the vote there.", "ours", parity_shows_holes},
+       "Rays show where triangles are missing, and seldom win the vote there.", "ours",
+       parity_shows_holes},
       {"level-set.winding-number-is-an-integer",
        "The winding number of a closed surface is 1 inside and 0 outside, nested shells counted.",
        "Jacobson et al. 2013", winding_is_whole},
       {"level-set.winding-tree-error-is-bounded",
-       "Patches seen from afar change the winding number by half over far squared "
-       "at most.",
+       "Patches seen from afar change the winding number by half over far squared at most.",
        "Barill et al. 2018", tree_is_near},
       {"level-set.repair-restores-the-distance",
-       "Repair by winding number gives the solid's distance in spite of holes, flipped "
-       "triangles and overlaps.",
+       "Repair by winding number gives the solid's distance in spite of holes, flipped triangles "
+       "and overlaps.",
        "Jacobson et al. 2013", repair_mends}};
 }
 

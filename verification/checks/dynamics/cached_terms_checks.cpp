@@ -1,4 +1,5 @@
-// What it saves to compute the position-dependent terms of damping once a solve, and to assemble no matrix.
+// What it saves to compute the position-dependent terms of damping once a solve, and to
+// assemble no matrix.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,14 +18,15 @@ namespace {
 
 /// A waved sheet of cells x cells squares with springs and hinges, both damped.
 Scene waved_sheet(int cells) {
-  Scene scene = scene_at_rest(make_sheet({SheetPattern::alternating, 1.3, 1.1, cells, cells}), 0.21);
+  Scene scene =
+      scene_at_rest(make_sheet({SheetPattern::alternating, 1.3, 1.1, cells, cells}), 0.21);
   scene.stretch = StretchMaterial{31, 0.017, 1};
   scene.bending = BendingMaterial{0.0019, 0.00023, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0.03);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     scene.x(2, i) += 0.004 * std::sin(37 * scene.x(0, i)) * std::cos(29 * scene.x(1, i));
-    scene.v.col(i) =
-        Vector3(std::cos(5 * scene.x(1, i)), std::sin(7 * scene.x(0, i)), std::cos(3 * scene.x(0, i)));
+    scene.v.col(i) = Vector3(std::cos(5 * scene.x(1, i)), std::sin(7 * scene.x(0, i)),
+                             std::cos(3 * scene.x(0, i)));
   }
   return scene;
 }
@@ -35,10 +37,10 @@ double seconds_of(const std::function<void()>& run) {
   return processor_seconds() - start;
 }
 
-/// The least times of `repeats` runs of two things [s], taken in turns: what slows the machine down slows
-/// both.
-std::array<double, 2> least_seconds(const std::function<void()>& one, const std::function<void()>& other,
-                                    int repeats) {
+/// The least times of `repeats` runs of two things [s], taken in turns: what slows the machine
+/// down slows both.
+std::array<double, 2> least_seconds(const std::function<void()>& one,
+                                    const std::function<void()>& other, int repeats) {
   std::array<double, 2> least{INFINITY, INFINITY};
   for (int k = 0; k < repeats; ++k) {
     least[0] = std::min(least[0], seconds_of(one));
@@ -49,8 +51,9 @@ std::array<double, 2> least_seconds(const std::function<void()>& one, const std:
 
 Finding time_finding(const Subject&) {
   constexpr int repeats = 40;
-  Table times{
-      {"particles", "1"}, {"product with cached terms", "s"}, {"product with terms computed anew", "s"}};
+  Table times{{"particles", "1"},
+              {"product with cached terms", "s"},
+              {"product with terms computed anew", "s"}};
   Worst worst;
   for (int cells : {20, 40, 80}) {
     const Scene scene = waved_sheet(cells);
@@ -66,11 +69,11 @@ Finding time_finding(const Subject&) {
     worst.observe(with / without);
   }
   return {{worst.value(), 0.5, 0, "1",
-           "half: less would make the cache not worth its memory from the second product of a solve on"},
+           "half: less would make the cache not worth its memory from the second product of a "
+           "solve on"},
           times,
-          "the least times of 40 runs of each in turns, in processor time; a ratio, so that the machine's "
-          "speed and load "
-          "matter little"};
+          "the least times of 40 runs of each in turns, in processor time; a ratio, so that the "
+          "machine's speed and load matter little"};
 }
 
 /// The 3 x 3 blocks of D on and above its diagonal that springs and hinges fill.
@@ -85,7 +88,8 @@ double blocks_of(const TriangleMesh& mesh) {
 }
 
 Finding memory_finding(const Subject&) {
-  constexpr double block_bytes = 9 * sizeof(double) + sizeof(int);  // nine entries and a column's number
+  // nine entries and a column's number
+  constexpr double block_bytes = 9 * sizeof(double) + sizeof(int);
   Table sizes{{"particles", "1"},
               {"cached terms", "bytes a particle"},
               {"half of the matrix's blocks", "bytes a particle"}};
@@ -105,9 +109,8 @@ Finding memory_finding(const Subject&) {
   }
   return {{worst.value(), 1, 0, "1", "not assembling must not cost more memory than assembling"},
           sizes,
-          "blocks of 3 x 3 on and above the diagonal, nine numbers and an index each: the least that an "
-          "assembled, "
-          "symmetric matrix needs"};
+          "blocks of 3 x 3 on and above the diagonal, nine numbers and an index each: the least "
+          "that an assembled, symmetric matrix needs"};
 }
 
 }  // namespace
@@ -115,11 +118,12 @@ Finding memory_finding(const Subject&) {
 std::vector<Check> cached_terms_checks() {
   const std::string source = "BMF03 section 3";
   return {{"solver.cached-terms-save-time",
-           "A product with the reference's cached terms takes at most half the time of one that computes "
-           "them anew.",
+           "A product with the reference's cached terms takes at most half the time of one that "
+           "computes them anew.",
            source, time_finding},
           {"solver.cached-terms-take-less-memory-than-a-matrix",
-           "The reference's cached terms take less memory than half of the matrix that is not assembled.",
+           "The reference's cached terms take less memory than half of the matrix that is not "
+           "assembled.",
            source, memory_finding}};
 }
 

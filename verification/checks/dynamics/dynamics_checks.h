@@ -1,4 +1,5 @@
-// Checks of what dynamics does: solves, steps, runs. A function a file; the list of all is verification/checks.cpp.
+// Checks of what dynamics does: solves, steps, runs. A function a file; the list of all is
+// verification/checks.cpp.
 #pragma once
 
 #include <vector>
@@ -13,13 +14,13 @@ std::vector<Check> cached_terms_checks();        // time and memory that cached 
 std::vector<Check> oscillator_checks();          // the schemes as matrices
 std::vector<Check> exact_motion_checks();        // free fall, a turning pair
 std::vector<Check> momentum_checks();            // conservation and reversal
-std::vector<Check> step_checks();                // lines of the schemes, filters, prescribed particles, counts
-std::vector<Check> symmetry_checks();            // units, frames of reference, repetition
-std::vector<Check> run_checks();                 // frames, automatic steps, stops
-std::vector<Check> resume_checks();              // runs that go on from a checkpoint
-std::vector<Check> event_checks();               // motions that start and stop
-std::vector<Check> method_checks();              // the methods that the paper's schemes are compared with
-std::vector<Check> energy_checks();              // diagnostics and the balance of energy
+std::vector<Check> step_checks();  // lines of the schemes, filters, prescribed particles, counts
+std::vector<Check> symmetry_checks();  // units, frames of reference, repetition
+std::vector<Check> run_checks();       // frames, automatic steps, stops
+std::vector<Check> resume_checks();    // runs that go on from a checkpoint
+std::vector<Check> event_checks();     // motions that start and stop
+std::vector<Check> method_checks();    // the methods that the paper's schemes are compared with
+std::vector<Check> energy_checks();    // diagnostics and the balance of energy
 
 /// For statements that are true or false, a row each.
 Table no_statements();

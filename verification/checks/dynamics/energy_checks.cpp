@@ -28,7 +28,8 @@ oracles::SpringInput spring_input(const Scene& scene, const Edge& edge, const St
     if (triangle >= 0) area += rest_area(scene, triangle);
   const double rest = (scene.mesh.rest.col(edge.b) - scene.mesh.rest.col(edge.a)).norm(),
                scale = scene.stretch->rest_length_scale;
-  // The stiffness is Y A_e/L0^2 of the rest shape whatever the scale: the law's area grows with its length.
+  // The stiffness is Y A_e/L0^2 of the rest shape whatever the scale: the law's area grows
+  // with its length.
   return {{s.x.col(edge.a), s.x.col(edge.b)},
           {s.v.col(edge.a), s.v.col(edge.b)},
           {scene.stretch->stiffness, scene.stretch->damping, area * scale * scale, scale * rest}};
@@ -88,14 +89,18 @@ RecordedRun record_run(const Scene& scene, const std::string& integrator, double
   const Observer observer{[&](const State& s) { run.frames.push_back(s); },
                           [&](const Diagnostics& row) { run.rows.push_back(row); }};
   const Schedule schedule{steps * h, h, {h, 0.5, 0.1}, 1000000};
-  simulate(build_system(scene), integrator_named(integrator), start_state(scene), schedule, observer);
+  simulate(build_system(scene), integrator_named(integrator), start_state(scene), schedule,
+           observer);
   return run;
 }
 
 /// The largest error of a row, each quantity in epsilon of its own size.
-double row_error(const Diagnostics& row, const Sums& sums, double damping_work, double size_of_work) {
+double row_error(const Diagnostics& row, const Sums& sums, double damping_work,
+                 double size_of_work) {
   Worst worst;
-  const auto observe = [&](double error, double size) { worst.observe(std::abs(error) / (epsilon * size)); };
+  const auto observe = [&](double error, double size) {
+    worst.observe(std::abs(error) / (epsilon * size));
+  };
   observe(row.energy.kinetic - sums.kinetic, sums.kinetic);
   observe(row.energy.stretch - sums.stretch, sums.stretch);
   observe(row.energy.bending - sums.bending, sums.bending);
@@ -129,38 +134,41 @@ Finding diagnostics_finding(const Subject&) {
     worst.observe(error);
     worst.observe(std::abs(row.time - run.frames[n].time) / epsilon);
     const State& begun_at = run.frames[n - (n > 0)];
-    worst.observe(std::abs(row.step_over_elastic_limit - row.step / elastic_limit(system, begun_at)) /
-                  epsilon);
+    worst.observe(
+        std::abs(row.step_over_elastic_limit - row.step / elastic_limit(system, begun_at)) /
+        epsilon);
     worst.observe(std::abs(row.step - (n == 0 ? 0 : h)) / (epsilon * 9 * h));
-    const bool is_solved = row.work.cg_iterations > 0 && row.work.worst_residual <= scene.solver.tolerance;
+    const bool is_solved =
+        row.work.cg_iterations > 0 && row.work.worst_residual <= scene.solver.tolerance;
     if (n > 0 && !(is_solved && row.seconds >= 0)) worst.observe(NAN);
   }
   return {{worst.value(), 512, 0, "epsilon of the quantity",
-           "up to a hundred terms of ten roundings each, which add up like a random walk to a hundred and "
-           "cancel to a fifth "
-           "of their size in the momenta: 500; energies of springs near their rest length lose a factor of "
-           "1/strain, about ten"},
+           "up to a hundred terms of ten roundings each, which add up like a random walk to a "
+           "hundred and cancel to a fifth of their size in the momenta: 500; energies of springs "
+           "near their rest length lose a factor of 1/strain, about ten"},
           errors,
           "springs, hinges and dampers in 50 digits, masses and areas by a loop of our own"};
 }
 
-/// Largest departure of energy minus the work of damping from its start, over the first kinetic energy [1].
+/// Largest departure of energy minus the work of damping from its start, over the first
+/// kinetic energy [1].
 double imbalance(const std::string& integrator, double h, int steps) {
   Scene scene = partly_prescribed_sheet();
   for (PrescribedParticle& p : scene.prescribed) p.motion = Motion{};  // what is held does no work
   const RecordedRun run = record_run(scene, integrator, h, steps);
   Worst worst;
   for (const Diagnostics& row : run.rows)
-    worst.observe(std::abs(row.energy.total() - row.damping_work - run.rows.front().energy.total()) /
-                  run.rows.front().energy.kinetic);
+    worst.observe(
+        std::abs(row.energy.total() - row.damping_work - run.rows.front().energy.total()) /
+        run.rows.front().energy.kinetic);
   return worst.value();
 }
 
 Finding balance_finding(const Subject&, const std::string& integrator) {
   Table errors{{"step", "s"}, {"imbalance over kinetic energy", "1"}, {"observed order", "1"}};
   double last = NAN, order = NAN;
-  constexpr double time =
-      0.04;  // s: until later, a hinge may have folded by half a circle, where its energy jumps
+  // s: until later, a hinge may have folded by half a circle, where its energy jumps
+  constexpr double time = 0.04;
   for (int n = 100; n <= 800; n *= 2) {
     const double error = imbalance(integrator, time / n, n);
     order = std::log2(last / error);
@@ -168,7 +176,8 @@ Finding balance_finding(const Subject&, const std::string& integrator) {
     last = error;
   }
   return {{std::abs(order - 2), 0.1, 0, "1",
-           "second order, two-sided: the schemes' and the trapezoidal rule's for the work, in the last pair"},
+           "second order, two-sided: the schemes' and the trapezoidal rule's for the work, in the "
+           "last pair"},
           errors,
           ""};
 }
@@ -176,10 +185,10 @@ Finding balance_finding(const Subject&, const std::string& integrator) {
 }  // namespace
 
 std::vector<Check> energy_checks() {
-  std::vector<Check> list = {
-      {"dynamics.diagnostics-are-as-defined",
-       "Energies, momenta and the work of damping that the reference reports are the sums that define them.",
-       "BMF03 sections 3 and 4", diagnostics_finding}};
+  std::vector<Check> list = {{"dynamics.diagnostics-are-as-defined",
+                              "Energies, momenta and the work of damping that the reference "
+                              "reports are the sums that define them.",
+                              "BMF03 sections 3 and 4", diagnostics_finding}};
   add_for_each_scheme(
       list,
       {"dynamics.energy-balance-closes",

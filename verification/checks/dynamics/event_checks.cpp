@@ -13,7 +13,8 @@ namespace foldproof {
 
 namespace {
 
-// A particle on a damped spring of no length, whose other end is led: off at one time, to rest at another.
+// A particle on a damped spring of no length, whose other end is led: off at one time, to
+// rest at another.
 constexpr double mass = 0.37, stiffness = 5.3, damping = 1.9;            // kg, N/m, N s/m
 constexpr double from = 0.2371, until = 0.6193, end = 0.9, speed = 1.7;  // s, s, s, m/s
 constexpr double start_x = 0.23, start_v = -0.41;                        // m, m/s
@@ -28,7 +29,9 @@ System led_spring() {
   System system = make_system(PerParticle::Constant(2, mass));
   CustomForce force;
   force.elastic = [](const State& s, PerParticle3& f) { add_pull(s.x, stiffness, f); };
-  force.damping = [](const State&, const PerParticle3& v, PerParticle3& f) { add_pull(v, damping, f); };
+  force.damping = [](const State&, const PerParticle3& v, PerParticle3& f) {
+    add_pull(v, damping, f);
+  };
   force.differential = [](const State&, const PerParticle3& dx, PerParticle3& df) {
     add_pull(dx, stiffness, df);
   };
@@ -60,7 +63,8 @@ Relative after(const Relative& at, double t) {
   return {exact.x.value, exact.v.value};
 }
 
-/// Relative to the led end, which stands again: a free oscillation that each event gives another velocity.
+/// Relative to the led end, which stands again: a free oscillation that each event gives
+/// another velocity.
 Relative exact_end() {
   Relative at = after({start_x, start_v}, from);
   at.v -= speed;
@@ -74,7 +78,8 @@ double error_at(const System& system, const Integrator& integrator, double h) {
   const State last =
       simulate(system, integrator, start_of_spring(), {end, end, {h, 0.5, 0.1}, 100000}, {}).last;
   const Relative exact = exact_end();
-  const double dx = last.x(0, 1) - last.x(0, 0) - exact.x, dv = last.v(0, 1) - last.v(0, 0) - exact.v;
+  const double dx = last.x(0, 1) - last.x(0, 0) - exact.x,
+               dv = last.v(0, 1) - last.v(0, 0) - exact.v;
   return std::sqrt(dx * dx + mass / stiffness * dv * dv);
 }
 
@@ -82,13 +87,15 @@ Finding order_holds(const Subject&) {
   const System system = led_spring();
   Table measured{{"case", ""}, {"|observed order - order of the table|", "1"}};
   for (const Integrator& integrator : integrators()) {
-    const double coarse = error_at(system, integrator, 0.0041), fine = error_at(system, integrator, 0.00205);
-    measured.row(std::string(integrator.name), std::abs(std::log2(coarse / fine) - integrator.order));
+    const double coarse = error_at(system, integrator, 0.0041),
+                 fine = error_at(system, integrator, 0.00205);
+    measured.row(std::string(integrator.name),
+                 std::abs(std::log2(coarse / fine) - integrator.order));
   }
-  return judge_worst(
-      measured, 0.2,
-      "a step across an event would err by the first or second power of the step, so that an order of two "
-      "or more would be off by 1 at least; at fiftieths of the decay the next term leaves a tenth");
+  return judge_worst(measured, 0.2,
+                     "a step across an event would err by the first or second power of the step, "
+                     "so that an order of two or more would be off by 1 at least; at fiftieths of "
+                     "the decay the next term leaves a tenth");
 }
 
 /// The times after which a run made a step, and where the led particle was then.
@@ -97,7 +104,8 @@ struct Visits {
   std::vector<State> frames;
 };
 
-Visits record_visits(const System& system, const std::string& integrator, const Schedule& schedule) {
+Visits record_visits(const System& system, const std::string& integrator,
+                     const Schedule& schedule) {
   Visits run;
   simulate(system, integrator_named(integrator), start_of_spring(), schedule,
            {[&](const State& s) { run.frames.push_back(s); },
@@ -120,8 +128,8 @@ Finding events_are_hit(const Subject&) {
   return judge_worst(measured, 0, "the state that ends at an event has its time to the bit");
 }
 
-/// A ball, a led cube of keyframes and a ball that deforms, far from the spring, and the times at which they
-/// jump.
+/// A ball, a led cube of keyframes and a ball that deforms, far from the spring, and the times at
+/// which they jump.
 struct Movers {
   ObjectCollision collision;
   std::vector<double> times;  // s
@@ -133,10 +141,12 @@ Movers movers() {
   motion.from = 0.1417;
   motion.until = 0.5773;
   const Vector3 away(50, 0, 0);
-  const Keyframes keys = make_keyframes({{0.0713, {}}, {0.3331, {Eigen::Quaterniond::Identity(), away}}});
+  const Keyframes keys =
+      make_keyframes({{0.0713, {}}, {0.3331, {Eigen::Quaterniond::Identity(), away}}});
   const auto grown = [](const Vector3& X, double t) -> Vector3 { return (1 + t) * X; };
   const MeshSequence sequence = deformed_mesh(make_icosphere(0.1, 1), grown, {0, 0.2113, 0.7177});
-  const OctreeSettings coarse{Vector3::Constant(-0.5), 1, 4, 2, 0.01, 0.1, 1, 0, HangingNodes::constrained};
+  const OctreeSettings coarse{Vector3::Constant(-0.5),  1, 4, 2, 0.01, 0.1, 1, 0,
+                              HangingNodes::constrained};
   const Pose place{Eigen::Quaterniond::Identity(), away};
   Movers all;
   all.collision.objects = {{"ball", RigidObject{Sphere{0.1}, place, motion}, 0},
@@ -165,7 +175,8 @@ Finding object_events_are_hit(const Subject&) {
   return judge_worst(measured, 0, "the state that ends at an event has its time to the bit");
 }
 
-/// A motion that drifts and swings, between two times of which one is a frame's, but for a rounding.
+/// A motion that drifts and swings, between two times of which one is a frame's, but
+/// for a rounding.
 Finding path_is_kept(const Subject&) {
   System system = led_spring();
   Motion& motion = system.prescribed.front().motion;
@@ -187,34 +198,37 @@ Finding path_is_kept(const Subject&) {
       const Vector3 rate =
           motion.velocity + 2 * EIGEN_PI * motion.frequency * std::cos(angle) * motion.amplitude;
       x.observe((s.x.col(0) - place).norm());
-      v.observe((s.v.col(0) - (moves ? rate : Vector3::Zero())).norm() / (2 * EIGEN_PI * motion.frequency));
+      v.observe((s.v.col(0) - (moves ? rate : Vector3::Zero())).norm() /
+                (2 * EIGEN_PI * motion.frequency));
     }
     measured.row(std::string(integrator.name) + ", positions", x.value() / motion.amplitude.norm());
-    measured.row(std::string(integrator.name) + ", velocities", v.value() / motion.amplitude.norm());
+    measured.row(std::string(integrator.name) + ", velocities",
+                 v.value() / motion.amplitude.norm());
   }
   return judge_worst(measured, 1e-9,
-                     "places are a frame's time apart from the formula's by up to 1e-12 s here, on which a "
-                     "swing of 2 Hz moves by 1e-11 of itself, and the drift by 1e-11 too");
+                     "places are a frame's time apart from the formula's by up to 1e-12 s here, on "
+                     "which a swing of 2 Hz moves by 1e-11 of itself, and the drift by 1e-11 too");
 }
 
 }  // namespace
 
 std::vector<Check> event_checks() {
   const std::string ours = "our reading of BMF03 section 3; Hairer, Norsett, Wanner, section II.6";
-  return {
-      {"dynamics.order-holds-across-events",
-       "Runs of the reference keep the order of every method while a prescribed motion starts and stops.",
-       ours, order_holds},
-      {"dynamics.events-are-hit-exactly",
-       "A step of the reference ends where a prescribed motion starts or stops.", ours, events_are_hit},
-      {"dynamics.events-of-objects-are-hit-exactly",
-       "A step of the reference ends where an object starts or stops, passes a keyframe or a frame of its "
-       "animation.",
-       ours, object_events_are_hit},
-      {"dynamics.prescribed-particles-rest-outside-their-time-span",
-       "A prescribed particle rests before its motion starts, follows its path from then on, and rests after "
-       "it stops; a frame at the start has the later velocity.",
-       ours, path_is_kept}};
+  return {{"dynamics.order-holds-across-events",
+           "Runs of the reference keep the order of every method while a prescribed motion starts "
+           "and stops.",
+           ours, order_holds},
+          {"dynamics.events-are-hit-exactly",
+           "A step of the reference ends where a prescribed motion starts or stops.", ours,
+           events_are_hit},
+          {"dynamics.events-of-objects-are-hit-exactly",
+           "A step of the reference ends where an object starts or stops, passes a keyframe or a "
+           "frame of its animation.",
+           ours, object_events_are_hit},
+          {"dynamics.prescribed-particles-rest-outside-their-time-span",
+           "A prescribed particle rests before its motion starts, follows its path from then on, "
+           "and rests after it stops; a frame at the start has the later velocity.",
+           ours, path_is_kept}};
 }
 
 }  // namespace foldproof

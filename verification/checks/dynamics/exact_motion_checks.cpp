@@ -42,7 +42,8 @@ Finding free_fall_finding(const Subject& subject, const std::string& integrator)
     uncertainty = std::max(uncertainty, 2 * exact.x_uncertainty / (epsilon * path_length));
   }
   return {{worst.value(), 4.0 * steps, uncertainty, "epsilon of the way",
-           "120 steps, each of which rounds the velocity three times, the position once and the time once"},
+           "120 steps, each of which rounds the velocity three times, the position once and the "
+           "time once"},
           {},
           ""};
 }
@@ -104,7 +105,8 @@ Finding rotation_finding(const Subject&, const std::string& integrator) {
     coarser = here;
   }
   return {{worst.value(), 0.1, 0, "1",
-           "second order, two-sided; the next term is of fourth order, (omega h)^2 < 0.03 of the first"},
+           "second order, two-sided; the next term is of fourth order, (omega h)^2 < 0.03 of the "
+           "first"},
           deviations,
           "over six turns"};
 }
@@ -117,8 +119,8 @@ Finding no_drift_finding(const Subject&, const std::string& integrator) {
   deviations.row("0 to 6", early);
   deviations.row("54 to 60", late);
   return {{late / early - 1, 0.02, 0, "1",
-           "the length swings about a steady one for ever; 2 % is what the sampling of the swing's extremes "
-           "by steps allows"},
+           "the length swings about a steady one for ever; 2 % is what the sampling of the swing's "
+           "extremes by steps allows"},
           deviations,
           ""};
 }
@@ -128,8 +130,9 @@ Finding no_drift_finding(const Subject&, const std::string& integrator) {
 std::vector<Check> exact_motion_checks() {
   const std::string source = "BMF03 section 3";
   std::vector<Check> list;
-  add_for_each_scheme(list, {"dynamics.free-fall-is-exact", "free fall is exact for any steps.", source, {}},
-                      free_fall_finding);
+  add_for_each_scheme(
+      list, {"dynamics.free-fall-is-exact", "free fall is exact for any steps.", source, {}},
+      free_fall_finding);
   add_for_each_scheme(
       list,
       {"dynamics.steady-rotation-keeps-lengths-to-second-order",
@@ -137,13 +140,13 @@ std::vector<Check> exact_motion_checks() {
        source,
        {}},
       rotation_finding);
-  add_for_each_scheme(
-      list,
-      {"dynamics.steady-rotation-does-not-drift",
-       "the length of a turning pair of the reference deviates no more after sixty turns than after six.",
-       source,
-       {}},
-      no_drift_finding);
+  add_for_each_scheme(list,
+                      {"dynamics.steady-rotation-does-not-drift",
+                       "the length of a turning pair of the reference deviates no more after sixty "
+                       "turns than after six.",
+                       source,
+                       {}},
+                      no_drift_finding);
   return list;
 }
 

@@ -1,4 +1,5 @@
-// The methods that the paper's schemes are compared with: the equations of a step, and what limits it.
+// The methods that the paper's schemes are compared with: the equations of a step, and
+// what limits it.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -38,8 +39,8 @@ MadeStep step_made_by(Stepper& stepper, double h) {
   return {{start, second}, stepper.step_after({start, second}, h)};
 }
 
-/// Where and with which velocity a method takes the forces, over which span [s], and the change of velocity
-/// that they make there, all by the textbook.
+/// Where and with which velocity a method takes the forces, over which span [s], and the change of
+/// velocity that they make there, all by the textbook.
 struct Equation {
   State at;
   double span;
@@ -51,7 +52,8 @@ Equation equation_of(std::string_view method, const MadeStep& made) {
   const double h = made.h();
   if (method == "implicit-midpoint")
     return {{now.time + h / 2, (now.x + next.x) / 2, (next.x - now.x) / h}, h, next.v - now.v};
-  if (method == "backward-euler") return {{next.time, next.x, (next.x - now.x) / h}, h, next.v - now.v};
+  if (method == "backward-euler")
+    return {{next.time, next.x, (next.x - now.x) / h}, h, next.v - now.v};
 
   // BDF2: the derivative at the end of the parabola through three points
   const State& before = made.past.front();
@@ -68,7 +70,8 @@ double residual_of(const Stepper& stepper, const Equation& equation, const PerPa
                    const PerParticle& inverse_mass) {
   const PerParticle3 force =
       stepper.elastic_forces(equation.at) + stepper.damping_forces(equation.at, equation.at.v);
-  const PerParticle3 impulse = equation.span * force, momentum = equation.change * mass.asDiagonal();
+  const PerParticle3 impulse = equation.span * force,
+                     momentum = equation.change * mass.asDiagonal();
   return norm_of(momentum - impulse, inverse_mass) /
          (norm_of(momentum, inverse_mass) + norm_of(impulse, inverse_mass));
 }
@@ -90,17 +93,19 @@ Finding satisfies_its_equations(const Subject& subject, const std::string& metho
       const MadeStep made = step_made_by(stepper, h);
       Equation equation = equation_of(method, made);
       lead(system, equation.at);
-      measured.row((scene.prescribed.empty() ? "free, h = " : "led, h = ") + std::to_string(h) + " s",
-                   residual_of(stepper, equation, system.mass, system.inverse_mass));
+      measured.row(
+          (scene.prescribed.empty() ? "free, h = " : "led, h = ") + std::to_string(h) + " s",
+          residual_of(stepper, equation, system.mass, system.inverse_mass));
     }
   }
   return judge_worst(
       measured, 100 * tolerance,
-      "the solver's tolerance is 1e-11 of the momentum at its guess, which may be some ten times what "
-      "the step changes, and masses that differ by as much weigh it otherwise here");
+      "the solver's tolerance is 1e-11 of the momentum at its guess, which may be some ten times "
+      "what the step changes, and masses that differ by as much weigh it otherwise here");
 }
 
-/// One step of the linearised method against a dense solve of its equation, with the subject's forces.
+/// One step of the linearised method against a dense solve of its equation, with the
+/// subject's forces.
 Finding linearised_step(const Subject& subject) {
   Table measured{{"case", ""}, {"difference over the largest velocity", "1"}};
   for (const double h : {0.0017, 0.019}) {
@@ -121,16 +126,17 @@ Finding linearised_step(const Subject& subject) {
       K.col(k) = product.reshaped();
     }
     const Eigen::VectorXd mass = system.mass.transpose().replicate(3, 1).reshaped();
-    const Eigen::MatrixXd A = Eigen::MatrixXd(mass.asDiagonal()) - h * damping_matrix(probe, now) - h * h * K;
+    const Eigen::MatrixXd A =
+        Eigen::MatrixXd(mass.asDiagonal()) - h * damping_matrix(probe, now) - h * h * K;
     const PerParticle3 momentum = now.v * system.mass.asDiagonal() + h * probe.elastic(now);
     const Eigen::VectorXd v = oracles::solve_symmetric(A, momentum.reshaped());
     const PerParticle3 next = stepper.step(now, h).v;
     measured.row("h = " + std::to_string(h) + " s",
                  largest_difference(next, v.reshaped(3, next.cols())) / largest_speed(next));
   }
-  return judge_worst(
-      measured, 1e-10,
-      "the solver's tolerance is 1e-13 of the momentum, times the matrix's condition, at most some 1e3");
+  return judge_worst(measured, 1e-10,
+                     "the solver's tolerance is 1e-13 of the momentum, times the matrix's "
+                     "condition, at most some 1e3");
 }
 
 /// The scene with a hundred times its damping.
@@ -140,8 +146,8 @@ Scene heavily_damped(Scene scene) {
   return scene;
 }
 
-/// A damped sheet, two damped a hundred times as much, and an undamped one whose springs are compressed, so
-/// that the exact derivative is indefinite.
+/// A damped sheet, two damped a hundred times as much, and an undamped one whose springs are
+/// compressed, so that the exact derivative is indefinite.
 std::vector<std::pair<std::string, Scene>> sheets_to_solve() {
   std::vector<std::pair<std::string, Scene>> sheets = {
       {"damped", free_sheet()},
@@ -169,18 +175,16 @@ Finding large_steps_finding(const Subject& subject) {
       }
     }
   const std::vector<double>& counts = missed.numbers("solves that missed their tolerance");
-  return {
-      {std::accumulate(counts.begin(), counts.end(), 0.0), 2, 0, "solves",
-       "one in eighteen: a line search may end where no part of the step lowers the residual. A hinge's "
-       "force "
-       "jumps where it folds through half a circle, so that an equation far beyond the limit need not have a "
-       "solution; a solve that ends without one says so"},
-      missed,
-      ""};
+  return {{std::accumulate(counts.begin(), counts.end(), 0.0), 2, 0, "solves",
+           "one in eighteen: a line search may end where no part of the step lowers the residual. "
+           "A hinge's force jumps where it folds through half a circle, so that an equation far "
+           "beyond the limit need not have a solution; a solve that ends without one says so"},
+          missed,
+          ""};
 }
 
-/// Shapes at rest far from the origin, held together by springs alone, or by hinges alone: all that pulls at
-/// them is how their places are rounded.
+/// Shapes at rest far from the origin, held together by springs alone, or by hinges alone: all that
+/// pulls at them is how their places are rounded.
 std::vector<Specimen> shapes_at_rest() {
   std::vector<Specimen> cases;
   for (Specimen shape : curved_shapes())
@@ -188,7 +192,8 @@ std::vector<Specimen> shapes_at_rest() {
       Specimen rests = shape;
       if (has_springs) rests.scene.stretch = StretchMaterial{2900, 0, 1};
       if (!has_springs)
-        rests.scene.bending = BendingMaterial{0.37, 0, Weighting::rest, DampingFactor::edge, "sine"};
+        rests.scene.bending =
+            BendingMaterial{0.37, 0, Weighting::rest, DampingFactor::edge, "sine"};
       rests.state.x.colwise() += Vector3(57.3, -41.9, 23.1);
       rests.state.v.setZero();
       rests.scene.x = rests.state.x;
@@ -225,26 +230,26 @@ Finding newton_is_quick(const Subject& subject) {
       for (const double over : {0.5, 2.0, 5.0}) {
         const long before = stepper.work().newton_iterations;
         stepper.step(start, over * limit);
-        measured.row((scene.prescribed.empty() ? "free, " : "led, ") + method + ", " + std::to_string(over) +
-                         " times the elastic limit",
+        measured.row((scene.prescribed.empty() ? "free, " : "led, ") + method + ", " +
+                         std::to_string(over) + " times the elastic limit",
                      double(stepper.work().newton_iterations - before));
       }
     }
   }
-  return judge_worst(
-      measured, 10,
-      "solved to a thousandth, an exact step leaves a thousandth near the solution: three iterations for "
-      "nine "
-      "digits, and we allow seven to come near; without the derivative of the damping each leaves a good "
-      "part");
+  return judge_worst(measured, 10,
+                     "solved to a thousandth, an exact step leaves a thousandth near the solution: "
+                     "three iterations for nine digits, and we allow seven to come near; without "
+                     "the derivative of the damping each leaves a good part");
 }
 
 /// The largest damping rate of the subject at the specimen's state over the reference's bound.
 double rate_over_bound(const Subject& subject, const Specimen& specimen) {
   const System system = build_system(specimen.scene);
   const Eigen::MatrixXd D = damping_matrix(Probe(subject, specimen.scene), specimen.state);
-  const Eigen::VectorXd roots = system.mass.transpose().replicate(3, 1).reshaped().cwiseSqrt().cwiseInverse();
-  const Eigen::VectorXd rates = oracles::symmetric_eigenvalues(roots.asDiagonal() * D * roots.asDiagonal());
+  const Eigen::VectorXd roots =
+      system.mass.transpose().replicate(3, 1).reshaped().cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd rates =
+      oracles::symmetric_eigenvalues(roots.asDiagonal() * D * roots.asDiagonal());
   Work uncounted;
   const double bound =
       damping_rate_bound(damping_at(system.forces, specimen.state, uncounted), system.inverse_mass);
@@ -275,8 +280,9 @@ Finding damping_rate_is_reached(const Subject&) {
     const Vector3 along(0.4, -1.1, 0.7);  // sqrt(N s/m)
     damper.pairs.push_back({0, 1, along});
     const double rate = 2 * along.squaredNorm() / mass;  // of their relative velocity [1/s]
-    measured.row(fmt::format("{} kg", mass),
-                 std::abs(damping_rate_bound(damper, PerParticle::Constant(2, 1 / mass)) / rate - 1));
+    measured.row(
+        fmt::format("{} kg", mass),
+        std::abs(damping_rate_bound(damper, PerParticle::Constant(2, 1 / mass)) / rate - 1));
   }
   return judge_worst(measured, 8 * epsilon,
                      "one pair leaves nothing to be bounded: the same number in a few roundings");
@@ -289,12 +295,14 @@ Finding explicit_steps_respect_damping(const Subject&) {
   const System system = build_system(scene);
   const State s = start_state(scene);
   Work uncounted;
-  const double rate = damping_rate_bound(damping_at(system.forces, s, uncounted), system.inverse_mass);
+  const double rate =
+      damping_rate_bound(damping_at(system.forces, s, uncounted), system.inverse_mass);
   const StepRule rule{0, 0.7, 1e9};
   Table measured{{"case", ""}, {"step over 0.7 of the limit, less 1", "1"}};
   for (const Integrator& integrator : integrators()) {
     const bool limited = integrator.family == Family::fully_explicit;
-    const double elastic = elastic_limit(system, s), limit = limited ? std::min(2 / rate, elastic) : elastic;
+    const double elastic = elastic_limit(system, s),
+                 limit = limited ? std::min(2 / rate, elastic) : elastic;
     const double h = allowed_step(system, integrator, {&s, 1}, rule, elastic);
     measured.row(std::string(integrator.name), std::abs(h / (rule.safety * limit) - 1));
   }
@@ -311,18 +319,20 @@ Finding growth_is_limited(const Subject&) {
   Table measured{{"case", ""}, {"growth over the largest allowed", "1"}};
   for (const Integrator& integrator : integrators()) {
     const std::array<State, 2> past = {before, now};
-    const double growth = allowed_step(system, integrator, past, rule, elastic_limit(system, now)) / 1e-5;
+    const double growth =
+        allowed_step(system, integrator, past, rule, elastic_limit(system, now)) / 1e-5;
     const double allowed = integrator.name == "BDF2" ? zero_stable : 100;
     measured.row(std::string(integrator.name), growth / allowed);
     if (integrator.name != "BDF2")
       measured.row(std::string(integrator.name) + " unhindered", allowed / growth);
   }
-  return judge_worst(measured, 1 + 1e-9,
-                     "BDF2 is zero-stable for ratios below 1 + sqrt(2); one-step methods need no such limit");
+  return judge_worst(
+      measured, 1 + 1e-9,
+      "BDF2 is zero-stable for ratios below 1 + sqrt(2); one-step methods need no such limit");
 }
 
-/// Derivatives of the elastic forces that Newton's method asks for in an iteration, where they are definite:
-/// steps so short that the masses outweigh what springs and hinges under pressure lack.
+/// Derivatives of the elastic forces that Newton's method asks for in an iteration, where they are
+/// definite: steps so short that the masses outweigh what springs and hinges under pressure lack.
 Finding newton_asks_finding(const Subject&) {
   const System system = build_system(undamped_sheet());
   const State start = start_state(undamped_sheet());
@@ -331,14 +341,15 @@ Finding newton_asks_finding(const Subject&) {
     for (const double share : {0.1, 0.3}) {
       Work work;
       integrator_named(name).step(system, {&start, 1}, share * elastic_limit(system, start), work);
-      measured.row(
-          fmt::format("{}, {} of the elastic limit, {} iterations", name, share, work.newton_iterations),
-          work.newton_iterations > 1
-              ? double(work.stiffness_preparations) / double(work.newton_iterations) - 2
-              : NAN);
+      measured.row(fmt::format("{}, {} of the elastic limit, {} iterations", name, share,
+                               work.newton_iterations),
+                   work.newton_iterations > 1
+                       ? double(work.stiffness_preparations) / double(work.newton_iterations) - 2
+                       : NAN);
     }
-  return judge_worst(measured, 0,
-                     "the exact derivative, which proves symmetric, and that of conjugate gradients, once");
+  return judge_worst(
+      measured, 0,
+      "the exact derivative, which proves symmetric, and that of conjugate gradients, once");
 }
 
 }  // namespace
@@ -347,35 +358,35 @@ std::vector<Check> method_checks() {
   const std::string limits = "our automatic steps; Hairer, Norsett, Wanner, section III.5";
   std::vector<Check> checks;
   for (const std::string method : {"backward-euler", "BDF2", "implicit-midpoint"})
-    checks.push_back({"methods.step-satisfies-its-equation." + method,
-                      "A step of " + method +
-                          " solves the nonlinear equation that defines it, prescribed particles and "
-                          "variable steps included.",
-                      "Hairer, Norsett, Wanner, Solving Ordinary Differential Equations",
-                      [method](const Subject& subject) { return satisfies_its_equations(subject, method); }});
+    checks.push_back(
+        {"methods.step-satisfies-its-equation." + method,
+         "A step of " + method +
+             " solves the nonlinear equation that defines it, prescribed particles and variable "
+             "steps included.",
+         "Hairer, Norsett, Wanner, Solving Ordinary Differential Equations",
+         [method](const Subject& subject) { return satisfies_its_equations(subject, method); }});
   const std::vector<Check> others = {
       {"methods.linearised-step-solves-its-equation",
        "A step of linearised backward Euler is the solution of (M - h D - h^2 K) v = M v_n + h F.",
        "Baraff and Witkin 1998", linearised_step},
       {"methods.newton-solves-large-steps",
-       "Newton's method solves steps up to fifty times the elastic limit of damped and heavily damped "
-       "crumpled sheets, and of a compressed undamped one: all but two of 36 at most.",
+       "Newton's method solves steps up to fifty times the elastic limit of damped and heavily "
+       "damped crumpled sheets, and of a compressed undamped one: all but two of 36 at most.",
        "what BMF03 section 3 expects of a fully implicit method", large_steps_finding},
       {"methods.newton-accepts-cloth-at-rest",
-       "A step of shapes at rest far from the origin is not called unfinished: no force is asked to vanish "
-       "below what "
-       "rounding makes of it.",
+       "A step of shapes at rest far from the origin is not called unfinished: no force is asked "
+       "to vanish below what rounding makes of it.",
        "floating-point arithmetic", rest_is_found},
       {"methods.newton-converges-quickly-on-damped-cloth",
-       "Newton's method takes at most ten iterations a step on heavily damped cloth that turns and crumples, "
-       "at steps up to five times the elastic limit.",
+       "Newton's method takes at most ten iterations a step on heavily damped cloth that turns and "
+       "crumples, at steps up to five times the elastic limit.",
        "what BMF03 section 3 expects of a fully implicit method", newton_is_quick},
       {"forces.damping-rate-bound-holds",
        "The reference's bound on damping rates exceeds the largest rate of crumpled sheets.",
        "Gershgorin's theorem", damping_bound_is_a_bound},
       {"dynamics.explicit-steps-respect-the-damping-limit",
-       "Automatic steps of explicit methods keep to the damping limit, those of the others to the elastic "
-       "limit alone.",
+       "Automatic steps of explicit methods keep to the damping limit, those of the others to the "
+       "elastic limit alone.",
        limits, explicit_steps_respect_damping},
       {"dynamics.step-growth-is-limited",
        "BDF2's steps grow by less than 1 + sqrt(2); one-step methods may grow at will.", limits,
@@ -383,8 +394,8 @@ std::vector<Check> method_checks() {
   checks.insert(checks.end(), others.begin(), others.end());
   checks.push_back(
       {"methods.newton-computes-no-needless-derivative",
-       "Where the elastic forces' derivative is definite, Newton's method asks for no second one.", "ours",
-       newton_asks_finding});
+       "Where the elastic forces' derivative is definite, Newton's method asks for no second one.",
+       "ours", newton_asks_finding});
   checks.push_back({"methods.damping-rate-bound-is-exact-for-one-damper",
                     "The bound on the damping rate is that of a single damper.", limits,
                     damping_rate_is_reached});

@@ -16,7 +16,8 @@ namespace foldproof {
 
 namespace {
 
-/// Momenta of velocities v at positions x, and the sums of absolute values that they are compared with.
+/// Momenta of velocities v at positions x, and the sums of absolute values that they
+/// are compared with.
 struct Momenta {
   Vector3 linear, angular;           // kg m/s, kg m^2/s about the origin
   double linear_size, angular_size;  // sum m |v|, sum m |x| |v|
@@ -36,15 +37,17 @@ Momenta momenta(const PerParticle& mass, const PerParticle3& x, const PerParticl
 
 enum class Momentum { linear, angular };
 
-/// Drift from the start, in epsilon of the sum of absolute values (the largest on the way) [epsilon].
+/// Drift from the start, in epsilon of the sum of absolute values (the largest on the
+/// way) [epsilon].
 double drift(const Momenta& now, const Momenta& start, Momentum which, double size) {
-  const Vector3 change =
-      which == Momentum::linear ? Vector3(now.linear - start.linear) : Vector3(now.angular - start.angular);
+  const Vector3 change = which == Momentum::linear ? Vector3(now.linear - start.linear)
+                                                   : Vector3(now.angular - start.angular);
   return change.norm() / (epsilon * size);
 }
 
 /// Runs a free sheet for many steps and follows one momentum.
-Finding kept(const Subject& subject, const std::string& integrator, const Scene& scene, Momentum which) {
+Finding kept(const Subject& subject, const std::string& integrator, const Scene& scene,
+             Momentum which) {
   const int steps = 1000;
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   Stepper stepper(subject, scene, integrator);
@@ -61,11 +64,12 @@ Finding kept(const Subject& subject, const std::string& integrator, const Scene&
     if (n % 50 == 0) drifts.row(s.time, drifted);
   }
   const double bound = 16 * std::sqrt(double(steps));
-  return {{worst.value(), bound, 0, "epsilon of the sum",
-           "a step rounds the momentum that a particle has or is given about 16 times, and 1,000 steps add "
-           "up like a random walk; a defect of the scheme would show at the order of h^2"},
-          drifts,
-          smallest_defect(bound, "sum of the momenta's sizes, over all steps")};
+  return {
+      {worst.value(), bound, 0, "epsilon of the sum",
+       "a step rounds the momentum that a particle has or is given about 16 times, and 1,000 steps "
+       "add up like a random walk; a defect of the scheme would show at the order of h^2"},
+      drifts,
+      smallest_defect(bound, "sum of the momenta's sizes, over all steps")};
 }
 
 Scene loosely_solved_sheet() {
@@ -100,7 +104,8 @@ Finding reversal_finding(const Subject& subject, const std::string& integrator) 
   s = stepper.run(s, h, steps);
   const double grown = growth(stepper, start, h, 2 * steps);
   const double off_x = largest_difference(s.x, start.x) / (epsilon * extent(start.x));
-  const double off_v = largest_difference(-s.v, start.v) * 2 * steps * h / (epsilon * extent(start.x));
+  const double off_v =
+      largest_difference(-s.v, start.v) * 2 * steps * h / (epsilon * extent(start.x));
   Worst worst;
   worst.observe(off_x);
   worst.observe(off_v);
@@ -156,8 +161,8 @@ Finding truncated_finding(const Subject&) {
       changes.row(displacement.name, h, p, l);
     }
   return {{worst.value(), 64, 0, "epsilon of the sum",
-           "an iteration rounds every velocity twice and every damping force about ten times; the tens of "
-           "iterations of the tight solves add up at random and in falling size"},
+           "an iteration rounds every velocity twice and every damping force about ten times; the "
+           "tens of iterations of the tight solves add up at random and in falling size"},
           changes,
           "The momenta are those at the positions for which the damping was prepared."};
 }
@@ -194,13 +199,14 @@ std::vector<Check> momentum_checks() {
        source,
        {}},
       damped_angular_finding);
-  // C moves x with one velocity and carries momentum with another: its drift is O(h^2); a study measures it
+  // C moves x with one velocity and carries momentum with another: its drift is O(h^2); a
+  // study measures it
   std::erase_if(damped, [](const Check& check) { return check.name.ends_with(".C"); });
   list.insert(list.end(), damped.begin(), damped.end());
-  list.push_back(
-      {"dynamics.truncated-solve-conserves-momentum",
-       "The reference's solve keeps linear and angular momentum to rounding however early it stops.",
-       "BMF03 section 3", truncated_finding});
+  list.push_back({"dynamics.truncated-solve-conserves-momentum",
+                  "The reference's solve keeps linear and angular momentum to rounding however "
+                  "early it stops.",
+                  "BMF03 section 3", truncated_finding});
   return list;
 }
 

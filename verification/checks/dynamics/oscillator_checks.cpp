@@ -23,13 +23,16 @@ Scheme scheme_named(const std::string& integrator) {
   throw NotOffered{"a derived step matrix for integrator " + integrator};
 }
 
-/// One particle with x'' = -k x - c x' in every direction; of 1/4 kg, so that no mass adds a rounding.
+/// One particle with x'' = -k x - c x' in every direction; of 1/4 kg, so that no mass
+/// adds a rounding.
 System oscillator_system(const Oscillator& oscillator) {
   const double m = 0.25, k = oscillator.stiffness, c = oscillator.damping;
   System system = make_system(PerParticle::Constant(1, m));
   CustomForce force;
   force.elastic = [m, k](const State& s, PerParticle3& f) { f -= m * (k * s.x); };
-  force.damping = [m, c](const State&, const PerParticle3& v, PerParticle3& f) { f -= m * (c * v); };
+  force.damping = [m, c](const State&, const PerParticle3& v, PerParticle3& f) {
+    f -= m * (c * v);
+  };
   system.forces.push_back(force);
   system.solver.tolerance = 1e-15;
   system.solver.max_iterations = 3;  // one finishes: D is a multiple of M
@@ -46,7 +49,8 @@ State step_once(const std::string& integrator, const System& system, const State
 }
 
 /// The reference's step matrix, found by stepping the two unit vectors.
-Eigen::Matrix2d stepped_matrix(const std::string& integrator, const Oscillator& oscillator, double h) {
+Eigen::Matrix2d stepped_matrix(const std::string& integrator, const Oscillator& oscillator,
+                               double h) {
   const System system = oscillator_system(oscillator);
   const State from_x = step_once(integrator, system, one_particle(1, 0), h);
   const State from_v = step_once(integrator, system, one_particle(0, 1), h);
@@ -56,12 +60,13 @@ Eigen::Matrix2d stepped_matrix(const std::string& integrator, const Oscillator& 
 }
 
 Finding verlet_finding(const Subject&, const std::string& integrator) {
-  const std::vector<std::pair<Oscillator, double>> cases = {{{27.25, 0, 0.6875, -1.84375}, 0.140625},
-                                                            {{11.375, 0, -0.40625, 0.78125}, 0.53125}};
+  const std::vector<std::pair<Oscillator, double>> cases = {
+      {{27.25, 0, 0.6875, -1.84375}, 0.140625}, {{11.375, 0, -0.40625, 0.78125}, 0.53125}};
   Table errors{{"omega h", "1"}, {"error over amplitude", "1"}};
   for (const auto& [oscillator, h] : cases) {
     const System system = oscillator_system(oscillator);
-    const double omega = std::sqrt(oscillator.stiffness), speed = omega * std::cos(std::asin(omega * h / 2));
+    const double omega = std::sqrt(oscillator.stiffness),
+                 speed = omega * std::cos(std::asin(omega * h / 2));
     const double amplitude = std::hypot(oscillator.x0, oscillator.v0 / speed);
     Worst here;
     State s = one_particle(oscillator.x0, oscillator.v0);
@@ -74,15 +79,17 @@ Finding verlet_finding(const Subject&, const std::string& integrator) {
     }
     errors.row(omega * h, here.value());
   }
-  return {{errors.worst("error over amplitude"), 4e-14, 2 * epsilon, "1",
-           "1,000 steps of five roundings that add up like a random walk: sqrt(5000)/2 = 35 epsilon of the "
-           "amplitude, and up to five times that at the worst step near the stability limit. The constants "
-           "have few bits, so that no rounding is the same in every step"},
-          errors,
-          ""};
+  return {
+      {errors.worst("error over amplitude"), 4e-14, 2 * epsilon, "1",
+       "1,000 steps of five roundings that add up like a random walk: sqrt(5000)/2 = 35 epsilon of "
+       "the amplitude, and up to five times that at the worst step near the stability limit. The "
+       "constants have few bits, so that no rounding is the same in every step"},
+      errors,
+      ""};
 }
 
-/// Sums of the absolute values of the terms that make an entry of the step matrix, explicit guesses included.
+/// Sums of the absolute values of the terms that make an entry of the step matrix, explicit
+/// guesses included.
 Eigen::Matrix2d term_sizes(const std::string& integrator, const Oscillator& oscillator, double h) {
   const double a = h * oscillator.damping / 2, b = h * h * oscillator.stiffness / 2;
   const double first = integrator == "A" ? 1 + a : 1;  // what multiplies v in the moving velocity
@@ -108,8 +115,8 @@ Finding matrix_finding(const Subject&, const std::string& integrator) {
     errors.row(a, b, here.value());
   }
   return {{errors.worst("error"), 16, 0.5, "epsilon of the terms",
-           "about twenty roundings lie between the unit vector and an entry, half an epsilon each, and one "
-           "correction of the solve"},
+           "about twenty roundings lie between the unit vector and an entry, half an epsilon each, "
+           "and one correction of the solve"},
           errors,
           ""};
 }
@@ -121,12 +128,14 @@ double spectral_radius(const Eigen::Matrix2d& matrix) {
 Finding stability_finding(const Subject&, const std::string& integrator) {
   constexpr double threshold = 1e-10;
   const Scheme scheme = scheme_named(integrator);
-  const std::vector<double> over_limit = {0.03, 0.21, 0.57, 0.83, 0.97, 1 - 1e-6, 1 + 1e-6, 1.04, 1.37, 2.9};
+  const std::vector<double> over_limit = {0.03,     0.21,     0.57, 0.83, 0.97,
+                                          1 - 1e-6, 1 + 1e-6, 1.04, 1.37, 2.9};
   Random random(23);
   double misjudged = 0;
   Table wrong{{"damping ratio", "1"}, {"steps misjudged", "1"}};
   for (int n = 0; n < 60; ++n) {
-    const double k = random.log_uniform(0.3, 3000), ratio = n % 10 == 0 ? 0 : random.log_uniform(0.003, 30);
+    const double k = random.log_uniform(0.3, 3000),
+                 ratio = n % 10 == 0 ? 0 : random.log_uniform(0.003, 30);
     const Oscillator oscillator{k, 2 * ratio * std::sqrt(k), 0, 0};
     const double limit = oracles::largest_stable_step(scheme, oscillator).value;
     int here = 0;
@@ -139,8 +148,8 @@ Finding stability_finding(const Subject&, const std::string& integrator) {
     wrong.row(ratio, here);
   }
   return {{misjudged, 0, 0, "1",
-           "a step is stable if the spectral radius is at most 1 + 1e-10: rounding moves it by 1e-13 at "
-           "most, and a millionth beyond the limit it exceeds 1 by 1e-8 at least"},
+           "a step is stable if the spectral radius is at most 1 + 1e-10: rounding moves it by "
+           "1e-13 at most, and a millionth beyond the limit it exceeds 1 by 1e-8 at least"},
           wrong,
           ""};
 }
@@ -152,8 +161,8 @@ Finding pure_damping_finding(const Subject&, const std::string& integrator) {
   for (double a : {0.11, 0.37, 0.94, 2.7, 10.0, 23.0}) {
     const double h = 2 * a / c, expected = integrator == "A" ? 1 - a * a : 1;
     const System system = oscillator_system({0, c, 0, 0});
-    const int steps =
-        int(std::ceil(40 / -std::log(std::abs((1 - a) / (1 + a)))));  // to e^-40 of the velocity
+    // to e^-40 of the velocity
+    const int steps = int(std::ceil(40 / -std::log(std::abs((1 - a) / (1 + a)))));
     State s = one_particle(0, v0);
     double path = 0;
     for (int n = 0; n < steps; ++n) {
@@ -166,8 +175,8 @@ Finding pure_damping_finding(const Subject&, const std::string& integrator) {
     totals.row(a, total);
   }
   return {{worst.value(), 4, 0, "epsilon of the path, a step",
-           "each step rounds the position once and the velocity about six times; (1 + h c/2) is how much "
-           "larger the terms are than the velocity that they leave"},
+           "each step rounds the position once and the velocity about six times; (1 + h c/2) is "
+           "how much larger the terms are than the velocity that they leave"},
           totals,
           ""};
 }
@@ -177,19 +186,21 @@ Finding pure_damping_finding(const Subject&, const std::string& integrator) {
 std::vector<Check> oscillator_checks() {
   const std::string source = "BMF03 section 3", derived = "derived from BMF03 section 3";
   std::vector<Check> list;
-  const auto add = [&](const char* name, const char* claim, const std::string& from, const auto& run) {
+  const auto add = [&](const char* name, const char* claim, const std::string& from,
+                       const auto& run) {
     add_for_each_scheme(list, {name, claim, from, {}}, run);
   };
   add("dynamics.undamped-oscillator-matches-velocity-verlet",
       "the reference's undamped oscillator is velocity Verlet's.", source, verlet_finding);
   add("dynamics.step-matrix-is-as-derived",
-      "the reference's step on the damped oscillator is the derived matrix.", derived, matrix_finding);
+      "the reference's step on the damped oscillator is the derived matrix.", derived,
+      matrix_finding);
   add("dynamics.stability-limit-is-as-derived",
-      "the reference is stable on the damped oscillator up to the derived step and not beyond.", derived,
-      stability_finding);
+      "the reference is stable on the damped oscillator up to the derived step and not beyond.",
+      derived, stability_finding);
   add("dynamics.pure-damping-displacement-is-as-derived",
-      "the reference's way of a particle that is only damped is, over the exact one, 1 - (h c/2)^2 in A and "
-      "1 in B and C.",
+      "the reference's way of a particle that is only damped is, over the exact one, 1 - (h c/2)^2 "
+      "in A and 1 in B and C.",
       derived, pure_damping_finding);
   return list;
 }

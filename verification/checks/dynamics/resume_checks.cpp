@@ -41,8 +41,8 @@ void add(const State& s, Numbers& all) {
   all.insert(all.end(), s.x.data(), s.x.data() + s.x.size());
   all.insert(all.end(), s.v.data(), s.v.data() + s.v.size());
   for (const Bond& b : s.bonds)
-    all.insert(all.end(),
-               {double(b.patch), double(b.triangle), double(b.particle), b.place[0], b.place[1], b.place[2]});
+    all.insert(all.end(), {double(b.patch), double(b.triangle), double(b.particle), b.place[0],
+                           b.place[1], b.place[2]});
 }
 
 /// All of a row but clock time.
@@ -59,20 +59,22 @@ void add(const RunResult& result, Numbers& all) {
   add(result.work, all);
   all.push_back(double(result.steps));
   if (result.stop)
-    all.insert(all.end(), {result.stop->time, double(result.stop->step), double(result.stop->particle)});
+    all.insert(all.end(),
+               {result.stop->time, double(result.stop->step), double(result.stop->particle)});
 }
 
 /// All of a checkpoint but clock time.
 void add(const Checkpoint& checkpoint, Numbers& all) {
   for (const State& s : checkpoint.past) add(s, all);
   add(checkpoint.work, all);
-  all.insert(all.end(),
-             {double(checkpoint.frame), double(checkpoint.steps), checkpoint.start_time, checkpoint.size,
-              checkpoint.event_time, checkpoint.damping_work, checkpoint.damping_power});
+  all.insert(all.end(), {double(checkpoint.frame), double(checkpoint.steps), checkpoint.start_time,
+                         checkpoint.size, checkpoint.event_time, checkpoint.damping_work,
+                         checkpoint.damping_power});
 }
 
 /// What is handed out after these many frames, rows and checkpoints, and what comes of the run.
-Numbers numbers_after(const Followed& run, std::size_t frames, std::size_t rows, std::size_t checkpoints) {
+Numbers numbers_after(const Followed& run, std::size_t frames, std::size_t rows,
+                      std::size_t checkpoints) {
   Numbers all;
   for (std::size_t k = frames; k < run.frames.size(); ++k) add(run.frames[k], all);
   for (std::size_t k = rows; k < run.rows.size(); ++k) add(run.rows[k], all);
@@ -95,28 +97,28 @@ struct Interrupted {
   bool stops = false;  // before its end
 };
 
-/// Numbers that differ, over all frames of the run at which it is interrupted; NaN for a run that is not what
-/// it is meant to be.
+/// Numbers that differ, over all frames of the run at which it is interrupted; NaN for a run that
+/// is not what it is meant to be.
 double differences(const Interrupted& of) {
   const Integrator& integrator = integrator_named(of.integrator);
   Followed whole;
-  whole.result =
-      simulate(build_system(of.scene), integrator, start_state(of.scene), of.scene.schedule, follower(whole));
+  whole.result = simulate(build_system(of.scene), integrator, start_state(of.scene),
+                          of.scene.schedule, follower(whole));
   if (whole.checkpoints.size() < 5 || whole.checkpoints.size() != whole.frames.size()) return NAN;
   if (whole.result.stop.has_value() != of.stops) return NAN;
   Worst worst;
   for (std::size_t k = 0; k < whole.checkpoints.size(); ++k) {
     Followed rest;
-    rest.result =
-        resume(build_system(of.scene), integrator, whole.checkpoints[k], of.scene.schedule, follower(rest));
-    worst.observe(
-        bits_that_differ(numbers_after(whole, k + 1, whole.rows_at[k], k + 1), numbers_after(rest, 0, 0, 0)));
+    rest.result = resume(build_system(of.scene), integrator, whole.checkpoints[k],
+                         of.scene.schedule, follower(rest));
+    worst.observe(bits_that_differ(numbers_after(whole, k + 1, whole.rows_at[k], k + 1),
+                                   numbers_after(rest, 0, 0, 0)));
   }
   return worst.value();
 }
 
-/// Damped springs and hinges in automatic steps, led particles among them that start and stop on the way, one
-/// of them a rounding after a frame.
+/// Damped springs and hinges in automatic steps, led particles among them that start and stop on
+/// the way, one of them a rounding after a frame.
 Scene stopping_and_starting() {
   Scene scene = partly_prescribed_sheet();
   scene.schedule = {0.057, 0.0081, {0.0017, 0.5, 0.1}, 100000};
@@ -183,16 +185,17 @@ Finding same_bits_finding(const Subject&) {
     measured.row(run.name + ", " + run.integrator, differences(run));
   return judge_worst(
       measured, 0,
-      "a checkpoint holds all that a run remembers: frames, diagnostics, later checkpoints, work and stop "
-      "are the same bits, whichever frame the run goes on from");
+      "a checkpoint holds all that a run remembers: frames, diagnostics, later checkpoints, work "
+      "and stop are the same bits, whichever frame the run goes on from");
 }
 
 }  // namespace
 
 std::vector<Check> resume_checks() {
-  return {{"dynamics.resumed-run-ends-with-the-same-bits",
-           "A run of the reference that goes on from any of its checkpoints ends with the same bits.",
-           "good practice", same_bits_finding}};
+  return {
+      {"dynamics.resumed-run-ends-with-the-same-bits",
+       "A run of the reference that goes on from any of its checkpoints ends with the same bits.",
+       "good practice", same_bits_finding}};
 }
 
 }  // namespace foldproof

@@ -35,18 +35,19 @@ RecordedRun record_run(const System& system, const std::string& integrator, cons
   return run;
 }
 
-/// What is wrong with the frames and steps of a run that should have `frames` frames: the largest error in
-/// time [s], of a product and a sum that may be rounded as one; NaN for a wrong count or a step longer than
-/// the one asked for.
+/// What is wrong with the frames and steps of a run that should have `frames` frames: the largest
+/// error in time [s], of a product and a sum that may be rounded as one; NaN for a wrong count or a
+/// step longer than the one asked for.
 double frame_error(const RecordedRun& run, const Schedule& schedule, size_t frames) {
   Worst worst;
   if (run.frames.size() != frames || run.result.stop) worst.observe(NAN);
   const double start = run.frames.front().time, fixed = schedule.step.fixed;
   for (size_t k = 0; k < run.frames.size(); ++k) {
-    const volatile double whole =
-        double(k) * schedule.frame_interval;  // rounded, whatever the compiler fuses
+    // rounded, whatever the compiler fuses
+    const volatile double whole = double(k) * schedule.frame_interval;
     const double apart = std::min(schedule.end, start + whole),
-                 as_one = std::min(schedule.end, std::fma(double(k), schedule.frame_interval, start));
+                 as_one =
+                     std::min(schedule.end, std::fma(double(k), schedule.frame_interval, start));
     const double time = run.frames[k].time;
     worst.observe(std::min(std::abs(time - apart), std::abs(time - as_one)));
   }
@@ -68,19 +69,21 @@ Finding frames_finding(const Subject&) {
       State start = start_state(scene);
       start.time = start_time;
       const Schedule schedule{start_time + length, interval, {fixed, 0.5, 0.1}, 100000};
-      errors.row(start_time, fixed, frame_error(record_run(system, "A", start, schedule), schedule, 6));
+      errors.row(start_time, fixed,
+                 frame_error(record_run(system, "A", start, schedule), schedule, 6));
     }
-  return judge_worst(
-      errors, 0,
-      "frame times are set, not summed up; a step longer than asked for, or a wrong count, gives NaN");
+  return judge_worst(errors, 0,
+                     "frame times are set, not summed up; a step longer than asked for, or a wrong "
+                     "count, gives NaN");
 }
 
-/// Largest relative change of an edge's length over its rest length in a step h, by its present rate [1].
+/// Largest relative change of an edge's length over its rest length in a step h, by its
+/// present rate [1].
 double strain_in(const Scene& scene, const State& s, double h) {
   Worst worst;
   for (const Edge& edge : scene.mesh.edges) {
-    const double rest =
-        scene.stretch->rest_length_scale * (scene.mesh.rest.col(edge.b) - scene.mesh.rest.col(edge.a)).norm();
+    const double rest = scene.stretch->rest_length_scale *
+                        (scene.mesh.rest.col(edge.b) - scene.mesh.rest.col(edge.a)).norm();
     const Vector3 d = s.x.col(edge.b) - s.x.col(edge.a), dv = s.v.col(edge.b) - s.v.col(edge.a);
     worst.observe(std::abs(d.normalized().dot(dv)) * h / rest);
   }
@@ -90,7 +93,10 @@ double strain_in(const Scene& scene, const State& s, double h) {
 Finding limits_finding(const Subject&) {
   constexpr size_t least_steps = 4;  // fewer say nothing of how a step follows the cloth
   Worst worst;
-  Table used{{"speed", "1"}, {"of the elastic limit", "1"}, {"of the strain allowed", "1"}, {"came to", "1"}};
+  Table used{{"speed", "1"},
+             {"of the elastic limit", "1"},
+             {"of the strain allowed", "1"},
+             {"came to", "1"}};
   for (double speed : {0.01, 0.4, 9.0, 25.0})
     for (double strain : {0.013, 0.09}) {
       Scene scene = free_sheet();
@@ -115,18 +121,20 @@ Finding limits_finding(const Subject&) {
       worst.observe(of_limit.value());
       worst.observe(of_strain.value());
     }
-  return {{worst.value(), 1 + 2e-9, 0, "of the limit",
-           "both limits hold at the start of every step; 1e-9 is the hair by which a step may be "
-           "stretched to divide an interval evenly"},
-          used,
-          "The run is repeated step by step with the steps it reported, and must end with the same bits. "
-          "One in which a triangle loses its area, as may be at 25 m/s, is judged up to there."};
+  return {
+      {worst.value(), 1 + 2e-9, 0, "of the limit",
+       "both limits hold at the start of every step; 1e-9 is the hair by which a step may be "
+       "stretched to divide an interval evenly"},
+      used,
+      "The run is repeated step by step with the steps it reported, and must end with the same "
+      "bits. One in which a triangle loses its area, as may be at 25 m/s, is judged up to there."};
 }
 
 /// About a stopped run.
 Finding judged_statements(const Table& statements, const std::string& note) {
-  return {
-      {count_false(statements), 0, 0, "false statements", "a statement is true or false"}, statements, note};
+  return {{count_false(statements), 0, 0, "false statements", "a statement is true or false"},
+          statements,
+          note};
 }
 
 bool all_finite(const std::vector<State>& frames) {
@@ -138,7 +146,8 @@ bool all_finite(const std::vector<State>& frames) {
 void add_common(Table& statements, const RecordedRun& run) {
   statements.row("it stopped", run.result.stop.has_value());
   if (!run.result.stop) return;
-  statements.row("the time is that of the last good state", run.result.stop->time == run.result.last.time);
+  statements.row("the time is that of the last good state",
+                 run.result.stop->time == run.result.last.time);
   statements.row("the step is the one after the last good one",
                  run.result.stop->step == run.result.steps + 1);
   statements.row("all frames delivered are finite", all_finite(run.frames));
@@ -160,7 +169,8 @@ Finding divergence_finding(const Subject&) {
     const State next = integrator_named("C").step(system, {&last, 1}, h, work);
     Eigen::Index farthest = 0;
     (next.x - last.x).colwise().norm().maxCoeff(&farthest);
-    statements.row("the reason says divergence", stop.reason.find("divergence") != std::string::npos);
+    statements.row("the reason says divergence",
+                   stop.reason.find("divergence") != std::string::npos);
     statements.row("the particle is the one that moved farthest", stop.particle == farthest);
     const double size = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();
     Worst leap;
@@ -206,22 +216,22 @@ Finding lost_triangle_finding(const Subject&) {
   squeeze.velocity = Vector3(0, -0.9 * length / duration, 0);
   scene.prescribed = {
       {0, scene.x.col(0), squeeze}, {2, scene.x.col(2), Motion{}}, {3, scene.x.col(3), Motion{}}};
-  const RecordedRun run =
-      record_run(build_system(scene), "C", start_state(scene), {0.2, 0.01, {0.0025, 0.5, 0.1}, 100000});
+  const RecordedRun run = record_run(build_system(scene), "C", start_state(scene),
+                                     {0.2, 0.01, {0.0025, 0.5, 0.1}, 100000});
   Table statements = no_statements();
   add_common(statements, run);
   if (run.result.stop) {
     const std::string& reason = run.result.stop->reason;
-    statements.row("the reason says what was lost",
-                   reason.find("triangle") != std::string::npos && reason.find("area") != std::string::npos);
+    statements.row("the reason says what was lost", reason.find("triangle") != std::string::npos &&
+                                                        reason.find("area") != std::string::npos);
     statements.row("the reason names the four particles",
                    reason.find("particles 0 1 2 3") != std::string::npos);
     statements.row("a particle is named", run.result.stop->particle == 0);
     statements.row("the step is 20", run.result.stop->step == 20);
     statements.row("five frames were delivered", run.frames.size() == 5);
   }
-  return judged_statements(statements,
-                           "a vertex is led into the opposite edge, which it reaches at the end of step 20");
+  return judged_statements(
+      statements, "a vertex is led into the opposite edge, which it reaches at the end of step 20");
 }
 
 Finding cap_finding(const Subject&) {
@@ -242,15 +252,16 @@ Finding standstill_finding(const Subject&) {
   const Scene scene = free_sheet();
   State start = start_state(scene);
   start.time = 1;
-  const RecordedRun run = record_run(build_system(scene), "B", start, {1.1, 0.01, {1e-17, 0.5, 0.1}, 20});
+  const RecordedRun run =
+      record_run(build_system(scene), "B", start, {1.1, 0.01, {1e-17, 0.5, 0.1}, 20});
   Table statements = no_statements();
   add_common(statements, run);
   statements.row("no step was made", run.result.steps == 0);
   if (run.result.stop)
     statements.row("the reason says too short",
                    run.result.stop->reason.find("too short") != std::string::npos);
-  return judged_statements(statements,
-                           "fixed steps of 1e-17 s from t = 1 s on, where doubles lie 2e-16 s apart");
+  return judged_statements(
+      statements, "fixed steps of 1e-17 s from t = 1 s on, where doubles lie 2e-16 s apart");
 }
 
 }  // namespace
@@ -259,24 +270,28 @@ std::vector<Check> run_checks() {
   const std::string ours = "our reading of BMF03 section 3", stops = "good practice";
   return {
       {"dynamics.frames-are-hit-exactly",
-       "Runs of the reference deliver frames at exactly their times, with steps no longer than asked for.",
+       "Runs of the reference deliver frames at exactly their times, with steps no longer than "
+       "asked for.",
        ours, frames_finding},
       {"dynamics.automatic-steps-respect-the-limits",
-       "Automatic steps of the reference keep the safety factor of the elastic limit and the strain allowed "
-       "a step.",
+       "Automatic steps of the reference keep the safety factor of the elastic limit and the "
+       "strain allowed a step.",
        ours, limits_finding},
       {"dynamics.divergence-stops-the-run",
        "A diverging run of the reference stops and names time, step and particle.", stops,
        divergence_finding},
       {"dynamics.nan-stops-the-run",
-       "A run of the reference that meets NaN stops and names time, step and particle.", stops, nan_finding},
+       "A run of the reference that meets NaN stops and names time, step and particle.", stops,
+       nan_finding},
       {"dynamics.degenerate-triangle-stops-the-run",
        "A run of the reference that loses a triangle stops and names its particles.", stops,
        lost_triangle_finding},
       {"dynamics.too-short-steps-stop-the-run",
-       "A run whose steps no longer advance the time stops and says so.", stops, standstill_finding},
+       "A run whose steps no longer advance the time stops and says so.", stops,
+       standstill_finding},
       {"dynamics.step-cap-stops-the-run",
-       "A run of the reference that reaches its cap on steps stops and says so.", stops, cap_finding},
+       "A run of the reference that reaches its cap on steps stops and says so.", stops,
+       cap_finding},
   };
 }
 

@@ -26,11 +26,12 @@ double largest_eigenvalue(const DenseProblem& dense) {
   return values.maxCoeff();
 }
 
-/// Solves to many tolerances: the residual returned and recomputed, and |A| |w| of the solution, where A is
-/// the operator of mass-weighted velocities.
+/// Solves to many tolerances: the residual returned and recomputed, and |A| |w| of the solution,
+/// where A is the operator of mass-weighted velocities.
 Table residual_table() {
-  Table table{{"relative to", "1"}, {"half step", "s"},  {"tolerance", "1"},
-              {"returned", "1"},    {"recomputed", "1"}, {"operator times solution", "of the scale"}};
+  Table table{{"relative to", "1"}, {"half step", "s"},
+              {"tolerance", "1"},   {"returned", "1"},
+              {"recomputed", "1"},  {"operator times solution", "of the scale"}};
   for (const ResidualScale scale : {ResidualScale::momentum, ResidualScale::initial_residual})
     for (double s : {2.3e-4, 3.1e-3, 0.047}) {
       Problem problem = make_problem(partly_prescribed_sheet(), 91);
@@ -43,9 +44,11 @@ Table residual_table() {
             solve_velocity(problem.damping, s, problem.system.mass, problem.system.inverse_mass,
                            {tolerance, 1000, scale}, w, work);
         const Eigen::VectorXd r = dense.b - dense.A * Eigen::VectorXd(w.reshaped()(dense.free));
-        const Eigen::VectorXd momentum = dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)));
+        const Eigen::VectorXd momentum =
+            dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)));
         const double size = scale_of(dense, scale);
-        table.row(name_of_scale(scale), s, tolerance, solve.residual, weighted_norm(r, dense.mass) / size,
+        table.row(name_of_scale(scale), s, tolerance, solve.residual,
+                  weighted_norm(r, dense.mass) / size,
                   largest * weighted_norm(momentum, dense.mass) / size);
       }
     }
@@ -54,27 +57,29 @@ Table residual_table() {
 
 Finding promise_finding(const Subject&) {
   const Table table = residual_table();
-  const std::vector<double>&tolerance = table.numbers("tolerance"), &recomputed = table.numbers("recomputed");
+  const std::vector<double>&tolerance = table.numbers("tolerance"),
+        &recomputed = table.numbers("recomputed");
   Worst worst;
   for (size_t k = 0; k < table.rows(); ++k) worst.observe(recomputed[k] / tolerance[k]);
   return {{worst.value(), 1.05, 0, "of the tolerance",
-           "the tolerance, and what the iteration's residual and the true one drift apart: some hundred "
-           "epsilon, a twentieth of the smallest tolerance, 1e-12"},
+           "the tolerance, and what the iteration's residual and the true one drift apart: some "
+           "hundred epsilon, a twentieth of the smallest tolerance, 1e-12"},
           table,
-          "The residual b - (M - s D) w is recomputed with a dense D made of the modes of all dampers."};
+          "The residual b - (M - s D) w is recomputed with a dense D made of the modes of all "
+          "dampers."};
 }
 
 Finding returned_finding(const Subject&) {
   const Table table = residual_table();
-  const std::vector<double>&returned = table.numbers("returned"), &recomputed = table.numbers("recomputed");
+  const std::vector<double>&returned = table.numbers("returned"),
+        &recomputed = table.numbers("recomputed");
   const std::vector<double>& size = table.numbers("operator times solution");
   Worst worst;
   for (size_t k = 0; k < table.rows(); ++k)
     worst.observe(std::abs(returned[k] - recomputed[k]) / (epsilon * size[k]));
   return {{worst.value(), 8, 0, "epsilon of the operator's norm times the solution's",
-           "each iteration rounds r in proportion to the operator times the iterate (Greenbaum 1997), and "
-           "the first "
-           "few, whose corrections are the largest, decide"},
+           "each iteration rounds r in proportion to the operator times the iterate (Greenbaum "
+           "1997), and the first few, whose corrections are the largest, decide"},
           table,
           ""};
 }
@@ -93,18 +98,19 @@ Finding cholesky_finding(const Subject&) {
       const Eigen::VectorXd exact = oracles::solve_symmetric(dense.A, dense.b);
       const Eigen::VectorXd error =
           dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)) - exact);
-      const double size = weighted_norm(error, dense.mass) / scale_of(dense, ResidualScale::momentum);
+      const double size =
+          weighted_norm(error, dense.mass) / scale_of(dense, ResidualScale::momentum);
       errors.row(s, tolerance, size);
       worst.observe(size / tolerance);
       for (const PrescribedParticle& p : problem.system.prescribed)
         if (w.col(p.particle) != problem.guess.col(p.particle)) worst.observe(INFINITY);
     }
-  return {
-      {worst.value(), 1.05, 0, "of the tolerance",
-       "in the mass-weighted norm the operator is at least the identity, so that the error is at most the "
-       "residual; 5 % for rounding"},
-      errors,
-      "Known velocities are moved to the right-hand side there, and must come back unchanged here."};
+  return {{worst.value(), 1.05, 0, "of the tolerance",
+           "in the mass-weighted norm the operator is at least the identity, so that the error is "
+           "at most the residual; 5 % for rounding"},
+          errors,
+          "Known velocities are moved to the right-hand side there, and must come back unchanged "
+          "here."};
 }
 
 /// Particles that are each damped at one of k rates: D has k distinct eigenvalues beside zero.
@@ -138,8 +144,8 @@ Finding eigenvalue_finding(const Subject&) {
     if (!solve.converged) worst.observe(1);
   }
   return {{worst.value(), 0, 0, "iterations",
-           "conjugate gradients are exact after as many iterations as there are distinct eigenvalues in "
-           "the residual; particles without damping are not in it"},
+           "conjugate gradients are exact after as many iterations as there are distinct "
+           "eigenvalues in the residual; particles without damping are not in it"},
           solves,
           ""};
 }
@@ -148,8 +154,8 @@ Finding eigenvalue_finding(const Subject&) {
 Finding cap_finding(const Subject&) {
   const Problem problem = make_problem(free_sheet(), 3);
   const auto solve = [&](const SolverSettings& settings, PerParticle3 w, Work& work) {
-    return solve_velocity(problem.damping, 0.047, problem.system.mass, problem.system.inverse_mass, settings,
-                          w, work);
+    return solve_velocity(problem.damping, 0.047, problem.system.mass, problem.system.inverse_mass,
+                          settings, w, work);
   };
   PerParticle3 spoiled = problem.guess;
   spoiled(1, 6) = std::numeric_limits<double>::quiet_NaN();
@@ -164,7 +170,8 @@ Finding cap_finding(const Subject&) {
   holds.row("it is counted as unfinished", capped.unfinished_solves == 1);
   holds.row("its residual is recorded", capped.worst_residual == cap.residual);
   holds.row("a whole solve is converged", whole.converged && whole.residual <= 1e-6);
-  holds.row("it is not counted as unfinished", finished.unfinished_solves == 0 && finished.solves == 1);
+  holds.row("it is not counted as unfinished",
+            finished.unfinished_solves == 0 && finished.solves == 1);
   holds.row("NaN is not converged", !nan.converged);
   holds.row("NaN is counted as unfinished", broken.unfinished_solves == 1);
   holds.row("NaN is recorded", std::isnan(broken.worst_residual));
@@ -192,9 +199,9 @@ Finding operator_finding(const Subject& subject) {
   worst.observe(asymmetry);
   worst.observe(deficit);
   return {{worst.value(), 64, 0, "epsilon of the largest",
-           "an entry sums some twenty dampers of five roundings, half an epsilon each: 50; the smallest "
-           "eigenvalue, 1 but for "
-           "rounding, is found to about the square root of the matrix' size, 10, in epsilon of the largest"},
+           "an entry sums some twenty dampers of five roundings, half an epsilon each: 50; the "
+           "smallest eigenvalue, 1 but for rounding, is found to about the square root of the "
+           "matrix' size, 10, in epsilon of the largest"},
           Table{{"asymmetry", "epsilon of the largest entry"},
                 {"smallest eigenvalue below 1", "epsilon of the largest"},
                 {"largest eigenvalue", "1"}}
@@ -218,13 +225,15 @@ Finding rigid_finding(const Subject&) {
   Worst worst;
   worst.observe(solve.iterations);
   worst.observe(double((v.array() != before.array()).count()));
-  return {{worst.value(), 0, 0, "iterations",
-           "no damper resists a rigid motion: the explicit guess is the solution, and is not touched"},
-          Table{{"residual", "1"}}.with_row(solve.residual),
-          ""};
+  return {
+      {worst.value(), 0, 0, "iterations",
+       "no damper resists a rigid motion: the explicit guess is the solution, and is not touched"},
+      Table{{"residual", "1"}}.with_row(solve.residual),
+      ""};
 }
 
-/// |b - (M - s D) w| over |M w0|, weighted with the masses, of a problem without known velocities [1].
+/// |b - (M - s D) w| over |M w0|, weighted with the masses, of a problem without known
+/// velocities [1].
 double residual_left(const Problem& problem, double s, const PerParticle3& w) {
   PerParticle3 damped = PerParticle3::Zero(3, w.cols());
   problem.damping.add_product(w, damped);
@@ -239,9 +248,10 @@ double residual_left(const Problem& problem, double s, const PerParticle3& w) {
 Finding large_finding(const Subject&) {
   constexpr double tolerance = 1e-7;
   Table measured{{"case", ""}, {"residual left", "of the tolerance"}};
-  for (const int cells :
-       {20, 22, 31, 45}) {  // 441, 529, 1024 and 2116 particles: less than one block, more, two blocks, five
-    Scene scene = scene_at_rest(make_sheet({SheetPattern::one_diagonal, 0.7, 0.6, cells, cells}), 0.2);
+  // 441, 529, 1024 and 2116 particles: less than one block, more, two blocks, five
+  for (const int cells : {20, 22, 31, 45}) {
+    Scene scene =
+        scene_at_rest(make_sheet({SheetPattern::one_diagonal, 0.7, 0.6, cells, cells}), 0.2);
     scene.stretch = StretchMaterial{41, 0.053, 1};
     scene.bending = BendingMaterial{0.0037, 0.00053, Weighting::rest, DampingFactor::edge, "sine"};
     scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
@@ -251,12 +261,14 @@ Finding large_finding(const Subject&) {
     const SolverSettings settings{tolerance, 200, ResidualScale::momentum};
     const SolveResult solve = solve_velocity(problem.damping, 3.1e-3, problem.system.mass,
                                              problem.system.inverse_mass, settings, w, work);
-    measured.row(std::to_string(w.cols()) + " particles", residual_left(problem, 3.1e-3, w) / tolerance);
+    measured.row(std::to_string(w.cols()) + " particles",
+                 residual_left(problem, 3.1e-3, w) / tolerance);
     measured.row(std::to_string(w.cols()) + " particles, as returned",
                  solve.converged ? solve.residual / tolerance : nan);
   }
-  return judge_worst(measured, 1.05,
-                     "the tolerance, and what the iteration's residual and the true one drift apart");
+  return judge_worst(
+      measured, 1.05,
+      "the tolerance, and what the iteration's residual and the true one drift apart");
 }
 
 }  // namespace
@@ -267,27 +279,31 @@ std::vector<Check> solver_checks() {
       {"solver.residual-is-below-the-tolerance",
        "The true residual of the reference's solve is below the tolerance, on both scales.", source,
        promise_finding},
-      {"solver.reported-residual-is-true", "The residual that the reference's solve returns is the true one.",
-       source, returned_finding},
+      {"solver.reported-residual-is-true",
+       "The residual that the reference's solve returns is the true one.", source,
+       returned_finding},
       {"solver.solution-matches-dense-cholesky",
-       "The reference's solve finds the velocities that a dense Cholesky factorization finds, known "
-       "velocities included.",
+       "The reference's solve finds the velocities that a dense Cholesky factorization finds, "
+       "known velocities included.",
        source, cholesky_finding},
       {"solver.iterations-equal-the-number-of-distinct-eigenvalues",
-       "The reference's solve takes as many iterations as the damping has distinct nonzero eigenvalues.",
+       "The reference's solve takes as many iterations as the damping has distinct nonzero "
+       "eigenvalues.",
        source, eigenvalue_finding},
       {"solver.large-cloth-is-solved",
-       "Cloth of many particles, which the reference's solve takes block by block, is solved to the "
-       "tolerance.",
+       "Cloth of many particles, which the reference's solve takes block by block, is solved to "
+       "the tolerance.",
        "algebra", large_finding},
       {"solver.iteration-cap-is-reported",
-       "A solve of the reference that does not finish says so and is counted.", source, cap_finding},
+       "A solve of the reference that does not finish says so and is counted.", source,
+       cap_finding},
       {"solver.operator-is-symmetric-positive-definite",
-       "The operator of the implicit velocity is symmetric, and at least the identity in the mass-weighted "
-       "norm.",
+       "The operator of the implicit velocity is symmetric, and at least the identity in the "
+       "mass-weighted norm.",
        source, operator_finding},
       {"solver.rigid-motion-needs-no-iteration",
-       "The reference's solve leaves a rigid motion as it is, without an iteration.", source, rigid_finding},
+       "The reference's solve leaves a rigid motion as it is, without an iteration.", source,
+       rigid_finding},
   };
 }
 

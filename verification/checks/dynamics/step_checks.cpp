@@ -1,4 +1,5 @@
-// The lines of the schemes, one by one: what is modified, what continues from what, what is led and counted.
+// The lines of the schemes, one by one: what is modified, what continues from what, what is
+// led and counted.
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -32,7 +33,8 @@ Finding trapezoidal_finding(const Subject& subject, const std::string& integrato
     const State next = stepper.step(now, h);
     const PerParticle3 here = stepper.elastic_forces(now) + stepper.damping_forces(now, now.v);
     const PerParticle3 there = stepper.elastic_forces(next) + stepper.damping_forces(next, next.v);
-    const PerParticle3 defect = next.v - now.v - h / 2 * (here + there) * mass.cwiseInverse().asDiagonal();
+    const PerParticle3 defect =
+        next.v - now.v - h / 2 * (here + there) * mass.cwiseInverse().asDiagonal();
     const PerParticle3 undamped =
         next.v - h / 2 * stepper.damping_forces(next, next.v) * mass.cwiseInverse().asDiagonal();
     errors.row(h, mass_norm(defect, mass) / mass_norm(undamped, mass));
@@ -79,7 +81,8 @@ Finding filter_finding(const Subject&, const std::string& integrator) {
   const FilteredStep step = filtered_step(integrator, h);
   const bool ends = integrator != "B";
   if (step.calls.size() != (ends ? 2 : 1))
-    return {{NAN, 0, 0, "numbers that differ", "the filter is called once for each velocity that is used"},
+    return {{NAN, 0, 0, "numbers that differ",
+             "the filter is called once for each velocity that is used"},
             {},
             "a wrong number of calls"};
   const Call& move = step.calls.front();
@@ -88,18 +91,21 @@ Finding filter_finding(const Subject&, const std::string& integrator) {
   differing += (move.span.start != step.now.time) + (move.span.end != step.now.time + h);
   if (ends) {
     differing += count_differing_entries(step.next.v, step.calls[1].left);
-    differing += (step.calls[1].span.start != step.next.time) + (step.calls[1].span.end != step.next.time);
+    differing +=
+        (step.calls[1].span.start != step.next.time) + (step.calls[1].span.end != step.next.time);
   }
-  return {
-      {differing, 0, 0, "numbers that differ",
-       "x + h v of the filtered velocity and the filtered end velocity are used as they are, bit for bit"},
-      {},
-      ends ? "The filter is called for the motion and for the end velocity."
-           : "The filter is called for the motion only."};
+  return {{differing, 0, 0, "numbers that differ",
+           "x + h v of the filtered velocity and the filtered end velocity are used as they are, "
+           "bit for bit"},
+          {},
+          ends ? "The filter is called for the motion and for the end velocity."
+               : "The filter is called for the motion only."};
 }
 
-/// Velocity after one step of a particle with x'' = g - c x'; a filter adds d to the velocity that moves it.
-double end_velocity(const std::string& integrator, double h, double c, double g, double v, double d) {
+/// Velocity after one step of a particle with x'' = g - c x'; a filter adds d to the
+/// velocity that moves it.
+double end_velocity(const std::string& integrator, double h, double c, double g, double v,
+                    double d) {
   const double m = 0.25;
   System system = make_system(PerParticle::Constant(1, m));
   CustomForce force;
@@ -118,7 +124,8 @@ double end_velocity(const std::string& integrator, double h, double c, double g,
 }
 
 /// The same by the printed lines: B continues from the filtered velocity, A and C do not.
-double printed_end_velocity(const std::string& integrator, double h, double c, double g, double v, double d) {
+double printed_end_velocity(const std::string& integrator, double h, double c, double g, double v,
+                            double d) {
   const double a = h * c / 2, kick = h / 2 * g;
   if (integrator == "B") return (1 - a) * ((v + kick) / (1 + a) + d) + kick;
   return ((1 - a) * v + 2 * kick) / (1 + a);
@@ -134,7 +141,8 @@ Finding continues_finding(const std::string& integrator) {
     errors.row(a, std::abs(error) / (epsilon * size));
   }
   return judge_worst(
-      errors, 16, "some twenty roundings of half an epsilon each; the filter's change is 0.3 of the terms");
+      errors, 16,
+      "some twenty roundings of half an epsilon each; the filter's change is 0.3 of the terms");
 }
 
 Scene held_scene() {
@@ -164,18 +172,20 @@ Finding held_finding(const Subject& subject) {
           ""};
 }
 
-/// Where a led point is, straight from the definition of Motion, the rotation by Rodrigues' formula.
+/// Where a led point is, straight from the definition of Motion, the rotation by
+/// Rodrigues' formula.
 State led_point(const PrescribedParticle& p, double t) {
   const Motion& m = p.motion;
   const double rate = m.angular_velocity.norm(), omega = 2 * pi * m.frequency;
   const Vector3 arm = p.start - m.center,
                 axis = rate > 0 ? Vector3(m.angular_velocity / rate) : Vector3(0, 0, 1);
-  const Vector3 along = axis.dot(arm) * axis,
-                turned = along + std::cos(rate * t) * (arm - along) + std::sin(rate * t) * axis.cross(arm);
+  const Vector3 along = axis.dot(arm) * axis, turned = along + std::cos(rate * t) * (arm - along) +
+                                                       std::sin(rate * t) * axis.cross(arm);
   const double swing = std::sin(omega * t + m.phase) - std::sin(m.phase);
   State point;
   point.x = m.center + turned + t * m.velocity + swing * m.amplitude;
-  point.v = rate * axis.cross(turned) + m.velocity + omega * std::cos(omega * t + m.phase) * m.amplitude;
+  point.v =
+      rate * axis.cross(turned) + m.velocity + omega * std::cos(omega * t + m.phase) * m.amplitude;
   return point;
 }
 
@@ -195,7 +205,8 @@ Finding led_finding(const Subject& subject, const std::string& integrator) {
     }
   }
   return {{worst.value(), 16, 0, "epsilon of the size",
-           "two formulas of ten roundings each, for points within 1 m of the origin and phases up to 6 rad"},
+           "two formulas of ten roundings each, for points within 1 m of the origin and phases up "
+           "to 6 rad"},
           {},
           "Compared after each of 200 uneven steps; the size is 1 m, or the point's top speed."};
 }
@@ -232,15 +243,17 @@ Finding once_finding(const Subject& subject) {
                double(work.damping_products) / steps, double(work.cg_iterations) / steps);
     worst.observe(std::abs(double(work.damping_preparations - 2 * steps)));
     worst.observe(std::abs(double(work.elastic_evaluations - 2 * steps)));
-    // a product for each iteration, one for each solve's first residual, one for the explicit half step
-    worst.observe(std::abs(double(work.damping_products - work.cg_iterations - work.solves - steps)));
+    // a product for each iteration, one for each solve's first residual, one for the
+    // explicit half step
+    worst.observe(
+        std::abs(double(work.damping_products - work.cg_iterations - work.solves - steps)));
     if (work.cg_iterations < steps) worst.observe(NAN);
   }
-  return {
-      {worst.value(), 0, 0, "evaluations",
-       "counts are exact: a step sees two sets of positions, and every product uses what was prepared there"},
-      counts,
-      ""};
+  return {{worst.value(), 0, 0, "evaluations",
+           "counts are exact: a step sees two sets of positions, and every product uses what was "
+           "prepared there"},
+          counts,
+          ""};
 }
 
 }  // namespace
@@ -249,11 +262,12 @@ std::vector<Check> step_checks() {
   const std::string source = "BMF03 section 3";
   std::vector<Check> list = {
       {"dynamics.lines-one-and-four-are-the-trapezoidal-rule.A",
-       "Scheme A: unmodified, the velocity follows the trapezoidal rule between the two ends of a step.",
+       "Scheme A: unmodified, the velocity follows the trapezoidal rule between the two ends of a "
+       "step.",
        source, [](const Subject& subject) { return trapezoidal_finding(subject, "A"); }},
       {"dynamics.A-continues-from-the-unmodified-velocity",
-       "The reference's end velocity in A continues from v*, not from what a filter made of it.", source,
-       [](const Subject&) { return continues_finding("A"); }},
+       "The reference's end velocity in A continues from v*, not from what a filter made of it.",
+       source, [](const Subject&) { return continues_finding("A"); }},
       {"dynamics.B-continues-from-the-modified-velocity",
        "The reference's end velocity in B continues from the filtered velocity.", source,
        [](const Subject&) { return continues_finding("B"); }},
@@ -262,15 +276,16 @@ std::vector<Check> step_checks() {
        [](const Subject&) { return continues_finding("C"); }},
       {"dynamics.held-particles-do-not-move", "Held particles do not move, whatever pulls at them.",
        "our reading of BMF03 section 3", held_finding},
-      {"dynamics.solves-are-counted", "A and B solve once a step, C twice.", source, counts_finding},
+      {"dynamics.solves-are-counted", "A and B solve once a step, C twice.", source,
+       counts_finding},
       {"dynamics.position-terms-are-computed-once-per-position",
-       "Forces and the position-dependent terms of damping are evaluated twice a step, however many products "
-       "a solve needs.",
+       "Forces and the position-dependent terms of damping are evaluated twice a step, however "
+       "many products a solve needs.",
        source, once_finding}};
   add_for_each_scheme(list,
                       {"dynamics.cloth-moves-with-the-filtered-velocity",
-                       "the reference moves the cloth with exactly the velocity that the filters left, "
-                       "and filters the end velocity where the paper does.",
+                       "the reference moves the cloth with exactly the velocity that the filters "
+                       "left, and filters the end velocity where the paper does.",
                        source,
                        {}},
                       filter_finding);

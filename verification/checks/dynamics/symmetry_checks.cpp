@@ -1,4 +1,5 @@
-// What may be changed without changing the answer: units, the frame of reference, the day on which it is run.
+// What may be changed without changing the answer: units, the frame of reference, the day on
+// which it is run.
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -39,7 +40,8 @@ Scene convert(Scene scene, const Units& u) {
   scene.stretch->damping *= u.mass / u.time;
   scene.bending->stiffness *= u.mass * u.length * u.length / (u.time * u.time);
   scene.bending->damping *= u.mass * u.length / u.time;
-  for (PrescribedParticle& p : scene.prescribed) p = {p.particle, u.length * p.start, convert(p.motion, u)};
+  for (PrescribedParticle& p : scene.prescribed)
+    p = {p.particle, u.length * p.start, convert(p.motion, u)};
   return scene;
 }
 
@@ -51,7 +53,8 @@ Scene solved_sheet() {
 }
 
 /// The end of 20 steps in other units, converted back.
-State run_in(const Units& u, const Subject& subject, const std::string& integrator, double h, int steps) {
+State run_in(const Units& u, const Subject& subject, const std::string& integrator, double h,
+             int steps) {
   Stepper stepper(subject, convert(solved_sheet(), u), integrator);
   State s = stepper.run(stepper.start(), h * u.time, steps);
   s.x /= u.length;
@@ -59,8 +62,8 @@ State run_in(const Units& u, const Subject& subject, const std::string& integrat
   return s;
 }
 
-/// How far the ends of two runs lie apart, in epsilon of the extent and of the extent over the time
-/// [epsilon].
+/// How far the ends of two runs lie apart, in epsilon of the extent and of the extent over the
+/// time [epsilon].
 double distance(const State& a, const State& b, double size, double duration) {
   Worst worst;
   worst.observe(largest_difference(a.x, b.x) / (epsilon * size));
@@ -74,8 +77,9 @@ Finding powers_finding(const Subject& subject, const std::string& integrator) {
   // even powers of mass and time, so that square roots are scaled by powers of two as well
   for (const Units& u : {Units{8, 64, 1}, Units{1, 0.0625, 16}, Units{0.5, 256, 0.25}}) {
     const State other = run_in(u, subject, integrator, 1.3e-3, 20);
-    differing.row(u.length, u.mass, u.time,
-                  count_differing_entries(other.x, plain.x) + count_differing_entries(other.v, plain.v));
+    differing.row(
+        u.length, u.mass, u.time,
+        count_differing_entries(other.x, plain.x) + count_differing_entries(other.v, plain.v));
   }
   return {{differing.worst("numbers that differ"), 0, 0, "numbers that differ",
            "a power of two changes no digit of any number on the way"},
@@ -95,10 +99,9 @@ Finding units_finding(const Subject& subject, const std::string& integrator) {
     worst.observe(distance(run_in(u, subject, integrator, h, steps), plain, size, steps * h));
   const double bound = 64 * steps * grown;
   return {{worst.value(), bound, 0, "epsilon of the extent",
-           "20 steps of 64 roundings, those of the converted constants included, each grown at most as a "
-           "disturbance of the start grows; solves end at 1e-14 of the velocity, 45 epsilon, and in C there "
-           "are two a "
-           "step: the growth, ten and more, covers them"},
+           "20 steps of 64 roundings, those of the converted constants included, each grown at "
+           "most as a disturbance of the start grows; solves end at 1e-14 of the velocity, 45 "
+           "epsilon, and in C there are two a step: the growth, ten and more, covers them"},
           Table{{"growth", "1"}}.with_row(grown),
           smallest_defect(bound, "extent")};
 }
@@ -144,8 +147,8 @@ Finding frame_finding(const Subject& subject, const std::string& integrator) {
   expected.v = (turn * plain.v).colwise() + boost;
   const double grown = growth(stepper, start, h, steps), bound = 64 * steps * grown;
   return {{distance(moved, expected, size, steps * h), bound, 0, "epsilon of the extent",
-           "12 steps of 64 roundings, each grown at most as a disturbance of the start grows; solves end at "
-           "1e-14 of the velocity, 45 epsilon"},
+           "12 steps of 64 roundings, each grown at most as a disturbance of the start grows; "
+           "solves end at 1e-14 of the velocity, 45 epsilon"},
           Table{{"growth", "1"}}.with_row(grown),
           smallest_defect(bound, "extent")};
 }
@@ -167,7 +170,8 @@ std::vector<Check> symmetry_checks() {
                        {}},
                       units_finding);
   list.push_back({"dynamics.runs-are-bitwise-reproducible",
-                  "Two runs from the same start end with the same bits.", "reproducibility", twice_finding});
+                  "Two runs from the same start end with the same bits.", "reproducibility",
+                  twice_finding});
   add_for_each_scheme(
       list,
       {"dynamics.translation-rotation-invariance-holds",

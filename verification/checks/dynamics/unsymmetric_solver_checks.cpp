@@ -1,4 +1,5 @@
-// The reference's solver for Newton steps whose matrix is not symmetric, against dense linear algebra.
+// The reference's solver for Newton steps whose matrix is not symmetric, against dense
+// linear algebra.
 #include <cmath>
 
 #include "reference/dynamics/biconjugate_gradient.h"
@@ -13,17 +14,17 @@ namespace foldproof {
 
 namespace {
 
-/// M - s D - s^2 K of a moving, crumpled, damped sheet, as the reference has it and dense, and a right-hand
-/// side.
+/// M - s D - s^2 K of a moving, crumpled, damped sheet, as the reference has it and dense, and a
+/// right-hand side.
 struct NewtonProblem {
   System system;
   DampingOperator damping;
   ForceDifferential derivative;
   double s;
-  PerParticle3 r;                  // 3 x N [kg m/s]
-  Eigen::MatrixXd A;               // of the free coordinates, scaled with M^{-1/2} from both sides [1]
-  Eigen::VectorXd scaled_r;        // M^{-1/2} r of them [kg^1/2 m/s]
-  Eigen::VectorXd root_mass;       // [kg^1/2]
+  PerParticle3 r;             // 3 x N [kg m/s]
+  Eigen::MatrixXd A;          // of the free coordinates, scaled with M^{-1/2} from both sides [1]
+  Eigen::VectorXd scaled_r;   // M^{-1/2} r of them [kg^1/2 m/s]
+  Eigen::VectorXd root_mass;  // [kg^1/2]
   std::vector<Eigen::Index> free;  // coordinates
 
   NewtonMatrix matrix() const { return {system.mass, system.inverse_mass, damping, derivative, s}; }
@@ -70,7 +71,8 @@ NewtonProblem make_newton_problem(Scene scene, double s, unsigned seed) {
 std::vector<std::pair<std::string, NewtonProblem>> newton_problems() {
   std::vector<std::pair<std::string, NewtonProblem>> problems;
   for (const double s : {3.1e-3, 0.012, 0.041}) {
-    problems.emplace_back("free, s = " + std::to_string(s), make_newton_problem(free_sheet(), s, 53));
+    problems.emplace_back("free, s = " + std::to_string(s),
+                          make_newton_problem(free_sheet(), s, 53));
     problems.emplace_back("led, s = " + std::to_string(s),
                           make_newton_problem(partly_prescribed_sheet(), s, 59));
   }
@@ -81,8 +83,8 @@ std::vector<std::pair<std::string, NewtonProblem>> newton_problems() {
 Eigen::VectorXd solve_linear(const NewtonProblem& problem, double tolerance, SolveResult& solve) {
   PerParticle3 dw;
   Work work;
-  solve = solve_unsymmetric_step(problem.matrix(), {tolerance, 2000, ResidualScale::momentum}, problem.r, dw,
-                                 work);
+  solve = solve_unsymmetric_step(problem.matrix(), {tolerance, 2000, ResidualScale::momentum},
+                                 problem.r, dw, work);
   return problem.root_mass.cwiseProduct(Eigen::VectorXd(dw.reshaped()(problem.free)));
 }
 
@@ -107,8 +109,8 @@ Finding is_the_dense_solution(const Subject&) {
   for (const auto& [name, problem] : newton_problems()) {
     SolveResult solve{};
     const double tolerance = 1e-8;
-    const Eigen::VectorXd error =
-        solve_linear(problem, tolerance, solve) - oracles::solve_linear(problem.A, problem.scaled_r);
+    const Eigen::VectorXd error = solve_linear(problem, tolerance, solve) -
+                                  oracles::solve_linear(problem.A, problem.scaled_r);
     const double least = oracles::singular_parts(problem.A).values.minCoeff();
     measured.row(name, error.norm() * least / (tolerance * problem.scaled_r.norm()));
   }
@@ -121,7 +123,8 @@ Finding unsymmetry_is_there(const Subject&) {
   Table measured{{"case", ""}, {"a thousandth over the asymmetry", "1"}};
   const auto observe = [&](const std::string& damped, const Scene& scene) {
     const Eigen::MatrixXd A = make_newton_problem(scene, 0.012, 53).A;
-    measured.row(damped, 1e-3 * A.cwiseAbs().maxCoeff() / (A - A.transpose()).cwiseAbs().maxCoeff());
+    measured.row(damped,
+                 1e-3 * A.cwiseAbs().maxCoeff() / (A - A.transpose()).cwiseAbs().maxCoeff());
   };
   Scene springs = free_sheet(), hinges = free_sheet();
   hinges.stretch->damping = springs.bending->damping = 0;
@@ -129,18 +132,18 @@ Finding unsymmetry_is_there(const Subject&) {
   observe("hinges", hinges);
   return judge_worst(
       measured, 1,
-      "the checks of the solver beside this one would show little on a matrix that is symmetric: the "
-      "largest entry of A - A^T is more than a thousandth of that of A");
+      "the checks of the solver beside this one would show little on a matrix that is symmetric: "
+      "the largest entry of A - A^T is more than a thousandth of that of A");
 }
 
 Finding work_is_counted(const Subject&) {
   const NewtonProblem problem = make_newton_problem(free_sheet(), 0.012, 53);
   PerParticle3 dw;
   Work whole, capped;
-  const SolveResult finished =
-      solve_unsymmetric_step(problem.matrix(), {1e-8, 2000, ResidualScale::momentum}, problem.r, dw, whole);
-  const SolveResult cap =
-      solve_unsymmetric_step(problem.matrix(), {1e-13, 3, ResidualScale::momentum}, problem.r, dw, capped);
+  const SolveResult finished = solve_unsymmetric_step(
+      problem.matrix(), {1e-8, 2000, ResidualScale::momentum}, problem.r, dw, whole);
+  const SolveResult cap = solve_unsymmetric_step(
+      problem.matrix(), {1e-13, 3, ResidualScale::momentum}, problem.r, dw, capped);
   const int twice = 2 * finished.iterations;
   Table holds = no_statements();
   holds.row("two products with the damping an iteration", whole.damping_products == twice);
@@ -156,19 +159,21 @@ Finding work_is_counted(const Subject&) {
 
 std::vector<Check> unsymmetric_solver_checks() {
   const std::string source = "van der Vorst 1992";
-  return {
-      {"solver.unsymmetric-residual-is-below-the-tolerance",
-       "The true residual of the reference's solve of an unsymmetric Newton step is below the tolerance.",
-       source, promise_is_kept},
-      {"solver.unsymmetric-step-matches-dense-solution",
-       "The reference's solve of an unsymmetric Newton step finds what a dense factorization finds.", source,
-       is_the_dense_solution},
-      {"solver.newton-matrix-is-unsymmetric-on-damped-cloth",
-       "The matrix of a Newton step on moving, damped cloth is not symmetric.", source, unsymmetry_is_there},
-      {"solver.unsymmetric-work-is-counted",
-       "The reference's solve of an unsymmetric Newton step counts its products, and says when it is not "
-       "done.",
-       source, work_is_counted}};
+  return {{"solver.unsymmetric-residual-is-below-the-tolerance",
+           "The true residual of the reference's solve of an unsymmetric Newton step is below the "
+           "tolerance.",
+           source, promise_is_kept},
+          {"solver.unsymmetric-step-matches-dense-solution",
+           "The reference's solve of an unsymmetric Newton step finds what a dense factorization "
+           "finds.",
+           source, is_the_dense_solution},
+          {"solver.newton-matrix-is-unsymmetric-on-damped-cloth",
+           "The matrix of a Newton step on moving, damped cloth is not symmetric.", source,
+           unsymmetry_is_there},
+          {"solver.unsymmetric-work-is-counted",
+           "The reference's solve of an unsymmetric Newton step counts its products, and says when "
+           "it is not done.",
+           source, work_is_counted}};
 }
 
 }  // namespace foldproof

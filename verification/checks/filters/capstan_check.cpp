@@ -17,10 +17,12 @@ constexpr double radius = 0.1, straight = 0.08, width = 0.016;  // m
 constexpr double strained = 1.02;  // the strip's length at the start over its own
 constexpr double speed = 0.04;     // at which one end is drawn [m/s]
 
-/// The point of the strip's middle line at the way s [m] along a straight piece, the drum and a straight
-/// piece.
+/// The point of the strip's middle line at the way s [m] along a straight piece, the drum and a
+/// straight piece.
 Vector3 on_path(double s, double wrap) {
-  const auto on_drum = [](double a) { return Vector3(0, radius * std::cos(a), radius * std::sin(a)); };
+  const auto on_drum = [](double a) {
+    return Vector3(0, radius * std::cos(a), radius * std::sin(a));
+  };
   const auto along = [](double a) { return Vector3(0, -std::sin(a), std::cos(a)); };
   if (s < straight) return on_drum(0) + (s - straight) * along(0);
   if (s < straight + radius * wrap) return on_drum((s - straight) / radius);
@@ -30,8 +32,8 @@ Vector3 on_path(double s, double wrap) {
 Scene wrapped_strip(double wrap, double friction) {
   const double length = 2 * straight + radius * wrap;
   const int rows = int(std::lround(length / width));
-  Scene scene =
-      scene_at_rest(make_sheet({SheetPattern::criss_cross, width, length / strained, 1, rows}), 0.2);
+  Scene scene = scene_at_rest(
+      make_sheet({SheetPattern::criss_cross, width, length / strained, 1, rows}), 0.2);
   scene.stretch = StretchMaterial{60, 0.1, 1};
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     const double across = scene.x(0, i) - width / 2, s = scene.x(1, i) * strained;
@@ -69,18 +71,18 @@ Pull pull_after(const Subject& subject, const Scene& scene, double seconds) {
 Finding capstan_finding(const Subject& subject) {
   Table pulls{{"friction", "1"}, {"turn", "rad"}, {"ratio of tensions", "1"}, {"e^(mu turn)", "1"}};
   Worst worst;
-  for (const auto& [mu, wrap] : {std::pair{0.17, 2.9}, std::pair{0.43, 1.3}, std::pair{0.34, 2.2}}) {
+  for (const auto& [mu, wrap] :
+       {std::pair{0.17, 2.9}, std::pair{0.43, 1.3}, std::pair{0.34, 2.2}}) {
     const Pull pull = pull_after(subject, wrapped_strip(wrap, mu), 0.5);
     const double ratio = pull.drawn / pull.held;
     pulls.row(mu, pull.turn, ratio, std::exp(mu * pull.turn));
     worst.observe(std::abs(std::log(ratio) / (mu * pull.turn) - 1));
   }
   return {{worst.value(), 0.02, 0, "of the exponent",
-           "the strip turns by 0.08 rad at a row, where (1 + mu tan(d/2))/(1 - mu tan(d/2)) differs from "
-           "e^(mu d) by "
-           "d^2/12 of the exponent, 0.0005; inertia of the sliding strip, rho v^2 over its tension, is "
-           "smaller; two "
-           "percent are left for vibrations that damping has not yet taken"},
+           "the strip turns by 0.08 rad at a row, where (1 + mu tan(d/2))/(1 - mu tan(d/2)) "
+           "differs from e^(mu d) by d^2/12 of the exponent, 0.0005; inertia of the sliding strip, "
+           "rho v^2 over its tension, is smaller; two percent are left for vibrations that damping "
+           "has not yet taken"},
           pulls,
           ""};
 }
@@ -88,9 +90,10 @@ Finding capstan_finding(const Subject& subject) {
 }  // namespace
 
 std::vector<Check> capstan_checks() {
-  return {{"contact.a-drum-obeys-the-capstan-equation",
-           "A strip that slides round a drum is e^(mu turn) times tighter on the side it is drawn to.",
-           "Euler and Eytelwein", capstan_finding}};
+  return {
+      {"contact.a-drum-obeys-the-capstan-equation",
+       "A strip that slides round a drum is e^(mu turn) times tighter on the side it is drawn to.",
+       "Euler and Eytelwein", capstan_finding}};
 }
 
 }  // namespace foldproof

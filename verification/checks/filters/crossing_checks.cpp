@@ -19,7 +19,8 @@ struct PointMaker {
 
 Corners4 anywhere(Random& random) { return random.vectors(4, 1); }
 
-/// Few places, so that points, edges and planes coincide, edges are parallel or points, triangles lines.
+/// Few places, so that points, edges and planes coincide, edges are parallel or points,
+/// triangles lines.
 Corners4 on_a_lattice(Random& random) {
   Corners4 x;
   for (double& c : x.reshaped()) c = std::floor(random.uniform(-2, 3));
@@ -41,13 +42,14 @@ std::string name_of(PairKind kind) {
 }
 
 oracles::Estimate true_distance(PairKind kind, const Corners4& x) {
-  return oracles::feature_distance(kind == PairKind::vertex_triangle ? oracles::Features::vertex_and_triangle
-                                                                     : oracles::Features::edge_and_edge,
+  return oracles::feature_distance(kind == PairKind::vertex_triangle
+                                       ? oracles::Features::vertex_and_triangle
+                                       : oracles::Features::edge_and_edge,
                                    x);
 }
 
-/// Two edges whose directions differ by the sine s, one over the other or crossing it, within both; or a
-/// triangle whose angle at one corner is that small, and a vertex over it or in it.
+/// Two edges whose directions differ by the sine s, one over the other or crossing it, within both;
+/// or a triangle whose angle at one corner is that small, and a vertex over it or in it.
 Corners4 thin(Random& random, PairKind kind, double s) {
   Corners4 x = anywhere(random);
   const Vector3 d = x.col(1) - x.col(0), across = random.vectors(1, 1).col(0);
@@ -81,12 +83,13 @@ Finding distance_is_exact(const Subject&) {
         worst.observe(std::abs(nearness(kind, x).distance - truth.value) / scale);
         uncertainty.observe(truth.uncertainty / scale);
       }
-      measured.row(name_of(kind) + ", " + maker.name, oracles::Estimate{worst.value(), uncertainty.value()});
+      measured.row(name_of(kind) + ", " + maker.name,
+                   oracles::Estimate{worst.value(), uncertainty.value()});
     }
   return judge_worst(measured, 16,
-                     "each coordinate of what is between the nearest points is a sum of four products, and "
-                     "errors of the weights move these points along their features, which changes their "
-                     "distance in second order");
+                     "each coordinate of what is between the nearest points is a sum of four "
+                     "products, and errors of the weights move these points along their features, "
+                     "which changes their distance in second order");
 }
 
 Finding thin_ones_are_as_good(const Subject&) {
@@ -105,10 +108,9 @@ Finding thin_ones_are_as_good(const Subject&) {
       measured.row(name_of(kind) + fmt::format(", sine {:.0e}", s),
                    oracles::Estimate{worst.value(), uncertainty.value()});
     }
-  return judge_worst(
-      measured, 1e-9,
-      "features thinner or more parallel than that are asked at their sides and ends only, which "
-      "hides as much of their extent");
+  return judge_worst(measured, 1e-9,
+                     "features thinner or more parallel than that are asked at their sides and "
+                     "ends only, which hides as much of their extent");
 }
 
 /// How far the weights are from those of two points, one of each feature [1].
@@ -145,15 +147,15 @@ Finding weights_lead_across(const Subject&) {
 std::vector<Check> crossing_checks() {
   const char* source = "Bridson, Fedkiw and Anderson (2002), section 6";
   return {{"nearness.distance-is-exact",
-           "The distance of a vertex to a triangle, and of two edges, is the least of all points, degenerate "
-           "or not.",
+           "The distance of a vertex to a triangle, and of two edges, is the least of all points, "
+           "degenerate or not.",
            source, distance_is_exact},
           {"nearness.distance-is-exact-for-thin-features",
            "So it is for triangles as thin, and edges as nearly parallel, as one likes.", source,
            thin_ones_are_as_good},
           {"nearness.weights-locate-the-nearest-points",
-           "The weights are those of a point on each feature, and what is between these is the distance "
-           "along the normal.",
+           "The weights are those of a point on each feature, and what is between these is the "
+           "distance along the normal.",
            source, weights_lead_across}};
 }
 

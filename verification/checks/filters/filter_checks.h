@@ -1,4 +1,5 @@
-// Checks of what corrects velocities: objects, cloth itself, strain limits. A function a file; the list of all is verification/checks.cpp.
+// Checks of what corrects velocities: objects, cloth itself, strain limits. A function a file; the
+// list of all is verification/checks.cpp.
 #pragma once
 
 #include <vector>

@@ -25,10 +25,12 @@ struct Slope {
 };
 
 Slope slope(double angle, double friction, const Vector3& velocity) {
-  Slope result{
-      loose_particles(3), {0, std::cos(angle), std::sin(angle)}, {0, -std::sin(angle), std::cos(angle)}};
-  SceneObject part = object_at("slope", HalfSpace{},
-                               {oracles::rotation_between(Vector3::UnitZ(), result.normal), Vector3::Zero()});
+  Slope result{loose_particles(3),
+               {0, std::cos(angle), std::sin(angle)},
+               {0, -std::sin(angle), std::cos(angle)}};
+  SceneObject part =
+      object_at("slope", HalfSpace{},
+                {oracles::rotation_between(Vector3::UnitZ(), result.normal), Vector3::Zero()});
   part.object.friction = friction;
   std::get<Motion>(std::get<RigidObject>(part.object.body).motion).velocity = velocity;
   Scene& scene = result.scene;
@@ -41,13 +43,14 @@ Slope slope(double angle, double friction, const Vector3& velocity) {
   return result;
 }
 
-/// How far the particles have slid on the slope, seen from it [m], and how far from it they are at worst [m].
+/// How far the particles have slid on the slope, seen from it [m], and how far from it they
+/// are at worst [m].
 struct Slid {
   double distance, off;
 };
 
-Slid slid_on(const Subject& subject, const Slope& on, const Vector3& velocity, const std::string& integrator,
-             int steps) {
+Slid slid_on(const Subject& subject, const Slope& on, const Vector3& velocity,
+             const std::string& integrator, int steps) {
   Stepper stepper(subject, on.scene, integrator);
   const State start = stepper.start();
   const State end = stepper.run(start, h, steps);
@@ -64,7 +67,8 @@ Slid slid_on(const Subject& subject, const Slope& on, const Vector3& velocity, c
 constexpr int steps = 240;
 
 /// tan(angle) a little below and a little above mu: at rest, and sliding by (sin - mu cos) g t^2/2.
-Finding slope_finding(const Subject& subject, const std::string& integrator, const Vector3& velocity) {
+Finding slope_finding(const Subject& subject, const std::string& integrator,
+                      const Vector3& velocity) {
   Table ways{{"friction", "1"}, {"slope", "degrees"}, {"slid", "m"}, {"expected", "m"}};
   Worst worst;
   for (const double mu : {0.23, 0.71})
@@ -79,9 +83,8 @@ Finding slope_finding(const Subject& subject, const std::string& integrator, con
       worst.observe(slid.off);
     }
   return {{worst.value(), 4000 * epsilon * (1 + velocity.norm()), 0, "m",
-           "240 steps of a motion that the schemes integrate exactly, of lengths up to 5 m: a few roundings "
-           "a step, "
-           "and those of the velocity add up over the steps that follow"},
+           "240 steps of a motion that the schemes integrate exactly, of lengths up to 5 m: a few "
+           "roundings a step, and those of the velocity add up over the steps that follow"},
           ways,
           ""};
 }
@@ -94,7 +97,8 @@ Finding moving_slope(const Subject& subject, const std::string& integrator) {
   return slope_finding(subject, integrator, {1.3, 0.4, -0.9});
 }
 
-/// Laid on a belt that runs at U: it slides for U/(mu g), gains half of the way, and then is carried.
+/// Laid on a belt that runs at U: it slides for U/(mu g), gains half of the way, and
+/// then is carried.
 Finding belt_finding(const Subject& subject, const std::string& integrator) {
   const double mu = 0.37, speed = 0.9;
   const Vector3 belt(speed, 0, 0);
@@ -113,9 +117,8 @@ Finding belt_finding(const Subject& subject, const std::string& integrator) {
     if (n % 10 == 0) places.row(t, s.x(0, 0) - x0, exact);
   }
   return {{worst.value(), mu * g * h * h, 0, "m",
-           "exact while it slides; in the step in which it comes to be carried, friction may act a step too "
-           "long or "
-           "too short, which is worth mu g h^2 at most"},
+           "exact while it slides; in the step in which it comes to be carried, friction may act a "
+           "step too long or too short, which is worth mu g h^2 at most"},
           places,
           ""};
 }
@@ -139,11 +142,10 @@ Finding turntable_finding(const Subject& subject, const std::string& integrator)
     const Vector3 turned = rotate(start.x.col(i), motion.angular_velocity * end.time);
     drifts.row(Vector3(start.x.col(i)).norm(), (end.x.col(i) - turned).norm());
   }
-  return judge_worst(
-      drifts, 20000 * epsilon,
-      "1200 steps of 0.05 rad, each rounding positions of 0.7 m a few times; moving along the tangent would "
-      "carry a particle outwards by a factor of sqrt(1 + (omega h)^2) a step, in these 20 s from 0.5 m to "
-      "2.5 m");
+  return judge_worst(drifts, 20000 * epsilon,
+                     "1200 steps of 0.05 rad, each rounding positions of 0.7 m a few times; moving "
+                     "along the tangent would carry a particle outwards by a factor of sqrt(1 + "
+                     "(omega h)^2) a step, in these 20 s from 0.5 m to 2.5 m");
 }
 
 }  // namespace
@@ -163,12 +165,13 @@ std::vector<Check> friction_checks() {
                        "mechanics",
                        {}},
                       moving_slope);
-  add_for_each_scheme(list,
-                      {"contact.a-belt-carries-cloth-along",
-                       "laid on a running belt, a block slides for U/(mu g) and is carried from then on.",
-                       "mechanics",
-                       {}},
-                      belt_finding);
+  add_for_each_scheme(
+      list,
+      {"contact.a-belt-carries-cloth-along",
+       "laid on a running belt, a block slides for U/(mu g) and is carried from then on.",
+       "mechanics",
+       {}},
+      belt_finding);
   add_for_each_scheme(list,
                       {"contact.a-turntable-carries-without-drift",
                        "a point that sticks to a turning object stays where it is on it.",

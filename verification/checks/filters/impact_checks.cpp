@@ -1,4 +1,5 @@
-// Motion that leaves the cloth free of crossings, rigid zones, and cloth that starts crossing itself.
+// Motion that leaves the cloth free of crossings, rigid zones, and cloth that starts
+// crossing itself.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -24,8 +25,8 @@ namespace {
 
 constexpr double span = 0.004;  // s
 
-/// Layers that would pass through each other in a step, answered by impulses or, with hardly any rounds of
-/// these, by zones.
+/// Layers that would pass through each other in a step, answered by impulses or, with hardly any
+/// rounds of these, by zones.
 std::vector<std::pair<std::string, LayeredSheets>> fast_layers() {
   std::vector<std::pair<std::string, LayeredSheets>> all;
   for (const int rounds : {8, 1}) {
@@ -39,7 +40,8 @@ std::vector<std::pair<std::string, LayeredSheets>> fast_layers() {
 
 bool boxes_meet(const Corners4& a, const Corners4& b, int first) {
   Eigen::AlignedBox3d one, other;
-  for (int k = 0; k < 4; ++k) (k < first ? one : other).extend(Vector3(a.col(k))).extend(Vector3(b.col(k)));
+  for (int k = 0; k < 4; ++k)
+    (k < first ? one : other).extend(Vector3(a.col(k))).extend(Vector3(b.col(k)));
   return one.intersects(other);
 }
 
@@ -51,9 +53,9 @@ double meetings(const Scene& scene, const PerParticle3& v) {
     const Corners4 from = corners_of(pair, scene.x), to = corners_of(pair, end);
     const bool vertex = pair.kind == PairKind::vertex_triangle;
     if (!boxes_meet(from, to, vertex ? 1 : 2)) continue;
-    count +=
-        oracles::ever_meet(vertex ? oracles::Features::vertex_and_triangle : oracles::Features::edge_and_edge,
-                           oracles::exact_motion(from, to - from));
+    count += oracles::ever_meet(
+        vertex ? oracles::Features::vertex_and_triangle : oracles::Features::edge_and_edge,
+        oracles::exact_motion(from, to - from));
   }
   return count;
 }
@@ -63,31 +65,34 @@ Finding free_finding(const Subject& subject) {
   for (const auto& [name, wanted] : fast_layers()) {
     const Scene scene = layered_scene(wanted);
     const double unanswered = meetings(scene, scene.v);
-    measured.row(
-        name + " (" + std::to_string(int(unanswered)) + " without)",
-        unanswered > 20 ? meetings(scene, corrected_by_self_collision(subject, scene, {span, true})) : NAN);
+    measured.row(name + " (" + std::to_string(int(unanswered)) + " without)",
+                 unanswered > 20
+                     ? meetings(scene, corrected_by_self_collision(subject, scene, {span, true}))
+                     : NAN);
   }
-  return judge_worst(measured, 0, "all pairs of features, neighbours aside, asked in exact arithmetic");
+  return judge_worst(measured, 0,
+                     "all pairs of features, neighbours aside, asked in exact arithmetic");
 }
 
-/// Of pairs farther apart than a tenth of the thickness at the start, the least distance at the end over
-/// that.
+/// Of pairs farther apart than a tenth of the thickness at the start, the least distance at
+/// the end over that.
 Finding distance_finding(const Subject& subject) {
-  Table measured{{"case", ""}, {"a tenth of the thickness over the least distance after the step", "1"}};
+  Table measured{{"case", ""},
+                 {"a tenth of the thickness over the least distance after the step", "1"}};
   for (const auto& [name, wanted] : fast_layers()) {
     const Scene scene = layered_scene(wanted);
     const double kept = 0.1 * wanted.settings.thickness;
-    const PerParticle3 end = scene.x + span * corrected_by_self_collision(subject, scene, {span, true});
+    const PerParticle3 end =
+        scene.x + span * corrected_by_self_collision(subject, scene, {span, true});
     double least = INFINITY;
     for (const FeaturePair& pair : all_pairs(scene.mesh))
       if (nearness(pair.kind, corners_of(pair, scene.x)).distance > kept)
         least = std::min(least, nearness(pair.kind, corners_of(pair, end)).distance);
     measured.row(name, kept / least);
   }
-  return judge_worst(
-      measured, 1,
-      "what starts farther apart than a tenth of the thickness stays so: that is the distance that "
-      "the planes between two features keep");
+  return judge_worst(measured, 1,
+                     "what starts farther apart than a tenth of the thickness stays so: that is "
+                     "the distance that the planes between two features keep");
 }
 
 Finding energy_finding(const Subject& subject) {
@@ -96,23 +101,28 @@ Finding energy_finding(const Subject& subject) {
     wanted.settings.stiffness = 0;
     const Scene scene = layered_scene(wanted);
     const PerParticle mass = lumped_masses(scene.mesh, scene.density);
-    measured.row(name, kinetic_energy_of(mass, corrected_by_self_collision(subject, scene, {span, true})) /
-                           kinetic_energy_of(mass, scene.v));
+    measured.row(
+        name, kinetic_energy_of(mass, corrected_by_self_collision(subject, scene, {span, true})) /
+                  kinetic_energy_of(mass, scene.v));
   }
   return judge_worst(
       measured, 1,
-      "without springs every answer takes away relative velocity and adds none: impulses stop, friction "
-      "brakes, a zone's rigid motion is the least energy with its momentum");
+      "without springs every answer takes away relative velocity and adds none: impulses stop, "
+      "friction brakes, a zone's rigid motion is the least energy with its momentum");
 }
 
 /// Particles in a cloud, a plane, on a line, and two.
 std::vector<std::pair<std::string, PerParticle3>> clouds() {
   Random random(21);
-  PerParticle3 cloud = random.vectors(17, 0.3), plane = random.vectors(9, 0.2), line = random.vectors(5, 0.2);
+  PerParticle3 cloud = random.vectors(17, 0.3), plane = random.vectors(9, 0.2),
+               line = random.vectors(5, 0.2);
   plane.row(1).setConstant(0.4);
   for (Eigen::Index i = 1; i < line.cols(); ++i)
     line.col(i) = line.col(0) + 0.037 * double(i * i) * Vector3(1, -2, 0.5);
-  return {{"cloud", cloud}, {"plane", plane}, {"line", line}, {"two", PerParticle3(random.vectors(2, 0.1))}};
+  return {{"cloud", cloud},
+          {"plane", plane},
+          {"line", line},
+          {"two", PerParticle3(random.vectors(2, 0.1))}};
 }
 
 struct Zone {
@@ -148,20 +158,21 @@ Finding zone_momentum_finding(const Subject&) {
     const PerParticle3 change = zone.after - zone.v;
     const double scale = zone.v.colwise().norm().dot(zone.mass.transpose());
     const double size = (x.colwise() - Vector3(x.rowwise().mean())).colwise().norm().maxCoeff();
-    measured.row(name + ", linear", linear_momentum_of(zone.mass, change).norm() / (epsilon * scale));
+    measured.row(name + ", linear",
+                 linear_momentum_of(zone.mass, change).norm() / (epsilon * scale));
     measured.row(name + ", angular",
                  angular_momentum_of(zone.mass, x, change).norm() / (epsilon * scale * size));
   }
-  return judge_worst(
-      measured, 256,
-      "normal equations of six unknowns solved by their eigenvectors: some tens of roundings, times "
-      "the condition of the zone's inertia, below ten for these");
+  return judge_worst(measured, 256,
+                     "normal equations of six unknowns solved by their eigenvectors: some tens of "
+                     "roundings, times the condition of the zone's inertia, below ten for these");
 }
 
 /// (x_i - x_j).(v_i - v_j) = 0: no distance changes; and what is led leads.
 Finding zone_rigid_finding(const Subject&) {
-  Table measured{{"case", ""},
-                 {"rate of distance, or difference from the velocity led, over the largest velocity", "1"}};
+  Table measured{
+      {"case", ""},
+      {"rate of distance, or difference from the velocity led, over the largest velocity", "1"}};
   for (const auto& [name, x] : clouds())
     for (const int prescribed : {0, 1, 2}) {
       const Zone zone = zone_of(x, prescribed);
@@ -209,13 +220,17 @@ Finding same_bits_finding(const Subject& subject) {
   std::vector<PerParticle3> answers(3);
   std::vector<std::thread> threads;
   for (PerParticle3& answer : answers)
-    threads.emplace_back([&] { answer = corrected_by_self_collision(subject, scene, {span, true}); });
+    threads.emplace_back([&] {
+      answer = corrected_by_self_collision(subject, scene, {span, true});
+    });
   for (std::thread& thread : threads) thread.join();
   double differ = 0;
-  for (const PerParticle3& answer : answers) differ += double((answer.array() != alone.array()).count());
+  for (const PerParticle3& answer : answers)
+    differ += double((answer.array() != alone.array()).count());
   measured.row("alone, and three at once", differ);
-  return judge_worst(measured, 0,
-                     "one order of pairs, fixed by the mesh and the boxes; no state but the arguments");
+  return judge_worst(
+      measured, 0,
+      "one order of pairs, fixed by the mesh and the boxes; no state but the arguments");
 }
 
 /// Pairs that one list has and the other has not, or has elsewhere.
@@ -226,8 +241,8 @@ double differences(const std::vector<FeaturePair>& a, const std::vector<FeatureP
   return count;
 }
 
-/// Pairs cached with 3 mm to spare, after random motions within and beyond them; with some particles marked,
-/// too.
+/// Pairs cached with 3 mm to spare, after random motions within and beyond them; with some
+/// particles marked, too.
 void see_choices(Table& measured) {
   const double margin = 0.004, spare = 0.003;
   const Scene scene = layered_scene({4, 0.003, 0.001, 0, {0.004, 0, 0, 8, true}, 17});
@@ -251,7 +266,8 @@ void see_choices(Table& measured) {
   }
 }
 
-/// Numbers of a run's end that depend on whether pairs come from the cache; NaN if it is hardly ever reused.
+/// Numbers of a run's end that depend on whether pairs come from the cache; NaN if it is
+/// hardly ever reused.
 double numbers_that_the_cache_changes() {
   Scene scene = layered_scene({3, 0.003, 0.001, 0.2, {0.004, 3, 0.2, 8, true}, 18});
   scene.stretch = StretchMaterial{20, 0.02, 1};
@@ -269,9 +285,9 @@ double numbers_that_the_cache_changes() {
     cached = integrator_named("C").step(caching, {&cached, 1}, 5e-4, uncounted);
     searched = integrator_named("C").step(searching, {&searched, 1}, 5e-4, uncounted);
   }
-  return reused > 10 && !cache_of(searching)
-             ? count_differing_entries(cached.x, searched.x) + count_differing_entries(cached.v, searched.v)
-             : NAN;
+  return reused > 10 && !cache_of(searching) ? count_differing_entries(cached.x, searched.x) +
+                                                   count_differing_entries(cached.v, searched.v)
+                                             : NAN;
 }
 
 Finding kept_pairs_finding(const Subject&) {
@@ -287,8 +303,9 @@ Finding kept_pairs_finding(const Subject&) {
 Finding untangle_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"crossings left over those at the start", "1"}};
   Scene scene = layered_scene({2, 0.003, 0.0002, 0, {0.002, 5, 0, 8, true}, 15});
+  // a corner is below
   for (Eigen::Index i = 42; i < 84; ++i)
-    scene.x(2, i) -= 0.2 * std::max(0.0, scene.x(0, i) + scene.x(1, i) - 0.17);  // a corner is below
+    scene.x(2, i) -= 0.2 * std::max(0.0, scene.x(0, i) + scene.x(1, i) - 0.17);
   scene.stretch = StretchMaterial{20, 0.02, 1};
   const auto count = [&](const PerParticle3& x) {
     return double(oracles::exact_crossings(x, scene.mesh.triangles).size());
@@ -296,9 +313,11 @@ Finding untangle_finding(const Subject& subject) {
   const double start = count(scene.x);
   Stepper stepper(subject, scene, "C");
   const State end = stepper.run(stepper.start(), 0.001, 150);
-  measured.row(std::to_string(int(start)) + " at the start", start > 5 ? count(end.x) / start : NAN);
-  return judge_worst(measured, 0,
-                     "the line on which they cross cuts off a corner: it can shrink to nothing there");
+  measured.row(std::to_string(int(start)) + " at the start",
+               start > 5 ? count(end.x) / start : NAN);
+  return judge_worst(
+      measured, 0,
+      "the line on which they cross cuts off a corner: it can shrink to nothing there");
 }
 
 }  // namespace
@@ -313,7 +332,8 @@ std::vector<Check> impact_checks() {
       {"self-collision.response-never-adds-kinetic-energy",
        "Without springs, keeping layers apart adds no kinetic energy.",
        "Bridson, Fedkiw, Anderson 2002 section 7", energy_finding},
-      {"self-collision.zones-conserve-momentum", "A rigid impact zone keeps linear and angular momentum.",
+      {"self-collision.zones-conserve-momentum",
+       "A rigid impact zone keeps linear and angular momentum.",
        "Bridson, Fedkiw, Anderson 2002 section 7.5; Provot 1997", zone_momentum_finding},
       {"self-collision.zones-are-rigid",
        "A rigid impact zone changes no distance, and follows what is led in it.",
@@ -321,12 +341,14 @@ std::vector<Check> impact_checks() {
       {"self-collision.forced-crossings-stop-the-run",
        "Prescribed motion that takes cloth through itself stops the run.", "ours", forced_finding},
       {"self-collision.results-are-bitwise-reproducible",
-       "The same cloth gets the same answer to the bit, alone or beside others.", "ours", same_bits_finding},
+       "The same cloth gets the same answer to the bit, alone or beside others.", "ours",
+       same_bits_finding},
       {"self-collision.cached-pairs-match-a-fresh-search",
        "Pairs that are remembered from step to step spare searches and change no bit.", "ours",
        kept_pairs_finding},
       {"self-collision.tangles-come-apart",
-       "Cloth that starts crossing itself along a line that cuts off a corner is pushed out of the tangle.",
+       "Cloth that starts crossing itself along a line that cuts off a corner is pushed out of the "
+       "tangle.",
        "Volino and Magnenat-Thalmann 2006", untangle_finding},
   };
 }

@@ -39,8 +39,8 @@ Finding velocity_finding(const Subject&) {
   Table measured{{"case", ""}, {"difference over that of the places' derivative", "1"}};
   const double small = 1e-4;
   Random random(3);
-  for (const auto& [name, motion] :
-       {std::pair<const char*, RigidMotion>{"closed form", swing()}, {"keyframes", keyframed_motion()}}) {
+  for (const auto& [name, motion] : {std::pair<const char*, RigidMotion>{"closed form", swing()},
+                                     {"keyframes", keyframed_motion()}}) {
     Worst worst;
     for (int k = 0; k < 60; ++k) {
       const double t = random.uniform(0.35, 2);
@@ -48,15 +48,15 @@ Finding velocity_finding(const Subject&) {
       const Vector3 X = random.vectors(1, 0.8);
       const Vector3 x = to_world(pose_at(motion, t), X);
       const Vector3 difference =
-          (to_world(pose_at(motion, t + small), X) - to_world(pose_at(motion, t - small), X)) / (2 * small);
+          (to_world(pose_at(motion, t + small), X) - to_world(pose_at(motion, t - small), X)) /
+          (2 * small);
       worst.observe((velocity_at(motion, x, t) - difference).norm() / (1 + difference.norm()));
     }
     measured.row(name, worst.value());
   }
-  return judge_worst(
-      measured, 1e-6,
-      "a central difference over 1e-4 s errs by omega^3 X (1e-4)^2/6, some 1e-7, and by rounding "
-      "of some 1e-12");
+  return judge_worst(measured, 1e-6,
+                     "a central difference over 1e-4 s errs by omega^3 X (1e-4)^2/6, some 1e-7, "
+                     "and by rounding of some 1e-12");
 }
 
 /// On the keys themselves, and outside them at rest.
@@ -97,12 +97,13 @@ SceneObject with_motion(SceneObject part, const Vector3& velocity, const Vector3
 double depth(const std::vector<SceneObject>& objects, const Vector3& p, double time) {
   double deepest = -std::numeric_limits<double>::infinity();
   for (const SceneObject& part : objects)
-    deepest = std::max(deepest, -std::get<RigidObject>(part.object.body).at(p, {time, time, 0}).phi);
+    deepest =
+        std::max(deepest, -std::get<RigidObject>(part.object.body).at(p, {time, time, 0}).phi);
   return deepest;
 }
 
-/// Points outside are shot, step after step, so that each moves by `displacement` [m] in a step in a random direction,
-/// seen from the first object: how deep any of them has come in [m].
+/// Points outside are shot, step after step, so that each moves by `displacement` [m] in a step in
+/// a random direction, seen from the first object: how deep any of them has come in [m].
 double deepest_shot(const Subject& subject, std::vector<SceneObject> objects, double displacement) {
   const double h = 0.01;
   Scene scene = loose_particles(15);
@@ -121,7 +122,8 @@ double deepest_shot(const Subject& subject, std::vector<SceneObject> objects, do
       s.v.col(i) = with + displacement / h * Vector3(directions.col(i)).normalized();
     }
     s = stepper.step(s, h);
-    for (Eigen::Index i = 0; i < s.x.cols(); ++i) deepest.observe(depth(objects, s.x.col(i), s.time));
+    for (Eigen::Index i = 0; i < s.x.cols(); ++i)
+      deepest.observe(depth(objects, s.x.col(i), s.time));
   }
   return deepest.value();
 }
@@ -134,37 +136,43 @@ Finding convex_finding(const Subject& subject) {
   const Pose above{Eigen::Quaterniond::Identity(), {0, 0, 0.03}};
   const Box thin{{0.6, 0.5, 0.01}};
   const SceneObject board = with_motion(object_at("board", thin, at_rest), drift, Vector3::Zero());
-  const SceneObject second = with_motion(object_at("second board", thin, above), drift, Vector3::Zero());
-  const SceneObject ball = with_motion(object_at("ball", Sphere{0.3}, at_rest), drift, Vector3::Zero());
+  const SceneObject second =
+      with_motion(object_at("second board", thin, above), drift, Vector3::Zero());
+  const SceneObject ball =
+      with_motion(object_at("ball", Sphere{0.3}, at_rest), drift, Vector3::Zero());
   Table measured{{"case", ""}, {"depth", "m"}};
   for (const double displacement : {0.005, 0.05, 0.7}) {
-    const std::string words = ", shots of " + std::to_string(displacement).substr(0, 5) + " m a step";
+    const std::string words =
+        ", shots of " + std::to_string(displacement).substr(0, 5) + " m a step";
     measured.row("ball" + words, deepest_shot(subject, {ball}, displacement));
     measured.row("board 0.02 m thick" + words, deepest_shot(subject, {board}, displacement));
   }
-  measured.row("two boards, 0.01 m apart, shots of 0.7 m", deepest_shot(subject, {board, second}, 0.7));
+  measured.row("two boards, 0.01 m apart, shots of 0.7 m",
+               deepest_shot(subject, {board, second}, 0.7));
   return judge_worst(measured, 1e-12,
                      "rounding of positions of up to a metre in a frame that moves, over 60 steps");
 }
 
-/// A point outside must move by half the object's thickness in a step, seen from it, to pass where it is
-/// deepest.
+/// A point outside must move by half the object's thickness in a step, seen from it, to pass
+/// where it is deepest.
 Finding limit_finding(const Subject& subject) {
   const Vector3 drift(0.3, 0.2, -0.4), turning(2.1, -1.3, 0.8);
   const SceneObject ring = with_motion(object_at("ring", Torus{0.5, 0.1}, at_rest), drift, turning);
-  const SceneObject board = with_motion(object_at("board", Box{{0.6, 0.5, 0.03}}, at_rest), drift, turning);
+  const SceneObject board =
+      with_motion(object_at("board", Box{{0.6, 0.5, 0.03}}, at_rest), drift, turning);
   Table measured{{"case", ""}, {"depth over half the thickness", "1"}};
   for (const double part : {0.3, 0.9}) {
-    const std::string words = ", turning, at " + std::to_string(part).substr(0, 3) + " of the limit";
+    const std::string words =
+        ", turning, at " + std::to_string(part).substr(0, 3) + " of the limit";
     measured.row("ring" + words, deepest_shot(subject, {ring}, part * 0.1) / 0.1);
     measured.row("board" + words, deepest_shot(subject, {board}, part * 0.03) / 0.03);
   }
-  return judge_worst(
-      measured, 0.9,
-      "a point that was outside has moved by 0.9 of half the thickness at most, and one that was inside is "
-      "on "
-      "its way out; at 1, where the object is deepest, it would be pushed out on the other side",
-      "the limit: a point must not move, seen from the object, by more than half its thickness in a step");
+  return judge_worst(measured, 0.9,
+                     "a point that was outside has moved by 0.9 of half the thickness at most, and "
+                     "one that was inside is on its way out; at 1, where the object is deepest, it "
+                     "would be pushed out on the other side",
+                     "the limit: a point must not move, seen from the object, by more than half "
+                     "its thickness in a step");
 }
 
 }  // namespace
@@ -174,15 +182,16 @@ std::vector<Check> object_checks() {
       {"contact.object-velocity-is-the-derivative-of-its-position",
        "An object's velocity is the derivative of its place.", "kinematics", velocity_finding},
       {"contact.keyframes-are-followed",
-       "A keyframed object is at its keyframes when it should be, half way it has turned by half, and "
-       "outside it rests.",
+       "A keyframed object is at its keyframes when it should be, half way it has turned by half, "
+       "and outside it rests.",
        "kinematics", keyframe_finding},
       {"contact.convex-objects-are-never-entered",
-       "No particle enters a convex object that does not turn, whatever its speed, and none passes a thin "
-       "board.",
+       "No particle enters a convex object that does not turn, whatever its speed, and none passes "
+       "a thin board.",
        "BMF03 section 5.2", convex_finding},
       {"contact.nothing-tunnels-below-the-limit",
-       "At 0.9 of half an object's thickness a step, nothing passes through one that turns or is concave.",
+       "At 0.9 of half an object's thickness a step, nothing passes through one that turns or is "
+       "concave.",
        "BMF03 section 5.2", limit_finding},
   };
 }

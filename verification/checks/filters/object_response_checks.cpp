@@ -1,5 +1,5 @@
-// The two responses that forecasting is compared with: projection after the step, and pushing out in the next
-// one.
+// The two responses that forecasting is compared with: projection after the step, and pushing out
+// in the next one.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -15,7 +15,8 @@ namespace {
 
 /// v with `push` [m/s] along the normal, and Coulomb's friction against it.
 Vector3 expected_answer(const KnownPoint& at, const Vector3& v, double push, double friction) {
-  const Vector3 relative = v - at.velocity, sliding = relative - relative.dot(at.normal) * at.normal;
+  const Vector3 relative = v - at.velocity,
+                sliding = relative - relative.dot(at.normal) * at.normal;
   const double lost = std::min(sliding.norm(), friction * push);
   return v + push * at.normal - lost * sliding.normalized();
 }
@@ -23,17 +24,21 @@ Vector3 expected_answer(const KnownPoint& at, const Vector3& v, double push, dou
 /// The push that a point with this velocity needs [m/s], 0 for none; NaN where roundings decide.
 using Push = std::function<double(const Contact&, const KnownPoint&, const Vector3& v)>;
 
-double known_push(double depth, double push) { return std::abs(depth) < 1e-12 ? NAN : depth > 0 ? push : 0; }
+double known_push(double depth, double push) {
+  return std::abs(depth) < 1e-12 ? NAN : depth > 0 ? push : 0;
+}
 
 /// What a response makes of the particles of all contacts against what it should: `moves`: their
 /// velocity takes them through the step, or else it is the one that ends it.
-Finding response_finding(const Subject& subject, const std::string& response, bool moves, const Push& push) {
+Finding response_finding(const Subject& subject, const std::string& response, bool moves,
+                         const Push& push) {
   Table measured = roundings_of("speed");
   for (Contact contact : known_contacts()) {
     if (contact.tau != contact.span.step) continue;  // these responses do not look ahead
     contact.scene.collision.response = response;
     if (!moves) contact.span.end = contact.span.start;
-    const PerParticle3 after = corrected_by_objects(subject, contact.scene, contact.span, contact.state);
+    const PerParticle3 after =
+        corrected_by_objects(subject, contact.scene, contact.span, contact.state);
     const Span then{contact.span.end, contact.span.end, contact.span.step};
     Worst worst;
     int answers = 0, untouched = 0;
@@ -51,9 +56,10 @@ Finding response_finding(const Subject& subject, const std::string& response, bo
     measured.row(contact.name + ", " + std::to_string(answers) + " answered",
                  answers > 20 && untouched > 20 ? worst.value() : NAN);
   }
-  return judge_worst(measured, 40,
-                     "a few dozen roundings on the way through the object's frame and back, of lengths of a "
-                     "metre over the step; a point that needs no answer keeps its velocity bit for bit");
+  return judge_worst(
+      measured, 40,
+      "a few dozen roundings on the way through the object's frame and back, of lengths of a metre "
+      "over the step; a point that needs no answer keeps its velocity bit for bit");
 }
 
 Finding projection_finding(const Subject& subject) {
@@ -63,21 +69,24 @@ Finding projection_finding(const Subject& subject) {
                           });
 }
 
-/// The velocity that ends the step: a point that would reach the surface in a thousandth of it is on it.
+/// The velocity that ends the step: a point that would reach the surface in a thousandth
+/// of it is on it.
 Finding stopping_finding(const Subject& subject) {
-  return response_finding(
-      subject, "projection", false, [](const Contact& contact, const KnownPoint& at, const Vector3& v) {
-        const double inwards = -(v - at.velocity).dot(at.normal);
-        return known_push(1e-3 * contact.span.step * inwards - at.phi, std::max(inwards, 0.0));
-      });
+  return response_finding(subject, "projection", false,
+                          [](const Contact& contact, const KnownPoint& at, const Vector3& v) {
+                            const double inwards = -(v - at.velocity).dot(at.normal);
+                            return known_push(1e-3 * contact.span.step * inwards - at.phi,
+                                              std::max(inwards, 0.0));
+                          });
 }
 
 Finding push_out_finding(const Subject& subject) {
-  return response_finding(
-      subject, "push_out", false, [](const Contact& contact, const KnownPoint& at, const Vector3& v) {
-        const double forecast = at.phi / contact.span.step + (v - at.velocity).dot(at.normal);
-        return known_push(-at.phi, std::max(-forecast, 0.0));
-      });
+  return response_finding(subject, "push_out", false,
+                          [](const Contact& contact, const KnownPoint& at, const Vector3& v) {
+                            const double forecast =
+                                at.phi / contact.span.step + (v - at.velocity).dot(at.normal);
+                            return known_push(-at.phi, std::max(-forecast, 0.0));
+                          });
 }
 
 Finding no_push_finding(const Subject& subject) {
@@ -97,20 +106,21 @@ Finding no_push_finding(const Subject& subject) {
 
 std::vector<Check> object_response_checks() {
   const std::string source = "what BMF03 section 5.2 is compared with";
-  return {
-      {"contact.projection-ends-on-the-surface",
-       "With the response 'projection' a point that a step takes into an object is put on its surface along "
-       "the "
-       "normal, with friction; others keep every bit.",
-       source, projection_finding},
-      {"contact.projection-removes-inward-velocity-at-contact",
-       "With 'projection' the velocity that ends a step has no part into a surface that the point is on.",
-       source, stopping_finding},
-      {"contact.push-out-expels-points-in-one-step",
-       "With 'push_out' a point that is inside gets the velocity that takes it to the surface in one step.",
-       source, push_out_finding},
-      {"contact.push-out-does-not-look-ahead",
-       "With 'push_out' a step's own velocity is left alone, bit for bit.", source, no_push_finding}};
+  return {{"contact.projection-ends-on-the-surface",
+           "With the response 'projection' a point that a step takes into an object is put on its "
+           "surface along the normal, with friction; others keep every bit.",
+           source, projection_finding},
+          {"contact.projection-removes-inward-velocity-at-contact",
+           "With 'projection' the velocity that ends a step has no part into a surface that the "
+           "point is on.",
+           source, stopping_finding},
+          {"contact.push-out-expels-points-in-one-step",
+           "With 'push_out' a point that is inside gets the velocity that takes it to the surface "
+           "in one step.",
+           source, push_out_finding},
+          {"contact.push-out-does-not-look-ahead",
+           "With 'push_out' a step's own velocity is left alone, bit for bit.", source,
+           no_push_finding}};
 }
 
 }  // namespace foldproof

@@ -30,14 +30,17 @@ Finding equal_depth_finding(const Subject& subject) {
     const KnownPoint a = pinch.first(p, pinch.span), b = pinch.second(p, pinch.span);
     const double psi = a.phi - b.phi + pinch.tau * rate(a, b, after.col(i));
     const double across = (a.normal - b.normal).norm();
-    worst.observe(std::abs(psi) /
-                  (epsilon * (1 + pinch.tau * Vector3(after.col(i)).norm()) / std::min(1.0, across)));
+    worst.observe(std::abs(psi) / (epsilon * (1 + pinch.tau * Vector3(after.col(i)).norm()) /
+                                   std::min(1.0, across)));
   }
-  measured.row("two balls, " + std::to_string(after.cols()) + " particles inside both", worst.value());
-  return judge_worst(measured, 40, "as many roundings as a forecast against one object takes, twice");
+  measured.row("two balls, " + std::to_string(after.cols()) + " particles inside both",
+               worst.value());
+  return judge_worst(measured, 40,
+                     "as many roundings as a forecast against one object takes, twice");
 }
 
-/// The velocity along the surface between is shortened by at most the sum of both Coulomb limits, not turned.
+/// The velocity along the surface between is shortened by at most the sum of both Coulomb
+/// limits, not turned.
 Finding pinch_friction_finding(const Subject& subject) {
   const Pinch pinch = known_pinch();
   const PerParticle3 after = corrected_by_objects(subject, pinch.scene, pinch.span, pinch.state);
@@ -63,8 +66,8 @@ Finding pinch_friction_finding(const Subject& subject) {
                stuck > 20 && slid > 20 ? worst.value() : std::numeric_limits<double>::quiet_NaN());
   return judge_worst(
       measured, 200,
-      "roundings of positions near 1 m over the step, magnified by at most "
-      "1/|N_a - N_b| where the normals of the two balls differ little",
+      "roundings of positions near 1 m over the step, magnified by at most 1/|N_a - N_b| where the "
+      "normals of the two balls differ little",
       std::to_string(int(stuck)) + " particles stick, " + std::to_string(int(slid)) + " slide");
 }
 
@@ -97,14 +100,14 @@ Finding each_object_finding(const Subject& subject) {
   }
   const double few = std::numeric_limits<double>::quiet_NaN();
   return {{corrected_twice > 10 ? deepest.value() : few, 100 * epsilon, 0, "m",
-           "the second push leads out of the first object too, since the normals enclose less than a right "
-           "angle: "
-           "what remains is rounding of positions within 1 m and steps of 0.2 m"},
+           "the second push leads out of the first object too, since the normals enclose less than "
+           "a right angle: what remains is rounding of positions within 1 m and steps of 0.2 m"},
           Table{{"particles that would enter both", "1"}}.with_row(corrected_twice),
           ""};
 }
 
-/// The half-spaces z >= 0 of a floor and of one turned about y, particles without friction between them.
+/// The half-spaces z >= 0 of a floor and of one turned about y, particles without
+/// friction between them.
 Scene wedge(double degrees) {
   Scene scene = loose_particles(5);
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(degrees * pi / 180, Vector3::UnitY()));
@@ -113,8 +116,9 @@ Scene wedge(double degrees) {
   return scene;
 }
 
-/// Particles outside both half-spaces that would enter both: held equally deep in both where the normals are
-/// more than 120 degrees apart; else on the surface of the one that corrects last, which lies in the other.
+/// Particles outside both half-spaces that would enter both: held equally deep in both where the
+/// normals are more than 120 degrees apart; else on the surface of the one that corrects last,
+/// which lies in the other.
 Finding closing_finding(const Subject& subject) {
   const double h = 0.01;
   Random random(37);
@@ -145,10 +149,12 @@ Finding closing_finding(const Subject& subject) {
     }
     measured.row(std::to_string(int(degrees)) + " degrees", worst.value());
   }
-  return judge_worst(measured, 40, "as many roundings as a forecast against one object takes, twice");
+  return judge_worst(measured, 40,
+                     "as many roundings as a forecast against one object takes, twice");
 }
 
-/// Midpoints and centres get exactly the velocity of the response, by impulses that fall with the mass.
+/// Midpoints and centres get exactly the velocity of the response, by impulses that
+/// fall with the mass.
 Finding shares_finding(const Subject&) {
   const Contact contact = known_contacts().front();
   System system = build_system(contact.scene);
@@ -158,11 +164,13 @@ Finding shares_finding(const Subject&) {
     inverse_mass[i] = i % 7 == 3 ? 0 : random.uniform(0.2, 3);
   Table measured = roundings_of("share");
   Worst mean, ratio, held;
-  for (const CollisionPoint& point : collision_points(contact.scene.mesh, inverse_mass, PointKind::faces)) {
+  for (const CollisionPoint& point :
+       collision_points(contact.scene.mesh, inverse_mass, PointKind::faces)) {
     double sum = 0;
     for (int k = 0; k < point.count; ++k) {
       sum += point.shares[k] / point.count;
-      const double w = inverse_mass[point.particles[size_t(k)]], w0 = inverse_mass[point.particles[0]];
+      const double w = inverse_mass[point.particles[size_t(k)]],
+                   w0 = inverse_mass[point.particles[0]];
       ratio.observe(std::abs(point.shares[k] * w0 - point.shares[0] * w) / epsilon);
       if (w == 0) held.observe(std::abs(point.shares[k]) / epsilon);
     }
@@ -171,14 +179,15 @@ Finding shares_finding(const Subject&) {
   measured.row("the point takes the whole change", mean.value());
   measured.row("shares are as the inverse masses", ratio.value());
   measured.row("prescribed particles take none", held.value());
-  return judge_worst(measured, 40, "three divisions and sums of numbers near 1, shares up to 15 apart");
+  return judge_worst(measured, 40,
+                     "three divisions and sums of numbers near 1, shares up to 15 apart");
 }
 
 /// Triangles that lie across a ridge that none of their corners touches.
 Finding centres_finding(const Subject& subject) {
   Scene scene = loose_particles(5);
-  scene.objects.push_back(
-      object_at("spike", Sphere{0.02}, {Eigen::Quaterniond::Identity(), Vector3(1. / 6, 1. / 12, -0.015)}));
+  scene.objects.push_back(object_at(
+      "spike", Sphere{0.02}, {Eigen::Quaterniond::Identity(), Vector3(1. / 6, 1. / 12, -0.015)}));
   State state{0, scene.x, PerParticle3::Zero(3, scene.x.cols())};
   const double h = 0.01;
   state.v.row(2).setConstant(-1);
@@ -203,21 +212,23 @@ Finding centres_finding(const Subject& subject) {
           "not a number if the particles alone keep the centre out"};
 }
 
-/// A triangle of unlike particles whose centre alone is to be kept out of a ball that it comes down on.
+/// A triangle of unlike particles whose centre alone is to be kept out of a ball that
+/// it comes down on.
 struct ComingDown {
   ObjectCollision filter;
   State state;
 };
 
 ComingDown coming_down() {
-  const SceneObject ball =
-      object_at("ball", Sphere{0.21}, {Eigen::Quaterniond::Identity(), Vector3(0.02, -0.03, -0.22)});
+  const SceneObject ball = object_at("ball", Sphere{0.21},
+                                     {Eigen::Quaterniond::Identity(), Vector3(0.02, -0.03, -0.22)});
   CollisionPoint centre;
   centre.particles = {2, 0, 1};
   centre.count = 3;
   centre.shares = Vector3(0.6, 1.5, 0.9);
-  ComingDown made{{{ball.object}, {centre}},
-                  resting_state(PerParticle3{{0.3, -0.2, -0.1}, {0.1, 0.3, -0.4}, {0.01, 0, -0.01}})};
+  ComingDown made{
+      {{ball.object}, {centre}},
+      resting_state(PerParticle3{{0.3, -0.2, -0.1}, {0.1, 0.3, -0.4}, {0.01, 0, -0.01}})};
   made.state.v = PerParticle3{{0.7, -0.4, 0.2}, {0.3, 0.9, -0.6}, {-3.1, -2.6, -3.7}};
   return made;
 }
@@ -247,7 +258,8 @@ Finding counts_finding(const Subject&) {
     PerParticle3 v = start;
     Work work;
     down.filter.correct(span, down.state, v, work);
-    return std::abs(double(work.object_queries - 1)) + std::abs(double(work.object_contacts - contacts));
+    return std::abs(double(work.object_queries - 1)) +
+           std::abs(double(work.object_contacts - contacts));
   };
   measured.row("a move into the ball", miscounted({0, 0.01, 0.01}, down.state.v, 1));
   measured.row("a velocity at the end of a step", miscounted({0.01, 0.01, 0.01}, down.state.v, 0));
@@ -260,26 +272,27 @@ Finding counts_finding(const Subject&) {
 std::vector<Check> pinch_checks() {
   return {
       {"contact.pinched-points-end-equally-deep",
-       "A point inside two objects is forecast to be equally deep in both: on the surface between them.",
+       "A point inside two objects is forecast to be equally deep in both: on the surface between "
+       "them.",
        "BMF03 section 5.1", equal_depth_finding},
       {"contact.pinched-points-obey-coulomb",
-       "Along the surface between, friction takes at most what both objects' pushes allow from its motion "
-       "against "
-       "their mean.",
+       "Along the surface between, friction takes at most what both objects' pushes allow from its "
+       "motion against their mean.",
        "BMF03 section 5.1", pinch_friction_finding},
       {"contact.closing-objects-hold-a-point-between-them",
-       "A point that would enter two objects is held between them where their normals are more than 120 "
-       "degrees "
-       "apart, and else led out of one after the other.",
+       "A point that would enter two objects is held between them where their normals are more "
+       "than 120 degrees apart, and else led out of one after the other.",
        "BMF03 section 5.2", closing_finding},
       {"contact.objects-beyond-the-nearest-count",
-       "A point that is near one object and about to enter another is held out of both.", "BMF03 section 5.2",
-       each_object_finding},
+       "A point that is near one object and about to enter another is held out of both.",
+       "BMF03 section 5.2", each_object_finding},
       {"contact.midpoints-and-centres-share-minimal-impulses",
-       "Midpoints and centres pass the change of their velocity on to their particles by the least impulses.",
+       "Midpoints and centres pass the change of their velocity on to their particles by the least "
+       "impulses.",
        "mechanics", shares_finding},
       {"contact.centres-pass-on-only-their-own-change",
-       "Particles keep their velocities but for their shares of the change that the centre asks for.",
+       "Particles keep their velocities but for their shares of the change that the centre asks "
+       "for.",
        "mechanics", change_finding},
       {"contact.contacts-are-counted",
        "A point is asked once, and its contact counted where its move was changed.",

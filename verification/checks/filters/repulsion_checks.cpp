@@ -16,7 +16,8 @@ namespace {
 
 constexpr double step = 0.004;  // s
 
-/// A vertex over a triangle, as two pieces of cloth: the vertex is a corner of one that reaches up and away.
+/// A vertex over a triangle, as two pieces of cloth: the vertex is a corner of one that
+/// reaches up and away.
 struct OverTriangle {
   double height, parting, sliding;  // of the vertex over it [m], v_N and along x [m/s]
   double stiffness, friction;       // N/m, 1
@@ -33,8 +34,8 @@ Scene over_triangle(const OverTriangle& wanted) {
   return scene;
 }
 
-/// The change of relative velocity by the law of the two authors' reference, written down a second time: with
-/// the weights of the foot from areas, and m/(1 + ...) for the compliance.
+/// The change of relative velocity by the law of the two authors' reference, written down a second
+/// time: with the weights of the foot from areas, and m/(1 + ...) for the compliance.
 Vector3 expected_change(const OverTriangle& wanted, const Scene& scene) {
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   const auto area = [&](int a, int b, double x, double y) {
@@ -42,13 +43,17 @@ Vector3 expected_change(const OverTriangle& wanted, const Scene& scene) {
     return ((q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])) / 2;
   };
   const double whole = 0.05 * 0.06 / 2;
-  const double w0 = area(1, 2, 0.018, 0.021) / whole, w1 = area(2, 0, 0.018, 0.021) / whole, w2 = 1 - w0 - w1;
+  const double w0 = area(1, 2, 0.018, 0.021) / whole, w1 = area(2, 0, 0.018, 0.021) / whole,
+               w2 = 1 - w0 - w1;
   const double pair_compliance =
       1 / mass[3] + w0 * w0 / mass[0] + w1 * w1 / mass[1] + w2 * w2 / mass[2];  // 1/kg
   const double overlap = 0.004 - wanted.height, largest = overlap / (10 * step);
-  const double inelastic = wanted.parting < 0 ? -wanted.parting : 0, left = wanted.parting + inelastic;
+  const double inelastic = wanted.parting < 0 ? -wanted.parting : 0,
+               left = wanted.parting + inelastic;
   const double spring =
-      left >= largest ? 0 : std::fmin(step * wanted.stiffness * overlap * pair_compliance, largest - left);
+      left >= largest
+          ? 0
+          : std::fmin(step * wanted.stiffness * overlap * pair_compliance, largest - left);
   const double push = inelastic + spring;
   const double slide =
       std::copysign(std::fmin(std::abs(wanted.sliding), wanted.friction * push), wanted.sliding);
@@ -56,7 +61,8 @@ Vector3 expected_change(const OverTriangle& wanted, const Scene& scene) {
 }
 
 Finding law_finding(const Subject& subject) {
-  Table measured{{"case", ""}, {"difference of the change of relative velocity over its size", "1"}};
+  Table measured{{"case", ""},
+                 {"difference of the change of relative velocity over its size", "1"}};
   for (const OverTriangle& wanted : {OverTriangle{0.0031, -0.4, 0.3, 0, 0},
                                      {0.0031, -0.4, 0.3, 0, 0.21},
                                      {0.0031, -0.4, 0.05, 0, 0.7},
@@ -66,9 +72,10 @@ Finding law_finding(const Subject& subject) {
                                      {0.0023, 0.041, 0.1, 900, 0.3},
                                      {0.0023, 0.5, 0.1, 900, 0.3}}) {
     const Scene scene = over_triangle(wanted);
-    const PerParticle3 change = corrected_by_self_collision(subject, scene, {step, false}) - scene.v;
-    const Nearness at =
-        nearness(PairKind::vertex_triangle, corners_of({PairKind::vertex_triangle, {3, 0, 1, 2}}, scene.x));
+    const PerParticle3 change =
+        corrected_by_self_collision(subject, scene, {step, false}) - scene.v;
+    const Nearness at = nearness(PairKind::vertex_triangle,
+                                 corners_of({PairKind::vertex_triangle, {3, 0, 1, 2}}, scene.x));
     const Vector3 relative = change(Eigen::all, {3, 0, 1, 2}) * at.weights;
     const double scale = std::abs(wanted.parting) + std::abs(wanted.sliding);
     char name[90];
@@ -77,8 +84,8 @@ Finding law_finding(const Subject& subject) {
     measured.row(name, (relative - expected_change(wanted, scene)).norm() / scale);
   }
   return judge_worst(measured, 1e-12,
-                     "the same law from areas instead of normals: some tens of roundings, with heights a "
-                     "twentieth of the triangle's size");
+                     "the same law from areas instead of normals: some tens of roundings, with "
+                     "heights a twentieth of the triangle's size");
 }
 
 struct MomentumCase {
@@ -88,8 +95,8 @@ struct MomentumCase {
 };
 
 std::vector<MomentumCase> momentum_cases() {
-  LayeredSheets still{3, 0.003, 0.001, 0.3, {0.004, 0, 0, 8, true}, 3}, springy = still, rubbing = still,
-                                                                        fast = still;
+  LayeredSheets still{3, 0.003, 0.001, 0.3, {0.004, 0, 0, 8, true}, 3},
+      springy = still, rubbing = still, fast = still;
   springy.settings.stiffness = 7;
   springy.seed = 4;
   rubbing.settings.friction = 0.4;
@@ -107,9 +114,8 @@ double momentum_scale(const PerParticle& mass, const PerParticle3& v) {
 }
 
 constexpr const char* why_roundings =
-    "every impulse adds w_i j/m_i to four velocities, with weights that sum to zero but for a rounding each; "
-    "a particle "
-    "takes part in some tens of them";
+    "every impulse adds w_i j/m_i to four velocities, with weights that sum to zero but for a "
+    "rounding each; a particle takes part in some tens of them";
 
 Finding linear_finding(const Subject& subject) {
   Table measured = roundings_of("sum m |v|");
@@ -117,7 +123,8 @@ Finding linear_finding(const Subject& subject) {
     const Scene scene = layered_scene(of.layered);
     const PerParticle mass = lumped_masses(scene.mesh, scene.density);
     const PerParticle3 after = corrected_by_self_collision(subject, scene, {step, of.moves});
-    const double changed = momentum_scale(mass, after - scene.v), size = momentum_scale(mass, scene.v);
+    const double changed = momentum_scale(mass, after - scene.v),
+                 size = momentum_scale(mass, scene.v);
     measured.row(of.name, changed > 0.01 * size
                               ? linear_momentum_of(mass, after - scene.v).norm() / (epsilon * size)
                               : NAN);
@@ -133,34 +140,38 @@ Finding angular_finding(const Subject& subject) {
     const PerParticle mass = lumped_masses(scene.mesh, scene.density);
     const PerParticle3 after = corrected_by_self_collision(subject, scene, {step, of.moves});
     const double size = momentum_scale(mass, scene.v) * 0.1;
-    measured.row(of.name, angular_momentum_of(mass, scene.x, after - scene.v).norm() / (epsilon * size));
+    measured.row(of.name,
+                 angular_momentum_of(mass, scene.x, after - scene.v).norm() / (epsilon * size));
   }
   return judge_worst(measured, 64 * 8,
                      std::string(why_roundings) +
-                         "; the normal is the line between the points to an epsilon times the features' size "
-                         "over their distance, some eight here");
+                         "; the normal is the line between the points to an epsilon times the "
+                         "features' size over their distance, some eight here");
 }
 
-/// Friction acts at two points a distance apart: it turns the cloth by that times the impulse, and no more.
+/// Friction acts at two points a distance apart: it turns the cloth by that times the
+/// impulse, and no more.
 Finding friction_turn_finding(const Subject& subject) {
-  Table measured{{"case", ""},
-                 {"change of angular momentum over thickness times friction times normal impulses", "1"}};
+  Table measured{
+      {"case", ""},
+      {"change of angular momentum over thickness times friction times normal impulses", "1"}};
   for (const unsigned seed : {3u, 8u}) {
     LayeredSheets wanted{2, 0.003, 0.001, 0.3, {0.004, 0, 0.4, 8, true}, seed};
     const Scene rubbing = layered_scene(wanted);
     const PerParticle mass = lumped_masses(rubbing.mesh, rubbing.density);
-    const PerParticle3 change = corrected_by_self_collision(subject, rubbing, {step, false}) - rubbing.v;
+    const PerParticle3 change =
+        corrected_by_self_collision(subject, rubbing, {step, false}) - rubbing.v;
     const Eigen::Index half = change.cols() / 2;
-    // normal impulses: at least what the upper sheet's momentum across the layers changed by, per particle
+    // normal impulses: at least what the upper sheet's momentum across the layers changed
+    // by, per particle
     const double normal = (change.row(2).rightCols(half).cwiseAbs() * mass.tail(half))[0];
     measured.row("seed " + std::to_string(seed),
                  angular_momentum_of(mass, rubbing.x, change).norm() / (0.004 * 0.4 * normal));
   }
-  return judge_worst(
-      measured, 2,
-      "a pair's friction impulse is at most mu times its normal one and acts with an arm of at most "
-      "the thickness; impulses up and down on one particle cancel in part, so that their sum may be "
-      "up to twice what is left of it");
+  return judge_worst(measured, 2,
+                     "a pair's friction impulse is at most mu times its normal one and acts with "
+                     "an arm of at most the thickness; impulses up and down on one particle cancel "
+                     "in part, so that their sum may be up to twice what is left of it");
 }
 
 Finding untouched_finding(const Subject& subject) {
@@ -186,7 +197,8 @@ Finding untouched_finding(const Subject& subject) {
   return judge_worst(measured, 0, "nothing is to be done about them: not a bit may change");
 }
 
-/// Every pair that comes nearer than the margin is among those found, once; found ones share no particle.
+/// Every pair that comes nearer than the margin is among those found, once; found ones
+/// share no particle.
 Finding pairs_finding(const Subject&) {
   Table measured{{"case", ""}, {"pairs missed, found twice, or of neighbours", "pairs"}};
   const double margin = 0.004;
@@ -216,8 +228,8 @@ Finding pairs_finding(const Subject&) {
       double least = INFINITY;
       for (const double t : {0.0, 0.3, 0.7, 1.0})
         least = std::min(
-            least,
-            nearness(pair.kind, corners_of(pair, PerParticle3(scene.x + t * step * scene.v))).distance);
+            least, nearness(pair.kind, corners_of(pair, PerParticle3(scene.x + t * step * scene.v)))
+                       .distance);
       if (!(least < margin)) continue;
       ++near;
       if (!is_found) ++wrong;
@@ -230,14 +242,15 @@ Finding pairs_finding(const Subject&) {
                      "counted against all pairs of two sheets, looked at four times on their way");
 }
 
-/// A stack of sheets on a slope. The lowest is larger, so that nothing hangs over its rim, and held;
-/// Coulomb's law holds between any two. Ways of the others in .1 s [m], from below.
+/// A stack of sheets on a slope. The lowest is larger, so that nothing hangs over its rim, and
+/// held; Coulomb's law holds between any two. Ways of the others in .1 s [m], from below.
 std::vector<double> ways_on_slope(const Subject& subject, double friction, double degrees) {
   constexpr int free_sheets = 3;
   Scene scene = layered_scene({1 + free_sheets, 0.0035, 0, 0, {0.004, 0, friction, 8, true}, 7});
   const Vector3 middle = scene.x.leftCols(42).rowwise().mean();
   scene.x.leftCols(42) =
-      (Vector3(1.5, 1.5, 1).asDiagonal() * (scene.x.leftCols(42).colwise() - middle)).colwise() + middle;
+      (Vector3(1.5, 1.5, 1).asDiagonal() * (scene.x.leftCols(42).colwise() - middle)).colwise() +
+      middle;
   const double angle = degrees * pi / 180;
   scene.gravity = Vector3(9.81 * std::sin(angle), 0, -9.81 * std::cos(angle));
   scene.stretch = StretchMaterial{20, 0.02, 1};
@@ -256,7 +269,8 @@ Finding slope_finding(const Subject& subject) {
   const double seconds = 0.1;
   for (const auto& [friction, degrees] : {std::pair{0.3, 20.0}, {0.5, 35.0}}) {
     const double angle = degrees * pi / 180;
-    const double slides = 9.81 * (std::sin(angle) - friction * std::cos(angle)) * seconds * seconds / 2;
+    const double slides =
+        9.81 * (std::sin(angle) - friction * std::cos(angle)) * seconds * seconds / 2;
     const std::vector<double> ways = ways_on_slope(subject, friction, degrees);
     const double mean = std::accumulate(ways.begin(), ways.end(), 0.0) / double(ways.size());
     measured.row("slides, mu " + std::to_string(friction).substr(0, 4) + ", mean",
@@ -266,16 +280,15 @@ Finding slope_finding(const Subject& subject) {
     const double free = 9.81 * std::sin(degrees * pi / 180) * seconds * seconds / 2;
     const std::vector<double> ways = ways_on_slope(subject, friction, degrees);
     for (size_t k = 0; k < ways.size(); ++k)
-      measured.row("holds, mu " + std::to_string(friction).substr(0, 4) + ", sheet " + std::to_string(k + 1) +
-                       " on the one below",
+      measured.row("holds, mu " + std::to_string(friction).substr(0, 4) + ", sheet " +
+                       std::to_string(k + 1) + " on the one below",
                    std::abs(ways[k] - (k > 0 ? ways[k - 1] : 0)) / free);
   }
   return judge_worst(
       measured, 0.1,
-      "Coulomb's law; a tenth for the bumps of a sheet that its pairs answer one after the other, each for "
-      "the "
-      "normal velocity that the others have left. Sliding sheets need all the friction that there is between "
-      "them, so that noise parts them: their mean is judged");
+      "Coulomb's law; a tenth for the bumps of a sheet that its pairs answer one after the other, "
+      "each for the normal velocity that the others have left. Sliding sheets need all the "
+      "friction that there is between them, so that noise parts them: their mean is judged");
 }
 
 }  // namespace
@@ -283,8 +296,8 @@ Finding slope_finding(const Subject& subject) {
 std::vector<Check> repulsion_checks() {
   return {
       {"self-collision.repulsion-follows-its-law",
-       "Two features nearer than the thickness are kept from approaching, parted by at most a tenth of their "
-       "overlap in a step, and rub as Coulomb says.",
+       "Two features nearer than the thickness are kept from approaching, parted by at most a "
+       "tenth of their overlap in a step, and rub as Coulomb says.",
        "Bridson, Fedkiw, Anderson 2002 section 7.1; BMF03 section 5", law_finding},
       {"self-collision.linear-momentum-is-conserved",
        "Repulsion, friction and impulses against crossings keep the linear momentum of free cloth.",
@@ -293,8 +306,8 @@ std::vector<Check> repulsion_checks() {
        "Repulsion without friction keeps the angular momentum of free cloth.",
        "Bridson, Fedkiw, Anderson 2002 section 7.1", angular_finding},
       {"self-collision.friction-torque-is-bounded-by-its-arm",
-       "Friction between layers changes angular momentum by no more than its impulses times the distance at "
-       "which they act.",
+       "Friction between layers changes angular momentum by no more than its impulses times the "
+       "distance at which they act.",
        "ours; Bridson, Fedkiw, Anderson 2002 section 7.1", friction_turn_finding},
       {"self-collision.separate-layers-are-bitwise-unchanged",
        "Layers apart or parting, and particles that are led, keep their velocities to the bit.",
@@ -303,8 +316,9 @@ std::vector<Check> repulsion_checks() {
        "The search by boxes finds every pair of features that comes near, once, and no neighbours.",
        "Bridson, Fedkiw, Anderson 2002 section 6", pairs_finding},
       {"self-collision.a-stack-on-a-slope-obeys-coulomb",
-       "Where tan(angle) is below the friction, sheets of a stack on a slope slip by less than a tenth of a "
-       "fall without friction; where it is not, the stack slides as Coulomb says, to a tenth.",
+       "Where tan(angle) is below the friction, sheets of a stack on a slope slip by less than a "
+       "tenth of a fall without friction; where it is not, the stack slides as Coulomb says, to a "
+       "tenth.",
        "BMF03 section 5.2; Bridson, Fedkiw, Anderson 2002 section 7.1", slope_finding},
   };
 }

@@ -38,24 +38,27 @@ Answer answer_of(const Contact& contact, const PerParticle3& after, Eigen::Index
   return a;
 }
 
-/// How far from zero a forecast must be for its sign to be known in spite of rounding [m]; lengths are near 1
-/// m.
+/// How far from zero a forecast must be for its sign to be known in spite of rounding
+/// [m]; lengths are near 1 m.
 double unsure(const Contact& contact) { return 100 * epsilon * (1 + 4 * contact.tau); }
 
-// What phi and the object's velocity inherit from a rounding of positions near 1 m, in velocities of a step
-// of a hundredth of a second: the scale of all bounds below.
+// What phi and the object's velocity inherit from a rounding of positions near 1 m, in velocities
+// of a step of a hundredth of a second: the scale of all bounds below.
 constexpr const char* why_roundings =
-    "a few dozen roundings on the way through the object's frame and back, of lengths of a metre, divided by "
-    "the "
-    "step where a mean velocity is made of them";
-double velocity_scale(const Contact& contact, const Answer& a) { return a.speed + 1 / contact.span.step; }
+    "a few dozen roundings on the way through the object's frame and back, of lengths of a metre, "
+    "divided by the step where a mean velocity is made of them";
+double velocity_scale(const Contact& contact, const Answer& a) {
+  return a.speed + 1 / contact.span.step;
+}
 
 /// The worst of a quantity in roundings over all particles of all contacts that `wanted` picks.
-Finding worst_over(const Subject& subject, const std::function<bool(const Contact&, const Answer&)>& wanted,
+Finding worst_over(const Subject& subject,
+                   const std::function<bool(const Contact&, const Answer&)>& wanted,
                    const std::function<double(const Contact&, const Answer&)>& roundings) {
   Table measured = roundings_of("speed");
   for (const Contact& contact : known_contacts()) {
-    const PerParticle3 after = corrected_by_objects(subject, contact.scene, contact.span, contact.state);
+    const PerParticle3 after =
+        corrected_by_objects(subject, contact.scene, contact.span, contact.state);
     Worst worst;
     long queries = 0;
     for (Eigen::Index i = 0; i < after.cols(); ++i) {
@@ -82,7 +85,8 @@ Finding forecast_finding(const Subject& subject) {
 Finding coulomb_finding(const Subject& subject) {
   return worst_over(subject, is_treated, [](const Contact& contact, const Answer& a) {
     const double wanted = std::min(a.sliding.norm(), contact.friction * a.push);
-    return std::abs((a.sliding - a.still_sliding).norm() - wanted) / (epsilon * velocity_scale(contact, a));
+    return std::abs((a.sliding - a.still_sliding).norm() - wanted) /
+           (epsilon * velocity_scale(contact, a));
   });
 }
 
@@ -113,7 +117,8 @@ Finding untouched_finding(const Subject& subject) {
   for (Contact contact : known_contacts())
     for (const char* const response : {"forecast", "forecast_deepest"}) {
       contact.scene.collision.response = response;
-      const PerParticle3 after = corrected_by_objects(subject, contact.scene, contact.span, contact.state);
+      const PerParticle3 after =
+          corrected_by_objects(subject, contact.scene, contact.span, contact.state);
       for (Eigen::Index i = 0; i < after.cols(); ++i) {
         const Answer a = answer_of(contact, after, i);
         if (!(a.forecast > unsure(contact))) continue;
@@ -132,11 +137,13 @@ Finding untouched_finding(const Subject& subject) {
 //    |  /         with it; the point slides by w across N0, of which |w.N1| <= |w| sin(theta) is
 //  --p-----w-->   depth, and of a depth that it had 1 - cos(theta) is left
 Finding turning_finding(const Subject& subject) {
-  Table measured{{"case", ""}, {"deepest point after the step", "|w| sin(theta) + depth (1 - cos(theta))"}};
+  Table measured{{"case", ""},
+                 {"deepest point after the step", "|w| sin(theta) + depth (1 - cos(theta))"}};
   for (const Contact& contact : known_contacts()) {
     const double h = contact.span.end - contact.span.start;
     if (!contact.name.starts_with("slope") || contact.tau != contact.span.step) continue;
-    const PerParticle3 after = corrected_by_objects(subject, contact.scene, contact.span, contact.state);
+    const PerParticle3 after =
+        corrected_by_objects(subject, contact.scene, contact.span, contact.state);
     const Span end{contact.span.end, contact.span.end, contact.span.step};
     Worst worst;
     for (Eigen::Index i = 0; i < after.cols(); ++i) {
@@ -149,7 +156,8 @@ Finding turning_finding(const Subject& subject) {
     }
     measured.row(contact.name, worst.value());
   }
-  return judge_worst(measured, 1, "geometry of a plane that turns, and roundings of lengths of a metre");
+  return judge_worst(measured, 1,
+                     "geometry of a plane that turns, and roundings of lengths of a metre");
 }
 
 Finding galilean_finding(const Subject& subject) {
@@ -162,11 +170,13 @@ Finding galilean_finding(const Subject& subject) {
     seen.state.v.colwise() += shared;
     auto& body = std::get<RigidObject>(seen.scene.objects[0].object.body);
     std::get<Motion>(body.motion).velocity += shared;
-    const PerParticle3 here = corrected_by_objects(subject, contact.scene, contact.span, contact.state);
+    const PerParticle3 here =
+        corrected_by_objects(subject, contact.scene, contact.span, contact.state);
     PerParticle3 there = corrected_by_objects(subject, seen.scene, seen.span, seen.state);
     there.colwise() -= shared;
-    measured.row(contact.name, largest_difference(here, there) /
-                                   (epsilon * (1 / contact.span.step + shared.norm() + largest_speed(here))));
+    measured.row(contact.name,
+                 largest_difference(here, there) /
+                     (epsilon * (1 / contact.span.step + shared.norm() + largest_speed(here))));
   }
   return judge_worst(measured, 40, why_roundings);
 }
@@ -209,8 +219,9 @@ Finding neighbours_finding(const Subject& subject) {
   Motion turning, flying;
   turning.angular_velocity = {0, 1, 3};
   flying.velocity = {0, 0, -20};  // by its diameter in a step: it is met from afar
-  const SceneObject flies = with_motion(
-      object_at("two balls, one flying", Sphere{0.1}, {{1, 0, 0, 0}, {0.25, 0, 0.25}}), flying, 0.3);
+  const SceneObject flies =
+      with_motion(object_at("two balls, one flying", Sphere{0.1}, {{1, 0, 0, 0}, {0.25, 0, 0.25}}),
+                  flying, 0.3);
   const SceneObject still = object_at("", Sphere{0.1}, {{1, 0, 0, 0}, {-0.3, 0, 0}});
   for (const std::vector<SceneObject>& parts :
        {std::vector{with_motion(object_at("ball", Sphere{radius}, {}), turning, 0.3)},
@@ -221,12 +232,14 @@ Finding neighbours_finding(const Subject& subject) {
     const Span span{0, step, step};
     const PerParticle3 together = corrected_by_objects(subject, crossed.scene, span, crossed.state);
     const auto changed = (together - crossed.state.v).colwise().any().count();
-    const double differ = count_differing_entries(together, corrected_alone(subject, crossed, span));
+    const double differ =
+        count_differing_entries(together, corrected_alone(subject, crossed, span));
     answers.row(parts.front().object.name, changed, differ);
     worst = changed > 0 ? worst + differ : std::numeric_limits<double>::quiet_NaN();
   }
   return {{worst, 0, 0, "numbers",
-           "what is known of a neighbour may spare a question, but only where the answer cannot matter"},
+           "what is known of a neighbour may spare a question, but only where the answer cannot "
+           "matter"},
           answers,
           "625 particles in rows through the middle of each body, together and one at a time"};
 }
@@ -239,26 +252,29 @@ std::vector<Check> response_checks() {
        "A point that is treated is forecast to lie on the surface: phi + tau (v_p - v).N = 0.",
        "BMF03 section 5.2", forecast_finding},
       {"contact.untreated-points-are-bitwise-unchanged",
-       "A point that is forecast to stay outside keeps its velocity bit for bit.", "BMF03 section 5.2",
-       untouched_finding},
+       "A point that is forecast to stay outside keeps its velocity bit for bit.",
+       "BMF03 section 5.2", untouched_finding},
       {"contact.friction-obeys-coulomb",
-       "Friction takes mu times the change of the normal velocity from the sliding velocity, or all of it.",
+       "Friction takes mu times the change of the normal velocity from the sliding velocity, or "
+       "all of it.",
        "BMF03 section 5.2", coulomb_finding},
       {"contact.impulse-stays-in-the-friction-cone",
-       "The tangential impulse is at most mu times the normal one.", "BMF03 section 5.2", cone_finding},
+       "The tangential impulse is at most mu times the normal one.", "BMF03 section 5.2",
+       cone_finding},
       {"contact.sliding-is-never-reversed",
-       "Friction shortens the sliding velocity: it is not turned, not reversed and not enlarged, and zero "
-       "stays zero.",
+       "Friction shortens the sliding velocity: it is not turned, not reversed and not enlarged, "
+       "and zero stays zero.",
        "BMF03 section 5.2", reversal_finding},
       {"contact.response-is-galilean-invariant",
-       "Cloth and object that share one more velocity are answered alike.", "mechanics", galilean_finding},
+       "Cloth and object that share one more velocity are answered alike.", "mechanics",
+       galilean_finding},
       {"contact.turning-plane-is-penetrated-as-derived",
-       "A plane that turns in a step is entered by no more than the way that a point slides on it times the "
-       "sine of the turn.",
+       "A plane that turns in a step is entered by no more than the way that a point slides on it "
+       "times the sine of the turn.",
        "BMF03 section 5.2", turning_finding},
       {"contact.neighbours-do-not-matter",
-       "A particle is answered with the same bits alone and among its neighbours.", "BMF03 section 5.2",
-       neighbours_finding},
+       "A particle is answered with the same bits alone and among its neighbours.",
+       "BMF03 section 5.2", neighbours_finding},
   };
 }
 

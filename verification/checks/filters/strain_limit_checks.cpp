@@ -1,5 +1,5 @@
-// What one correction by strain limits does: to one spring, exactly; to a cloth, whatever the order of
-// sweeps.
+// What one correction by strain limits does: to one spring, exactly; to a cloth, whatever the
+// order of sweeps.
 #include "reference/dynamics/system.h"
 #include "verification/checks/filters/filter_checks.h"
 #include "verification/evidence.h"
@@ -16,8 +16,8 @@ namespace {
 
 // ---- one spring of a triangle
 
-/// A triangle whose third corner is so far off, and so much slower, that only the spring 0-1 leaves its
-/// limits.
+/// A triangle whose third corner is so far off, and so much slower, that only the spring 0-1
+/// leaves its limits.
 struct OneSpring {
   LimitedCloth cloth;
   oracles::LimitedSpringInput input;
@@ -26,8 +26,9 @@ struct OneSpring {
 
 /// How the spring 0-1 of a triangle may be: at rest, now and after a step.
 struct SpringDraw {
-  double now_low, now_high;        // current over rest length [1]
-  double along_low, along_high;    // change of its length by the motion along it, over the rest length [1]
+  double now_low, now_high;  // current over rest length [1]
+  // change of its length by the motion along it, over the rest length [1]
+  double along_low, along_high;
   double across_low, across_high;  // by the motion across it [1]
   int held;                        // 0, 1 or none: -1
 };
@@ -38,7 +39,8 @@ OneSpring one_spring(const SpringDraw& draw, Random& random) {
   rest << 0, L, 0.4 * L, 0, 0, far * L, 0, 0, 0;
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(random.uniform(-3, 3), random.vectors(1, 1).col(0).normalized()).matrix();
-  Scene scene = scene_at_rest(make_triangle_mesh(turn * rest, {{0, 1, 2}}), random.uniform(0.1, 0.4));
+  Scene scene =
+      scene_at_rest(make_triangle_mesh(turn * rest, {{0, 1, 2}}), random.uniform(0.1, 0.4));
   scene.stretch = StretchMaterial{29, 0, 1};
   StrainLimits limits;
   limits.extension = 0.083;
@@ -51,7 +53,8 @@ OneSpring one_spring(const SpringDraw& draw, Random& random) {
                     (random.uniform(draw.along_low, draw.along_high) * along +
                      random.uniform(draw.across_low, draw.across_high) * across);
   if (draw.held >= 0) scene.prescribed.push_back({draw.held, scene.x.col(draw.held), Motion{}});
-  State state{0, scene.x, scene.v};  // what the filter is asked about: the velocity of a led particle too
+  // what the filter is asked about: the velocity of a led particle too
+  State state{0, scene.x, scene.v};
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   const auto inverse = [&](int i) { return draw.held == i ? 0 : 1 / mass[i]; };
   const double rest_length = (scene.mesh.rest.col(1) - scene.mesh.rest.col(0)).norm();
@@ -67,12 +70,13 @@ OneSpring one_spring(const SpringDraw& draw, Random& random) {
   return {{"", std::move(scene), std::move(state), h}, input, limited_spring(input)};
 }
 
-/// Distance from the oracle's velocities, in roundings of what they are computed from; infinite if they are
-/// not the same at the far corner, bit for bit.
+/// Distance from the oracle's velocities, in roundings of what they are computed from; infinite if
+/// they are not the same at the far corner, bit for bit.
 double error_of(const Subject& subject, const OneSpring& spring) {
   const PerParticle3 v = corrected_by_strain_limits(subject, spring.cloth, spring.cloth.state.v);
   if (!(v.col(2) == spring.cloth.state.v.col(2))) return INFINITY;
-  const double error = std::max((v.col(0) - spring.answer.v_a).norm(), (v.col(1) - spring.answer.v_b).norm());
+  const double error =
+      std::max((v.col(0) - spring.answer.v_a).norm(), (v.col(1) - spring.answer.v_b).norm());
   const double d = (spring.input.x_b - spring.input.x_a).norm();
   const double size = d / spring.input.step + spring.input.v_a.norm() + spring.input.v_b.norm();
   return error / (epsilon * size * spring.answer.sensitivity);
@@ -91,31 +95,34 @@ Finding compare_draws(const Subject& subject, const std::vector<DrawKind>& kinds
     Worst worst;
     for (int k = 0; k < 40; ++k) {
       const OneSpring spring = one_spring(kind.draw, random);
-      const bool is_meant = spring.answer.is_violated && spring.answer.is_reachable == kind.is_reachable;
+      const bool is_meant =
+          spring.answer.is_violated && spring.answer.is_reachable == kind.is_reachable;
       worst.observe(is_meant ? error_of(subject, spring) : NAN);
     }
     measured.row(kind.name, worst.value());
   }
   return judge_worst(measured, 16,
-                     "d, d + h dv and their products are rounded about eight times, the impulse and the two "
-                     "velocities as often");
+                     "d, d + h dv and their products are rounded about eight times, the impulse "
+                     "and the two velocities as often");
 }
 
 Finding one_spring_finding(const Subject& subject) {
-  return compare_draws(subject, {{"too long", {0.98, 1.06, 0.15, 0.9, -0.2, 0.2, -1}, true},
-                                 {"too long by its turning", {1.01, 1.08, -0.01, 0.01, 0.45, 0.6, -1}, true},
-                                 {"too long, turned round", {0.98, 1.06, -2.9, -2.3, -0.3, 0.3, -1}, true},
-                                 {"too short", {0.98, 1.06, -0.7, -0.2, -0.2, 0.2, -1}, true},
-                                 {"too short, turned round", {0.98, 1.06, -1.8, -1.3, -0.2, 0.2, -1}, true},
-                                 {"beyond the upper limit now", {1.2, 1.9, -0.03, 0.2, -0.3, 0.3, -1}, true},
-                                 {"beyond the lower limit now", {0.3, 0.8, -0.2, 0.05, -0.3, 0.3, -1}, true},
-                                 {"one end held", {0.98, 1.06, 0.15, 0.9, -0.2, 0.2, 0}, true},
-                                 {"the other end held", {0.98, 1.06, -0.7, -0.2, -0.2, 0.2, 1}, true}});
+  return compare_draws(subject,
+                       {{"too long", {0.98, 1.06, 0.15, 0.9, -0.2, 0.2, -1}, true},
+                        {"too long by its turning", {1.01, 1.08, -0.01, 0.01, 0.45, 0.6, -1}, true},
+                        {"too long, turned round", {0.98, 1.06, -2.9, -2.3, -0.3, 0.3, -1}, true},
+                        {"too short", {0.98, 1.06, -0.7, -0.2, -0.2, 0.2, -1}, true},
+                        {"too short, turned round", {0.98, 1.06, -1.8, -1.3, -0.2, 0.2, -1}, true},
+                        {"beyond the upper limit now", {1.2, 1.9, -0.03, 0.2, -0.3, 0.3, -1}, true},
+                        {"beyond the lower limit now", {0.3, 0.8, -0.2, 0.05, -0.3, 0.3, -1}, true},
+                        {"one end held", {0.98, 1.06, 0.15, 0.9, -0.2, 0.2, 0}, true},
+                        {"the other end held", {0.98, 1.06, -0.7, -0.2, -0.2, 0.2, 1}, true}});
 }
 
 Finding beyond_reach_finding(const Subject& subject) {
-  return compare_draws(subject, {{"turns fast", {0.98, 1.06, -0.1, 0.3, 1.12, 1.7, -1}, false},
-                                 {"turns fast, one end held", {0.98, 1.06, -0.1, 0.3, 1.12, 1.7, 1}, false}});
+  return compare_draws(
+      subject, {{"turns fast", {0.98, 1.06, -0.1, 0.3, 1.12, 1.7, -1}, false},
+                {"turns fast, one end held", {0.98, 1.06, -0.1, 0.3, 1.12, 1.7, 1}, false}});
 }
 
 // ---- a cloth
@@ -144,7 +151,8 @@ Finding momentum_finding(const Subject& subject) {
     for (LimitedCloth& cloth : limited_cloths(named.order)) {
       cloth.scene.strain_limits->sweeps = 12;
       cloth.state.x.colwise() += Vector3(0.31, -0.17, 0.23);
-      const PerParticle3 change = corrected_by_strain_limits(subject, cloth, cloth.state.v) - cloth.state.v;
+      const PerParticle3 change =
+          corrected_by_strain_limits(subject, cloth, cloth.state.v) - cloth.state.v;
       const PerParticle mass = lumped_masses(cloth.scene.mesh, cloth.scene.density);
       Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();
       double linear_size = 0, angular_size = 0;
@@ -157,12 +165,13 @@ Finding momentum_finding(const Subject& subject) {
         angular_size += x.norm() * size;
       }
       measured.row(named.name + ", " + cloth.name, linear.norm() / (epsilon * linear_size));
-      measured.row(named.name + ", " + cloth.name + ", angular", angular.norm() / (epsilon * angular_size));
+      measured.row(named.name + ", " + cloth.name + ", angular",
+                   angular.norm() / (epsilon * angular_size));
     }
-  return judge_worst(
-      measured, 8,
-      "in each of 12 sweeps some six impulses meet at a particle, each a rounding of its velocity, half an "
-      "epsilon at most: 72 of them add up like a random walk to 4, and the impulses' own to as much");
+  return judge_worst(measured, 8,
+                     "in each of 12 sweeps some six impulses meet at a particle, each a rounding "
+                     "of its velocity, half an epsilon at most: 72 of them add up like a random "
+                     "walk to 4, and the impulses' own to as much");
 }
 
 /// The last particle is to fly the cloth's extent in a step.
@@ -175,12 +184,15 @@ Finding held_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"numbers that differ", "numbers"}};
   for (const NamedOrder& named : sweep_orders())
     for (LimitedCloth& cloth : limited_cloths(named.order)) {
-      cloth.scene.strain_limits->sweeps = 30;  // two neighbours are held: what they break stays broken
-      for (const int i : {0, 3, 7, 8}) cloth.scene.prescribed.push_back({i, cloth.state.x.col(i), Motion{}});
+      // two neighbours are held: what they break stays broken
+      cloth.scene.strain_limits->sweeps = 30;
+      for (const int i : {0, 3, 7, 8})
+        cloth.scene.prescribed.push_back({i, cloth.state.x.col(i), Motion{}});
       make_last_fast(cloth);
       const PerParticle3 v = corrected_by_strain_limits(subject, cloth, cloth.state.v);
       double differing = 0;
-      for (const int i : {0, 3, 7, 8}) differing += count_differing_entries(v.col(i), cloth.state.v.col(i));
+      for (const int i : {0, 3, 7, 8})
+        differing += count_differing_entries(v.col(i), cloth.state.v.col(i));
       const bool is_tried = count_differing_entries(v, cloth.state.v) > 0;
       measured.row(named.name + ", " + cloth.name, is_tried ? differing : NAN);
     }
@@ -194,15 +206,16 @@ PerParticle3 gentle(const LimitedCloth& cloth) {
   return v;
 }
 
-/// Gentle velocities, but for the last particle's, which is fast: those that share no triangle with it are to
-/// be left.
+/// Gentle velocities, but for the last particle's, which is fast: those that share no triangle with
+/// it are to be left.
 Finding untouched_within_limits_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"numbers that differ", "numbers"}};
   for (const NamedOrder& named : sweep_orders())
     for (LimitedCloth& cloth : limited_cloths(named.order)) {
       const PerParticle3 slow = gentle(cloth);
       const std::string name = named.name + ", " + cloth.name;
-      measured.row(name, count_differing_entries(corrected_by_strain_limits(subject, cloth, slow), slow));
+      measured.row(name,
+                   count_differing_entries(corrected_by_strain_limits(subject, cloth, slow), slow));
       cloth.scene.strain_limits->sweeps = 1;
       PerParticle3 fast = slow;
       const Eigen::Index last = fast.cols() - 1;
@@ -210,14 +223,15 @@ Finding untouched_within_limits_finding(const Subject& subject) {
       fast.col(last) = cloth.state.v.col(last);
       const PerParticle3 v = corrected_by_strain_limits(subject, cloth, fast);
       const double after = strain_violation(cloth.scene, cloth.state.x + cloth.step * fast);
-      measured.row(name + ", one fast", after > 0 && count_differing_entries(v.col(last), fast.col(last)) > 0
-                                            ? count_differing_entries(v.col(0), fast.col(0))
-                                            : NAN);
+      measured.row(name + ", one fast",
+                   after > 0 && count_differing_entries(v.col(last), fast.col(last)) > 0
+                       ? count_differing_entries(v.col(0), fast.col(0))
+                       : NAN);
     }
   return judge_worst(
       measured, 0,
-      "what no limit is broken by is not the filter's business; in one sweep a correction cannot get "
-      "from the last particle of a sheet to the first, which lies at its other end");
+      "what no limit is broken by is not the filter's business; in one sweep a correction cannot "
+      "get from the last particle of a sheet to the first, which lies at its other end");
 }
 
 }  // namespace
@@ -225,30 +239,30 @@ Finding untouched_within_limits_finding(const Subject& subject) {
 std::vector<Check> strain_limit_checks() {
   const std::string source = "BMF03 section 3, after Provot 1995";
   std::vector<Check> list = {{"strain.one-spring-is-corrected-exactly",
-                              "A spring that would leave its limits is given the impulse along its current "
-                              "direction that takes its predicted "
-                              "length to the limit.",
+                              "A spring that would leave its limits is given the impulse along its "
+                              "current direction that takes its predicted length to the limit.",
                               source, one_spring_finding},
                              {"strain.unreachable-limits-leave-the-shortest-spring",
-                              "A spring that turns so fast that no impulse along it keeps its limit is given "
-                              "that which leaves it shortest.",
+                              "A spring that turns so fast that no impulse along it keeps its "
+                              "limit is given that which leaves it shortest.",
                               source, beyond_reach_finding}};
   for (const NamedOrder& named : sweep_orders())
     list.push_back(
         {"strain.predicted-lengths-stay-within-limits." + named.name,
          "Velocities from sweeps in the order '" + named.name +
              "' predict lengths within the limits, to the tolerance, of cloth that is within them.",
-         source, [order = named.order](const Subject& subject) { return limits_finding(subject, order); }});
+         source,
+         [order = named.order](const Subject& subject) { return limits_finding(subject, order); }});
   for (const Check& check : std::vector<Check>{
            {"strain.momentum-is-conserved",
-            "One correction changes neither the linear nor the angular momentum of a free cloth.", source,
-            momentum_finding},
+            "One correction changes neither the linear nor the angular momentum of a free cloth.",
+            source, momentum_finding},
            {"strain.prescribed-particles-are-left-alone",
-            "Velocities of particles with prescribed motion are left as they are, bit for bit.", source,
-            held_finding},
+            "Velocities of particles with prescribed motion are left as they are, bit for bit.",
+            source, held_finding},
            {"strain.springs-within-limits-are-left-alone",
-            "Where no spring would leave its limits, velocities are left as they are, bit for bit.", source,
-            untouched_within_limits_finding}})
+            "Where no spring would leave its limits, velocities are left as they are, bit for bit.",
+            source, untouched_within_limits_finding}})
     list.push_back(check);
   return list;
 }

@@ -27,15 +27,17 @@ int farthest(const PerParticle3& rest) {
   return int(last);
 }
 
-/// Cloth within its limits that falls, stretches and bends, two particles of it led: far from each other, so
-/// that their motion leaves lengths within the limits possible. The step is one that explicit forces bear.
+/// Cloth within its limits that falls, stretches and bends, two particles of it led: far from each
+/// other, so that their motion leaves lengths within the limits possible. The step is one that
+/// explicit forces bear.
 LimitedCloth falling(LimitedCloth cloth) {
   Scene& scene = cloth.scene;
   scene.gravity = Vector3(0.7, -9.1, 1.9);
   scene.bending = BendingMaterial{3.1e-4, 2.3e-5, Weighting::rest, DampingFactor::edge, "sine"};
   Motion swing;
   swing.velocity = Vector3(0.11, -0.07, 0.19);
-  // limits that act from the first steps on: tight ones, and springs too weak to draw lengths away from them
+  // limits that act from the first steps on: tight ones, and springs too weak to draw
+  // lengths away from them
   scene.stretch->stiffness = 0.37;
   StrainLimits& limits = *scene.strain_limits;
   if (limits.compression > 0) limits.compression += 0.001 + strain_violation(scene, scene.x);
@@ -64,11 +66,10 @@ Finding steps_finding(const Subject& subject, const std::string& integrator) {
     tried += used > -5;
   }
   if (tried < 12) measured.row("few cloths come near their limits", NAN);
-  return judge_worst(
-      measured, 1 + 1e-9,
-      "x moves with the velocity that was limited, and nothing else moves it; a billionth for "
-      "the roundings of another sum. Of 16 cloths 12 at least must come within five tolerances of "
-      "their limits, or it is NaN");
+  return judge_worst(measured, 1 + 1e-9,
+                     "x moves with the velocity that was limited, and nothing else moves it; a "
+                     "billionth for the roundings of another sum. Of 16 cloths 12 at least must "
+                     "come within five tolerances of their limits, or it is NaN");
 }
 
 Finding report_finding(const Subject& subject) {
@@ -79,21 +80,21 @@ Finding report_finding(const Subject& subject) {
     const State s = stepper.step(stepper.start(), cloth.step);
     const double left = std::max(0.0, strain_violation(cloth.scene, s.x));
     measured.row(cloth.name, std::abs(stepper.work().strain_left - left) / epsilon);
-    const long sweeps =
-        stepper.work().strain_sweeps;  // the second only where the first found something to correct
+    // the second only where the first found something to correct
+    const long sweeps = stepper.work().strain_sweeps;
     const bool plausible = sweeps == 2 || (sweeps == 1 && left == 0);
     measured.row(cloth.name + ", sweeps", plausible ? 0 : INFINITY);
   }
   return judge_worst(
       measured, 64,
-      "positions, up to ten times as far from the origin as a spring is long, are rounded, and their "
-      "difference over the rest length; what counts as at the limit may be eight beyond it");
+      "positions, up to ten times as far from the origin as a spring is long, are rounded, and "
+      "their difference over the rest length; what counts as at the limit may be eight beyond it");
 }
 
 // ---- sweeps
 
-/// Particles on a line, springs between neighbours or from the first to all others: there, lengths within
-/// limits are an interval for each velocity difference.
+/// Particles on a line, springs between neighbours or from the first to all others: there, lengths
+/// within limits are an interval for each velocity difference.
 struct Chain {
   StrainLimiter limiter;
   PerParticle3 x, v, within;  // 3 x N; `within`: velocities that keep the limits
@@ -110,13 +111,16 @@ Chain random_chain(SweepOrder order, bool bundle, unsigned seed) {
   limits.compression = 0.07;
   limits.order = order;
   limits.sweeps = 1;
-  Chain chain{
-      {},   PerParticle3::Zero(3, count), PerParticle3::Zero(3, count), PerParticle3::Zero(3, count), {},
-      0.013};
+  Chain chain{{},
+              PerParticle3::Zero(3, count),
+              PerParticle3::Zero(3, count),
+              PerParticle3::Zero(3, count),
+              {},
+              0.013};
   chain.mass = PerParticle(count);
   std::vector<Spring> springs;
-  std::vector<double> place(count, 0.2),
-      later(count, 0.23);  // on the line, now and after a step within limits [m]
+  // on the line, now and after a step within limits [m]
+  std::vector<double> place(count, 0.2), later(count, 0.23);
   for (int i = 0; i < count; ++i) {
     const double L = random.uniform(0.03, 0.07);
     if (i > 0) {
@@ -157,7 +161,8 @@ Finding nearer_finding(const Subject&) {
         grown = signed_largest({grown, change(chain.within)});
         energy = signed_largest({energy, change(PerParticle3::Zero(3, chain.v.cols()))});
       }
-      const std::string name = named.name + (bundle ? ", bundle" : ", chain " + std::to_string(seed));
+      const std::string name =
+          named.name + (bundle ? ", bundle" : ", chain " + std::to_string(seed));
       measured.row(name + ", distance", grown);
       measured.row(name + ", energy", energy);
     }
@@ -169,7 +174,8 @@ Finding nearer_finding(const Subject&) {
 }
 
 Finding colours_finding(const Subject&) {
-  Table measured{{"case", ""}, {"springs of a colour that share a particle, and springs lost", "springs"}};
+  Table measured{{"case", ""},
+                 {"springs of a colour that share a particle, and springs lost", "springs"}};
   for (const LimitedCloth& cloth : limited_cloths(SweepOrder::coloured)) {
     const System system = build_system(cloth.scene);
     const auto& limiter = std::get<StrainLimiter>(system.filters.front());
@@ -182,7 +188,8 @@ Finding colours_finding(const Subject&) {
       std::sort(ends.begin(), ends.end());
       wrong += double(ends.end() - std::unique(ends.begin(), ends.end()));
     }
-    measured.row(cloth.name + ", " + std::to_string(limiter.colours.size() - 1) + " colours", wrong);
+    measured.row(cloth.name + ", " + std::to_string(limiter.colours.size() - 1) + " colours",
+                 wrong);
   }
   return judge_worst(measured, 0, "threads that share a colour would write to one particle");
 }
@@ -195,7 +202,8 @@ Finding threads_finding(const Subject& subject) {
     for (const int threads : {2, 5}) {
       cloth.scene.strain_limits->threads = threads;
       measured.row(cloth.name + ", " + std::to_string(threads) + " threads",
-                   count_differing_entries(corrected_by_strain_limits(subject, cloth, cloth.state.v), alone));
+                   count_differing_entries(
+                       corrected_by_strain_limits(subject, cloth, cloth.state.v), alone));
     }
   }
   return judge_worst(measured, 0, "no two springs of a colour share a particle");
@@ -213,10 +221,11 @@ Finding read_finding(const Subject&) {
   differences.row("the default order is gauss_seidel",
                   infinite_unless(usual.order == SweepOrder::gauss_seidel));
   for (const NamedOrder& named : sweep_orders()) {
-    const Scene scene = trial_scene(springs +
-                                    "[strain_limits]\nextension = 0.23\ncompression = 0.07\nsweeps = 9\n"
-                                    "tolerance = 3e-4\norder = \"" +
-                                    named.name + (named.name == "coloured" ? "\"\nthreads = 3\n" : "\"\n"));
+    const Scene scene =
+        trial_scene(springs +
+                    "[strain_limits]\nextension = 0.23\ncompression = 0.07\nsweeps = 9\n"
+                    "tolerance = 3e-4\norder = \"" +
+                    named.name + (named.name == "coloured" ? "\"\nthreads = 3\n" : "\"\n"));
     const StrainLimits& read = *scene.strain_limits;
     differences.row("extension", in_roundings(read.extension - 0.23, 0.23));
     differences.row("compression", in_roundings(read.compression - 0.07, 0.07));
@@ -227,19 +236,21 @@ Finding read_finding(const Subject&) {
   }
   const std::string ball = "[[object]]\nshape = \"sphere\"\nradius = 0.1\n";
   const System both = build_system(trial_scene(springs + ball + "[strain_limits]\n"));
-  differences.row(
-      "limits come before objects",
-      infinite_unless(both.filters.size() == 2 && std::holds_alternative<StrainLimiter>(both.filters[0]) &&
-                      std::holds_alternative<ObjectCollision>(both.filters[1])));
+  differences.row("limits come before objects",
+                  infinite_unless(both.filters.size() == 2 &&
+                                  std::holds_alternative<StrainLimiter>(both.filters[0]) &&
+                                  std::holds_alternative<ObjectCollision>(both.filters[1])));
   differences.row("without the table no filter is built",
                   infinite_unless(build_system(trial_scene(springs)).filters.empty()));
   const Scene scene = trial_scene(springs + "[strain_limits]\nextension = 0.25\n");
   const std::vector<std::string> parts = describe_parts(scene, build_system(scene));
-  differences.row("a run says what was built",
-                  infinite_unless(std::any_of(parts.begin(), parts.end(), [](const std::string& part) {
-                    return part.find("limited to 1 to 1.25") != std::string::npos;
-                  })));
-  return judged_differences(differences, 1, "a decimal is rounded once when it is read and once here");
+  differences.row(
+      "a run says what was built",
+      infinite_unless(std::any_of(parts.begin(), parts.end(), [](const std::string& part) {
+        return part.find("limited to 1 to 1.25") != std::string::npos;
+      })));
+  return judged_differences(differences, 1,
+                            "a decimal is rounded once when it is read and once here");
 }
 
 Finding rejected_finding(const Subject&) {
@@ -260,11 +271,12 @@ Finding rejected_finding(const Subject&) {
 /// v after the springs, in the order given, were corrected one after the other.
 PerParticle3 one_by_one(const StrainLimiter& limiter, const LimitedCloth& cloth, PerParticle3 v) {
   for (const LimitedSpring& spring : limiter.springs)
-    limit_strain({{limiter.limits.extension, limiter.limits.compression, SweepOrder::gauss_seidel, 1},
-                  {spring},
-                  {0, 1},
-                  limiter.inverse_mass},
-                 cloth.step, cloth.state.x, v);
+    limit_strain(
+        {{limiter.limits.extension, limiter.limits.compression, SweepOrder::gauss_seidel, 1},
+         {spring},
+         {0, 1},
+         limiter.inverse_mass},
+        cloth.step, cloth.state.x, v);
   return v;
 }
 
@@ -275,13 +287,15 @@ StrainLimiter limiter_of(const LimitedCloth& cloth, SweepOrder order, int sweeps
   limits.order = order;
   limits.sweeps = sweeps;
   limits.tolerance = 1e-300;
-  return make_strain_limiter(limits, std::get<StretchSprings>(system.forces[0]).springs, system.inverse_mass);
+  return make_strain_limiter(limits, std::get<StretchSprings>(system.forces[0]).springs,
+                             system.inverse_mass);
 }
 
 Finding orders_finding(const Subject&) {
   Table measured{{"case", ""}, {"numbers that differ from springs taken one by one", "1"}};
   for (const LimitedCloth& cloth : limited_cloths(SweepOrder::gauss_seidel)) {
-    for (const SweepOrder order : {SweepOrder::gauss_seidel, SweepOrder::alternating, SweepOrder::coloured}) {
+    for (const SweepOrder order :
+         {SweepOrder::gauss_seidel, SweepOrder::alternating, SweepOrder::coloured}) {
       StrainLimiter limiter = limiter_of(cloth, order, 2);
       PerParticle3 v = cloth.state.v;
       limit_strain(limiter, cloth.step, cloth.state.x, v);
@@ -293,38 +307,42 @@ Finding orders_finding(const Subject&) {
     }
   }
   return judge_worst(
-      measured, 0, "two sweeps are two times all springs, the second time backwards where sweeps alternate");
+      measured, 0,
+      "two sweeps are two times all springs, the second time backwards where sweeps alternate");
 }
 
 }  // namespace
 
 std::vector<Check> strain_step_checks() {
   std::vector<Check> list;
-  add_for_each_scheme(list,
-                      {"strain.steps-stay-within-limits",
-                       "the positions that a step ends at keep the strain limits, to the tolerance.",
-                       source,
-                       {}},
-                      steps_finding);
+  add_for_each_scheme(
+      list,
+      {"strain.steps-stay-within-limits",
+       "the positions that a step ends at keep the strain limits, to the tolerance.",
+       source,
+       {}},
+      steps_finding);
   for (const Check& check : std::vector<Check>{
            {"strain.remaining-violation-is-reported",
-            "A step reports its sweeps, and the largest violation that they left.", source, report_finding},
+            "A step reports its sweeps, and the largest violation that they left.", source,
+            report_finding},
            {"strain.sweeps-never-add-kinetic-energy",
-            "On a line, a sweep leads no farther from any velocity within the limits, so it never adds "
-            "kinetic energy.",
+            "On a line, a sweep leads no farther from any velocity within the limits, so it never "
+            "adds kinetic energy.",
             "Bregman 1967", nearer_finding},
            {"strain.sweeps-visit-springs-in-order",
-            "A sweep corrects one spring after the other in the list's order, every other sweep backwards if "
-            "so asked, and "
-            "coloured ones in the order of the colours.",
+            "A sweep corrects one spring after the other in the list's order, every other sweep "
+            "backwards if so asked, and coloured ones in the order of the colours.",
             source, orders_finding},
            {"strain.springs-of-a-colour-share-no-particle",
-            "No two springs of a colour share a particle, and none is lost.", "our own", colours_finding},
+            "No two springs of a colour share a particle, and none is lost.", "our own",
+            colours_finding},
            {"strain.thread-count-does-not-matter",
-            "Coloured sweeps give the same bits on any number of threads.", "our own", threads_finding},
+            "Coloured sweeps give the same bits on any number of threads.", "our own",
+            threads_finding},
            {"scene.strain-limits-are-read",
-            "Strain limits are read as they are written, and built before objects.", "cases/KEYS.md",
-            read_finding},
+            "Strain limits are read as they are written, and built before objects.",
+            "cases/KEYS.md", read_finding},
            {"scene.invalid-strain-limits-are-rejected",
             "Strain limits that make no sense are refused, with the line.", "cases/KEYS.md",
             rejected_finding}})

@@ -1,4 +1,5 @@
-// What the usual alternatives break that the paper's element keeps: momentum, or nothing but bending.
+// What the usual alternatives break that the paper's element keeps: momentum, or
+// nothing but bending.
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -15,13 +16,14 @@ namespace {
 
 /// By how much four forces break each of the laws, relative to their size [1].
 struct Defects {
-  double force;     // |sum F_i| over sum |F_i|
-  double torque;    // |sum x_i x F_i| about the centre over sum |x_i||F_i|
-  double in_plane;  // largest work on a motion of length 1 in the planes, over |F| as a vector of twelve
+  double force;   // |sum F_i| over sum |F_i|
+  double torque;  // |sum x_i x F_i| about the centre over sum |x_i||F_i|
+  // largest work on a motion of length 1 in the planes, over |F| as a vector of twelve
+  double in_plane;
 };
 
-/// Motions that bend nothing and turn nothing: x1 and x2 in the planes of their triangles, the edge's
-/// stretch.
+/// Motions that bend nothing and turn nothing: x1 and x2 in the planes of their triangles, the
+/// edge's stretch.
 std::vector<PerParticle3> in_plane_motions(const Corners& x) {
   const Vector3 edge = x[3] - x[2], none = Vector3::Zero();
   std::vector<PerParticle3> motions;
@@ -55,9 +57,9 @@ struct FoldedHinge {
   Defects of_the_paper;
 };
 
-/// Random hinges at angles of either sign from .2 to 2.9 rad where |cos theta| > .1: flat, no model has a
-/// force; at right angles the shortcut, which puts sin theta cos theta into the edge's stretch, happens to be
-/// right.
+/// Random hinges at angles of either sign from .2 to 2.9 rad where |cos theta| > .1: flat, no model
+/// has a force; at right angles the shortcut, which puts sin theta cos theta into the edge's
+/// stretch, happens to be right.
 std::vector<FoldedHinge> folded_hinges(const Subject& subject) {
   constexpr int tries = 48;
   Random random(613);
@@ -92,8 +94,8 @@ Finding acts_in_plane(const Subject& subject, const BendingAlternative& model) {
   return {{found.rows() == 0 ? NAN : ratio.value(), 1e-6, 0, "1",
            "a millionth: what a model puts in plane is then no rounding, on any of the hinges"},
           found,
-          "in plane: the largest work on an in-plane motion over the product of lengths, 1 if the force were "
-          "that motion; measured is the paper's over the model's, at worst"};
+          "in plane: the largest work on an in-plane motion over the product of lengths, 1 if the "
+          "force were that motion; measured is the paper's over the model's, at worst"};
 }
 
 /// The paper's element under the same measures, and the shortcut that spoils nothing.
@@ -102,7 +104,8 @@ Finding paper_keeps_all(const Subject& subject) {
   measured.add({"in plane, normals alone taken as constant", "epsilon thinness"});
   for (const FoldedHinge& hinge : folded_hinges(subject)) {
     Worst worst;
-    for (double defect : {hinge.of_the_paper.force, hinge.of_the_paper.torque, hinge.of_the_paper.in_plane})
+    for (double defect :
+         {hinge.of_the_paper.force, hinge.of_the_paper.torque, hinge.of_the_paper.in_plane})
       worst.observe(defect / (epsilon * aspect_ratio(hinge.x)));
     const auto shortcut = shortcut_gradient(hinge.x, EdgeLength::differentiated);
     measured.row(hinge.name, worst.value(),
@@ -110,25 +113,25 @@ Finding paper_keeps_all(const Subject& subject) {
   }
   return judge_worst(
       measured, "measured", 32,
-      "sums of four forces and products with twelve numbers take fewer than 32 roundings, magnified by "
-      "thinness",
-      "With the normals' lengths alone taken as constant nothing is lost: in d(theta) = cos d(sin) - sin "
-      "d(cos) their changes cancel. It is the edge's length that must not be.");
+      "sums of four forces and products with twelve numbers take fewer than 32 roundings, "
+      "magnified by thinness",
+      "With the normals' lengths alone taken as constant nothing is lost: in d(theta) = cos d(sin) "
+      "- sin d(cos) their changes cancel. It is the edge's length that must not be.");
 }
 
 }  // namespace
 
 std::vector<Check> bending_alternative_checks() {
   std::vector<Check> checks = {{"bending.force-stays-out-of-plane",
-                                "On folded hinges the paper's forces sum to zero, have no torque and do no "
-                                "work in the planes of the triangles.",
+                                "On folded hinges the paper's forces sum to zero, have no torque "
+                                "and do no work in the planes of the triangles.",
                                 "BMF03 section 4", paper_keeps_all}};
   for (const BendingAlternative& model : bending_alternatives())
-    checks.push_back(
-        {model.name,
-         model.words +
-             " pulls in the planes of the triangles, a million times beyond what the paper's element does.",
-         model.source, [model](const Subject& subject) { return acts_in_plane(subject, model); }});
+    checks.push_back({model.name,
+                      model.words + " pulls in the planes of the triangles, a million times beyond "
+                                    "what the paper's element does.",
+                      model.source,
+                      [model](const Subject& subject) { return acts_in_plane(subject, model); }});
   return checks;
 }
 

@@ -23,10 +23,11 @@ std::string in_radians(double angle) {
 
 double sine_of(const Corners& x) { return hinge_shape(x[0], x[1], x[2], x[3]).sin_half; }
 
-/// A hinge in the plane z = 0, exactly flat or (folded) exactly sharp: the second triangle on either side of
-/// the edge.
+/// A hinge in the plane z = 0, exactly flat or (folded) exactly sharp: the second triangle on
+/// either side of the edge.
 Corners planar_hinge(double height2) {
-  return {Vector3(0.11, 0.23, 0), Vector3(0.19, height2, 0), Vector3(0.03, 0, 0), Vector3(0.37, 0, 0)};
+  return {Vector3(0.11, 0.23, 0), Vector3(0.19, height2, 0), Vector3(0.03, 0, 0),
+          Vector3(0.37, 0, 0)};
 }
 
 Finding sine_is_accurate(const Subject&) {
@@ -41,15 +42,16 @@ Finding sine_is_accurate(const Subject&) {
         printed = oracles::sin_half_angle_50(x);
         error.observe(std::abs(sine_of(x) - printed.value) / (epsilon * aspect_ratio(x)));
       }
-      measured.row(in_radians(angle), oracles::Estimate{error.value(), printed.uncertainty / epsilon});
+      measured.row(in_radians(angle),
+                   oracles::Estimate{error.value(), printed.uncertainty / epsilon});
     }
   }
   const double flat = sine_of(planar_hinge(-0.17));
   measured.row("exactly flat (must be exactly zero)",
                flat == 0 ? 0 : std::numeric_limits<double>::infinity());
-  return judge_worst(
-      measured, 16,
-      "the normals, their products and one root: fewer than 16 roundings of 1, magnified by the thinness");
+  return judge_worst(measured, 16,
+                     "the normals, their products and one root: fewer than 16 roundings of 1, "
+                     "magnified by the thinness");
 }
 
 Finding angle_is_accurate(const Subject&) {
@@ -58,12 +60,14 @@ Finding angle_is_accurate(const Subject&) {
     const Corners x = corners_of(hinge.scene.mesh.hinges[0], hinge.state.x);
     const oracles::Estimate theta = oracles::hinge_angle_50(x);
     const double unit = epsilon * pi * aspect_ratio(x);
-    measured.row(in_radians(theta.value),
-                 oracles::Estimate{std::abs(hinge_angle(x[0], x[1], x[2], x[3]) - theta.value) / unit,
-                                   theta.uncertainty / unit});
+    measured.row(
+        in_radians(theta.value),
+        oracles::Estimate{std::abs(hinge_angle(x[0], x[1], x[2], x[3]) - theta.value) / unit,
+                          theta.uncertainty / unit});
   }
-  return judge_worst(measured, 16,
-                     "sine and cosine of theta take fewer than 16 roundings of 1, magnified by the thinness");
+  return judge_worst(
+      measured, 16,
+      "sine and cosine of theta take fewer than 16 roundings of 1, magnified by the thinness");
 }
 
 /// The hinge of a sweep: axis-aligned, so that the angle is the only thing that changes.
@@ -94,13 +98,15 @@ Finding sine_rises(const Subject&) {
   measured.row("about 0", worst_unevenness(-1.7e-9, 1.9e-9, 1009));
   measured.row("about pi/2", worst_unevenness(pi / 2 - 1e-9, pi / 2 + 1.3e-9, 997));
   measured.row("about pi", worst_unevenness(3.1415, 3.1415926535, 1013));
-  measured.row("whole range left out", std::abs(sine_of(swept(3.14159)) - sine_of(swept(-3.14159)) - 2) < 1e-9
-                                           ? 0
-                                           : std::numeric_limits<double>::infinity());
-  return judge_worst(
-      measured, 16, "two neighbouring values carry fewer than 16 roundings of 1 between them",
-      "Measured is by how much, at worst, a value of sin(theta/2) lies below the one before it or rises by "
-      "more than half the step of theta, which is its steepest slope; exact values would give 0.");
+  measured.row("whole range left out",
+               std::abs(sine_of(swept(3.14159)) - sine_of(swept(-3.14159)) - 2) < 1e-9
+                   ? 0
+                   : std::numeric_limits<double>::infinity());
+  return judge_worst(measured, 16,
+                     "two neighbouring values carry fewer than 16 roundings of 1 between them",
+                     "Measured is by how much, at worst, a value of sin(theta/2) lies below the "
+                     "one before it or rises by more than half the step of theta, which is its "
+                     "steepest slope; exact values would give 0.");
 }
 
 Finding sharp_folds_stay_finite(const Subject& subject) {
@@ -116,21 +122,23 @@ Finding sharp_folds_stay_finite(const Subject& subject) {
     scene.bending = material;
     const Probe probe(subject, scene);
     const State s = state_of(x);
-    const PerParticle3 f = probe.elastic(s), damping = probe.damping(s, PerParticle3::Constant(3, 4, 0.7));
+    const PerParticle3 f = probe.elastic(s),
+                       damping = probe.damping(s, PerParticle3::Constant(3, 4, 0.7));
     const Eigen::Matrix<double, 3, 4> u = bending_mode(hinge_shape(x[0], x[1], x[2], x[3]));
     const double edge = (x[3] - x[2]).norm();
-    const double areas = (x[0] - x[2]).cross(x[0] - x[3]).norm() + (x[1] - x[2]).cross(x[1] - x[3]).norm();
-    const double limit = material.stiffness * edge * edge / areas * (1 + std::sin(0.83 / 2)) * u.norm();
+    const double areas =
+        (x[0] - x[2]).cross(x[0] - x[3]).norm() + (x[1] - x[2]).cross(x[1] - x[3]).norm();
+    const double limit =
+        material.stiffness * edge * edge / areas * (1 + std::sin(0.83 / 2)) * u.norm();
     ratios.row(name, damping.allFinite() ? f.norm() / limit : std::nan(""));
   }
   const double excess = signed_largest(ratios.numbers("|F| over its limit")) - 1;
-  return {
-      {excess / epsilon, 256, 0, "epsilon of the limit",
-       "|sin(theta/2)| is at most 1, however sharp the fold, so |F| is at most the limit ke c (1 + "
-       "sin(theta0/2)) |u|, but for the roundings of the dozen products in each"},
-      ratios,
-      "Measured is the largest |F| less its limit: negative where it stays below. A force or a damping force "
-      "that is not finite gives NaN."};
+  return {{excess / epsilon, 256, 0, "epsilon of the limit",
+           "|sin(theta/2)| is at most 1, however sharp the fold, so |F| is at most the limit ke c "
+           "(1 + sin(theta0/2)) |u|, but for the roundings of the dozen products in each"},
+          ratios,
+          "Measured is the largest |F| less its limit: negative where it stays below. A force or a "
+          "damping force that is not finite gives NaN."};
 }
 
 Finding rest_angles_give_no_force(const Subject& subject) {
@@ -147,8 +155,8 @@ Finding rest_angles_give_no_force(const Subject& subject) {
       for (int k = 0; k < 4; ++k) scale[hinge.particles[k]] += c * u[k] * aspect_ratio(x);
     }
     const PerParticle relative = f.colwise().norm().transpose().cwiseQuotient(scale);
-    measured.row(shape.name,
-                 relative.maxCoeff<Eigen::PropagateNaN>() / (epsilon * shape.scene.bending->stiffness));
+    measured.row(shape.name, relative.maxCoeff<Eigen::PropagateNaN>() /
+                                 (epsilon * shape.scene.bending->stiffness));
   }
   return judge_worst(
       measured, 32,
@@ -172,8 +180,9 @@ std::vector<Loss> losses(const Scene& scene) {
   cases[1].name = "two corners in one place";
   cases[1].x.col(c) = scene.x.col(b);
   cases[2].name = "a height of 1e-12 of the edge";
-  cases[2].x.col(c) = scene.x.col(a) + 0.4 * (scene.x.col(b) - scene.x.col(a)) +
-                      1e-12 * (scene.x.col(c) - scene.x.col(a)).cross(scene.x.col(b) - scene.x.col(a));
+  cases[2].x.col(c) =
+      scene.x.col(a) + 0.4 * (scene.x.col(b) - scene.x.col(a)) +
+      1e-12 * (scene.x.col(c) - scene.x.col(a)).cross(scene.x.col(b) - scene.x.col(a));
   cases[3].name = "a NaN";
   cases[3].x(1, c) = std::nan("");
   cases[3].lost = {c};
@@ -206,9 +215,9 @@ Finding lost_triangles_are_reported(const Subject& subject) {
     }) + !is_reported(loss, [&] { probe.energy(s); });
     measured.row(loss.name, silent);
   }
-  return judge_worst(
-      measured, 0,
-      "forces, damping and energy each must throw DegenerateElement naming particles of the lost triangle");
+  return judge_worst(measured, 0,
+                     "forces, damping and energy each must throw DegenerateElement naming "
+                     "particles of the lost triangle");
 }
 
 }  // namespace
@@ -217,22 +226,23 @@ std::vector<Check> bending_angle_checks() {
   const char* const section = "BMF03 section 4";
   return {
       {"bending.sine-is-accurate-near-flat-and-near-folded",
-       "The reference's sin(theta/2) is good to roundings of 1 from 1e-12 rad to pi - 1e-12 rad, and exactly "
-       "0 when flat.",
+       "The reference's sin(theta/2) is good to roundings of 1 from 1e-12 rad to pi - 1e-12 rad, "
+       "and exactly 0 when flat.",
        section, sine_is_accurate},
-      {"bending.angle-is-accurate", "The reference's hinge angle is theta to rounding, signed as printed.",
-       section, angle_is_accurate},
+      {"bending.angle-is-accurate",
+       "The reference's hinge angle is theta to rounding, signed as printed.", section,
+       angle_is_accurate},
       {"bending.sine-rises-monotonically",
-       "The reference's sin(theta/2) rises with theta from folded through flat to folded, nowhere faster "
-       "than theta/2.",
+       "The reference's sin(theta/2) rises with theta from folded through flat to folded, nowhere "
+       "faster than theta/2.",
        section, sine_rises},
       {"bending.force-stays-finite-in-sharp-folds",
        "Folded up to 179.9999 degrees, and to exactly pi, the elastic force stays within ke c (1 + "
        "sin(theta0/2)) |u|.",
        section, sharp_folds_stay_finite},
       {"bending.rest-shape-feels-no-force",
-       "A statue, a sphere, a cylinder and pleats feel no bending force in the shape that their rest angles "
-       "were taken from.",
+       "A statue, a sphere, a cylinder and pleats feel no bending force in the shape that their "
+       "rest angles were taken from.",
        section, rest_angles_give_no_force},
       {"bending.degenerate-triangles-are-reported",
        "A triangle without area is reported with its particles; no NaN leaves the bending forces.",

@@ -14,8 +14,8 @@ using Measurement = double (*)(const PerParticle3& x, const PerParticle3& f);
 double net_force_of(const PerParticle3&, const PerParticle3& f) { return net_force(f); }
 
 const char* const why_sums =
-    "each hinge's forces cancel to a few roundings and about 20 hinge forces are added to a particle, a "
-    "rounding each";
+    "each hinge's forces cancel to a few roundings and about 20 hinge forces are added to a "
+    "particle, a rounding each";
 
 /// A law of momentum on all crumpled sheets and some hinges, for the materials given.
 Table over_specimens(const Subject& subject, const std::vector<BendingMaterial>& materials,
@@ -43,11 +43,13 @@ std::vector<BendingMaterial> paper_variants() {
 }
 
 Finding forces_sum_to_zero(const Subject& subject) {
-  return judge_worst(over_specimens(subject, paper_variants(), "sum |F_i|", net_force_of), 32, why_sums);
+  return judge_worst(over_specimens(subject, paper_variants(), "sum |F_i|", net_force_of), 32,
+                     why_sums);
 }
 
 Finding torques_sum_to_zero(const Subject& subject) {
-  return judge_worst(over_specimens(subject, paper_variants(), "sum |x_i||F_i|", net_torque), 32, why_sums);
+  return judge_worst(over_specimens(subject, paper_variants(), "sum |x_i||F_i|", net_torque), 32,
+                     why_sums);
 }
 
 Finding other_laws_keep_momentum(const Subject& subject) {
@@ -73,8 +75,8 @@ Finding other_laws_keep_momentum(const Subject& subject) {
 /// What 50 digits say of the elastic forces of a whole specimen: the sum over its hinges, N each.
 struct Expected {
   PerParticle3 force;  // 3 x N [N]
-  PerParticle
-      scale;  // sum over the hinges at a particle of what a rounding of the magnitude 1 would move [N]
+  // sum over the hinges at a particle of what a rounding of the magnitude 1 would move [N]
+  PerParticle scale;
   PerParticle uncertainty;  // N
 };
 
@@ -86,15 +88,18 @@ oracles::Quad<double> as_quad(const Corners& x) {
 
 Expected expected_elastic(const Specimen& specimen) {
   const Eigen::Index count = specimen.state.x.cols();
-  Expected expected{PerParticle3::Zero(3, count), PerParticle::Zero(count), PerParticle::Zero(count)};
+  Expected expected{PerParticle3::Zero(3, count), PerParticle::Zero(count),
+                    PerParticle::Zero(count)};
   for (size_t h = 0; h < specimen.scene.mesh.hinges.size(); ++h) {
     const oracles::HingeInput input = hinge_input(specimen, h);
     const auto force = oracles::bending_elastic_50(input);
     const oracles::Quad<double> u = oracles::bending_mode(as_quad(input.x));
-    const Corners& weighed = input.elastic_geometry == oracles::Geometry::rest ? input.rest : input.x;
+    const Corners& weighed =
+        input.elastic_geometry == oracles::Geometry::rest ? input.rest : input.x;
     const double c = oracles::anisotropy_factor(as_quad(weighed));
     const double largest = std::max({length(u[0]), length(u[1]), length(u[2]), length(u[3])});
-    const double scale = input.ke * c * largest * std::max(aspect_ratio(input.x), aspect_ratio(weighed));
+    const double scale =
+        input.ke * c * largest * std::max(aspect_ratio(input.x), aspect_ratio(weighed));
     for (int k = 0; k < 4; ++k) {
       const int i = specimen.scene.mesh.hinges[h].particles[k];
       expected.force.col(i) += force.value[k];
@@ -124,37 +129,38 @@ Finding force_is_as_defined(const Subject& subject) {
     Specimen& specimen = specimens[k];
     const bool is_sheet = specimen.scene.mesh.hinges.size() > 1;
     for (const BendingMaterial& material : paper_variants()) {
-      if (is_sheet && (material.weighting == Weighting::rest) != (k % 2 == 0))
-        continue;  // sheets take them in turn
+      // sheets take them in turn
+      if (is_sheet && (material.weighting == Weighting::rest) != (k % 2 == 0)) continue;
       specimen.scene.bending = material;
       const PerParticle3 f = Probe(subject, specimen.scene).elastic(specimen.state);
       measured.row(describe(specimen, material), worst_difference(f, expected_elastic(specimen)));
     }
   }
   return judge_worst(measured, 64,
-                     "a hinge's force takes fewer than 64 roundings, and the normals magnify them by the "
-                     "triangles' thinness (longest side squared over twice the area)");
+                     "a hinge's force takes fewer than 64 roundings, and the normals magnify them "
+                     "by the triangles' thinness (longest side squared over twice the area)");
 }
 
 }  // namespace
 
 std::vector<Check> bending_checks() {
-  return {
-      {"bending.forces-sum-to-zero",
-       "The elastic bending forces on crumpled sheets and on single hinges sum to zero, with rest and with "
-       "current weighting.",
-       "BMF03 section 4", forces_sum_to_zero},
-      {"bending.torques-sum-to-zero",
-       "The torques of the elastic bending forces on crumpled sheets and single hinges sum to zero, with "
-       "either weighting.",
-       "BMF03 section 4", torques_sum_to_zero},
-      {"bending.other-laws-conserve-momentum",
-       "Forces and torques still sum to zero when another function of the angle takes the sine's place.",
-       "BMF03 section 4: other magnitudes must multiply all four forces alike", other_laws_keep_momentum},
-      {"bending.force-is-as-defined",
-       "On crumpled sheets and on hinges of all angles, with rest angles, the elastic force is the printed "
-       "one to rounding.",
-       "BMF03 section 4, evaluated in 50 digits", force_is_as_defined}};
+  return {{"bending.forces-sum-to-zero",
+           "The elastic bending forces on crumpled sheets and on single hinges sum to zero, with "
+           "rest and with current weighting.",
+           "BMF03 section 4", forces_sum_to_zero},
+          {"bending.torques-sum-to-zero",
+           "The torques of the elastic bending forces on crumpled sheets and single hinges sum to "
+           "zero, with either weighting.",
+           "BMF03 section 4", torques_sum_to_zero},
+          {"bending.other-laws-conserve-momentum",
+           "Forces and torques still sum to zero when another function of the angle takes the "
+           "sine's place.",
+           "BMF03 section 4: other magnitudes must multiply all four forces alike",
+           other_laws_keep_momentum},
+          {"bending.force-is-as-defined",
+           "On crumpled sheets and on hinges of all angles, with rest angles, the elastic force is "
+           "the printed one to rounding.",
+           "BMF03 section 4, evaluated in 50 digits", force_is_as_defined}};
 }
 
 }  // namespace foldproof

@@ -70,12 +70,12 @@ Finding damping_is_as_defined(const Subject& subject) {
     }
     const PerParticle unit = epsilon * damping_scale(specimen, specimen.state.v);
     const PerParticle error = (f - expected).colwise().norm().transpose().cwiseQuotient(unit);
-    measured.row(damped.name,
-                 oracles::Estimate{error.maxCoeff<Eigen::PropagateNaN>(), uncertainty.cwiseQuotient(unit).maxCoeff()});
+    measured.row(damped.name, oracles::Estimate{error.maxCoeff<Eigen::PropagateNaN>(),
+                                                uncertainty.cwiseQuotient(unit).maxCoeff()});
   }
-  return judge_worst(
-      measured, 64,
-      "a hinge's damping force takes fewer than 64 roundings, magnified by the triangles' thinness");
+  return judge_worst(measured, 64,
+                     "a hinge's damping force takes fewer than 64 roundings, magnified by the "
+                     "triangles' thinness");
 }
 
 Finding damping_dissipates(const Subject& subject) {
@@ -103,12 +103,13 @@ Finding leaves_rigid_motion_alone(const Subject& subject) {
     const PerParticle3 v = rigid_velocity(x, Vector3(0.4, -0.9, 0.3), Vector3(-3.1, 1.9, 4.7));
     measured.row(damped.name, force_in_roundings(Probe(subject, specimen.scene), specimen, v));
   }
-  return judge_worst(
-      measured, 32,
-      "u.v of a rigid motion is a sum of fewer than 32 terms' roundings, magnified by the thinness");
+  return judge_worst(measured, 32,
+                     "u.v of a rigid motion is a sum of fewer than 32 terms' roundings, magnified "
+                     "by the thinness");
 }
 
-/// x1 and x2 moving in the planes of their triangles, the edge stretching at `rates` [1/s]: no angle changes.
+/// x1 and x2 moving in the planes of their triangles, the edge stretching at `rates`
+/// [1/s]: no angle changes.
 PerParticle3 in_plane_velocity(const Corners& x, const std::array<double, 5>& rates) {
   const Vector3 edge = x[3] - x[2];
   PerParticle3 v(3, 4);
@@ -120,8 +121,9 @@ PerParticle3 in_plane_velocity(const Corners& x, const std::array<double, 5>& ra
 }
 
 Finding leaves_in_plane_motion_alone(const Subject& subject) {
-  const std::array<const char*, 5> names = {"x1 away from x3", "x1 along the edge", "x2 away from x3",
-                                            "x2 along the edge", "stretch of the edge"};
+  const std::array<const char*, 5> names = {"x1 away from x3", "x1 along the edge",
+                                            "x2 away from x3", "x2 along the edge",
+                                            "stretch of the edge"};
   Table measured = roundings_of("kd s |u| sum |u_j||v_j| thinness");
   const std::vector<Damped> cases = with_damping(hinges_of_all_angles());
   for (size_t motion = 0; motion < names.size(); ++motion) {
@@ -131,13 +133,15 @@ Finding leaves_in_plane_motion_alone(const Subject& subject) {
     for (const Damped& damped : cases) {
       const Specimen& hinge = damped.specimen;
       const Corners x = corners_of(hinge.scene.mesh.hinges[0], hinge.state.x);
-      worst.observe(force_in_roundings(Probe(subject, hinge.scene), hinge, in_plane_velocity(x, rates)));
+      worst.observe(
+          force_in_roundings(Probe(subject, hinge.scene), hinge, in_plane_velocity(x, rates)));
     }
     measured.row(names[motion], worst.value());
   }
   return judge_worst(
       measured, 32,
-      "u.v of an in-plane motion is a sum of fewer than 32 terms' roundings, magnified by the thinness",
+      "u.v of an in-plane motion is a sum of fewer than 32 terms' roundings, magnified by the "
+      "thinness",
       "The six rigid motions, which complete the eleven, have a check of their own.");
 }
 
@@ -153,7 +157,9 @@ std::vector<DampedScene> dense_cases() {
 
 Finding damping_is_symmetric(const Subject& subject) { return asymmetry(subject, dense_cases()); }
 
-Finding damping_is_negative(const Subject& subject) { return largest_eigenvalue(subject, dense_cases()); }
+Finding damping_is_negative(const Subject& subject) {
+  return largest_eigenvalue(subject, dense_cases());
+}
 
 Finding keeps_momentum(const Subject& subject) {
   Table measured = roundings_of("of the sum of sizes");
@@ -165,8 +171,8 @@ Finding keeps_momentum(const Subject& subject) {
   }
   return judge_worst(
       measured, 32,
-      "each hinge's forces cancel to a few roundings and about 20 hinge forces are added to a particle, a "
-      "rounding each",
+      "each hinge's forces cancel to a few roundings and about 20 hinge forces are added to a "
+      "particle, a rounding each",
       "the sum of sizes is sum |F_i| for the net force, sum |x_i||F_i| for the net torque");
 }
 
@@ -174,24 +180,24 @@ Finding keeps_momentum(const Subject& subject) {
 
 std::vector<Check> bending_damping_checks() {
   const char* const section = "BMF03 section 4";
-  return {
-      {"bending.damping-is-as-defined",
-       "The damping force is the printed one to rounding, with either of its two factors.",
-       "BMF03 section 4, evaluated in 50 digits", damping_is_as_defined},
-      {"bending.damping-dissipates", "Bending damping takes energy out of every random motion.", section,
-       damping_dissipates},
-      {"bending.damping-leaves-rigid-motion-alone",
-       "A sheet that moves as a rigid body feels no bending damping.", section, leaves_rigid_motion_alone},
-      {"bending.damping-leaves-in-plane-motion-alone",
-       "Motions of a hinge in the planes of its triangles feel no bending damping.", section,
-       leaves_in_plane_motion_alone},
-      {"bending.damping-is-symmetric", "The matrix of the bending damping is symmetric.",
-       "BMF03 sections 3 and 4", damping_is_symmetric},
-      {"bending.damping-is-negative-semidefinite",
-       "The matrix of the bending damping has no positive eigenvalue.", "BMF03 sections 3 and 4",
-       damping_is_negative},
-      {"bending.damping-forces-conserve-momentum", "The bending damping's forces and torques sum to zero.",
-       section, keeps_momentum}};
+  return {{"bending.damping-is-as-defined",
+           "The damping force is the printed one to rounding, with either of its two factors.",
+           "BMF03 section 4, evaluated in 50 digits", damping_is_as_defined},
+          {"bending.damping-dissipates", "Bending damping takes energy out of every random motion.",
+           section, damping_dissipates},
+          {"bending.damping-leaves-rigid-motion-alone",
+           "A sheet that moves as a rigid body feels no bending damping.", section,
+           leaves_rigid_motion_alone},
+          {"bending.damping-leaves-in-plane-motion-alone",
+           "Motions of a hinge in the planes of its triangles feel no bending damping.", section,
+           leaves_in_plane_motion_alone},
+          {"bending.damping-is-symmetric", "The matrix of the bending damping is symmetric.",
+           "BMF03 sections 3 and 4", damping_is_symmetric},
+          {"bending.damping-is-negative-semidefinite",
+           "The matrix of the bending damping has no positive eigenvalue.",
+           "BMF03 sections 3 and 4", damping_is_negative},
+          {"bending.damping-forces-conserve-momentum",
+           "The bending damping's forces and torques sum to zero.", section, keeps_momentum}};
 }
 
 }  // namespace foldproof

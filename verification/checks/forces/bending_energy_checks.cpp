@@ -19,8 +19,8 @@ std::vector<Specimen> specimens() {
   return chosen;
 }
 
-/// How far a path may lead from a specimen's state without folding a hinge through pi or losing a triangle
-/// [m].
+/// How far a path may lead from a specimen's state without folding a hinge through pi or losing
+/// a triangle [m].
 double excursion(const Specimen& specimen) {
   return 0.08 * smallest_height(specimen.scene.mesh.triangles, specimen.state.x);
 }
@@ -32,13 +32,14 @@ Finding force_is_minus_gradient(const Subject& subject) {
       if (material.weighting != Weighting::rest) continue;
       specimen.scene.bending = material;
       const Path path = random_line(specimen.state.x, excursion(specimen), 77);
-      measured.row(describe(specimen, material), energy_against_work(Probe(subject, specimen.scene), path));
+      measured.row(describe(specimen, material),
+                   energy_against_work(Probe(subject, specimen.scene), path));
     }
   }
-  return judge_worst(
-      measured, 256,
-      "80 to 640 forces and two energies enter the balance, each good to a few roundings of its scale times "
-      "the thinness of crumpled triangles, about 3; the quadrature's own error is the uncertainty");
+  return judge_worst(measured, 256,
+                     "80 to 640 forces and two energies enter the balance, each good to a few "
+                     "roundings of its scale times the thinness of crumpled triangles, about 3; "
+                     "the quadrature's own error is the uncertainty");
 }
 
 /// Energy of one hinge in units of ke c, whatever the law [1].
@@ -57,12 +58,14 @@ Finding energy_is_as_defined(const Subject& subject) {
     const bool is_sheet = specimen.scene.mesh.hinges.size() > 1;
     for (const BendingMaterial& material : bending_variants()) {
       if (material.weighting != Weighting::rest) continue;
-      if (is_sheet && (material.law == "sine") != (k % 2 == 0)) continue;  // sheets take the laws in turn
+      // sheets take the laws in turn
+      if (is_sheet && (material.law == "sine") != (k % 2 == 0)) continue;
       specimen.scene.bending = material;
       double energy = 0, scale = 0;
       for (size_t h = 0; h < specimen.scene.mesh.hinges.size(); ++h) {
         const oracles::HingeInput input = hinge_input(specimen, h);
-        const HingeShape rest = hinge_shape(input.rest[0], input.rest[1], input.rest[2], input.rest[3]);
+        const HingeShape rest =
+            hinge_shape(input.rest[0], input.rest[1], input.rest[2], input.rest[3]);
         const double weight = input.ke * rest.edge * rest.edge / rest.area_sum;
         const double potential = potential_50(input, material.law, weight / input.ke);
         energy += weight * potential;
@@ -72,9 +75,9 @@ Finding energy_is_as_defined(const Subject& subject) {
       measured.row(describe(specimen, material), error / (epsilon * scale));
     }
   }
-  return judge_worst(
-      measured, 64,
-      "theta and c take about 16 roundings each, magnified by the thinness, and hinges are added one by one");
+  return judge_worst(measured, 64,
+                     "theta and c take about 16 roundings each, magnified by the thinness, and "
+                     "hinges are added one by one");
 }
 
 /// A hinge or sheet led round a closed path.
@@ -90,7 +93,8 @@ std::vector<Loop> loops(const Subject& subject, Weighting weighting) {
       if (material.weighting != weighting) continue;
       specimen.scene.bending = material;
       const Path path = random_loop(specimen.state.x, excursion(specimen), 53);
-      list.push_back({describe(specimen, material), round_trip(Probe(subject, specimen.scene), path)});
+      list.push_back(
+          {describe(specimen, material), round_trip(Probe(subject, specimen.scene), path)});
     }
   }
   return list;
@@ -100,11 +104,12 @@ Finding no_work_round_a_loop(const Subject& subject) {
   Table measured = roundings_of("integral |F||dx|");
   for (const Loop& loop : loops(subject, Weighting::rest)) {
     const double unit = epsilon * loop.trip.scale;
-    measured.row(loop.name, oracles::Estimate{std::abs(loop.trip.work) / unit, loop.trip.uncertainty / unit});
+    measured.row(loop.name,
+                 oracles::Estimate{std::abs(loop.trip.work) / unit, loop.trip.uncertainty / unit});
   }
-  return judge_worst(
-      measured, 64,
-      "forces along the path are good to a few dozen roundings; the quadrature's error is the uncertainty");
+  return judge_worst(measured, 64,
+                     "forces along the path are good to a few dozen roundings; the quadrature's "
+                     "error is the uncertainty");
 }
 
 Finding work_round_a_loop(const Subject& subject) {
@@ -116,12 +121,11 @@ Finding work_round_a_loop(const Subject& subject) {
     measured.row(loop.name, (loop.trip.uncertainty + rounding) / std::abs(loop.trip.work),
                  loop.trip.work / loop.trip.scale);
   }
-  return judge_worst(
-      measured, "uncertainty of the work over the work", 0.01,
-      "a work of 100 times its uncertainty is not zero; the uncertainty is the quadrature's error and 64 "
-      "roundings",
-      "The paper does not say where |E|^2/(|N1| + |N2|) is taken. Only at rest is the force the gradient of "
-      "an energy.");
+  return judge_worst(measured, "uncertainty of the work over the work", 0.01,
+                     "a work of 100 times its uncertainty is not zero; the uncertainty is the "
+                     "quadrature's error and 64 roundings",
+                     "The paper does not say where |E|^2/(|N1| + |N2|) is taken. Only at rest is "
+                     "the force the gradient of an energy.");
 }
 
 }  // namespace
@@ -129,11 +133,12 @@ Finding work_round_a_loop(const Subject& subject) {
 std::vector<Check> bending_energy_checks() {
   return {
       {"bending.force-is-minus-gradient-of-energy",
-       "With rest weighting the elastic force's work along any path is the energy's loss, for each law of "
-       "the angle.",
+       "With rest weighting the elastic force's work along any path is the energy's loss, for each "
+       "law of the angle.",
        "derived from BMF03 section 4", force_is_minus_gradient},
       {"bending.energy-is-as-defined",
-       "With rest weighting the energy is ke c times the integral of the law over theta from the rest angle.",
+       "With rest weighting the energy is ke c times the integral of the law over theta from the "
+       "rest angle.",
        "derived from BMF03 section 4, evaluated in 50 digits", energy_is_as_defined},
       {"bending.rest-weighting-does-no-work-round-a-closed-path",
        "With |E|^2/(|N1| + |N2|) taken at rest the elastic force does no work round a closed path.",

@@ -13,8 +13,9 @@ namespace {
 
 using Mode = Eigen::Matrix<double, 12, 1>;
 
-/// The motions of a hinge that change no angle, each of length 1: three translations, three rotations, two
-/// motions of x1 and two of x2 in the planes of their triangles, one stretch of the edge.
+/// The motions of a hinge that change no angle, each of length 1: three translations,
+/// three rotations, two motions of x1 and two of x2 in the planes of their triangles, one
+/// stretch of the edge.
 struct Eleven {
   Eigen::Matrix<double, 12, 11> modes;
   static constexpr std::array<const char*, 11> names = {
@@ -30,7 +31,8 @@ Eleven eleven_modes(const Corners& x) {
   for (int axis = 0; axis < 3; ++axis) {
     for (int corner = 0; corner < 4; ++corner) {
       eleven.modes.col(axis).segment<3>(3 * corner) = Vector3::Unit(axis);
-      eleven.modes.col(3 + axis).segment<3>(3 * corner) = Vector3::Unit(axis).cross(x[corner] - centre);
+      eleven.modes.col(3 + axis).segment<3>(3 * corner) =
+          Vector3::Unit(axis).cross(x[corner] - centre);
     }
   }
   for (int corner = 0; corner < 2; ++corner) {
@@ -44,7 +46,9 @@ Eleven eleven_modes(const Corners& x) {
   return eleven;
 }
 
-Mode reference_mode(const Corners& x) { return bending_mode(hinge_shape(x[0], x[1], x[2], x[3])).reshaped(); }
+Mode reference_mode(const Corners& x) {
+  return bending_mode(hinge_shape(x[0], x[1], x[2], x[3])).reshaped();
+}
 
 Mode stack(const std::array<Vector3, 4>& vectors) {
   Mode mode;
@@ -65,15 +69,15 @@ Finding mode_is_orthogonal(const Subject&) {
     const Eleven eleven = eleven_modes(x);
     const Mode u = reference_mode(x);
     for (int m = 0; m < 11; ++m) {
-      worst[m].observe(std::abs(u.dot(eleven.modes.col(m))) / (epsilon * u.norm() * aspect_ratio(x)));
+      worst[m].observe(std::abs(u.dot(eleven.modes.col(m))) /
+                       (epsilon * u.norm() * aspect_ratio(x)));
     }
   }
   Table measured = roundings_of("|u| thinness");
   for (int m = 0; m < 11; ++m) measured.row(Eleven::names[m], worst[m].value());
-  return judge_worst(
-      measured, 32,
-      "u, a normalised motion and their scalar product take fewer than 32 roundings each of |u|, magnified "
-      "by the triangles' thinness");
+  return judge_worst(measured, 32,
+                     "u, a normalised motion and their scalar product take fewer than 32 roundings "
+                     "each of |u|, magnified by the triangles' thinness");
 }
 
 Finding mode_is_the_only_one(const Subject&) {
@@ -88,12 +92,11 @@ Finding mode_is_the_only_one(const Subject&) {
     measured.row("hinge " + std::to_string(measured.rows() + 1),
                  several ? std::nan("") : sine * smallest / (epsilon * aspect_ratio(x)), smallest);
   }
-  return judge_worst(
-      measured, "measured", 64,
-      "the null vector of the eleven moves by their roundings, fewer than 64, over their smallest singular "
-      "value",
-      "A smallest singular value of 1e-4 or less would mean that the eleven are not independent: it counts "
-      "as NaN.");
+  return judge_worst(measured, "measured", 64,
+                     "the null vector of the eleven moves by their roundings, fewer than 64, over "
+                     "their smallest singular value",
+                     "A smallest singular value of 1e-4 or less would mean that the eleven are not "
+                     "independent: it counts as NaN.");
 }
 
 Finding mode_is_minus_gradient(const Subject&) {
@@ -107,16 +110,17 @@ Finding mode_is_minus_gradient(const Subject&) {
     const double unit = epsilon * u.norm() * aspect_ratio(x);
     const auto gradient = oracles::theta_gradient_autodiff(x);
     const auto differences = oracles::theta_gradient_differences(x);
-    const oracles::Estimate off{(u + stack(gradient.value)).norm() / unit, 4 * gradient.uncertainty / unit};
+    const oracles::Estimate off{(u + stack(gradient.value)).norm() / unit,
+                                4 * gradient.uncertainty / unit};
     const PerParticle3 v = random.vectors(4, 0.8);
     const auto rate = oracles::theta_rate_autodiff(x, {v.col(0), v.col(1), v.col(2), v.col(3)});
     measured.row("hinge " + std::to_string(measured.rows() + 1), off,
                  (u + stack(differences.value)).norm() / unit, rate.value, u.dot(v.reshaped()));
   }
-  return judge_worst(
-      measured, "measured", 32, "u takes fewer than 32 roundings, magnified by the triangles' thinness",
-      "The printed line d(theta)/dt = u.v has the wrong sign: d(theta)/dt = -u.v, as the last two columns "
-      "show. The printed forces are right.");
+  return judge_worst(measured, "measured", 32,
+                     "u takes fewer than 32 roundings, magnified by the triangles' thinness",
+                     "The printed line d(theta)/dt = u.v has the wrong sign: d(theta)/dt = -u.v, "
+                     "as the last two columns show. The printed forces are right.");
 }
 
 /// Where along the edge the foot of p lies: 1 at x3, 0 at x4.
@@ -140,36 +144,39 @@ Finding weights_are_barycentric(const Subject& subject) {
     const PerParticle3 f = Probe(subject, hinge.scene).elastic(hinge.state);
     const Corners x = corners_of(hinge.scene.mesh.hinges[0], hinge.state.x);
     const double b1 = double(foot(x, x[0])), b2 = double(foot(x, x[1]));
-    const Vector3 f3 = -(b1 * f.col(0) + b2 * f.col(1)), f4 = -((1 - b1) * f.col(0) + (1 - b2) * f.col(1));
+    const Vector3 f3 = -(b1 * f.col(0) + b2 * f.col(1)),
+                  f4 = -((1 - b1) * f.col(0) + (1 - b2) * f.col(1));
     const double unit = epsilon * f.norm() * aspect_ratio(x);
-    const double moment1 = f.col(0).norm() * height(x, x[0]), moment2 = f.col(1).norm() * height(x, x[1]);
+    const double moment1 = f.col(0).norm() * height(x, x[0]),
+                 moment2 = f.col(1).norm() * height(x, x[1]);
     Worst worst;
     worst.observe((f.col(2) - f3).norm() / unit);
     worst.observe((f.col(3) - f4).norm() / unit);
     worst.observe(std::abs(moment1 - moment2) / (epsilon * aspect_ratio(x) * moment1));
     measured.row(hinge.name, worst.value(), height(x, x[0]) / height(x, x[1]));
   }
-  return judge_worst(measured, "measured", 32,
-                     "weights, heights and forces take fewer than 32 roundings, magnified by the thinness");
+  return judge_worst(
+      measured, "measured", 32,
+      "weights, heights and forces take fewer than 32 roundings, magnified by the thinness");
 }
 
 }  // namespace
 
 std::vector<Check> bending_mode_checks() {
   return {{"bending.mode-is-orthogonal-to-the-eleven-others",
-           "The reference's bending mode u is orthogonal to translations, rotations, in-plane motions and "
-           "the edge's stretch.",
+           "The reference's bending mode u is orthogonal to translations, rotations, in-plane "
+           "motions and the edge's stretch.",
            "BMF03 section 4", mode_is_orthogonal},
           {"bending.mode-is-unique",
-           "Nothing but the reference's u is orthogonal to the eleven other modes: their null space is the "
-           "line along u.",
+           "Nothing but the reference's u is orthogonal to the eleven other modes: their null "
+           "space is the line along u.",
            "BMF03 section 4", mode_is_the_only_one},
           {"bending.mode-is-minus-gradient-of-theta",
            "The reference's u is minus the gradient of the angle theta.",
            "BMF03 section 4, with the sign of d(theta)/dt corrected", mode_is_minus_gradient},
           {"bending.mode-weights-are-barycentric",
-           "Forces on x1 and x2 fall off with their distance from the edge; those on x3 and x4 are minus "
-           "them in barycentric shares.",
+           "Forces on x1 and x2 fall off with their distance from the edge; those on x3 and x4 are "
+           "minus them in barycentric shares.",
            "BMF03 section 4", weights_are_barycentric}};
 }
 

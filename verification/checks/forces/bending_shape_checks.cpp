@@ -23,10 +23,11 @@ constexpr double rate_scale = 23;  // rate at which the cubic part equals the li
 /// A damping law: forces for the velocities v of a hinge's corners, a cubic polynomial in v [N].
 using Law = std::function<Vector12(const Vector12& v)>;
 
-/// dF/dv by central differences of five points, which are exact for cubic polynomials, and what rounds.
+/// dF/dv by central differences of five points, which are exact for cubic polynomials,
+/// and what rounds.
 struct Jacobian {
   Matrix12 matrix = Matrix12::Zero();  // N s/m
-  double rounding = 0;                 // epsilon times the largest |F| of the stencil over its width [N s/m]
+  double rounding = 0;  // epsilon times the largest |F| of the stencil over its width [N s/m]
 };
 
 Jacobian jacobian_of(const Law& law, const Vector12& v) {
@@ -36,8 +37,10 @@ Jacobian jacobian_of(const Law& law, const Vector12& v) {
     const Vector12 one = stencil * Vector12::Unit(k), two = 2 * one;
     const Vector12 near_ahead = law(v + one), near_behind = law(v - one);
     const Vector12 far_ahead = law(v + two), far_behind = law(v - two);
-    result.matrix.col(k) = (8 * (near_ahead - near_behind) - (far_ahead - far_behind)) / (12 * stencil);
-    for (const Vector12& f : {near_ahead, near_behind, far_ahead, far_behind}) largest.observe(f.norm());
+    result.matrix.col(k) =
+        (8 * (near_ahead - near_behind) - (far_ahead - far_behind)) / (12 * stencil);
+    for (const Vector12& f : {near_ahead, near_behind, far_ahead, far_behind})
+      largest.observe(f.norm());
   }
   result.rounding = epsilon * largest.value() / stencil;
   return result;
@@ -49,7 +52,8 @@ Vector12 stack(const std::array<Vector3, 4>& vectors) {
   return result;
 }
 
-/// The subject's linear damping, stiffened with the square of the true rate d(theta)/dt: all four alike.
+/// The subject's linear damping, stiffened with the square of the true rate
+/// d(theta)/dt: all four alike.
 Law stiffened_together(const Probe& probe, const State& s, const Vector12& gradient) {
   return [&probe, &s, gradient](const Vector12& v) {
     const double part = gradient.dot(v) / rate_scale;
@@ -74,7 +78,8 @@ double relative_asymmetry(const Matrix12& J) {
   return (J - J.transpose()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / J.cwiseAbs().maxCoeff();
 }
 
-/// Largest eigenvalue of the symmetric part [N s/m]; at most 0 where the law dissipates more as v grows.
+/// Largest eigenvalue of the symmetric part [N s/m]; at most 0 where the law dissipates
+/// more as v grows.
 double largest_eigenvalue(const Matrix12& J) {
   const Matrix12 symmetric = (J + J.transpose()) / 2;
   return oracles::symmetric_eigenvalues(symmetric)[11];
@@ -93,19 +98,23 @@ Finding nonlinear_damping_stays_symmetric(const Subject& subject) {
     const Jacobian together = jacobian_of(stiffened_together(probe, hinge.state, gradient), v);
     const double unit = together.rounding * aspect_ratio(x);
     Worst worst;
-    worst.observe(relative_asymmetry(together.matrix) * together.matrix.cwiseAbs().maxCoeff() / unit);
-    worst.observe(largest_eigenvalue(together.matrix) / (12 * unit));  // negative where there is nothing to see
-    measured.row(
-        hinge.name, worst.value(), std::pow(gradient.dot(v) / rate_scale, 2),
-        relative_asymmetry(jacobian_of(stiffened_one_by_one(probe, hinge.state, gradient), v).matrix));
+    worst.observe(relative_asymmetry(together.matrix) * together.matrix.cwiseAbs().maxCoeff() /
+                  unit);
+    // negative where there is nothing to see
+    worst.observe(largest_eigenvalue(together.matrix) / (12 * unit));
+    measured.row(hinge.name, worst.value(), std::pow(gradient.dot(v) / rate_scale, 2),
+                 relative_asymmetry(
+                     jacobian_of(stiffened_one_by_one(probe, hinge.state, gradient), v).matrix));
   }
   return judge_worst(
       measured, "measured", 64,
-      "an entry is a difference of forces of about forty roundings each, magnified by the triangles' thinness",
+      "an entry is a difference of forces of about forty roundings each, magnified by the "
+      "triangles' thinness",
       "The law is the subject's damping times 1 + (rate/" + std::to_string(int(rate_scale)) +
-      " rad/s)^2, the rate by exact differentiation: symmetric only if the forces point along its gradient. "
-      "Corner by corner: asymmetry over the largest entry when each corner is stiffened by its own share of "
-      "the rate. Positive eigenvalues, where there are any, count as asymmetry does.");
+          " rad/s)^2, the rate by exact differentiation: symmetric only if the forces point along "
+          "its gradient. Corner by corner: asymmetry over the largest entry when each corner is "
+          "stiffened by its own share of the rate. Positive eigenvalues, where there are any, "
+          "count as asymmetry does.");
 }
 
 /// A flat sheet whose rest angles are those of pleats: unfolded, free, damped, without gravity.
@@ -147,19 +156,19 @@ Finding unfolded_pleats_return(const Subject& subject) {
     left.row(time, left_after(subject, scene, scene.rest_angles, time),
              left_after(subject, unfolded_pleats(0), scene.rest_angles, time));
   return {{left.numbers("left of the unfolding").back(), 0.01, 0, "1",
-           "what is left decays exponentially and would vanish; a hundredth tells a shape that returns from "
-           "one that stays (all is left) or goes elsewhere"},
+           "what is left decays exponentially and would vanish; a hundredth tells a shape that "
+           "returns from one that stays (all is left) or goes elsewhere"},
           left,
-          "The sheet starts flat and free; its rest angles are those of pleats. Measured over all hinges, as "
-          "the root of the sum of squares of theta - theta0, over that at the start."};
+          "The sheet starts flat and free; its rest angles are those of pleats. Measured over all "
+          "hinges, as the root of the sum of squares of theta - theta0, over that at the start."};
 }
 
 }  // namespace
 
 std::vector<Check> bending_shape_checks() {
   return {{"bending.nonlinear-damping-stays-symmetric",
-           "A damping that grows with the cube of the angle's rate, alike for all four forces, has a "
-           "symmetric Jacobian without a positive eigenvalue.",
+           "A damping that grows with the cube of the angle's rate, alike for all four forces, has "
+           "a symmetric Jacobian without a positive eigenvalue.",
            "BMF03 section 4", nonlinear_damping_stays_symmetric},
           {"bending.flattened-pleats-fold-back",
            "A sheet with the rest angles of pleats, held flat and let go, folds back into them.",

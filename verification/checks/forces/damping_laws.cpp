@@ -16,8 +16,8 @@ Table no_powers() { return {{"case", ""}, {"power", "sum |v_i||F_i|"}, {"power i
 
 Finding dissipation(const Table& powers) {
   return {{signed_largest(powers.numbers("power")), 0, 0, "sum |v_i||F_i|",
-           "each element takes a square out of the motion, at random velocities far more than roundings: the "
-           "power is negative, and the largest is that nearest to 0"},
+           "each element takes a square out of the motion, at random velocities far more than "
+           "roundings: the power is negative, and the largest is that nearest to 0"},
           powers,
           "measured is the largest power of the damping forces with its sign"};
 }
@@ -30,7 +30,8 @@ Finding asymmetry(const Subject& subject, const std::vector<DampedScene>& cases)
     measured.row(damped.name, largest / (epsilon * D.cwiseAbs().maxCoeff()));
   }
   return judge_worst(
-      measured, 32, "an entry of D is a product of two rounded components and a sum over about ten elements");
+      measured, 32,
+      "an entry of D is a product of two rounded components and a sum over about ten elements");
 }
 
 Finding largest_eigenvalue(const Subject& subject, const std::vector<DampedScene>& cases) {
@@ -42,8 +43,8 @@ Finding largest_eigenvalue(const Subject& subject, const std::vector<DampedScene
     const Eigen::MatrixXd symmetric_part = 0.5 * (D + D.transpose());
     const Eigen::VectorXd values = oracles::symmetric_eigenvalues(symmetric_part);
     const double size = values.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    measured.row(damped.name, values.maxCoeff() / (epsilon * double(D.rows()) * size), values.minCoeff(),
-                 values.maxCoeff());
+    measured.row(damped.name, values.maxCoeff() / (epsilon * double(D.rows()) * size),
+                 values.minCoeff(), values.maxCoeff());
   }
   return judge_worst(
       measured, "measured", 4,

@@ -32,7 +32,8 @@ Finding dissipation(const Table& powers);
 /// Largest entry of D - D^T, over epsilon times the largest entry of D.
 Finding asymmetry(const Subject& subject, const std::vector<DampedScene>& cases);
 
-/// Largest eigenvalue of D over epsilon 3N times the largest in size; the whole spectrum's ends as evidence.
+/// Largest eigenvalue of D over epsilon 3N times the largest in size; the whole spectrum's
+/// ends as evidence.
 Finding largest_eigenvalue(const Subject& subject, const std::vector<DampedScene>& cases);
 
 }  // namespace foldproof

@@ -5,8 +5,8 @@
 
 namespace foldproof {
 
-/// The reference's derivative of all forces at given velocities, 3N x 3N [N/m], coordinates particle by
-/// particle.
+/// The reference's derivative of all forces at given velocities, 3N x 3N [N/m], coordinates
+/// particle by particle.
 Eigen::MatrixXd force_derivative(const Scene& scene, const State& s);
 
 /// The subject's by central differences with `step` and half of it [m], extrapolated.

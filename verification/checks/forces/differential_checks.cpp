@@ -30,7 +30,9 @@ Matrix stiffness_of(const Specimen& specimen, Definiteness definiteness) {
 }
 
 /// The largest entry of a matrix without sign; NaN if any is.
-double largest_entry(const Matrix& matrix) { return matrix.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(); }
+double largest_entry(const Matrix& matrix) {
+  return matrix.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+}
 
 Specimen with(Specimen specimen, const std::optional<BendingMaterial>& bending,
               const std::optional<StretchMaterial>& stretch) {
@@ -47,17 +49,19 @@ Finding hinge_is_second_derivative(const Subject&) {
   Table measured = roundings_of("the largest entry times the thinness squared");
   for (Specimen hinge : hinges_of_all_angles()) {
     hinge.scene.bending = bending_by("sine", Weighting::rest);
-    const oracles::MatrixEstimate exact = oracles::bending_elastic_derivative_autodiff(hinge_input(hinge, 0));
-    const double scale = epsilon * largest_entry(exact.value) *
-                         std::pow(aspect_ratio(corners_of(hinge.scene.mesh.hinges[0], hinge.state.x)), 2);
+    const oracles::MatrixEstimate exact =
+        oracles::bending_elastic_derivative_autodiff(hinge_input(hinge, 0));
+    const double scale =
+        epsilon * largest_entry(exact.value) *
+        std::pow(aspect_ratio(corners_of(hinge.scene.mesh.hinges[0], hinge.state.x)), 2);
     const Matrix difference = stiffness_of(hinge, Definiteness::exact) - exact.value;
-    measured.row(hinge.name, oracles::Estimate{largest_entry(difference) / scale, exact.uncertainty / scale});
+    measured.row(hinge.name,
+                 oracles::Estimate{largest_entry(difference) / scale, exact.uncertainty / scale});
   }
-  return judge_worst(
-      measured, 16,
-      "an entry is a sum of four products of a dozen factors: 48 roundings of either sign add up to some 7, "
-      "twice that "
-      "is allowed; a normal's rounding is magnified by the triangle's thinness, its derivative's once more");
+  return judge_worst(measured, 16,
+                     "an entry is a sum of four products of a dozen factors: 48 roundings of "
+                     "either sign add up to some 7, twice that is allowed; a normal's rounding is "
+                     "magnified by the triangle's thinness, its derivative's once more");
 }
 
 /// Sheets and hinges with all that has a derivative: springs, both laws of bending, both at once.
@@ -72,8 +76,8 @@ std::vector<Specimen> elastic_specimens() {
   return all;
 }
 
-/// dF/dx of the subject by central differences with Richardson's extrapolation, 3N x 3N [N/m], and how far
-/// the two steps disagree.
+/// dF/dx of the subject by central differences with Richardson's extrapolation, 3N x 3N [N/m], and
+/// how far the two steps disagree.
 struct Differences {
   Matrix K;
   double uncertainty;
@@ -96,7 +100,8 @@ Matrix central_differences(const Probe& probe, const State& s, double step) {
 
 Differences differences_of(const Probe& probe, const State& s) {
   const double step = 4e-4 * extent(s.x);
-  const Matrix coarse = central_differences(probe, s, step), fine = central_differences(probe, s, step / 2),
+  const Matrix coarse = central_differences(probe, s, step),
+               fine = central_differences(probe, s, step / 2),
                finest = central_differences(probe, s, step / 4);
   const Matrix first = (4 * fine - coarse) / 3, second = (4 * finest - fine) / 3;
   return {(16 * second - first) / 15, largest_entry(second - first)};
@@ -108,15 +113,13 @@ Finding matches_differences(const Subject& subject) {
     const Differences differences = differences_of(Probe(subject, specimen.scene), specimen.state);
     const double scale = largest_entry(differences.K);
     const Matrix difference = stiffness_of(specimen, Definiteness::exact) - differences.K;
-    measured.row(specimen.name,
-                 oracles::Estimate{largest_entry(difference) / scale, differences.uncertainty / scale});
+    measured.row(specimen.name, oracles::Estimate{largest_entry(difference) / scale,
+                                                  differences.uncertainty / scale});
   }
-  return judge_worst(
-      measured, 1e-9,
-      "rounding of differences at steps of 1e-4 of the cloth is epsilon over the step, 2e-12, "
-      "magnified some hundredfold by thin triangles; how far two extrapolations disagree is added; a missing "
-      "or "
-      "wrong term is of order 1");
+  return judge_worst(measured, 1e-9,
+                     "rounding of differences at steps of 1e-4 of the cloth is epsilon over the "
+                     "step, 2e-12, magnified some hundredfold by thin triangles; how far two "
+                     "extrapolations disagree is added; a missing or wrong term is of order 1");
 }
 
 Finding is_symmetric(const Subject&) {
@@ -127,12 +130,12 @@ Finding is_symmetric(const Subject&) {
       measured.row(specimen.name, largest_entry(K - K.transpose()) / (epsilon * largest_entry(K)));
     }
   return judge_worst(measured, 256,
-                     "a hinge's rows and columns are summed by different formulas, each of a dozen roundings "
-                     "magnified by crumpled triangles about ten times");
+                     "a hinge's rows and columns are summed by different formulas, each of a dozen "
+                     "roundings magnified by crumpled triangles about ten times");
 }
 
-/// How far P is from the nearest negative semidefinite matrix to A in the Frobenius norm, which alone has
-/// P <= 0, A - P >= 0 and P (A - P) = 0; relative to |A|.
+/// How far P is from the nearest negative semidefinite matrix to A in the Frobenius norm, which
+/// alone has P <= 0, A - P >= 0 and P (A - P) = 0; relative to |A|.
 double projection_error(const Matrix& A, const Matrix& P) {
   const double scale = A.norm();
   Worst worst;
@@ -147,11 +150,12 @@ Finding projection_is_nearest(const Subject&) {
   for (Specimen hinge : hinges_of_all_angles()) {
     hinge = with(hinge, bending_by("sine", Weighting::rest), {});
     const Matrix exact = stiffness_of(hinge, Definiteness::exact);
-    measured.row(hinge.name, projection_error(exact, stiffness_of(hinge, Definiteness::semidefinite)));
+    measured.row(hinge.name,
+                 projection_error(exact, stiffness_of(hinge, Definiteness::semidefinite)));
   }
-  return judge_worst(
-      measured, 64,
-      "the eigenvalue decomposition of a 12 x 12 matrix is good to a few dozen roundings of its norm");
+  return judge_worst(measured, 64,
+                     "the eigenvalue decomposition of a 12 x 12 matrix is good to a few dozen "
+                     "roundings of its norm");
 }
 
 /// Two particles and the one spring of their length, by the reference alone.
@@ -179,34 +183,39 @@ Finding semidefinite_only_resists(const Subject&) {
     const Eigen::VectorXd values = oracles::symmetric_eigenvalues(0.5 * (K + K.transpose()));
     measured.row(specimen.name, values.maxCoeff() / (epsilon * largest_entry(K)));
   }
-  return judge_worst(measured, 256,
-                     "a sum of some hundred negative semidefinite blocks, each so to a few dozen roundings");
+  return judge_worst(
+      measured, 256,
+      "a sum of some hundred negative semidefinite blocks, each so to a few dozen roundings");
 }
 
 }  // namespace
 
 std::vector<Check> differential_checks() {
-  const std::string what = "calculus; the methods BMF03 section 3 compares its schemes with need it";
+  const std::string what =
+      "calculus; the methods BMF03 section 3 compares its schemes with need it";
   const std::string projection = "Teran et al. 2005, section 6; Higham 1988";
   return {
       {"elastic-differential.hinge-matches-exact-derivative",
-       "The reference's hinge stiffness is the derivative of its force: 50 digits, autodiff, every angle.",
+       "The reference's hinge stiffness is the derivative of its force: 50 digits, autodiff, every "
+       "angle.",
        what, hinge_is_second_derivative},
       {"elastic-differential.whole-matches-force-differences",
-       "The reference's elastic derivative is that of the subject's forces, for springs, both bending laws, "
-       "and their sum.",
+       "The reference's elastic derivative is that of the subject's forces, for springs, both "
+       "bending laws, and their sum.",
        what, matches_differences},
-      {"elastic-differential.is-symmetric", "The reference's elastic derivative is symmetric.", what,
-       is_symmetric},
+      {"elastic-differential.is-symmetric", "The reference's elastic derivative is symmetric.",
+       what, is_symmetric},
       {"elastic-differential.hinge-projection-is-nearest-semidefinite",
-       "A hinge's semidefinite stiffness is the negative semidefinite matrix nearest to the exact one.",
+       "A hinge's semidefinite stiffness is the negative semidefinite matrix nearest to the exact "
+       "one.",
        projection, projection_is_nearest},
       {"elastic-differential.spring-projection-is-nearest-semidefinite",
-       "A spring's semidefinite stiffness is the negative semidefinite matrix nearest to the exact one.",
+       "A spring's semidefinite stiffness is the negative semidefinite matrix nearest to the exact "
+       "one.",
        projection, spring_projection_is_nearest},
       {"elastic-differential.semidefinite-form-resists-every-displacement",
-       "With semidefinite elements no displacement of a crumpled sheet is pushed further.", projection,
-       semidefinite_only_resists},
+       "With semidefinite elements no displacement of a crumpled sheet is pushed further.",
+       projection, semidefinite_only_resists},
   };
 }
 

@@ -16,15 +16,18 @@ namespace {
 
 const Vector3 field(1.3, -9.7, 2.9);  // m/s^2
 
-/// A third of each triangle's area times the density, by way of Heron's formula in extended precision [kg].
+/// A third of each triangle's area times the density, by way of Heron's formula in extended
+/// precision [kg].
 PerParticle masses_by_heron(const TriangleMesh& mesh, double density) {
   PerParticle masses = PerParticle::Zero(mesh.particles());
   for (const auto& [i, j, k] : mesh.triangles) {
     const auto length = [&](int from, int to) -> long double {
-      return (mesh.rest.col(to).cast<long double>() - mesh.rest.col(from).cast<long double>()).norm();
+      return (mesh.rest.col(to).cast<long double>() - mesh.rest.col(from).cast<long double>())
+          .norm();
     };
     const long double a = length(i, j), b = length(j, k), c = length(k, i), half = (a + b + c) / 2;
-    const double share = double(std::sqrt(half * (half - a) * (half - b) * (half - c)) * density / 3);
+    const double share =
+        double(std::sqrt(half * (half - a) * (half - b) * (half - c)) * density / 3);
     for (const int particle : {i, j, k}) masses[particle] += share;
   }
   return masses;
@@ -62,9 +65,10 @@ Finding gravity_energy(const Subject& subject) {
                      "masses take about 16 roundings, and about 40 particles are added one by one");
 }
 
-/// The stiffness matrix by central differences of the forces, scaled with the masses: M^-1/2 K M^-1/2
-/// [1/s^2].
-Eigen::MatrixXd scaled_stiffness(const Probe& probe, const State& s, const PerParticle& mass, double step) {
+/// The stiffness matrix by central differences of the forces, scaled with the masses: M^-1/2 K
+/// M^-1/2 [1/s^2].
+Eigen::MatrixXd scaled_stiffness(const Probe& probe, const State& s, const PerParticle& mass,
+                                 double step) {
   const Eigen::Index size = s.x.size();
   Eigen::MatrixXd K(size, size);
   State moved = s;
@@ -76,11 +80,13 @@ Eigen::MatrixXd scaled_stiffness(const Probe& probe, const State& s, const PerPa
     moved.x.reshaped()[k] = s.x.reshaped()[k];
     K.col(k) = column.reshaped();
   }
-  const Eigen::VectorXd roots = mass.transpose().replicate(3, 1).reshaped().cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd roots =
+      mass.transpose().replicate(3, 1).reshaped().cwiseSqrt().cwiseInverse();
   return roots.asDiagonal() * K * roots.asDiagonal();
 }
 
-/// Largest elastic angular frequency [rad/s]; the uncertainty from halving the step of the differences.
+/// Largest elastic angular frequency [rad/s]; the uncertainty from halving the step of
+/// the differences.
 oracles::Estimate largest_frequency(const Probe& probe, const State& s, const PerParticle& mass) {
   std::array<double, 2> found{};
   for (int k = 0; k < 2; ++k) {
@@ -95,7 +101,8 @@ Specimen tall_hinge(double angle) {
   const double edge = 0.031, height1 = 9.4 * edge, height2 = 9.8 * edge;
   const auto corners = [&](double shrink, double folded) -> Corners {
     return {Vector3(0.57 * edge, shrink * height1, 0),
-            Vector3(0.48 * edge, -shrink * height2 * std::cos(folded), -shrink * height2 * std::sin(folded)),
+            Vector3(0.48 * edge, -shrink * height2 * std::cos(folded),
+                    -shrink * height2 * std::sin(folded)),
             Vector3(0, 0, 0), Vector3(edge, 0, 0)};
   };
   return {"tall hinge", hinge_scene(corners(0.08, 0.4), 0.74 * angle), state_of(corners(1, angle))};
@@ -103,7 +110,8 @@ Specimen tall_hinge(double angle) {
 
 std::vector<Specimen> stiff_cases() {
   std::vector<Specimen> list = small_crumpled_sheets();
-  const auto bent = [](Specimen specimen, const std::string& what, std::optional<BendingMaterial> bending,
+  const auto bent = [](Specimen specimen, const std::string& what,
+                       std::optional<BendingMaterial> bending,
                        std::optional<StretchMaterial> stretch) {
     specimen.name += ", " + what;
     specimen.scene.bending = bending;
@@ -118,12 +126,13 @@ std::vector<Specimen> stiff_cases() {
     cases.push_back(bent(sheet, "both", bending_variants()[0], StretchMaterial{0.31, 0, 1.07}));
   }
   for (const double angle : {2.2, -2.9})
-    cases.push_back(
-        bent(tall_hinge(angle), "bending at " + std::to_string(angle) + " rad", bending_variants()[0], {}));
+    cases.push_back(bent(tall_hinge(angle), "bending at " + std::to_string(angle) + " rad",
+                         bending_variants()[0], {}));
   unsigned seed = 300;
   for (const double angle : {0.01, 1.3, -2.3, 3.0, 3.14, -3.1415}) {
-    cases.push_back(bent(random_hinge(seed++, angle), "bending at " + std::to_string(angle) + " rad",
-                         bending_variants()[0], {}));
+    cases.push_back(bent(random_hinge(seed++, angle),
+                         "bending at " + std::to_string(angle) + " rad", bending_variants()[0],
+                         {}));
     cases.push_back(bent(random_hinge(seed++, angle), "cubic at " + std::to_string(angle) + " rad",
                          bending_variants()[2], {}));
   }
@@ -131,20 +140,23 @@ std::vector<Specimen> stiff_cases() {
 }
 
 Finding bound_is_a_bound(const Subject& subject) {
-  Table measured{{"case", ""}, {"largest frequency over the bound", "1"}, {"largest frequency", "rad/s"}};
+  Table measured{
+      {"case", ""}, {"largest frequency over the bound", "1"}, {"largest frequency", "rad/s"}};
   for (const Specimen& specimen : stiff_cases()) {
     const System system = build_system(specimen.scene);
     const double bound = frequency_bound(system.forces, specimen.state, system.inverse_mass);
     const oracles::Estimate largest =
         largest_frequency(Probe(subject, specimen.scene), specimen.state, system.mass);
-    measured.row(specimen.name, oracles::Estimate{largest.value / bound, largest.uncertainty / bound},
+    measured.row(specimen.name,
+                 oracles::Estimate{largest.value / bound, largest.uncertainty / bound},
                  largest.value);
   }
-  return judge_worst(measured, "largest frequency over the bound", 1, "an upper bound may not be exceeded");
+  return judge_worst(measured, "largest frequency over the bound", 1,
+                     "an upper bound may not be exceeded");
 }
 
-/// Hinges far from their rest angles, whose forces change by their size more than by their angle: at half a
-/// turn the sine's slope is nothing.
+/// Hinges far from their rest angles, whose forces change by their size more than by their angle:
+/// at half a turn the sine's slope is nothing.
 std::vector<Specimen> far_from_rest() {
   std::vector<Specimen> cases;
   unsigned seed = 340;
@@ -153,7 +165,8 @@ std::vector<Specimen> far_from_rest() {
       Specimen hinge = random_hinge(seed++, angle);
       hinge.scene.bending = material;
       hinge.scene.rest_angles = {angle > 0 ? -2.8 : 2.7};
-      hinge.name += ", " + std::string(material.law) + " at " + std::to_string(angle) + " rad, far from rest";
+      hinge.name +=
+          ", " + std::string(material.law) + " at " + std::to_string(angle) + " rad, far from rest";
       cases.push_back(hinge);
     }
   return cases;
@@ -172,8 +185,8 @@ PerParticle row_bounds(const Specimen& specimen) {
   return rows;
 }
 
-/// The sums over each row of the reference's derivative, particle by particle, of what a 3 x 3 block
-/// stretches at most [N/m].
+/// The sums over each row of the reference's derivative, particle by particle, of what a 3 x 3
+/// block stretches at most [N/m].
 PerParticle row_sums(const Specimen& specimen) {
   const Eigen::MatrixXd K = force_derivative(specimen.scene, specimen.state);
   PerParticle sums = PerParticle::Zero(specimen.state.x.cols());
@@ -214,8 +227,8 @@ Finding rows_are_reached(const Subject&) {
     measured.row(specimen.name, (share.array() - 1).abs().maxCoeff<Eigen::PropagateNaN>());
   }
   return judge_worst(measured, 1e-7,
-                     "a rest angle is met to a rounding, which thin triangles magnify; a missing term or a "
-                     "wrong factor is of order 1");
+                     "a rest angle is met to a rounding, which thin triangles magnify; a missing "
+                     "term or a wrong factor is of order 1");
 }
 
 /// The same hinge seen from its other side: x1 and x2 in turn, and x3 and x4.
@@ -231,16 +244,18 @@ Finding rows_follow_their_particles(const Subject&) {
       hinge.scene.bending = bending_variants()[0];
       return row_bounds(hinge);
     };
-    const PerParticle one = bounds_of(rest, x), other = bounds_of(turned_round(rest), turned_round(x));
+    const PerParticle one = bounds_of(rest, x),
+                      other = bounds_of(turned_round(rest), turned_round(x));
     for (int k = 0; k < 4; ++k) {
       const int same = std::array{1, 0, 3, 2}[size_t(k)];
       measured.row("particle " + std::to_string(k + 1) + " at " + std::to_string(angle) + " rad",
                    std::abs(other[same] / one[k] - 1) / epsilon);
     }
   }
-  return judge_worst(measured, 3000,
-                     "a bound has some thirty roundings, which thin triangles magnify by their shape, "
-                     "sides of up to ten to one twice; terms of the wrong particle differ by the sides");
+  return judge_worst(
+      measured, 3000,
+      "a bound has some thirty roundings, which thin triangles magnify by their shape, sides of up "
+      "to ten to one twice; terms of the wrong particle differ by the sides");
 }
 
 Finding unknown_laws_are_rejected(const Subject&) {
@@ -253,38 +268,37 @@ Finding unknown_laws_are_rejected(const Subject&) {
         said.find("'" + name + "'") != std::string::npos && said.ends_with("known: sine, cubic");
     measured.row("'" + name + "'", is_told ? 0 : 1);
   }
-  return judge_worst(measured, 0, "a law is one of the list, or refused with its name and the list");
+  return judge_worst(measured, 0,
+                     "a law is one of the list, or refused with its name and the list");
 }
 
 }  // namespace
 
 std::vector<Check> force_checks() {
-  return {
-      {"gravity.force-is-weight",
-       "Gravity pulls on each particle with its share of the triangles' mass times g.", "Newton",
-       gravity_is_weight},
-      {"gravity.energy-is-as-defined", "The energy of gravity is -sum m_i g.x_i.", "Newton", gravity_energy},
-      {"forces.frequency-bound-holds",
-       "The reference's bound on the elastic frequency exceeds the largest frequency of crumpled sheets and "
-       "sharp folds.",
-       "Gershgorin's theorem; the automatic step rests on it", bound_is_a_bound},
-      {"bending.unknown-laws-are-rejected",
-       "A bending law that the reference does not know is refused by name.",
-       "a rule of this suite: bad input is refused in words", unknown_laws_are_rejected},
-      {"forces.row-bounds-cover-every-row",
-       "What the reference's springs and hinges say of a particle's row of the stiffness matrix is not "
-       "exceeded by "
-       "any row, however far a hinge is from its rest angle.",
-       "Gershgorin's theorem; the automatic step rests on it", rows_are_covered},
-      {"forces.row-bounds-swap-with-the-sides-of-a-hinge",
-       "A hinge seen from its other side, the numbers of its particles exchanged in pairs, has the same "
-       "bounds, "
-       "exchanged.",
-       "the angle about an edge does not depend on which way one looks along it",
-       rows_follow_their_particles},
-      {"forces.row-bounds-are-tight-at-rest",
-       "At a hinge's rest angle the bound on each particle's row is the row's own sum.",
-       "calculus: there the matrix is -ke c u u^T / 2", rows_are_reached}};
+  return {{"gravity.force-is-weight",
+           "Gravity pulls on each particle with its share of the triangles' mass times g.",
+           "Newton", gravity_is_weight},
+          {"gravity.energy-is-as-defined", "The energy of gravity is -sum m_i g.x_i.", "Newton",
+           gravity_energy},
+          {"forces.frequency-bound-holds",
+           "The reference's bound on the elastic frequency exceeds the largest frequency of "
+           "crumpled sheets and sharp folds.",
+           "Gershgorin's theorem; the automatic step rests on it", bound_is_a_bound},
+          {"bending.unknown-laws-are-rejected",
+           "A bending law that the reference does not know is refused by name.",
+           "a rule of this suite: bad input is refused in words", unknown_laws_are_rejected},
+          {"forces.row-bounds-cover-every-row",
+           "What the reference's springs and hinges say of a particle's row of the stiffness "
+           "matrix is not exceeded by any row, however far a hinge is from its rest angle.",
+           "Gershgorin's theorem; the automatic step rests on it", rows_are_covered},
+          {"forces.row-bounds-swap-with-the-sides-of-a-hinge",
+           "A hinge seen from its other side, the numbers of its particles exchanged in pairs, has "
+           "the same bounds, exchanged.",
+           "the angle about an edge does not depend on which way one looks along it",
+           rows_follow_their_particles},
+          {"forces.row-bounds-are-tight-at-rest",
+           "At a hinge's rest angle the bound on each particle's row is the row's own sum.",
+           "calculus: there the matrix is -ke c u u^T / 2", rows_are_reached}};
 }
 
 }  // namespace foldproof

@@ -1,5 +1,5 @@
-// The derivative of all forces by the positions while the velocities stay, which Newton's method needs on
-// damped cloth.
+// The derivative of all forces by the positions while the velocities stay, which Newton's method
+// needs on damped cloth.
 #include <cmath>
 #include <optional>
 
@@ -20,7 +20,9 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-double largest_entry(const Matrix& matrix) { return matrix.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(); }
+double largest_entry(const Matrix& matrix) {
+  return matrix.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+}
 
 /// The matrix of a differential over N particles, column by column: 3N x 3N [N/m].
 Matrix matrix_of(const ForceDifferential& differential, Eigen::Index particles) {
@@ -61,13 +63,16 @@ Matrix force_derivative(const Scene& scene, const State& s) {
 }
 
 Matrix differences_of_forces(const Probe& probe, const State& s, double step) {
-  const Matrix coarse = central_differences(probe, s, step), fine = central_differences(probe, s, step / 2);
+  const Matrix coarse = central_differences(probe, s, step),
+               fine = central_differences(probe, s, step / 2);
   return (4 * fine - coarse) / 3;
 }
 
 namespace {
 
-Matrix derivative_of(const Specimen& specimen) { return force_derivative(specimen.scene, specimen.state); }
+Matrix derivative_of(const Specimen& specimen) {
+  return force_derivative(specimen.scene, specimen.state);
+}
 
 /// Both factors of the damping with both weightings, damping and stiffness of like size.
 std::vector<BendingMaterial> moving_materials() {
@@ -80,18 +85,19 @@ Finding hinge_is_derivative(const Subject&) {
   for (const BendingMaterial& material : moving_materials())
     for (Specimen hinge : hinges_of_all_angles()) {
       hinge.scene.bending = material;
-      const oracles::MatrixEstimate exact = oracles::bending_force_derivative_autodiff(hinge_input(hinge, 0));
-      const double scale = epsilon * largest_entry(exact.value) *
-                           std::pow(aspect_ratio(corners_of(hinge.scene.mesh.hinges[0], hinge.state.x)), 2);
+      const oracles::MatrixEstimate exact =
+          oracles::bending_force_derivative_autodiff(hinge_input(hinge, 0));
+      const double scale =
+          epsilon * largest_entry(exact.value) *
+          std::pow(aspect_ratio(corners_of(hinge.scene.mesh.hinges[0], hinge.state.x)), 2);
       const Matrix difference = derivative_of(hinge) - exact.value;
       measured.row(describe(hinge, material),
                    oracles::Estimate{largest_entry(difference) / scale, exact.uncertainty / scale});
     }
-  return judge_worst(
-      measured, 16,
-      "an entry is a sum of eight products of a dozen factors: a hundred roundings of either sign add up to "
-      "some 10; a "
-      "normal's rounding is magnified by the triangle's thinness, its derivative's once more");
+  return judge_worst(measured, 16,
+                     "an entry is a sum of eight products of a dozen factors: a hundred roundings "
+                     "of either sign add up to some 10; a normal's rounding is magnified by the "
+                     "triangle's thinness, its derivative's once more");
 }
 
 Finding spring_is_derivative(const Subject&) {
@@ -99,7 +105,8 @@ Finding spring_is_derivative(const Subject&) {
   Random random(67);
   for (const double stretch : {0.43, 0.97, 1.02, 1.7}) {
     // on the oracle's side Y A/L0^2 and kd A/L0^2
-    const double area = 0.23, rest = 0.31, young = 7.9, damping = 0.59, shape = area / (rest * rest);
+    const double area = 0.23, rest = 0.31, young = 7.9, damping = 0.59,
+                 shape = area / (rest * rest);
     const StretchSprings springs{{{0, 1, rest, young * shape, damping * shape}}};
     State s = resting_state(random.vectors(2, 0.4));
     s.x.col(1) = s.x.col(0) + stretch * rest * (s.x.col(1) - s.x.col(0)).normalized();
@@ -113,8 +120,9 @@ Finding spring_is_derivative(const Subject&) {
                  oracles::Estimate{largest_entry(matrix_of(differential, 2) - exact.value) / scale,
                                    exact.uncertainty / scale});
   }
-  return judge_worst(measured, 32,
-                     "a 3 x 3 matrix of a dozen products; length less rest length loses a few roundings");
+  return judge_worst(
+      measured, 32,
+      "a 3 x 3 matrix of a dozen products; length less rest length loses a few roundings");
 }
 
 Finding matches_differences(const Subject& subject) {
@@ -124,13 +132,15 @@ Finding matches_differences(const Subject& subject) {
       sheet.scene.bending = material;
       sheet.scene.stretch = StretchMaterial{41, 0.31, 1.04};
       const Probe probe(subject, sheet.scene);
-      const Matrix expected = differences_of_forces(probe, sheet.state, 1e-4 * extent(sheet.state.x));
+      const Matrix expected =
+          differences_of_forces(probe, sheet.state, 1e-4 * extent(sheet.state.x));
       measured.row(describe(sheet, material),
                    largest_entry(derivative_of(sheet) - expected) / largest_entry(expected));
     }
-  return judge_worst(measured, 1e-9,
-                     "rounding of differences at steps of 1e-4 of the cloth is epsilon over the step, 2e-12, "
-                     "magnified some hundredfold by thin triangles; a missing or wrong term is of order 1");
+  return judge_worst(
+      measured, 1e-9,
+      "rounding of differences at steps of 1e-4 of the cloth is epsilon over the step, 2e-12, "
+      "magnified some hundredfold by thin triangles; a missing or wrong term is of order 1");
 }
 
 /// Damping force and derivative of these springs at s, side by side: 3N x (3N + 1).
@@ -149,7 +159,8 @@ Matrix damped_answers(const StretchSprings& springs, const State& s) {
 Finding springs_answer_for_themselves(const Subject&) {
   Table measured = roundings_of("the largest entry");
   Random random(71);
-  const StretchSprings all{{{0, 1, 0.31, 7.9, 0.59}, {1, 2, 0.23, 5.3, 0}, {2, 3, 0.37, 3.1, 0.83}}};
+  const StretchSprings all{
+      {{0, 1, 0.31, 7.9, 0.59}, {1, 2, 0.23, 5.3, 0}, {2, 3, 0.37, 3.1, 0.83}}};
   for (int k = 0; k < 4; ++k) {
     State s = resting_state(random.vectors(4, 0.4));
     s.v = random.vectors(4, 1.3);
@@ -168,14 +179,16 @@ struct Variant {
 };
 
 Finding flag_is_right(const Subject&) {
-  Table measured{{"case", ""},
-                 {"derivatives that are called symmetric and are not, or are and are not called so", "1"}};
+  Table measured{
+      {"case", ""},
+      {"derivatives that are called symmetric and are not, or are and are not called so", "1"}};
   const BendingMaterial plain{0.0037, 0, Weighting::rest, DampingFactor::edge, "sine"};
-  const std::vector<Variant> variants = {{"springs", StretchMaterial{41, 0, 1.04}, {}},
-                                         {"damped springs", StretchMaterial{41, 0.31, 1.04}, {}},
-                                         {"hinges", {}, plain},
-                                         {"damped hinges", {}, moving_materials()[0]},
-                                         {"hinges by their current weights", {}, bending_variants()[1]}};
+  const std::vector<Variant> variants = {
+      {"springs", StretchMaterial{41, 0, 1.04}, {}},
+      {"damped springs", StretchMaterial{41, 0.31, 1.04}, {}},
+      {"hinges", {}, plain},
+      {"damped hinges", {}, moving_materials()[0]},
+      {"hinges by their current weights", {}, bending_variants()[1]}};
   for (const Specimen& sheet : small_crumpled_sheets())
     for (const Variant& variant : variants) {
       Scene scene = sheet.scene;
@@ -188,34 +201,37 @@ Finding flag_is_right(const Subject&) {
       const bool is_called = force_differential_at(system.forces, sheet.state, uncounted).symmetric;
       measured.row(sheet.name + ", " + variant.name, is_called == is_symmetric ? 0 : 1);
     }
-  return judge_worst(measured, 0,
-                     "which solver is taken hangs on it: conjugate gradients need a symmetric matrix");
+  return judge_worst(
+      measured, 0,
+      "which solver is taken hangs on it: conjugate gradients need a symmetric matrix");
 }
 
 }  // namespace
 
 std::vector<Check> force_differential_checks() {
-  const std::string what = "calculus; the methods BMF03 section 3 compares its schemes with need it";
-  return {
-      {"force-differential.hinge-matches-exact-derivative",
-       "How the reference's elastic and damping forces of a hinge change with the positions at given "
-       "velocities is their derivative: 50 digits, autodiff, every angle, both factors, both weightings.",
-       what, hinge_is_derivative},
-      {"force-differential.spring-matches-exact-derivative",
-       "How the reference's elastic and damping forces of a spring change with the positions at given "
-       "velocities is their derivative: 50 digits, autodiff.",
-       what, spring_is_derivative},
-      {"force-differential.several-springs-add-up",
-       "Damping and derivative of several springs, some of them without damping, are the sums of each one's.",
-       what, springs_answer_for_themselves},
-      {"force-differential.symmetry-is-reported-correctly",
-       "The derivative is called symmetric where its matrix is: without damping and current weights, and not "
-       "with.",
-       what, flag_is_right},
-      {"force-differential.whole-matches-force-differences",
-       "The reference's derivative of all forces at given velocities is that of the subject's forces, on "
-       "sheets of damped springs and hinges.",
-       what, matches_differences}};
+  const std::string what =
+      "calculus; the methods BMF03 section 3 compares its schemes with need it";
+  return {{"force-differential.hinge-matches-exact-derivative",
+           "How the reference's elastic and damping forces of a hinge change with the positions at "
+           "given velocities is their derivative: 50 digits, autodiff, every angle, both factors, "
+           "both weightings.",
+           what, hinge_is_derivative},
+          {"force-differential.spring-matches-exact-derivative",
+           "How the reference's elastic and damping forces of a spring change with the positions "
+           "at given velocities is their derivative: 50 digits, autodiff.",
+           what, spring_is_derivative},
+          {"force-differential.several-springs-add-up",
+           "Damping and derivative of several springs, some of them without damping, are the sums "
+           "of each one's.",
+           what, springs_answer_for_themselves},
+          {"force-differential.symmetry-is-reported-correctly",
+           "The derivative is called symmetric where its matrix is: without damping and current "
+           "weights, and not with.",
+           what, flag_is_right},
+          {"force-differential.whole-matches-force-differences",
+           "The reference's derivative of all forces at given velocities is that of the subject's "
+           "forces, on sheets of damped springs and hinges.",
+           what, matches_differences}};
 }
 
 }  // namespace foldproof

@@ -27,8 +27,8 @@ std::vector<Specimen> sprung_sheets() {
 }
 
 const char* const why_sums =
-    "a spring's two forces are equal and opposite but for a rounding of each sum; about eight springs meet "
-    "in a particle";
+    "a spring's two forces are equal and opposite but for a rounding of each sum; about eight "
+    "springs meet in a particle";
 
 Finding forces_sum_to_zero(const Subject& subject) {
   Table measured = roundings_of("sum |F_i|");
@@ -40,7 +40,8 @@ Finding forces_sum_to_zero(const Subject& subject) {
 Finding torques_sum_to_zero(const Subject& subject) {
   Table measured = roundings_of("sum |x_i||F_i|");
   for (const Specimen& sheet : sprung_sheets())
-    measured.row(sheet.name, net_torque(sheet.state.x, Probe(subject, sheet.scene).elastic(sheet.state)));
+    measured.row(sheet.name,
+                 net_torque(sheet.state.x, Probe(subject, sheet.scene).elastic(sheet.state)));
   return judge_worst(measured, 16, why_sums);
 }
 
@@ -53,8 +54,8 @@ oracles::SpringInput spring_input(const Specimen& sheet, size_t edge) {
   input.x = {sheet.state.x.col(a), sheet.state.x.col(b)};
   input.v = {sheet.state.v.col(a), sheet.state.v.col(b)};
   // A_e/L0^2 is that of the rest shape, whatever the scale of the rest lengths
-  input.law = {material.stiffness, material.damping, scale * scale * edge_areas(sheet.scene.mesh)[edge],
-               scale * length};
+  input.law = {material.stiffness, material.damping,
+               scale * scale * edge_areas(sheet.scene.mesh)[edge], scale * length};
   return input;
 }
 
@@ -71,8 +72,8 @@ double damping_scale(const oracles::SpringInput& input) {
          (input.v[0] - input.v[1]).norm();
 }
 
-/// The worst particle's difference from the sum of the oracle's forces, over epsilon times the sum of its
-/// springs' scales.
+/// The worst particle's difference from the sum of the oracle's forces, over epsilon times the sum
+/// of its springs' scales.
 oracles::Estimate difference_from(const Specimen& sheet, const PerParticle3& f, SpringOracle oracle,
                                   double (*scale_of)(const oracles::SpringInput&)) {
   PerParticle3 expected = PerParticle3::Zero(3, f.cols());
@@ -87,8 +88,10 @@ oracles::Estimate difference_from(const Specimen& sheet, const PerParticle3& f, 
       uncertainty[ends[k]] += force.uncertainty + epsilon * expected.col(ends[k]).norm();
     }
   }
-  const PerParticle error = (f - expected).colwise().norm().transpose().cwiseQuotient(epsilon * scale);
-  return {error.maxCoeff<Eigen::PropagateNaN>(), uncertainty.cwiseQuotient(epsilon * scale).maxCoeff()};
+  const PerParticle error =
+      (f - expected).colwise().norm().transpose().cwiseQuotient(epsilon * scale);
+  return {error.maxCoeff<Eigen::PropagateNaN>(),
+          uncertainty.cwiseQuotient(epsilon * scale).maxCoeff()};
 }
 
 Finding force_is_as_defined(const Subject& subject) {
@@ -97,8 +100,9 @@ Finding force_is_as_defined(const Subject& subject) {
     const PerParticle3 f = Probe(subject, sheet.scene).elastic(sheet.state);
     measured.row(sheet.name, difference_from(sheet, f, oracles::spring_elastic_50, elastic_scale));
   }
-  return judge_worst(measured, 32,
-                     "lengths, areas and the product that is the force take fewer than 32 roundings");
+  return judge_worst(
+      measured, 32,
+      "lengths, areas and the product that is the force take fewer than 32 roundings");
 }
 
 Finding damping_is_as_defined(const Subject& subject) {
@@ -107,21 +111,21 @@ Finding damping_is_as_defined(const Subject& subject) {
     const PerParticle3 f = Probe(subject, sheet.scene).damping(sheet.state, sheet.state.v);
     measured.row(sheet.name, difference_from(sheet, f, oracles::spring_damping_50, damping_scale));
   }
-  return judge_worst(measured, 32,
-                     "lengths, areas and the product that is the force take fewer than 32 roundings");
+  return judge_worst(
+      measured, 32,
+      "lengths, areas and the product that is the force take fewer than 32 roundings");
 }
 
 Finding force_is_minus_gradient(const Subject& subject) {
   Table measured = roundings_of("(integral |F||dx| + |E|)");
   for (const Specimen& sheet : sprung_sheets()) {
     const double size = 0.05 * rest_lengths(sheet.scene.mesh).minCoeff();
-    measured.row(sheet.name,
-                 energy_against_work(Probe(subject, sheet.scene), random_line(sheet.state.x, size, 61)));
+    measured.row(sheet.name, energy_against_work(Probe(subject, sheet.scene),
+                                                 random_line(sheet.state.x, size, 61)));
   }
-  return judge_worst(
-      measured, 64,
-      "80 to 640 forces and two energies enter the balance, each good to a few roundings of its scale; the "
-      "quadrature's own error is the uncertainty");
+  return judge_worst(measured, 64,
+                     "80 to 640 forces and two energies enter the balance, each good to a few "
+                     "roundings of its scale; the quadrature's own error is the uncertainty");
 }
 
 Finding energy_is_as_defined(const Subject& subject) {
@@ -134,11 +138,12 @@ Finding energy_is_as_defined(const Subject& subject) {
       scale += input.law.young * input.law.area *
                (1 + (input.x[1] - input.x[0]).squaredNorm() / std::pow(input.law.rest_length, 2));
     }
-    measured.row(sheet.name,
-                 std::abs(Probe(subject, sheet.scene).energy(sheet.state) - energy) / (epsilon * scale));
+    measured.row(sheet.name, std::abs(Probe(subject, sheet.scene).energy(sheet.state) - energy) /
+                                 (epsilon * scale));
   }
-  return judge_worst(measured, 32,
-                     "a spring's energy takes about ten roundings, and the springs are added one by one");
+  return judge_worst(
+      measured, 32,
+      "a spring's energy takes about ten roundings, and the springs are added one by one");
 }
 
 Finding rest_gives_no_force(const Subject& subject) {
@@ -147,14 +152,18 @@ Finding rest_gives_no_force(const Subject& subject) {
     shape.scene.stretch = StretchMaterial{410.0, 0.37, 1};
     const PerParticle3 f = Probe(subject, shape.scene).elastic(shape.state);
     const double scale =
-        410.0 * edge_areas(shape.scene.mesh).cwiseQuotient(rest_lengths(shape.scene.mesh)).maxCoeff();
-    measured.row(shape.name, f.colwise().norm().maxCoeff<Eigen::PropagateNaN>() / (epsilon * scale));
+        410.0 *
+        edge_areas(shape.scene.mesh).cwiseQuotient(rest_lengths(shape.scene.mesh)).maxCoeff();
+    measured.row(shape.name,
+                 f.colwise().norm().maxCoeff<Eigen::PropagateNaN>() / (epsilon * scale));
   }
   return judge_worst(
-      measured, 16, "two ways to a length differ by a few roundings; about eight springs meet in a particle");
+      measured, 16,
+      "two ways to a length differ by a few roundings; about eight springs meet in a particle");
 }
 
-/// Y A_e/L0^2 is that of the rest shape, so a scale only moves the length at which a spring is at ease.
+/// Y A_e/L0^2 is that of the rest shape, so a scale only moves the length at which a
+/// spring is at ease.
 Finding rest_length_scale_is_kept(const Subject& subject) {
   Table measured = roundings_of("of the size");
   Specimen sheet = crumpled_sheets()[4];
@@ -164,11 +173,13 @@ Finding rest_length_scale_is_kept(const Subject& subject) {
     const PerParticle3 at_ease = scale * sheet.scene.mesh.rest;
     const Eigen::VectorXd areas = edge_areas(sheet.scene.mesh);
     const double energy = 0.5 * 530.0 * (1 - scale) * (1 - scale) * areas.sum();
-    const double force_scale = 530.0 * areas.cwiseQuotient(rest_lengths(sheet.scene.mesh)).maxCoeff();
+    const double force_scale =
+        530.0 * areas.cwiseQuotient(rest_lengths(sheet.scene.mesh)).maxCoeff();
     const std::string name = "rest lengths times " + std::to_string(scale);
-    measured.row(name + ", force at ease",
-                 probe.elastic(resting_state(at_ease)).colwise().norm().maxCoeff<Eigen::PropagateNaN>() /
-                     (epsilon * force_scale));
+    measured.row(
+        name + ", force at ease",
+        probe.elastic(resting_state(at_ease)).colwise().norm().maxCoeff<Eigen::PropagateNaN>() /
+            (epsilon * force_scale));
     measured.row(name + ", energy at the unscaled rest shape",
                  std::abs(probe.energy(resting_state(sheet.scene.mesh.rest)) - energy) /
                      (epsilon * 530.0 * areas.sum()));
@@ -190,17 +201,20 @@ Finding damping_dissipates(const Subject& subject) {
 Finding damping_leaves_rigid_motion_alone(const Subject& subject) {
   Table measured = roundings_of("kd_s A_e/L0^2 (|v_a| + |v_b|), largest over the springs");
   for (const Specimen& sheet : sprung_sheets()) {
-    const PerParticle3 v = rigid_velocity(sheet.state.x, Vector3(-0.7, 0.2, 1.1), Vector3(2.3, -4.1, 1.3));
+    const PerParticle3 v =
+        rigid_velocity(sheet.state.x, Vector3(-0.7, 0.2, 1.1), Vector3(2.3, -4.1, 1.3));
     const Eigen::VectorXd lengths = rest_lengths(sheet.scene.mesh);
-    const double coefficient = sheet.scene.stretch->damping *
-                               edge_areas(sheet.scene.mesh).cwiseQuotient(lengths.cwiseAbs2()).maxCoeff();
+    const double coefficient =
+        sheet.scene.stretch->damping *
+        edge_areas(sheet.scene.mesh).cwiseQuotient(lengths.cwiseAbs2()).maxCoeff();
     const double scale = coefficient * 2 * v.colwise().norm().maxCoeff();
     const PerParticle3 f = Probe(subject, sheet.scene).damping(sheet.state, v);
-    measured.row(sheet.name, f.colwise().norm().maxCoeff<Eigen::PropagateNaN>() / (epsilon * scale));
+    measured.row(sheet.name,
+                 f.colwise().norm().maxCoeff<Eigen::PropagateNaN>() / (epsilon * scale));
   }
-  return judge_worst(
-      measured, 16,
-      "d.(v_b - v_a) of a rigid motion cancels to a few roundings; about eight springs meet in a particle");
+  return judge_worst(measured, 16,
+                     "d.(v_b - v_a) of a rigid motion cancels to a few roundings; about eight "
+                     "springs meet in a particle");
 }
 
 Finding damping_is_symmetric_negative(const Subject& subject) {
@@ -211,15 +225,18 @@ Finding damping_is_symmetric_negative(const Subject& subject) {
   }
   const Finding symmetry = asymmetry(subject, cases);
   Finding finding = largest_eigenvalue(subject, cases);
-  finding.evidence.add({"asymmetry", "epsilon largest |D_ij|", symmetry.evidence.numbers("measured")});
+  finding.evidence.add(
+      {"asymmetry", "epsilon largest |D_ij|", symmetry.evidence.numbers("measured")});
   Worst worst;
   worst.observe(finding.verdict.measured);
   worst.observe(symmetry.verdict.measured);
   finding.verdict.measured = worst.value();
   finding.verdict.unit = "epsilon of the matrix's size";
   finding.note =
-      "the size is 3N times the largest |eigenvalue| for an eigenvalue, the largest |D_ij| for the asymmetry";
-  finding.verdict.why_bound += "; an entry of D and its mirror are the same product in another order";
+      "the size is 3N times the largest |eigenvalue| for an eigenvalue, the largest |D_ij| for the "
+      "asymmetry";
+  finding.verdict.why_bound +=
+      "; an entry of D and its mirror are the same product in another order";
   return finding;
 }
 
@@ -228,35 +245,39 @@ Finding damping_is_symmetric_negative(const Subject& subject) {
 std::vector<Check> spring_checks() {
   const char* const source = "mesh-independent form of the springs, ours: BMF03 presumes springs";
   const char* const section3 = "BMF03 section 3";
-  return {
-      {"springs.forces-sum-to-zero", "The elastic spring forces on crumpled sheets sum to zero.", source,
-       forces_sum_to_zero},
-      {"springs.torques-sum-to-zero", "The torques of the elastic spring forces sum to zero.", source,
-       torques_sum_to_zero},
-      {"springs.force-is-as-defined", "The elastic spring force is Y (A_e/L0)(|d|/L0 - 1) d^.", source,
-       force_is_as_defined},
-      {"springs.damping-is-as-defined", "The spring damping force is kd_s (A_e/L0^2)((v_b - v_a).d^) d^.",
-       source, damping_is_as_defined},
-      {"springs.force-is-minus-gradient-of-energy",
-       "The elastic spring force's work along a path is the energy's loss.", source, force_is_minus_gradient},
-      {"springs.energy-is-as-defined", "The energy of the springs is the sum of Y A_e/2 (|d|/L0 - 1)^2.",
-       source, energy_is_as_defined},
-      {"springs.rest-shape-feels-no-force",
-       "Flat or curved, a sheet in its rest shape feels no spring force.", source, rest_gives_no_force},
-      {"springs.rest-length-scale-leaves-stiffness-alone",
-       "Scaled rest lengths move the shape at ease and leave the springs' stiffness as it was.", source,
-       rest_length_scale_is_kept},
-      {"springs.equilateral-sheet-has-modulus-Y-and-Poisson-ratio-one-third",
-       "A sheet of equilateral triangles has Young's modulus Y and Poisson ratio 1/3 in every direction.",
-       "derived from the springs' form", equilateral_moduli},
-      {"springs.damping-dissipates", "Spring damping takes energy out of every random motion.", section3,
-       damping_dissipates},
-      {"springs.damping-leaves-rigid-motion-alone",
-       "A sheet that moves as a rigid body feels no spring damping.", section3,
-       damping_leaves_rigid_motion_alone},
-      {"springs.damping-is-symmetric-negative-semidefinite",
-       "The matrix of the spring damping is symmetric and has no positive eigenvalue.", section3,
-       damping_is_symmetric_negative}};
+  return {{"springs.forces-sum-to-zero",
+           "The elastic spring forces on crumpled sheets sum to zero.", source, forces_sum_to_zero},
+          {"springs.torques-sum-to-zero", "The torques of the elastic spring forces sum to zero.",
+           source, torques_sum_to_zero},
+          {"springs.force-is-as-defined", "The elastic spring force is Y (A_e/L0)(|d|/L0 - 1) d^.",
+           source, force_is_as_defined},
+          {"springs.damping-is-as-defined",
+           "The spring damping force is kd_s (A_e/L0^2)((v_b - v_a).d^) d^.", source,
+           damping_is_as_defined},
+          {"springs.force-is-minus-gradient-of-energy",
+           "The elastic spring force's work along a path is the energy's loss.", source,
+           force_is_minus_gradient},
+          {"springs.energy-is-as-defined",
+           "The energy of the springs is the sum of Y A_e/2 (|d|/L0 - 1)^2.", source,
+           energy_is_as_defined},
+          {"springs.rest-shape-feels-no-force",
+           "Flat or curved, a sheet in its rest shape feels no spring force.", source,
+           rest_gives_no_force},
+          {"springs.rest-length-scale-leaves-stiffness-alone",
+           "Scaled rest lengths move the shape at ease and leave the springs' stiffness as it was.",
+           source, rest_length_scale_is_kept},
+          {"springs.equilateral-sheet-has-modulus-Y-and-Poisson-ratio-one-third",
+           "A sheet of equilateral triangles has Young's modulus Y and Poisson ratio 1/3 in every "
+           "direction.",
+           "derived from the springs' form", equilateral_moduli},
+          {"springs.damping-dissipates", "Spring damping takes energy out of every random motion.",
+           section3, damping_dissipates},
+          {"springs.damping-leaves-rigid-motion-alone",
+           "A sheet that moves as a rigid body feels no spring damping.", section3,
+           damping_leaves_rigid_motion_alone},
+          {"springs.damping-is-symmetric-negative-semidefinite",
+           "The matrix of the spring damping is symmetric and has no positive eigenvalue.",
+           section3, damping_is_symmetric_negative}};
 }
 
 }  // namespace foldproof

@@ -23,7 +23,8 @@ TriangleMesh equilateral_parallelogram() {
   std::vector<Triangle> triangles;
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i)
-      rest.col(j * (columns + 1) + i) = edge * Vector3(i + 0.5 * j, 0.5 * std::numbers::sqrt3 * j, 0);
+      rest.col(j * (columns + 1) + i) =
+          edge * Vector3(i + 0.5 * j, 0.5 * std::numbers::sqrt3 * j, 0);
   }
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
@@ -40,10 +41,10 @@ struct Strain {
   double along, across;
 };
 
-/// Energy per area and squared strain [N/m] of a homogeneous strain, turned by `direction` [rad] and `size`
-/// large; the mean of both signs, which leaves an error relative size^2.
-double energy_density(const Probe& probe, const TriangleMesh& mesh, const Strain& strain, double direction,
-                      double size) {
+/// Energy per area and squared strain [N/m] of a homogeneous strain, turned by `direction` [rad]
+/// and `size` large; the mean of both signs, which leaves an error relative size^2.
+double energy_density(const Probe& probe, const TriangleMesh& mesh, const Strain& strain,
+                      double direction, double size) {
   const double area = columns * rows * edge * edge * 0.5 * std::numbers::sqrt3;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(direction, Vector3::UnitZ()).matrix();
   const Eigen::Matrix3d shape =
@@ -64,7 +65,8 @@ oracles::Estimate stiffness(const Probe& probe, const TriangleMesh& mesh, const 
   const double coarse = energy_density(probe, mesh, strain, direction, 2 * size);
   const double fine = energy_density(probe, mesh, strain, direction, size);
   const double value = fine + (fine - coarse) / 3, before = coarse + (coarse - coarsest) / 3;
-  return {value, std::abs(value - before) / 8};  // an error of fourth order is a fifteenth of the difference
+  // an error of fourth order is a fifteenth of the difference
+  return {value, std::abs(value - before) / 8};
 }
 
 }  // namespace
@@ -83,19 +85,21 @@ Finding equilateral_moduli(const Subject& subject) {
     const oracles::Estimate along = stiffness(probe, scene.mesh, {1, 0}, direction);
     const oracles::Estimate across = stiffness(probe, scene.mesh, {0, 1}, direction);
     const oracles::Estimate both = stiffness(probe, scene.mesh, {1, 1}, direction);
-    const double C11 = 2 * along.value, C22 = 2 * across.value, C12 = both.value - along.value - across.value;
+    const double C11 = 2 * along.value, C22 = 2 * across.value,
+                 C12 = both.value - along.value - across.value;
     const double found_young = C11 - C12 * C12 / C22, found_poisson = C12 / C22;
     Worst error;
     error.observe(std::abs(found_young / expected.young.value - 1));
     error.observe(std::abs(found_poisson / expected.poisson.value - 1));
-    const double uncertainty = (along.uncertainty + across.uncertainty + both.uncertainty) * 4 / young;
-    measured.row(std::to_string(int(degrees)) + " degrees", oracles::Estimate{error.value(), uncertainty},
-                 found_young, found_poisson);
+    const double uncertainty =
+        (along.uncertainty + across.uncertainty + both.uncertainty) * 4 / young;
+    measured.row(std::to_string(int(degrees)) + " degrees",
+                 oracles::Estimate{error.value(), uncertainty}, found_young, found_poisson);
   }
   return judge_worst(measured, finding, 1e-8,
-                      "strains of 1e-3 and 2e-3, extrapolated, leave errors of their fourth power times about "
-                      "ten, 2e-10; rounding leaves epsilon over the strain squared, as much; what the "
-                      "extrapolation of three strains adds is ten times that");
+                     "strains of 1e-3 and 2e-3, extrapolated, leave errors of their fourth power "
+                     "times about ten, 2e-10; rounding leaves epsilon over the strain squared, as "
+                     "much; what the extrapolation of three strains adds is ten times that");
 }
 
 }  // namespace foldproof

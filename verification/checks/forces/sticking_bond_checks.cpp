@@ -28,7 +28,8 @@ State begun(const Subject& subject, const Scene& scene, const State& s) {
   return Stepper(subject, scene, "C").step(s, 1e-12);
 }
 
-/// A crumpled lower layer and particles all about it, all of which may stick to it, its own corners too.
+/// A crumpled lower layer and particles all about it, all of which may stick to it, its
+/// own corners too.
 Scene crumpled_layers() {
   Scene scene = scene_at_rest(two_sheets(4, 0.3, 0.02), 0.2);
   Random random(101);
@@ -52,9 +53,13 @@ Finding forms_finding(const Subject& subject) {
   for (const Bond& bond : s.bonds) {
     found.insert({bond.particle, bond.triangle});
     const auto [a, b, c] = patch.triangles[size_t(bond.triangle)];
-    const oracles::StuckParticle stuck{
-        scene.x.col(bond.particle), {{scene.x.col(a), scene.x.col(b), scene.x.col(c)}}, {bond.place}, 1, 1};
-    off.observe((oracles::sticking_answer(stuck).target - stuck.x).norm() / (epsilon * extent(scene.x)));
+    const oracles::StuckParticle stuck{scene.x.col(bond.particle),
+                                       {{scene.x.col(a), scene.x.col(b), scene.x.col(c)}},
+                                       {bond.place},
+                                       1,
+                                       1};
+    off.observe((oracles::sticking_answer(stuck).target - stuck.x).norm() /
+                (epsilon * extent(scene.x)));
   }
   double wrong = double(s.bonds.size() - found.size()), several = 0;
   for (int i = 0; i < int(scene.x.cols()); ++i) {
@@ -70,12 +75,14 @@ Finding forms_finding(const Subject& subject) {
     several += count > 1;
   }
   Table measured{{"case", ""}, {"wrong pairs, and places in roundings over 1000", "1"}};
-  measured.row("pairs of particle and triangle that should stick and do not, or the reverse", wrong);
+  measured.row("pairs of particle and triangle that should stick and do not, or the reverse",
+               wrong);
   measured.row("place at formation, in 1000 epsilon of the extent", off.value() / 1000);
   measured.row("few particles with several triangles", several >= 8 ? 0 : NAN);
-  return judge_worst(
-      measured, 0.9, "counts are exact; a foot's weights are magnified by the triangles' thinness",
-      fmt::format("{} bonds, {} particles of {} with several.", found.size(), several, scene.x.cols()));
+  return judge_worst(measured, 0.9,
+                     "counts are exact; a foot's weights are magnified by the triangles' thinness",
+                     fmt::format("{} bonds, {} particles of {} with several.", found.size(),
+                                 several, scene.x.cols()));
 }
 
 Finding renewal_finding(const Subject& subject) {
@@ -93,10 +100,10 @@ Finding renewal_finding(const Subject& subject) {
       differ += s.bonds[k].place != twice.bonds[k].place;
     s.x += random.vectors(s.x.cols(), 0.03);
   }
-  Finding finding{
-      {changes >= 6 ? differ : NAN, 0, 0, "bonds that differ", "what has been renewed is as it should be"},
-      {},
-      fmt::format("{} of 12 renewals changed the number of bonds.", changes)};
+  Finding finding{{changes >= 6 ? differ : NAN, 0, 0, "bonds that differ",
+                   "what has been renewed is as it should be"},
+                  {},
+                  fmt::format("{} of 12 renewals changed the number of bonds.", changes)};
   return finding;
 }
 
@@ -116,7 +123,8 @@ Finding again_finding(const Subject& subject) {
 
   Stepper stepper(subject, scene, "B");
   State s = stepper.start();
-  std::vector<double> offset(4, NAN);  // of each particle's target from it; NaN while it does not stick
+  // of each particle's target from it; NaN while it does not stick
+  std::vector<double> offset(4, NAN);
   std::vector<double> made(4, 0);
   double wrong = 0;
   for (int n = 0; n < 3000; ++n) {
@@ -138,8 +146,10 @@ Finding again_finding(const Subject& subject) {
   }
   Table bonds{{"particle", "1"}, {"bonds made in 3.9 s", "1"}};
   for (size_t i = 0; i < 4; ++i) bonds.row(i, made[i]);
-  return {{*std::ranges::min_element(made) >= 12 ? wrong : NAN, 0, 0, "steps with other bonds than predicted",
-           "bonds form within 11 mm and break beyond 41 mm of their target, as the palm's known height says"},
+  return {{*std::ranges::min_element(made) >= 12 ? wrong : NAN, 0, 0,
+           "steps with other bonds than predicted",
+           "bonds form within 11 mm and break beyond 41 mm of their target, as the palm's known "
+           "height says"},
           bonds,
           ""};
 }
@@ -188,8 +198,8 @@ Finding timed_finding(const Subject& subject) {
                  std::abs(pull(0.17 + 0.06 * part).norm() / full - share) / 1e-12);
   }
   return judge_worst(measured, 0.9,
-                     "counts are exact; the force is that of k0 (1 - q^2)^2 to a thousand roundings, q the "
-                     "part of `release` that is over");
+                     "counts are exact; the force is that of k0 (1 - q^2)^2 to a thousand "
+                     "roundings, q the part of `release` that is over");
 }
 
 Finding events_finding(const Subject&) {
@@ -232,8 +242,8 @@ Scene sheet_on_a_palm() {
   return scene;
 }
 
-/// Numbers that differ at the end of two runs of which one is cut after `half` steps and goes on with the
-/// states alone.
+/// Numbers that differ at the end of two runs of which one is cut after `half` steps and goes on
+/// with the states alone.
 Finding memory_finding(const Subject& subject) {
   constexpr int half = 9;
   constexpr double h = 4e-4;
@@ -256,9 +266,11 @@ Finding memory_finding(const Subject& subject) {
     std::vector<State> forgetful = cut;
     for (State& s : forgetful) s.bonds = {};
     const State c = continued(forgetful).back();
-    measured.row(name + ", forgetting makes a difference", count_differing_entries(c.x, b.x) > 0 ? 0 : 1);
+    measured.row(name + ", forgetting makes a difference",
+                 count_differing_entries(c.x, b.x) > 0 ? 0 : 1);
   }
-  return judge_worst(measured, 0, "a step is a function of its states: bonds are in them and nowhere else");
+  return judge_worst(measured, 0,
+                     "a step is a function of its states: bonds are in them and nowhere else");
 }
 
 /// A triangle that rests by itself, with particles about it, `distance` away on all six sides.
@@ -278,9 +290,10 @@ SurroundedParticle surround(double near, double distance) {
   made.patch.stiffness = 3.7;
   made.patch.near = near;
   made.patch.far = 0.3 * near;  // of what it sticks to where it is, a particle is no distance away
-  made.state = resting_state(PerParticle3{{0.13 - distance, 0.93 + distance, 0.35, 0.13, 0.35, 0.35},
-                                          {0.41, 0.21, 0.21 - distance, 1.11 + distance, 0.41, 0.41},
-                                          {0.37, 0.37, 0.37, 0.37, 0.37 - distance, 0.37 + distance}});
+  made.state =
+      resting_state(PerParticle3{{0.13 - distance, 0.93 + distance, 0.35, 0.13, 0.35, 0.35},
+                                 {0.41, 0.21, 0.21 - distance, 1.11 + distance, 0.41, 0.41},
+                                 {0.37, 0.37, 0.37, 0.37, 0.37 - distance, 0.37 + distance}});
   return made;
 }
 
@@ -295,8 +308,8 @@ Finding sides_finding(const Subject&) {
                    std::abs(double(made.state.bonds.size()) - expected));
     }
   return judge_worst(measured, 0,
-                     "a particle sticks just where its distance is at most `near`, on whatever side, however "
-                     "soon bonds break");
+                     "a particle sticks just where its distance is at most `near`, on whatever "
+                     "side, however soon bonds break");
 }
 
 }  // namespace
@@ -304,29 +317,30 @@ Finding sides_finding(const Subject&) {
 std::vector<Check> sticking_bond_checks() {
   const std::string source = "BMF03 section 6";
   return {{"sticking.bonds-form-with-every-near-triangle",
-           "A particle comes to stick, where it is, to every triangle of a patch within `near` that it is no "
-           "corner of.",
+           "A particle comes to stick, where it is, to every triangle of a patch within `near` "
+           "that it is no corner of.",
            source, forms_finding},
           {"sticking.bonds-form-on-every-side",
-           "Particles stick to a surface that moves by itself within `near` of it on each of six sides, and "
-           "not beyond.",
+           "Particles stick to a surface that moves by itself within `near` of it on each of six "
+           "sides, and not beyond.",
            source, sides_finding},
           {"sticking.renewing-bonds-twice-changes-nothing",
-           "Bonds that were renewed stay as they are when renewed again.", "our reading of BMF03 section 6",
-           renewal_finding},
+           "Bonds that were renewed stay as they are when renewed again.",
+           "our reading of BMF03 section 6", renewal_finding},
           {"sticking.bonds-break-and-form-again",
-           "Bonds form and break as a palm comes and goes, many times, exactly when their distances say so.",
+           "Bonds form and break as a palm comes and goes, many times, exactly when their "
+           "distances say so.",
            source, again_finding},
           {"sticking.patches-follow-their-schedule",
-           "A patch is sticky from one time until another and lets go smoothly before that.", source,
-           timed_finding},
+           "A patch is sticky from one time until another and lets go smoothly before that.",
+           source, timed_finding},
           {"sticking.steps-end-at-the-times-of-patches",
-           "The reference's steps end where a patch begins to be sticky, to let go, and to be no longer.",
+           "The reference's steps end where a patch begins to be sticky, to let go, and to be no "
+           "longer.",
            "our reading of BMF03 section 6", events_finding},
           {"sticking.bonds-are-part-of-the-state",
-           "For every method: a run that is continued from its states ends with the same bits, and not "
-           "without their "
-           "memory.",
+           "For every method: a run that is continued from its states ends with the same bits, and "
+           "not without their memory.",
            "our reading of BMF03 section 6", memory_finding}};
 }
 

@@ -34,9 +34,8 @@ double force_rounding(const StuckSpecimen& specimen) {
 }
 
 const std::string some_roundings =
-    "positions are good to a rounding of their size; a target is a sum of a dozen rounded terms, magnified "
-    "by the "
-    "triangles' thinness of up to 3";
+    "positions are good to a rounding of their size; a target is a sum of a dozen rounded terms, "
+    "magnified by the triangles' thinness of up to 3";
 
 Finding force_finding(const Subject& subject) {
   Table measured = roundings_of("of k times the extent");
@@ -53,8 +52,9 @@ Finding energy_finding(const Subject& subject) {
   for (const StuckSpecimen& specimen : all_specimens()) {
     const double difference =
         Probe(subject, specimen.scene).energy(specimen.state) - expected_energy(specimen);
-    measured.row(specimen.name, std::abs(difference) / (force_rounding(specimen) * specimen.patch().far *
-                                                        double(specimen.stuck.size())));
+    measured.row(specimen.name,
+                 std::abs(difference) / (force_rounding(specimen) * specimen.patch().far *
+                                         double(specimen.stuck.size())));
   }
   return judge_worst(measured, 64, some_roundings);
 }
@@ -68,11 +68,11 @@ Finding damping_finding(const Subject& subject) {
                          specimen.patch().far * extent(specimen.state.x);
     measured.row(specimen.name, (D - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / scale);
   }
-  return judge_worst(measured, 64,
-                     "k depends on the distance, good to a rounding of positions over far; "
-                     "the matrix, G^T G, on frames as the "
-                     "force does",
-                     "The matrix that is expected is -k tau_s G^T G: symmetric, and it can only resist.");
+  return judge_worst(
+      measured, 64,
+      "k depends on the distance, good to a rounding of positions over far; the matrix, G^T G, on "
+      "frames as the force does",
+      "The matrix that is expected is -k tau_s G^T G: symmetric, and it can only resist.");
 }
 
 Finding resists_finding(const Subject& subject) {
@@ -82,8 +82,9 @@ Finding resists_finding(const Subject& subject) {
     const Eigen::VectorXd values = oracles::symmetric_eigenvalues((D + D.transpose()) / 2);
     const double largest = values.cwiseAbs().maxCoeff();
     measured.row(specimen.name + ", largest eigenvalue", values.maxCoeff() / (epsilon * largest));
-    measured.row(specimen.name + ", asymmetry",
-                 (D - D.transpose()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / (epsilon * largest));
+    measured.row(
+        specimen.name + ", asymmetry",
+        (D - D.transpose()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / (epsilon * largest));
   }
   return judge_worst(measured, 128,
                      "a rounding of each of the 54 rows and columns that an eigenvalue sums over");
@@ -94,7 +95,8 @@ Finding momentum_finding(const Subject& subject) {
   for (const StuckSpecimen& specimen : stuck_layers()) {
     const Probe probe(subject, specimen.scene);
     measured.row(specimen.name + ", elastic", net_force(probe.elastic(specimen.state)));
-    measured.row(specimen.name + ", damping", net_force(probe.damping(specimen.state, specimen.state.v)));
+    measured.row(specimen.name + ", damping",
+                 net_force(probe.damping(specimen.state, specimen.state.v)));
   }
   return judge_worst(
       measured, 32,
@@ -116,8 +118,8 @@ Vector3 expected_torque(const StuckSpecimen& specimen) {
     const std::vector<int>& particles = specimen.particles[k];
     Vector3 approach = -specimen.state.v.col(particles[0]);
     for (size_t j = 1; j < particles.size(); ++j)
-      approach +=
-          answer.derivative.block<3, 3>(0, Eigen::Index(3 * (j - 1))) * specimen.state.v.col(particles[j]);
+      approach += answer.derivative.block<3, 3>(0, Eigen::Index(3 * (j - 1))) *
+                  specimen.state.v.col(particles[j]);
     const Vector3 arm = specimen.stuck[k].x - answer.target;
     sum += answer.stiffness * specimen.patch().forecast_time * arm.cross(approach);
   }
@@ -140,19 +142,20 @@ Finding torque_finding(const Subject& subject) {
                  (torque_of(x, damping) - expected_torque(specimen)).norm() / size(damping));
     torques.push_back(expected_torque(specimen).norm() / (size(damping) / epsilon));
   }
-  return judge_worst(
-      measured, 64,
-      "the torque's sum is rounded as the forces are; the frames turn with the corners, so that nothing else "
-      "is left",
-      fmt::format("The damping's torque k tau_s (x - x_t) x (v_t - v) is up to {:.2g} of the sum of |x||F|.",
-                  signed_largest(torques)));
+  return judge_worst(measured, 64,
+                     "the torque's sum is rounded as the forces are; the frames turn with the "
+                     "corners, so that nothing else is left",
+                     fmt::format("The damping's torque k tau_s (x - x_t) x (v_t - v) is up to "
+                                 "{:.2g} of the sum of |x||F|.",
+                                 signed_largest(torques)));
 }
 
 /// A particle at rest that sticks to the origin, drawn away by d [m].
 StuckSpecimen stretched_bonds(double d) {
   StuckSpecimen specimen;
   specimen.scene = scene_at_rest(
-      make_triangle_mesh((PerParticle3(3, 3) << 0, 1, 0, 0, 0, 1, 0, 0, 0).finished(), {{0, 1, 2}}), 0.3);
+      make_triangle_mesh((PerParticle3(3, 3) << 0, 1, 0, 0, 0, 1, 0, 0, 0).finished(), {{0, 1, 2}}),
+      0.3);
   StickyPatch patch = palm(specimen.scene, 0.2, Motion{});
   patch.stiffness = 23;
   patch.forecast_time = 0.011;
@@ -165,14 +168,17 @@ StuckSpecimen stretched_bonds(double d) {
   return specimen;
 }
 
-/// How far the force changes over `width` and how its slope does, over what a stiffness k0 and a curvature 8 k0/far
-/// allow: the largest |k0 (1 - r^2)(1 - 5 r^2)| and |k0/far (20 r^3 - 12 r)| for r in [0, 1].
+/// How far the force changes over `width` and how its slope does, over what a stiffness k0 and a
+/// curvature 8 k0/far allow: the largest |k0 (1 - r^2)(1 - 5 r^2)| and |k0/far (20 r^3 - 12 r)|
+/// for r in [0, 1].
 Finding fade_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"change over what is allowed", "1"}};
   const StuckSpecimen one = stretched_bonds(0);
   const Probe probe(subject, one.scene);
   const double far = one.patch().far, k = one.patch().stiffness;
-  const auto force = [&](double d) { return probe.elastic(stretched_bonds(d).state).col(0).norm(); };
+  const auto force = [&](double d) {
+    return probe.elastic(stretched_bonds(d).state).col(0).norm();
+  };
   for (const double width : {1e-2, 1e-3, 1e-4}) {
     const double step = width * far;
     Worst first, second;
@@ -184,11 +190,12 @@ Finding fade_finding(const Subject& subject) {
     measured.row(fmt::format("force over {} of far", width), first.value());
     measured.row(fmt::format("slope over {} of far", width), second.value());
   }
-  measured.row("force half way over its largest share .286 k far",
-               std::abs(force(far / std::sqrt(5.0)) / (k * far * 16 / 25 / std::sqrt(5.0)) - 1) / 1e-12);
+  measured.row(
+      "force half way over its largest share .286 k far",
+      std::abs(force(far / std::sqrt(5.0)) / (k * far * 16 / 25 / std::sqrt(5.0)) - 1) / 1e-12);
   return judge_worst(measured, 1 + 1e-6,
-                     "a force whose slope never jumps changes so little over so short a way; a jump of "
-                     "the force or of its slope grows without bound as the way shrinks");
+                     "a force whose slope never jumps changes so little over so short a way; a "
+                     "jump of the force or of its slope grows without bound as the way shrinks");
 }
 
 Finding surface_finding(const Subject& subject) {
@@ -207,9 +214,11 @@ Finding surface_finding(const Subject& subject) {
         velocity += answer.derivative.block<3, 3>(0, Eigen::Index(9 * b + 3 * c)) *
                     corner_velocities.col(triangle[c]);
     }
-    expected.col(i) += answer.stiffness * patch.forecast_time * (velocity - specimen.state.v.col(i));
+    expected.col(i) +=
+        answer.stiffness * patch.forecast_time * (velocity - specimen.state.v.col(i));
   }
-  const PerParticle3 force = probe.elastic(specimen.state) + probe.damping(specimen.state, specimen.state.v);
+  const PerParticle3 force =
+      probe.elastic(specimen.state) + probe.damping(specimen.state, specimen.state.v);
   Table measured = roundings_of("of k times the extent");
   measured.row(specimen.name, largest_difference(force, expected) / force_rounding(specimen));
   return judge_worst(measured, 64, some_roundings);
@@ -224,13 +233,15 @@ Finding derivative_finding(const Subject& subject) {
       const Eigen::MatrixXd expected =
           differences_of_forces(probe, specimen.state, 1e-4 * specimen.patch().far);
       const double size = expected.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-      const Eigen::MatrixXd difference = force_derivative(specimen.scene, specimen.state) - expected;
+      const Eigen::MatrixXd difference =
+          force_derivative(specimen.scene, specimen.state) - expected;
       measured.row(fmt::format("{}, tau_s = {} s", specimen.name, tau),
                    difference.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / size);
     }
-  return judge_worst(measured, 1e-6,
-                     "differences over 1e-4 of far, extrapolated: their error is of fourth order, 1e-8 "
-                     "here with roundings of 1e-12 over the step; a missing term is of order 1");
+  return judge_worst(
+      measured, 1e-6,
+      "differences over 1e-4 of far, extrapolated: their error is of fourth order, 1e-8 here with "
+      "roundings of 1e-12 over the step; a missing term is of order 1");
 }
 
 Finding bound_finding(const Subject& subject) {
@@ -239,7 +250,8 @@ Finding bound_finding(const Subject& subject) {
     specimen.scene.sticky[0].forecast_time = 0.017;
     const Probe probe(subject, specimen.scene);
     const System system = build_system(specimen.scene);
-    const Eigen::VectorXd root = system.inverse_mass.cwiseSqrt().transpose().replicate(3, 1).reshaped();
+    const Eigen::VectorXd root =
+        system.inverse_mass.cwiseSqrt().transpose().replicate(3, 1).reshaped();
     const auto largest = [&](const Eigen::MatrixXd& matrix) {
       const Eigen::MatrixXd scaled =
           root.asDiagonal() * (matrix + matrix.transpose()) * root.asDiagonal() / -2;
@@ -255,8 +267,8 @@ Finding bound_finding(const Subject& subject) {
                  largest(force_derivative(specimen.scene, specimen.state)) / (omega * omega));
   }
   return judge_worst(measured, 1 + 1e-12,
-                     "Gershgorin: no eigenvalue exceeds the largest row sum of the blocks' norms; where no "
-                     "particle shares a bond it is that sum, to roundings");
+                     "Gershgorin: no eigenvalue exceeds the largest row sum of the blocks' norms; "
+                     "where no particle shares a bond it is that sum, to roundings");
 }
 
 Finding beyond_reach_finding(const Subject& subject) {
@@ -289,16 +301,20 @@ Finding lost_triangles_finding(const Subject& subject) {
   for (StuckSpecimen specimen : stuck_layers()) {
     const Probe probe(subject, specimen.scene);
     const int particle = specimen.particles[0][0];
-    PerParticle3& x =
-        specimen.state.x;  // of the triangle that the first particle sticks to, two corners meet
+    // of the triangle that the first particle sticks to, two corners meet
+    PerParticle3& x = specimen.state.x;
     x.col(specimen.particles[0][3]) = x.col(specimen.particles[0][1]);
-    measured.row(specimen.name + ", forces", is_silent(particle, [&] { probe.elastic(specimen.state); }));
-    measured.row(specimen.name + ", energy", is_silent(particle, [&] { probe.energy(specimen.state); }));
+    measured.row(specimen.name + ", forces",
+                 is_silent(particle, [&] { probe.elastic(specimen.state); }));
+    measured.row(specimen.name + ", energy",
+                 is_silent(particle, [&] { probe.energy(specimen.state); }));
   }
   StickyPatch line;
   line.name = "line";
   line.triangles = {{0, 1, 2}};
-  line.place = [](double) -> PerParticle3 { return PerParticle3{{0.1, 0.3, 0.5}, {0, 0, 0}, {0, 0, 0}}; };
+  line.place = [](double) -> PerParticle3 {
+    return PerParticle3{{0.1, 0.3, 0.5}, {0, 0, 0}, {0, 0, 0}};
+  };
   line.particles = {0};
   line.stiffness = 3.7;
   line.near = 0.05;
@@ -314,46 +330,49 @@ Finding lost_triangles_finding(const Subject& subject) {
 
 std::vector<Check> sticking_force_checks() {
   const std::string source = "BMF03 section 6";
-  return {
-      {"sticking.force-is-minus-gradient-of-energy",
-       "Cloth stuck to cloth: the forces on particles and corners are minus the gradient of the spring's "
-       "energy, the "
-       "target being the mean place in the triangles' frames: 50 digits, autodiff.",
-       source, force_finding},
-      {"sticking.energy-is-as-defined", "The energy of sticking is the integral of k(d) d over d.", source,
-       energy_finding},
-      {"sticking.damping-is-as-defined",
-       "What forecasts add is -k tau_s G^T G, G the derivative of target less particle: 50 digits, autodiff.",
-       source, damping_finding},
-      {"sticking.damping-dissipates",
-       "The damping of sticking is symmetric and takes energy from every motion.",
-       "our reading of BMF03 section 6", resists_finding},
-      {"sticking.a-moving-surface-pulls-with-its-velocity",
-       "A target on a surface that turns and drifts pulls with the surface's velocity: the whole force is "
-       "k (x_t + tau_s v_t - x - tau_s v).",
-       source, surface_finding},
-      {"sticking.linear-momentum-is-conserved", "Cloth stuck to cloth exchanges equal and opposite impulses.",
-       "Newton's third law", momentum_finding},
-      {"sticking.only-damping-exerts-torque",
-       "The spring exerts no torque, and the damping k tau_s (x - x_t) x (v_t - v).",
-       "our reading of BMF03 section 6", torque_finding},
-      {"sticking.force-fades-without-a-jump",
-       "Neither the force nor its slope jumps where the distance passes the one at which bonds break.",
-       source, fade_finding},
-      {"sticking.differential-matches-forces",
-       "The reference's derivative of sticking forces by the positions is that of the subject's forces.",
-       "calculus; the fully implicit methods need it", derivative_finding},
-      {"sticking.force-ends-where-bonds-break",
-       "Farther from its target than the distance at which bonds break, a particle feels nothing, and its "
-       "force does "
-       "not change with its place.",
-       source, beyond_reach_finding},
-      {"sticking.degenerate-triangles-are-reported",
-       "A triangle that is stuck to and has lost its area is reported with the particle that sticks to it.",
-       "a rule of this suite: nothing fails in silence", lost_triangles_finding},
-      {"sticking.frequency-and-damping-bounds-hold",
-       "The reference's bounds on frequencies and damping rates are bounds where cloth sticks.",
-       "Gershgorin 1931", bound_finding}};
+  return {{"sticking.force-is-minus-gradient-of-energy",
+           "Cloth stuck to cloth: the forces on particles and corners are minus the gradient of "
+           "the spring's energy, the target being the mean place in the triangles' frames: 50 "
+           "digits, autodiff.",
+           source, force_finding},
+          {"sticking.energy-is-as-defined",
+           "The energy of sticking is the integral of k(d) d over d.", source, energy_finding},
+          {"sticking.damping-is-as-defined",
+           "What forecasts add is -k tau_s G^T G, G the derivative of target less particle: 50 "
+           "digits, autodiff.",
+           source, damping_finding},
+          {"sticking.damping-dissipates",
+           "The damping of sticking is symmetric and takes energy from every motion.",
+           "our reading of BMF03 section 6", resists_finding},
+          {"sticking.a-moving-surface-pulls-with-its-velocity",
+           "A target on a surface that turns and drifts pulls with the surface's velocity: the "
+           "whole force is k (x_t + tau_s v_t - x - tau_s v).",
+           source, surface_finding},
+          {"sticking.linear-momentum-is-conserved",
+           "Cloth stuck to cloth exchanges equal and opposite impulses.", "Newton's third law",
+           momentum_finding},
+          {"sticking.only-damping-exerts-torque",
+           "The spring exerts no torque, and the damping k tau_s (x - x_t) x (v_t - v).",
+           "our reading of BMF03 section 6", torque_finding},
+          {"sticking.force-fades-without-a-jump",
+           "Neither the force nor its slope jumps where the distance passes the one at which bonds "
+           "break.",
+           source, fade_finding},
+          {"sticking.differential-matches-forces",
+           "The reference's derivative of sticking forces by the positions is that of the "
+           "subject's forces.",
+           "calculus; the fully implicit methods need it", derivative_finding},
+          {"sticking.force-ends-where-bonds-break",
+           "Farther from its target than the distance at which bonds break, a particle feels "
+           "nothing, and its force does not change with its place.",
+           source, beyond_reach_finding},
+          {"sticking.degenerate-triangles-are-reported",
+           "A triangle that is stuck to and has lost its area is reported with the particle that "
+           "sticks to it.",
+           "a rule of this suite: nothing fails in silence", lost_triangles_finding},
+          {"sticking.frequency-and-damping-bounds-hold",
+           "The reference's bounds on frequencies and damping rates are bounds where cloth sticks.",
+           "Gershgorin 1931", bound_finding}};
 }
 
 }  // namespace foldproof

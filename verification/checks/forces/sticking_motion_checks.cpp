@@ -17,7 +17,8 @@ namespace foldproof {
 
 namespace {
 
-/// Three free particles over the palm, one of them above an edge of its triangles; they weigh 0.0021 kg each.
+/// Three free particles over the palm, one of them above an edge of its triangles; they weigh
+/// 0.0021 kg each.
 Scene over_the_palm(const RigidMotion& motion) {
   const PerParticle3 x =
       (PerParticle3(3, 3) << 0.05, 0.19, -0.11, -0.07, 0.06, 0.08, 0.004, 0.007, -0.003).finished();
@@ -41,7 +42,8 @@ State carried_start(const Scene& scene, const RigidMotion& motion) {
   return s;
 }
 
-/// A swing with drift and a turn; its acceleration is never more than (2 pi f)^2 |amplitude| + rate^2 |arm|.
+/// A swing with drift and a turn; its acceleration is never more than (2 pi f)^2
+/// |amplitude| + rate^2 |arm|.
 Motion waving() {
   Motion motion;
   motion.velocity = {0.3, 0.7, -0.4};
@@ -63,7 +65,8 @@ Finding follows_finding(const Subject& subject) {
   const Scene scene = over_the_palm(motion);
   const StickyPatch& patch = scene.sticky[0];
   const double a = largest_acceleration(motion, scene.x), h = 0.0012;
-  const double soft = mass * a / patch.stiffness, q = h * patch.forecast_time * patch.stiffness / (2 * mass);
+  const double soft = mass * a / patch.stiffness,
+               q = h * patch.forecast_time * patch.stiffness / (2 * mass);
   const double late = soft * q * q / (1 + q);  // derived in convergence/sticking/sticking_lag.cpp
   const double part = (soft + late) / patch.far;
   Table measured{{"case", ""}, {"largest distance from its place over what was derived", "1"}};
@@ -83,11 +86,11 @@ Finding follows_finding(const Subject& subject) {
     }
     measured.row("scheme " + std::string(integrator.name), worst.value());
   }
-  return judge_worst(
-      measured, 1 / std::pow(1 - part * part, 2) * (1 + 0.01),
-      "overdamped (omega tau_s/2 = 6.5), a spring lags by no more than the largest m a/k, k less than k0 by "
-      "(1 - (lag/far)^2)^2 at most; scheme C, which moves with the target's velocity of the step's start, by "
-      "q^2/(1 + q) of that more, q = h tau_s k/(2 m); a hundredth for the schemes' second order");
+  return judge_worst(measured, 1 / std::pow(1 - part * part, 2) * (1 + 0.01),
+                     "overdamped (omega tau_s/2 = 6.5), a spring lags by no more than the largest "
+                     "m a/k, k less than k0 by (1 - (lag/far)^2)^2 at most; scheme C, which moves "
+                     "with the target's velocity of the step's start, by q^2/(1 + q) of that more, "
+                     "q = h tau_s k/(2 m); a hundredth for the schemes' second order");
 }
 
 Finding lag_finding(const Subject& subject) {
@@ -105,20 +108,23 @@ Finding lag_finding(const Subject& subject) {
     measured.row(fmt::format("{} k far", pull), std::abs(lag / (r * patch.far) - 1));
   }
   return judge_worst(measured, 1e-9,
-                     "3 s are thirty times 2/(omega^2 tau_s) at least, until when it creeps at e^-t; the "
-                     "solve's tolerance is 1e-10");
+                     "3 s are thirty times 2/(omega^2 tau_s) at least, until when it creeps at "
+                     "e^-t; the solve's tolerance is 1e-10");
 }
 
-/// A surface of one triangle that is bent by its animation: what is stuck to it stays at its place in it.
+/// A surface of one triangle that is bent by its animation: what is stuck to it stays at
+/// its place in it.
 Finding deforming_finding(const Subject& subject) {
   SceneObject part;
-  const PerParticle3 x0 = (PerParticle3(3, 3) << -0.3, 0.5, -0.1, -0.2, 0.1, 0.4, 0, 0.01, 0.02).finished();
+  const PerParticle3 x0 =
+      (PerParticle3(3, 3) << -0.3, 0.5, -0.1, -0.2, 0.1, 0.4, 0, 0.01, 0.02).finished();
   PerParticle3 x1 = x0, x2 = x0;
   x1.row(2) += Eigen::RowVector3d(0.07, -0.03, 0.05);
   x2.row(0) *= 1.2;
   part.vertices = x0;
   part.triangles = {{0, 1, 2}};
-  part.animation = std::make_shared<MeshSequence>(MeshSequence{part.triangles, {0, 0.6, 1.1}, {x0, x1, x2}});
+  part.animation =
+      std::make_shared<MeshSequence>(MeshSequence{part.triangles, {0, 0.6, 1.1}, {x0, x1, x2}});
   Scene scene = over_the_palm(Motion{});
   StickyPatch& patch = scene.sticky[0];
   patch.triangles = part.triangles;
@@ -142,12 +148,10 @@ Finding deforming_finding(const Subject& subject) {
     measured.row(fmt::format("{:.3f} s, {} bonds", s.time, s.bonds.size()),
                  s.bonds.size() == 3 ? worst.value() : NAN);
   }
-  return judge_worst(
-      measured, 1e-4,
-      "corners move at up to 0.2 m/s; at each frame's jump of it dv the overdamped spring lags by no more "
-      "than "
-      "dv/(omega^2 tau_s) = 7e-5 m and forgets it; the frame's own acceleration adds less than 1e-5 m: 8e-5 "
-      "m, rounded up");
+  return judge_worst(measured, 1e-4,
+                     "corners move at up to 0.2 m/s; at each frame's jump of it dv the overdamped "
+                     "spring lags by no more than dv/(omega^2 tau_s) = 7e-5 m and forgets it; the "
+                     "frame's own acceleration adds less than 1e-5 m: 8e-5 m, rounded up");
 }
 
 Finding forecast_step_finding(const Subject&) {
@@ -165,7 +169,8 @@ Finding forecast_step_finding(const Subject&) {
       return allowed_step(system, integrator_named(name), {&s, 1}, rule, elastic_limit(system, s));
     };
     for (const char* name : {"A", "B", "backward-euler"})
-      measured.row(fmt::format("{}, tau_s = {} s", name, tau), std::abs(step(name) * omega / (0.7 * 2) - 1));
+      measured.row(fmt::format("{}, tau_s = {} s", name, tau),
+                   std::abs(step(name) * omega / (0.7 * 2) - 1));
     const double derived = 0.7 * std::max(2 / omega, 2 * tau);
     measured.row(fmt::format("C, tau_s = {} s", tau), std::abs(step("C") / derived - 1));
     if (tau > 0) {
@@ -173,9 +178,10 @@ Finding forecast_step_finding(const Subject&) {
       measured.row(fmt::format("RK4, tau_s = {} s", tau), std::abs(step("RK4") / both - 1));
     }
   }
-  return judge_worst(measured, 1e-6,
-                     "an even part of 10^9 s, a hundred million steps or more, is as long as allowed to "
-                     "eight digits; the bounds are exact for particles that share no spring");
+  return judge_worst(
+      measured, 1e-6,
+      "an even part of 10^9 s, a hundred million steps or more, is as long as allowed to eight "
+      "digits; the bounds are exact for particles that share no spring");
 }
 
 Finding nothing_sticks_finding(const Subject& subject) {
@@ -189,7 +195,9 @@ Finding nothing_sticks_finding(const Subject& subject) {
     far_away.near = 0.01;
     far_away.far = 0.05;
     const auto place = far_away.place;
-    far_away.place = [place](double t) -> PerParticle3 { return place(t).colwise() + Vector3(0, 0, 3); };
+    far_away.place = [place](double t) -> PerParticle3 {
+      return place(t).colwise() + Vector3(0, 0, 3);
+    };
     StickyPatch of_cloth = far_away;
     of_cloth.place = {};
     of_cloth.velocity = {};
@@ -197,9 +205,11 @@ Finding nothing_sticks_finding(const Subject& subject) {
     of_cloth.particles = {with.mesh.particles() - 1};
     with.sticky = {far_away, of_cloth};
     Stepper sticky(subject, with, name), plain(subject, partly_prescribed_sheet(), name);
-    const State a = sticky.run(sticky.start(), 1.1e-3, 12), b = plain.run(plain.start(), 1.1e-3, 12);
+    const State a = sticky.run(sticky.start(), 1.1e-3, 12),
+                b = plain.run(plain.start(), 1.1e-3, 12);
     const Work &one = sticky.work(), &other = plain.work();
-    measured.row(name + ", bits", count_differing_entries(a.x, b.x) + count_differing_entries(a.v, b.v));
+    measured.row(name + ", bits",
+                 count_differing_entries(a.x, b.x) + count_differing_entries(a.v, b.v));
     measured.row(name + ", iterations and products",
                  double(std::abs(one.cg_iterations - other.cg_iterations) +
                         std::abs(one.damping_products - other.damping_products) +
@@ -213,23 +223,23 @@ Finding nothing_sticks_finding(const Subject& subject) {
 std::vector<Check> sticking_motion_checks() {
   const std::string source = "BMF03 section 6";
   return {{"sticking.particles-follow-rigid-motion",
-           "Particles stuck to a surface that turns, swings and drifts keep their place in it, but for a lag "
-           "of no "
-           "more than m a/k.",
+           "Particles stuck to a surface that turns, swings and drifts keep their place in it, but "
+           "for a lag of no more than m a/k.",
            source, follows_finding},
           {"sticking.lag-is-as-derived",
-           "Under a constant pull a stuck particle hangs where k(d) d is the pull: m a/k for soft pulls.",
+           "Under a constant pull a stuck particle hangs where k(d) d is the pull: m a/k for soft "
+           "pulls.",
            "our reading of BMF03 section 6", lag_finding},
           {"sticking.particles-follow-a-deforming-surface",
-           "Particles stuck to a triangle that deforms keep their weights and height in it.", source,
-           deforming_finding},
+           "Particles stuck to a triangle that deforms keep their weights and height in it.",
+           source, deforming_finding},
           {"sticking.forecasts-allow-longer-steps-in-C",
-           "The automatic step of the reference: in scheme C what sticks allows twice its forecast time, in "
-           "A and B no "
-           "more than its frequency.",
+           "The automatic step of the reference: in scheme C what sticks allows twice its forecast "
+           "time, in A and B no more than its frequency.",
            "our reading of BMF03 section 6", forecast_step_finding},
           {"sticking.unused-patches-cost-nothing",
-           "Patches that nothing sticks to change no bit of any method's steps, nor what its solves cost.",
+           "Patches that nothing sticks to change no bit of any method's steps, nor what its "
+           "solves cost.",
            "our reading of BMF03 section 6", nothing_sticks_finding}};
 }
 

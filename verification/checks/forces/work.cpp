@@ -18,7 +18,8 @@ struct Integral {
 };
 
 void add(const Probe& probe, const Path& path, double parameter, double weight, Integral& sum) {
-  const PerParticle3 f = probe.elastic(resting_state(path.x(parameter))), slope = path.slope(parameter);
+  const PerParticle3 f = probe.elastic(resting_state(path.x(parameter))),
+                     slope = path.slope(parameter);
   sum.work += weight * f.cwiseProduct(slope).sum();
   sum.scale += weight * f.colwise().norm().cwiseProduct(slope.colwise().norm()).sum();
 }
@@ -27,7 +28,8 @@ void add(const Probe& probe, const Path& path, double parameter, double weight, 
 Integral gauss(const Probe& probe, const Path& path, int panels) {
   const double inner = std::sqrt(5 - 2 * std::sqrt(10.0 / 7)) / 3,
                outer = std::sqrt(5 + 2 * std::sqrt(10.0 / 7)) / 3;
-  const double heavy = (322 + 13 * std::sqrt(70.0)) / 900, light = (322 - 13 * std::sqrt(70.0)) / 900;
+  const double heavy = (322 + 13 * std::sqrt(70.0)) / 900,
+               light = (322 - 13 * std::sqrt(70.0)) / 900;
   const std::array<double, 5> nodes = {-outer, -inner, 0, inner, outer};
   const std::array<double, 5> weights = {light, heavy, 128.0 / 225, heavy, light};
   Integral sum;
@@ -40,7 +42,8 @@ Integral gauss(const Probe& probe, const Path& path, int panels) {
 
 Integral trapezoidal(const Probe& probe, const Path& loop, int points) {
   Integral sum;
-  for (int point = 0; point < points; ++point) add(probe, loop, double(point) / points, 1.0 / points, sum);
+  for (int point = 0; point < points; ++point)
+    add(probe, loop, double(point) / points, 1.0 / points, sum);
   return sum;
 }
 
@@ -49,8 +52,8 @@ struct Refinement {
   double change;  // from the rule with half as many points [J]
 };
 
-/// A rule with `parts` and twice as many, and so on until that changes no more than eight roundings of the
-/// scale, or `most` parts are reached.
+/// A rule with `parts` and twice as many, and so on until that changes no more than eight roundings
+/// of the scale, or `most` parts are reached.
 Refinement refine(const std::function<Integral(int)>& rule, int parts, int most) {
   Integral coarse = rule(parts);
   while (true) {
@@ -74,8 +77,11 @@ Path random_loop(const PerParticle3& x, double size, unsigned seed) {
   Random random(seed);
   const PerParticle3 p = random.vectors(x.cols(), size), q = random.vectors(x.cols(), size);
   const double turn = 2 * pi;
-  return {[=](double t) -> PerParticle3 { return x + std::cos(turn * t) * p + std::sin(turn * t) * q; },
-          [=](double t) -> PerParticle3 { return turn * (std::cos(turn * t) * q - std::sin(turn * t) * p); }};
+  return {
+      [=](double t) -> PerParticle3 { return x + std::cos(turn * t) * p + std::sin(turn * t) * q; },
+      [=](double t) -> PerParticle3 {
+        return turn * (std::cos(turn * t) * q - std::sin(turn * t) * p);
+      }};
 }
 
 oracles::Estimate energy_against_work(const Probe& probe, const Path& path) {
@@ -87,7 +93,8 @@ oracles::Estimate energy_against_work(const Probe& probe, const Path& path) {
 }
 
 RoundTrip round_trip(const Probe& probe, const Path& loop) {
-  const Refinement trip = refine([&](int points) { return trapezoidal(probe, loop, points); }, 64, 1024);
+  const Refinement trip =
+      refine([&](int points) { return trapezoidal(probe, loop, points); }, 64, 1024);
   return {trip.sum.work, trip.change, trip.sum.scale};
 }
 

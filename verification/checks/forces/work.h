@@ -13,15 +13,17 @@ struct Path {
   std::function<PerParticle3(double)> x, slope;
 };
 
-/// A straight line through x in a random direction, particles moving by up to `size` [m] either way.
+/// A straight line through x in a random direction, particles moving by up to `size`
+/// [m] either way.
 Path random_line(const PerParticle3& x, double size, unsigned seed);
 
-/// An ellipse about x in a random plane, particles moving by up to `size` [m] along each of its axes.
+/// An ellipse about x in a random plane, particles moving by up to `size` [m] along
+/// each of its axes.
 Path random_loop(const PerParticle3& x, double size, unsigned seed);
 
-/// |E(1) - E(0) + work| over epsilon times (integral of |F||dx| + |E(0)| + |E(1)|). Gauss-Legendre quadrature
-/// of tenth order on 8, 16, ... up to 128 panels, until two of them differ by less than roundings; that
-/// difference is the uncertainty.
+/// |E(1) - E(0) + work| over epsilon times (integral of |F||dx| + |E(0)| + |E(1)|). Gauss-Legendre
+/// quadrature of tenth order on 8, 16, ... up to 128 panels, until two of them differ by less than
+/// roundings; that difference is the uncertainty.
 oracles::Estimate energy_against_work(const Probe& probe, const Path& path);
 
 /// What the elastic forces do once round a closed path.
@@ -30,8 +32,9 @@ struct RoundTrip {
   double scale = 0;                  // integral of |F||dx| [J]
 };
 
-/// By the trapezoidal rule, which converges exponentially on a smooth closed path, on 64, 128, ... up to 1024
-/// points, until two of them differ by less than roundings; that difference is the uncertainty.
+/// By the trapezoidal rule, which converges exponentially on a smooth closed path, on 64, 128,
+/// ... up to 1024 points, until two of them differ by less than roundings; that difference is
+/// the uncertainty.
 RoundTrip round_trip(const Probe& probe, const Path& loop);
 
 }  // namespace foldproof

@@ -27,7 +27,8 @@ OctreeSettings coarse_sampling() {
 
 Vector3 shift() { return {0.83, -0.24, 0.5}; }  // a direction, about 1 long
 
-/// A ball that has moved `displacement` along the shift by the first frame, and `displacement` on in each frame that follows.
+/// A ball that has moved `displacement` along the shift by the first frame, and `displacement` on
+/// in each frame that follows.
 MeshSequence moving_ball(double displacement, std::vector<double> times) {
   const auto deformation = [=](const Vector3& X, double t) -> Vector3 {
     return X + (displacement * t / 0.04 - 0.5 * displacement) * shift().normalized();
@@ -47,8 +48,8 @@ std::vector<Vector3> points_about(const Vector3& centre, double reach) {
   return points;
 }
 
-/// The body's largest miss next to the surface at a part of the way from its first frame to its second, in
-/// tolerances.
+/// The body's largest miss next to the surface at a part of the way from its first frame to its
+/// second, in tolerances.
 double carried_miss(const MeshSequence& ball, const DeformingBody& body, double part) {
   const PerParticle3 x = (1 - part) * ball.positions[0] + part * ball.positions[1];
   const MeshDistance exact = make_mesh_distance(x, ball.triangles);
@@ -67,19 +68,20 @@ Finding carried_ball_keeps_its_shape(const Subject&) {
     const MeshSequence ball = moving_ball(displacement, {0, 0.04});
     const DeformingBody body = make_deforming_body(ball, coarse_sampling(), BetweenFrames::carried);
     for (const double part : {0.25, 0.5, 0.9})
-      measured.row(
-          std::to_string(displacement / (2 * radius)) + " diameters a frame, at " + std::to_string(part),
-          carried_miss(ball, body, part));
+      measured.row(std::to_string(displacement / (2 * radius)) + " diameters a frame, at " +
+                       std::to_string(part),
+                   carried_miss(ball, body, part));
   }
-  return judge_worst(measured, 2,
-                     "a displacement that is the same everywhere adds nothing to what the octrees miss");
+  return judge_worst(
+      measured, 2,
+      "a displacement that is the same everywhere adds nothing to what the octrees miss");
 }
 
-/// The distance from the middle of the way at which the blended phi is zero, across the motion [m]; 0 if it
-/// is positive even there.
+/// The distance from the middle of the way at which the blended phi is zero, across the motion [m];
+/// 0 if it is positive even there.
 double blended_radius(double displacement) {
-  const DeformingBody body =
-      make_deforming_body(moving_ball(displacement, {0, 0.04}), coarse_sampling(), BetweenFrames::blended);
+  const DeformingBody body = make_deforming_body(moving_ball(displacement, {0, 0.04}),
+                                                 coarse_sampling(), BetweenFrames::blended);
   const Vector3 across = shift().unitOrthogonal();
   double low = 0, high = 2 * radius;
   if (deforming_at(body, Vector3::Zero(), 0.02).phi > 0) return 0;
@@ -97,27 +99,30 @@ double blended_radius(double displacement) {
 Finding blended_ball_shrinks(const Subject&) {
   Table measured{{"case", ""}, {"miss of the radius", "tolerances"}};
   for (const double displacement : {0.05, 0.11, 0.17, 0.29}) {
-    const double derived = std::sqrt(std::max(0.0, radius * radius - displacement * displacement / 4));
+    const double derived =
+        std::sqrt(std::max(0.0, radius * radius - displacement * displacement / 4));
     const double slope = derived / radius;  // of the blended phi there, along r
     const double miss = std::abs(blended_radius(displacement) - derived) * (slope > 0 ? slope : 1);
-    measured.row(std::to_string(displacement / (2 * radius)) + " diameters a frame", miss / tolerance);
+    measured.row(std::to_string(displacement / (2 * radius)) + " diameters a frame",
+                 miss / tolerance);
   }
   return judge_worst(measured, 3,
-                     "the two octrees miss by two tolerances, the ball of 1280 triangles misses the "
-                     "sphere by less than another");
+                     "the two octrees miss by two tolerances, the ball of 1280 triangles misses "
+                     "the sphere by less than another");
 }
 
 /// A ball that turns about an axis off its centre: neighbouring points are displaced differently.
 MeshSequence turning_ball(double angle, int subdivisions) {
   const Vector3 axis = Vector3(0.48, 0.6, -0.64);
   const auto deformation = [=](const Vector3& X, double t) -> Vector3 {
-    return Eigen::AngleAxisd(angle * t / 0.04, axis) * (X + Vector3(0.07, 0.02, 0)) - Vector3(0.07, 0.02, 0);
+    return Eigen::AngleAxisd(angle * t / 0.04, axis) * (X + Vector3(0.07, 0.02, 0)) -
+           Vector3(0.07, 0.02, 0);
   };
   return deformed_mesh(make_icosphere(radius, subdivisions), deformation, {0, 0.04});
 }
 
-/// How far the nodes of a frame err, over what they may: some roundings, and beyond the band half of what a
-/// cell may miss there, if |phi| is too large.
+/// How far the nodes of a frame err, over what they may: some roundings, and beyond the band half
+/// of what a cell may miss there, if |phi| is too large.
 double node_error(const DeformingFrame& frame, const MeshDistance& exact) {
   const Octree& tree = frame.field;
   const std::vector<OctreePlace> places = branch_places(tree);
@@ -129,7 +134,8 @@ double node_error(const DeformingFrame& frame, const MeshDistance& exact) {
       const double rounding = 16 * epsilon * tree.settings.width;
       const double more = (phi < 0 ? -1 : 1) * (kept - phi);
       const double beyond = std::max(0.0, std::abs(phi) - tree.settings.band);
-      worst.observe(more > 0 ? more / (rounding + tree.settings.beyond / 2 * beyond) : -more / rounding);
+      worst.observe(more > 0 ? more / (rounding + tree.settings.beyond / 2 * beyond)
+                             : -more / rounding);
     }
   return worst.value();
 }
@@ -147,12 +153,13 @@ Finding kept_nodes_err_as_bounded(const Subject&) {
     const MeshSequence ball = moving_ball(displacement, {0, 0.02, 0.04});
     const DeformingBody body = make_deforming_body(ball, free_sampling(), BetweenFrames::carried);
     for (std::size_t k = 0; k < body.frames.size(); ++k)
-      measured.row(std::to_string(displacement) + " m a frame, frame " + std::to_string(k),
-                   node_error(body.frames[k], make_mesh_distance(ball.positions[k], ball.triangles)));
+      measured.row(
+          std::to_string(displacement) + " m a frame, frame " + std::to_string(k),
+          node_error(body.frames[k], make_mesh_distance(ball.positions[k], ball.triangles)));
   }
   return judge_worst(measured, 1,
-                     "a value is kept only if nothing lies nearer by more than half of what a cell may miss "
-                     "beyond the band, and the surface cannot have passed the node");
+                     "a value is kept only if nothing lies nearer by more than half of what a cell "
+                     "may miss beyond the band, and the surface cannot have passed the node");
 }
 
 Finding far_nodes_are_not_searched(const Subject&) {
@@ -167,15 +174,17 @@ Finding far_nodes_are_not_searched(const Subject&) {
       for (int n = 0; n < 27; ++n) {
         const Vector3 p = node_position(tree.settings, places[b], n);
         all.insert({p.x(), p.y(), p.z()});
-        if (std::abs(tree.phi[b][std::size_t(n)]) <= tree.settings.band) near.insert({p.x(), p.y(), p.z()});
+        if (std::abs(tree.phi[b][std::size_t(n)]) <= tree.settings.band)
+          near.insert({p.x(), p.y(), p.z()});
       }
     const double must = double(near.size()) / double(all.size());
-    measured.row("frame " + std::to_string(k),
-                 double(body.frames[k].searches) / double(body.frames[k].nodes) / (must + 0.1 * (1 - must)));
+    measured.row(
+        "frame " + std::to_string(k),
+        double(body.frames[k].searches) / double(body.frames[k].nodes) / (must + 0.1 * (1 - must)));
   }
   return judge_worst(measured, 1,
-                     "what is in the band must be searched; a tenth of the rest is left to nodes that "
-                     "the frame before did not have");
+                     "what is in the band must be searched; a tenth of the rest is left to nodes "
+                     "that the frame before did not have");
 }
 
 Finding velocity_is_that_of_the_surface(const Subject&) {
@@ -191,33 +200,36 @@ Finding velocity_is_that_of_the_surface(const Subject&) {
       const Vector3 a = x.col(t[0]), b = x.col(t[1]), c = x.col(t[2]);
       const Vector3 middle = (a + b + c) / 3, normal = (b - a).cross(c - a).normalized();
       const Vector3 expected = (u.col(t[0]) + u.col(t[1]) + u.col(t[2])) / 3;
-      worst.observe((deforming_at(body, middle + height * normal, 0).velocity - expected).norm() / scale);
+      worst.observe((deforming_at(body, middle + height * normal, 0).velocity - expected).norm() /
+                    scale);
     }
     measured.row(std::to_string(height) + " m along N", worst.value());
   }
   return judge_worst(
       measured, 0.05,
-      "a cell whose phi misses by the tolerance is h wide, h^2 = 4 tolerance r, and there a direction, whose "
-      "second derivatives are below 1.5/r^2, misses by 2.25 tolerance/r; twice that at hanging "
-      "nodes; r = 0.1 m at the deepest points");
+      "a cell whose phi misses by the tolerance is h wide, h^2 = 4 tolerance r, and there a "
+      "direction, whose second derivatives are below 1.5/r^2, misses by 2.25 tolerance/r; twice "
+      "that at hanging nodes; r = 0.1 m at the deepest points");
 }
 
 Finding points_ride_along(const Subject&) {
   Table measured{{"case", ""}, {"largest distance from the path", "epsilon of the cube's width"}};
   const MeshSequence ball = moving_ball(0.06, {0, 0.04, 0.07, 0.16});
-  const DeformingObject object{
-      std::make_shared<DeformingBody>(make_deforming_body(ball, coarse_sampling(), BetweenFrames::carried))};
+  const DeformingObject object{std::make_shared<DeformingBody>(
+      make_deforming_body(ball, coarse_sampling(), BetweenFrames::carried))};
   for (const double start : {-0.02, 0.0, 0.013, 0.05})
     for (const double duration : {0.007, 0.06, 0.2}) {
       const auto clock = [](double t) { return std::clamp(t, 0.0, 0.16); };
       const Vector3 displacement =
           0.06 * (clock(start + duration) - clock(start)) / 0.04 * shift().normalized();
-      const Vector3 mean = object.at({0.03, 0.05, 0.02}, {start, start + duration, duration}).velocity;
+      const Vector3 mean =
+          object.at({0.03, 0.05, 0.02}, {start, start + duration, duration}).velocity;
       measured.row("from " + std::to_string(start) + " s for " + std::to_string(duration) + " s",
                    (duration * mean - displacement).norm() / epsilon);
     }
-  return judge_worst(measured, 64,
-                     "up to four intervals, each with a division by its duration and the sum of the way");
+  return judge_worst(
+      measured, 64,
+      "up to four intervals, each with a division by its duration and the sum of the way");
 }
 
 Finding rests_outside_its_frames(const Subject&) {
@@ -227,7 +239,8 @@ Finding rests_outside_its_frames(const Subject&) {
     const DeformingBody body = make_deforming_body(ball, coarse_sampling(), between);
     double wrong = 0;
     for (const Vector3& p : points_about(Vector3::Zero(), 0.3)) {
-      const DeformingPoint before = deforming_at(body, p, -0.01), after = deforming_at(body, p, 0.04);
+      const DeformingPoint before = deforming_at(body, p, -0.01),
+                           after = deforming_at(body, p, 0.04);
       wrong += before.phi != body.frames.front().field.at(p).phi || before.velocity.norm() != 0;
       wrong += after.phi != body.frames.back().field.at(p).phi || after.velocity.norm() != 0;
     }
@@ -243,24 +256,29 @@ Finding sequences_are_read(const Subject&) {
   const auto lacks = [](const std::string& message, const char* part) {
     return message.find(part) == std::string::npos;
   };
-  measured.row("no files", lacks(rejection_message([&] { read_obj_sequence(folder.file("."), 0.04); }),
-                                 "no folder with"));
+  measured.row("no files",
+               lacks(rejection_message([&] { read_obj_sequence(folder.file("."), 0.04); }),
+                     "no folder with"));
   write_obj(folder.file("b0001.obj"), ball.positions[1], ball.triangles);
   write_obj(folder.file("b0000.obj"), ball.positions[0], ball.triangles);
   const MeshSequence read = read_obj_sequence(folder.file("."), 0.04);
-  measured.row("positions, bit for bit", !(read.positions == ball.positions && read.times == ball.times));
+  measured.row("positions, bit for bit",
+               !(read.positions == ball.positions && read.times == ball.times));
   measured.row("no interval",
-               lacks(rejection_message([&] { read_obj_sequence(folder.file("."), 0); }), "must be positive"));
+               lacks(rejection_message([&] { read_obj_sequence(folder.file("."), 0); }),
+                     "must be positive"));
   const TriangleMesh other = make_icosphere(radius, 2);
   write_obj(folder.file("b0002.obj"), other.rest, other.triangles);
-  measured.row("other triangles",
-               lacks(rejection_message([&] { read_obj_sequence(folder.file("."), 0.04); }), "b0002.obj"));
+  measured.row(
+      "other triangles",
+      lacks(rejection_message([&] { read_obj_sequence(folder.file("."), 0.04); }), "b0002.obj"));
   MeshSequence back = ball;
   back.times = {0.04, 0.04};
-  measured.row(
-      "times that do not rise",
-      lacks(rejection_message([&] { make_deforming_body(back, coarse_sampling(), BetweenFrames::carried); }),
-            "must rise"));
+  measured.row("times that do not rise", lacks(rejection_message([&] {
+                                                 make_deforming_body(back, coarse_sampling(),
+                                                                     BetweenFrames::carried);
+                                               }),
+                                               "must rise"));
   return judge_worst(measured, 0, "17 digits keep every bit; each refusal must name its reason");
 }
 
@@ -270,30 +288,32 @@ std::vector<Check> deforming_checks() {
   const char* const source = "BMF03 section 5.1";
   return {
       {"deforming.carried-ball-keeps-its-shape",
-       "Interpolated along its motion a ball keeps its shape between frames, however far it moves.", source,
-       carried_ball_keeps_its_shape},
+       "Interpolated along its motion a ball keeps its shape between frames, however far it moves.",
+       source, carried_ball_keeps_its_shape},
       {"deforming.blended-ball-shrinks-as-derived",
        "Interpolated at the point, a ball of radius R that moves by d shrinks to sqrt(R^2 - d^2/4) "
        "across its motion, and vanishes beyond two radii.",
        source, blended_ball_shrinks},
       {"deforming.velocity-matches-the-nearest-surface-point",
-       "Inside and outside alike, the velocity is that of the nearest surface point: constant along N.",
+       "Inside and outside alike, the velocity is that of the nearest surface point: constant "
+       "along N.",
        source, velocity_is_that_of_the_surface},
       {"deforming.reused-nodes-err-within-their-bound",
-       "A frame's values are exact in the band; beyond it those kept from the frame before err by no more "
-       "than half of what a cell may miss there, and have the right sign, however far the body moved.",
+       "A frame's values are exact in the band; beyond it those kept from the frame before err by "
+       "no more than half of what a cell may miss there, and have the right sign, however far the "
+       "body moved.",
        source, kept_nodes_err_as_bounded},
       {"deforming.far-nodes-are-not-searched",
        "Where the body moves little, nearest points are looked for in the band only.", source,
        far_nodes_are_not_searched},
       {"deforming.points-move-with-the-body",
-       "The mean velocity over a span takes a point where the body takes it, across frames too.", source,
-       points_ride_along},
-      {"deforming.body-rests-outside-its-frames", "Before its first frame and after its last a body rests.",
-       source, rests_outside_its_frames},
+       "The mean velocity over a span takes a point where the body takes it, across frames too.",
+       source, points_ride_along},
+      {"deforming.body-rests-outside-its-frames",
+       "Before its first frame and after its last a body rests.", source, rests_outside_its_frames},
       {"deforming.sequences-are-read",
-       "A folder of OBJ files is read as it was written, and what is no sequence is refused.", source,
-       sequences_are_read}};
+       "A folder of OBJ files is read as it was written, and what is no sequence is refused.",
+       source, sequences_are_read}};
 }
 
 }  // namespace foldproof

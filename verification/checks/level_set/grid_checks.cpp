@@ -1,4 +1,5 @@
-// Checks of signed distance on a grid: interpolation, the narrow band, what lies beyond the lattice.
+// Checks of signed distance on a grid: interpolation, the narrow band, what lies
+// beyond the lattice.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -18,7 +19,8 @@ const Lattice odd_lattice{{-0.31, 0.17, 1.9}, 0.043, {9, 7, 11}};
 
 Grid sampled(const Lattice& lattice, const std::function<double(const Vector3&)>& phi) {
   Grid grid{lattice, {}};
-  for (long i = 0; i < lattice.size(); ++i) grid.phi.push_back(phi(lattice.position(lattice.node(i))));
+  for (long i = 0; i < lattice.size(); ++i)
+    grid.phi.push_back(phi(lattice.position(lattice.node(i))));
   return grid;
 }
 
@@ -33,8 +35,8 @@ Vector3 inside(Random& random, const Lattice& lattice, double inset) {
 struct Multilinear {
   std::array<double, 8> c;
   double value(const Vector3& q) const {
-    return c[0] + c[1] * q.x() + c[2] * q.y() + c[3] * q.z() + c[4] * q.x() * q.y() + c[5] * q.y() * q.z() +
-           c[6] * q.z() * q.x() + c[7] * q.x() * q.y() * q.z();
+    return c[0] + c[1] * q.x() + c[2] * q.y() + c[3] * q.z() + c[4] * q.x() * q.y() +
+           c[5] * q.y() * q.z() + c[6] * q.z() * q.x() + c[7] * q.x() * q.y() * q.z();
   }
   Vector3 gradient(const Vector3& q) const {
     return {c[1] + c[4] * q.y() + c[6] * q.z() + c[7] * q.y() * q.z(),
@@ -55,7 +57,8 @@ Finding cell_is_trilinear(const Subject&) {
     const double exact = truth.value(p - origin);
     value.observe(std::abs(found.phi - exact) / epsilon);
     at.observe(std::abs(grid.at(p).phi - exact) / epsilon);
-    gradient.observe((found.normal - truth.gradient(p - origin)).norm() / (epsilon / odd_lattice.spacing));
+    gradient.observe((found.normal - truth.gradient(p - origin)).norm() /
+                     (epsilon / odd_lattice.spacing));
   }
   Table measured = roundings_of("(of values near 1, of their differences over h)");
   measured.row("value in the cell", value.value());
@@ -80,20 +83,23 @@ Finding nodal_gradient_is_exact(const Subject&) {
   for (int i = 0; i < 1000; ++i) {
     const Vector3 p = inside(random, odd_lattice, 1);
     const Vector3 gradient = slope + curvature * (p - origin);
-    direction.observe((grid.at(p).normal - gradient.normalized()).norm() / (epsilon / odd_lattice.spacing));
+    direction.observe((grid.at(p).normal - gradient.normalized()).norm() /
+                      (epsilon / odd_lattice.spacing));
   }
   Table measured = roundings_of("/h of values near 1");
   measured.row("direction", direction.value());
-  return judge_worst(measured, 32,
-                     "differences of values near 1 are divided by 2 h, blended and made a unit vector");
+  return judge_worst(
+      measured, 32,
+      "differences of values near 1 are divided by 2 h, blended and made a unit vector");
 }
 
-/// Outside its lattice a sphere's grid must still answer with the distance: never less than that but for the
-/// border's error, and with only so much more as the search is cut short.
+/// Outside its lattice a sphere's grid must still answer with the distance: never less than that
+/// but for the border's error, and with only so much more as the search is cut short.
 Finding beyond_is_distance(const Subject&) {
   constexpr double radius = 0.7, too_small = 0.05, too_large = 0.01, turned = 0.13, jumps = 1e-6;
   const Sphere sphere{radius};
-  const Lattice lattice = lattice_about(Bounds(Vector3::Constant(-radius), Vector3::Constant(radius)), 40, 3);
+  const Lattice lattice =
+      lattice_about(Bounds(Vector3::Constant(-radius), Vector3::Constant(radius)), 40, 3);
   const Grid grid = sampled(lattice, [&](const Vector3& p) { return sphere.at(p).phi; });
   Random random(89);
   Worst below, above, normal, jump;
@@ -106,20 +112,22 @@ Finding beyond_is_distance(const Subject&) {
     normal.observe((found.normal - exact.normal).norm() / turned);
     const Vector3 edge = p.cwiseMax(lattice.bounds().min()).cwiseMin(lattice.bounds().max());
     const Vector3 out = edge + 1e-9 * (p - edge).normalized();
-    jump.observe(std::abs(grid.at(out).phi - grid.at((1 - 1e-9) * edge).phi) / (jumps * lattice.spacing));
+    jump.observe(std::abs(grid.at(out).phi - grid.at((1 - 1e-9) * edge).phi) /
+                 (jumps * lattice.spacing));
   }
   Table measured{{"case", ""}, {"error over what is allowed", "1"}};
   measured.row("phi below the distance", below.value());
   measured.row("phi above the distance", above.value());
   measured.row("direction", normal.value());
   measured.row("jump at the border", jump.value());
-  measured.row("no number where there is no point", std::isnan(grid.at({0.1, NAN, 0.2}).phi) ? 0 : 2);
+  measured.row("no number where there is no point",
+               std::isnan(grid.at({0.1, NAN, 0.2}).phi) ? 0 : 2);
   return judge_worst(
       measured, 1,
       "below: h^2/(4 R) of trilinear values is a hundredth of a cell, one-sided differences add as "
-      "much; above and direction: a round leaves 4/5 of the angle between the point found and "
-      "the nearest, six rounds a quarter of at most half a radian, 0.13, and the distance errs "
-      "by the square of that; jump: points 2e-9 apart");
+      "much; above and direction: a round leaves 4/5 of the angle between the point found and the "
+      "nearest, six rounds a quarter of at most half a radian, 0.13, and the distance errs by the "
+      "square of that; jump: points 2e-9 apart");
 }
 
 Finding band_is_exact(const Subject&) {
@@ -134,12 +142,14 @@ Finding band_is_exact(const Subject&) {
     const Seeds seeds = narrow_band(mesh, lattice, cells);
     std::vector<double> phi(lattice.size(), NAN);
     for (size_t i = 0; i < seeds.nodes.size(); ++i) phi[seeds.nodes[i]] = seeds.phi[i];
-    int wrong = int(seeds.nodes.size()) -
-                int(std::count_if(phi.begin(), phi.end(), [](double value) { return !std::isnan(value); }));
+    int wrong =
+        int(seeds.nodes.size()) -
+        int(std::count_if(phi.begin(), phi.end(), [](double value) { return !std::isnan(value); }));
     const double reach =
         lattice.bounds().min().cwiseAbs().cwiseMax(lattice.bounds().max().cwiseAbs()).norm();  // m
     for (long i = 0; i < lattice.size(); ++i) {
-      const double exact = mesh.at(lattice.position(lattice.node(i))).phi, width = cells * lattice.spacing;
+      const double exact = mesh.at(lattice.position(lattice.node(i))).phi,
+                   width = cells * lattice.spacing;
       if (std::isnan(phi[i]) ? std::abs(exact) < width * (1 - 1e-12)
                              : !(std::abs(phi[i] - exact) <= 4 * epsilon * reach))
         ++wrong;
@@ -153,19 +163,20 @@ Finding band_is_exact(const Subject&) {
 }  // namespace
 
 std::vector<Check> grid_checks() {
-  return {{"level-set.cells-interpolate-trilinearly",
-           "Between nodes the grid's value and its gradient are those of the trilinear "
-           "interpolant.",
-           "BMF03 section 5.1", cell_is_trilinear},
-          {"level-set.nodal-gradient-is-exact-for-quadratics",
-           "The blend of the nodes' differences has the direction of a quadratic's gradient, to rounding.",
-           "ours", nodal_gradient_is_exact},
-          {"level-set.distance-continues-beyond-the-grid",
-           "Outside of its lattice a grid answers with the distance, without a jump at the border.", "ours",
-           beyond_is_distance},
-          {"level-set.band-is-exact",
-           "The narrow band holds all nodes within its width, with the mesh's exact signed distance.",
-           "BMF03 section 5.1", band_is_exact}};
+  return {
+      {"level-set.cells-interpolate-trilinearly",
+       "Between nodes the grid's value and its gradient are those of the trilinear interpolant.",
+       "BMF03 section 5.1", cell_is_trilinear},
+      {"level-set.nodal-gradient-is-exact-for-quadratics",
+       "The blend of the nodes' differences has the direction of a quadratic's gradient, to "
+       "rounding.",
+       "ours", nodal_gradient_is_exact},
+      {"level-set.distance-continues-beyond-the-grid",
+       "Outside of its lattice a grid answers with the distance, without a jump at the border.",
+       "ours", beyond_is_distance},
+      {"level-set.band-is-exact",
+       "The narrow band holds all nodes within its width, with the mesh's exact signed distance.",
+       "BMF03 section 5.1", band_is_exact}};
 }
 
 }  // namespace foldproof

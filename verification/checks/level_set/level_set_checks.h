@@ -1,4 +1,5 @@
-// Checks of level sets: exact distances, grids, octrees, bodies that deform. A function a file; the list of all is verification/checks.cpp.
+// Checks of level sets: exact distances, grids, octrees, bodies that deform. A function a file; the
+// list of all is verification/checks.cpp.
 #pragma once
 
 #include <vector>

@@ -41,39 +41,40 @@ Seeds seeds_where(const Lattice& lattice, const std::function<double(const Vecto
 
 /// Seeds within two cells of a surface.
 Seeds band(const Lattice& lattice, const std::function<double(const Vector3&)>& phi) {
-  return seeds_where(lattice, phi,
-                     [&](const Node&, double value) { return std::abs(value) < 2.2 * lattice.spacing; });
+  return seeds_where(lattice, phi, [&](const Node&, double value) {
+    return std::abs(value) < 2.2 * lattice.spacing;
+  });
 }
 
 Lattice about_unit_ball() {
   return lattice_about(Bounds(Vector3::Constant(-1), Vector3::Constant(1)), 30, 4);
 }
 
-/// Upwind differences of either order are exact on a plane where no characteristic enters through the border:
-/// the border's nodes are seeds, so that none does.
+/// Upwind differences of either order are exact on a plane where no characteristic enters through
+/// the border: the border's nodes are seeds, so that none does.
 Finding planes_are_exact(const Subject&) {
   const Lattice& lattice = lattice_of_planes;
   Table measured = roundings_of("times the lattice's size");
   for (const MarchingOrder order : {MarchingOrder::first, MarchingOrder::second}) {
     for (const Vector3& normal : {oblique, Vector3(0, 1, 0)}) {
       const auto plane = [&](const Vector3& p) { return normal.dot(p) - 0.031; };
-      const Grid grid =
-          march(lattice,
-                seeds_where(lattice, plane,
-                            [&](const Node& node, double value) {
-                              return std::abs(value) < 2.2 * lattice.spacing || is_border(lattice, node);
-                            }),
-                order);
+      const Grid grid = march(lattice,
+                              seeds_where(lattice, plane,
+                                          [&](const Node& node, double value) {
+                                            return std::abs(value) < 2.2 * lattice.spacing ||
+                                                   is_border(lattice, node);
+                                          }),
+                              order);
       Worst worst;
       for (long i = 0; i < lattice.size(); ++i)
         worst.observe(std::abs(grid.phi[i] - plane(lattice.position(lattice.node(i)))) / epsilon);
-      measured.row(name_of(order) + (normal.x() > 0 ? ", oblique" : ", along an axis"), worst.value());
+      measured.row(name_of(order) + (normal.x() > 0 ? ", oblique" : ", along an axis"),
+                   worst.value());
     }
   }
-  return judge_worst(
-      measured, 200,
-      "distances up to 0.9 are reached over at most thirty nodes, each with a square root whose "
-      "few roundings add to those of the nodes before it");
+  return judge_worst(measured, 200,
+                     "distances up to 0.9 are reached over at most thirty nodes, each with a "
+                     "square root whose few roundings add to those of the nodes before it");
 }
 
 /// |grad phi|^2 - 1 by first-order upwind differences of the finished grid.
@@ -110,14 +111,13 @@ Finding equation_is_solved(const Subject&) {
                       (epsilon * (1 + std::abs(grid.phi[i])) / lattice.spacing));
     measured.row("sphere of radius " + std::to_string(radius), worst.value());
   }
-  return judge_worst(
-      measured, 64,
-      "the root of a quadratic in T with a few roundings; differences of neighbouring distances "
-      "are divided by h");
+  return judge_worst(measured, 64,
+                     "the root of a quadratic in T with a few roundings; differences of "
+                     "neighbouring distances are divided by h");
 }
 
-/// Nodes on the wrong side of a plane through nodes that count as inside; the seeds are those and the layer
-/// above.
+/// Nodes on the wrong side of a plane through nodes that count as inside; the seeds are those and
+/// the layer above.
 int wrong_below_the_plane() {
   const Lattice& lattice = lattice_of_planes;
   constexpr int level = 14;
@@ -139,7 +139,8 @@ int wrong_below_the_plane() {
 
 Finding sides_are_kept(const Subject&) {
   const Lattice lattice = about_unit_ball();
-  Table measured{{"case", ""}, {"nodes of the wrong sign, not finite, or seeds with another value", "1"}};
+  Table measured{{"case", ""},
+                 {"nodes of the wrong sign, not finite, or seeds with another value", "1"}};
   for (const MarchingOrder order : {MarchingOrder::first, MarchingOrder::second}) {
     for (const bool torus : {false, true}) {
       const auto phi = [&](const Vector3& p) { return torus ? torus_phi(p) : p.norm() - 0.77; };
@@ -148,7 +149,8 @@ Finding sides_are_kept(const Subject&) {
       int wrong = 0;
       for (long i = 0; i < lattice.size(); ++i) {
         const double exact = phi(lattice.position(lattice.node(i)));
-        if (!(exact < 0 ? grid.phi[i] < 0 : grid.phi[i] >= 0) || !std::isfinite(grid.phi[i])) ++wrong;
+        if (!(exact < 0 ? grid.phi[i] < 0 : grid.phi[i] >= 0) || !std::isfinite(grid.phi[i]))
+          ++wrong;
       }
       for (size_t k = 0; k < seeds.nodes.size(); ++k)
         if (grid.phi[seeds.nodes[k]] != seeds.phi[k]) ++wrong;
@@ -156,10 +158,12 @@ Finding sides_are_kept(const Subject&) {
     }
   }
   measured.row("plane through nodes that count as inside", wrong_below_the_plane());
-  return judge_worst(measured, 0, "sides spread from the seeds only, and seeds are never computed again");
+  return judge_worst(measured, 0,
+                     "sides spread from the seeds only, and seeds are never computed again");
 }
 
-/// A plane's own values as sides: crossings along the axes name the plane, and the distance to it is exact.
+/// A plane's own values as sides: crossings along the axes name the plane, and the distance
+/// to it is exact.
 Finding crossings_are_exact(const Subject&) {
   const Lattice& lattice = lattice_of_planes;
   const auto plane = [&](const Vector3& p) { return oblique.dot(p) - 0.031; };
@@ -186,8 +190,8 @@ Finding crossings_are_exact(const Subject&) {
   measured.row("plus and minus one: half a cell along each axis", half.value());
   measured.row("no node was looked at", inner > 100 ? 0 : 1);
   return judge_worst(measured, 2e-4,
-                     "values are kept as float, 6e-8 of 1.1, which near a crossing is divided by the cell's "
-                     "share of phi, and again where crossings lie near the node");
+                     "values are kept as float, 6e-8 of 1.1, which near a crossing is divided by "
+                     "the cell's share of phi, and again where crossings lie near the node");
 }
 
 /// How many of three misuses are not refused.
@@ -203,15 +207,17 @@ Finding misuse_is_rejected(const Subject&) {
     return 1;
   };
   measured.row("no seeds", rejected([&] { march(lattice, {}, MarchingOrder::first); }));
-  measured.row("seeds that let inside meet outside", rejected([&] {
-                 const auto sphere = [](const Vector3& p) { return p.norm() - 0.77; };
-                 const Seeds gappy = seeds_where(lattice, sphere, [&](const Node& node, double value) {
-                   return std::abs(value) < 2.2 * lattice.spacing && (node[2] > 12 || node[1] > 12);
-                 });
-                 march(lattice, gappy, MarchingOrder::first);
+  measured.row(
+      "seeds that let inside meet outside", rejected([&] {
+        const auto sphere = [](const Vector3& p) { return p.norm() - 0.77; };
+        const Seeds gappy = seeds_where(lattice, sphere, [&](const Node& node, double value) {
+          return std::abs(value) < 2.2 * lattice.spacing && (node[2] > 12 || node[1] > 12);
+        });
+        march(lattice, gappy, MarchingOrder::first);
+      }));
+  measured.row("a lattice of three cells", rejected([&] {
+                 lattice_about(Bounds(Vector3::Constant(-1), Vector3::Constant(1)), 3, 2);
                }));
-  measured.row("a lattice of three cells",
-               rejected([&] { lattice_about(Bounds(Vector3::Constant(-1), Vector3::Constant(1)), 3, 2); }));
   return judge_worst(measured, 0, "each would give a field that is no distance");
 }
 
@@ -220,21 +226,21 @@ Finding misuse_is_rejected(const Subject&) {
 std::vector<Check> marching_checks() {
   return {
       {"level-set.marching-is-exact-on-planes",
-       "Fast marching of both orders gives the distance to a plane, to "
-       "rounding.",
-       "Sethian 1999", planes_are_exact},
+       "Fast marching of both orders gives the distance to a plane, to rounding.", "Sethian 1999",
+       planes_are_exact},
       {"level-set.marching-solves-the-eikonal-equation",
-       "After first-order marching the upwind differences of every node give |grad phi| = 1, to rounding.",
+       "After first-order marching the upwind differences of every node give |grad phi| = 1, to "
+       "rounding.",
        "BMF03 section 5.1", equation_is_solved},
       {"level-set.marching-preserves-signs",
-       "Marching leaves its seeds alone and puts every node on its right side.", "BMF03 section 5.1",
-       sides_are_kept},
+       "Marching leaves its seeds alone and puts every node on its right side.",
+       "BMF03 section 5.1", sides_are_kept},
       {"level-set.seeds-from-crossings-recover-the-plane",
-       "Seeds from sides lie at the distance of the plane through the crossings along the axes.", "ours",
-       crossings_are_exact},
+       "Seeds from sides lie at the distance of the plane through the crossings along the axes.",
+       "ours", crossings_are_exact},
       {"level-set.misuse-of-marching-is-rejected",
-       "No seeds, seeds that let inside meet outside, and too coarse a lattice are refused.", "ours",
-       misuse_is_rejected}};
+       "No seeds, seeds that let inside meet outside, and too coarse a lattice are refused.",
+       "ours", misuse_is_rejected}};
 }
 
 }  // namespace foldproof

@@ -18,10 +18,13 @@ struct NamedMesh {
   MeshDistance mesh;
 };
 
-MeshDistance distance_of(const TriangleSoup& soup) { return make_mesh_distance(soup.rest, soup.triangles); }
+MeshDistance distance_of(const TriangleSoup& soup) {
+  return make_mesh_distance(soup.rest, soup.triangles);
+}
 
 std::vector<NamedMesh> meshes() {
-  std::vector<NamedMesh> all{{"statue", make_mesh_distance(small_statue().rest, small_statue().triangles)}};
+  std::vector<NamedMesh> all{
+      {"statue", make_mesh_distance(small_statue().rest, small_statue().triangles)}};
   for (const UglySolid& solid : ugly_solids()) all.push_back({solid.name, distance_of(solid.soup)});
   return all;
 }
@@ -62,15 +65,18 @@ Finding distance_is_exact(const Subject&) {
     Worst worst, uncertainty;
     for (int i = 0; i < 300; ++i) {
       const Vector3 p = point(random, named.mesh, i);
-      const oracles::Estimate truth = oracles::distance_to_triangles(named.mesh.x, named.mesh.triangles, p);
-      worst.observe(std::abs(std::abs(named.mesh.at(p).phi) - truth.value) / scale_of(named.mesh, p));
+      const oracles::Estimate truth =
+          oracles::distance_to_triangles(named.mesh.x, named.mesh.triangles, p);
+      worst.observe(std::abs(std::abs(named.mesh.at(p).phi) - truth.value) /
+                    scale_of(named.mesh, p));
       uncertainty.observe(truth.uncertainty / scale_of(named.mesh, p));
     }
     measured.row(named.name, oracles::Estimate{worst.value(), uncertainty.value()});
   }
-  return judge_worst(measured, 16,
-                     "the foot is a corner and two products of a weight and an edge, each with a handful of "
-                     "roundings of the coordinates; an error of the weights moves it along the surface");
+  return judge_worst(
+      measured, 16,
+      "the foot is a corner and two products of a weight and an edge, each with a handful of "
+      "roundings of the coordinates; an error of the weights moves it along the surface");
 }
 
 Finding normal_leads_to_the_surface(const Subject&) {
@@ -82,17 +88,17 @@ Finding normal_leads_to_the_surface(const Subject&) {
       const Vector3 p = point(random, named.mesh, i);
       const Distance distance = named.mesh.at(p);
       const Vector3 on_surface = p - distance.phi * distance.normal;
-      foot.observe(oracles::distance_to_triangles(named.mesh.x, named.mesh.triangles, on_surface).value /
-                   scale_of(named.mesh, p));
+      foot.observe(
+          oracles::distance_to_triangles(named.mesh.x, named.mesh.triangles, on_surface).value /
+          scale_of(named.mesh, p));
       length.observe(std::abs(distance.normal.norm() - 1) / epsilon);
     }
     measured.row(named.name + ", foot", foot.value());
     measured.row(named.name + ", length of N", length.value());
   }
-  return judge_worst(
-      measured, 16,
-      "N is the way to the nearest point over its length, so that the foot is that point but for "
-      "as many roundings as the distance has");
+  return judge_worst(measured, 16,
+                     "N is the way to the nearest point over its length, so that the foot is that "
+                     "point but for as many roundings as the distance has");
 }
 
 Finding sign_is_right(const Subject&) {
@@ -115,8 +121,8 @@ Finding sign_is_right(const Subject&) {
     measured.row(solid.name, wrong, counted);
   }
   return judge_worst(measured, "wrong signs", 0,
-                     "the pseudonormal's sign is a theorem on closed surfaces, and no point is closer to "
-                     "them than rounding");
+                     "the pseudonormal's sign is a theorem on closed surfaces, and no point is "
+                     "closer to them than rounding");
 }
 
 Finding bound_is_kept(const Subject&) {
@@ -126,33 +132,37 @@ Finding bound_is_kept(const Subject&) {
     int wrong = 0;
     for (int i = 0; i < 2000; ++i) {
       const Vector3 p = point(random, named.mesh, i);
-      const double distance = std::abs(named.mesh.at(p).phi), bound = distance * random.uniform(0.5, 1.5);
+      const double distance = std::abs(named.mesh.at(p).phi),
+                   bound = distance * random.uniform(0.5, 1.5);
       const NearestFeature nearest = nearest_feature(named.mesh, p, bound);
-      const bool agrees = nearest.triangle < 0 ? distance >= bound * (1 - 4 * epsilon)
-                                               : std::abs(std::sqrt(nearest.squared_distance) - distance) <=
-                                                     4 * epsilon * distance;
+      const bool agrees =
+          nearest.triangle < 0
+              ? distance >= bound * (1 - 4 * epsilon)
+              : std::abs(std::sqrt(nearest.squared_distance) - distance) <= 4 * epsilon * distance;
       if (!agrees) ++wrong;
     }
     measured.row(named.name, wrong);
   }
-  return judge_worst(measured, 0, "the bound only shortens the search; what it leaves out is no nearer");
+  return judge_worst(measured, 0,
+                     "the bound only shortens the search; what it leaves out is no nearer");
 }
 
 }  // namespace
 
 std::vector<Check> mesh_distance_checks() {
-  return {
-      {"level-set.mesh-distance-is-exact",
-       "The distance to a mesh is that of brute force in extended precision, to rounding.",
-       "BMF03 section 5.1", distance_is_exact},
-      {"level-set.mesh-sign-is-correct",
-       "The sign of the distance is right at a million points about thin rays, a fin and nested shells.",
-       "Baerentzen and Aanaes 2005", sign_is_right},
-      {"level-set.mesh-normal-leads-to-the-surface", "N is a unit vector, and p - phi N lies on the mesh.",
-       "BMF03 section 5.1", normal_leads_to_the_surface},
-      {"level-set.bounded-search-finds-the-same-feature",
-       "A search with a bound finds the nearest feature if it is nearer than that, else none.", "ours",
-       bound_is_kept}};
+  return {{"level-set.mesh-distance-is-exact",
+           "The distance to a mesh is that of brute force in extended precision, to rounding.",
+           "BMF03 section 5.1", distance_is_exact},
+          {"level-set.mesh-sign-is-correct",
+           "The sign of the distance is right at a million points about thin rays, a fin and "
+           "nested shells.",
+           "Baerentzen and Aanaes 2005", sign_is_right},
+          {"level-set.mesh-normal-leads-to-the-surface",
+           "N is a unit vector, and p - phi N lies on the mesh.", "BMF03 section 5.1",
+           normal_leads_to_the_surface},
+          {"level-set.bounded-search-finds-the-same-feature",
+           "A search with a bound finds the nearest feature if it is nearer than that, else none.",
+           "ours", bound_is_kept}};
 }
 
 }  // namespace foldproof

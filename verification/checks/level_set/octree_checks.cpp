@@ -44,15 +44,16 @@ Finding jumps_nowhere(const Subject&) {
       {"case", ""}, {"largest jump", "epsilon of the cube's width"}, {"with free nodes", "m"}};
   for (const Body& body : smooth_bodies())
     for (const int depth : {4, 7}) {
-      const Octree tree = make_octree({body.distance}, sampling(depth, 3e-4, HangingNodes::constrained));
+      const Octree tree =
+          make_octree({body.distance}, sampling(depth, 3e-4, HangingNodes::constrained));
       const Octree loose = make_octree({body.distance}, sampling(depth, 3e-4, HangingNodes::free));
-      measured.row(body.name + ", depth " + std::to_string(depth), largest_jump(tree, 20000) / epsilon,
-                   largest_jump(loose, 20000));
+      measured.row(body.name + ", depth " + std::to_string(depth),
+                   largest_jump(tree, 20000) / epsilon, largest_jump(loose, 20000));
     }
   return judge_worst(measured, "largest jump", 32,
-                      "each side adds the products of its eight corners with six roundings; a place rounded "
-                      "by epsilon/2 moves a trilinear value of slope 1 by as much, along three axes and on "
-                      "both sides");
+                     "each side adds the products of its eight corners with six roundings; a place "
+                     "rounded by epsilon/2 moves a trilinear value of slope 1 by as much, along "
+                     "three axes and on both sides");
 }
 
 /// The tree's error in tolerances, at points of the inner half of the band.
@@ -61,7 +62,8 @@ double worst_miss(const Body& body, const OctreeSettings& settings) {
   Worst worst;
   for (const Vector3& p : random_points(60000, 0.5)) {
     const double phi = body.distance(p).phi;
-    if (std::abs(phi) <= 0.5 * settings.band) worst.observe(std::abs(tree.at(p).phi - phi) / settings.tolerance);
+    if (std::abs(phi) <= 0.5 * settings.band)
+      worst.observe(std::abs(tree.at(p).phi - phi) / settings.tolerance);
   }
   return worst.value();
 }
@@ -72,10 +74,9 @@ Finding misses_by_its_tolerance(const Subject&) {
     for (const double tolerance : {1.1e-3, 2.3e-4})
       measured.row(body.name + " to " + std::to_string(tolerance) + " m",
                    worst_miss(body, sampling(9, tolerance, HangingNodes::constrained)));
-  return judge_worst(
-      measured, 2,
-      "a leaf misses by the tolerance where its own corners are exact, and by as much again where "
-      "they are the interpolant of a coarse neighbour");
+  return judge_worst(measured, 2,
+                     "a leaf misses by the tolerance where its own corners are exact, and by as "
+                     "much again where they are the interpolant of a coarse neighbour");
 }
 
 /// Levels of the eight leaves about a node, highest less lowest.
@@ -96,13 +97,16 @@ Finding neighbours_differ_by_one_level(const Subject&) {
     const Octree tree = make_octree({body.distance}, sampling(7, 3e-4, HangingNodes::constrained));
     Worst worst;
     for (const OctreePlace& place : branch_places(tree))
-      for (int n = 0; n < 27; ++n) worst.observe(level_step(tree, node_position(tree.settings, place, n)));
+      for (int n = 0; n < 27; ++n)
+        worst.observe(level_step(tree, node_position(tree.settings, place, n)));
     measured.row(body.name, worst.value());
   }
-  return judge_worst(measured, 1, "constraints reach one level only, across faces, edges and corners alike");
+  return judge_worst(measured, 1,
+                     "constraints reach one level only, across faces, edges and corners alike");
 }
 
-/// Angle between the tree's normals and the exact ones next to the surface, over the finest cell's angle h/R.
+/// Angle between the tree's normals and the exact ones next to the surface, over the finest
+/// cell's angle h/R.
 Finding normals_are_those_of_the_cells(const Subject&) {
   Table measured{{"case", ""}, {"largest angle", "finest cells over the least radius"}};
   for (const int depth : {5, 6, 7}) {
@@ -115,14 +119,14 @@ Finding normals_are_those_of_the_cells(const Subject&) {
       const Distance exact = tilted_torus(p);
       if (!(std::abs(exact.phi) <= h)) continue;
       const Vector3 n = tree.at(p).normal;
-      worst.observe(std::atan2(n.cross(exact.normal).norm(), n.dot(exact.normal)) / (h / (radius - h)));
+      worst.observe(std::atan2(n.cross(exact.normal).norm(), n.dot(exact.normal)) /
+                    (h / (radius - h)));
     }
     measured.row("h = 1/" + std::to_string(1 << depth) + " m", worst.value());
   }
-  return judge_worst(
-      measured, std::sqrt(3.0) / 2,
-      "the slope of a cell is exact at its centre, half a diagonal away at most, and a normal turns "
-      "by the way over the radius of curvature");
+  return judge_worst(measured, std::sqrt(3.0) / 2,
+                     "the slope of a cell is exact at its centre, half a diagonal away at most, "
+                     "and a normal turns by the way over the radius of curvature");
 }
 
 Finding goes_on_beyond_the_cube(const Subject&) {
@@ -148,8 +152,8 @@ Finding goes_on_beyond_the_cube(const Subject&) {
       "than the distance to the surface, which that point misses as phi does");
 }
 
-/// An octree of a body that is led by keyframes: its answers against the body's own, and whether anything is
-/// asked of the body once the tree stands.
+/// An octree of a body that is led by keyframes: its answers against the body's own, and whether
+/// anything is asked of the body once the tree stands.
 Finding rides_with_its_body(const Subject&) {
   long queries = 0;
   const DistanceFunction counted = [&queries](const Vector3& p) {
@@ -159,8 +163,8 @@ Finding rides_with_its_body(const Subject&) {
   const OctreeSettings settings = sampling(8, 4e-4, HangingNodes::constrained);
   const OctreeSolid solid{std::make_shared<const Octree>(make_octree({counted}, settings))};
   const Eigen::Quaterniond turned(Eigen::AngleAxisd(1.1, Vector3(0.6, 0, -0.8)));
-  const Keyframes motion =
-      make_keyframes({{0, {}}, {0.7, {turned, {0.3, -0.2, 0.9}}}, {1.6, {turned * turned, {1.3, 0.4, 0.1}}}});
+  const Keyframes motion = make_keyframes(
+      {{0, {}}, {0.7, {turned, {0.3, -0.2, 0.9}}}, {1.6, {turned * turned, {1.3, 0.4, 0.1}}}});
   const RigidObject object{solid, {turned.conjugate(), {0.05, 0.1, -0.2}}, motion};
   Table measured{{"case", ""}, {"largest miss", "tolerances"}};
   const long before = queries;
@@ -189,18 +193,21 @@ Finding rejects_bad_settings(const Subject&) {
       {"no width", "width", [](OctreeSettings& s) { s.width = 0; }},
       {"a width that is no number", "width", [](OctreeSettings& s) { s.width = NAN; }},
       {"no depth", "depth", [](OctreeSettings& s) { s.depth = 0; }},
-      {"a surface finer than the tree", "surface", [](OctreeSettings& s) { s.surface_depth = s.depth + 1; }},
+      {"a surface finer than the tree", "surface",
+       [](OctreeSettings& s) { s.surface_depth = s.depth + 1; }},
       {"no tolerance", "tolerance", [](OctreeSettings& s) { s.tolerance = 0; }},
       {"a negative band", "band", [](OctreeSettings& s) { s.band = -0.1; }},
       {"a negative reach", "reach", [](OctreeSettings& s) { s.reach = -0.1; }},
-      {"a cube that is too small", "reaches the boundary", [](OctreeSettings& s) { s.width = 0.4; }}};
+      {"a cube that is too small", "reaches the boundary",
+       [](OctreeSettings& s) { s.width = 0.4; }}};
   for (const Bad& bad : all) {
     OctreeSettings settings = sampling(5, 1e-3, HangingNodes::constrained);
     bad.spoil(settings);
     const std::string message = rejection_message([&] { make_octree({ball}, settings); });
     measured.row(bad.name, message.find(bad.keyword) == std::string::npos);
   }
-  const std::string message = rejection_message([] { make_octree({}, sampling(5, 1e-3, HangingNodes::constrained)); });
+  const std::string message =
+      rejection_message([] { make_octree({}, sampling(5, 1e-3, HangingNodes::constrained)); });
   measured.row("no body", message.find("bodies") == std::string::npos);
   return judge_worst(measured, 0, "each refusal must name its reason");
 }
@@ -219,7 +226,8 @@ OctreeSettings sampling(int depth, double tolerance, HangingNodes hanging) {
 
 double largest_jump(const Octree& tree, int count, int deepest) {
   std::vector<OctreePlace> places = branch_places(tree);
-  std::erase_if(places, [&](const OctreePlace& place) { return place.level == 0 || place.level > deepest; });
+  std::erase_if(
+      places, [&](const OctreePlace& place) { return place.level == 0 || place.level > deepest; });
   std::mt19937 random(shifted_seed(41177));
   std::uniform_int_distribution<std::size_t> any_branch(0, places.size() - 1);
   std::uniform_int_distribution<int> any_axis(0, 2);
@@ -242,24 +250,27 @@ double largest_jump(const Octree& tree, int count, int deepest) {
 
 std::vector<Check> octree_checks() {
   const char* const source = "BMF03 section 5.1";
-  return {{"octree.phi-is-continuous",
-           "The octree's phi jumps nowhere, where cells of two sizes meet either.", source, jumps_nowhere},
-          {"octree.error-is-bounded-by-the-tolerance",
-           "In the band the octree's phi misses the distance by twice the tolerance at most.", source,
-           misses_by_its_tolerance},
-          {"octree.neighbours-differ-by-at-most-one-level", "Leaves that touch differ by one level at most.",
-           source, neighbours_differ_by_one_level},
-          {"octree.normals-are-first-order",
-           "Next to the surface the octree's N errs by half a cell's diagonal at most.", source,
-           normals_are_those_of_the_cells},
-          {"octree.phi-continues-beyond-the-cube",
-           "Beyond its cube the octree's phi is continuous and no less than the distance.", source,
-           goes_on_beyond_the_cube},
-          {"octree.tree-moves-with-its-body",
-           "The octree of a rigid body, built once, answers for it wherever it is and however it is turned.",
-           source, rides_with_its_body},
-          {"octree.invalid-settings-are-rejected", "Settings that make no tree are refused with the reason.",
-           source, rejects_bad_settings}};
+  return {
+      {"octree.phi-is-continuous",
+       "The octree's phi jumps nowhere, where cells of two sizes meet either.", source,
+       jumps_nowhere},
+      {"octree.error-is-bounded-by-the-tolerance",
+       "In the band the octree's phi misses the distance by twice the tolerance at most.", source,
+       misses_by_its_tolerance},
+      {"octree.neighbours-differ-by-at-most-one-level",
+       "Leaves that touch differ by one level at most.", source, neighbours_differ_by_one_level},
+      {"octree.normals-are-first-order",
+       "Next to the surface the octree's N errs by half a cell's diagonal at most.", source,
+       normals_are_those_of_the_cells},
+      {"octree.phi-continues-beyond-the-cube",
+       "Beyond its cube the octree's phi is continuous and no less than the distance.", source,
+       goes_on_beyond_the_cube},
+      {"octree.tree-moves-with-its-body",
+       "The octree of a rigid body, built once, answers for it wherever it is and however it is "
+       "turned.",
+       source, rides_with_its_body},
+      {"octree.invalid-settings-are-rejected",
+       "Settings that make no tree are refused with the reason.", source, rejects_bad_settings}};
 }
 
 }  // namespace foldproof

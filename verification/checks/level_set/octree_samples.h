@@ -8,12 +8,12 @@ namespace foldproof {
 /// A torus of radii 0.29 m and 0.11 m, turned and shifted so that nothing of it lies along an axis.
 Distance tilted_torus(const Vector3& p);
 
-/// A cube of 1 m about the origin, sampled to `tolerance` [m] in a band of 0.06 m, with cells down to
-/// 1/2^depth m.
+/// A cube of 1 m about the origin, sampled to `tolerance` [m] in a band of 0.06 m, with cells down
+/// to 1/2^depth m.
 OctreeSettings sampling(int depth, double tolerance, HangingNodes hanging);
 
-/// The largest jump [m] of phi over `count` random places where two cells meet, one of them in a branch of
-/// the level `deepest` or above.
+/// The largest jump [m] of phi over `count` random places where two cells meet, one of them in a
+/// branch of the level `deepest` or above.
 double largest_jump(const Octree& tree, int count, int deepest = 99);
 
 }  // namespace foldproof

@@ -12,8 +12,8 @@ namespace foldproof {
 
 namespace {
 
-/// Three bodies: two balls and a capsule, each of which overlaps the other two, and a fourth that touches
-/// none.
+/// Three bodies: two balls and a capsule, each of which overlaps the other two, and a fourth
+/// that touches none.
 std::vector<DistanceFunction> parts_of_a_body() {
   return {[](const Vector3& p) { return Sphere{0.19}.at(p - Vector3(-0.11, 0.02, 0.01)); },
           [](const Vector3& p) { return Sphere{0.16}.at(p - Vector3(0.14, -0.03, 0.04)); },
@@ -40,7 +40,8 @@ Exact exact_union(const std::vector<DistanceFunction>& parts, const Vector3& p) 
   std::vector<std::pair<double, int>> sorted;
   for (std::size_t k = 0; k < parts.size(); ++k) sorted.push_back({parts[k](p).phi, int(k)});
   std::sort(sorted.begin(), sorted.end());
-  const auto inside = std::count_if(sorted.begin(), sorted.end(), [](const auto& s) { return s.first < 0; });
+  const auto inside =
+      std::count_if(sorted.begin(), sorted.end(), [](const auto& s) { return s.first < 0; });
   return {sorted[0].first, sorted[1].first, sorted[0].second, sorted[1].second, int(inside)};
 }
 
@@ -97,7 +98,8 @@ Finding union_misses_by_its_tolerance(const Subject&) {
       if (exact.second < 0) second.observe(std::abs(at.second.phi - exact.second) / tolerance);
     }
     measured.row("nearest part, to " + std::to_string(tolerance) + " m", nearest.value());
-    measured.row("second part of pinched points, to " + std::to_string(tolerance) + " m", second.value());
+    measured.row("second part of pinched points, to " + std::to_string(tolerance) + " m",
+                 second.value());
   }
   return judge_worst(
       measured, 2,
@@ -111,7 +113,8 @@ Finding pinch_is_flagged(const Subject&) {
   double wrong_count = 0, wrong_parts = 0, pinched = 0;
   for (const Vector3& p : points_near(parts, 0.03)) {
     const Exact exact = exact_union(parts, p);
-    if (!(std::abs(exact.second) > 2 * tolerance && std::abs(exact.first) > 2 * tolerance)) continue;
+    if (!(std::abs(exact.second) > 2 * tolerance && std::abs(exact.first) > 2 * tolerance))
+      continue;
     const NearestParts at = nearest_parts(tree, p);
     wrong_count += std::min(at.inside, 2) != std::min(exact.inside, 2);
     if (exact.inside < 2) continue;
@@ -126,8 +129,8 @@ Finding pinch_is_flagged(const Subject&) {
   return judge_worst(measured, 0, "points nearer to a decision than two tolerances are left out");
 }
 
-/// Small balls far from each other: in the wide cells between them one may be nearest where none of the nodes
-/// is.
+/// Small balls far from each other: in the wide cells between them one may be nearest where none
+/// of the nodes is.
 std::vector<DistanceFunction> scattered_balls() {
   std::mt19937 random(shifted_seed(5));
   std::uniform_real_distribution<double> along(-0.4, 0.4);
@@ -142,31 +145,33 @@ std::vector<DistanceFunction> scattered_balls() {
 Finding union_jumps_nowhere(const Subject&) {
   Table measured{{"case", ""}, {"largest jump", "epsilon of the cube's width"}};
   for (const double tolerance : {2.1e-3, 7e-4})
-    measured.row("to " + std::to_string(tolerance) + " m",
-                 largest_jump(make_octree(parts_of_a_body(), union_sampling(tolerance)), 20000) / epsilon);
+    measured.row(
+        "to " + std::to_string(tolerance) + " m",
+        largest_jump(make_octree(parts_of_a_body(), union_sampling(tolerance)), 20000) / epsilon);
   const OctreeSettings sparse{Vector3::Constant(-0.5),  1, 6, 2, 2.1e-3, 0.02, 0.3, 0,
                               HangingNodes::constrained};
   measured.row("scattered balls, wide cells",
                largest_jump(make_octree(scattered_balls(), sparse), 200000, 3) / epsilon);
   return judge_worst(measured, 32,
-                     "as for one body; a part that one side leaves out is behind another at all nodes of "
-                     "their common face, and so all over it");
+                     "as for one body; a part that one side leaves out is behind another at all "
+                     "nodes of their common face, and so all over it");
 }
 
 }  // namespace
 
 std::vector<Check> octree_union_checks() {
   const char* const source = "BMF03 section 5.1";
-  return {{"octree.union-nodes-know-their-part",
-           "Nodes of a union hold the least of the parts' distances, which part it is and whether two hold "
-           "the node.",
-           source, nodes_know_their_part},
-          {"octree.union-error-is-bounded-by-the-tolerance",
-           "A union's phi misses by twice the tolerance at most, at its creases too.", source,
-           union_misses_by_its_tolerance},
-          {"octree.union-flags-pinched-points",
-           "A point inside of two or more parts is told so, and of which.", source, pinch_is_flagged},
-          {"octree.union-is-continuous", "A union's phi jumps nowhere.", source, union_jumps_nowhere}};
+  return {
+      {"octree.union-nodes-know-their-part",
+       "Nodes of a union hold the least of the parts' distances, which part it is and whether two "
+       "hold the node.",
+       source, nodes_know_their_part},
+      {"octree.union-error-is-bounded-by-the-tolerance",
+       "A union's phi misses by twice the tolerance at most, at its creases too.", source,
+       union_misses_by_its_tolerance},
+      {"octree.union-flags-pinched-points",
+       "A point inside of two or more parts is told so, and of which.", source, pinch_is_flagged},
+      {"octree.union-is-continuous", "A union's phi jumps nowhere.", source, union_jumps_nowhere}};
 }
 
 }  // namespace foldproof

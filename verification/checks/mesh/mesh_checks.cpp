@@ -50,8 +50,9 @@ std::vector<Known> known_shapes() {
   std::vector<Known> shapes;
   for (const auto& [name, pattern] : patterns)
     shapes.push_back({name, make_sheet(sheet_of(pattern)), 1, width * height});
-  const double disc = 0.5 * 24 * 0.31 * 0.31 * std::sin(2 * pi / 24);  // a regular polygon of 6 * 4 corners
-  const double cylinder = 11 * 2 * 0.13 * std::sin(pi / 11) * 0.37;    // 11 flat strips
+  // a regular polygon of 6 * 4 corners
+  const double disc = 0.5 * 24 * 0.31 * 0.31 * std::sin(2 * pi / 24);
+  const double cylinder = 11 * 2 * 0.13 * std::sin(pi / 11) * 0.37;  // 11 flat strips
   const double side = 0.23 / std::sin(2 * pi / 5);  // of an icosahedron in a sphere of .23 m
   shapes.push_back({"disc", make_disc(0.31, 4), 1, disc});
   shapes.push_back({"cylinder", make_cylinder(0.13, 0.37, 11, 6), 0, cylinder});
@@ -72,18 +73,20 @@ Finding euler_characteristic_is_known(const Subject&) {
     for (const Triangle& t : shape.mesh.triangles) {
       for (int k = 0; k < 3; ++k) ++edges[std::minmax({t[k], t[(k + 1) % 3]})];
     }
-    const int counted = shape.mesh.particles() - int(edges.size()) + int(shape.mesh.triangles.size());
-    measured.row(shape.name,
-                 std::abs(euler_characteristic(shape.mesh) - shape.euler) + std::abs(counted - shape.euler));
+    const int counted =
+        shape.mesh.particles() - int(edges.size()) + int(shape.mesh.triangles.size());
+    measured.row(shape.name, std::abs(euler_characteristic(shape.mesh) - shape.euler) +
+                                 std::abs(counted - shape.euler));
   }
   return judge_worst(measured, 0,
-                     "whole numbers: 1 for a sheet or a disc, 0 for an open cylinder, 2 for a closed "
-                     "surface without handles");
+                     "whole numbers: 1 for a sheet or a disc, 0 for an open cylinder, 2 for a "
+                     "closed surface without handles");
 }
 
 /// True if the triangle is (a, b, c) or the same begun elsewhere.
 bool runs(const Triangle& triangle, int a, int b, int c) {
-  return triangle == Triangle{a, b, c} || triangle == Triangle{b, c, a} || triangle == Triangle{c, a, b};
+  return triangle == Triangle{a, b, c} || triangle == Triangle{b, c, a} ||
+         triangle == Triangle{c, a, b};
 }
 
 Finding hinges_are_oriented(const Subject&) {
@@ -98,13 +101,14 @@ Finding hinges_are_oriented(const Subject&) {
         first += runs(shape.mesh.triangles[t], x1, x3, x4);
         second += runs(shape.mesh.triangles[t], x2, x4, x3);
       }
-      fallback += !(first == 1 && second == 1 && std::min(x3, x4) == edge.a && std::max(x3, x4) == edge.b);
+      fallback +=
+          !(first == 1 && second == 1 && std::min(x3, x4) == edge.a && std::max(x3, x4) == edge.b);
     }
     measured.row(shape.name, fallback);
   }
-  return judge_worst(
-      measured, 0,
-      "every hinge must be (x1, x3, x4) and (x2, x4, x3) of its two triangles, as drawn in the paper");
+  return judge_worst(measured, 0,
+                     "every hinge must be (x1, x3, x4) and (x2, x4, x3) of its two triangles, as "
+                     "drawn in the paper");
 }
 
 Finding every_inner_edge_is_one_hinge(const Subject&) {
@@ -119,13 +123,14 @@ Finding every_inner_edge_is_one_hinge(const Subject&) {
     int wrong = std::abs(int(triangles.size()) - int(shape.mesh.edges.size()));
     for (const Edge& edge : shape.mesh.edges) {
       const int count = triangles[{edge.a, edge.b}], hinge_count = hinges[{edge.a, edge.b}];
-      wrong += (count == 1) != (edge.triangles[1] < 0) || count > 2 || count < 1 || hinge_count != count - 1;
+      wrong += (count == 1) != (edge.triangles[1] < 0) || count > 2 || count < 1 ||
+               hinge_count != count - 1;
     }
     measured.row(shape.name, wrong);
   }
   return judge_worst(measured, 0,
-                     "edges and hinges are counted: one edge for each pair of neighbours, one hinge for "
-                     "each edge of two triangles");
+                     "edges and hinges are counted: one edge for each pair of neighbours, one "
+                     "hinge for each edge of two triangles");
 }
 
 Finding areas_and_masses_sum(const Subject&) {
@@ -143,9 +148,9 @@ Finding areas_and_masses_sum(const Subject&) {
   }
   return judge_worst(
       measured, 64, "about ten roundings an area, with errors of either sign, added one by one",
-      "The exact value is the area, the mass, or three times the area for the edges' areas. Areas are those "
-      "of plane geometry; for the round sphere and the statue the mesh's own area stands in, and only masses "
-      "and edge areas are compared with it.");
+      "The exact value is the area, the mass, or three times the area for the edges' areas. Areas "
+      "are those of plane geometry; for the round sphere and the statue the mesh's own area stands "
+      "in, and only masses and edge areas are compared with it.");
 }
 
 Finding obj_round_trip_is_exact(const Subject&) {
@@ -158,14 +163,16 @@ Finding obj_round_trip_is_exact(const Subject&) {
     const std::string path = folder.file(shape.name + ".obj");
     write_obj(path, x, shape.mesh.triangles);
     const TriangleMesh back = read_obj(path);
-    int fallback = int(back.triangles != shape.mesh.triangles) + 1000 * int(back.rest.cols() != x.cols());
+    int fallback =
+        int(back.triangles != shape.mesh.triangles) + 1000 * int(back.rest.cols() != x.cols());
     for (Eigen::Index k = 0; k < std::min(x.size(), back.rest.size()); ++k) {
-      fallback +=
-          std::bit_cast<uint64_t>(x.reshaped()[k]) != std::bit_cast<uint64_t>(back.rest.reshaped()[k]);
+      fallback += std::bit_cast<uint64_t>(x.reshaped()[k]) !=
+                  std::bit_cast<uint64_t>(back.rest.reshaped()[k]);
     }
     measured.row(shape.name, fallback);
   }
-  return judge_worst(measured, 0, "17 significant digits hold a double, so every bit must come back");
+  return judge_worst(measured, 0,
+                     "17 significant digits hold a double, so every bit must come back");
 }
 
 Finding pleats_are_isometric(const Subject&) {
@@ -175,10 +182,12 @@ Finding pleats_are_isometric(const Subject&) {
       Sheet sheet = sheet_of(pattern);
       sheet.columns = 9;
       const TriangleMesh flat = make_sheet(sheet),
-                         folded = make_triangle_mesh(pleated_positions(flat, 3, angle), flat.triangles);
+                         folded =
+                             make_triangle_mesh(pleated_positions(flat, 3, angle), flat.triangles);
       Worst length, fold;
-      length.observe((rest_lengths(folded) - rest_lengths(flat)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
-                     (epsilon * width));
+      length.observe(
+          (rest_lengths(folded) - rest_lengths(flat)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
+          (epsilon * width));
       int fold_lines = 0;
       for (const Hinge& hinge : flat.hinges) {
         const Corners x = corners_of(hinge, folded.rest);
@@ -188,16 +197,16 @@ Finding pleats_are_isometric(const Subject&) {
         fold.observe(std::abs(found - (is_fold ? std::abs(angle) : 0)) / (epsilon * pi));
       }
       fold.observe(fold_lines == 2 * sheet.rows ? 0 : std::nan(""));
-      const std::string name = (pattern == SheetPattern::union_jack ? "union_jack" : "one_diagonal");
+      const std::string name =
+          (pattern == SheetPattern::union_jack ? "union_jack" : "one_diagonal");
       measured.row(name + " by " + std::to_string(angle) + " rad, lengths", length.value());
       measured.row(name + " by " + std::to_string(angle) + " rad, angles", fold.value());
     }
   }
-  return judge_worst(
-      measured, 64,
-      "a vertex is placed by adding up to nine columns; angles divide such errors by a cell, a ninth of the "
-      "width",
-      "the size is the sheet's width for lengths, pi for angles");
+  return judge_worst(measured, 64,
+                     "a vertex is placed by adding up to nine columns; angles divide such errors "
+                     "by a cell, a ninth of the width",
+                     "the size is the sheet's width for lengths, pi for angles");
 }
 
 Finding hinge_folds_by_its_angle(const Subject&) {
@@ -207,7 +216,8 @@ Finding hinge_folds_by_its_angle(const Subject&) {
     const double found = hinge_angles(mesh, mesh.rest).at(0);
     measured.row(std::to_string(angle) + " rad", std::abs(found - angle) / (epsilon * pi));
   }
-  return judge_worst(measured, 16, "sine and cosine, placed and taken back, carry a few roundings of 1");
+  return judge_worst(measured, 16,
+                     "sine and cosine, placed and taken back, carry a few roundings of 1");
 }
 
 }  // namespace
@@ -218,8 +228,8 @@ std::vector<Check> mesh_checks() {
            "The reference's meshes have the Euler characteristic of their surfaces.", source,
            euler_characteristic_is_known},
           {"mesh.hinges-are-oriented-as-drawn",
-           "Every hinge of the reference's meshes is (x1, x3, x4) and (x2, x4, x3).", "BMF03 figure 1",
-           hinges_are_oriented},
+           "Every hinge of the reference's meshes is (x1, x3, x4) and (x2, x4, x3).",
+           "BMF03 figure 1", hinges_are_oriented},
           {"mesh.every-interior-edge-has-one-hinge",
            "The reference finds each edge once, and one hinge for each inner edge.", source,
            every_inner_edge_is_one_hinge},
@@ -227,14 +237,14 @@ std::vector<Check> mesh_checks() {
            "The reference's areas, masses and edge areas sum to those of the surface.", source,
            areas_and_masses_sum},
           {"mesh.obj-round-trip-is-exact",
-           "A mesh that the reference writes and reads back is the same, bit for bit.", "the OBJ format",
-           obj_round_trip_is_exact},
+           "A mesh that the reference writes and reads back is the same, bit for bit.",
+           "the OBJ format", obj_round_trip_is_exact},
           {"mesh.pleats-are-isometric",
            "The reference's pleats keep every length and fold by the angle asked for.", source,
            pleats_are_isometric},
           {"mesh.hinge-folds-by-the-given-angle",
-           "The reference's hinge is folded by the angle asked for, sign included.", "BMF03 section 4",
-           hinge_folds_by_its_angle}};
+           "The reference's hinge is folded by the angle asked for, sign included.",
+           "BMF03 section 4", hinge_folds_by_its_angle}};
 }
 
 }  // namespace foldproof

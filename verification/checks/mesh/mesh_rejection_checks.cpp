@@ -25,8 +25,10 @@ const char* const square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";  // four line
 std::vector<BadFile> bad_files() {
   const std::string four = square;
   return {
-      {"a coordinate that is no number", "v 0 0 0\nv 1 zero 0\nv 1 1 0\nf 1 2 3\n", 2, "not a number"},
-      {"a coordinate too large for a double", "v 0 0 0\nv 1 0 0\nv 1 1e999 0\nf 1 2 3\n", 3, "does not fit"},
+      {"a coordinate that is no number", "v 0 0 0\nv 1 zero 0\nv 1 1 0\nf 1 2 3\n", 2,
+       "not a number"},
+      {"a coordinate too large for a double", "v 0 0 0\nv 1 0 0\nv 1 1e999 0\nf 1 2 3\n", 3,
+       "does not fit"},
       {"an infinite coordinate", "v 0 0 0\nv inf 0 0\nv 1 1 0\nf 1 2 3\n", 2, "not finite"},
       {"a NaN", "v 0 0 0\nv 1 0 0\nv 1 nan 0\nf 1 2 3\n", 3, "not finite"},
       {"a vertex of two numbers", "v 0 0 0\nv 1 0\nv 1 1 0\nf 1 2 3\n", 2, "a vertex of 2"},
@@ -37,9 +39,11 @@ std::vector<BadFile> bad_files() {
       {"an index that is a word", four + "f 1 2 three\n", 5, "no corner of a face"},
       {"a corner with a bad slash", four + "f 1/ 2 3\n", 5, "no corner of a face"},
       {"an unused vertex", four + "f 1 2 3\n", 4, "unused"},
-      {"a face without area", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 4\nf 1 2 3\n", 6, "no area"},
+      {"a face without area", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 4\nf 1 2 3\n", 6,
+       "no area"},
       {"a face of one vertex twice", four + "f 1 2 3\nf 3 4 4\n", 6, "no area"},
-      {"three triangles at an edge", four + "v 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 3 5\n", 8, "three triangles"},
+      {"three triangles at an edge", four + "v 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 3 5\n", 8,
+       "three triangles"},
       {"opposite orientations", four + "f 1 2 3\nf 1 4 3\n", 6, "orientation"},
       {"a face given twice", four + "f 1 2 3\nf 1 3 4\nf 1 2 3\n", 7, "orientation"},
       {"two fans at a vertex", four + "v -1 0 0\nv -1 -1 0\nf 1 2 3\nf 1 3 4\nf 1 5 6\n", 1, "fan"},
@@ -66,7 +70,8 @@ std::string without_folder(const std::string& message) {
 /// Adds a row for each bad file: what its refusal leaves out.
 void try_bad_files(Table& measured) {
   const ScratchFolder folder;
-  const auto observe = [&](const std::string& name, const std::string& path, std::vector<std::string> parts) {
+  const auto observe = [&](const std::string& name, const std::string& path,
+                           std::vector<std::string> parts) {
     const std::string message = rejection_message([&] { read_obj(path); });
     measured.row("file with " + name, left_out(message, parts), without_folder(message));
   };
@@ -93,22 +98,31 @@ std::vector<BadMesh> bad_meshes() {
   PerParticle3 infinite = rest, line = rest;
   infinite(2, 3) = std::numeric_limits<double>::infinity();
   line.col(3) = 0.4 * rest.col(0) + 0.6 * rest.col(2);
-  return {
-      {"no triangles", rest, {}, {"mesh", "no triangles"}},
-      {"an index too large", rest, {{0, 1, 2}, {0, 2, 4}}, {"triangle 1", "index 4", "out of range"}},
-      {"a negative index", rest, {{0, 1, 2}, {0, 2, -3}}, {"triangle 1", "index -3", "out of range"}},
-      {"an unused vertex", rest, {{0, 1, 2}}, {"vertex 3", "unused"}},
-      {"an infinite coordinate", infinite, {{0, 1, 2}, {0, 2, 3}}, {"vertex 3", "not finite"}},
-      {"a triangle without area", line, {{0, 1, 2}, {0, 2, 3}}, {"triangle 1", "no area"}},
-      {"a triangle without area, small", 1e-160 * line, {{0, 1, 2}, {0, 2, 3}}, {"triangle 1", "no area"}},
-      {"opposite orientations", rest, {{0, 1, 2}, {0, 3, 2}}, {"triangle 1", "orientation"}}};
+  return {{"no triangles", rest, {}, {"mesh", "no triangles"}},
+          {"an index too large",
+           rest,
+           {{0, 1, 2}, {0, 2, 4}},
+           {"triangle 1", "index 4", "out of range"}},
+          {"a negative index",
+           rest,
+           {{0, 1, 2}, {0, 2, -3}},
+           {"triangle 1", "index -3", "out of range"}},
+          {"an unused vertex", rest, {{0, 1, 2}}, {"vertex 3", "unused"}},
+          {"an infinite coordinate", infinite, {{0, 1, 2}, {0, 2, 3}}, {"vertex 3", "not finite"}},
+          {"a triangle without area", line, {{0, 1, 2}, {0, 2, 3}}, {"triangle 1", "no area"}},
+          {"a triangle without area, small",
+           1e-160 * line,
+           {{0, 1, 2}, {0, 2, 3}},
+           {"triangle 1", "no area"}},
+          {"opposite orientations", rest, {{0, 1, 2}, {0, 3, 2}}, {"triangle 1", "orientation"}}};
 }
 
 Finding bad_meshes_are_rejected(const Subject&) {
   Table measured{{"case", ""}, {"file, line or keyword not named", "1"}, {"message", ""}};
   try_bad_files(measured);
   for (const BadMesh& bad : bad_meshes()) {
-    const std::string message = rejection_message([&] { make_triangle_mesh(bad.rest, bad.triangles); });
+    const std::string message =
+        rejection_message([&] { make_triangle_mesh(bad.rest, bad.triangles); });
     measured.row("mesh with " + bad.name, left_out(message, bad.parts), message);
   }
   return judge_worst(
@@ -126,20 +140,22 @@ Finding small_and_large_meshes_are_accepted(const Subject&) {
   sheet.rows = 3;
   const TriangleMesh mesh = make_sheet(sheet);
   for (const double size : {1e-150, 1e-9, 3.0, 1e9, 1e150}) {
-    const std::string message = rejection_message([&] { make_triangle_mesh(size * mesh.rest, mesh.triangles); });
+    const std::string message =
+        rejection_message([&] { make_triangle_mesh(size * mesh.rest, mesh.triangles); });
     char name[32];
     std::snprintf(name, sizeof name, "size %g m", size);
     measured.row(name, message.empty() ? 0 : 1);
   }
-  return judge_worst(measured, 0, "whether a triangle has an area does not depend on the unit of length");
+  return judge_worst(measured, 0,
+                     "whether a triangle has an area does not depend on the unit of length");
 }
 
 }  // namespace
 
 std::vector<Check> mesh_rejection_checks() {
   return {{"mesh.invalid-meshes-are-rejected",
-           "The reference refuses what is no oriented manifold, and every malformed OBJ file, naming the "
-           "place and the reason.",
+           "The reference refuses what is no oriented manifold, and every malformed OBJ file, "
+           "naming the place and the reason.",
            "a rule of this suite: nothing fails in silence", bad_meshes_are_rejected},
           {"mesh.good-meshes-of-any-size-are-accepted",
            "The reference accepts a good mesh whatever its size, from 1e-150 m to 1e150 m.",

@@ -16,7 +16,8 @@ namespace foldproof {
 
 namespace {
 
-/// Vertex by vertex, by its definition: the first of those that stay and are near. -1: it stays itself.
+/// Vertex by vertex, by its definition: the first of those that stay and are
+/// near. -1: it stays itself.
 std::vector<int> join_by_trying(const PerParticle3& x, double distance) {
   std::vector<int> becomes;
   for (Eigen::Index v = 0; v < x.cols(); ++v) {
@@ -28,15 +29,16 @@ std::vector<int> join_by_trying(const PerParticle3& x, double distance) {
   return becomes;
 }
 
-/// Points in a box of the side 1 about a place far from the origin and near it, and triangles that keep three
-/// corners.
+/// Points in a box of the side 1 about a place far from the origin and near it, and triangles that
+/// keep three corners.
 TriangleSoup random_soup(const std::vector<int>& becomes, PerParticle3 x, std::mt19937& random) {
   TriangleSoup soup{std::move(x), {}, {}};
   const auto end_of = [&](int v) { return becomes[size_t(v)] < 0 ? v : becomes[size_t(v)]; };
   while (soup.triangles.size() < 60) {
     const Triangle t{int(random() % becomes.size()), int(random() % becomes.size()),
                      int(random() % becomes.size())};
-    if (end_of(t[0]) != end_of(t[1]) && end_of(t[1]) != end_of(t[2]) && end_of(t[2]) != end_of(t[0]))
+    if (end_of(t[0]) != end_of(t[1]) && end_of(t[1]) != end_of(t[2]) &&
+        end_of(t[2]) != end_of(t[0]))
       soup.triangles.push_back(t);
   }
   return soup;
@@ -69,22 +71,23 @@ Finding seams_finding(const Subject&) {
           ""};
 }
 
-/// Two panels of a tube as an OBJ file: each half has its own vertices along both seams, a little apart.
+/// Two panels of a tube as an OBJ file: each half has its own vertices along both seams,
+/// a little apart.
 std::string two_panels(double apart) {
   std::string text;
   for (int panel = 0; panel < 2; ++panel)
     for (int ring = 0; ring < 4; ++ring)
       for (int k = 0; k <= 5; ++k) {
         const double angle = (5 * panel + k) * pi / 5, r = 0.2 + (panel == 1 ? apart : 0);
-        text += "v " + std::to_string(r * std::cos(angle)) + " " + std::to_string(0.1 * ring) + " " +
-                std::to_string(r * std::sin(angle)) + "\n";
+        text += "v " + std::to_string(r * std::cos(angle)) + " " + std::to_string(0.1 * ring) +
+                " " + std::to_string(r * std::sin(angle)) + "\n";
       }
   for (int panel = 0; panel < 2; ++panel)
     for (int ring = 0; ring < 3; ++ring)
       for (int k = 0; k < 5; ++k) {
         const int a = 24 * panel + 6 * ring + k + 1;
-        text += "f " + std::to_string(a) + " " + std::to_string(a + 6) + " " + std::to_string(a + 7) + " " +
-                std::to_string(a + 1) + "\n";
+        text += "f " + std::to_string(a) + " " + std::to_string(a + 6) + " " +
+                std::to_string(a + 7) + " " + std::to_string(a + 1) + "\n";
       }
   return text;
 }
@@ -105,11 +108,13 @@ Finding panels_finding(const Subject&) {
     return false;
   };
   const auto borders = [](const TriangleMesh& mesh) {
-    return std::ranges::count_if(mesh.edges, [](const Edge& edge) { return edge.triangles[1] < 0; });
+    return std::ranges::count_if(mesh.edges,
+                                 [](const Edge& edge) { return edge.triangles[1] < 0; });
   };
   Table differences = no_differences();
   const Scene apart = scene(""), sewn = scene("seams = 0.002\n"), open = scene("seams = 0.0005\n");
-  differences.row("two panels are two pieces", infinite_unless(borders(apart.mesh) == 2 * (2 * 5 + 2 * 3)));
+  differences.row("two panels are two pieces",
+                  infinite_unless(borders(apart.mesh) == 2 * (2 * 5 + 2 * 3)));
   differences.row("sewn they are a tube: a ring of edges above and below",
                   infinite_unless(borders(sewn.mesh) == 2 * 10));
   differences.row("of 40 particles", infinite_unless(sewn.mesh.particles() == 40));
@@ -128,9 +133,10 @@ std::vector<Check> seam_checks() {
   const std::string source = "cases/KEYS.md";
   return {
       {"mesh.seams-join-nearby-vertices",
-       "Vertices become the first that stays within the distance, and no other.", source, seams_finding},
-      {"scene.panels-are-sewn", "Panels whose borders meet are one cloth, where a case says so.", source,
-       panels_finding},
+       "Vertices become the first that stays within the distance, and no other.", source,
+       seams_finding},
+      {"scene.panels-are-sewn", "Panels whose borders meet are one cloth, where a case says so.",
+       source, panels_finding},
   };
 }
 

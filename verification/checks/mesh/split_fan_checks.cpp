@@ -1,4 +1,5 @@
-// Vertices of several fans that are split: each fan by itself, where it was, and held as its vertex was.
+// Vertices of several fans that are split: each fan by itself, where it was, and held as
+// its vertex was.
 #include <algorithm>
 #include <fstream>
 #include <random>
@@ -53,7 +54,8 @@ TriangleSoup without_unused(const TriangleSoup& soup) {
   return left;
 }
 
-/// A jittered sheet, a sphere and a tube, with pairs of vertices glued at random; some are glued repeatedly.
+/// A jittered sheet, a sphere and a tube, with pairs of vertices glued at random; some are
+/// glued repeatedly.
 TriangleSoup random_hangings(std::mt19937& random, int pairs) {
   TriangleSoup soup{PerParticle3(3, 0), {}, {}};
   add_piece(make_sheet({.pattern = SheetPattern::jittered,
@@ -78,7 +80,8 @@ TriangleSoup random_hangings(std::mt19937& random, int pairs) {
 // ---- fans by their definition
 
 bool share_an_edge_at(const Triangle& s, const Triangle& t, int v) {
-  return std::ranges::any_of(s, [&](int w) { return w != v && std::ranges::find(t, w) != t.end(); });
+  return std::ranges::any_of(s,
+                             [&](int w) { return w != v && std::ranges::find(t, w) != t.end(); });
 }
 
 /// The triangles of the fan of v that triangle `first` is in, found by walking over edges at v.
@@ -87,7 +90,8 @@ std::set<int> fan_at(const TriangleSoup& soup, int v, int first) {
   for (size_t i = 0; i < fan.size(); ++i)
     for (int t = 0; t < int(soup.triangles.size()); ++t) {
       const Triangle& other = soup.triangles[size_t(t)];
-      if (std::ranges::find(other, v) == other.end() || std::ranges::find(fan, t) != fan.end()) continue;
+      if (std::ranges::find(other, v) == other.end() || std::ranges::find(fan, t) != fan.end())
+        continue;
       if (share_an_edge_at(soup.triangles[size_t(fan[i])], other, v)) fan.push_back(t);
     }
   return {fan.begin(), fan.end()};
@@ -104,7 +108,8 @@ struct Expected {
 Expected expected_of(const TriangleSoup& soup) {
   Expected expected{soup.triangles, {}, soup.rest, 0};
   const int count = int(soup.rest.cols());
-  std::vector<std::vector<std::set<int>>> fans{size_t(count)};  // in the order of their first triangles
+  // in the order of their first triangles
+  std::vector<std::vector<std::set<int>>> fans{size_t(count)};
   std::vector<std::vector<int>> particles{size_t(count)};
   for (int v = 0; v < count; ++v) expected.copy_of.push_back(v);
   for (int t = 0; t < int(soup.triangles.size()); ++t)
@@ -149,7 +154,8 @@ Finding numbers_finding(const Subject&) {
     double count = std::abs(double(found.mesh.triangles.size()) - double(soup.triangles.size())) +
                    (found.copy_of == expected.copy_of ? 0 : 1);
     for (size_t t = 0; t < std::min(found.mesh.triangles.size(), expected.triangles.size()); ++t)
-      for (size_t k = 0; k < 3; ++k) count += found.mesh.triangles[t][k] == expected.triangles[t][k] ? 0 : 1;
+      for (size_t k = 0; k < 3; ++k)
+        count += found.mesh.triangles[t][k] == expected.triangles[t][k] ? 0 : 1;
     wrong.row(expected.split, expected.copy_of.size(), count);
   }
   return {{wrong.worst("wrong corners"), 0, 0, "corners", "particles are numbered, not computed"},
@@ -174,16 +180,15 @@ Finding places_finding(const Subject&) {
     }
     moved.row(expected.split, most.value());
   }
-  return {
-      {off.value(), 4, 0, "epsilon of the size",
-       "a mean of a few middles, a thousandth of it, and a sum: one rounding of the largest coordinate for "
-       "each of the two ways to write it, and two to spare"},
-      moved,
-      ""};
+  return {{off.value(), 4, 0, "epsilon of the size",
+           "a mean of a few middles, a thousandth of it, and a sum: one rounding of the largest "
+           "coordinate for each of the two ways to write it, and two to spare"},
+          moved,
+          ""};
 }
 
-/// Two triangles in a plane and two cones, apex to apex; a corner that stands on a sheet; three sheets at a
-/// corner.
+/// Two triangles in a plane and two cones, apex to apex; a corner that stands on a sheet; three
+/// sheets at a corner.
 std::vector<TriangleSoup> touching_fans() {
   const auto soup = [](std::vector<Vector3> places, std::vector<Triangle> triangles) {
     PerParticle3 x(3, Eigen::Index(places.size()));
@@ -191,20 +196,21 @@ std::vector<TriangleSoup> touching_fans() {
     return TriangleSoup{x, std::move(triangles), {}};
   };
   std::vector<TriangleSoup> all;
-  all.push_back(
-      soup({{0.3, 0.7, 0}, {-1, -1, 0}, {-1, 1.1, 0}, {1.2, 2, 0}, {1.4, -0.9, 0}}, {{0, 1, 2}, {0, 3, 4}}));
+  all.push_back(soup({{0.3, 0.7, 0}, {-1, -1, 0}, {-1, 1.1, 0}, {1.2, 2, 0}, {1.4, -0.9, 0}},
+                     {{0, 1, 2}, {0, 3, 4}}));
   std::vector<Vector3> cones{{0.1, 0.2, 0.3}};
   std::vector<Triangle> of_cones;
   for (int cone = 0; cone < 2; ++cone)
     for (int k = 0; k < 6; ++k) {
       const double angle = k * pi / 3 + cone, r = cone == 0 ? 0.8 : 1.3;
-      cones.push_back(cones[0] + Vector3(r * std::cos(angle), cone == 0 ? 1 : -0.7, r * std::sin(angle)));
+      cones.push_back(cones[0] +
+                      Vector3(r * std::cos(angle), cone == 0 ? 1 : -0.7, r * std::sin(angle)));
       of_cones.push_back({0, 1 + 6 * cone + k, 1 + 6 * cone + (k + 1) % 6});
     }
   all.push_back(soup(cones, of_cones));
-  all.push_back(
-      soup({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {-0.3, 0.2, 1}, {0.4, 0.1, 1.2}},
-           {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {0, 5, 6}}));
+  all.push_back(soup(
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {-0.3, 0.2, 1}, {0.4, 0.1, 1.2}},
+      {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {0, 5, 6}}));
   all.push_back(soup({{0, 0, 0},
                       {1, 0, 0},
                       {0.4, 1, 0},
@@ -285,8 +291,8 @@ std::set<int> held(const Scene& scene) {
 }
 
 std::string sticky(const std::string& of, const std::string& particles) {
-  return "[[sticky]]\nstiffness = 3\nforecast_time = 0.01\nnear = 0.1\nfar = 0.2\n[sticky.surface]\nof = "
-         "\"cloth\"\n" +
+  return "[[sticky]]\nstiffness = 3\nforecast_time = 0.01\nnear = 0.1\nfar = "
+         "0.2\n[sticky.surface]\nof = \"cloth\"\n" +
          of + "[sticky.particles]\n" + particles;
 }
 
@@ -302,12 +308,13 @@ void see_particles(const ThreeFans& fans, Table& differences) {
   differences.row("the last copy alone", infinite_unless(hold("particles = [9]\n") == Set{9}));
   differences.row("both at once", infinite_unless(hold("particles = [0, 9]\n") == Set{0, 8, 9}));
   differences.row("another vertex alone", infinite_unless(hold("particles = [3]\n") == Set{3}));
-  differences.row("by a box",
-                  infinite_unless(hold("box = [[-0.1, -0.1, -0.1], [0.1, 0.1, 0.1]]\n") == Set{0, 8, 9}));
   differences.row(
-      "in the second of two pieces",
-      infinite_unless(hold("particles = [10]\n", split + "copies = { count = 2, move = [0, 0, 9] }\n") ==
-                      Set{10, 18, 19}));
+      "by a box",
+      infinite_unless(hold("box = [[-0.1, -0.1, -0.1], [0.1, 0.1, 0.1]]\n") == Set{0, 8, 9}));
+  differences.row("in the second of two pieces",
+                  infinite_unless(hold("particles = [10]\n",
+                                       split + "copies = { count = 2, move = [0, 0, 9] }\n") ==
+                                  Set{10, 18, 19}));
   const auto stuck = [&](const std::string& particles) {
     return fans.scene(split, sticky("group = \"left\"\n", particles)).sticky.front();
   };
@@ -315,8 +322,9 @@ void see_particles(const ThreeFans& fans, Table& differences) {
                   infinite_unless(stuck("group = \"right\"\n").particles == std::vector{3, 4, 8}));
   differences.row("and its triangles",
                   infinite_unless(stuck("").triangles == std::vector<Triangle>{{0, 2, 1}}));
-  differences.row("what sticks by number does so in all fans",
-                  infinite_unless(stuck("particles = [0, 3]\n").particles == std::vector{0, 3, 8, 9}));
+  differences.row(
+      "what sticks by number does so in all fans",
+      infinite_unless(stuck("particles = [0, 3]\n").particles == std::vector{0, 3, 8, 9}));
 }
 
 Finding scene_finding(const Subject&) {
@@ -330,8 +338,9 @@ Finding scene_finding(const Subject&) {
     differences.row("the mass of particle " + std::to_string(particle),
                     infinite_unless(std::abs(masses[particle] / (0.2 * area / 3) - 1) < 0.005));
   const auto parts = describe_parts(found, build_system(found));
-  differences.row("it is said", infinite_unless(std::ranges::find(parts, "1 vertex split into 3 particles") !=
-                                                parts.end()));
+  differences.row(
+      "it is said",
+      infinite_unless(std::ranges::find(parts, "1 vertex split into 3 particles") != parts.end()));
   see_particles(fans, differences);
   differences.row("seams join before",
                   infinite_unless(fans.scene("seams = 0.01\n" + split).mesh.particles() == 10));
@@ -341,10 +350,9 @@ Finding scene_finding(const Subject&) {
                   infinite_unless(fans.is_rejected(split, "cannot tell which two", "edge")));
   differences.row("another word",
                   infinite_unless(fans.is_rejected("repair = \"mend\"\n", "known: refuse, split")));
-  return judged_differences(
-      differences, 0,
-      "particles are counted; the mass of a fan's particle is a third of its triangles, "
-      "less a thousandth of their height");
+  return judged_differences(differences, 0,
+                            "particles are counted; the mass of a fan's particle is a third of its "
+                            "triangles, less a thousandth of their height");
 }
 
 }  // namespace
@@ -353,16 +361,16 @@ std::vector<Check> split_fan_checks() {
   const std::string source = "cases/README.md";
   return {
       {"mesh.split-gives-each-fan-a-particle",
-       "A vertex of several fans is split into one particle for each, and no triangle is lost.", source,
-       numbers_finding},
+       "A vertex of several fans is split into one particle for each, and no triangle is lost.",
+       source, numbers_finding},
       {"mesh.split-moves-a-thousandth",
        "Split particles move a thousandth of the way into their fans; nothing else moves.", source,
        places_finding},
-      {"mesh.split-fans-do-not-touch", "Fans that touched in a vertex touch nowhere once it is split.",
-       source, touching_finding},
+      {"mesh.split-fans-do-not-touch",
+       "Fans that touched in a vertex touch nowhere once it is split.", source, touching_finding},
       {"scene.split-vertices-stay-held",
-       "Masses, holds, groups and what sticks follow a split vertex, where a case asks for it.", source,
-       scene_finding},
+       "Masses, holds, groups and what sticks follow a split vertex, where a case asks for it.",
+       source, scene_finding},
   };
 }
 

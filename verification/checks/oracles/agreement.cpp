@@ -17,7 +17,8 @@ double apart_by_uncertainty(const oracles::Estimate& one, const oracles::Estimat
 }  // namespace
 
 Table no_answers() {
-  return {{"point", ""}, {"one way", ""}, {"other way", ""}, {"uncertainty of both", ""}, {apart, "1"}};
+  return {
+      {"point", ""}, {"one way", ""}, {"other way", ""}, {"uncertainty of both", ""}, {apart, "1"}};
 }
 
 void compare(Table& answers, const std::string& point, const oracles::Estimate& one,
@@ -44,8 +45,8 @@ void compare_exact(Table& answers, const std::string& point, double one, double 
 Finding judged_agreement(const Table& answers) {
   const double measured = answers.rows() < 2 ? nan : answers.worst(apart);
   return {{measured, 1, 0, "1",
-           "the truth lies within each answer's uncertainty, so two answers are no further apart than both "
-           "together"},
+           "the truth lies within each answer's uncertainty, so two answers are no further apart "
+           "than both together"},
           answers,
           ""};
 }

@@ -10,8 +10,8 @@
 
 namespace foldproof {
 
-/// For answers of two roads to the same numbers, a row a point: each answer comes with how far the truth may
-/// lie from it.
+/// For answers of two roads to the same numbers, a row a point: each answer comes with how far the
+/// truth may lie from it.
 Table no_answers();
 
 void compare(Table& answers, const std::string& point, const oracles::Estimate& one,
@@ -24,12 +24,12 @@ void compare_worst(Table& answers, const std::string& point,
 /// Answers that are whole: a count, yes or no. They agree or they do not.
 void compare_exact(Table& answers, const std::string& point, double one, double other);
 
-/// The worst |one - other| over the sum of their uncertainties, against 1; an answer that is exact on both
-/// sides counts 0 or infinity. NaN, which fails, if fewer than two points were compared.
+/// The worst |one - other| over the sum of their uncertainties, against 1; an answer that is exact
+/// on both sides counts 0 or infinity. NaN, which fails, if fewer than two points were compared.
 Finding judged_agreement(const Table& answers);
 
-/// The largest uncertainty over the size of its answer (of the larger answer, or of 1 where both are
-/// smaller) [1].
+/// The largest uncertainty over the size of its answer (of the larger answer, or of 1 where both
+/// are smaller) [1].
 double largest_uncertainty(const Table& answers);
 
 }  // namespace foldproof

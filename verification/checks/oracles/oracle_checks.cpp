@@ -16,61 +16,61 @@ constexpr Comparison comparisons[] = {
      "The oracle's angle by atan2 and its sin(theta/2) as printed are one, both in 50 digits.",
      hinge_angles_agree},
     {"oracle.bending-modes-agree",
-     "The oracle's bending mode as printed is minus the gradient of theta by automatic differentiation, "
-     "which is that by differences.",
+     "The oracle's bending mode as printed is minus the gradient of theta by automatic "
+     "differentiation, which is that by differences.",
      bending_modes_agree},
     {"oracle.bending-forces-agree",
-     "The oracle's elastic force as printed is minus the gradient of the energy, its damping force follows "
-     "from the power that it takes.",
+     "The oracle's elastic force as printed is minus the gradient of the energy, its damping force "
+     "follows from the power that it takes.",
      bending_forces_agree},
     {"oracle.bending-derivatives-agree",
-     "The oracle's derivatives of bending forces by automatic differentiation are those by differences in 50 "
-     "digits.",
+     "The oracle's derivatives of bending forces by automatic differentiation are those by "
+     "differences in 50 digits.",
      bending_derivatives_agree},
     {"oracle.spring-forces-agree",
      "The oracle's spring force is minus the gradient of its energy, and its derivative is that by "
      "differences.",
      spring_forces_agree},
     {"oracle.sticking-forces-agree",
-     "The oracle's force of what sticks, by automatic differentiation, is minus the slope of its energy by "
-     "differences.",
+     "The oracle's force of what sticks, by automatic differentiation, is minus the slope of its "
+     "energy by differences.",
      sticking_forces_agree},
     {"oracle.sheet-moduli-agree",
-     "The oracle's moduli of a sheet of springs in closed form are what the energy of one cell's springs "
-     "says.",
+     "The oracle's moduli of a sheet of springs in closed form are what the energy of one cell's "
+     "springs says.",
      sheet_moduli_agree},
     {"oracle.oscillators-agree",
-     "The oracle's closed form of the damped oscillator is what GSL's Runge-Kutta methods find, weakly, "
-     "critically and strongly damped.",
+     "The oracle's closed form of the damped oscillator is what GSL's Runge-Kutta methods find, "
+     "weakly, critically and strongly damped.",
      oscillators_agree},
     {"oracle.verlet-oscillators-agree",
-     "The oracle's closed form of velocity Verlet is what a thousand undamped steps of schemes A, B and C "
-     "give in 50 digits.",
+     "The oracle's closed form of velocity Verlet is what a thousand undamped steps of schemes A, "
+     "B and C give in 50 digits.",
      verlet_oscillators_agree},
     {"oracle.step-matrices-agree",
      "The oracle's step matrices are the printed lines of schemes A, B and C in 50 digits.",
      step_matrices_agree},
     {"oracle.stable-steps-agree",
-     "The oracle's stability limits in closed form are where the step's lines get an eigenvalue -1, and what "
-     "the eigenvalues of the stiffness say.",
+     "The oracle's stability limits in closed form are where the step's lines get an eigenvalue "
+     "-1, and what the eigenvalues of the stiffness say.",
      stable_steps_agree},
     {"oracle.free-falls-agree",
      "The oracle's free fall in closed form is what GSL's Runge-Kutta methods find.", falls_agree},
     {"oracle.turning-pair-lengths-agree",
-     "The oracle's length of a turning pair in closed form is where the spring's force is what the turn "
-     "needs.",
+     "The oracle's length of a turning pair in closed form is where the spring's force is what the "
+     "turn needs.",
      rotation_lengths_agree},
     {"oracle.amplification-factors-agree",
-     "The oracle's factors of one step multiply and add up as those of the oscillator, and are those of the "
-     "methods' stages.",
+     "The oracle's factors of one step multiply and add up as those of the oscillator, and are "
+     "those of the methods' stages.",
      amplification_factors_agree},
     {"oracle.runge-kutta-limits-agree",
-     "The oracle's stability limits of Runge-Kutta methods by polynomials and closed-form rates are those by "
-     "stages and eigenvalues.",
+     "The oracle's stability limits of Runge-Kutta methods by polynomials and closed-form rates "
+     "are those by stages and eigenvalues.",
      runge_kutta_limits_agree},
     {"oracle.forecasts-agree",
-     "The oracle's forecast with Coulomb friction is the impulse within the cone that leaves the least "
-     "sliding speed.",
+     "The oracle's forecast with Coulomb friction is the impulse within the cone that leaves the "
+     "least sliding speed.",
      forecasts_agree},
     {"oracle.strain-limiting-impulses-agree",
      "The oracle's strain-limiting impulse by Pythagoras is the root of the length that it leaves.",
@@ -79,37 +79,40 @@ constexpr Comparison comparisons[] = {
      "The oracle's heavy cantilever by GSL from its tip is that by power series from its clamp.",
      heavy_cantilevers_agree},
     {"oracle.loaded-strips-agree",
-     "The oracle's loaded strip by elliptic integrals is that by GSL's shooting and that by power series.",
+     "The oracle's loaded strip by elliptic integrals is that by GSL's shooting and that by power "
+     "series.",
      loaded_tips_agree},
     {"oracle.rigidities-agree",
-     "The oracle's rigidities of a periodic cell are those of a patch of hinges, and of the same mesh turned "
-     "by 45 degrees.",
+     "The oracle's rigidities of a periodic cell are those of a patch of hinges, and of the same "
+     "mesh turned by 45 degrees.",
      rigidities_agree},
     {"oracle.depth-maps-agree",
-     "The oracle's depth maps in closed form are solutions of the differential equations that define them.",
+     "The oracle's depth maps in closed form are solutions of the differential equations that "
+     "define them.",
      depth_maps_agree},
     {"oracle.dense-algebra-agrees",
-     "The oracle's eigenvalues, solutions, singular values and turns are those that the matrices were made "
-     "with.",
+     "The oracle's eigenvalues, solutions, singular values and turns are those that the matrices "
+     "were made with.",
      dense_algebra_agrees},
     {"oracle.crossing-times-agree",
-     "The oracle's exact crossings of moving features by roots are those by halved times, wherever these "
-     "decide.",
+     "The oracle's exact crossings of moving features by roots are those by halved times, wherever "
+     "these decide.",
      crossing_times_agree},
     {"oracle.polynomial-roots-agree",
-     "The oracle's roots of whole polynomials, and the signs of others there, are those that the polynomials "
-     "were made with.",
+     "The oracle's roots of whole polynomials, and the signs of others there, are those that the "
+     "polynomials were made with.",
      polynomial_roots_agree},
     {"oracle.crossings-agree",
-     "The oracle's crossings by a sweep are those of all pairs, which are those that no direction parts.",
+     "The oracle's crossings by a sweep are those of all pairs, which are those that no direction "
+     "parts.",
      crossings_agree},
     {"oracle.inside-tests-agree",
-     "The oracle's inside of a surface by segments is the inside of its prism by turns, at points on the "
-     "surface too.",
+     "The oracle's inside of a surface by segments is the inside of its prism by turns, at points "
+     "on the surface too.",
      sides_agree},
     {"oracle.distances-agree",
-     "The oracle's distances of features in 50 digits are those by feet in extended precision and by cutting "
-     "in thirds.",
+     "The oracle's distances of features in 50 digits are those by feet in extended precision and "
+     "by cutting in thirds.",
      distances_agree}};
 
 Finding uncertainties_are_small(const Subject&) {
@@ -117,8 +120,8 @@ Finding uncertainties_are_small(const Subject&) {
   for (const Comparison& comparison : comparisons)
     largest.row(comparison.name, largest_uncertainty(comparison.answers()));
   return judge_worst(largest, 1e-5,
-                     "two answers may agree because one promises little: the crudest, by differences in "
-                     "double precision, promises five digits");
+                     "two answers may agree because one promises little: the crudest, by "
+                     "differences in double precision, promises five digits");
 }
 
 }  // namespace
@@ -126,8 +129,9 @@ Finding uncertainties_are_small(const Subject&) {
 std::vector<Check> oracle_checks() {
   std::vector<Check> list;
   for (const Comparison& comparison : comparisons)
-    list.push_back({comparison.name, comparison.claim, "verification/oracles/README.md",
-                    [answers = comparison.answers](const Subject&) { return judged_agreement(answers()); }});
+    list.push_back(
+        {comparison.name, comparison.claim, "verification/oracles/README.md",
+         [answers = comparison.answers](const Subject&) { return judged_agreement(answers()); }});
   list.push_back({"oracle.uncertainties-are-small",
                   "Each two answers that are compared leave a small part of the answer open.",
                   "verification/oracles/README.md", uncertainties_are_small});

@@ -1,5 +1,5 @@
-// Oracles judged by oracles: each is held against a second road to the same numbers, at several parameter
-// points.
+// Oracles judged by oracles: each is held against a second road to the same numbers, at several
+// parameter points.
 #pragma once
 
 #include <vector>

@@ -20,7 +20,8 @@ using oracles::Estimate;
 using oracles::HingeInput;
 using Pairs = std::vector<std::pair<Estimate, Estimate>>;
 
-/// Hinges of sizes from a millimetre to a metre, folded by angles of both signs, every constant another.
+/// Hinges of sizes from a millimetre to a metre, folded by angles of both signs, every
+/// constant another.
 std::vector<HingeInput> random_hinge_inputs() {
   Random random(811);
   std::vector<HingeInput> list;
@@ -46,10 +47,11 @@ std::string numbered(const std::string& what, std::size_t number) {
   return what + " " + std::to_string(number + 1);
 }
 
-/// Corresponding components of vectors, each with its answer's uncertainty; `sign` turns the second.
+/// Corresponding components of vectors, each with its answer's uncertainty; `sign`
+/// turns the second.
 template <std::size_t N>
-Pairs pair_up(const std::array<Vector3, N>& one, double one_off, const std::array<Vector3, N>& other,
-              double other_off, double sign) {
+Pairs pair_up(const std::array<Vector3, N>& one, double one_off,
+              const std::array<Vector3, N>& other, double other_off, double sign) {
   Pairs pairs;
   for (std::size_t k = 0; k < N; ++k)
     for (int axis = 0; axis < 3; ++axis)
@@ -65,15 +67,16 @@ Pairs pair_up(const Matrix& one, double one_off, const Matrix& other, double oth
   return pairs;
 }
 
-/// f'(0) by central differences over `step` and half of it, extrapolated; off by less than the two differ,
-/// and by the rounding of values of size `scale`.
+/// f'(0) by central differences over `step` and half of it, extrapolated; off by less than the two
+/// differ, and by the rounding of values of size `scale`.
 Estimate slope(const std::function<double(double)>& f, double step, double scale) {
-  const double wide = (f(step) - f(-step)) / (2 * step), narrow = (f(step / 2) - f(-step / 2)) / step;
+  const double wide = (f(step) - f(-step)) / (2 * step),
+               narrow = (f(step / 2) - f(-step / 2)) / step;
   return {(4 * narrow - wide) / 3, std::abs(narrow - wide) + 8 * epsilon * scale / step};
 }
 
-/// The damping force of a hinge from its power -kd factor (d theta/dt)^2: -kd factor (d theta/dt) grad theta
-/// [N].
+/// The damping force of a hinge from its power -kd factor (d theta/dt)^2: -kd factor (d theta/dt)
+/// grad theta [N].
 oracles::VectorsEstimate<4> damping_from_power(const HingeInput& hinge) {
   const double rate = oracles::theta_rate_autodiff(hinge.x, hinge.v).value;
   const double edge = (hinge.x[3] - hinge.x[2]).norm();
@@ -95,8 +98,8 @@ std::vector<oracles::SpringInput> springs() {
     const PerParticle3 x = random.vectors(2, size), v = random.vectors(2, 2.5);
     list.push_back({{x.col(0), x.col(1)},
                     {v.col(0), v.col(1)},
-                    {random.log_uniform(3, 1e4), random.log_uniform(1e-3, 2), random.log_uniform(1e-6, 1),
-                     size * random.uniform(.4, 1.9)}});
+                    {random.log_uniform(3, 1e4), random.log_uniform(1e-3, 2),
+                     random.log_uniform(1e-6, 1), size * random.uniform(.4, 1.9)}});
   }
   return list;
 }
@@ -110,8 +113,8 @@ std::vector<oracles::StuckParticle> stuck_particles() {
     oracles::StuckParticle stuck;
     for (std::size_t t = 0; t < triangles; ++t) {
       const PerParticle3 jitter = random.vectors(3, .2 * size);
-      stuck.corners.push_back(
-          {jitter.col(0), Vector3(size, 0, 0) + jitter.col(1), Vector3(0, size, 0) + jitter.col(2)});
+      stuck.corners.push_back({jitter.col(0), Vector3(size, 0, 0) + jitter.col(1),
+                               Vector3(0, size, 0) + jitter.col(2)});
       stuck.places.push_back({random.uniform(.1, .5), random.uniform(.1, .4), .05 * size});
     }
     stuck.x = Vector3(.3, .25, .2) * size + random.vectors(1, .05 * size).col(0);
@@ -122,7 +125,8 @@ std::vector<oracles::StuckParticle> stuck_particles() {
   return list;
 }
 
-/// The stuck particle with coordinate k (the particle's, then the corners') moved by `displacement` [m].
+/// The stuck particle with coordinate k (the particle's, then the corners') moved by
+/// `displacement` [m].
 oracles::StuckParticle displace(oracles::StuckParticle stuck, Eigen::Index k, double displacement) {
   if (k < 3)
     stuck.x[k] += displacement;
@@ -148,7 +152,8 @@ Estimate modulus(double young, double side, const Eigen::Vector2d& strain) {
     double sum = 0;
     for (const double e : {size, -size})
       sum += energy_of_cell(
-          young, side, Eigen::Matrix2d(Eigen::Vector2d(1 + e * strain[0], 1 + e * strain[1]).asDiagonal()));
+          young, side,
+          Eigen::Matrix2d(Eigen::Vector2d(1 + e * strain[0], 1 + e * strain[1]).asDiagonal()));
     return sum / (size * size);
   };
   const double wide = curvature(2e-3), narrow = curvature(1e-3);
@@ -178,9 +183,9 @@ Table bending_modes_agree() {
     const auto differences = oracles::theta_gradient_differences(hinges[i].x);
     compare_worst(answers, numbered("as printed and by autodiff, hinge", i),
                   pair_up(u.value, u.uncertainty, autodiff.value, autodiff.uncertainty, -1));
-    compare_worst(
-        answers, numbered("by autodiff and by differences, hinge", i),
-        pair_up(autodiff.value, autodiff.uncertainty, differences.value, differences.uncertainty, 1));
+    compare_worst(answers, numbered("by autodiff and by differences, hinge", i),
+                  pair_up(autodiff.value, autodiff.uncertainty, differences.value,
+                          differences.uncertainty, 1));
   }
   return answers;
 }
@@ -191,11 +196,14 @@ Table bending_forces_agree() {
   for (std::size_t i = 0; i < hinges.size(); ++i) {
     const auto force = oracles::bending_elastic_50(hinges[i]),
                gradient = oracles::energy_gradient_autodiff(hinges[i]);
-    const auto damping = oracles::bending_damping_50(hinges[i]), from_power = damping_from_power(hinges[i]);
-    compare_worst(answers, numbered("elastic, hinge", i),
-                  pair_up(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
-    compare_worst(answers, numbered("damping, hinge", i),
-                  pair_up(damping.value, damping.uncertainty, from_power.value, from_power.uncertainty, 1));
+    const auto damping = oracles::bending_damping_50(hinges[i]),
+               from_power = damping_from_power(hinges[i]);
+    compare_worst(
+        answers, numbered("elastic, hinge", i),
+        pair_up(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
+    compare_worst(
+        answers, numbered("damping, hinge", i),
+        pair_up(damping.value, damping.uncertainty, from_power.value, from_power.uncertainty, 1));
   }
   return answers;
 }
@@ -208,12 +216,12 @@ Table bending_derivatives_agree() {
                by_differences = oracles::bending_elastic_derivative_differences(hinges[i]);
     const auto all = oracles::bending_force_derivative_autodiff(hinges[i]),
                all_by_differences = oracles::bending_force_derivative_differences(hinges[i]);
-    compare_worst(
-        answers, numbered("elastic, hinge", i),
-        pair_up(elastic.value, elastic.uncertainty, by_differences.value, by_differences.uncertainty));
-    compare_worst(
-        answers, numbered("elastic and damping, hinge", i),
-        pair_up(all.value, all.uncertainty, all_by_differences.value, all_by_differences.uncertainty));
+    compare_worst(answers, numbered("elastic, hinge", i),
+                  pair_up(elastic.value, elastic.uncertainty, by_differences.value,
+                          by_differences.uncertainty));
+    compare_worst(answers, numbered("elastic and damping, hinge", i),
+                  pair_up(all.value, all.uncertainty, all_by_differences.value,
+                          all_by_differences.uncertainty));
   }
   return answers;
 }
@@ -224,8 +232,9 @@ Table spring_forces_agree() {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto force = oracles::spring_elastic_50(list[i]),
                gradient = oracles::spring_energy_gradient_autodiff(list[i]);
-    compare_worst(answers, numbered("force and gradient of the energy, spring", i),
-                  pair_up(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
+    compare_worst(
+        answers, numbered("force and gradient of the energy, spring", i),
+        pair_up(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
     const auto derivative = oracles::spring_force_derivative_autodiff(list[i]);
     Pairs pairs;
     for (Eigen::Index row = 0; row < 6; ++row)

@@ -30,10 +30,13 @@ using oracles::Polynomial;
 using oracles::Whole;
 
 constexpr std::array<std::pair<Features, const char*>, 2> features{
-    {{Features::vertex_and_triangle, "vertex and triangle"}, {Features::edge_and_edge, "edge and edge"}}};
+    {{Features::vertex_and_triangle, "vertex and triangle"},
+     {Features::edge_and_edge, "edge and edge"}}};
 
 /// Whole numbers from -largest to largest, each as likely as the others.
-double whole_in(Random& random, int largest) { return std::floor(random.uniform(-largest, largest + 1)); }
+double whole_in(Random& random, int largest) {
+  return std::floor(random.uniform(-largest, largest + 1));
+}
 
 /// Four points on a grid: many of them coincide, line up or lie in a plane.
 FourPoints grid_points(Random& random, int largest) {
@@ -106,7 +109,8 @@ Estimate edge_distance(const FourPoints& x) {
     else
       high -= third;
   }
-  const long double least = std::min({to_second_edge(x, low), to_second_edge(x, 0), to_second_edge(x, 1)});
+  const long double least =
+      std::min({to_second_edge(x, low), to_second_edge(x, 0), to_second_edge(x, 1)});
   return {double(least), 4 * epsilon * double(least) + 1e-9 * epsilon};
 }
 
@@ -119,7 +123,8 @@ Table crossing_times_agree() {
       Random random(unsigned(841 + largest));
       int by_roots = 0, by_halving = 0, contradictions = 0;
       for (int k = 0; k < 600; ++k) {
-        const auto motion = oracles::exact_motion(grid_points(random, 9), grid_points(random, largest));
+        const auto motion =
+            oracles::exact_motion(grid_points(random, 9), grid_points(random, largest));
         const oracles::MeetDecision seen = oracles::decide_by_subdivision(kind, motion, 8);
         if (seen == oracles::MeetDecision::unclear) continue;
         const bool ever = oracles::ever_meet(kind, motion);
@@ -153,7 +158,8 @@ Table polynomial_roots_agree() {
     within.erase(std::unique(within.begin(), within.end()), within.end());
     const std::vector<oracles::Root> found = oracles::roots_within(product);
     const std::string name = "product " + std::to_string(k + 1);
-    compare_exact(answers, name + ": roots between 0 and 1", double(found.size()), double(within.size()));
+    compare_exact(answers, name + ": roots between 0 and 1", double(found.size()),
+                  double(within.size()));
     int signs = 0, expected = 0;  // of all factors at all roots
     for (std::size_t i = 0; i < std::min(found.size(), within.size()); ++i)
       for (std::size_t j = 0; j < roots.size(); ++j) {
@@ -173,7 +179,9 @@ Table crossings_agree() {
     int by_sweep = 0, by_pairs = 0, by_parting = 0, contradictions = 0;
     for (int k = 0; k < 60; ++k) {
       const PerParticle3 x = six_triangles(random);
-      const auto triangle = [&](int t) { return Corners3{x.col(3 * t), x.col(3 * t + 1), x.col(3 * t + 2)}; };
+      const auto triangle = [&](int t) {
+        return Corners3{x.col(3 * t), x.col(3 * t + 1), x.col(3 * t + 2)};
+      };
       const auto found = oracles::exact_crossings(
           x, {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}, {12, 13, 14}, {15, 16, 17}});
       for (int s = 0; s < 6; ++s)
@@ -206,14 +214,18 @@ Table sides_agree() {
     for (long i = -3; i <= 13; ++i)
       for (long j = -1; j <= 10; ++j)
         for (const long k : {prism.low - 1, prism.low, prism.low + 1, prism.high}) {
-          const oracles::Side side = oracles::side_of(surface, Vector3(double(i), double(j), double(k)));
-          const int one = side == oracles::Side::inside ? 1 : side == oracles::Side::outside ? -1 : 0;
+          const oracles::Side side =
+              oracles::side_of(surface, Vector3(double(i), double(j), double(k)));
+          const int one = side == oracles::Side::inside    ? 1
+                          : side == oracles::Side::outside ? -1
+                                                           : 0;
           const int other = oracles::inside_prism(prism, {i, j, k});
           ++by_segments[std::size_t(one + 1)];
           ++by_turns[std::size_t(other + 1)];
           contradictions += one != other;
         }
-    const std::string name = "prism from " + std::to_string(prism.low) + " to " + std::to_string(prism.high);
+    const std::string name =
+        "prism from " + std::to_string(prism.low) + " to " + std::to_string(prism.high);
     compare_exact(answers, name + ": points inside", by_segments[2], by_turns[2]);
     compare_exact(answers, name + ": points on the surface", by_segments[1], by_turns[1]);
     compare_exact(answers, name + ": contradictions, and none", contradictions, 0);
@@ -221,8 +233,8 @@ Table sides_agree() {
   return answers;
 }
 
-// A vertex and a triangle in 50 digits and in extended precision; two edges in 50 digits and by cutting in
-// thirds.
+// A vertex and a triangle in 50 digits and in extended precision; two edges in 50 digits and by
+// cutting in thirds.
 Table distances_agree() {
   Table answers = no_answers();
   Random random(863);

@@ -37,7 +37,8 @@ std::vector<std::pair<std::string, Oscillator>> oscillators() {
           {"zeta .003", {840, .17, 1.3, 11}}};
 }
 
-/// One step of the scheme's lines as printed, on x'' = -k x - c x', with numbers and no algebra. state: x, v.
+/// One step of the scheme's lines as printed, on x'' = -k x - c x', with numbers and no
+/// algebra. state: x, v.
 template <class Scalar>
 std::array<Scalar, 2> step_by_lines(Scheme scheme, const Oscillator& o, double h,
                                     const std::array<Scalar, 2>& state) {
@@ -50,7 +51,8 @@ std::array<Scalar, 2> step_by_lines(Scheme scheme, const Oscillator& o, double h
   };
   const Scalar v_move = scheme == Scheme::mixed ? explicit_half(x, v) : implicit_half(x, v);
   const Scalar x_next = x + 2 * half * v_move;
-  if (scheme == Scheme::central_newmark) return {x_next, Scalar(v_move - half * (k * x_next + c * v_move))};
+  if (scheme == Scheme::central_newmark)
+    return {x_next, Scalar(v_move - half * (k * x_next + c * v_move))};
   return {x_next, implicit_half(x_next, explicit_half(x, v))};
 }
 
@@ -63,7 +65,8 @@ Eigen::Matrix2d matrix_by_lines(Scheme scheme, const Oscillator& o, double h) {
   return matrix;
 }
 
-/// |1 + z + ... | of a Runge-Kutta method as the textbooks print its stages on y' = z y, from y = 1.
+/// |1 + z + ... | of a Runge-Kutta method as the textbooks print its stages on y' =
+/// z y, from y = 1.
 double growth_by_stages(int order, Complex z) {
   if (order == 1) return std::abs(1.0 + z);
   if (order == 2) return std::abs(1.0 + z * (1.0 + z / 2.0));
@@ -90,8 +93,8 @@ std::vector<oracles::ForecastInput> forecast_inputs() {
   return list;
 }
 
-/// By the principle that Coulomb's law rests on: of all frictional impulses within the cone take the one that
-/// leaves the least sliding speed, found by halving the angle's bracket, in doubles.
+/// By the principle that Coulomb's law rests on: of all frictional impulses within the cone take
+/// the one that leaves the least sliding speed, found by halving the angle's bracket, in doubles.
 Vector3 forecast_by_least_sliding(const oracles::ForecastInput& input) {
   const Vector3& N = input.normal;
   const double gap = input.phi + input.tau * (input.v - input.v_object).dot(N);
@@ -104,8 +107,10 @@ Vector3 forecast_by_least_sliding(const oracles::ForecastInput& input) {
   const auto impulse = [&](double angle) {
     return Vector3(most * (std::cos(angle) * one + std::sin(angle) * other));
   };
-  const auto change = [&](double angle) {  // of the remaining speed with the angle, up to a positive factor
-    return (sliding + impulse(angle)).dot(Vector3(-std::sin(angle) * one + std::cos(angle) * other));
+  // of the remaining speed with the angle, up to a positive factor
+  const auto change = [&](double angle) {
+    return (sliding + impulse(angle))
+        .dot(Vector3(-std::sin(angle) * one + std::cos(angle) * other));
   };
   double start = std::atan2(-sliding.dot(other), -sliding.dot(one)) - .4, end = start + .9;
   for (int i = 0; i < 80; ++i) {
@@ -121,11 +126,13 @@ std::vector<oracles::LimitedSpringInput> limited_spring_inputs() {
   std::vector<oracles::LimitedSpringInput> list;
   for (const bool is_long : {true, true, false, false}) {
     const double rest = random.uniform(.02, .3), h = random.uniform(.004, .02);
-    const Vector3 x = random.vectors(1, .5).col(0), d = rest * random.vectors(1, 1).col(0).normalized();
+    const Vector3 x = random.vectors(1, .5).col(0),
+                  d = rest * random.vectors(1, 1).col(0).normalized();
     const Vector3 across = random.vectors(1, 1).col(0).cross(d);
     const Vector3 gain = (is_long ? .2 : -.2) * d / h + (is_long ? .3 : .02) * across / h;
-    list.push_back({x, x + d, Vector3(.3, -.2, .1), Vector3(.3, -.2, .1) + gain, random.uniform(20, 900),
-                    list.size() % 2 == 0 ? random.uniform(20, 900) : 0, h, .9 * rest, 1.1 * rest});
+    list.push_back({x, x + d, Vector3(.3, -.2, .1), Vector3(.3, -.2, .1) + gain,
+                    random.uniform(20, 900), list.size() % 2 == 0 ? random.uniform(20, 900) : 0, h,
+                    .9 * rest, 1.1 * rest});
   }
   return list;
 }
@@ -145,12 +152,14 @@ Table oscillators_agree() {
   Table answers = no_answers();
   const std::array<double, 2> times{.37, 2.9};
   for (const auto& [name, o] : oscillators()) {
-    const oracles::RightHandSide rhs = [&o = o](double, std::span<const double> y, std::span<double> dy) {
+    const oracles::RightHandSide rhs = [&o = o](double, std::span<const double> y,
+                                                std::span<double> dy) {
       dy[0] = y[1];
       dy[1] = -o.stiffness * y[0] - o.damping * y[1];
     };
     const std::array<double, 2> start{o.x0, o.v0};
-    const oracles::ReferenceSolution solution = oracles::reference_solution(rhs, start, 0, times, 1e-13);
+    const oracles::ReferenceSolution solution =
+        oracles::reference_solution(rhs, start, 0, times, 1e-13);
     for (const std::size_t i : {0, 1}) {
       const oracles::OscillatorEstimate exact = oracles::oscillator_at(o, times[i]);
       compare_worst(answers, name,
@@ -163,14 +172,15 @@ Table oscillators_agree() {
 
 Table verlet_oscillators_agree() {
   Table answers = no_answers();
-  for (const auto& [o, h] :
-       {std::pair{Oscillator{29, 0, .7, -1.3}, .041}, std::pair{Oscillator{3.1, 0, -2.3, .6}, .93}}) {
+  for (const auto& [o, h] : {std::pair{Oscillator{29, 0, .7, -1.3}, .041},
+                             std::pair{Oscillator{3.1, 0, -2.3, .6}, .93}}) {
     const oracles::OscillatorEstimate closed = oracles::verlet_oscillator(o, h, 1000);
     for (const auto& [scheme, name] : schemes) {
       std::array<oracles::Digits50, 2> state{o.x0, o.v0};
       for (int i = 0; i < 1000; ++i) state = step_by_lines(scheme, o, h, state);
-      compare_worst(answers, std::string(name) + ", thousand steps of " + std::to_string(h) + " s",
-                    {{closed.x, oracles::rounded(state[0])}, {closed.v, oracles::rounded(state[1])}});
+      compare_worst(
+          answers, std::string(name) + ", thousand steps of " + std::to_string(h) + " s",
+          {{closed.x, oracles::rounded(state[0])}, {closed.v, oracles::rounded(state[1])}});
     }
   }
   return answers;
@@ -178,13 +188,14 @@ Table verlet_oscillators_agree() {
 
 Table step_matrices_agree() {
   Table answers = no_answers();
-  for (const auto& [o, h] :
-       {std::pair{Oscillator{37.3, 2.9, .7, -1.9}, .11}, std::pair{Oscillator{.83, 7.1, 2.3, .4}, 1.7}})
+  for (const auto& [o, h] : {std::pair{Oscillator{37.3, 2.9, .7, -1.9}, .11},
+                             std::pair{Oscillator{.83, 7.1, 2.3, .4}, 1.7}})
     for (const auto& [scheme, name] : schemes) {
       const oracles::OscillatorEstimate stepped = oracles::stepped_oscillator(scheme, o, h);
       const auto lines = step_by_lines<oracles::Digits50>(scheme, o, h, {o.x0, o.v0});
-      compare_worst(answers, std::string(name) + ", h " + std::to_string(h),
-                    {{stepped.x, oracles::rounded(lines[0])}, {stepped.v, oracles::rounded(lines[1])}});
+      compare_worst(
+          answers, std::string(name) + ", h " + std::to_string(h),
+          {{stepped.x, oracles::rounded(lines[0])}, {stepped.v, oracles::rounded(lines[1])}});
     }
   return answers;
 }
@@ -200,7 +211,8 @@ Table stable_steps_agree() {
       const auto determinant = [&o, scheme = scheme](double h) {
         return (matrix_by_lines(scheme, o, h) + Eigen::Matrix2d::Identity()).determinant();
       };
-      Estimate root = oracles::bracketed_root(determinant, .7 * closed.value, 1.4 * closed.value, 0);
+      Estimate root =
+          oracles::bracketed_root(determinant, .7 * closed.value, 1.4 * closed.value, 0);
       root.uncertainty += 32 * epsilon * root.value;
       const std::string point = std::string(name) + ", k " + std::to_string(o.stiffness);
       compare(answers, point + ", closed form and lines of the scheme", closed, root);
@@ -217,14 +229,16 @@ Table falls_agree() {
   for (const double t : {.41, 1.3}) {
     const oracles::Launch launch{{.3, -2, 5}, {1.1, .4, -.7}, {.2, .5, -9.80665}};
     const oracles::FallEstimate fall = oracles::free_fall(launch, t);
-    const oracles::RightHandSide rhs = [&](double, std::span<const double> y, std::span<double> dy) {
+    const oracles::RightHandSide rhs = [&](double, std::span<const double> y,
+                                           std::span<double> dy) {
       for (int k = 0; k < 3; ++k) {
         dy[std::size_t(k)] = y[std::size_t(k + 3)];
         dy[std::size_t(k + 3)] = launch.g[k];
       }
     };
     const std::array<double, 6> start{.3, -2, 5, 1.1, .4, -.7};
-    const auto solution = oracles::reference_solution(rhs, start, 0, std::array<double, 1>{t}, 1e-13);
+    const auto solution =
+        oracles::reference_solution(rhs, start, 0, std::array<double, 1>{t}, 1e-13);
     Pairs pairs;
     for (int k = 0; k < 3; ++k) {
       pairs.push_back({{fall.x[k], fall.x_uncertainty},
@@ -242,19 +256,21 @@ Table rotation_lengths_agree() {
   for (const auto& [pair, omega] : {std::pair{oracles::SpringPair{41, .13, .7, .05, .09}, 7.3},
                                     std::pair{oracles::SpringPair{9, 2.1, 1.6, .4, .23}, 1.9}}) {
     const double mass = pair.mass_a * pair.mass_b / (pair.mass_a + pair.mass_b);
-    const auto surplus = [&, pair = pair,
-                          omega = omega](double length) {  // of the spring over what the turn needs [N]
+    // of the spring over what the turn needs [N]
+    const auto surplus = [&, pair = pair, omega = omega](double length) {
       return pair.young * pair.area / pair.rest_length * (length / pair.rest_length - 1) -
              mass * omega * omega * length;
     };
     Estimate root = oracles::bracketed_root(surplus, pair.rest_length, 50 * pair.rest_length, 0);
     root.uncertainty += 32 * epsilon * root.value;
-    compare(answers, "omega " + std::to_string(omega), oracles::steady_rotation_length(pair, omega), root);
+    compare(answers, "omega " + std::to_string(omega), oracles::steady_rotation_length(pair, omega),
+            root);
   }
   return answers;
 }
 
-// The product of the two factors is exp(-c h), and their sum is the trace of the step from two starts.
+// The product of the two factors is exp(-c h), and their sum is the trace of the step
+// from two starts.
 Table amplification_factors_agree() {
   Table answers = no_answers();
   for (const auto& [name, o] : oscillators()) {
@@ -273,7 +289,8 @@ Table amplification_factors_agree() {
       const oracles::Factors factors = oracles::step_factors(method, o, h);
       Pairs pairs;
       for (const std::size_t i : {0, 1})
-        pairs.push_back({{std::abs(factors[i]), off}, {growth_by_stages(order, std::log(exact[i])), off}});
+        pairs.push_back(
+            {{std::abs(factors[i]), off}, {growth_by_stages(order, std::log(exact[i])), off}});
       compare_worst(answers, name + ", " + method, pairs);
     }
   }
@@ -287,15 +304,20 @@ Table runge_kutta_limits_agree() {
       const double omega = 5.3;
       const std::vector<Complex> rates = oracles::oscillator_rates(omega, zeta);
       const Estimate limit = oracles::largest_runge_kutta_step(order, rates);
-      // the rates of the same oscillator as the eigenvalues of its first-order system, the growth by stages
-      const std::vector<Complex> others = oracles::system_rates(
-          Eigen::MatrixXd::Constant(1, 1, omega * omega), Eigen::MatrixXd::Constant(1, 1, 2 * zeta * omega));
+      // the rates of the same oscillator as the eigenvalues of its first-order system, the
+      // growth by stages
+      const std::vector<Complex> others =
+          oracles::system_rates(Eigen::MatrixXd::Constant(1, 1, omega * omega),
+                                Eigen::MatrixXd::Constant(1, 1, 2 * zeta * omega));
       const auto excess = [&](double h) {
-        return std::max(growth_by_stages(order, h * others[0]), growth_by_stages(order, h * others[1])) - 1;
+        return std::max(growth_by_stages(order, h * others[0]),
+                        growth_by_stages(order, h * others[1])) -
+               1;
       };
       Estimate root = oracles::bracketed_root(excess, .6 * limit.value, 1.3 * limit.value, 0);
       root.uncertainty += 1e3 * epsilon * root.value;
-      compare(answers, "order " + std::to_string(order) + ", zeta " + std::to_string(zeta), limit, root);
+      compare(answers, "order " + std::to_string(order) + ", zeta " + std::to_string(zeta), limit,
+              root);
     }
   return answers;
 }
@@ -310,9 +332,11 @@ Table forecasts_agree() {
         inputs[i].v.norm() + inputs[i].v_object.norm() + std::abs(inputs[i].phi) / inputs[i].tau;
     Pairs pairs;  // the angle is found to a rounding of the turn, the normal is 1 to a rounding
     for (int k = 0; k < 3; ++k)
-      pairs.push_back({{answer.v[k], oracles::one_rounding(answer.v[k])}, {other[k], 32 * epsilon * speeds}});
-    compare_worst(answers, "particle " + std::to_string(i + 1) + ", mu " + std::to_string(inputs[i].friction),
-                  pairs);
+      pairs.push_back(
+          {{answer.v[k], oracles::one_rounding(answer.v[k])}, {other[k], 32 * epsilon * speeds}});
+    compare_worst(
+        answers, "particle " + std::to_string(i + 1) + ", mu " + std::to_string(inputs[i].friction),
+        pairs);
   }
   return answers;
 }
@@ -325,8 +349,8 @@ Table limited_springs_agree() {
     const oracles::LimitedSpringAnswer answer = oracles::limited_spring(s);
     const Vector3 along = (s.x_b - s.x_a).normalized();
     const double sum = s.inverse_mass_a + s.inverse_mass_b, speed = (s.v_b - s.v_a).dot(along);
-    const double stop =
-        (s.x_b - s.x_a).norm() / s.step / sum + speed / sum;  // brings both ends together along d
+    // brings both ends together along d
+    const double stop = (s.x_b - s.x_a).norm() / s.step / sum + speed / sum;
     const double low = speed > 0 ? -stop : 0,
                  high = speed > 0 ? 0 : 2 * (s.longest / s.step) / sum + std::abs(stop);
     const Estimate impulse =

@@ -24,9 +24,9 @@ struct Tip {
   long double curvature, drop, reach;
 };
 
-/// theta'' = -(weight (1 - s) + load) cos(theta) from theta = 0 at the clamp, by its power series about each
-/// of sixty places, in extended precision: no step-size control, no stages, nothing of GSL. weight = rho_A g
-/// L^3/B, load = P L^2/B.
+/// theta'' = -(weight (1 - s) + load) cos(theta) from theta = 0 at the clamp, by its power series
+/// about each of sixty places, in extended precision: no step-size control, no stages, nothing of
+/// GSL. weight = rho_A g L^3/B, load = P L^2/B.
 Tip bent_by_series(double weight, double load, long double curvature) {
   constexpr int places = 60;
   constexpr long double ds = 1.0L / places;
@@ -62,8 +62,8 @@ struct BentTip {
   Estimate drop, reach;
 };
 
-/// The tip without curvature, by bisection of the clamp's. The series err by far less than 1e-15, the answer
-/// is rounded.
+/// The tip without curvature, by bisection of the clamp's. The series err by far less than 1e-15,
+/// the answer is rounded.
 BentTip bent_strip(double weight, double load) {
   long double low = 0, high = weight / 2 + load;
   for (int i = 0; i < 70; ++i) {
@@ -74,8 +74,8 @@ BentTip bent_strip(double weight, double load) {
   return {{double(tip.drop), 1e-15}, {double(tip.reach), 1e-15}};
 }
 
-/// A patch of nine by nine cells of rectangles split as `rises` says, all of whose points stay on the
-/// cylinder; the hinges of a block of 2 x 2 cells in its middle count.
+/// A patch of nine by nine cells of rectangles split as `rises` says, all of whose points stay on
+/// the cylinder; the hinges of a block of 2 x 2 cells in its middle count.
 oracles::PlaneSheet patch_of(const oracles::SplitBlock& block) {
   constexpr int cells = 9, first = 4;
   oracles::PlaneSheet sheet;
@@ -101,27 +101,33 @@ oracles::PlaneSheet patch_of(const oracles::SplitBlock& block) {
       else
         add(a, c, b, d, inside);  // a b d and b c d
       if (i + 1 < cells)
-        add(rises(i, j) ? a : d, rises(i + 1, j) ? point(i + 2, j + 1) : point(i + 2, j), b, c, inside);
+        add(rises(i, j) ? a : d, rises(i + 1, j) ? point(i + 2, j + 1) : point(i + 2, j), b, c,
+            inside);
       if (j + 1 < cells)
-        add(rises(i, j + 1) ? point(i + 1, j + 2) : point(i, j + 2), rises(i, j) ? a : b, d, c, inside);
+        add(rises(i, j + 1) ? point(i + 1, j + 2) : point(i, j + 2), rises(i, j) ? a : b, d, c,
+            inside);
     }
   sheet.held.assign(std::size_t(sheet.points.cols()), 1);
   return sheet;
 }
 
 /// The slope of the map that climbs from eps at -t^ to tau at tau, integrated: y = f, or f and f'.
-double integrate(const oracles::RightHandSide& rhs, const std::vector<double>& start, double from, double to,
-                  double& uncertainty) {
-  const auto solution = oracles::reference_solution(rhs, start, from, std::array<double, 1>{to}, 1e-13);
+double integrate(const oracles::RightHandSide& rhs, const std::vector<double>& start, double from,
+                 double to, double& uncertainty) {
+  const auto solution =
+      oracles::reference_solution(rhs, start, from, std::array<double, 1>{to}, 1e-13);
   uncertainty = solution.uncertainty[0];
   return solution.values[0][0];
 }
 
-/// f' = p (f - eps)/(phi + t^): the power law as a differential equation, solved back from f(tau) = tau.
+/// f' = p (f - eps)/(phi + t^): the power law as a differential equation, solved back
+/// from f(tau) = tau.
 Estimate power_map_by_equation(const oracles::Band& band, double phi) {
-  const double whole = band.reach + band.deepest, climb = band.reach - band.nearest, p = whole / climb;
+  const double whole = band.reach + band.deepest, climb = band.reach - band.nearest,
+               p = whole / climb;
   // backwards from f(tau) = tau, with s = tau - phi growing
-  const oracles::RightHandSide rhs = [&](double s, std::span<const double> y, std::span<double> dy) {
+  const oracles::RightHandSide rhs = [&](double s, std::span<const double> y,
+                                         std::span<double> dy) {
     dy[0] = -p * (y[0] - band.nearest / whole) / (1 - s);
   };
   double off = 0;
@@ -131,21 +137,23 @@ Estimate power_map_by_equation(const oracles::Band& band, double phi) {
 
 /// f'' is 0 and then (1 - m)/w; m such that f climbs from eps to tau, by bracketing.
 Estimate blend_map_by_equation(const oracles::Band& band, double phi) {
-  const double whole = band.reach + band.deepest, w = (band.reach - band.nearest) / 2 / whole, bend = 1 - w;
+  const double whole = band.reach + band.deepest, w = (band.reach - band.nearest) / 2 / whole,
+               bend = 1 - w;
   double off = 0;
   const auto climbed = [&](double m, double to) {
     // in two parts, since the slope's slope jumps between them
     const auto straight = std::min(to, bend);
     const double there = band.nearest / whole + m * straight;
     if (to <= bend) return there;
-    const oracles::RightHandSide rhs = [&](double, std::span<const double> y, std::span<double> dy) {
+    const oracles::RightHandSide rhs = [&](double, std::span<const double> y,
+                                           std::span<double> dy) {
       dy[0] = y[1];
       dy[1] = (1 - m) / w;
     };
     return integrate(rhs, {there, m}, bend, to, off);
   };
-  const Estimate m =
-      oracles::bracketed_root([&](double slope) { return climbed(slope, 1) - band.reach / whole; }, -3, 3, 0);
+  const Estimate m = oracles::bracketed_root(
+      [&](double slope) { return climbed(slope, 1) - band.reach / whole; }, -3, 3, 0);
   const double f = climbed(m.value, (phi + band.deepest) / whole);
   return {f * whole, (off + m.uncertainty + 1e-14) * whole};
 }
@@ -194,7 +202,8 @@ Table rigidities_agree() {
               {oracles::cylinder_rigidity(periodic, angle), off},
               {oracles::forced_cylinder_rigidity(patch, angle), off});
   }
-  const auto jack = oracles::split_rectangles({1, 1, 2, 2, [](int i, int j) { return (i + j) % 2 == 0; }});
+  const auto jack =
+      oracles::split_rectangles({1, 1, 2, 2, [](int i, int j) { return (i + j) % 2 == 0; }});
   for (const double angle : {.1, .9, 2.2})  // criss-cross is union jack, turned by 45 degrees
     compare(answers, "relaxed union jack and criss-cross, at " + std::to_string(angle),
             {oracles::cylinder_rigidity(oracles::relaxed_rigidity(jack), angle), off},
@@ -209,16 +218,19 @@ Table depth_maps_agree() {
   for (const oracles::Band& band : {oracles::Band{.001, .02, .05}, oracles::Band{.003, .011, .004}})
     for (const double part : {.12, .55, .93}) {
       const double phi = -band.deepest + part * (band.reach + band.deepest);
-      const std::string name = "t^ " + std::to_string(band.deepest) + ", phi " + std::to_string(phi);
-      compare(answers, "power, " + name, oracles::power_map(band, phi), power_map_by_equation(band, phi));
-      compare(answers, "blend, " + name, oracles::blend_map(band, phi), blend_map_by_equation(band, phi));
+      const std::string name =
+          "t^ " + std::to_string(band.deepest) + ", phi " + std::to_string(phi);
+      compare(answers, "power, " + name, oracles::power_map(band, phi),
+              power_map_by_equation(band, phi));
+      compare(answers, "blend, " + name, oracles::blend_map(band, phi),
+              blend_map_by_equation(band, phi));
     }
   return answers;
 }
 
-// The matrix of second differences, whose eigenvalues are 2 - 2 cos(k pi/(n + 1)); a companion matrix, whose
-// are the roots chosen; a system whose solution is chosen; a matrix made of two turns and chosen singular
-// values.
+// The matrix of second differences, whose eigenvalues are 2 - 2 cos(k pi/(n + 1)); a companion
+// matrix, whose are the roots chosen; a system whose solution is chosen; a matrix made of two turns
+// and chosen singular values.
 Table dense_algebra_agrees() {
   Table answers = no_answers();
   Random random(839);
@@ -229,12 +241,13 @@ Table dense_algebra_agrees() {
     const Eigen::VectorXd values = oracles::symmetric_eigenvalues(K);
     std::vector<std::pair<Estimate, Estimate>> pairs;
     for (int k = 1; k <= n; ++k)
-      pairs.push_back({{values[k - 1], 20 * n * epsilon},
-                       {2 - 2 * std::cos(k * pi / (n + 1)), 4 * epsilon}});
+      pairs.push_back(
+          {{values[k - 1], 20 * n * epsilon}, {2 - 2 * std::cos(k * pi / (n + 1)), 4 * epsilon}});
     compare_worst(answers, "second differences of " + std::to_string(n), pairs);
     const Eigen::MatrixXd A = K + .1 * Eigen::MatrixXd::Ones(n, n);
     const Eigen::VectorXd x = random.vectors(n, 1).row(0).transpose();
-    const Eigen::VectorXd found = oracles::solve_linear(A, A * x), again = oracles::solve_symmetric(A, A * x);
+    const Eigen::VectorXd found = oracles::solve_linear(A, A * x),
+                          again = oracles::solve_symmetric(A, A * x);
     pairs.clear();  // the condition of these is below 50
     for (int k = 0; k < n; ++k) {
       pairs.push_back({{found[k], 200 * n * epsilon}, {x[k], 0}});
@@ -246,21 +259,24 @@ Table dense_algebra_agrees() {
        {std::array<double, 3>{-.7, .4, 1.9}, std::array<double, 3>{-3.1, -1.2, .6}}) {
     Eigen::Matrix3d companion;
     companion << roots[0] + roots[1] + roots[2],
-        -(roots[0] * roots[1] + roots[1] * roots[2] + roots[2] * roots[0]), roots[0] * roots[1] * roots[2], 1,
-        0, 0, 0, 1, 0;
+        -(roots[0] * roots[1] + roots[1] * roots[2] + roots[2] * roots[0]),
+        roots[0] * roots[1] * roots[2], 1, 0, 0, 0, 1, 0;
     Eigen::VectorXd found = oracles::eigenvalues(companion).real();
     std::sort(found.begin(), found.end());
     std::vector<std::pair<Estimate, Estimate>> pairs;
-    for (int k = 0; k < 3; ++k) pairs.push_back({{found[k], 300 * epsilon}, {roots[std::size_t(k)], 0}});
+    for (int k = 0; k < 3; ++k)
+      pairs.push_back({{found[k], 300 * epsilon}, {roots[std::size_t(k)], 0}});
     compare_worst(answers, "companion of root " + std::to_string(roots[0]), pairs);
   }
   for (const Vector3& values : {Vector3(3.7, 1.1, .2), Vector3(41, 6, 5)}) {
     const Vector3 from = random.vectors(1, 1).col(0), to = random.vectors(1, 1).col(0);
     const Eigen::Matrix3d U = oracles::rotation_between(from, to).toRotationMatrix();
-    // the axis of a turn by nearly half a circle is known as well as its half angle's cosine is large
+    // the axis of a turn by nearly half a circle is known as well as its half angle's
+    // cosine is large
     const double half = std::sqrt((1 + from.normalized().dot(to.normalized())) / 2);
     const Eigen::Matrix3d V = Eigen::AngleAxisd(1.1, from.normalized()).toRotationMatrix();
-    const oracles::SingularParts parts = oracles::singular_parts(U * values.asDiagonal() * V.transpose());
+    const oracles::SingularParts parts =
+        oracles::singular_parts(U * values.asDiagonal() * V.transpose());
     std::vector<std::pair<Estimate, Estimate>> pairs;
     for (int k = 0; k < 3; ++k) {
       pairs.push_back({{parts.values[k], 30 * epsilon * values[0]}, {values[k], 0}});

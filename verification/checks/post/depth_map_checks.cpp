@@ -13,17 +13,18 @@ namespace foldproof {
 namespace {
 
 const std::string roundings_reason =
-    "a handful of operations, each off by half an epsilon of its result; a power's exponent, at most 12 "
-    "here, magnifies the roundings of its base";
+    "a handful of operations, each off by half an epsilon of its result; a power's exponent, at "
+    "most 12 here, magnifies the roundings of its base";
 
-/// Bands from a tenth of a millimetre to a metre, with and without a least distance, shallow and deep.
+/// Bands from a tenth of a millimetre to a metre, with and without a least distance,
+/// shallow and deep.
 std::vector<DepthBand> bands() {
   Random random(307);
   std::vector<DepthBand> all;
   for (int k = 0; k < 40; ++k) {
     const double reach = random.log_uniform(1e-4, 1);
-    all.push_back(
-        {k % 3 == 0 ? 0 : random.uniform(0.01, 0.4) * reach, reach, random.uniform(0.3, 6) * reach});
+    all.push_back({k % 3 == 0 ? 0 : random.uniform(0.01, 0.4) * reach, reach,
+                   random.uniform(0.3, 6) * reach});
   }
   return all;
 }
@@ -38,8 +39,10 @@ Finding is_as_defined(const Subject&) {
       for (int k = 0; k <= 200; ++k) {
         const double phi = -band.deepest + (band.reach + band.deepest) * (k / 200.0);
         const oracles::Band same{band.nearest, band.reach, band.deepest};
-        const double exact = (map.name == "power" ? oracles::power_map : oracles::blend_map)(same, phi).value;
-        worst.observe(std::abs(map.at(band, phi) - exact) / (epsilon * (band.reach + band.deepest)));
+        const double exact =
+            (map.name == "power" ? oracles::power_map : oracles::blend_map)(same, phi).value;
+        worst.observe(std::abs(map.at(band, phi) - exact) /
+                      (epsilon * (band.reach + band.deepest)));
       }
     }
     measured.row(std::string(map.name), worst.value());
@@ -56,7 +59,8 @@ Finding ends_are_right(const Subject&) {
         deepest.observe(std::abs(map.at(band, -below * band.deepest) - band.nearest) /
                         (epsilon * band.reach));
       for (const double beyond : {1.0, 1.3, 900.0}) {  // those are not moved: not by a bit
-        const double phi = beyond * band.reach;  // divided, for a fused difference has the product's rounding
+        // divided, for a fused difference has the product's rounding
+        const double phi = beyond * band.reach;
         at_reach.observe(std::abs(map.at(band, phi) / phi - 1) * beyond / epsilon);
       }
     }
@@ -66,9 +70,11 @@ Finding ends_are_right(const Subject&) {
   return judge_worst(measured, 8, "phi + t^ at -t^ is off by a rounding of t^, at most 6 tau");
 }
 
-/// A convex map misses the slope 1 over the last h by its second derivative, largest at tau, times h/2.
+/// A convex map misses the slope 1 over the last h by its second derivative, largest at
+/// tau, times h/2.
 double bend_at_reach(const DepthMap& map, const DepthBand& band) {
-  const double depths = band.reach + band.deepest, band_width = band.reach - band.nearest, w = band_width / 2;
+  const double depths = band.reach + band.deepest, band_width = band.reach - band.nearest,
+               w = band_width / 2;
   return map.name == "power" ? (depths / band_width - 1) / depths
                              : (1 - (band_width - w / 2) / (depths - w / 2)) / w;
 }
@@ -83,10 +89,9 @@ Finding meets_the_identity_smoothly(const Subject&) {
     }
     measured.row(std::string(map.name), worst.value());
   }
-  return judge_worst(
-      measured, 1.001,
-      "Taylor's remainder over the last ten-thousandth of tau, and a rounding over that length, "
-      "1e-12 of a slope of 1 against 1e-5");
+  return judge_worst(measured, 1.001,
+                     "Taylor's remainder over the last ten-thousandth of tau, and a rounding over "
+                     "that length, 1e-12 of a slope of 1 against 1e-5");
 }
 
 /// Depths that fall, and, if they have to rise, depths that stay, of those given in rising order.
@@ -109,13 +114,14 @@ Finding order_is_kept(const Subject&) {
   }
   return judge_worst(
       measured, 0,
-      "f rises; of 500 steps over the band not one may fall, and for the blend none "
-      "may stay",
-      "The power law rises too, but its steps at the bottom can be smaller than a rounding of eps.");
+      "f rises; of 500 steps over the band not one may fall, and for the blend none may stay",
+      "The power law rises too, but its steps at the bottom can be smaller than a rounding of "
+      "eps.");
 }
 
 Finding compression_is_bounded(const Subject&) {
-  Table measured{{"case", ""}, {"compression over its bound", "1"}, {"compression by the power law", "1"}};
+  Table measured{
+      {"case", ""}, {"compression over its bound", "1"}, {"compression by the power law", "1"}};
   for (const DepthBand& band : bands()) {
     const double depths = band.reach + band.deepest, band_width = band.reach - band.nearest,
                  w = band_width / 2;
@@ -133,8 +139,8 @@ Finding compression_is_bounded(const Subject&) {
     measured.row(std::to_string(bound) + " is the bound", worst.value(), power.value());
   }
   return judge_worst(measured, "compression over its bound", 1 + 1e-12,
-                     "by construction the slope is nowhere below m; 1e-12 for roundings of differences a "
-                     "hundredth of the band apart");
+                     "by construction the slope is nowhere below m; 1e-12 for roundings of "
+                     "differences a hundredth of the band apart");
 }
 
 Finding senseless_bands_are_rejected(const Subject&) {
@@ -144,8 +150,8 @@ Finding senseless_bands_are_rejected(const Subject&) {
                                             {NAN, 0.2, 1},   {0, NAN, 1},      {0, 0.2, NAN}};
   Table measured{{"case", ""}, {"accepted", "1"}};
   for (const DepthBand& band : senseless) {
-    const std::string name = "eps " + std::to_string(band.nearest) + ", tau " + std::to_string(band.reach) +
-                             ", t^ " + std::to_string(band.deepest);
+    const std::string name = "eps " + std::to_string(band.nearest) + ", tau " +
+                             std::to_string(band.reach) + ", t^ " + std::to_string(band.deepest);
     double accepted = 1;
     try {
       check_band(band);
@@ -154,7 +160,8 @@ Finding senseless_bands_are_rejected(const Subject&) {
     }
     measured.row(name, accepted);
   }
-  return judge_worst(measured, 0, "0 <= eps < tau and t^ >= 0, all finite, or there is no such map");
+  return judge_worst(measured, 0,
+                     "0 <= eps < tau and t^ >= 0, all finite, or there is no such map");
 }
 
 }  // namespace
@@ -162,18 +169,20 @@ Finding senseless_bands_are_rejected(const Subject&) {
 std::vector<Check> depth_map_checks() {
   const std::string source = "BMF03 section 5.3";
   return {{"projection.map-is-as-defined",
-           "The power law and the blend are those that their conditions define.", source, is_as_defined},
+           "The power law and the blend are those that their conditions define.", source,
+           is_as_defined},
           {"projection.map-runs-from-eps-to-tau",
-           "Every map is eps from the deepest penetration down and phi from tau up.", source, ends_are_right},
-          {"projection.map-joins-smoothly", "The power law and the blend have slope 1 at tau.", source,
-           meets_the_identity_smoothly},
+           "Every map is eps from the deepest penetration down and phi from tau up.", source,
+           ends_are_right},
+          {"projection.map-joins-smoothly", "The power law and the blend have slope 1 at tau.",
+           source, meets_the_identity_smoothly},
           {"projection.map-preserves-order", "No map turns the order of two depths round.", source,
            order_is_kept},
           {"projection.blend-compression-is-bounded",
-           "The blend presses no depths together by more than (tau + t^ - w/2)/(tau - eps - w/2).", source,
-           compression_is_bounded},
-          {"projection.impossible-bands-are-rejected", "A band that no map can have is refused.", source,
-           senseless_bands_are_rejected}};
+           "The blend presses no depths together by more than (tau + t^ - w/2)/(tau - eps - w/2).",
+           source, compression_is_bounded},
+          {"projection.impossible-bands-are-rejected", "A band that no map can have is refused.",
+           source, senseless_bands_are_rejected}};
 }
 
 }  // namespace foldproof

@@ -17,8 +17,8 @@ namespace foldproof {
 namespace {
 
 const std::string tolerance_reason =
-    "points arrive within the tolerance of 1e-12 m; the same again for roundings of distances below a metre, "
-    "a few 1e-16 each";
+    "points arrive within the tolerance of 1e-12 m; the same again for roundings of distances "
+    "below a metre, a few 1e-16 each";
 constexpr double tolerance = 1e-12, twice = 2e-12;  // m
 
 std::string with(const ProjectionCase& specimen, const DepthMap& map) {
@@ -37,7 +37,8 @@ Finding lands_where_the_map_says(const Subject&) {
     for (const DepthMap& map : depth_maps()) {
       const FoldProjection projection = projection_by(std::string(map.name));
       const ProjectedCloth cloth = project_specimen(specimen, projection);
-      const PerParticle before = distances(specimen, specimen.x), after = distances(specimen, cloth.x);
+      const PerParticle before = distances(specimen, specimen.x),
+                        after = distances(specimen, cloth.x);
       Worst worst;
       for (Eigen::Index i = 0; i < before.size(); ++i)
         worst.observe(std::abs(after[i] - map.at(projection.band, before[i])));
@@ -51,7 +52,8 @@ Finding lands_where_the_map_says(const Subject&) {
 double outside_band(const PerParticle& before, const PerParticle& after, const DepthBand& band) {
   Worst worst;
   for (Eigen::Index i = 0; i < before.size(); ++i)
-    if (before[i] <= band.reach) worst.observe(std::max(band.nearest - after[i], after[i] - band.reach));
+    if (before[i] <= band.reach)
+      worst.observe(std::max(band.nearest - after[i], after[i] - band.reach));
   return worst.value();
 }
 
@@ -61,8 +63,9 @@ Finding ends_in_the_band(const Subject&) {
     for (const DepthMap& map : depth_maps()) {
       const FoldProjection projection = projection_by(std::string(map.name));
       const ProjectedCloth cloth = project_specimen(specimen, projection);
-      measured.row(with(specimen, map), outside_band(distances(specimen, specimen.x),
-                                                     distances(specimen, cloth.x), projection.band));
+      measured.row(with(specimen, map),
+                   outside_band(distances(specimen, specimen.x), distances(specimen, cloth.x),
+                                projection.band));
     }
   }
   return judge_worst(measured, twice, tolerance_reason);
@@ -78,10 +81,9 @@ Finding no_point_is_left_inside(const Subject&) {
       measured.row(with(specimen, map), double((distances(specimen, cloth.x).array() < 0).count()));
     }
   }
-  return judge_worst(
-      measured, 0,
-      "with eps = 0 too: arrived points lie on the outer side of f, so that not even a rounding "
-      "leaves one inside");
+  return judge_worst(measured, 0,
+                     "with eps = 0 too: arrived points lie on the outer side of f, so that not "
+                     "even a rounding leaves one inside");
 }
 
 /// What must be said of a point that was at phi and is now at `after` [m].
@@ -96,10 +98,12 @@ ProjectionOutcome expected_fate(const DepthMap& map, const FoldProjection& proje
 Finding senseless_ones_are_rejected(const Subject&) {
   Table measured{{"case", ""}, {"projections that mean nothing and are not refused", "1"}};
   const ProjectionCase specimen = two_balls();
-  const auto observe = [&](const std::string& name, const std::function<void(FoldProjection&)>& spoil) {
+  const auto observe = [&](const std::string& name,
+                           const std::function<void(FoldProjection&)>& spoil) {
     FoldProjection projection = projection_by("plain");
     spoil(projection);
-    measured.row(name, rejection_message([&] { project_specimen(specimen, projection); }).empty() ? 1 : 0);
+    measured.row(
+        name, rejection_message([&] { project_specimen(specimen, projection); }).empty() ? 1 : 0);
   };
   for (const double wrong : {0.0, -1e-9, double(NAN), double(INFINITY)})
     observe("tolerance " + std::to_string(wrong), [&](FoldProjection& p) { p.tolerance = wrong; });
@@ -120,12 +124,13 @@ Finding one_move_is_enough(const Subject&) {
     projection.tolerance = 1e-9;
     const ProjectedCloth cloth = project_specimen(specimen, projection);
     measured.row(with(specimen, map), cloth.count(ProjectionOutcome::unfinished));
-    measured.row(
-        with(specimen, map) + ", questions",
-        std::abs(double(cloth.object_queries - cloth.x.cols() - cloth.count(ProjectionOutcome::moved))));
+    measured.row(with(specimen, map) + ", questions",
+                 std::abs(double(cloth.object_queries - cloth.x.cols() -
+                                 cloth.count(ProjectionOutcome::moved))));
   }
-  return judge_worst(measured, 0,
-                     "along the normal of an exact distance the first move arrives, and it is allowed");
+  return judge_worst(
+      measured, 0,
+      "along the normal of an exact distance the first move arrives, and it is allowed");
 }
 
 Finding fates_are_true(const Subject&) {
@@ -138,12 +143,14 @@ Finding fates_are_true(const Subject&) {
       const ProjectedCloth cloth = project_specimen(specimen, projection);
       double wrong = cloth.count(ProjectionOutcome::unfinished);
       for (Eigen::Index i = 0; i < cloth.before.size(); ++i)
-        wrong += cloth.outcomes[size_t(i)] != expected_fate(map, projection, cloth.before[i], cloth.after[i]);
+        wrong += cloth.outcomes[size_t(i)] !=
+                 expected_fate(map, projection, cloth.before[i], cloth.after[i]);
       measured.row(with(specimen, map), wrong);
     }
   }
-  return judge_worst(measured, 0,
-                     "where there is room every point is moved to the end, and what is told of it is true");
+  return judge_worst(
+      measured, 0,
+      "where there is room every point is moved to the end, and what is told of it is true");
 }
 
 /// Pairs, neighbours in depth, that changed their order by more than the tolerance.
@@ -152,7 +159,8 @@ double disorder(const PerParticle& before, const PerParticle& after) {
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return before[a] < before[b]; });
   double wrong = 0;
-  for (size_t k = 1; k < order.size(); ++k) wrong += !(after[order[k]] >= after[order[k - 1]] - tolerance);
+  for (size_t k = 1; k < order.size(); ++k)
+    wrong += !(after[order[k]] >= after[order[k - 1]] - tolerance);
   return wrong;
 }
 
@@ -166,8 +174,8 @@ Finding order_of_depths_is_kept(const Subject&) {
     }
   }
   return judge_worst(measured, 0,
-                     "the deeper of two points stays the deeper, or comes to lie as far out, within the "
-                     "tolerance of 1e-12 m");
+                     "the deeper of two points stays the deeper, or comes to lie as far out, "
+                     "within the tolerance of 1e-12 m");
 }
 
 Finding moves_along_the_normal(const Subject&) {
@@ -207,8 +215,8 @@ Finding far_points_are_untouched(const Subject&) {
       measured.row(with(specimen, map), changed);
     }
   }
-  return judge_worst(measured, 0,
-                     "not a bit of a point from tau up may change, and it is reported as untouched");
+  return judge_worst(
+      measured, 0, "not a bit of a point from tau up may change, and it is reported as untouched");
 }
 
 Finding pinched_points_are_left_alone(const Subject&) {
@@ -241,12 +249,14 @@ Finding plain_is_idempotent(const Subject&) {
     const ProjectedCloth again = project_specimen(specimen, projection);
     measured.row(specimen.name, count_differing_entries(again.x, specimen.x));
   }
-  return judge_worst(measured, 0,
-                     "what lies at eps or beyond is where plain projection wants it: not a bit moves");
+  return judge_worst(
+      measured, 0,
+      "what lies at eps or beyond is where plain projection wants it: not a bit moves");
 }
 
 Finding projecting_twice_compresses(const Subject&) {
-  Table measured{{"case", ""}, {"room between -t^/2 and 0 after two projections, over that after one", "1"}};
+  Table measured{{"case", ""},
+                 {"room between -t^/2 and 0 after two projections, over that after one", "1"}};
   ProjectionCase specimen = solids_with_points()[1];
   for (const char* map : {"power", "blend"}) {
     const FoldProjection projection = projection_by(map);
@@ -264,9 +274,10 @@ Finding projecting_twice_compresses(const Subject&) {
     }
     measured.row(map, room[1] / room[0]);
   }
-  return judge_worst(measured, 0.95,
-                     "f(phi) = phi at tau alone, so a second projection presses together what the first one "
-                     "left: by a twentieth at least, or the map would hardly move anything");
+  return judge_worst(
+      measured, 0.95,
+      "f(phi) = phi at tau alone, so a second projection presses together what the first one left: "
+      "by a twentieth at least, or the map would hardly move anything");
 }
 
 Finding gaps_without_room_are_reported(const Subject&) {
@@ -277,10 +288,12 @@ Finding gaps_without_room_are_reported(const Subject&) {
   FoldProjection projection = projection_by("plain");
   projection.band = {0.12, 0.2, 0.1};
   const ProjectedCloth cloth = project_specimen(specimen, projection);
-  const double before = distances(specimen, specimen.x)[0], reached = distances(specimen, cloth.x)[0];
-  return {{cloth.outcomes[0] == ProjectionOutcome::unfinished ? before - reached : NAN, tolerance, 0, "m",
-           "a point that cannot get where the map wants it is reported, and is no deeper than it was, within "
-           "1e-12 m"},
+  const double before = distances(specimen, specimen.x)[0],
+               reached = distances(specimen, cloth.x)[0];
+  return {{cloth.outcomes[0] == ProjectionOutcome::unfinished ? before - reached : NAN, tolerance,
+           0, "m",
+           "a point that cannot get where the map wants it is reported, and is no deeper than it "
+           "was, within 1e-12 m"},
           Table{{"gap", "m"},
                 {"least distance asked for", "m"},
                 {"distance before", "m"},
@@ -295,32 +308,33 @@ std::vector<Check> projection_checks() {
   const std::string source = "BMF03 section 5.3";
   return {
       {"projection.points-land-where-the-map-says",
-       "A projected point has the signed distance that the map gives it.", source, lands_where_the_map_says},
-      {"projection.points-end-in-the-band", "Points that began short of tau end in [eps, tau].", source,
-       ends_in_the_band},
-      {"projection.no-point-is-left-inside", "No point that is not pinched is inside after the projection.",
-       source, no_point_is_left_inside},
+       "A projected point has the signed distance that the map gives it.", source,
+       lands_where_the_map_says},
+      {"projection.points-end-in-the-band", "Points that began short of tau end in [eps, tau].",
+       source, ends_in_the_band},
+      {"projection.no-point-is-left-inside",
+       "No point that is not pinched is inside after the projection.", source,
+       no_point_is_left_inside},
       {"projection.meaningless-settings-are-rejected",
        "A projection without a tolerance, a move, a band or a map is refused in words.",
        "a rule of this suite: bad input is refused in words", senseless_ones_are_rejected},
       {"projection.one-move-is-enough",
-       "Where distances are exact, a point needs one move, and as many are made as are allowed.", source,
-       one_move_is_enough},
+       "Where distances are exact, a point needs one move, and as many are made as are allowed.",
+       source, one_move_is_enough},
       {"projection.reported-outcomes-are-true",
-       "Each point is told to be untouched, or moved to where the map wants it, just as its distances say; "
-       "none is left "
-       "on the way.",
+       "Each point is told to be untouched, or moved to where the map wants it, just as its "
+       "distances say; none is left on the way.",
        "the promise of the reference's header", fates_are_true},
-      {"projection.order-of-depths-is-preserved", "Of two points the deeper one stays the deeper.", source,
-       order_of_depths_is_kept},
-      {"projection.points-move-along-the-normal", "Points go straight out along the object's normal.", source,
-       moves_along_the_normal},
+      {"projection.order-of-depths-is-preserved", "Of two points the deeper one stays the deeper.",
+       source, order_of_depths_is_kept},
+      {"projection.points-move-along-the-normal",
+       "Points go straight out along the object's normal.", source, moves_along_the_normal},
       {"projection.far-points-are-untouched", "Points from tau up keep every bit.", source,
        far_points_are_untouched},
-      {"projection.pinched-points-are-left-alone", "Points inside two objects keep every bit.", source,
-       pinched_points_are_left_alone},
-      {"projection.plain-projection-is-idempotent", "Plain projection done twice is plain projection.",
-       source, plain_is_idempotent},
+      {"projection.pinched-points-are-left-alone", "Points inside two objects keep every bit.",
+       source, pinched_points_are_left_alone},
+      {"projection.plain-projection-is-idempotent",
+       "Plain projection done twice is plain projection.", source, plain_is_idempotent},
       {"projection.projecting-twice-compresses-more",
        "The other maps, done twice, compress more: they are not idempotent.", source,
        projecting_twice_compresses},

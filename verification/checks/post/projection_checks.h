@@ -1,4 +1,5 @@
-// Checks of the fold-preserving projection. A function a file; the list of all is verification/checks.cpp.
+// Checks of the fold-preserving projection. A function a file; the list of all is
+// verification/checks.cpp.
 #pragma once
 
 #include <vector>

@@ -20,7 +20,8 @@ namespace {
 constexpr double radius = 0.3;  // of balls [m]
 
 Object ball_at(const Vector3& centre) {
-  return {"ball", RigidObject{Sphere{radius}, {Eigen::Quaterniond::Identity(), centre}, Motion{}}, 0};
+  return {"ball", RigidObject{Sphere{radius}, {Eigen::Quaterniond::Identity(), centre}, Motion{}},
+          0};
 }
 
 /// A square sheet, jittered, in the plane z = 0 about the origin.
@@ -34,15 +35,17 @@ TriangleMesh small_sheet(double side, int cells) {
 }
 
 /// Largest length of an edge over its length before.
-double largest_stretch(const TriangleMesh& mesh, const PerParticle3& before, const PerParticle3& after) {
+double largest_stretch(const TriangleMesh& mesh, const PerParticle3& before,
+                       const PerParticle3& after) {
   Worst worst;
   for (const Edge& edge : mesh.edges)
     worst.observe((after.col(edge.a) - after.col(edge.b)).norm() /
-              (before.col(edge.a) - before.col(edge.b)).norm());
+                  (before.col(edge.a) - before.col(edge.b)).norm());
   return worst.value();
 }
 
-/// Cloth held between two balls that overlap by .2 m, rippled by a few millimetres about their middle.
+/// Cloth held between two balls that overlap by .2 m, rippled by a few millimetres
+/// about their middle.
 ProjectionCase pinched_cloth(const TriangleMesh& mesh, double ripple) {
   ProjectionCase specimen{"pinched", {ball_at({0, 0, 0.2}), ball_at({0, 0, -0.2})}, 0, mesh.rest};
   for (int i = 0; i < mesh.particles(); ++i)
@@ -53,23 +56,27 @@ ProjectionCase pinched_cloth(const TriangleMesh& mesh, double ripple) {
 Finding pinched_points_would_tear(const Subject&) {
   const TriangleMesh mesh = small_sheet(0.25, 20);
   const std::string finding = "stretch when left alone over stretch when projected";
-  Table measured{
-      {"case", ""}, {finding, "1"}, {"stretch when left alone", "1"}, {"stretch when projected", "1"}};
+  Table measured{{"case", ""},
+                 {finding, "1"},
+                 {"stretch when left alone", "1"},
+                 {"stretch when projected", "1"}};
   for (const double ripple : {0.001, 0.004}) {
     for (const DepthMap& map : depth_maps()) {
       const ProjectionCase specimen = pinched_cloth(mesh, ripple);
       FoldProjection projection = projection_by(std::string(map.name));
-      const double alone = largest_stretch(mesh, specimen.x, project_specimen(specimen, projection).x);
+      const double alone =
+          largest_stretch(mesh, specimen.x, project_specimen(specimen, projection).x);
       projection.pinched = PinchedPoints::projected;
-      const double moved = largest_stretch(mesh, specimen.x, project_specimen(specimen, projection).x);
-      measured.row(std::string(map.name) + ", ripple " + std::to_string(ripple) + " m", alone / moved, alone,
-                   moved);
+      const double moved =
+          largest_stretch(mesh, specimen.x, project_specimen(specimen, projection).x);
+      measured.row(std::string(map.name) + ", ripple " + std::to_string(ripple) + " m",
+                   alone / moved, alone, moved);
     }
   }
-  return judge_worst(
-      measured, finding, 0.2,
-      "neighbours on different sides of the middle leave by different balls, each a tenth of a metre away, "
-      "where edges are an eightieth: a fifth leaves room for edges that a few particles' fate spares");
+  return judge_worst(measured, finding, 0.2,
+                     "neighbours on different sides of the middle leave by different balls, each a "
+                     "tenth of a metre away, where edges are an eightieth: a fifth leaves room for "
+                     "edges that a few particles' fate spares");
 }
 
 /// A wavy sheet that cuts through the ball about the origin, 5 cm below its top.
@@ -83,7 +90,8 @@ PerParticle3 sunk(const TriangleMesh& mesh) {
 double longest_edge(const std::vector<Triangle>& triangles, const PerParticle3& x) {
   double longest = 0;
   for (const Triangle& t : triangles)
-    for (size_t k = 0; k < 3; ++k) longest = std::max(longest, (x.col(t[k]) - x.col(t[(k + 1) % 3])).norm());
+    for (size_t k = 0; k < 3; ++k)
+      longest = std::max(longest, (x.col(t[k]) - x.col(t[(k + 1) % 3])).norm());
   return longest;
 }
 
@@ -124,34 +132,37 @@ Finding serves_the_subdivided_cloth(const Subject&) {
       const PerParticle3 fine = finer.of(x);
       const BroughtOut out = out_of_the_ball(finer.triangles, fine);
       measured.row(std::string(name) + ", " + std::to_string(levels) + " levels",
-                   left_inside(finer.triangles, out.x), left_inside(finer.triangles, fine), out.eps);
+                   left_inside(finer.triangles, out.x), left_inside(finer.triangles, fine),
+                   out.eps);
     }
   }
   return judge_worst(measured, "triangles left inside", 0,
-                      "vertices at L^2/(6 R) or farther from a ball of radius R keep triangles with edges "
-                      "of L clear of it; decided in whole numbers");
+                     "vertices at L^2/(6 R) or farther from a ball of radius R keep triangles with "
+                     "edges of L clear of it; decided in whole numbers");
 }
 
 Finding subdividing_afterwards_spoils_it(const Subject&) {
   const TriangleMesh mesh = small_sheet(0.4, 12);
   const PerParticle3 x = sunk(mesh);
-  Table measured{{"case", ""}, {"cloths without a triangle inside", "1"}, {"triangles left inside", "1"}};
+  Table measured{
+      {"case", ""}, {"cloths without a triangle inside", "1"}, {"triangles left inside", "1"}};
   for (const int levels : {1, 2, 3}) {
     const Subdivision finer = subdivision(mesh, SubdivisionRule::loop, levels);
     FoldProjection projection = projection_by("blend");
     const double eps = out_of_the_ball(finer.triangles, finer.of(x)).eps;
     projection.band = {eps, eps + 0.03, 0.05};
-    const ProjectedCloth coarse = project_specimen({"ball", {ball_at(Vector3::Zero())}, 0, x}, projection);
+    const ProjectedCloth coarse =
+        project_specimen({"ball", {ball_at(Vector3::Zero())}, 0, x}, projection);
     const std::size_t inside = left_inside(finer.triangles, finer.of(coarse.x));
     measured.row(std::to_string(levels) + " levels after the projection", inside == 0, inside);
   }
   return judge_worst(measured, "cloths without a triangle inside", 0,
-                      "the same eps, but the coarse cloth is projected: smoothing draws its points towards "
-                      "the ball, and new ones lie on edges that cut into it");
+                     "the same eps, but the coarse cloth is projected: smoothing draws its points "
+                     "towards the ball, and new ones lie on edges that cut into it");
 }
 
-/// |x fine - x| at the old particles and on the line between the ends of each edge, over epsilon and the
-/// extent.
+/// |x fine - x| at the old particles and on the line between the ends of each edge, over epsilon
+/// and the extent.
 Finding midpoints_keep_the_surface(const Subject&) {
   Table measured = roundings_of("extent");
   for (const int levels : {1, 3}) {
@@ -167,8 +178,8 @@ Finding midpoints_keep_the_surface(const Subject&) {
     measured.row(std::to_string(levels) + " levels", worst.value());
   }
   return judge_worst(measured, 16,
-                      "halves of sums are rounded once a level; the area adds some thousands of terms whose "
-                      "roundings mostly cancel");
+                     "halves of sums are rounded once a level; the area adds some thousands of "
+                     "terms whose roundings mostly cancel");
 }
 
 Finding loop_is_affine(const Subject&) {
@@ -180,18 +191,19 @@ Finding loop_is_affine(const Subject&) {
   const Subdivision finer = subdivision(mesh, SubdivisionRule::loop, 2);
   const PerParticle3 after = (A * finer.of(mesh.rest)).colwise() + b;
   const PerParticle3 before = finer.of((A * mesh.rest).colwise() + b);
-  measured.row("turned, sheared and moved", largest_difference(after, before) / (epsilon * extent(before)));
-  // Loop (1987): an inner point of degree 6 keeps 10/16; of degree 5, the icosahedron's corners, 1 - 5 *
-  // .084093
+  measured.row("turned, sheared and moved",
+               largest_difference(after, before) / (epsilon * extent(before)));
+  // Loop (1987): an inner point of degree 6 keeps 10/16; of degree 5, the icosahedron's corners,
+  // 1 - 5 * .084093
   const Subdivision once = subdivision(mesh, SubdivisionRule::loop, 1);
-  const double expected5 =
-      1 - (5.0 / 8 - std::pow(3.0 / 8 + std::cos(2 * pi / 5) / 4, 2));
-  measured.row("weight of a point of degree 5", std::abs(once.weights.coeff(0, 0) - expected5) / epsilon);
-  measured.row("weight of a point of degree 6", std::abs(once.weights.coeff(20, 20) - 10.0 / 16) / epsilon);
-  return judge_worst(
-      measured, 32,
-      "weights of a row sum to 1, so that subdividing and moving commute to the roundings of some "
-      "twenty terms");
+  const double expected5 = 1 - (5.0 / 8 - std::pow(3.0 / 8 + std::cos(2 * pi / 5) / 4, 2));
+  measured.row("weight of a point of degree 5",
+               std::abs(once.weights.coeff(0, 0) - expected5) / epsilon);
+  measured.row("weight of a point of degree 6",
+               std::abs(once.weights.coeff(20, 20) - 10.0 / 16) / epsilon);
+  return judge_worst(measured, 32,
+                     "weights of a row sum to 1, so that subdividing and moving commute to the "
+                     "roundings of some twenty terms");
 }
 
 }  // namespace
@@ -200,8 +212,8 @@ std::vector<Check> projection_cloth_checks() {
   const std::string source = "BMF03 section 5.3";
   return {
       {"projection.projecting-pinched-points-would-tear-the-cloth",
-       "Cloth pinched between two balls would be torn apart if its points were projected, and is not "
-       "when they are left alone.",
+       "Cloth pinched between two balls would be torn apart if its points were projected, and is "
+       "not when they are left alone.",
        source, pinched_points_would_tear},
       {"projection.subdividing-first-leaves-no-triangle-inside",
        "Cloth subdivided first and projected then has no triangle inside.", source,
@@ -212,7 +224,8 @@ std::vector<Check> projection_cloth_checks() {
       {"subdivision.midpoint-subdivision-preserves-the-surface",
        "Subdivision at midpoints keeps points and area.", "geometry", midpoints_keep_the_surface},
       {"subdivision.loop-subdivision-is-affine-invariant",
-       "Loop's subdivision commutes with affine maps and has his weights.", "Loop (1987)", loop_is_affine}};
+       "Loop's subdivision commutes with affine maps and has his weights.", "Loop (1987)",
+       loop_is_affine}};
 }
 
 }  // namespace foldproof

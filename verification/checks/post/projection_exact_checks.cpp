@@ -1,5 +1,5 @@
-// Triangles of the projected cloth against the objects, decided without rounding and without a distance
-// field.
+// Triangles of the projected cloth against the objects, decided without rounding and without a
+// distance field.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -40,11 +40,14 @@ Sunk sunk_sheet(double height, unsigned seed) {
 
 double longest_edge(const TriangleMesh& mesh, const PerParticle3& x) {
   double longest = 0;
-  for (const Edge& edge : mesh.edges) longest = std::max(longest, (x.col(edge.a) - x.col(edge.b)).norm());
+  for (const Edge& edge : mesh.edges)
+    longest = std::max(longest, (x.col(edge.a) - x.col(edge.b)).norm());
   return longest;
 }
 
-oracles::TriangleSoup soup_of(const TriangleMesh& mesh, const PerParticle3& x) { return {x, mesh.triangles}; }
+oracles::TriangleSoup soup_of(const TriangleMesh& mesh, const PerParticle3& x) {
+  return {x, mesh.triangles};
+}
 
 Object body(const Solid& solid) { return {"body", RigidObject{solid, {}, Motion{}}, 0}; }
 
@@ -58,19 +61,22 @@ struct Target {
 };
 
 std::vector<Target> targets() {
-  return {
-      {"ball", Sphere{radius}, radius, [](double edge) { return edge * edge / (6 * radius); },
-       [](const oracles::TriangleSoup& cloth) {
-         return oracles::triangles_in_ball(cloth, Vector3::Zero(), radius).size();
-       }},
-      {"box", Box{half_extents}, half_extents.z(), [](double edge) { return edge / std::sqrt(3.0); },
-       [](const oracles::TriangleSoup& cloth) {
-         return oracles::triangles_in_body(cloth, oracles::box_between(-half_extents, half_extents)).size();
-       }}};
+  return {{"ball", Sphere{radius}, radius, [](double edge) { return edge * edge / (6 * radius); },
+           [](const oracles::TriangleSoup& cloth) {
+             return oracles::triangles_in_ball(cloth, Vector3::Zero(), radius).size();
+           }},
+          {"box", Box{half_extents}, half_extents.z(),
+           [](double edge) { return edge / std::sqrt(3.0); },
+           [](const oracles::TriangleSoup& cloth) {
+             return oracles::triangles_in_body(cloth,
+                                               oracles::box_between(-half_extents, half_extents))
+                 .size();
+           }}};
 }
 
 /// The sheet projected with eps enough for the edges that it has afterwards, or with eps = 0.
-PerParticle3 project_out(const Target& target, const Sunk& sunk, const std::string& map, bool has_clearance) {
+PerParticle3 project_out(const Target& target, const Sunk& sunk, const std::string& map,
+                         bool has_clearance) {
   const ProjectionCase specimen{target.name, {body(target.solid)}, 0, sunk.x};
   double eps = 0;
   PerParticle3 x = sunk.x;
@@ -104,12 +110,12 @@ Finding no_triangle_is_left_inside(const Subject&) {
     const bool began_inside = target.inside(soup_of(sunk.mesh, sunk.x)) > 0;
     return began_inside ? double(target.inside(soup_of(sunk.mesh, x))) : NAN;
   };
-  return judge_worst(
-      over_sheets(true, "triangles left inside", inside), 0,
-      "vertices eps from a ball of radius R keep edges of length L clear of it from eps = L^2/(6 R) on; "
-      "whatever the body, no point of a triangle is farther than L/sqrt(3) from all its corners, and phi "
-      "falls by no more than the way",
-      "Whole-number arithmetic on the cloth's and the body's coordinates; no distance field is asked.");
+  return judge_worst(over_sheets(true, "triangles left inside", inside), 0,
+                     "vertices eps from a ball of radius R keep edges of length L clear of it from "
+                     "eps = L^2/(6 R) on; whatever the body, no point of a triangle is farther "
+                     "than L/sqrt(3) from all its corners, and phi falls by no more than the way",
+                     "Whole-number arithmetic on the cloth's and the body's coordinates; no "
+                     "distance field is asked.");
 }
 
 Finding no_eps_is_too_little(const Subject&) {
@@ -125,8 +131,8 @@ Finding no_eps_is_too_little(const Subject&) {
 std::vector<Check> projection_exact_checks() {
   const std::string source = "BMF03 section 5.3";
   return {{"projection.no-triangle-is-left-inside",
-           "With an eps that suits its edges, no triangle of the projected cloth meets the body.", source,
-           no_triangle_is_left_inside},
+           "With an eps that suits its edges, no triangle of the projected cloth meets the body.",
+           source, no_triangle_is_left_inside},
           {"projection.zero-eps-leaves-triangles-inside",
            "With eps = 0 triangles of the projected cloth still cut into convex bodies.", source,
            no_eps_is_too_little}};

@@ -1,5 +1,5 @@
-// Cloth brought out of a body that is a triangle mesh, known by exact distances or by a grid; whether it is
-// out is decided without either.
+// Cloth brought out of a body that is a triangle mesh, known by exact distances or by a grid;
+// whether it is out is decided without either.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -45,7 +45,8 @@ Worn sheet_through(const KnownStatue& statue) {
   sheet.seed = shifted_seed(97);
   Worn worn{make_sheet(sheet), {}};
   const PerParticle3& body = small_statue().rest;
-  const Vector3 low = body.rowwise().minCoeff(), high = body.rowwise().maxCoeff(), middle = (low + high) / 2;
+  const Vector3 low = body.rowwise().minCoeff(), high = body.rowwise().maxCoeff(),
+                middle = (low + high) / 2;
   PerParticle3 x = worn.mesh.rest;
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     x.col(i) += Vector3(middle.x() - 0.2, middle.y() - 0.2, high.z() - 0.01);
@@ -85,20 +86,22 @@ Finding no_particle_is_left_inside(const Subject&) {
                    cloth.count(ProjectionOutcome::unfinished));
     }
   }
-  return judge_worst(measured, "particles left inside", 0,
-                     "decided in whole numbers against the mesh: eps is a nanometre over exact distances, "
-                     "and a cell of the grid, by which a trilinear value next to an edge of the body may be "
-                     "too large");
+  return judge_worst(
+      measured, "particles left inside", 0,
+      "decided in whole numbers against the mesh: eps is a nanometre over exact distances, and a "
+      "cell of the grid, by which a trilinear value next to an edge of the body may be too large");
 }
 
 double longest_edge(const TriangleMesh& mesh, const PerParticle3& x) {
   double longest = 0;
-  for (const Edge& edge : mesh.edges) longest = std::max(longest, (x.col(edge.a) - x.col(edge.b)).norm());
+  for (const Edge& edge : mesh.edges)
+    longest = std::max(longest, (x.col(edge.a) - x.col(edge.b)).norm());
   return longest;
 }
 
 Finding no_triangle_is_left_inside(const Subject&) {
-  Table measured{{"case", ""}, {"triangles left inside", "1"}, {"eps", "m"}, {"particles without room", "1"}};
+  Table measured{
+      {"case", ""}, {"triangles left inside", "1"}, {"eps", "m"}, {"particles without room", "1"}};
   const oracles::TriangleSoup surface = statue_surface();
   for (const KnownStatue& statue : statues()) {
     const Worn worn = sheet_through(statue);
@@ -114,8 +117,8 @@ Finding no_triangle_is_left_inside(const Subject&) {
     measured.row(statue.name, inside.size(), enough, cloth.count(ProjectionOutcome::unfinished));
   }
   return judge_worst(measured, "triangles left inside", 0,
-                     "no point of a triangle is farther than L/sqrt(3) from all its corners, and phi falls "
-                     "by no more than the way");
+                     "no point of a triangle is farther than L/sqrt(3) from all its corners, and "
+                     "phi falls by no more than the way");
 }
 
 }  // namespace
@@ -126,8 +129,8 @@ std::vector<Check> projection_mesh_checks() {
            "No particle of cloth that was projected out of a triangle mesh is inside it.", source,
            no_particle_is_left_inside},
           {"projection.no-triangle-is-left-in-a-mesh",
-           "With an eps that suits its edges, no triangle of cloth that was projected out of a triangle mesh "
-           "meets it.",
+           "With an eps that suits its edges, no triangle of cloth that was projected out of a "
+           "triangle mesh meets it.",
            source, no_triangle_is_left_inside}};
 }
 

@@ -20,7 +20,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr double radius = 0.13;                          // m
+constexpr double radius = 0.13;      // m
 constexpr double degree = pi / 180;  // rad
 
 /// A ball as an OBJ file, and [[object]] of it with these keys.
@@ -57,27 +57,31 @@ double octree_miss(const Octree& tree) {
 
 Finding octree_finding(const Subject&) {
   const ScratchFolder folder;
-  const Octree coarse = octree_of(read_case_in(folder, ball_body(folder, "field = \"octree\"\ncells = 23")));
-  const Octree given =
-      octree_of(read_case_in(folder, ball_body(folder, "field = \"octree\"\ncells = 41\ntolerance = 5e-4")));
+  const Octree coarse =
+      octree_of(read_case_in(folder, ball_body(folder, "field = \"octree\"\ncells = 23")));
+  const Octree given = octree_of(
+      read_case_in(folder, ball_body(folder, "field = \"octree\"\ncells = 41\ntolerance = 5e-4")));
   const auto cell = [](const Octree& tree) {
     return tree.settings.width / std::pow(2.0, tree.settings.depth);
   };
   const PerParticle3 x = make_icosphere(radius, 3).rest;
   const double longest = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
-  Table measured{{"case", ""}, {"miss in tolerances, or a hundred roundings off what was written", "1"}};
+  Table measured{{"case", ""},
+                 {"miss in tolerances, or a hundred roundings off what was written", "1"}};
   measured.row("finest cells", std::abs(cell(coarse) * 23 / longest - 1) / (100 * epsilon));
-  measured.row("finest cells, other number", std::abs(cell(given) * 41 / longest - 1) / (100 * epsilon));
+  measured.row("finest cells, other number",
+               std::abs(cell(given) * 41 / longest - 1) / (100 * epsilon));
   measured.row("a tenth of a cell",
                std::abs(coarse.settings.tolerance / (0.1 * cell(coarse)) - 1) / (100 * epsilon));
   measured.row("tolerance as written", given.settings.tolerance == 5e-4 ? 0 : INFINITY);
   measured.row("distances", octree_miss(coarse));
   measured.row("distances, tolerance as written", octree_miss(given));
-  return judge_worst(measured, 2, "an octree keeps its tolerance, to which hanging nodes add another");
+  return judge_worst(measured, 2,
+                     "an octree keeps its tolerance, to which hanging nodes add another");
 }
 
-/// Where the point X of the body goes, by another road than the reference takes: about the
-/// centre of the arc, at R = height/angle beside the base.
+/// Where the point X of the body goes, by another road than the reference takes: about the centre
+/// of the arc, at R = height/angle beside the base.
 Vector3 bend_point(const Vector3& X, double angle, double height) {
   const double R = height / angle, phi = X.y() / R;
   return {R - (R - X.x()) * std::cos(phi), (R - X.x()) * std::sin(phi), X.z()};
@@ -95,15 +99,16 @@ Vector3 breathe_point(const Vector3& X, double growth, double height) {
 
 using Shaping = std::function<Vector3(const Vector3& X, double share, double height)>;
 
-/// Largest distance of the drawn surface from the placed ball, deformed by hand; heights count from its
-/// lowest point [m].
+/// Largest distance of the drawn surface from the placed ball, deformed by hand; heights count from
+/// its lowest point [m].
 double surface_miss(const Scene& scene, const Shaping& shaping, double period, double t) {
   const TriangleMesh ball = make_icosphere(radius, 3);
   const Vector3 move(0.2, -0.1, 0.3);
   PerParticle3 x(3, ball.particles());
   for (int i = 0; i < ball.particles(); ++i)
     x.col(i) = Eigen::AngleAxisd(30 * degree, Vector3(1, 2, 2) / 3) * ball.rest.col(i) + move;
-  const Vector3 low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff(), middle = (low + high) / 2;
+  const Vector3 low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff(),
+                middle = (low + high) / 2;
   const Vector3 base(middle.x(), low.y(), middle.z());
   const double share = std::pow(std::sin(pi * t / period), 2);
   const PerParticle3 seen = surface_at(scene.objects.at(0), t);
@@ -124,15 +129,17 @@ Finding deformation_finding(const Subject&) {
   const ScratchFolder folder;
   const std::string keys = place + "cells = 12\ninterval = 0.05\n";
   Table differences = no_differences();
-  const auto observe = [&](const std::string& what, const std::string& parts, const Shaping& shaping,
-                       double period) {
+  const auto observe = [&](const std::string& what, const std::string& parts,
+                           const Shaping& shaping, double period) {
     const Scene scene = read_case_in(folder, ball_body(folder, keys + parts));
     for (const double t : {0.0, 0.05, 0.2, 0.3})
       differences.row(what + " at " + std::to_string(t) + " s",
                       in_roundings(surface_miss(scene, shaping, period, t), 1));
-    const PerParticle3 between = (surface_at(scene.objects[0], 0.1) + surface_at(scene.objects[0], 0.15)) / 2;
-    differences.row(what + " between frames",
-                    in_roundings((surface_at(scene.objects[0], 0.125) - between).cwiseAbs().maxCoeff(), 1));
+    const PerParticle3 between =
+        (surface_at(scene.objects[0], 0.1) + surface_at(scene.objects[0], 0.15)) / 2;
+    differences.row(
+        what + " between frames",
+        in_roundings((surface_at(scene.objects[0], 0.125) - between).cwiseAbs().maxCoeff(), 1));
   };
   observe(
       "bend", deform("bend", 70, 0.47),
@@ -142,11 +149,16 @@ Finding deformation_finding(const Subject&) {
       0.47);
   observe(
       "twist", deform("twist", -130, 0.31),
-      [](const Vector3& X, double share, double height) { return twist_point(X, -130 * degree * share, height); },
+      [](const Vector3& X, double share, double height) {
+        return twist_point(X, -130 * degree * share, height);
+      },
       0.31);
   observe(
       "breathe", deform("breathe", 0.35, 0.61),
-      [](const Vector3& X, double share, double height) { return breathe_point(X, 0.35 * share, height); }, 0.61);
+      [](const Vector3& X, double share, double height) {
+        return breathe_point(X, 0.35 * share, height);
+      },
+      0.61);
   observe(
       "twist, then bend", deform("twist", 55, 0.4) + deform("bend", -40, 0.4),
       [](const Vector3& X, double share, double height) {
@@ -184,13 +196,19 @@ Finding frames_finding(const Subject&) {
     return std::get<DeformingObject>(first_object(scene).body).body->between;
   };
   Table differences = no_differences();
-  differences.row("first frame", in_roundings((surface_at(part, 0) - first).cwiseAbs().maxCoeff(), 1));
-  differences.row("second frame", in_roundings((surface_at(part, 0.07) - last).cwiseAbs().maxCoeff(), 1));
-  differences.row("rests after it", in_roundings((surface_at(part, 0.2) - last).cwiseAbs().maxCoeff(), 1));
-  differences.row("half way",
-                  in_roundings((surface_at(part, 0.035) - (first + last) / 2).cwiseAbs().maxCoeff(), 1));
-  differences.row("carried by default", infinite_unless(between(carried) == BetweenFrames::carried));
-  differences.row("blended if written", infinite_unless(between(blended) == BetweenFrames::blended));
+  differences.row("first frame",
+                  in_roundings((surface_at(part, 0) - first).cwiseAbs().maxCoeff(), 1));
+  differences.row("second frame",
+                  in_roundings((surface_at(part, 0.07) - last).cwiseAbs().maxCoeff(), 1));
+  differences.row("rests after it",
+                  in_roundings((surface_at(part, 0.2) - last).cwiseAbs().maxCoeff(), 1));
+  differences.row(
+      "half way",
+      in_roundings((surface_at(part, 0.035) - (first + last) / 2).cwiseAbs().maxCoeff(), 1));
+  differences.row("carried by default",
+                  infinite_unless(between(carried) == BetweenFrames::carried));
+  differences.row("blended if written",
+                  infinite_unless(between(blended) == BetweenFrames::blended));
   return judged_differences(differences, 32,
                             "scaled, moved and averaged with a few roundings of lengths below 1 m");
 }
@@ -198,11 +216,12 @@ Finding frames_finding(const Subject&) {
 /// The drawn surface lies on the level sets that the cloth meets, at frames and between.
 Finding surface_finding(const Subject&) {
   const ScratchFolder folder;
-  Table measured{{"case", ""}, {"largest distance of the drawn surface from the level set", "tolerances"}};
+  Table measured{{"case", ""},
+                 {"largest distance of the drawn surface from the level set", "tolerances"}};
   for (const std::string kind : {"bend", "twist", "breathe"}) {
-    const Scene scene =
-        read_case_in(folder, ball_body(folder, place + "cells = 16\ninterval = 0.02\n" +
-                                                   deform(kind, kind == "breathe" ? 0.3 : 40, 0.5)));
+    const Scene scene = read_case_in(
+        folder, ball_body(folder, place + "cells = 16\ninterval = 0.02\n" +
+                                      deform(kind, kind == "breathe" ? 0.3 : 40, 0.5)));
     const auto body = std::get<DeformingObject>(first_object(scene).body);
     const double tolerance = body.body->frames.front().field.settings.tolerance;
     Worst worst;
@@ -214,10 +233,9 @@ Finding surface_finding(const Subject&) {
     measured.row(kind, worst.value());
   }
   return judge_worst(measured, 2,
-                      "octrees miss by their tolerance, to which hanging nodes add another; carried "
-                      "along, phi between frames errs "
-                      "by the square of the turn in a frame, 0.02 rad, of a displacement of 5 mm: 1e-6 m, "
-                      "a thousandth of it");
+                     "octrees miss by their tolerance, to which hanging nodes add another; carried "
+                     "along, phi between frames errs by the square of the turn in a frame, 0.02 "
+                     "rad, of a displacement of 5 mm: 1e-6 m, a thousandth of it");
 }
 
 /// A folder of one file more than there may be frames, whose name is returned.
@@ -229,32 +247,37 @@ std::string too_many_frames(const ScratchFolder& folder) {
 }
 
 std::vector<RejectedCase> rejections(const ScratchFolder& folder) {
-  const auto body = [&](const std::string& keys) { return ball_body(folder, "cells = 8\n" + keys); };
+  const auto body = [&](const std::string& keys) {
+    return ball_body(folder, "cells = 8\n" + keys);
+  };
   const std::string twist = deform("twist", 20, 0.5),
                     sphere = "[[object]]\nshape = \"sphere\"\nradius = 0.3\n";
   const std::string frames = "[[object]]\nframes = \"" + written_frames(folder) + "\"\n";
-  return {
-      {body("field = \"octre\""), {"unknown field 'octre'", "octree", "exact"}},
-      {body("field = \"octree\"\ntolerance = 0"), {"'tolerance' must be > 0"}},
-      {body("field = \"octree\"\nrepair = \"winding\""), {"'repair' needs field = \"grid\""}},
-      {body("tolerance = 1e-3"), {"unknown key 'tolerance'"}},
-      {sphere + twist, {"needs a mesh", "statue"}},
-      {body("interval = 0.2\nvelocity = [0, 0, 1]\n" + twist), {"unknown key 'velocity'"}},
-      {body("field = \"grid\"\n" + twist), {"unknown field 'grid'", "octree"}},
-      {body("interpolation = \"morphed\"\n" + twist), {"unknown interpolation 'morphed'", "carried"}},
-      {body("interval = 1e-5\n" + twist), {"more than 1000 level sets", "interval"}},
-      {body("interval = 0\n" + twist), {"'interval' must be > 0"}},
-      {body("[[object.deform]]\nkind = \"melt\"\n"), {"unknown kind 'melt'", "breathe"}},
-      {body("[[object.deform]]\nkind = \"bend\"\namplitude = 3\n"), {"period"}},
-      {body("[[object.deform]]\nkind = \"bend\"\namplitude = 3\nperiod = 0\n"), {"'period' must be > 0"}},
-      {body("interval = 0.2\n" + deform("bend", 20, 0.5) + "toward = 3\n"), {"unknown key 'toward'"}},
-      {body("interval = 0.1\n" + deform("bend", 900, 0.6)),
-       {"frame 1", "0.100000 s", "meets triangle", "smaller amplitude"}},
-      {frames + twist, {"'frames' are an animation"}},
-      {frames + "mesh = \"ball.obj\"\n", {"and not both"}},
-      {frames + "interval = -1\n", {"'interval' must be > 0"}},
-      {"[[object]]\nframes = \"" + too_many_frames(folder) + "\"\n", {"1001 *.obj files", "at most 1000"}},
-      {"[[object]]\nframes = \"nowhere\"\n", {"no folder with"}}};
+  return {{body("field = \"octre\""), {"unknown field 'octre'", "octree", "exact"}},
+          {body("field = \"octree\"\ntolerance = 0"), {"'tolerance' must be > 0"}},
+          {body("field = \"octree\"\nrepair = \"winding\""), {"'repair' needs field = \"grid\""}},
+          {body("tolerance = 1e-3"), {"unknown key 'tolerance'"}},
+          {sphere + twist, {"needs a mesh", "statue"}},
+          {body("interval = 0.2\nvelocity = [0, 0, 1]\n" + twist), {"unknown key 'velocity'"}},
+          {body("field = \"grid\"\n" + twist), {"unknown field 'grid'", "octree"}},
+          {body("interpolation = \"morphed\"\n" + twist),
+           {"unknown interpolation 'morphed'", "carried"}},
+          {body("interval = 1e-5\n" + twist), {"more than 1000 level sets", "interval"}},
+          {body("interval = 0\n" + twist), {"'interval' must be > 0"}},
+          {body("[[object.deform]]\nkind = \"melt\"\n"), {"unknown kind 'melt'", "breathe"}},
+          {body("[[object.deform]]\nkind = \"bend\"\namplitude = 3\n"), {"period"}},
+          {body("[[object.deform]]\nkind = \"bend\"\namplitude = 3\nperiod = 0\n"),
+           {"'period' must be > 0"}},
+          {body("interval = 0.2\n" + deform("bend", 20, 0.5) + "toward = 3\n"),
+           {"unknown key 'toward'"}},
+          {body("interval = 0.1\n" + deform("bend", 900, 0.6)),
+           {"frame 1", "0.100000 s", "meets triangle", "smaller amplitude"}},
+          {frames + twist, {"'frames' are an animation"}},
+          {frames + "mesh = \"ball.obj\"\n", {"and not both"}},
+          {frames + "interval = -1\n", {"'interval' must be > 0"}},
+          {"[[object]]\nframes = \"" + too_many_frames(folder) + "\"\n",
+           {"1001 *.obj files", "at most 1000"}},
+          {"[[object]]\nframes = \"nowhere\"\n", {"no folder with"}}};
 }
 
 Finding rejection_finding(const Subject&) {
@@ -267,20 +290,21 @@ Finding rejection_finding(const Subject&) {
 std::vector<Check> scene_body_checks() {
   const char* const source = "cases/KEYS.md";
   return {{"scene.octree-bodies-are-as-written",
-           "The octree of a body has the cells and the tolerance that the case says, and keeps it.", source,
-           octree_finding},
+           "The octree of a body has the cells and the tolerance that the case says, and keeps it.",
+           source, octree_finding},
           {"scene.deformations-are-as-written",
-           "A body bends, twists and breathes as the case says, about the axis through its middle.", source,
-           deformation_finding},
+           "A body bends, twists and breathes as the case says, about the axis through its middle.",
+           source, deformation_finding},
           {"scene.animation-frames-are-as-written",
            "The frames of an animated body are scaled, placed and timed as the case says.", source,
            frames_finding},
           {"scene.deforming-surfaces-lie-on-their-level-sets",
-           "The surface that is drawn of a deforming body is that of the level sets that the cloth meets.",
+           "The surface that is drawn of a deforming body is that of the level sets that the cloth "
+           "meets.",
            "BMF03 section 5.1", surface_finding},
           {"scene.invalid-bodies-are-rejected",
-           "What a case must not say of octrees and deforming bodies is refused with file, line and what is "
-           "known.",
+           "What a case must not say of octrees and deforming bodies is refused with file, line "
+           "and what is known.",
            source, rejection_finding}};
 }
 

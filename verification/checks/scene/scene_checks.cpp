@@ -20,14 +20,16 @@ PerParticle3 end_of(const Scene& scene) {
   const System system = build_system(scene);
   State s = start_state(scene);
   Work work;
-  for (int n = 0; n < 20; ++n) s = integrator_named(scene.integrator).step(system, {&s, 1}, 0.003, work);
+  for (int n = 0; n < 20; ++n)
+    s = integrator_named(scene.integrator).step(system, {&s, 1}, 0.003, work);
   return s.x;
 }
 
 Finding absent_finding(const Subject&) {
   Table differences = no_differences();
   const Scene nothing = trial_scene(""), falls = trial_scene("[gravity]\n");
-  const Scene zeros = trial_scene("[gravity]\n[stretch]\nstiffness = 0\n[bending]\nstiffness = 0\n");
+  const Scene zeros =
+      trial_scene("[gravity]\n[stretch]\nstiffness = 0\n[bending]\nstiffness = 0\n");
   const auto forces = [](const Scene& scene) { return double(build_system(scene).forces.size()); };
   differences.row("forces of a case without any", in_roundings(forces(nothing), 1));
   differences.row("forces of a case with gravity, less 1", in_roundings(forces(falls) - 1, 1));
@@ -36,34 +38,41 @@ Finding absent_finding(const Subject&) {
   differences.row("forces of a case with three, less 3", in_roundings(forces(zeros) - 3, 1));
   differences.row(
       "filters and led particles",
-      in_roundings(double(build_system(zeros).filters.size() + build_system(zeros).prescribed.size()), 1));
+      in_roundings(
+          double(build_system(zeros).filters.size() + build_system(zeros).prescribed.size()), 1));
   differences.row("parts named, less 2",
                   in_roundings(double(describe_parts(falls, build_system(falls)).size()) - 2, 1));
-  differences.row("positions with gravity alone and with zero stiffnesses",
-                  in_roundings(largest_difference(end_of(falls), end_of(zeros)), extent(plain_positions())));
   differences.row(
-      "positions without force and at rest",
-      in_roundings(largest_difference(end_of(nothing), plain_positions()), extent(plain_positions())));
+      "positions with gravity alone and with zero stiffnesses",
+      in_roundings(largest_difference(end_of(falls), end_of(zeros)), extent(plain_positions())));
+  differences.row("positions without force and at rest",
+                  in_roundings(largest_difference(end_of(nothing), plain_positions()),
+                               extent(plain_positions())));
   differences.row("default gravity",
                   in_roundings((*falls.gravity - Vector3(0, -9.80665, 0)).norm(), 9.80665));
   return judged_differences(
-      differences, 0, "what is absent is not built; a stiffness of zero adds zeros, which change no digit");
+      differences, 0,
+      "what is absent is not built; a stiffness of zero adds zeros, which change no digit");
 }
 
 Finding numbers_finding(const Subject&) {
-  const Scene scene = read_scene_text("title = \"Trial\"\nabout = \"Words\"\n" + small_sheet +
-                                          "[gravity]\nacceleration = [0.3, -0.7, 1.1]\n[stretch]\nstiffness "
-                                          "= 37.5\ndamping = 0.011\nrest_length_scale = 0.97\n"
-                                          "[bending]\nstiffness = 3.1e-4\ndamping = 2.3e-5\nweighting = "
-                                          "\"current\"\ndamping_factor = \"edge_squared_over_area\"\n"
-                                          "law = \"cubic\"\n[time]\nend = 0.31\nframes_per_second = "
-                                          "40\nintegrator = \"B\"\nsafety = 0.43\nstrain_per_step = 0.07\n"
-                                          "max_steps = 53\n[solver]\ntolerance = 3e-7\nmax_iterations = "
-                                          "17\nrelative_to = \"initial_residual\"\n",
-                                      "folder/trial.toml");
+  const Scene scene =
+      read_scene_text("title = \"Trial\"\nabout = \"Words\"\n" + small_sheet +
+                          "[gravity]\nacceleration = [0.3, -0.7, 1.1]\n[stretch]\nstiffness = "
+                          "37.5\ndamping = 0.011\nrest_length_scale = 0.97\n"
+                          "[bending]\nstiffness = 3.1e-4\ndamping = 2.3e-5\nweighting = "
+                          "\"current\"\ndamping_factor = \"edge_squared_over_area\"\n"
+                          "law = \"cubic\"\n[time]\nend = 0.31\nframes_per_second = 40\nintegrator "
+                          "= \"B\"\nsafety = 0.43\nstrain_per_step = 0.07\n"
+                          "max_steps = 53\n[solver]\ntolerance = 3e-7\nmax_iterations = "
+                          "17\nrelative_to = \"initial_residual\"\n",
+                      "folder/trial.toml");
   Table differences = no_differences();
-  const auto is = [&](const std::string& what, bool right) { differences.row(what, infinite_unless(right)); };
-  is("name, title, about", scene.name == "trial" && scene.title == "Trial" && scene.about == "Words");
+  const auto is = [&](const std::string& what, bool right) {
+    differences.row(what, infinite_unless(right));
+  };
+  is("name, title, about",
+     scene.name == "trial" && scene.title == "Trial" && scene.about == "Words");
   is("density", scene.density == 0.23);
   is("gravity", *scene.gravity == Vector3(0.3, -0.7, 1.1));
   is("stretch", scene.stretch->stiffness == 37.5 && scene.stretch->damping == 0.011 &&
@@ -91,9 +100,13 @@ Finding numbers_finding(const Subject&) {
 Finding overrides_finding(const Subject&) {
   const std::string tables =
       "[stretch]\nstiffness = 37.5\n[[hold]]\nparticles = [0]\n[[hold]]\nparticles = [3]\n";
-  const auto with = [&](std::vector<std::string> overrides) { return trial_scene(tables, overrides); };
+  const auto with = [&](std::vector<std::string> overrides) {
+    return trial_scene(tables, overrides);
+  };
   Table differences = no_differences();
-  const auto is = [&](const std::string& what, bool right) { differences.row(what, infinite_unless(right)); };
+  const auto is = [&](const std::string& what, bool right) {
+    differences.row(what, infinite_unless(right));
+  };
   const auto rejected = [&](const std::string& assignment, const std::string& mention) {
     try {
       with({assignment});
@@ -103,20 +116,27 @@ Finding overrides_finding(const Subject&) {
     return false;
   };
   is("a number", with({"stretch.stiffness=53.25"}).stretch->stiffness == 53.25);
-  is("the last one counts", with({"stretch.stiffness=53.25", "stretch.stiffness=7"}).stretch->stiffness == 7);
+  is("the last one counts",
+     with({"stretch.stiffness=53.25", "stretch.stiffness=7"}).stretch->stiffness == 7);
   is("a text without quotes", with({"time.integrator=C"}).integrator == "C");
-  is("a missing table is made", *with({"gravity.acceleration=[1, 2, 4]"}).gravity == Vector3(1, 2, 4));
+  is("a missing table is made",
+     *with({"gravity.acceleration=[1, 2, 4]"}).gravity == Vector3(1, 2, 4));
   const Scene picked = with({"hold.1.particles=[5, 7]"});
   is("an entry of a list", picked.prescribed.size() == 3 && picked.prescribed[0].particle == 0 &&
-                               picked.prescribed[1].particle == 5 && picked.prescribed[2].particle == 7);
+                               picked.prescribed[1].particle == 5 &&
+                               picked.prescribed[2].particle == 7);
   is("it is written into the case's text",
-     with({"stretch.stiffness=53.25"}).text.find("--set stretch.stiffness=53.25") != std::string::npos);
-  is("an unknown key is refused", rejected("stretch.stifness=53", "--set stretch.stifness=53: unknown key 'stifness'"));
+     with({"stretch.stiffness=53.25"}).text.find("--set stretch.stiffness=53.25") !=
+         std::string::npos);
+  is("an unknown key is refused",
+     rejected("stretch.stifness=53", "--set stretch.stifness=53: unknown key 'stifness'"));
   is("a wrong value is refused", rejected("stretch.stiffness=-3", "--set"));
   is("a missing '=' is refused", rejected("stretch.stiffness", "table.key=value"));
-  is("a path through a value is refused", rejected("stretch.stiffness.x=3", "'stiffness' is not a table"));
+  is("a path through a value is refused",
+     rejected("stretch.stiffness.x=3", "'stiffness' is not a table"));
   is("an entry that is not there is refused", rejected("hold.2.particles=[5]", "no hold.2"));
-  return judged_differences(differences, 0, "an override acts as if it stood in the file, or is refused");
+  return judged_differences(differences, 0,
+                            "an override acts as if it stood in the file, or is refused");
 }
 
 }  // namespace
@@ -124,12 +144,14 @@ Finding overrides_finding(const Subject&) {
 std::vector<Check> scene_meaning_checks() {
   const std::string source = "good practice";
   return {
-      {"scene.absent-parts-are-not-built", "What a case of the reference does not name is not built.", source,
-       absent_finding},
-      {"scene.numbers-are-as-written", "A scene of the reference holds the numbers that its case file says.",
-       source, numbers_finding},
+      {"scene.absent-parts-are-not-built",
+       "What a case of the reference does not name is not built.", source, absent_finding},
+      {"scene.numbers-are-as-written",
+       "A scene of the reference holds the numbers that its case file says.", source,
+       numbers_finding},
       {"scene.overrides-take-effect",
-       "Overrides act on a case of the reference as if they stood in its file.", source, overrides_finding},
+       "Overrides act on a case of the reference as if they stood in its file.", source,
+       overrides_finding},
   };
 }
 

@@ -1,4 +1,5 @@
-// Checks of what a case file can say. A function a file; the list of all is verification/checks.cpp.
+// Checks of what a case file can say. A function a file; the list of all is
+// verification/checks.cpp.
 #pragma once
 
 #include <vector>

@@ -23,7 +23,8 @@ Scene sheet_case(const std::string& keys, const std::string& tables = "") {
 
 bool has_part(const Scene& scene, const std::string& words) {
   const std::vector<std::string> parts = describe_parts(scene, build_system(scene));
-  return std::ranges::any_of(parts, [&](const auto& part) { return part.find(words) != std::string::npos; });
+  return std::ranges::any_of(
+      parts, [&](const auto& part) { return part.find(words) != std::string::npos; });
 }
 
 // ---- shapes
@@ -31,11 +32,12 @@ bool has_part(const Scene& scene, const std::string& words) {
 void see_shape(Table& differences, const std::string& name, const Scene& scene, int particles,
                int triangles) {
   differences.row(name + ", particles", infinite_unless(scene.mesh.particles() == particles));
-  differences.row(name + ", triangles", infinite_unless(int(scene.mesh.triangles.size()) == triangles));
+  differences.row(name + ", triangles",
+                  infinite_unless(int(scene.mesh.triangles.size()) == triangles));
 }
 
-/// Farthest that a particle's distance from the origin is from r, in the directions that `axes` does not
-/// cancel [m].
+/// Farthest that a particle's distance from the origin is from r, in the directions that `axes`
+/// does not cancel [m].
 double off_radius(const Scene& scene, const Vector3& axes, double r) {
   const PerParticle3 x = axes.asDiagonal() * scene.x;
   return (x.colwise().norm().array() - r).abs().maxCoeff();
@@ -44,14 +46,15 @@ double off_radius(const Scene& scene, const Vector3& axes, double r) {
 Finding shapes_finding(const Subject&) {
   Table differences = no_differences();
   const Scene disc = cloth_case("shape = \"disc\"\nradius = 0.31\nrings = 5\n"),
-              cylinder =
-                  cloth_case("shape = \"cylinder\"\nradius = 0.17\nheight = 0.41\naround = 9\nalong = 4\n"),
+              cylinder = cloth_case(
+                  "shape = \"cylinder\"\nradius = 0.17\nheight = 0.41\naround = 9\nalong = 4\n"),
               ball = cloth_case("shape = \"sphere\"\nradius = 0.23\nsubdivisions = 2\n"),
               statue = cloth_case("shape = \"statue\"\nheight = 0.37\nsubdivisions = 3\n"),
               geodesic = cloth_case("shape = \"sphere\"\nradius = 0.19\ndivisions = 3\n"),
               even_statue = cloth_case("shape = \"statue\"\nheight = 0.37\ndivisions = 15\n"),
               hinge = cloth_case("shape = \"hinge\"\nlength = 0.07\nangle = 130\n");
-  // of n rings: 1 + 6 (1 + ... + n) particles, 6 n^2 triangles; of s subdivisions: 10 4^s + 2 and 20 4^s
+  // of n rings: 1 + 6 (1 + ... + n) particles, 6 n^2 triangles; of s subdivisions: 10
+  // 4^s + 2 and 20 4^s
   see_shape(differences, "disc", disc, 1 + 6 * 15, 6 * 25);
   differences.row("disc's rim", in_roundings(disc.x.colwise().norm().maxCoeff() - 0.31, 0.31));
   see_shape(differences, "cylinder", cylinder, 9 * 5, 2 * 9 * 4);
@@ -77,15 +80,17 @@ Finding shapes_finding(const Subject&) {
                               short_time,
                           "trial.toml")
                           .rest_angles;
-  differences.row("hinge's angle in degrees", in_roundings(std::abs(angles.at(0)) - 130 * pi / 180, pi));
+  differences.row("hinge's angle in degrees",
+                  in_roundings(std::abs(angles.at(0)) - 130 * pi / 180, pi));
   return judged_differences(differences, 64, "coordinates of a few dozen roundings each");
 }
 
 Finding patterns_finding(const Subject&) {
   Table differences = no_differences();
   const auto of = [](const std::string& pattern, const std::string& more = "") {
-    return cloth_case("shape = \"sheet\"\nwidth = 0.6\nheight = 0.4\ncolumns = 6\nrows = 4\npattern = \"" +
-                      pattern + "\"\n" + more);
+    return cloth_case(
+        "shape = \"sheet\"\nwidth = 0.6\nheight = 0.4\ncolumns = 6\nrows = 4\npattern = \"" +
+        pattern + "\"\n" + more);
   };
   const auto area = [](const Scene& scene) {
     return triangle_areas(scene.mesh.triangles, scene.mesh.rest).sum();
@@ -94,24 +99,26 @@ Finding patterns_finding(const Subject&) {
   see_shape(differences, "alternating", of("alternating"), 35, 48);
   see_shape(differences, "union_jack", of("union_jack"), 35, 48);
   see_shape(differences, "criss_cross", of("criss_cross"), 35 + 24, 96);
-  // of rows of 6 whole cells and of 7 with a half one at each end: 7 + 8 + 7 + 8 + 7 particles, 13 triangles
-  // a row
+  // of rows of 6 whole cells and of 7 with a half one at each end: 7 + 8 + 7 + 8 + 7 particles, 13
+  // triangles a row
   see_shape(differences, "equilateral", of("equilateral"), 37, 52);
   see_shape(differences, "jittered", of("jittered", "jitter = 0.2\nseed = 3\n"), 37, 52);
-  for (const std::string pattern : {"one_diagonal", "alternating", "union_jack", "criss_cross", "jittered",
-                                    "random_delaunay", "equilateral"})
+  for (const std::string pattern : {"one_diagonal", "alternating", "union_jack", "criss_cross",
+                                    "jittered", "random_delaunay", "equilateral"})
     differences.row(pattern + ", area", in_roundings(area(of(pattern)) - 0.24, 0.24));
-  differences.row("a seed fixes what is random", infinite_unless(of("random_delaunay", "seed = 3\n").x ==
-                                                                 of("random_delaunay", "seed = 3\n").x));
+  differences.row("a seed fixes what is random",
+                  infinite_unless(of("random_delaunay", "seed = 3\n").x ==
+                                  of("random_delaunay", "seed = 3\n").x));
   differences.row("another seed gives another mesh",
                   infinite_unless(of("jittered", "jitter = 0.2\nseed = 3\n").x !=
                                   of("jittered", "jitter = 0.2\nseed = 4\n").x));
   const Scene graded = of("one_diagonal", "grading = 1.3\n");
-  differences.row(
-      "grading leaves the number of triangles and makes cells unequal",
-      infinite_unless(graded.mesh.triangles.size() == 48 && !graded.x.isApprox(of("one_diagonal").x, 1e-3)));
-  return judged_differences(differences, 64,
-                            "numbers by counting; an area adds the products of some hundred coordinates");
+  differences.row("grading leaves the number of triangles and makes cells unequal",
+                  infinite_unless(graded.mesh.triangles.size() == 48 &&
+                                  !graded.x.isApprox(of("one_diagonal").x, 1e-3)));
+  return judged_differences(
+      differences, 64,
+      "numbers by counting; an area adds the products of some hundred coordinates");
 }
 
 // ---- copies and pleats
@@ -125,30 +132,36 @@ Finding copies_finding(const Subject&) {
   const Vector3 middle = one.rowwise().mean(), move(0.1, -0.2, 0.5);
   Table differences = no_differences();
   differences.row("particles", infinite_unless(scene.x.cols() == 3 * n));
-  differences.row("triangles", infinite_unless(scene.mesh.triangles.size() == 3 * size_t(2 * 4 * 3)));
+  differences.row("triangles",
+                  infinite_unless(scene.mesh.triangles.size() == 3 * size_t(2 * 4 * 3)));
   differences.row("springs couple no two pieces",
-                  infinite_unless(std::ranges::all_of(
-                      scene.mesh.edges, [&](const Edge& edge) { return edge.a / n == edge.b / n; })));
+                  infinite_unless(std::ranges::all_of(scene.mesh.edges, [&](const Edge& edge) {
+                    return edge.a / n == edge.b / n;
+                  })));
   PerParticle3 arm = one.colwise() - middle;
   for (int c = 0; c < 3; ++c) {
     const PerParticle3 expected = arm.colwise() + Vector3(middle + c * move);
     differences.row("piece " + std::to_string(c),
                     in_roundings(largest_difference(scene.x.middleCols(c * n, n), expected), 1));
-    differences.row("rest shape of piece " + std::to_string(c),
-                    in_roundings(largest_difference(scene.mesh.rest.middleCols(c * n, n), expected), 1));
+    differences.row(
+        "rest shape of piece " + std::to_string(c),
+        in_roundings(largest_difference(scene.mesh.rest.middleCols(c * n, n), expected), 1));
     const PerParticle3 turned = arm;  // by a quarter about z, by hand
     arm.row(0) = -turned.row(1);
     arm.row(1) = turned.row(0);
   }
   const Scene pleated_positions = sheet_case("[cloth.pleats]\ncolumns = 2\nangle = 40\n"),
-              folded_case = sheet_case("[cloth.pleats]\ncolumns = 2\nangle = 40\nstart_flat = false\n");
-  differences.row("pleats start flat", in_roundings(largest_difference(pleated_positions.x, one), 1));
+              folded_case =
+                  sheet_case("[cloth.pleats]\ncolumns = 2\nangle = 40\nstart_flat = false\n");
+  differences.row("pleats start flat",
+                  in_roundings(largest_difference(pleated_positions.x, one), 1));
   differences.row("and are folded at rest",
                   infinite_unless(pleated_positions.mesh.rest.row(2).cwiseAbs().maxCoeff() > 0.05));
   differences.row("or start as they rest",
                   in_roundings(largest_difference(folded_case.x, folded_case.mesh.rest), 1));
-  differences.row("the same rest shape",
-                  in_roundings(largest_difference(folded_case.mesh.rest, pleated_positions.mesh.rest), 1));
+  differences.row(
+      "the same rest shape",
+      in_roundings(largest_difference(folded_case.mesh.rest, pleated_positions.mesh.rest), 1));
   return judged_differences(differences, 32,
                             "turned and moved twice with a few roundings of lengths below 2 m");
 }
@@ -171,7 +184,8 @@ Finding shapes_rejected_finding(const Subject&) {
       {cloth + "mesh = \"\"\n", "--set cloth.mesh=FILE.obj"},
       {cloth + "mesh = \"nowhere.obj\"\n", "no mesh file"},
       {cloth + "shape = \"moebius\"\n", "unknown shape 'moebius'"},
-      {cloth + "shape = \"sheet\"\nwidth = 1\nheight = 1\ncolumns = 2\nrows = 2\npattern = \"plaid\"\n",
+      {cloth +
+           "shape = \"sheet\"\nwidth = 1\nheight = 1\ncolumns = 2\nrows = 2\npattern = \"plaid\"\n",
        "unknown pattern 'plaid'; known: one_diagonal"},
       {cloth + "shape = \"disc\"\nradius = 1\nrings = 0\n", "'rings' must lie in 1 .. 1,000,000"},
       {cloth + "shape = \"sphere\"\nradius = 1\nsubdivisions = 40\n", "subdivisions"},
@@ -179,10 +193,13 @@ Finding shapes_rejected_finding(const Subject&) {
       {cloth + "shape = \"statue\"\nheight = 1\ndivisions = 14\n", "give 15 to 256"},
       {small_sheet + "seed = 4294967297\n", "'seed' must lie in 0 .. 4294967295"},
       {small_sheet + "fit = 0\n", "'fit' must be > 0"},
-      {small_sheet + "fit = 2\n[cloth.pleats]\ncolumns = 2\nangle = 40\n", "'fit' does not go with pleats"},
+      {small_sheet + "fit = 2\n[cloth.pleats]\ncolumns = 2\nangle = 40\n",
+       "'fit' does not go with pleats"},
       {small_sheet + "[cloth.copies]\ncount = 1000000\nmove = [0, 0, 1]\n", "count"}};
-  for (const auto& [text, words] : cases) differences.row(words, infinite_unless(rejected(text, words)));
-  return judged_differences(differences, 0, "each must be refused with file, line and what is known");
+  for (const auto& [text, words] : cases)
+    differences.row(words, infinite_unless(rejected(text, words)));
+  return judged_differences(differences, 0,
+                            "each must be refused with file, line and what is known");
 }
 
 // ---- a start that is folded
@@ -190,11 +207,12 @@ Finding shapes_rejected_finding(const Subject&) {
 constexpr double gap = 0.03;  // m
 
 std::string folded_case(int layers, const std::string& more = "") {
-  return "[start.folded]\nlayers = " + std::to_string(layers) + "\ngap = 0.03\nup = [0, 0, 1]\n" + more;
+  return "[start.folded]\nlayers = " + std::to_string(layers) + "\ngap = 0.03\nup = [0, 0, 1]\n" +
+         more;
 }
 
-/// Where the point at the arc length s [m] of a strip of length `length` in three layers is, along and up
-/// [m]: each stretch by itself.
+/// Where the point at the arc length s [m] of a strip of length `length` in three layers is, along
+/// and up [m]: each stretch by itself.
 Eigen::Vector2d in_three_layers(double s, double length) {
   const double turn = pi * gap / 2, run = (length - 2 * turn) / 3, r = gap / 2;
   const auto on_circle = [&](double into) {
@@ -214,13 +232,16 @@ Finding folded_finding(const Subject&) {
   const PerParticle3 flat =
       cloth_case("shape = \"sheet\"\nwidth = 0.6\nheight = 0.1\ncolumns = 31\nrows = 2\n").x;
   const auto start = [](const std::string& tables) {
-    return cloth_case("shape = \"sheet\"\nwidth = 0.6\nheight = 0.1\ncolumns = 31\nrows = 2\n", tables).x;
+    return cloth_case("shape = \"sheet\"\nwidth = 0.6\nheight = 0.1\ncolumns = 31\nrows = 2\n",
+                      tables)
+        .x;
   };
   const PerParticle3 x = start(folded_case(3));
   Worst miss;
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const Eigen::Vector2d place = in_three_layers(flat(0, i) - flat.row(0).minCoeff(), 0.6);
-    miss.observe((x.col(i) - Vector3(flat.row(0).minCoeff() + place[0], flat(1, i), place[1])).norm());
+    miss.observe(
+        (x.col(i) - Vector3(flat.row(0).minCoeff() + place[0], flat(1, i), place[1])).norm());
   }
   const PerParticle3 dipped = start(folded_case(3, "dip = 0.007\n")) - x;
   Eigen::Index deepest = 0;
@@ -232,23 +253,26 @@ Finding folded_finding(const Subject&) {
                   infinite_unless(x(2, deepest) > 1.9 * gap && dipped.row(2).maxCoeff() <= 1e-15));
   const PerParticle3 stretched = start("[start]\nstretch = [1.1, 0.9, 1]\n");
   const Vector3 center = flat.rowwise().mean(), factors(1.1, 0.9, 1);
-  const PerParticle3 expected = (factors.asDiagonal() * (flat.colwise() - center)).colwise() + center;
+  const PerParticle3 expected =
+      (factors.asDiagonal() * (flat.colwise() - center)).colwise() + center;
   differences.row("stretched by a factor for each direction",
                   in_roundings(largest_difference(stretched, expected), 1));
-  return judged_differences(differences, 64,
-                            "an arc length of some ten roundings, its sine and cosine, of lengths below 1 m");
+  return judged_differences(
+      differences, 64,
+      "an arc length of some ten roundings, its sine and cosine, of lengths below 1 m");
 }
 
 Finding folded_rejected_finding(const Subject&) {
-  return rejected_cases({{folded_case(1), {"layers", "2 .. 1000"}},
-                         {folded_case(1001), {"layers", "2 .. 1000"}},
-                         {"[start.folded]\nlayers = 3\ngap = 0\n", {"gap"}},
-                         {folded_case(3, "along = [0, 0, 1]\n"), {"'up' must be square to 'along'"}},
-                         {folded_case(3, "along = [0, 0, 0]\n"), {"and both be directions"}},
-                         {"[start.folded]\nlayers = 3\ngap = 0.03\n", {"must lie flat, square to 'up'"}},
-                         {folded_case(40), {"too short for so many layers"}},
-                         {"[start]\nstretch = [1, 0, 1]\n", {"'stretch' must be > 0"}},
-                         {"[start]\nstretch = -1\n", {"stretch"}}});
+  return rejected_cases(
+      {{folded_case(1), {"layers", "2 .. 1000"}},
+       {folded_case(1001), {"layers", "2 .. 1000"}},
+       {"[start.folded]\nlayers = 3\ngap = 0\n", {"gap"}},
+       {folded_case(3, "along = [0, 0, 1]\n"), {"'up' must be square to 'along'"}},
+       {folded_case(3, "along = [0, 0, 0]\n"), {"and both be directions"}},
+       {"[start.folded]\nlayers = 3\ngap = 0.03\n", {"must lie flat, square to 'up'"}},
+       {folded_case(40), {"too short for so many layers"}},
+       {"[start]\nstretch = [1, 0, 1]\n", {"'stretch' must be > 0"}},
+       {"[start]\nstretch = -1\n", {"stretch"}}});
 }
 
 // ---- self-collision
@@ -258,19 +282,20 @@ const std::string crossed =
 
 Finding self_collision_finding(const Subject&) {
   const std::string table = "[self_collision]\nthickness = 0.002\n";
-  const SelfCollisionSettings usual = *trial_scene(table).self_collision,
-                              all = *trial_scene(
-                                         table +
-                                         "stiffness = 170\nfriction = 0.3\nrounds = 7\nuntangle = false\n")
-                                         .self_collision;
+  const SelfCollisionSettings
+      usual = *trial_scene(table).self_collision,
+      all = *trial_scene(table + "stiffness = 170\nfriction = 0.3\nrounds = 7\nuntangle = false\n")
+                 .self_collision;
   const Scene tangled = sheet_case(crossed, table),
-              balls = trial_scene("[[object]]\nshape = \"sphere\"\nradius = 0.1\nmove = [0, 0, 3]\n" + table);
+              balls = trial_scene(
+                  "[[object]]\nshape = \"sphere\"\nradius = 0.1\nmove = [0, 0, 3]\n" + table);
   Table differences = no_differences();
   differences.row("thickness", infinite_unless(usual.thickness == 0.002));
   differences.row("stiffness and friction are zero by default",
                   infinite_unless(usual.stiffness == 0 && usual.friction == 0));
   differences.row("untangles by default", infinite_unless(usual.untangle && !all.untangle));
-  differences.row("stiffness, friction", infinite_unless(all.stiffness == 170 && all.friction == 0.3));
+  differences.row("stiffness, friction",
+                  infinite_unless(all.stiffness == 170 && all.friction == 0.3));
   differences.row("rounds", infinite_unless(all.rounds == 7));
   differences.row("a run says what was built",
                   infinite_unless(has_part(trial_scene(table + "friction = 0.3\n"),
@@ -281,7 +306,8 @@ Finding self_collision_finding(const Subject&) {
   differences.row("cloth meets itself after objects",
                   infinite_unless(system.filters.size() == 2 &&
                                   std::holds_alternative<SelfCollision>(system.filters[1])));
-  differences.row("absent, it is not built", infinite_unless(build_system(trial_scene("")).filters.empty()));
+  differences.row("absent, it is not built",
+                  infinite_unless(build_system(trial_scene("")).filters.empty()));
   return judged_differences(differences, 0,
                             "a number is read as it is written; what is not named is not built");
 }
@@ -294,7 +320,8 @@ Finding self_collision_rejected_finding(const Subject&) {
   Finding finding = rejected_cases(
       {{"[self_collision]\n", {"thickness"}},
        {"[self_collision]\nthickness = 0\n", {"thickness"}},
-       {"[self_collision]\nthickness = 0.06\n", {"'thickness' is 0.06 m", "half the least height", half}},
+       {"[self_collision]\nthickness = 0.06\n",
+        {"'thickness' is 0.06 m", "half the least height", half}},
        {"[self_collision]\nthickness = 0.001\nstiffness = -1\n", {"stiffness"}},
        {"[self_collision]\nthickness = 0.001\nfriction = -1\n", {"friction"}},
        {"[self_collision]\nthickness = 0.001\nrounds = 0\n", {"rounds"}},
@@ -303,7 +330,8 @@ Finding self_collision_rejected_finding(const Subject&) {
   try {
     sheet_case(crossed, "[self_collision]\nthickness = 0.001\nuntangle = false\n");
   } catch (const InputError& error) {
-    is_rejected = std::string(error.what()).find("crosses itself at the start") != std::string::npos;
+    is_rejected =
+        std::string(error.what()).find("crosses itself at the start") != std::string::npos;
   }
   if (!is_rejected) finding.verdict.measured += 1;
   return finding;
@@ -317,10 +345,12 @@ std::vector<Check> scene_cloth_checks() {
       {"scene.shapes-are-read",
        "Discs, cylinders, spheres, statues and hinges are made in the sizes written.", source,
        shapes_finding},
-      {"scene.patterns-are-read", "Sheets have the pattern, the number of triangles and the area written.",
-       source, patterns_finding},
+      {"scene.patterns-are-read",
+       "Sheets have the pattern, the number of triangles and the area written.", source,
+       patterns_finding},
       {"scene.copies-and-pleats-are-read",
-       "Copies are turned and moved on one from the other, and pleats are folded.", source, copies_finding},
+       "Copies are turned and moved on one from the other, and pleats are folded.", source,
+       copies_finding},
       {"scene.invalid-cloth-is-rejected",
        "Shapes, patterns and copies that make no sense are refused, with the line.", source,
        shapes_rejected_finding},
@@ -334,8 +364,8 @@ std::vector<Check> scene_cloth_checks() {
        "What a case says of cloth meeting itself is read as written, and built.", source,
        self_collision_finding},
       {"scene.invalid-self-collision-is-rejected",
-       "Self-collision with a thickness that the mesh cannot resolve, or of cloth that starts crossed, is "
-       "refused.",
+       "Self-collision with a thickness that the mesh cannot resolve, or of cloth that starts "
+       "crossed, is refused.",
        source, self_collision_rejected_finding},
   };
 }

@@ -59,14 +59,17 @@ void see_places(const Scene& scene, Table& differences) {
                   in_roundings(distance_of(scene.objects[0], tip + 0.4 * out, 0) - 0.27, 1));
   const double t = 0.6;
   const Vector3 rate(30, 0, -50), center(0.1, 0.7, 0.2);
-  const Vector3 later = rotate(rate.norm() * t, rate, tip - center) + center + t * Vector3(0.4, 0.1, -0.2);
+  const Vector3 later =
+      rotate(rate.norm() * t, rate, tip - center) + center + t * Vector3(0.4, 0.1, -0.2);
   const Vector3 later_out = rotate(rate.norm() * t, rate, out);
-  differences.row("capsule, moved",
-                  in_roundings(distance_of(scene.objects[0], later + 0.4 * later_out, t) - 0.27, 1));
+  differences.row(
+      "capsule, moved",
+      in_roundings(distance_of(scene.objects[0], later + 0.4 * later_out, t) - 0.27, 1));
   differences.row("board at rest",
                   in_roundings(distance_of(scene.objects[1], {0.1, 0.1, 0.31}, 0.1) - 0.3, 1));
   const Vector3 half = rotate(30, {0, 0, 1}, {0.8, 0, 0}) + 0.5 * Vector3(0.3, 0.5, -0.1);
-  differences.row("board half way", in_roundings(distance_of(scene.objects[1], half, 0.5) - 0.5, 1));
+  differences.row("board half way",
+                  in_roundings(distance_of(scene.objects[1], half, 0.5) - 0.5, 1));
   differences.row("ring", in_roundings(distance_of(scene.objects[2], {0.5, 0, 0.3}, 0) - 0.2, 1));
 }
 
@@ -87,7 +90,8 @@ Finding meaning_finding(const Subject&) {
   const size_t points = size_t(scene.mesh.particles()) - 1 + scene.mesh.edges.size();
   differences.row("particles but the held one, and midpoints",
                   infinite_unless(filter.points.size() == points));
-  const Scene one = trial_scene("[[object]]\nshape = \"sphere\"\nradius = 0.3\n", {"object.radius=0.7"});
+  const Scene one =
+      trial_scene("[[object]]\nshape = \"sphere\"\nradius = 0.3\n", {"object.radius=0.7"});
   differences.row("the only entry needs no number",
                   in_roundings(distance_of(one.objects.at(0), {1, 0, 0}, 0) - 0.3, 1));
   return judged_differences(differences, 30,
@@ -103,7 +107,8 @@ Finding surface_finding(const Subject&) {
     for (Eigen::Index i = 0; i < part.vertices.cols(); ++i)
       off.observe(std::abs(distance_of(part, part.vertices.col(i), 0)));
     for (const Triangle& t : part.triangles) {
-      const Vector3 a = part.vertices.col(t[0]), b = part.vertices.col(t[1]), c = part.vertices.col(t[2]);
+      const Vector3 a = part.vertices.col(t[0]), b = part.vertices.col(t[1]),
+                    c = part.vertices.col(t[2]);
       const Vector3 middle = (a + b + c) / 3;
       const Vector3 n = std::get<RigidObject>(part.object.body).at(middle, {0, 0, 0}).normal;
       outward += (b - a).cross(c - a).dot(n) > 0 ? 1 : 0;
@@ -112,51 +117,49 @@ Finding surface_finding(const Subject&) {
   }
   const double inwards = triangles - outward;
   return {{inwards > 0 ? inwards : off.value(), 1e-7, 0, "m",
-           "corners lie on the surface; those round the capsule's poles, a thousandth of its radius from the "
-           "axis, "
-           "stand off by half the square of that, 0.07 micrometres"},
-          Table{{"triangles that face inwards", "1"}, {"corners off the surface", "m"}}.with_row(inwards,
-                                                                                                 off.value()),
+           "corners lie on the surface; those round the capsule's poles, a thousandth of its "
+           "radius from the axis, stand off by half the square of that, 0.07 micrometres"},
+          Table{{"triangles that face inwards", "1"}, {"corners off the surface", "m"}}.with_row(
+              inwards, off.value()),
           "triangles that face inwards, if there are any, are counted instead"};
 }
 
 std::vector<RejectedCase> rejections() {
   const std::string ball = "[[object]]\nshape = \"sphere\"\nradius = 0.3\n";
-  return {{"[[object]]\nshape = \"sphere\"\n", {"radius"}},
-          {"[[object]]\nshape = \"sphere\"\nradius = 0\n", {"'radius' must be > 0"}},
-          {"[[object]]\nshape = \"ball\"\nradius = 1\n", {"unknown shape 'ball'", "sphere", "torus"}},
-          {"[[object]]\nradius = 0.3\n", {"either 'shape' or 'mesh'"}},
-          {ball + "mesh = \"x.obj\"\n", {"not both"}},
-          {ball + "frictoin = 0.3\n", {"unknown key 'frictoin'", "friction"}},
-          {ball + "friction = -0.3\n", {"'friction' must not be negative"}},
-          {ball + "size = [1, 1, 1]\n", {"unknown key 'size'"}},
-          {"[[object]]\nshape = \"box\"\nsize = [1, 0, 1]\n", {"'size' must be > 0"}},
-          {"[[object]]\nshape = \"torus\"\nring_radius = 0.1\ntube_radius = 0.2\n",
-           {"smaller than 'ring_radius'"}},
-          {"[[object]]\nmesh = \"nowhere.obj\"\n", {"there is no mesh file", "nowhere.obj"}},
-          {ball + "[[object.keyframe]]\ntime = 1\n[[object.keyframe]]\ntime = 1\n", {"must rise"}},
-          {ball + "[[object.keyframe]]\ntime = 1\nmvoe = [0, 0, 1]\n", {"unknown key 'mvoe'", "move"}},
-          {ball + "velocity = [0, 0, 1]\n[[object.keyframe]]\ntime = 1\n", {"unknown key 'velocity'"}},
-          {ball + "[collision]\nforecast_time = 0\n", {"'forecast_time' must be > 0"}},
-          {ball + "[collision]\npoints = \"corners\"\n", {"unknown points 'corners'", "edges"}},
-          {ball + "[collision]\nresponse = \"bounce\"\n", {"unknown response 'bounce'", "forecast"}},
-          {ball + "[collision]\ntau = 0.1\n", {"unknown key 'tau'", "forecast_time"}},
-          {"[collision]\npoints = \"edges\"\n", {"needs an [[object]]"}}};
+  return {
+      {"[[object]]\nshape = \"sphere\"\n", {"radius"}},
+      {"[[object]]\nshape = \"sphere\"\nradius = 0\n", {"'radius' must be > 0"}},
+      {"[[object]]\nshape = \"ball\"\nradius = 1\n", {"unknown shape 'ball'", "sphere", "torus"}},
+      {"[[object]]\nradius = 0.3\n", {"either 'shape' or 'mesh'"}},
+      {ball + "mesh = \"x.obj\"\n", {"not both"}},
+      {ball + "frictoin = 0.3\n", {"unknown key 'frictoin'", "friction"}},
+      {ball + "friction = -0.3\n", {"'friction' must not be negative"}},
+      {ball + "size = [1, 1, 1]\n", {"unknown key 'size'"}},
+      {"[[object]]\nshape = \"box\"\nsize = [1, 0, 1]\n", {"'size' must be > 0"}},
+      {"[[object]]\nshape = \"torus\"\nring_radius = 0.1\ntube_radius = 0.2\n",
+       {"smaller than 'ring_radius'"}},
+      {"[[object]]\nmesh = \"nowhere.obj\"\n", {"there is no mesh file", "nowhere.obj"}},
+      {ball + "[[object.keyframe]]\ntime = 1\n[[object.keyframe]]\ntime = 1\n", {"must rise"}},
+      {ball + "[[object.keyframe]]\ntime = 1\nmvoe = [0, 0, 1]\n", {"unknown key 'mvoe'", "move"}},
+      {ball + "velocity = [0, 0, 1]\n[[object.keyframe]]\ntime = 1\n", {"unknown key 'velocity'"}},
+      {ball + "[collision]\nforecast_time = 0\n", {"'forecast_time' must be > 0"}},
+      {ball + "[collision]\npoints = \"corners\"\n", {"unknown points 'corners'", "edges"}},
+      {ball + "[collision]\nresponse = \"bounce\"\n", {"unknown response 'bounce'", "forecast"}},
+      {ball + "[collision]\ntau = 0.1\n", {"unknown key 'tau'", "forecast_time"}},
+      {"[collision]\npoints = \"edges\"\n", {"needs an [[object]]"}}};
 }
 
-Finding rejection_finding(const Subject&) {
-  return rejected_cases(rejections());
-}
+Finding rejection_finding(const Subject&) { return rejected_cases(rejections()); }
 
 }  // namespace
 
 std::vector<Check> scene_object_checks() {
   return {{"scene.objects-are-as-written",
-           "Objects have the place, motion, friction and response that the case says.", "cases/KEYS.md",
-           meaning_finding},
+           "Objects have the place, motion, friction and response that the case says.",
+           "cases/KEYS.md", meaning_finding},
           {"scene.drawn-surfaces-match-their-solids",
-           "The surface that is drawn of an object is that of its solid, facing outwards.", "cases/KEYS.md",
-           surface_finding},
+           "The surface that is drawn of an object is that of its solid, facing outwards.",
+           "cases/KEYS.md", surface_finding},
           {"scene.invalid-objects-are-rejected",
            "What a case must not say of objects is refused with file, line and what is known.",
            "cases/KEYS.md", rejection_finding}};

@@ -29,14 +29,16 @@ Finding hold_finding(const Subject&) {
     if (rest(1, i) >= 0.43 - 0.35 * 0.43) top.push_back(i);
   }
   Table differences = no_differences();
-  const auto is = [&](const std::string& what, bool right) { differences.row(what, infinite_unless(right)); };
+  const auto is = [&](const std::string& what, bool right) {
+    differences.row(what, infinite_unless(right));
+  };
   is("particles", particles_held_by("particles = [7, 2]") == std::vector<int>{7, 2});
-  is("box",
-     left.size() == 8 && particles_held_by("box = [[-0.01, -0.01, -0.01], [0.16, 1.0, 0.01]]") == left);
+  is("box", left.size() == 8 &&
+                particles_held_by("box = [[-0.01, -0.01, -0.01], [0.16, 1.0, 0.01]]") == left);
   is("top", top.size() == 10 && particles_held_by("top = 0.35") == top);
   const Scene scene = trial_scene(
-      "[[hold]]\nparticles = [7]\nvelocity = [0.1, 0.2, 0.4]\namplitude = [0.3, 0.5, 0.7]\nfrequency = "
-      "1.7\nphase = 33\n"
+      "[[hold]]\nparticles = [7]\nvelocity = [0.1, 0.2, 0.4]\namplitude = [0.3, 0.5, "
+      "0.7]\nfrequency = 1.7\nphase = 33\n"
       "center = [0.6, 0.9, 1.1]\nangular_velocity = [10, -20, 35]\n");
   const Motion timed_motion =
       trial_scene("[[hold]]\nparticles = [7]\nfrom = 0.13\nuntil = 0.29\n").prescribed.at(0).motion;
@@ -52,17 +54,19 @@ Finding hold_finding(const Subject&) {
   differences.row("angular velocity in degrees",
                   in_roundings((p.motion.angular_velocity - degree * Vector3(10, -20, 35)).norm(),
                                degree * Vector3(10, -20, 35).norm()));
-  const Vector3 arm = Vector3(rest.col(7)) - Vector3(0.6, 0.9, 1.1), spin = degree * Vector3(10, -20, 35);
+  const Vector3 arm = Vector3(rest.col(7)) - Vector3(0.6, 0.9, 1.1),
+                spin = degree * Vector3(10, -20, 35);
   differences.row("start position on the path",
                   in_roundings((start_state(scene).x.col(7) - rest.col(7)).norm(),
                                arm.norm() + Vector3(0.6, 0.9, 1.1).norm()));
   const Vector3 speed = spin.cross(arm) + Vector3(0.1, 0.2, 0.4) +
                         2 * pi * 1.7 * std::cos(33 * degree) * Vector3(0.3, 0.5, 0.7);
-  differences.row("start velocity on the path", in_roundings((start_state(scene).v.col(7) - speed).norm(),
-                                                             spin.norm() * arm.norm() + speed.norm()));
+  differences.row("start velocity on the path",
+                  in_roundings((start_state(scene).v.col(7) - speed).norm(),
+                               spin.norm() * arm.norm() + speed.norm()));
   return judged_differences(differences, 32,
-                            "angles are converted to radians, positions and velocities computed, with a few "
-                            "roundings of each term");
+                            "angles are converted to radians, positions and velocities computed, "
+                            "with a few roundings of each term");
 }
 
 Finding start_finding(const Subject&) {
@@ -82,27 +86,31 @@ Finding start_finding(const Subject&) {
   Table differences = no_differences();
   differences.row("positions", in_roundings(x.value(), size.value()));
   differences.row("velocities", in_roundings(v.value(), speed.value()));
-  differences.row("rest shape", in_roundings(largest_difference(scene.mesh.rest, rest), size.value()));
-  differences.row(
-      "noise is within its size and fills it",
-      infinite_unless(shaken.cwiseAbs().maxCoeff() <= 0.004 && shaken.cwiseAbs().maxCoeff() > 0.0036));
+  differences.row("rest shape",
+                  in_roundings(largest_difference(scene.mesh.rest, rest), size.value()));
+  differences.row("noise is within its size and fills it",
+                  infinite_unless(shaken.cwiseAbs().maxCoeff() <= 0.004 &&
+                                  shaken.cwiseAbs().maxCoeff() > 0.0036));
   differences.row("noise has both signs",
                   infinite_unless(shaken.minCoeff() < -0.0036 && shaken.maxCoeff() > 0.0036));
   differences.row(
       "the seed fixes the noise",
-      in_roundings(largest_difference(shaken, trial_scene("[start]\nnoise = 0.004\nseed = 5\n").x - rest),
-                   0.004));
-  differences.row(
-      "another seed gives other noise",
-      infinite_unless(largest_difference(shaken, trial_scene("[start]\nnoise = 0.004\nseed = 6\n").x - rest) >
-                      1e-3));
+      in_roundings(
+          largest_difference(shaken, trial_scene("[start]\nnoise = 0.004\nseed = 5\n").x - rest),
+          0.004));
+  differences.row("another seed gives other noise",
+                  infinite_unless(largest_difference(
+                                      shaken, trial_scene("[start]\nnoise = 0.004\nseed = 6\n").x -
+                                                  rest) > 1e-3));
   return judged_differences(
-      differences, 32, "a few roundings of each of the terms that lengths and velocities are summed from");
+      differences, 32,
+      "a few roundings of each of the terms that lengths and velocities are summed from");
 }
 
 Finding placed_finding(const Subject&) {
-  const std::string line = "density = 0.23\n",
-                    placed = "fit = 1.3\nturn = { axis = [1, -2, 3], angle = 37 }\nmove = [0.3, -0.2, 0.7]\n";
+  const std::string
+      line = "density = 0.23\n",
+      placed = "fit = 1.3\nturn = { axis = [1, -2, 3], angle = 37 }\nmove = [0.3, -0.2, 0.7]\n";
   std::string cloth = small_sheet;
   cloth.replace(cloth.find(line), line.size(), line + placed);
   const Scene scene = read_scene_text(cloth + short_time, "trial.toml");
@@ -119,16 +127,18 @@ Finding placed_finding(const Subject&) {
   differences.row("start", in_roundings(worst.value(), 1.3 + move.norm()));
   differences.row("rest shape is the placed one",
                   in_roundings(largest_difference(scene.x, scene.mesh.rest), 1.3 + move.norm()));
-  return judged_differences(
-      differences, 32,
-      "scaled, turned and moved with some twenty roundings of the cloth's length and of the way moved");
+  return judged_differences(differences, 32,
+                            "scaled, turned and moved with some twenty roundings of the cloth's "
+                            "length and of the way moved");
 }
 
 Finding rest_angle_finding(const Subject&) {
   const std::string cylinder =
-      "[cloth]\nshape = \"cylinder\"\nradius = 0.31\nheight = 0.5\naround = 9\nalong = 4\ndensity = 0.2\n";
+      "[cloth]\nshape = \"cylinder\"\nradius = 0.31\nheight = 0.5\naround = 9\nalong = 4\ndensity "
+      "= 0.2\n";
   const auto angles = [&](const std::string& source) {
-    return read_scene_text(cylinder + "[bending]\nstiffness = 1e-4\n" + source + short_time, "trial.toml")
+    return read_scene_text(cylinder + "[bending]\nstiffness = 1e-4\n" + source + short_time,
+                           "trial.toml")
         .rest_angles;
   };
   const auto extremes = [](const std::vector<double>& list) {
@@ -141,19 +151,20 @@ Finding rest_angle_finding(const Subject&) {
                   in_roundings(*extremes(given).first + 27.5 * degree, 27.5 * degree));
   differences.row("a number, in degrees, greatest",
                   in_roundings(*extremes(given).second + 27.5 * degree, 27.5 * degree));
-  differences.row("flat", in_roundings(std::max(-*extremes(flat).first, *extremes(flat).second), 1));
+  differences.row("flat",
+                  in_roundings(std::max(-*extremes(flat).first, *extremes(flat).second), 1));
   // a cylinder of nine sides is folded by 40 degrees along its length and flat elsewhere
   differences.row("rest shape, least", infinite_unless(std::abs(*extremes(shape).first) < 1e-9 ||
                                                        std::abs(*extremes(shape).second) < 1e-9));
-  differences.row(
-      "rest shape, sharpest",
-      in_roundings(
-          std::max(std::abs(*extremes(shape).first), std::abs(*extremes(shape).second)) - 40 * degree, 1));
+  differences.row("rest shape, sharpest", in_roundings(std::max(std::abs(*extremes(shape).first),
+                                                                std::abs(*extremes(shape).second)) -
+                                                           40 * degree,
+                                                       1));
   differences.row("the default is the rest shape", infinite_unless(shape == none));
   differences.row("one angle a hinge",
                   infinite_unless(given.size() == shape.size() && flat.size() == shape.size()));
-  return judged_differences(differences, 64,
-                            "an angle is found from coordinates with some thirty roundings of 1 rad");
+  return judged_differences(
+      differences, 64, "an angle is found from coordinates with some thirty roundings of 1 rad");
 }
 
 }  // namespace
@@ -162,15 +173,16 @@ std::vector<Check> scene_place_checks() {
   const std::string source = "good practice";
   return {
       {"scene.held-particles-are-as-written",
-       "The reference holds and leads the particles that a case names, as it says.", source, hold_finding},
+       "The reference holds and leads the particles that a case names, as it says.", source,
+       hold_finding},
       {"scene.start-state-is-as-written",
        "The reference starts with the stretch, spin, velocity and noise that a case says.", source,
        start_finding},
-      {"scene.cloth-is-placed-as-written", "The reference scales, turns and moves the cloth as a case says.",
-       source, placed_finding},
+      {"scene.cloth-is-placed-as-written",
+       "The reference scales, turns and moves the cloth as a case says.", source, placed_finding},
       {"scene.rest-angles-come-from-the-named-source",
-       "Rest angles of the reference come from a number, from flatness or from the rest shape, as a case "
-       "says.",
+       "Rest angles of the reference come from a number, from flatness or from the rest shape, as "
+       "a case says.",
        source, rest_angle_finding},
   };
 }

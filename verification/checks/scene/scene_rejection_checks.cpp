@@ -53,7 +53,8 @@ struct Rejection {
 std::string edit(const Rejection& rejection) {
   std::string text = trial_case;
   const size_t place = text.find(rejection.find);
-  if (place == std::string::npos) throw InputError("the trial case has no '" + rejection.find + "'");
+  if (place == std::string::npos)
+    throw InputError("the trial case has no '" + rejection.find + "'");
   return text.replace(place, rejection.find.size(), rejection.replace);
 }
 
@@ -97,17 +98,20 @@ Finding rejected(const std::vector<Rejection>& rejections) {
 }
 
 /// A line after another one.
-Rejection add_line(const std::string& after, const std::string& line, std::vector<std::string> mentions) {
+Rejection add_line(const std::string& after, const std::string& line,
+                   std::vector<std::string> mentions) {
   return {after, after + "\n" + line, std::move(mentions)};
 }
 
 Finding unknown_finding(const Subject&) {
   return rejected({
-      add_line("title = \"Trial\"", "titel = \"Trial\"", {"'titel'", "the file", "known here", "title"}),
+      add_line("title = \"Trial\"", "titel = \"Trial\"",
+               {"'titel'", "the file", "known here", "title"}),
       add_line("density = 0.23", "densty = 0.2", {"'densty'", "[cloth]", "density"}),
       {"angle = 37 }", "angle = 37, anle = 5 }", {"'anle'", "[cloth.turn]", "axis"}},
       add_line("stretch = 1.02", "strech = 1.1", {"'strech'", "[start]", "noise"}),
-      add_line("[gravity]", "accelration = [0, 0, 1]", {"'accelration'", "[gravity]", "acceleration"}),
+      add_line("[gravity]", "accelration = [0, 0, 1]",
+               {"'accelration'", "[gravity]", "acceleration"}),
       add_line("damping = 0.011", "dampng = 0.2", {"'dampng'", "[stretch]", "rest_length_scale"}),
       add_line("damping = 2.3e-5", "stifness = 2.0", {"'stifness'", "[bending]", "damping_factor"}),
       add_line("particles = [0, 4]", "velocty = [0, 0, 1]", {"'velocty'", "[hold]", "velocity"}),
@@ -143,14 +147,18 @@ Finding values_finding(const Subject&) {
       {"density = 0.23", "density = -0.23", {"'density'", "> 0"}},
       {"density = 0.23", "density = 0", {"'density'", "> 0"}},
       {"shape = \"sheet\"", "shape = \"shet\"", {"'shet'", "known", "sheet", "statue"}},
-      {"pattern = \"jittered\"", "pattern = \"jitter\"", {"'jitter'", "known", "jittered", "criss_cross"}},
-      {"shape = \"sheet\"\npattern = \"jittered\"\nwidth = 0.6\nheight = 0.43\ncolumns = 5\nrows = 4\njitter "
-       "= 0.2",
+      {"pattern = \"jittered\"",
+       "pattern = \"jitter\"",
+       {"'jitter'", "known", "jittered", "criss_cross"}},
+      {"shape = \"sheet\"\npattern = \"jittered\"\nwidth = 0.6\nheight = 0.43\ncolumns = 5\nrows = "
+       "4\njitter = 0.2",
        "mesh = \"nowhere.obj\"",
        {"nowhere.obj", "no mesh file"}},
       {"axis = [1, 2, 3]", "axis = [0, 0, 0]", {"'axis'", "zero"}},
       {"particles = [0, 4]", "particles = [0, 4]\nfrom = -0.1", {"'from'", ">= 0"}},
-      {"particles = [0, 4]", "particles = [0, 4]\nfrom = 0.2\nuntil = 0.2", {"'until'", "later than 'from'"}},
+      {"particles = [0, 4]",
+       "particles = [0, 4]\nfrom = 0.2\nuntil = 0.2",
+       {"'until'", "later than 'from'"}},
       {"stretch = 1.02", "stretch = 0", {"'stretch'", "> 0"}},
       {"stretch = 1.02", "noise = -0.01", {"'noise'", "negative"}},
       {"stiffness = 37.0", "stiffness = -37.0", {"'stiffness'", "negative"}},
@@ -159,7 +167,9 @@ Finding values_finding(const Subject&) {
       {"stiffness = 3.1e-4", "stiffness = -3.1e-4", {"'stiffness'", "negative"}},
       {"damping = 2.3e-5", "damping = -2.3e-5", {"'damping'", "negative"}},
       {"damping = 2.3e-5", "weighting = \"now\"", {"'now'", "known", "rest", "current"}},
-      {"damping = 2.3e-5", "damping_factor = \"area\"", {"'area'", "known", "edge_squared_over_area"}},
+      {"damping = 2.3e-5",
+       "damping_factor = \"area\"",
+       {"'area'", "known", "edge_squared_over_area"}},
       {"damping = 2.3e-5", "law = \"square\"", {"'square'", "known", "sine", "cubic"}},
       {"rest_angle = 3.5", "rest_angle = 181", {"'rest_angle'", "[-180, 180]"}},
       {"rest_angle = 3.5", "rest_angle = \"curved\"", {"'curved'", "known", "rest_shape", "flat"}},
@@ -186,15 +196,16 @@ std::vector<Check> scene_rejection_checks() {
   const std::string source = "good practice";
   return {
       {"scene.unknown-keys-are-rejected",
-       "A case of the reference with a key that no one asks for is refused, with file, line and the keys "
-       "known there.",
+       "A case of the reference with a key that no one asks for is refused, with file, line and "
+       "the keys known there.",
        source, unknown_finding},
       {"scene.wrong-types-are-rejected",
-       "A case of the reference with a value of the wrong type is refused, with file, line and the type "
-       "wanted.",
+       "A case of the reference with a value of the wrong type is refused, with file, line and the "
+       "type wanted.",
        source, types_finding},
       {"scene.out-of-range-values-are-rejected",
-       "A case of the reference with a value out of its range is refused, with file, line and what is known.",
+       "A case of the reference with a value out of its range is refused, with file, line and what "
+       "is known.",
        source, values_finding},
   };
 }

@@ -24,13 +24,15 @@ velocity = [0, 0.3, -0.2]
 const std::string values = "stiffness = 41\nforecast_time = 0.013\nnear = 0.009\nfar = 0.031\n";
 
 /// The only patch of a case with these regions.
-StickyPatch patch_of(const std::string& surface, const std::string& particles, const std::string& more = "") {
-  return trial_scene(ball + "[[sticky]]\nsurface = " + surface + "\nparticles = " + particles + "\n" +
-                     values + more)
+StickyPatch patch_of(const std::string& surface, const std::string& particles,
+                     const std::string& more = "") {
+  return trial_scene(ball + "[[sticky]]\nsurface = " + surface + "\nparticles = " + particles +
+                     "\n" + values + more)
       .sticky.at(0);
 }
 
-std::vector<Triangle> chosen_triangles(const Scene& scene, const std::function<bool(const Vector3&)>& is_in) {
+std::vector<Triangle> chosen_triangles(const Scene& scene,
+                                       const std::function<bool(const Vector3&)>& is_in) {
   std::vector<Triangle> chosen;
   for (const Triangle& t : scene.mesh.triangles)
     if (is_in((scene.x.col(t[0]) + scene.x.col(t[1]) + scene.x.col(t[2])) / 3)) chosen.push_back(t);
@@ -42,11 +44,13 @@ Finding regions_finding(const Subject&) {
   const std::vector<Triangle>& all = sheet.mesh.triangles;
   Table differences = no_differences();
   const StickyPatch plain = patch_of("{ of = \"cloth\" }", "{}");
-  differences.row("all of the cloth",
-                  infinite_unless(plain.triangles == all && plain.particles.size() == 20 && !plain.place));
-  differences.row("values", infinite_unless(plain.stiffness == 41 && plain.forecast_time == 0.013 &&
-                                            plain.near == 0.009 && plain.far == 0.031 && plain.from == 0 &&
-                                            std::isinf(plain.until) && plain.release == 0));
+  differences.row(
+      "all of the cloth",
+      infinite_unless(plain.triangles == all && plain.particles.size() == 20 && !plain.place));
+  differences.row("values",
+                  infinite_unless(plain.stiffness == 41 && plain.forecast_time == 0.013 &&
+                                  plain.near == 0.009 && plain.far == 0.031 && plain.from == 0 &&
+                                  std::isinf(plain.until) && plain.release == 0));
   const StickyPatch lists =
       patch_of("{ of = \"cloth\", triangles = [7, 2, 7] }", "{ particles = [11, 3, 11] }",
                "from = 0.1\nuntil = 0.2\nrelease = 0.03\nname = \"seam\"\n");
@@ -58,17 +62,21 @@ Finding regions_finding(const Subject&) {
   const StickyPatch box = patch_of("{ of = \"cloth\", box = [[0, 0, -1], [0.31, 0.2, 1]] }",
                                    "{ box = [[0.29, 0.1, -1], [1, 1, 1]] }");
   const auto select_in_box = [](const Vector3& p) { return p.x() <= 0.31 && p.y() <= 0.2; };
-  differences.row("box of centres", infinite_unless(!box.triangles.empty() &&
-                                                    box.triangles == chosen_triangles(sheet, select_in_box)));
-  const StickyPatch round = patch_of("{ of = \"cloth\", sphere = { center = [0.1, 0.1, 0], radius = 0.17 } }",
-                                     "{ sphere = { center = [0.6, 0.43, 0], radius = 0.16 } }");
+  differences.row("box of centres",
+                  infinite_unless(!box.triangles.empty() &&
+                                  box.triangles == chosen_triangles(sheet, select_in_box)));
+  const StickyPatch round =
+      patch_of("{ of = \"cloth\", sphere = { center = [0.1, 0.1, 0], radius = 0.17 } }",
+               "{ sphere = { center = [0.6, 0.43, 0], radius = 0.16 } }");
   const auto in_ball = [](const Vector3& p) { return (p - Vector3(0.1, 0.1, 0)).norm() <= 0.17; };
-  differences.row("sphere of centres", infinite_unless(!round.triangles.empty() &&
-                                                       round.triangles == chosen_triangles(sheet, in_ball)));
+  differences.row("sphere of centres",
+                  infinite_unless(!round.triangles.empty() &&
+                                  round.triangles == chosen_triangles(sheet, in_ball)));
   std::vector<int> corner;
   for (int i = 0; i < 20; ++i)
     if ((sheet.x.col(i) - Vector3(0.6, 0.43, 0)).norm() <= 0.16) corner.push_back(i);
-  differences.row("sphere of particles", infinite_unless(!corner.empty() && round.particles == corner));
+  differences.row("sphere of particles",
+                  infinite_unless(!corner.empty() && round.particles == corner));
   return judged_differences(differences, 0, "numbers and choices are read as written");
 }
 
@@ -76,9 +84,9 @@ Finding carried_finding(const Subject&) {
   Table differences = no_differences();
   const StickyPatch cap = patch_of("{ of = \"ball\", box = [[-1, -1, -0.12], [1, 1, 1]] }", "{}");
   const size_t all = patch_of("{ of = \"ball\" }", "{}").triangles.size();
-  differences.row(
-      "some of the ball's triangles",
-      infinite_unless(cap.triangles.size() > all / 8 && cap.triangles.size() < all / 2 && cap.place));
+  differences.row("some of the ball's triangles",
+                  infinite_unless(cap.triangles.size() > all / 8 &&
+                                  cap.triangles.size() < all / 2 && cap.place));
   for (const double t : {0.0, 0.17}) {
     const PerParticle3 x = cap.place(t), v = cap.velocity(t);
     Worst off, above, slow;
@@ -92,7 +100,8 @@ Finding carried_finding(const Subject&) {
     differences.row("velocity", in_roundings(slow.value(), 1));
     differences.row("centres in the box at the start", in_roundings(above.value(), 1));
   }
-  return judged_differences(differences, 8, "a rigid motion of points of size 1 takes a few roundings");
+  return judged_differences(differences, 8,
+                            "a rigid motion of points of size 1 takes a few roundings");
 }
 
 /// Three triangles: the first two of an object of two names and a group each, the last of none.
@@ -117,19 +126,19 @@ Finding groups_finding(const Subject&) {
   std::ofstream(file) << grouped;
   Table differences = no_differences();
   const FaceGroups groups = read_obj_groups(file);
-  differences.row(
-      "groups",
-      infinite_unless(groups ==
-                      FaceGroups{{"back", {1}}, {"front", {0}}, {"left", {0, 1}}, {"right", {0, 1}}}));
-  const std::string text =
-      "[cloth]\nmesh = \"grouped.obj\"\ndensity = 0.2\n" + short_time +
-      "[[sticky]]\nsurface = { of = \"cloth\", group = \"front\" }\nparticles = { group = "
-      "\"back\" }\n" +
-      values;
+  differences.row("groups", infinite_unless(groups == FaceGroups{{"back", {1}},
+                                                                 {"front", {0}},
+                                                                 {"left", {0, 1}},
+                                                                 {"right", {0, 1}}}));
+  const std::string text = "[cloth]\nmesh = \"grouped.obj\"\ndensity = 0.2\n" + short_time +
+                           "[[sticky]]\nsurface = { of = \"cloth\", group = \"front\" }\nparticles "
+                           "= { group = \"back\" }\n" +
+                           values;
   const StickyPatch patch = read_scene_text(text, folder.file("trial.toml")).sticky.at(0);
   differences.row("triangles of a group",
                   infinite_unless(patch.triangles == std::vector<Triangle>{{0, 1, 2}}));
-  differences.row("corners of a group", infinite_unless(patch.particles == std::vector<int>{0, 2, 3}));
+  differences.row("corners of a group",
+                  infinite_unless(patch.particles == std::vector<int>{0, 2, 3}));
   return judged_differences(differences, 0, "names are read as written");
 }
 
@@ -156,7 +165,8 @@ Finding rejections_finding(const Subject&) {
       {sticky(cloth + "particles = { particles = [3], box = [[0, 0, 0], [1, 1, 1]] }\n" + values),
        {"one of"}},
       {sticky(cloth + "particles = { group = \"palm\" }\n" + values), {"'group'", "OBJ"}},
-      {sticky(cloth + "particles = { sphere = { center = [0, 0, 0], radius = -1 } }\n" + values), {"radius"}},
+      {sticky(cloth + "particles = { sphere = { center = [0, 0, 0], radius = -1 } }\n" + values),
+       {"radius"}},
   });
 }
 
@@ -165,17 +175,17 @@ Finding rejections_finding(const Subject&) {
 std::vector<Check> sticking_scene_checks() {
   const std::string source = "cases/KEYS.md";
   return {{"scene.sticky-regions-are-read",
-           "The reference reads of [[sticky]] what lists, boxes and spheres name, and its values.", source,
-           regions_finding},
+           "The reference reads of [[sticky]] what lists, boxes and spheres name, and its values.",
+           source, regions_finding},
           {"scene.objects-carry-sticky-surfaces",
            "The reference lets an object carry the sticky triangles that its region names.", source,
            carried_finding},
           {"scene.obj-groups-are-kept",
-           "The reference keeps the groups and objects of an OBJ file, and regions name them.", source,
-           groups_finding},
+           "The reference keeps the groups and objects of an OBJ file, and regions name them.",
+           source, groups_finding},
           {"scene.invalid-sticky-tables-are-rejected",
-           "The reference refuses wrong tables [[sticky]] with file, line and what is known.", source,
-           rejections_finding}};
+           "The reference refuses wrong tables [[sticky]] with file, line and what is known.",
+           source, rejections_finding}};
 }
 
 }  // namespace foldproof
