@@ -155,8 +155,9 @@ def append_to_log(path: Path, rows: list[RunRow]) -> int:
     """Appends those rows that the log does not have, and says how many. Each row is written whole, by one call."""
     known = {row.key for row in read_log(path)}
     new = {row.key: row for row in rows if row.key not in known}
-    if new:
-        _repair_end(path)
+    if not new:
+        return 0
+    _repair_end(path)
     with open(path, "a", encoding="utf-8") as file:
         for row in new.values():
             file.write(_line_of(row) + "\n")

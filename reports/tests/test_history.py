@@ -114,6 +114,7 @@ class HistoryTest(unittest.TestCase):
                 self.answer(*words)
             self.assertEqual(stop.exception.code, 2)
             self.assertRegex(said.getvalue(), rf"^make_history: .*{why}.*\n$")
+        self.assertFalse((self.path / "none").exists())
 
     def test_the_page_escapes_and_says_what_is_worse(self) -> None:
         history = history_of([row_of(self.put(1, [finding("a")])), row_of(self.put(2, [finding("a", "fails")]))])
