@@ -88,7 +88,7 @@ Finding left_alone_finding(const Subject& subject) {
   const double gap = 2 * thickness;
   Worst changed;
   bool is_answered = false;
-  for (const double share : {1.01, 0.5, 0.2, 0.11, 0.09}) {
+  for (const double share : {1.01, 0.5, 0.2, 0.15, 0.14, 0.13, 0.125, 0.12, 0.115, 0.09}) {
     Scene scene = three_triangles(gap);
     const PerParticle3 v = corrected_motion(subject, scene, apex_above, gap - share * thickness);
     const double change = (v - scene.v).cwiseAbs().maxCoeff() / scene.v.cwiseAbs().maxCoeff();
