@@ -118,6 +118,14 @@ Job job_of(const Case& input_case, const std::vector<std::string>& wanted) {
           }};
 }
 
+/// Throws InputError for the name of checks or cases where a study is expected.
+void reject_other_kind(const std::string& name, const std::vector<Check>& checks, Tier tier) {
+  Selection others;
+  if (add_named(name, checks, {}, others) || add_cases(name, tier, others))
+    throw InputError(
+        fmt::format("'{0}' names checks or cases, and no study; type `foldproof check {0}`", name));
+}
+
 }  // namespace
 
 Selection select(const NameFilter& wanted, Tier tier) {
@@ -128,9 +136,15 @@ Selection select(const NameFilter& wanted, Tier tier) {
     if (is_named(wanted.kinds, "check")) selection.checks = checks;
     if (is_named(wanted.kinds, "study")) selection.studies = studies;
   }
-  for (const std::string& name : wanted.names)
-    if (!add_named(name, checks, studies, selection) && !add_cases(name, tier, selection))
-      reject(name, checks, studies);
+  const bool only_studies = !wanted.names.empty() && !is_named(wanted.kinds, "check");
+  for (const std::string& name : wanted.names) {
+    if (only_studies
+            ? add_named(name, {}, studies, selection)
+            : add_named(name, checks, studies, selection) || add_cases(name, tier, selection))
+      continue;
+    if (only_studies) reject_other_kind(name, checks, tier);
+    reject(name, checks, studies);
+  }
   return selection;
 }
 

@@ -22,11 +22,12 @@ struct Selection {
 
 /// What the names choose: checks, studies, single findings of studies, or groups ("bending" for all
 /// that begins with "bending."), "case.NAME" for what is expected of a shipped case, whatever its
-/// tier, and "case" for all shipped cases of the tier. No name: all of the kinds. Throws InputError
-/// for a name that chooses nothing, with the nearest known ones.
+/// tier, and "case" for all shipped cases of the tier. No name: all of the kinds. Without "check"
+/// among the kinds, names choose studies and their findings only. Throws InputError for a name that
+/// chooses nothing, with the nearest known ones.
 struct NameFilter {
   std::vector<std::string> names;
-  std::vector<std::string> kinds;  // of "check", "study": what a missing name stands for
+  std::vector<std::string> kinds;  // of "check", "study": chosen where no name is given
 };
 Selection select(const NameFilter& wanted, Tier tier);
 

@@ -357,6 +357,11 @@ step = 0.001
         with h5py.File(self.path / "out/run.h5") as file:
             self.assertEqual(file.attrs["seed"], 7)
 
+    def test_study_runs_studies_only(self) -> None:
+        done = run("study", "bending.torques-sum-to-zero")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("names checks or cases, and no study; type `foldproof check bending.torques", done.stderr)
+
     def test_the_shell_completes_commands_names_options_and_files(self) -> None:
         def complete(*words: str) -> list[str]:
             lines = ["source scripts/completion.bash", f"COMP_WORDS=({' '.join(map(repr, (str(PROGRAM), *words)))})",
