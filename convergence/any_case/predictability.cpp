@@ -168,7 +168,8 @@ double error_of_first_level(const std::vector<LevelRun>& runs, const PerParticle
   std::vector<double> before;
   const std::vector<double> apart = distances(runs.front(), *finest, mass);
   for (size_t k = 1; k < apart.size() && apart[k] < ceiling; ++k) before.push_back(apart[k]);
-  return before.empty() ? 0 : median(before);
+  if (before.empty()) return apart.size() > 1 ? apart[1] : 0;
+  return median(before);
 }
 
 Growth growth_of(const std::vector<double>& times, const std::vector<double>& distances,
@@ -231,11 +232,11 @@ std::string in_words(const Predictability& p) {
   const std::string growth = growth_in_words(p.growth);
   if (p.horizon < p.end)
     return fmt::format(
-        "beyond t = {:.3g} s only statistics: runs that start {:.2g} m apart are then a share of "
-        "{:.2g} of the motion apart ({:.2g} of {:.2g} m); {}",
+        "beyond t = {:.3g} s only statistics: runs that start {:.2g} m apart are then {:.2g} m "
+        "apart, {:.2g} of the motion ({:.2g} m); {}",
         p.horizon,
         p.rounding.horizon < p.error.horizon ? p.rounding.disturbance : p.error.disturbance,
-        p.fraction, p.fraction * p.motion, p.motion, growth);
+        p.fraction * p.motion, p.fraction, p.motion, growth);
   return fmt::format(
       "predictable to its end (t = {:.3g} s): runs that start {:.2g} and {:.2g} m apart are at "
       "most {:.2g} and {:.2g} m apart, the motion being {:.2g} m; {}",

@@ -36,9 +36,9 @@ Phase pendulum_rate(const Phase& p) {
   const double a = (-3 * g * std::sin(p[0]) - g * std::sin(p[0] - 2 * p[1]) -
                     2 * std::sin(delta) * (p[3] * p[3] + p[2] * p[2] * std::cos(delta))) /
                    below;
-  const double b =
-      2 * std::sin(delta) *
-      (2 * p[2] * p[2] + 2 * g * std::cos(p[0]) + p[3] * p[3] * std::cos(delta)) / below;
+  const double b = 2 * std::sin(delta) *
+                   (2 * p[2] * p[2] + 2 * g * std::cos(p[0]) + p[3] * p[3] * std::cos(delta)) /
+                   below;
   return {p[2], p[3], a, b};
 }
 
@@ -172,7 +172,7 @@ TEST_CASE("an exponential's rate and crossing are found") {
   CHECK(growth.to < crossing_time(times, apart, 1e-4));
   CHECK(crossing_time({1, 2, 4}, {0.1, 0.3, 0.7}, 0.4) == Approx(2.5));
   CHECK(crossing_time({1, 2, 4}, {0.1, 0.3, 0.7}, 0.9) == infinity);
-  CHECK(crossing_time({1, 2, 4}, {0.1, nan, 0.7}, 0.9) == 2);
+  CHECK(crossing_time({1, 2, 4}, {0.1, foldproof::nan, 0.7}, 0.9) == 2);
   CHECK(std::isnan(growth_of(times, std::vector<double>(60, 0.0), 1).rate));
 }
 
@@ -190,17 +190,16 @@ TEST_CASE("a twin that stops, or cloth that rests, leaves predictability unknown
 TEST_CASE("the first level's error is taken before the levels part") {
   const PerParticle mass = PerParticle::Constant(3, 0.2);
   const LevelRun finest = made_up(2, [](double t, int i) { return Vector3(t, i, 0); });
-  const LevelRun first = made_up(
-      2, [](double t, int i) { return Vector3(t + 1e-3 + (t > 1 ? t - 1 : 0), i, 0); });
+  const LevelRun first =
+      made_up(2, [](double t, int i) { return Vector3(t + 1e-3 + (t > 1 ? t - 1 : 0), i, 0); });
   LevelRun cut = finest;
   cut.stopped = "stopped";
   CHECK(error_of_first_level({first, first, finest, cut}, mass, 0.1) == Approx(1e-3));
-  CHECK(error_of_first_level({first, finest}, mass, 1e-4) == 0);
+  CHECK(error_of_first_level({first, finest}, mass, 1e-4) == Approx(1e-3));
 }
 
 TEST_CASE("a disturbance has its size, leaves prescribed particles alone and keeps layers apart") {
-  Scene scene = scene_at_rest(
-      sheet_mesh({Pattern::alternating, 0.8, 0.5, 9, 6}), 0.3);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::alternating, 0.8, 0.5, 9, 6}), 0.3);
   scene.x = scene.mesh.rest;
   scene.v = 0 * scene.x;
   scene.prescribed = {{4, scene.x.col(4), {}}, {11, scene.x.col(11), {}}};
@@ -214,8 +213,8 @@ TEST_CASE("a disturbance has its size, leaves prescribed particles alone and kee
   CHECK((u - displacement_of({size, 4}, scene)).norm() > 0.3 * u.norm());
   double steepest = 0;
   for (const Edge& e : scene.mesh.edges)
-    steepest = std::max(steepest, (u.col(e.a) - u.col(e.b)).norm() /
-                                      (scene.x.col(e.a) - scene.x.col(e.b)).norm());
+    steepest = std::max(
+        steepest, (u.col(e.a) - u.col(e.b)).norm() / (scene.x.col(e.a) - scene.x.col(e.b)).norm());
   CHECK(steepest < 0.8);
   seed_shift = 5;
   const PerParticle3 shifted = displacement_of({size, 3}, scene);
@@ -313,6 +312,6 @@ TEST_CASE("a fold's angle falls into its band, by the length of its edge") {
   }
   CHECK(name_of_fold_band(0) == "0 to 5 degrees");
   CHECK(name_of_fold_band(4) == "90 to 180 degrees");
-  x(0, 0) = nan;
+  x(0, 0) = foldproof::nan;
   CHECK(std::isnan(fold_spectrum(mesh, x)[0]));
 }
