@@ -53,7 +53,6 @@ constexpr const char* history =
 Examples:
   foldproof history results-monday results             what changed from one run to the next
   foldproof history results --log history.jsonl        append this run to a log, then show it
-  foldproof history --log history.jsonl --out history.html
 
 Exit codes:
   0    nothing got worse in the newest run
@@ -219,7 +218,6 @@ predictable. Orders and bars are asked up to there only. Beyond it, --ensemble s
 over time of height, energies, contacts and fold angles, with their spread.
 
 Examples:
-  foldproof converge hinge --until 0.2
   foldproof converge drape_sphere --ensemble 8
   foldproof converge hanging_sheet --levels 3 --method BDF2 --out mine
 
