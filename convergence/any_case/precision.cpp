@@ -18,6 +18,7 @@ constexpr double truth_budget = 2.5;       // of a run for the truth over that o
 constexpr int most_parts = 1 << 20;        // steps a frame
 constexpr double least_solve = 8;          // applications of an implicit step, at least [1]
 constexpr int levels_wanted = 3;           // of a method that come to an end
+constexpr double least_motion = 1e-9;      // over the cloth's extent: less is rounding [1]
 constexpr double narrow = 1.3;             // of steps between which a price lies
 constexpr double contender = 2.5;          // of a price over the cheapest whose bracket is narrowed
 
@@ -415,6 +416,7 @@ CaseTruth case_truth(const PrecisionPlan& plan, const TrialRuns& runs) {
   if (opinions.empty()) return truth;
   truth.first = opinions.front();
   truth.motion = motion_of(truth.first.x, plan.mass);
+  if (!(truth.motion > least_motion * extent(plan.input_case.scene.x))) return truth;
   const auto second = std::ranges::find_if(opinions, [&](const Opinion& opinion) {
     return family_of(opinion.method) != family_of(truth.first.method);
   });

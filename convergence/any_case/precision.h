@@ -53,8 +53,8 @@ struct CaseTruth {
   double uncertainty = nan;  // how far apart they are, over the motion [1]; NaN: there are no two
 };
 
-/// The truth that the runs allow. Opinions are chosen by their own error bars, never by how
-/// well they agree.
+/// The truth that the runs allow; none where nothing moves by more than a billionth of the cloth's
+/// extent. Opinions are chosen by their own error bars, never by how well they agree.
 CaseTruth case_truth(const PrecisionPlan& plan, const TrialRuns& runs);
 
 /// An error is told where the truth is known to a tenth of it [1].

@@ -141,6 +141,10 @@ std::vector<std::string> precision_sentences(const PrecisionAnswer& answer) {
 
 std::string truth_in_words(const PrecisionAnswer& answer) {
   const CaseTruth& truth = answer.truth;
+  if (std::isnan(truth.uncertainty) && std::isfinite(truth.motion) && truth.second.parts == 0)
+    return fmt::format(
+        "truth: unknown; nothing moves ({:.1g} m), or only methods of one family came to an end",
+        truth.motion);
   if (std::isnan(truth.uncertainty))
     return "truth: unknown; no two methods of different families came to an end with two steps";
   const auto words = [](const Opinion& opinion) {

@@ -102,6 +102,9 @@ TEST_CASE("prices are those of the methods' own laws of error") {
   const MadeUp made = made_by(two_good_methods, {1e-2, 1e-3});
   const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
   CHECK(answer.truth.motion == Approx(end_time).epsilon(1e-5));
+  CHECK(answer.truth.first.is_extrapolated);
+  CHECK(answer.truth.second.is_extrapolated);
+  CHECK(answer.truth.uncertainty < 1e-7);
   for (size_t list = 0; list < 2; ++list)
     for (const auto& [method, law] : two_good_methods) {
       const double wanted = answer.plan.wanted[list];
@@ -132,6 +135,7 @@ TEST_CASE("the largest stable step of an unstable method is bracketed") {
   const double frame = end_time / frames;
   CHECK(curve.stable_step <= frame / 11 * (1 + 1e-12));
   CHECK(curve.unstable_step >= frame / 10 * (1 - 1e-12));
+  CHECK(curve.unstable_step <= 1.31 * curve.stable_step);
   CHECK(price_of(answer, 0, "A").price.limit == LimitedBy::stability);
   CHECK(price_of(answer, 0, "A").price.step == curve.stable_step);
 }
@@ -217,6 +221,18 @@ TEST_CASE("forward Euler's error in free fall is the step over the time") {
     CHECK(run.error == Approx(1. / run.steps).epsilon(1e-6));
   CHECK(price_of(answer, 0, "forward-euler").price.step == Approx(0.02 * end_time).epsilon(1e-3));
   CHECK(price_of(answer, 0, "B").price.limit == LimitedBy::not_tried);
+}
+
+TEST_CASE("a case in which nothing moves has no truth and no price") {
+  MadeUp made = made_by(two_good_methods, {1e-2});
+  for (auto& [method, levels] : made.runs)
+    for (auto& [parts, run] : levels)
+      for (PerParticle3& x : run.x)
+        x = made.plan.input_case.scene.x + 1e-17 / parts * PerParticle3::Ones(3, x.cols());
+  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  CHECK(std::isnan(answer.truth.uncertainty));
+  CHECK(std::isnan(answer.lists[0].prices.front().price.applications));
+  CHECK(truth_in_words(answer).starts_with("truth: unknown; nothing moves"));
 }
 
 TEST_CASE("held particles do not dilute errors") {
