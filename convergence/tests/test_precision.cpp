@@ -128,7 +128,7 @@ TEST_CASE("each method's observed order is that of its own halved steps") {
 
 TEST_CASE("the largest stable step of an unstable method is bracketed") {
   std::map<std::string, Law> laws = two_good_methods;
-  laws["A"] = {1e-5, 2, 11, 5};
+  laws["A"] = {1e-5, 2, 11, 3};
   const MadeUp made = made_by(laws, {1e-2});
   const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
   const MethodCurve& curve = curve_of(answer, "A");
