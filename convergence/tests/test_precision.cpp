@@ -118,6 +118,15 @@ TEST_CASE("prices are those of the methods' own laws of error") {
   CHECK(price_of(answer, 0, "RK4").over_best == Approx(13. / 5 * 3.080 / 5.477).epsilon(0.02));
 }
 
+TEST_CASE("the sentence names the fastest method where it is not the one of least work") {
+  MadeUp made = made_by(two_good_methods, {1e-2});
+  CHECK(precision_sentences(precision_answer(made.plan, made.runs))[0].find("by seconds") ==
+        std::string::npos);
+  for (auto& [parts, run] : made.runs.at("B")) run.seconds *= 10;
+  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  CHECK(precision_sentences(answer)[0].find("; by seconds RK4 with h = ") != std::string::npos);
+}
+
 TEST_CASE("each method's observed order is that of its own halved steps") {
   const MadeUp made = made_by(two_good_methods, {1e-3});
   const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
