@@ -1,5 +1,7 @@
 #include "convergence/any_case/precision.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,6 +18,7 @@ constexpr double truth_budget = 2.5;       // of a run for the truth over that o
 constexpr int most_parts = 1 << 20;        // steps a frame
 constexpr double least_solve = 8;          // applications of an implicit step, at least [1]
 constexpr int levels_wanted = 3;           // of a method that come to an end
+constexpr double least_motion = 1e-9;      // over the cloth's extent: less is rounding [1]
 constexpr double narrow = 1.3;             // of steps between which a price lies
 constexpr double contender = 2.5;          // of a price over the cheapest whose bracket is narrowed
 
@@ -191,21 +194,23 @@ std::pair<int, const TrialRun*> finest(const Levels& levels) {
 
 using Cost = std::function<double(const TrialRun&)>;
 
-/// What a run with so many steps a frame costs: by the last two halvings continued linearly. By one
-/// alone, in proportion; but work of implicit solves hardly grows before a solve is short, so
-/// theirs is at least as much as now, and at least least_solve for each step.
+/// What a run with so many steps a frame costs: by the last two halvings continued linearly, or by
+/// one alone in proportion. Work of implicit solves hardly grows before steps are short: theirs is
+/// that of the last run and, for each step more, at least least_solve.
 double expected_cost(const Levels& levels, Family family, double parts, const Cost& cost) {
   const int last = finest(levels).first;
   const TrialRun& run = levels.at(last);
   const double now = cost(run);
+  double each = now / last;
   const auto before = levels.find(last / 2);
-  if (before != levels.end() && is_whole(before->second) && is_whole(run)) {
-    const double each = std::max(0., now - cost(before->second)) / (last - before->first);
-    return now + each * (parts - last);
+  const bool has_two = before != levels.end() && is_whole(before->second) && is_whole(run);
+  if (has_two) each = std::max(0., now - cost(before->second)) / (last - before->first);
+  if (family == Family::fully_implicit) {
+    const double least = least_solve * double(run.steps) / last * now /
+                         std::max(1., operator_applications(run.work));
+    each = has_two ? std::max(each, least) : least;
   }
-  if (family != Family::fully_implicit) return now * parts / last;
-  const double applications = std::max(1., operator_applications(run.work));
-  return now * std::max(1., least_solve * double(run.steps) * parts / last / applications);
+  return now + each * (parts - last);
 }
 
 bool is_affordable(const Survey& survey, const std::string& method, double parts, double most_work,
@@ -222,12 +227,22 @@ bool is_affordable(const Survey& survey, const std::string& method, double parts
          }) <= most_work;
 }
 
-/// Steps a frame with which the method would reach the largest wanted error that it has not, by its
-/// formal order; 0 if it has reached them all.
+/// The method's order as far as it showed in its last two halvings, at most its formal one.
+double seen_order(const MethodCurve& curve, const std::string& method) {
+  const double formal = integrator_named(method).order;
+  const auto last = std::ranges::find(curve.parts, curve.parts.back() / 2);
+  if (last == curve.parts.end()) return formal;
+  const double before = curve.curve.runs[size_t(last - curve.parts.begin())].error;
+  const double order = std::log2(before / curve.curve.runs.back().error);
+  return std::isnan(order) ? formal : std::clamp(order, 0.01, formal);
+}
+
+/// Steps a frame with which the method would reach the largest wanted error that it has not, by the
+/// order that it showed; 0 if it has reached them all.
 double parts_needed(const Survey& survey, const std::string& method, int parts, double error) {
+  const double order = seen_order(curve_of(survey, method), method);
   for (const double wanted : survey.plan.wanted)
-    if (std::isnan(error) || error > wanted)
-      return parts * std::pow(error / wanted, 1. / integrator_named(method).order);
+    if (std::isnan(error) || error > wanted) return parts * std::pow(error / wanted, 1 / order);
   return 0;
 }
 
@@ -321,9 +336,32 @@ std::vector<Trial> narrowed_brackets(const Survey& survey) {
   return trials;
 }
 
+/// How contact and strain limits act in the last two halvings, where it may explain why a method
+/// has no order; "" where they do not act.
+std::string how_filters_act(const Levels& levels) {
+  const auto ladder = fine_end(levels);
+  if (ladder.size() < 2) return "";
+  const auto rate = [&](size_t back, const auto& count) {
+    const TrialRun& run = *ladder[ladder.size() - back].second;
+    return double(count(run.work)) / std::max(1., double(run.steps));
+  };
+  std::string words;
+  const auto add = [&](const char* name, const auto& count) {
+    if (rate(1, count) > 0 || rate(2, count) > 0)
+      words +=
+          fmt::format("; {} a step: {:.3g}, then {:.3g}", name, rate(2, count), rate(1, count));
+  };
+  add("contacts with objects", [](const Work& w) { return w.object_contacts; });
+  add("close pairs of cloth", [](const Work& w) { return w.close_pairs + w.crossings; });
+  add("strain sweeps", [](const Work& w) { return w.strain_sweeps; });
+  add("bonds", [](const Work& w) { return w.bonds; });
+  return words;
+}
+
 MethodCurve method_curve(const PrecisionPlan& plan, const std::string& method, const Levels& levels,
                          const CaseTruth& truth) {
   MethodCurve curve{method, {integrator_named(method), {}}, {}, {}, bar_of(plan, method, levels)};
+  if (!curve.bar.reason.empty()) curve.bar.reason += how_filters_act(levels);
   const double frames = plan.input_case.scene.schedule.end / frame_of(plan);
   for (const auto& [parts, run] : levels) {
     if (run.over_budget > 0) continue;
@@ -378,6 +416,7 @@ CaseTruth case_truth(const PrecisionPlan& plan, const TrialRuns& runs) {
   if (opinions.empty()) return truth;
   truth.first = opinions.front();
   truth.motion = motion_of(truth.first.x, plan.mass);
+  if (!(truth.motion > least_motion * extent(plan.input_case.scene.x))) return truth;
   const auto second = std::ranges::find_if(opinions, [&](const Opinion& opinion) {
     return family_of(opinion.method) != family_of(truth.first.method);
   });

@@ -53,8 +53,8 @@ struct CaseTruth {
   double uncertainty = nan;  // how far apart they are, over the motion [1]; NaN: there are no two
 };
 
-/// The truth that the runs allow. Opinions are chosen by their own error bars, never by how
-/// well they agree.
+/// The truth that the runs allow; none where nothing moves by more than a billionth of the cloth's
+/// extent. Opinions are chosen by their own error bars, never by how well they agree.
 CaseTruth case_truth(const PrecisionPlan& plan, const TrialRuns& runs);
 
 /// An error is told where the truth is known to a tenth of it [1].
@@ -81,7 +81,7 @@ std::vector<MethodCurve> method_curves(const PrecisionPlan& plan, const TrialRun
 /// The runs to make next; none when all is answered, or exceeds the budget. A method's steps are
 /// doubled until they are unstable (those of fully implicit methods, until they miss the largest
 /// wanted error), and halved until its error is the least wanted one and three runs came to an
-/// end; unless the next wanted error, by the method's order, costs more than the budget, or
+/// end; unless the next wanted error, by the order that it showed, costs more than the budget, or
 /// `dearest` times what the cheapest method pays. Then both opinions on the truth are refined
 /// until they agree. Then brackets of prices of methods that might be cheapest are narrowed to a
 /// quarter of a step.

@@ -16,6 +16,19 @@ std::string step_in_words(const Price& price) {
                      price.step / milli);
 }
 
+/// Which method takes the fewest seconds, where it is not the first of the list: filters of contact
+/// and strain cost time that is not counted as work; "" where it is.
+std::string by_seconds(const PriceList& list) {
+  const MethodPrice& first = list.prices.front();
+  const MethodPrice* fastest = &first;
+  for (const MethodPrice& price : list.prices)
+    if (price.price.seconds < fastest->price.seconds) fastest = &price;
+  if (fastest == &first) return "";
+  return fmt::format("; by seconds {} with {}, 1.0; {} {:.3g}", fastest->method,
+                     step_in_words(fastest->price), first.method,
+                     first.price.seconds / fastest->price.seconds);
+}
+
 std::string sentence_of(const PrecisionAnswer& answer, const PriceList& list) {
   const std::string head =
       fmt::format("{} at {:.3g} %: ", answer.plan.input_case.scene.name, percent * list.wanted);
@@ -35,7 +48,7 @@ std::string sentence_of(const PrecisionAnswer& answer, const PriceList& list) {
   if (!unreached.empty())
     sentence += fmt::format("{}{} {} not reach it", parts.empty() ? "" : "; ",
                             fmt::join(unreached, ", "), unreached.size() == 1 ? "does" : "do");
-  return sentence;
+  return sentence + by_seconds(list);
 }
 
 struct CostAxis {
@@ -141,6 +154,10 @@ std::vector<std::string> precision_sentences(const PrecisionAnswer& answer) {
 
 std::string truth_in_words(const PrecisionAnswer& answer) {
   const CaseTruth& truth = answer.truth;
+  if (std::isnan(truth.uncertainty) && std::isfinite(truth.motion) && truth.second.parts == 0)
+    return fmt::format(
+        "truth: unknown; nothing moves ({:.1g} m), or only methods of one family came to an end",
+        truth.motion);
   if (std::isnan(truth.uncertainty))
     return "truth: unknown; no two methods of different families came to an end with two steps";
   const auto words = [](const Opinion& opinion) {
@@ -161,8 +178,8 @@ StudyRecord precision_record(const PrecisionAnswer& answer, double seconds) {
   record.about =
       "Which integrator is cheapest for this case at a wanted error? Every method runs it with "
       "constant steps, halved from run to run. Work is counted in applications of force operators; "
-      "queries of contact are not among them. Prices are interpolated in logarithms between the "
-      "two runs that bracket the error, never beyond them. " +
+      "contact and strain limits are not among them; seconds include them. Prices are interpolated "
+      "in logarithms between the two runs that bracket the error, never beyond them. " +
       truth_in_words(answer) + ".";
   for (const CostAxis& cost : cost_axes()) record.figures.push_back(figure_of(answer, cost));
   record.tables = {price_table(answer), method_table(answer), run_table(answer)};

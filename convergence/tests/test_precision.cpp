@@ -102,6 +102,9 @@ TEST_CASE("prices are those of the methods' own laws of error") {
   const MadeUp made = made_by(two_good_methods, {1e-2, 1e-3});
   const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
   CHECK(answer.truth.motion == Approx(end_time).epsilon(1e-5));
+  CHECK(answer.truth.first.is_extrapolated);
+  CHECK(answer.truth.second.is_extrapolated);
+  CHECK(answer.truth.uncertainty < 1e-7);
   for (size_t list = 0; list < 2; ++list)
     for (const auto& [method, law] : two_good_methods) {
       const double wanted = answer.plan.wanted[list];
@@ -115,6 +118,15 @@ TEST_CASE("prices are those of the methods' own laws of error") {
   CHECK(price_of(answer, 0, "RK4").over_best == Approx(13. / 5 * 3.080 / 5.477).epsilon(0.02));
 }
 
+TEST_CASE("the sentence names the fastest method where it is not the one of least work") {
+  MadeUp made = made_by(two_good_methods, {1e-2});
+  CHECK(precision_sentences(precision_answer(made.plan, made.runs))[0].find("by seconds") ==
+        std::string::npos);
+  for (auto& [parts, run] : made.runs.at("B")) run.seconds *= 10;
+  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  CHECK(precision_sentences(answer)[0].find("; by seconds RK4 with h = ") != std::string::npos);
+}
+
 TEST_CASE("each method's observed order is that of its own halved steps") {
   const MadeUp made = made_by(two_good_methods, {1e-3});
   const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
@@ -125,13 +137,14 @@ TEST_CASE("each method's observed order is that of its own halved steps") {
 
 TEST_CASE("the largest stable step of an unstable method is bracketed") {
   std::map<std::string, Law> laws = two_good_methods;
-  laws["A"] = {1e-5, 2, 11, 5};
+  laws["A"] = {1e-5, 2, 11, 3};
   const MadeUp made = made_by(laws, {1e-2});
   const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
   const MethodCurve& curve = curve_of(answer, "A");
   const double frame = end_time / frames;
   CHECK(curve.stable_step <= frame / 11 * (1 + 1e-12));
   CHECK(curve.unstable_step >= frame / 10 * (1 - 1e-12));
+  CHECK(curve.unstable_step <= 1.31 * curve.stable_step);
   CHECK(price_of(answer, 0, "A").price.limit == LimitedBy::stability);
   CHECK(price_of(answer, 0, "A").price.step == curve.stable_step);
 }
@@ -217,6 +230,18 @@ TEST_CASE("forward Euler's error in free fall is the step over the time") {
     CHECK(run.error == Approx(1. / run.steps).epsilon(1e-6));
   CHECK(price_of(answer, 0, "forward-euler").price.step == Approx(0.02 * end_time).epsilon(1e-3));
   CHECK(price_of(answer, 0, "B").price.limit == LimitedBy::not_tried);
+}
+
+TEST_CASE("a case in which nothing moves has no truth and no price") {
+  MadeUp made = made_by(two_good_methods, {1e-2});
+  for (auto& [method, levels] : made.runs)
+    for (auto& [parts, run] : levels)
+      for (PerParticle3& x : run.x)
+        x = made.plan.input_case.scene.x + 1e-17 / parts * PerParticle3::Ones(3, x.cols());
+  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  CHECK(std::isnan(answer.truth.uncertainty));
+  CHECK(std::isnan(answer.lists[0].prices.front().price.applications));
+  CHECK(truth_in_words(answer).starts_with("truth: unknown; nothing moves"));
 }
 
 TEST_CASE("held particles do not dilute errors") {

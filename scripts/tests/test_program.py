@@ -217,6 +217,32 @@ step = 0.001
         for words in ("--fraction 1", "--fraction 0", "--ensemble -1"):
             self.assert_rejected("converge", "hinge", *words.split())
 
+    def test_precision_names_the_cheapest_integrator_and_keeps_its_runs(self) -> None:
+        ask = ("precision", "hinge", "--until", "0.2", "--methods", "A,RK4,backward-euler", "--errors", "0.02", "--out",
+               str(self.path / "out"), "--json")
+        first, again = run(*ask), run(*ask)
+        self.assertEqual(first.returncode, 0, first.stderr)
+        self.assertEqual(json.loads(first.stdout), json.loads(again.stdout))  # the seconds too: nothing was run again
+        starts = [line for file in (self.path / "out/store/shards").iterdir() for line in file.read_text().splitlines()
+                  if '"start"' in line]
+        told = json.loads(first.stdout)
+        runs = [run for method in told["methods"] for run in method["runs"]]
+        self.assertEqual(len(starts), len(runs))
+        self.assertEqual([method["method"] for method in told["methods"]], ["A", "RK4", "backward-euler"])
+        (prices,) = told["prices"]
+        self.assertEqual((prices["error"], prices["methods"][0]["over_cheapest"]), (0.02, 1))
+        self.assertLess(told["truth"]["good_down_to"], 0.02)
+        self.assertIn("hinge at 2 %: " + prices["methods"][0]["method"], told["sentences"][0])
+        with h5py.File(self.path / "out/precision.h5") as file:
+            curves = file["studies/precision.hinge/figures/hinge-work/curves"]
+            self.assertEqual(len(curves), 3)
+        report = run("report", str(self.path / "out"))
+        self.assertEqual(report.returncode, 0, report.stderr)
+        self.assertIn("Error against work: hinge", (self.path / "out/report.html").read_text())
+        unknown = run(*ask[:-2], str(self.path / "new"), "--errors", "1e-9", "--effort", "0.01")
+        self.assertEqual(unknown.returncode, 1, unknown.stderr)
+        self.assertIn("no price, since the truth is not known to a tenth of this error", unknown.stdout)
+
     def test_any_obj_mesh_runs(self) -> None:
         quad = "v 0 0 0\nv 1 0 0\nv 1 1 0.1\nv 0 1 0\nv 0 2 0.2\nv 1 2 0\nf 1 2 3 4\nf 4 3 6 5\n"
         done = self.simulate(str(ROOT / "cases/any_mesh.toml"), "--set", "cloth.mesh=" + self.write("quad.obj", quad),
@@ -474,6 +500,9 @@ step = 0.001
             "simulate hinge.toml --cache": "--cache needs a value: --cache DIR",
             "converge hinge --levels 2": "'2' is not a whole number from 3 to 12",
             "converge hinge --until -1": "'-1' is not a number above 0",
+            "precision hinge --methods A,D": "unknown integrator 'D'; known: A, B,",
+            "precision hinge --errors 0": "'0' is not a number above 0",
+            "precision hinge --effort x": "'x' is not a number above 0",
             "converge hinge --out notes.txt": "notes.txt: cannot make this folder",
             "check bending --seed x": "'x' is not a whole number from 0 to 1000000000",
             "check bending --tier fast": "'fast' is none of quick, full",
