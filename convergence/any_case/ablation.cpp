@@ -8,6 +8,7 @@
 #include <exception>
 #include <map>
 
+#include "convergence/any_case/distances.h"
 #include "verification/cases/judge.h"
 #include "verification/cases/quantities.h"
 #include "verification/cases/self_crossings.h"
@@ -137,12 +138,7 @@ Case with_scene(const Case& input_case, Scene scene) {
 }
 
 double position_difference(const ObservedRun& a, const ObservedRun& b, const PerParticle& mass) {
-  Worst worst;
-  for (size_t k = 0; k < std::min(a.x.size(), b.x.size()); ++k) {
-    const Eigen::VectorXd squares = (a.x[k] - b.x[k]).colwise().squaredNorm().transpose();
-    worst.observe(std::sqrt(squares.dot(mass.matrix()) / mass.sum()));
-  }
-  return worst.value();
+  return largest_difference(a.x, b.x, mass);
 }
 
 bool JudgedPart::is_justified() const {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "convergence/any_case/distances.h"
 #include "reference/dynamics/system.h"
 
 namespace foldproof {
@@ -10,10 +11,6 @@ namespace {
 
 /// Rounding of a number of this size over a run: differences below are no discretization error.
 double rounding_floor(double size) { return 1e3 * epsilon * size; }
-
-double extent_of(const PerParticle3& x) {
-  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
-}
 
 double sum_of(const std::vector<double>& values) {
   double sum = 0;
@@ -32,7 +29,7 @@ QuantityOverLevels positions_over_levels(const LadderPlan& plan,
                         over.differences,
                         2,
                         double(integrator_named(scene.integrator).order),
-                        rounding_floor(extent_of(scene.x))});
+                        rounding_floor(longest_side(scene.x))});
   over.first_error = sum_of(over.differences) + over.bar.half_width;
   return over;
 }

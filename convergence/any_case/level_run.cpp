@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 
+#include "convergence/any_case/distances.h"
 #include "convergence/work_precision/precision_problem.h"
 #include "reference/bodies/content_key.h"
 #include "verification/cases/judge.h"
@@ -137,12 +138,7 @@ LevelRun stored_level(const Level& level, const LevelSetProvider& level_sets, Re
 
 double field_difference(const LevelRun& a, const LevelRun& b, const PerParticle& mass) {
   if (!a.stopped.empty() || !b.stopped.empty() || a.x.size() != b.x.size()) return nan;
-  Worst worst;
-  for (size_t k = 0; k < a.x.size(); ++k) {
-    const Eigen::VectorXd squares = (a.x[k] - b.x[k]).colwise().squaredNorm().transpose();
-    worst.observe(std::sqrt(squares.dot(mass.matrix()) / mass.sum()));
-  }
-  return worst.value();
+  return largest_difference(a.x, b.x, mass);
 }
 
 }  // namespace foldproof

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "convergence/any_case/distances.h"
 #include "reference/forces/force.h"
 
 namespace foldproof {
@@ -33,28 +34,10 @@ double frame_of(const PrecisionPlan& plan) {
   return std::min(schedule.frame_interval, schedule.end);
 }
 
-double rms(const PerParticle3& a, const PerParticle3& b, const PerParticle& mass) {
-  const Eigen::VectorXd squares = (a - b).colwise().squaredNorm().transpose();
-  return std::sqrt(squares.dot(mass) / mass.sum());
-}
-
 /// The largest over frames [m]; NaN where they are not the same frames.
 double distance(const std::vector<PerParticle3>& a, const std::vector<PerParticle3>& b,
                 const PerParticle& mass) {
-  if (a.size() != b.size() || a.empty()) return nan;
-  Worst worst;
-  for (size_t k = 0; k < a.size(); ++k) worst.observe(rms(a[k], b[k], mass));
-  return worst.value();
-}
-
-double motion_of(const std::vector<PerParticle3>& x, const PerParticle& mass) {
-  Worst worst;
-  for (const PerParticle3& frame : x) worst.observe(rms(frame, x.front(), mass));
-  return worst.value();
-}
-
-double extent(const PerParticle3& x) {
-  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
+  return a.size() == b.size() && !a.empty() ? largest_difference(a, b, mass) : nan;
 }
 
 /// The whole runs at the fine end of the ladder of halved steps, each with twice as many steps as
@@ -86,7 +69,7 @@ ErrorBar bar_of(const PrecisionPlan& plan, const std::string& method, const Leve
     differences.differences.push_back(
         distance(ladder[k].second->x, ladder[k + 1].second->x, plan.mass));
   differences.formal_order = integrator_named(method).order;
-  differences.floor = 1e3 * epsilon * extent(plan.input_case.scene.x);
+  differences.floor = 1e3 * epsilon * longest_side(plan.input_case.scene.x);
   if (ladder.size() >= 3) return error_bar(differences);
   bar.reason = "fewer than three halved steps came to an end";
   bar.half_width = 3 * differences.differences.back();
@@ -415,8 +398,8 @@ CaseTruth case_truth(const PrecisionPlan& plan, const TrialRuns& runs) {
   CaseTruth truth;
   if (opinions.empty()) return truth;
   truth.first = opinions.front();
-  truth.motion = motion_of(truth.first.x, plan.mass);
-  if (!(truth.motion > least_motion * extent(plan.input_case.scene.x))) return truth;
+  truth.motion = largest_motion(truth.first.x, plan.mass);
+  if (!(truth.motion > least_motion * longest_side(plan.input_case.scene.x))) return truth;
   const auto second = std::ranges::find_if(opinions, [&](const Opinion& opinion) {
     return family_of(opinion.method) != family_of(truth.first.method);
   });

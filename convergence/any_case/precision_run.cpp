@@ -5,16 +5,14 @@
 #include <exception>
 
 #include "convergence/any_case/level_run.h"
+#include "convergence/work_precision/timed_run.h"
 #include "verification/cases/judge.h"
-#include "verification/processor_time.h"
 
 namespace foldproof {
 
 namespace {
 
-constexpr double most_numbers = 1e6;     // that a run keeps
-constexpr int most_timings = 4;          // of a short run
-constexpr double enough_seconds = 0.03;  // after which a run is not timed again
+constexpr double most_numbers = 1e6;  // that a run keeps
 
 struct OverBudget {};
 
@@ -69,17 +67,8 @@ TrialRun watched_trial(const Scene& scene, double budget, const BuiltScene& buil
 }
 
 TrialRun timed_trial(const Scene& scene, double budget, const BuiltScene& built) {
-  const double start = processor_seconds();
-  TrialRun run = watched_trial(scene, budget, built);
-  run.seconds = processor_seconds() - start;
-  double spent = run.seconds;
-  for (int i = 1; i < most_timings && spent < enough_seconds; ++i) {
-    const double before = processor_seconds();
-    watched_trial(scene, budget, built);
-    const double one = processor_seconds() - before;
-    run.seconds = std::min(run.seconds, one);
-    spent += one;
-  }
+  auto [run, seconds] = timed_run([&] { return watched_trial(scene, budget, built); });
+  run.seconds = seconds;
   return run;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "convergence/any_case/distances.h"
 #include "verification/seeds.h"
 
 namespace foldproof {
@@ -15,11 +16,6 @@ namespace {
 
 constexpr int waves = 6;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// The longest side of the box around the start [m].
-double longest_side(const PerParticle3& x) {
-  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
-}
 
 /// Numbers in [-1, 1), the same on every machine.
 class Numbers {
@@ -45,10 +41,6 @@ PerParticle freedom_of(const Scene& scene) {
     freedom = freedom.cwiseMin(away);
   }
   return freedom;
-}
-
-double mean_square_root(const PerParticle3& u, const PerParticle& mass) {
-  return std::sqrt(u.colwise().squaredNorm().dot(mass.transpose()) / mass.sum());
 }
 
 double median(std::vector<double> values) {
@@ -154,12 +146,6 @@ std::vector<double> distances(const LevelRun& a, const LevelRun& b, const PerPar
   return all;
 }
 
-double motion_of(const LevelRun& run, const PerParticle& mass) {
-  Worst worst;
-  for (const PerParticle3& x : run.x) worst.observe(mean_square_root(x - run.x.front(), mass));
-  return worst.value();
-}
-
 double error_of_first_level(const std::vector<LevelRun>& runs, const PerParticle& mass,
                             double ceiling) {
   const auto finest = std::ranges::find_if(runs.rbegin(), runs.rend(),
@@ -202,7 +188,7 @@ double crossing_time(const std::vector<double>& times, const std::vector<double>
 std::vector<Disturbance> twin_disturbances(const Scene& scene, const std::vector<LevelRun>& runs,
                                            double fraction) {
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
-  const double ceiling = fraction * motion_of(runs.front(), mass);
+  const double ceiling = fraction * largest_motion(runs.front().x, mass);
   const double rounding = rounding_disturbance(scene);
   const double error = error_of_first_level(runs, mass, ceiling);
   return {{rounding, 1}, {std::clamp(error, rounding, largest_disturbance(scene)), 1}};
@@ -214,7 +200,7 @@ Predictability predictability(const Scene& scene, const LevelRun& first,
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   Predictability p;
   p.fraction = fraction;
-  p.motion = motion_of(first, mass);
+  p.motion = largest_motion(first.x, mass);
   p.times = first.times;
   p.end = first.times.back();
   const double ceiling = fraction * p.motion;

@@ -38,9 +38,6 @@ Level disturbed_level(Level level, const std::vector<double>& step_ends,
 /// are apart [m]. As many as the shorter run has frames.
 std::vector<double> distances(const LevelRun& a, const LevelRun& b, const PerParticle& mass);
 
-/// The largest distance of the run from its first frame, as `distances` takes it [m].
-double motion_of(const LevelRun& run, const PerParticle& mass);
-
 /// The error of the ladder's first level [m]: its distance to the finest level that came to its
 /// end, the median over frames after the start, up to the first that exceeds the ceiling [m]. That
 /// of the first frame after the start if it exceeds the ceiling itself; 0 without such a level.

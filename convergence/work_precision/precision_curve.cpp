@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "verification/processor_time.h"
+#include "convergence/work_precision/timed_run.h"
 
 namespace foldproof {
 
@@ -11,28 +11,6 @@ namespace {
 
 constexpr double coarsest = 1. / 8;  // steps of the first run over those at the elastic limit
 constexpr double far_away = 20;  // displacement over the motion beyond which a run is stopped [1]
-constexpr int most_repeats = 4;  // of a run that is timed
-constexpr double enough_seconds = 0.03;  // after which it is not repeated
-
-struct TimedRun {
-  PlannedRun run;
-  double seconds;  // least of all repeats
-};
-
-TimedRun time_run(const Subject& subject, const Scene& scene, const RunPlan& plan) {
-  const double start = processor_seconds();
-  TimedRun best{run_planned(subject, scene, plan), 0};
-  best.seconds = processor_seconds() - start;
-  double spent = best.seconds;
-  for (int i = 1; i < most_repeats && spent < enough_seconds; ++i) {
-    const double before = processor_seconds();
-    run_planned(subject, scene, plan);
-    const double one = processor_seconds() - before;
-    best.seconds = std::min(best.seconds, one);
-    spent += one;
-  }
-  return best;
-}
 
 double log_between(double from, double to, double part) {
   return std::exp((1 - part) * std::log(from) + part * std::log(to));
@@ -72,7 +50,7 @@ PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& p
                        problem.budget};
     const bool is_short = plan.steps > problem.end / truth.elastic_limit;
     if (is_short && expected_work(curve, plan.steps) > problem.budget) break;
-    const auto [run, seconds] = time_run(subject, scene, plan);
+    const auto [run, seconds] = timed_run([&] { return run_planned(subject, scene, plan); });
     if (run.ending == Ending::over_budget) {
       if (is_short) break;
       continue;  // long steps can be dearer than short ones, for Newton's method

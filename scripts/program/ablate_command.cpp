@@ -13,6 +13,7 @@
 
 #include "convergence/any_case/ablation.h"
 #include "convergence/any_case/coarser_mesh.h"
+#include "convergence/any_case/distances.h"
 #include "convergence/any_case/finer_scene.h"
 #include "reference/bodies/level_set_provider.h"
 #include "scripts/program/commands.h"
@@ -117,13 +118,9 @@ std::vector<Job> jobs_of(std::vector<Ablation>& all, const AfterRun& after) {
   return jobs;
 }
 
-double extent_of(const PerParticle3& x) {
-  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
-}
-
 DiscretisationError own_error(const Ablation& one, const PerParticle& mass) {
   const TriangleMesh& mesh = one.input_case.scene.mesh;
-  DiscretisationError error{nan, nan, 1e-6 * extent_of(mesh.rest)};
+  DiscretisationError error{nan, nan, 1e-6 * longest_side(mesh.rest)};
   if (one.half_steps.stopped.empty())
     error.time = position_difference(one.scene, one.half_steps, mass);
   if (one.other_mesh.stopped.empty())
@@ -192,7 +189,7 @@ nlohmann::json to_json(const Ablation& one, const std::vector<std::string>& over
           {"asked_end", ablation_end(one.input_case)},
           {"end", one.input_case.scene.schedule.end},
           {"wrong", wrong_by_itself(one)},
-          {"size", extent_of(one.input_case.scene.mesh.rest)},
+          {"size", longest_side(one.input_case.scene.mesh.rest)},
           {"own_error",
            {{"time", one.error.time},
             {"mesh", one.error.mesh},
