@@ -33,8 +33,7 @@ std::vector<ScenePart> parts_of(const Scene& scene);
 // Only what a scene needs: what each part of a scene changes, held against the scene's own error,
 // and what it costs.
 
-/// What a run did, as far as runs of the same cloth can be compared by it. Frames are those
-/// that it reached.
+/// The results by which runs of the same cloth are compared, over the frames that were reached.
 struct ObservedRun {
   std::vector<double> times;    // of the frames [s]
   std::vector<PerParticle3> x;  // in each frame, 3 x N, the particles of the scene alone [m]
@@ -51,7 +50,7 @@ struct ObservedRun {
 
 /// Runs the case. particles: of these only, the first ones, positions are kept. level_sets: of its
 /// bodies; they should remember those that were made (bodies/level_set_provider.h). An error in
-/// building or running is told in `stopped`.
+/// building or running goes into `stopped`.
 ObservedRun observe_run(const Case& input_case, const LevelSetProvider& level_sets, int particles);
 
 /// The case with another scene: what is expected of the case and makes no sense for that
@@ -91,7 +90,7 @@ struct DiscretisationError {
   double time = 0, mesh = 0;  // m; NaN where a run came to no end
   double floor = 0;           // a millionth of the cloth's size: less than that no one asks for [m]
 
-  /// What a part has to change in order to be seen [m].
+  /// The least change of positions that counts [m].
   double value() const;
 };
 
@@ -101,9 +100,9 @@ struct DiscretisationError {
 JudgedPart judge_part(const ScenePart& part, const ObservedRun& scene, ObservedRun toggled,
                       const DiscretisationError& error, const PerParticle& mass);
 
-/// What [ablation] calls the run with triangles of half the size. A case whose mesh approximates
-/// nothing, as two triangles that are all there is to show, says so under this name, and its own
-/// error is that of time alone.
+/// The name, in [ablation], of the run with triangles of half the size. A case whose mesh
+/// approximates nothing, such as a single hinge, says so under this name; its own error is then
+/// that of time alone.
 constexpr std::string_view finer_mesh = "finer mesh";
 
 /// The reason that the case declares for the part of this name, or for doing without a

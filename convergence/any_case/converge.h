@@ -10,7 +10,7 @@
 
 namespace foldproof {
 
-/// What is asked: `levels` runs, each with half the steps of the one before.
+/// The ladder: `levels` runs, each with half the steps of the one before.
 struct LadderPlan {
   Case input_case;  // with the method and the end that are asked for
   int levels = 4;   // >= 3

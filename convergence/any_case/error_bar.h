@@ -1,5 +1,5 @@
-// What a ladder of refinements says about the error of its finest value: order, limit, error
-// bar, or nothing.
+// The error of the finest value of a ladder of refinements: order, limit and error bar, or the
+// reason why there is none.
 #pragma once
 
 #include <limits>

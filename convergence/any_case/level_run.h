@@ -23,7 +23,7 @@ struct LevelRun {
   std::string stopped;            // why the run came to no end, or ""
 };
 
-/// What is run: a case, at the resolution that its scene and schedule say.
+/// One run of the ladder: a case at the resolution of its scene and schedule.
 struct Level {
   std::string label;  // for progress and for the store
   Case input_case;
@@ -31,7 +31,7 @@ struct Level {
   int particles;  // of these, the first ones, positions are kept
 };
 
-/// Runs the level. An error in building or running is told in `stopped`.
+/// Runs the level. An error in building or running goes into `stopped`.
 LevelRun run_level(const Level& level, const LevelSetProvider& level_sets);
 
 /// The key of the level's result: of its case text, meshes, start, schedule, method and

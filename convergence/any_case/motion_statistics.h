@@ -1,5 +1,5 @@
-// What can be compared of runs whose positions are not predictable: means over time, with the
-// spread of an ensemble as their uncertainty.
+// Runs whose positions are not predictable, compared by their means over time, with the spread of
+// an ensemble as uncertainty.
 #pragma once
 
 #include <string>

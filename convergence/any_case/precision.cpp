@@ -138,7 +138,7 @@ int first_parts(double frame, double limit) {
   return parts;
 }
 
-/// All that next_trials looks at.
+/// The input of next_trials.
 struct Survey {
   const PrecisionPlan& plan;
   const TrialRuns& runs;
@@ -177,7 +177,7 @@ std::pair<int, const TrialRun*> finest(const Levels& levels) {
 
 using Cost = std::function<double(const TrialRun&)>;
 
-/// What a run with so many steps a frame costs: by the last two halvings continued linearly, or by
+/// Predicted cost of a run with so many steps a frame: the last two halvings continued linearly, or
 /// one alone in proportion. Work of implicit solves hardly grows before steps are short: theirs is
 /// that of the last run and, for each step more, at least least_solve.
 double expected_cost(const Levels& levels, Family family, double parts, const Cost& cost) {

@@ -12,7 +12,7 @@
 
 namespace foldproof {
 
-/// What is asked.
+/// The question: which methods, which errors, how much work.
 struct PrecisionPlan {
   Case input_case;                   // with the end that is asked for
   std::vector<std::string> methods;  // asked for
@@ -35,8 +35,8 @@ PrecisionPlan precision_plan(const Case& input_case, std::vector<std::string> me
 /// All runs so far, by method and steps a frame.
 using TrialRuns = std::map<std::string, std::map<int, TrialRun>>;
 
-/// What one method says of where the cloth is: its finest run, or Richardson's extrapolation of its
-/// last two where their order has settled.
+/// One method's best estimate of the positions: its finest run, or Richardson's extrapolation of
+/// its last two where their order has settled.
 struct Opinion {
   std::string method;
   int parts = 0;
@@ -89,7 +89,7 @@ std::vector<Trial> next_trials(const PrecisionPlan& plan, const TrialRuns& runs)
 
 constexpr double dearest = 16;
 
-/// What an error costs with one method.
+/// The cost of one error with one method.
 struct MethodPrice {
   std::string method;
   Price price;

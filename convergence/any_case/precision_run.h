@@ -12,7 +12,7 @@
 
 namespace foldproof {
 
-/// What is tried: a method, with `parts` equal steps from frame to frame. No step is longer than a
+/// A run to make: a method, with `parts` equal steps from frame to frame. No step is longer than a
 /// frame's interval; events within a frame divide it further.
 struct Trial {
   std::string method;
@@ -40,7 +40,7 @@ Scene scene_of(const Scene& scene, const Trial& trial);
 
 /// Runs the trial. It ends at the first frame at which it has taken more visits than its budget. Of
 /// long runs of large cloth only every second, third, ... frame is kept, so that a run keeps at
-/// most a million numbers. An error in building or running is told in `stopped`.
+/// most a million numbers. An error in building or running goes into `stopped`.
 TrialRun run_trial(const Case& input_case, const Trial& trial, const LevelSetProvider& level_sets);
 
 /// The trial's run from the store, or made now and kept there. A run that a smaller budget
