@@ -16,17 +16,17 @@ std::string step_in_words(const Price& price) {
                      price.step / milli);
 }
 
-/// Which method takes the fewest seconds, where it is not the first of the list: filters of contact
-/// and strain cost time that is not counted as work; "" where it is.
+/// Which method takes the fewest seconds, where it beats the first of the list by more than a tie:
+/// filters of contact and strain cost time that is not counted as work; "" where it is.
 std::string by_seconds(const PriceList& list) {
   const MethodPrice& first = list.prices.front();
   const MethodPrice* fastest = &first;
   for (const MethodPrice& price : list.prices)
     if (price.price.seconds < fastest->price.seconds) fastest = &price;
-  if (fastest == &first) return "";
+  const double over_fastest = first.price.seconds / fastest->price.seconds;
+  if (!(over_fastest > std::max(first.spacing, fastest->spacing))) return "";  // a tie
   return fmt::format("; by seconds {} with {}, 1.0; {} {:.3g}", fastest->method,
-                     step_in_words(fastest->price), first.method,
-                     first.price.seconds / fastest->price.seconds);
+                     step_in_words(fastest->price), first.method, over_fastest);
 }
 
 std::string sentence_of(const PrecisionAnswer& answer, const PriceList& list) {
@@ -46,7 +46,7 @@ std::string sentence_of(const PrecisionAnswer& answer, const PriceList& list) {
   }
   std::string sentence = head + fmt::format("{}", fmt::join(parts, "; "));
   if (!unreached.empty())
-    sentence += fmt::format("{}{} {} not reach it", parts.empty() ? "" : "; ",
+    sentence += fmt::format("{}{} {} not reach it within the budget", parts.empty() ? "" : "; ",
                             fmt::join(unreached, ", "), unreached.size() == 1 ? "does" : "do");
   return sentence + by_seconds(list);
 }

@@ -193,15 +193,18 @@ def in_order(rows: list[RunRow]) -> list[RunRow]:
 
 
 def changes(rows: list[RunRow]) -> list[Change]:
-    """All changes of outcomes and rulings, by run. A run is compared with the last one before it of the same
-    tier and subject; a run that did not ask everything (`check`, `study`) only in what it asked."""
+    """All changes of outcomes and rulings, by run, those for the worse first. A run is compared with
+    the last one before it of the same tier and subject; a run that did not ask everything (`check`,
+    `study`) only in what it asked."""
     found: list[Change] = []
     for before, run in _neighbours(rows):
         asked_all = is_whole(run) and is_whole(before)
+        of_run: list[Change] = []
         for old, new in ((_outcomes(before), _outcomes(run)), (before.rulings, run.rulings)):
             names = list(old.keys() | new.keys()) if asked_all else [name for name in new if name in old]
-            found += [Change(run, name, old.get(name, ""), new.get(name, "")) for name in sorted(names)
-                      if old.get(name, "") != new.get(name, "")]
+            of_run += [Change(run, name, old.get(name, ""), new.get(name, "")) for name in sorted(names)
+                       if old.get(name, "") != new.get(name, "")]
+        found += sorted(of_run, key=lambda change: not change.is_regression)
     return found
 
 

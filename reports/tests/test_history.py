@@ -58,10 +58,10 @@ class HistoryTest(unittest.TestCase):
         runs = [self.put(1, [finding("a"), finding("b", "fails"), claim("T1", "confirmed")]),
                 self.put(2, [finding("a"), finding("b"), claim("T1", "confirmed")]),
                 self.put(3, [finding("a", "inconclusive"), finding("b"), claim("T1", "refuted")]),
-                self.put(4, [finding("a", "inconclusive"), finding("c"), claim("T1", "refuted")])]
+                self.put(4, [finding("a", "inconclusive"), finding("aa"), claim("T1", "refuted")])]
         self.assertEqual(self.found(*reversed(runs)), [
             (2, "b", "fails", "holds", False), (3, "a", "holds", "inconclusive", True), (3, "T1", "confirmed", "refuted", True),
-            (4, "b", "holds", "", True), (4, "c", "", "holds", False)])
+            (4, "b", "holds", "", True), (4, "aa", "", "holds", False)])
 
     def test_a_run_of_some_checks_is_asked_only_for_those(self) -> None:
         whole = self.put(1, [finding("a"), finding("b")])
