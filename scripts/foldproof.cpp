@@ -305,7 +305,7 @@ void add_history(CLI::App& app, Options& options) {
   add_json(history, options);
 }
 
-/// What reports/ makes of stored results.
+/// Reports from stored results.
 void add_pages(CLI::App& app, Options& options) {
   CLI::App* report = add_command(
       app, options,

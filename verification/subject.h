@@ -1,4 +1,4 @@
-// What is being verified: the reference, or another solver that offers the same operations.
+// The solver under test: the reference, or another solver that offers the same operations.
 #pragma once
 
 #include <functional>

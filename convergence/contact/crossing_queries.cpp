@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kept = 1e-6;  // of coordinates up to 60 [m]
 
-/// What came of the queries of one family.
+/// Results of the queries of one family.
 struct Tally {
   std::string name;
   double queries = 0, meetings = 0, misses = 0, alarms = 0, late = 0;

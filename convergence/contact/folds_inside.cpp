@@ -66,7 +66,7 @@ int crests_of(const std::vector<double>& row, double least) {
   return crests;
 }
 
-/// What runs leave, one entry for each forecast time.
+/// Results of the runs, one entry per forecast time.
 struct Folds {
   std::vector<double> tau, inside;  // s; deepest free particle at the end [m]
   // a turn of the tube, after the projection, mean over its free rings [1]

@@ -65,7 +65,7 @@ ProjectedCloth project(const SunkCloth& cloth, const std::string& map, double re
                        {map, {0, reach, deepest}, PinchedPoints::left_alone, 1e-12, 50});
 }
 
-/// What became of the wrinkles, of points that began inside.
+/// Outcome for the wrinkles and for points that began inside.
 struct KeptWrinkles {
   std::vector<double> reach, deviation, share, wavelength;  // tau [m], [m], 1, [m]
 };

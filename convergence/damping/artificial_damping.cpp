@@ -18,7 +18,7 @@ constexpr std::array<double, 3> parts_of_limit = {1. / 4, 1. / 8, 1. / 16};
 
 // ---- every mode against the derived factors
 
-/// What a method does to all modes, undamped at three steps, and damped at the middle one.
+/// Effect of a method on all modes, undamped at three steps, and damped at the middle one.
 struct Response {
   Integrator method;
   std::vector<double> steps;                        // s

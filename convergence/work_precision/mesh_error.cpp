@@ -88,8 +88,7 @@ Convergence differences(const std::vector<MeshRun>& meshes) {
   return result;
 }
 
-/// What a mesh errs by [m], from its difference to the next finer one and the order
-/// that was observed:
+/// Error of a mesh [m], from its difference to the next finer one and the order that was observed:
 ///   e(dx) - e(dx/2) = e(dx) (1 - 2^-order)
 std::vector<double> space_errors(const Convergence& differences, double order) {
   std::vector<double> errors;

@@ -1,4 +1,4 @@
-// What a sweep of strain limits adds to a step.
+// Cost of a sweep of strain limits per step.
 #include <fmt/format.h>
 
 #include "reference/filters/strain_limit.h"

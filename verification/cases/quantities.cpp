@@ -97,7 +97,7 @@ double length_change(const Scene& scene, const State& s) {
   return worst.value();
 }
 
-/// What the objects say about each particle in a frame.
+/// The objects' answers for each particle in a frame.
 std::vector<Nearest> nearest_at(std::span<const Object> objects, const State& s) {
   ObjectsOverSpan now(objects, {s.time, s.time, 0});
   std::vector<Nearest> nearest;

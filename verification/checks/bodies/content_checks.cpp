@@ -1,5 +1,5 @@
-// What is kept of level sets between runs: keys that change with everything they are made of, and
-// content that must not be trusted.
+// Level sets cached between runs: keys that change with every input, and content that must
+// not be trusted.
 #include <array>
 #include <cmath>
 #include <functional>

@@ -44,7 +44,7 @@ Finding parity_agrees(const Subject&) {
       "on closed surfaces all three rays and the pseudonormal answer the same question");
 }
 
-/// What is said of meshes whose defects are known.
+/// Reports on meshes with known defects.
 Finding inspection_tells(const Subject&) {
   const TriangleMesh ball = make_icosphere(0.7, 3);
   TriangleSoup whole{ball.rest, ball.triangles, {}}, open = whole, flipped = whole;

@@ -45,7 +45,7 @@ Finding trapezoidal_finding(const Subject& subject, const std::string& integrato
       "the solve's tolerance, 1e-12 of the velocity before damping; as much again for rounding");
 }
 
-/// What a filter was called with and what it left.
+/// Arguments and result of a filter call.
 struct Call {
   Span span;
   PerParticle3 given, left;
