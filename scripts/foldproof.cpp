@@ -223,7 +223,7 @@ void add_converge(CLI::App& app, Options& options) {
       ->check(positive_number());
   add_overrides(converge, options);
   add_folder(converge, options,
-             "Folder whose store/ keeps every run; a second call makes only what is missing")
+             "Folder whose store/ keeps every run; a second call runs only missing ones")
       ->capture_default_str();
   add_cache(converge, options);
   add_threads(converge, options);
@@ -395,7 +395,8 @@ void add_readers(CLI::App& app, Options& options) {
                   list),
       options);
   CLI::App* claims = add_command(
-      app, options, {"claims", "Show what a finished run says of the papers' claims", help::claims},
+      app, options,
+      {"claims", "Show the rulings of a finished run on the papers' claims", help::claims},
       show_claims);
   claims->add_option("ID", options.names,
                      "One claim, such as T17: why, and the findings that decide it");

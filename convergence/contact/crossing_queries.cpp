@@ -133,7 +133,7 @@ NamedFinding misses_none(const std::string& of, const std::string& words,
 NamedFinding tells_in_time(const std::vector<Tally>& all) {
   return {
       "crossing-queries.reported-time-is-never-late",
-      "The time that is told is not after the first meeting.",
+      "The reported time is not after the first collision.",
       {{total(all, &Tally::late), 0, 0, "queries",
         "time advances only as far as a plane keeps the features apart; decided without rounding"},
        columns_of(all),
@@ -249,14 +249,14 @@ StudyResult run_crossing_queries(const Subject&, Tier tier, const Progress& prog
       misses_none("far-away", "all of these a thousand units from the origin", tallies.far),
       tells_in_time(all), tells_near_ones_only(alarms)};
   result.figures = {alarms_figure(alarms)};
-  result.tables = {{"queries", "What was asked, and what came of it", columns_of(all)}};
+  result.tables = {{"queries", "Queries and their results", columns_of(all)}};
   return result;
 }
 
 }  // namespace
 
 Study crossing_queries_study() {
-  return {"crossing-queries", "The test for crossings misses none, whatever moves how.",
+  return {"crossing-queries", "The test for crossings misses none, for any motion.",
           "Bridson, Fedkiw and Anderson (2002), section 6",
           "A vertex and a triangle, or two edges, move in straight lines between points of small "
           "whole coordinates. Whether they ever meet is decided in whole numbers by the signs of "

@@ -191,7 +191,7 @@ StudyResult run_artificial_damping(const Subject& subject, Tier tier, const Prog
 Study artificial_damping_study() {
   return {
       "artificial-damping",
-      "Schemes A, B and C damp only what is damped; backward Euler damps every vibration, the "
+      "Schemes A, B and C add no artificial damping; backward Euler damps every vibration, the "
       "faster the more.",
       "BMF03 section 3",
       "All vibrations of a flat, free sheet are excited at once, and what a step of each method "

@@ -182,7 +182,7 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
             const std::string known = fmt::format("{}", fmt::join(names, ", "));
             if (std::ranges::find(names, typed) != names.end()) return std::string();
             if (is_no_value(typed)) return "a value is missing; give one of " + known;
-            return fmt::format("'{}' is none of {}{}", typed, known,
+            return fmt::format("'{}' is not one of {}{}", typed, known,
                                did_you_mean(nearest_names(typed, names)));
           },
           ""};

@@ -231,7 +231,8 @@ Finding lost_triangle_finding(const Subject&) {
     statements.row("five frames were delivered", run.frames.size() == 5);
   }
   return judged_statements(
-      statements, "a vertex is led into the opposite edge, which it reaches at the end of step 20");
+      statements,
+      "a vertex is moved into the opposite edge, which it reaches at the end of step 20");
 }
 
 Finding cap_finding(const Subject&) {
