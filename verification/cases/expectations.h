@@ -45,9 +45,9 @@ struct Case {
 Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
 /// Adds the default expectations of every shipped case: that it runs to its end; if the forces have
-/// an energy and nothing is driven, that the energy balances;
-/// that the run is reproducible; and that the cloth crosses itself in no frame, unless
-/// tangle_does_not_grow is stated.
+/// an energy and nothing is driven, that the energy balances; that the run is reproducible; where
+/// there are objects, that whole triangles stay outside up to the depth that face_bound.h derives;
+/// and that the cloth crosses itself in no frame, unless tangle_does_not_grow is stated.
 Case with_usual_expectations(Case input_case);
 
 /// The name of the finding: "case.<scene>.<key>", with hyphens.
