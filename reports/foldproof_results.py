@@ -37,7 +37,7 @@ class Trajectory:
 
 @dataclass
 class Results:
-    """What one run found, by name, in its order. The classes are those of results.py, where each field has its unit."""
+    """Findings of one run, by name, in order. The classes are those of results.py, where each field has its unit."""
     provenance: dict[str, Any]      # version, commit, compiler, flags, cpu, date, command, tier, seed, seconds [s], ...
     findings: dict[str, Finding]    # .outcome, .measured, .bound and .uncertainty [.unit]; evidence_of(...) for the rest
     studies: dict[str, Study]       # columns_of_study(...) for their numbers

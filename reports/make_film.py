@@ -41,7 +41,7 @@ INK, SOFT = (36, 41, 46), (93, 101, 110)
 
 @dataclass
 class Film:
-    """What is filmed, and how."""
+    """Subject and settings of a film."""
     scene: CaseScene
     frames: list[int]               # of the case, those that can be shown
     field: Field | None
@@ -137,7 +137,7 @@ def write_film(film: Film, out: Path) -> None:
 
 
 def encoding(film: Film, kind: str) -> list[str]:
-    """What ffmpeg is told about a file of this kind; the same input gives the same bytes."""
+    """ffmpeg options for a file of this kind; the same input gives the same bytes."""
     if kind == ".mp4":
         return ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-threads", "1", "-movflags", "+faststart",
                 "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"]

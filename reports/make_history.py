@@ -39,7 +39,7 @@ def main() -> int:
 
 
 def arguments() -> argparse.Namespace:
-    """What was typed."""
+    """Command line options."""
     parser = OneLineParser(description="What changed over runs, and in which run first.")
     parser.add_argument("runs", metavar="DIR", type=Path, nargs="*", help="folder of a run, or a verdicts.json")
     parser.add_argument("--log", metavar="FILE", type=Path,

@@ -73,7 +73,7 @@ def main() -> int:
 
 
 def arguments() -> argparse.Namespace:
-    """What was typed."""
+    """Command line options."""
     parser = OneLineParser(description="Write the report of a run as one self-contained HTML page; of two "
                                      "runs, what differs.")
     parser.add_argument("dir", metavar="DIR", type=Path, help="folder with run.h5, bench.h5 or case files")
@@ -143,7 +143,7 @@ def load_if_readable(path: Path) -> Case | None:
 
 
 def common_to(provenances: list[dict[str, Any]]) -> dict[str, Any]:
-    """What all of them say alike."""
+    """The value that all of them share."""
     first, *others = provenances
     return {key: said for key, said in first.items() if all(str(other.get(key)) == str(said) for other in others)}
 

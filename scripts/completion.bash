@@ -6,7 +6,7 @@
 _foldproof_commands() { "$1" --help | sed -n '/^Commands:/,/^$/ s/^  \([a-z]\+\) .*/\1/p'; }
 _foldproof_options() { "$@" --help 2>/dev/null | sed -n 's/^  \(-., \)\?\(--[a-z-]*\).*/\2/p' | sort -u; }
 
-# What `list` shows under these headings, and the groups before the dots.
+# Names that `list` shows under these headings, and the groups before the dots.
 _foldproof_names() {
   local program=$1 headings=$2
   "$program" list | awk -v headings="$headings" '

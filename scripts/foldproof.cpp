@@ -236,7 +236,7 @@ void add_converge(CLI::App& app, Options& options) {
       ->capture_default_str();
   add_overrides(converge, options);
   add_folder(converge, options,
-             "Folder whose store/ keeps every run; a second call makes only what is missing")
+             "Folder whose store/ keeps every run; a second call runs only missing ones")
       ->capture_default_str();
   add_cache(converge, options);
   add_threads(converge, options);
@@ -359,7 +359,7 @@ void add_history(CLI::App& app, Options& options) {
   add_json(history, options);
 }
 
-/// What reports/ makes of stored results.
+/// Reports from stored results.
 void add_pages(CLI::App& app, Options& options) {
   CLI::App* report = add_command(
       app, options,
@@ -449,7 +449,8 @@ void add_readers(CLI::App& app, Options& options) {
                   list),
       options);
   CLI::App* claims = add_command(
-      app, options, {"claims", "Show what a finished run says of the papers' claims", help::claims},
+      app, options,
+      {"claims", "Show the rulings of a finished run on the papers' claims", help::claims},
       show_claims);
   claims->add_option("ID", options.names,
                      "One claim, such as T17: why, and the findings that decide it");

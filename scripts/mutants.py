@@ -222,7 +222,7 @@ def ask(program: Path, arguments: list[str], key: str, clock: float | None = Non
 
 
 def findings(program: Path, names: list[str], clock: float | None = None) -> list[dict]:
-    """What the program finds in checks, studies and cases of these names (all checks, if there are none): rows
+    """Findings of the checks, studies and cases with these names (all checks, if there are none): rows
     with name, outcome, measured, bound, margin, seconds."""
     rows = [row for row in ask(program, ["check", *names], "findings", clock) if row["kind"] != "claim"]
     keys = ("name", "outcome", "measured", "bound", "seconds")

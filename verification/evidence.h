@@ -13,10 +13,10 @@
 
 namespace foldproof {
 
-/// A number that is not there: no floor, no slope, a gap in a curve.
+/// A missing number: no floor, no slope, a gap in a curve.
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// The unit that roundings are counted in.
+/// The unit of rounding errors.
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// One column of a table; the columns of a table have the same length.
@@ -26,14 +26,14 @@ struct Column {
   double uncertainty = 0;  // the largest of its numbers, in `unit`; NaN if any is
 };
 
-/// A number and how far it may be off, as oracles::Estimate.
+/// A number and its uncertainty, as oracles::Estimate.
 template <class Number>
 concept Estimated = requires(const Number& number) {
   { number.value } -> std::convertible_to<double>;
   { number.uncertainty } -> std::convertible_to<double>;
 };
 
-/// One entry of a row: a text, or a number with its uncertainty.
+/// One entry of a row: text, or a number with its uncertainty.
 struct Cell {
   template <class Number>
   requires std::integral<Number> || std::floating_point<Number> Cell(Number number)
@@ -49,14 +49,14 @@ struct Cell {
   double uncertainty = 0;
 };
 
-/// Rows of numbers and texts: the evidence of a finding, or a table of a study.
+/// Rows of numbers and text: the evidence of a finding, or a table of a study.
 ///
 ///   Table table{{"step", "s"}, {"error", "m"}};
 ///   for (const double h : steps) table.row(h, error_of(h));
 ///   return judge_worst(table, 1e-12, "five roundings a step");
 ///
-/// The first row decides which columns hold texts. What does not fit, in number or type, and a
-/// column that is not there throw std::logic_error with the names of the table and its columns.
+/// The first row determines which columns hold text. A row of another length or type, and a missing
+/// column, throw std::logic_error with the names of the table and its columns.
 class Table {
  public:
   std::string name, title;  // of a study's table; evidence needs none
@@ -92,7 +92,7 @@ class Table {
   /// The largest number of a column, or 0 if all are below it; NaN if any is, or if there is none.
   double worst(std::string_view column) const;
 
-  /// The first row with that number, or the first NaN; the table must have rows, one not below 0.
+  /// The first row with that number, or the first NaN; needs at least one row with a value >= 0.
   size_t worst_row(std::string_view column) const;
 
  private:
@@ -102,14 +102,14 @@ class Table {
   std::vector<Column> columns_;
 };
 
-/// For numbers measured case by case in multiples of epsilon times a scale: columns "case"
+/// A table for errors in multiples of epsilon times a scale, one case per row: columns "case"
 /// and "measured".
 Table roundings_of(const std::string& scale);
 
 /// The largest value with its sign; NaN if any is, or if there is none.
 double signed_largest(const std::vector<double>& values);
 
-/// A maximum that keeps NaN: once a NaN was seen, it stays.
+/// A maximum that propagates NaN.
 class Worst {
  public:
   void observe(double value);

@@ -1,4 +1,4 @@
-// What a study shows: curves over an axis, and maps over two.
+// Figures of a study: curves over one axis, and maps over two.
 #pragma once
 
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace foldproof {
 
-/// What a point of a curve stands for: measured, measured though a solve on the way did not finish,
-/// or a run that diverged, which has an x but no y.
+/// Status of a point of a curve: measured; measured, but a solve did not converge; or a diverged
+/// run, which has an x but no y.
 enum class Mark { measured, unfinished, diverged };
 
 std::string_view name_of(Mark mark);  // "measured", "unfinished", "diverged"
 
-/// A curve of a figure; floor is the level below which its y means nothing (NaN: none).
+/// A curve of a figure; floor: the level below which y is meaningless (NaN: none).
 struct Curve {
   std::string label;
   std::vector<double> x, y;
   double floor;
-  // observed order of each neighbouring pair; empty if orders make no sense
+  // observed order of each pair of neighbours; empty if meaningless
   std::vector<double> pair_orders;
   double slope = nan;            // expected of this curve in log-log, NaN: none
-  std::vector<Mark> marks = {};  // one a point; empty: all measured
+  std::vector<Mark> marks = {};  // one per point; empty: all measured
 
   void point(double at, double value) {
     x.push_back(at);
@@ -57,7 +57,7 @@ struct Map {
   std::vector<double> x_values, y_values;  // ascending, in the axes' units
   // in `unit`, row by row: [iy * x_values.size() + ix]; NaN: no value, as the caption says
   std::vector<double> values;
-  std::string quantity, unit;  // what the values are
+  std::string quantity, unit;  // name and unit of the values
   Scale scale;                 // of the values
   std::string caption;
   std::vector<Curve> curves;  // drawn over the map, on its axes: limits known beforehand

@@ -1,12 +1,12 @@
-// The clock of everything that measures seconds.
+// The clock for all timings.
 #pragma once
 
 #include <ctime>
 
 namespace foldproof {
 
-/// What the processor has spent on this thread [s]: other programs and threads lengthen it less
-/// than the clock on the wall.
+/// Processor time of this thread [s]: less affected by other programs and threads than
+/// wall-clock time.
 inline double processor_seconds() {
   timespec spent{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);

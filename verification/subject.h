@@ -1,4 +1,4 @@
-// What is being verified: the reference, or another solver that offers the same operations.
+// The solver under test: the reference, or another solver that offers the same operations.
 #pragma once
 
 #include <functional>
@@ -12,17 +12,17 @@
 
 namespace foldproof {
 
-/// A scene as a subject has made it ready: built once, then handed to the calls below.
+/// A scene prepared by a subject: built once, then passed to the calls below.
 struct PreparedScene {
   virtual ~PreparedScene() = default;
 };
 
-/// The operations that a check may ask for. An empty function: the subject does not offer it.
+/// The operations that a check may use. An empty function means that the subject does not offer it.
 struct Subject {
   std::string name, version;
 
   /// Builds the scene; the integrator and the solver's settings are the scene's. Throws NotOffered
-  /// for what it does not have.
+  /// for parts that it does not support.
   std::function<std::unique_ptr<PreparedScene>(const Scene&)> prepare;
 
   /// All elastic and external forces at s [N], 3 x N.
@@ -34,25 +34,25 @@ struct Subject {
   /// Elastic and potential energy [J].
   std::function<double(PreparedScene&, const State& s)> potential_energy;
 
-  /// The velocities (3 x N [m/s]) that the scene's objects make of v, when v moves the cloth from
-  /// s over the span.
+  /// The velocities v (3 x N [m/s]), which move the cloth from s over the span, as corrected by the
+  /// scene's objects.
   std::function<PerParticle3(PreparedScene&, const Span& span, const State& s,
                              const PerParticle3& v)>
       avoid_objects;
 
-  /// The velocities (3 x N [m/s]) that the scene's strain limits make of v, which moves the cloth
-  /// from s over the span.
+  /// The velocities v (3 x N [m/s]), which move the cloth from s over the span, as corrected by the
+  /// scene's strain limits.
   std::function<PerParticle3(PreparedScene&, const Span& span, const State& s,
                              const PerParticle3& v)>
       limit_strain;
 
-  /// The same of what keeps cloth from itself: repulsion, impulses against crossings, impact zones.
+  /// The same for self-collision: repulsion, impulses against crossings, impact zones.
   std::function<PerParticle3(PreparedScene&, const Span& span, const State& s,
                              const PerParticle3& v)>
       avoid_itself;
 
   /// One step of dt [s] from the latest of the states `past`, of which a method may use two; adds
-  /// the work that it counted, if it counts.
+  /// the counted work, if it counts any.
   std::function<State(PreparedScene&, std::span<const State> past, double dt, Work& work)> step;
 };
 

@@ -1,5 +1,4 @@
-// What a verification says: verdicts, findings, the evidence behind them, and the checks and
-// studies that make them.
+// Verdicts, findings, their evidence, and the checks and studies that produce them.
 #pragma once
 
 #include <functional>
@@ -19,11 +18,11 @@ enum class Outcome { holds, fails, inconclusive, not_applicable };
 
 std::string_view name_of(Outcome outcome);  // "holds", "fails", "inconclusive", "not applicable"
 
-/// A measured number against its bound. Every statement is put so that smaller is better.
+/// A measured number and its bound. Every statement is phrased so that smaller is better.
 struct Verdict {
   double measured = 0, bound = 0, uncertainty = 0;  // all in `unit`
   std::string unit;                                 // "1" for none
-  std::string why_bound;                            // the bound's reason in words
+  std::string why_bound;                            // the reason for the bound
 };
 
 /// holds iff measured + uncertainty <= bound, fails iff measured - uncertainty > bound, else
@@ -33,7 +32,7 @@ Outcome outcome_of(const Verdict& verdict);
 struct Finding {
   Verdict verdict;
   Table evidence;
-  std::string note;  // what a reader has to know beside the numbers; may be empty
+  std::string note;  // what a reader must know besides the numbers; may be empty
 };
 
 /// Judges the worst number of a column (Table::worst), with the largest uncertainty of the column,
@@ -41,7 +40,7 @@ struct Finding {
 Finding judge_worst(Table evidence, std::string_view column, double bound, std::string why_bound,
                     std::string note = "");
 
-/// The same of the table's last column.
+/// The same for the table's last column.
 Finding judge_worst(Table evidence, double bound, std::string why_bound, std::string note = "");
 
 /// A property that the subject must have. `run` may throw NotOffered.
@@ -59,10 +58,10 @@ struct NotOffered {
 
 enum class Tier { quick, full };
 
-/// Told how far a study has come, from 0 to 1.
+/// Receives the progress of a study, from 0 to 1.
 using Progress = std::function<void(double)>;
 
-/// A finding with all that a reader wants to know of it: what a run records.
+/// A finding with its context, as recorded by a run.
 struct Record {
   // kind "check", "study" or "bench"; study: the name of the study, or ""
   std::string name, kind, study;
@@ -74,7 +73,7 @@ struct Record {
   std::vector<std::string> faults;  // seeded faults that it catches
 };
 
-/// Does it lack the outcome that all but a bench must have?
+/// True if it lacks the outcome that all but a bench must have.
 bool did_not_run(const Record& record);
 
 /// The outcome as files and listings spell it: name_of it, else "measured" (a bench)

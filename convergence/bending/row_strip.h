@@ -26,7 +26,7 @@ constexpr double strip_ke = 0.0029;       // J
 constexpr double strip_D = strip_ke / 4;  // of these patterns, curved along these axes [J]
 constexpr double strip_density = 0.19;    // kg/m^2
 
-/// What is done to the strip.
+/// Loading of the strip.
 struct StripLoad {
   double gravity = 0;  // downward [m/s^2]
   double tip = 0;      // dead load on the free end, downward, over the strip's width [N/m]

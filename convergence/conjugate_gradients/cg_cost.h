@@ -1,4 +1,4 @@
-// What one setting of the sheet costs in iterations of conjugate gradients, and what
+// Cost of one setting of the sheet in iterations of conjugate gradients, and what
 // theory allows it to.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace foldproof {
 
-/// What the cost of a solve depends on.
+/// Parameters that determine the cost of a solve.
 struct Setting {
   double tolerance;  // 1
   double ratio;      // damping ratio of the fastest mode [1]

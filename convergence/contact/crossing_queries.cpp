@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kept = 1e-6;  // of coordinates up to 60 [m]
 
-/// What came of the queries of one family.
+/// Results of the queries of one family.
 struct Tally {
   std::string name;
   double queries = 0, meetings = 0, misses = 0, alarms = 0, late = 0;
@@ -126,7 +126,7 @@ NamedFinding misses_none(const std::string& of, const std::string& words,
 NamedFinding tells_in_time(const std::vector<Tally>& all) {
   return {
       "crossing-queries.reported-time-is-never-late",
-      "The time that is told is not after the first meeting.",
+      "The reported time is not after the first collision.",
       {{total(all, &Tally::late), 0, 0, "queries",
         "time advances only as far as a plane keeps the features apart; decided without rounding"},
        table_of(all),
@@ -233,14 +233,14 @@ StudyResult run_crossing_queries(const Subject&, Tier tier, const Progress& prog
       misses_none("far-away", "all of these a thousand units from the origin", tallies.far),
       tells_in_time(all), tells_near_ones_only(alarms)};
   result.figures = {alarms_figure(alarms)};
-  result.tables = {{"queries", "What was asked, and what came of it", table_of(all)}};
+  result.tables = {{"queries", "Queries and their results", table_of(all)}};
   return result;
 }
 
 }  // namespace
 
 Study crossing_queries_study() {
-  return {"crossing-queries", "The test for crossings misses none, whatever moves how.",
+  return {"crossing-queries", "The test for crossings misses none, for any motion.",
           "Bridson, Fedkiw and Anderson (2002), section 6",
           "A vertex and a triangle, or two edges, move in straight lines between points of small "
           "whole coordinates. Whether they ever meet is decided in whole numbers by the signs of "

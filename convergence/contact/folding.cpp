@@ -1,4 +1,4 @@
-// folding: a strip between two ends that are led together, with and without a limit on compression.
+// folding: a strip between two ends that move together, with and without a limit on compression.
 #include <algorithm>
 #include <cmath>
 
@@ -188,14 +188,13 @@ NamedFinding area_finding(const std::vector<FoldedSheet>& runs) {
   Worst worst;
   for (const FoldedSheet& run : runs)
     if (run.is_limited) worst.observe(run.area_lost);
-  return {
-      "folding.limit-preserves-area",
-      "With 0 % compression, a strip between ends that are led together loses none of its area.",
-      {{worst.value(), 2 * tolerance, 0, "of the area",
-        "an acute triangle whose edges are no shorter than at rest, and no longer by more than a "
-        "tenth, is no smaller; each edge may lack the tolerance of the sweeps"},
-       evidence_of(runs),
-       ""}};
+  return {"folding.limit-preserves-area",
+          "With 0 % compression, a strip between ends that move together loses none of its area.",
+          {{worst.value(), 2 * tolerance, 0, "of the area",
+            "an acute triangle whose edges are no shorter than at rest, and no longer by more than "
+            "a tenth, is no smaller; each edge may lack the tolerance of the sweeps"},
+           evidence_of(runs),
+           ""}};
 }
 
 NamedFinding lost_finding(const std::vector<FoldedSheet>& runs) {
@@ -256,8 +255,7 @@ StudyResult run_folding(const Subject&, Tier tier, const Progress& progress) {
           {},
           {},
           {{"wrinkles", "What becomes of a long strip on an elastic bed", evidence_of(waves)},
-           {"strips", "What becomes of a strip whose ends are led together by a fifth",
-            evidence_of(runs)}}};
+           {"strips", "A strip whose ends move together by a fifth", evidence_of(runs)}}};
 }
 
 }  // namespace
@@ -267,7 +265,7 @@ Study folding_study() {
           "Cloth that may not be compressed folds, and keeps its area; without the limit it is "
           "compressed where its hinges are stiffer than its springs.",
           "BMF03 section 3, after Provot 1995",
-          "The clamped ends of a strip are led together by a fifth of its length within half a "
+          "The clamped ends of a strip are moved together by a fifth of its length within half a "
           "second. With stiff hinges Euler's strain 4 pi^2 D/(Y L^2) is a quarter: the strip would "
           "rather be compressed. With soft ones it folds anyway. Wavelengths are those of the "
           "largest Fourier coefficient along the middle of the strip, in lengths at rest.",

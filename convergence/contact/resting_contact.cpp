@@ -11,7 +11,7 @@ namespace {
 
 constexpr double end = 1.1, settled = 0.9;  // of the run, and from when on it should be still [s]
 
-/// What one response makes of the same fall.
+/// Result of the same fall with one response.
 struct Rest {
   std::string response;
   Table speeds{{"time", "s"}, {"speed", "m/s"}};  // root mean square over the particles

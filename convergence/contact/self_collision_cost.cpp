@@ -1,4 +1,4 @@
-// What it costs to keep cloth from itself, and how thickness, step and rounds show in the result.
+// Cost of self-collision, and the effect of thickness, step and rounds on the result.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -18,7 +18,7 @@ constexpr std::array<double, 3> parts_of_limit = {1. / 4, 1. / 8, 1. / 16};
 
 // ---- every mode against the derived factors
 
-/// What a method does to all modes, undamped at three steps, and damped at the middle one.
+/// Effect of a method on all modes, undamped at three steps, and damped at the middle one.
 struct Response {
   Integrator method;
   std::vector<double> steps;                        // s
@@ -191,7 +191,7 @@ StudyResult run_artificial_damping(const Subject& subject, Tier tier, const Prog
 Study artificial_damping_study() {
   return {
       "artificial-damping",
-      "Schemes A, B and C damp only what is damped; backward Euler damps every vibration, the "
+      "Schemes A, B and C add no artificial damping; backward Euler damps every vibration, the "
       "faster the more.",
       "BMF03 section 3",
       "All vibrations of a flat, free sheet are excited at once, and what a step of each method "

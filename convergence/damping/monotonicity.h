@@ -31,7 +31,7 @@ DampedMotion overdamped_sheet(int cells);
 /// is over way times rate.
 DampedMotion closing_hinge();
 
-// What the study of monotonicity shows.
+// Results of the study of monotonicity.
 
 /// First steps and histories of the triangle, histories of the hinge, overshoot on the sheet.
 std::vector<Figure> monotonicity_figures(const Subject& subject, const DampedMotions& motions,

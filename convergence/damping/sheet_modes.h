@@ -60,7 +60,7 @@ double distance_of(const oracles::Factors& a, const oracles::Factors& b);
 /// The larger modulus: what decides how fast the mode decays.
 double decay_of(const oracles::Factors& factors);
 
-/// What measured_factors may be off by [1], and why.
+/// Error bound of measured_factors [1], and its reason.
 constexpr double factor_noise = 1e-7;
 constexpr const char* why_factor_noise =
     "a thousand times the solver's tolerance of 1e-10, which is of the momentum of all modes "

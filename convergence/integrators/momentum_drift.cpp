@@ -157,7 +157,7 @@ NamedFinding drift_is_real(const Drift& drift) {
                   with_columns(drift.levels, {"step", "drift in roundings"}),
                   "measured is the bound of a kept momentum over the drift"};
   return {"momentum-drift.damped-drift-exceeds-rounding.C",
-          "The drift of scheme C on a damped sheet is no rounding.", std::move(finding)};
+          "The drift of scheme C on a damped sheet is not rounding error.", std::move(finding)};
 }
 
 // ---- all methods

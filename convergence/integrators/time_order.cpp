@@ -138,7 +138,7 @@ NamedFinding finding_of(const OrderProblem& problem, const Run& run, const Quant
           std::move(finding)};
 }
 
-/// What decides on "second order only while the step is constant": B with both patterns of
+/// Finding for "second order only while the step is constant": B with both patterns of
 /// variable steps.
 NamedFinding newmark_with_variable_steps(const OrderProblem& problem,
                                          const std::vector<Run>& runs) {

@@ -26,7 +26,7 @@ KnownBody known_ball();  // radius 0.7 m, off the lattice's centre; away: outsid
 // radii 0.61 and 0.23 m; away: half the tube's radius from its ring, 0.15 m from its axis
 KnownBody known_torus();
 
-/// What marching starts from: exact values within two and a half cells of the surface; exact values
+/// Initial data of marching: exact values within two and a half cells of the surface; exact values
 /// within the body's `layer`, on every grid the same, so that the error is marching's own; which
 /// side each node is on.
 enum class Start { band, layer, crude };
@@ -68,7 +68,7 @@ struct ContourErrors {
 
 ContourErrors contour_errors(const KnownBody& body, const Grid& grid);
 
-// What a grid about a mesh costs: nodes, memory, seconds, error.
+// Cost of a grid around a mesh: nodes, memory, seconds, error.
 
 /// Adds the table `cost` and the figure `error-against-memory` of grids about a statue. cells:
 /// along its longest side.

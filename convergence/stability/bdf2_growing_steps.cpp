@@ -17,8 +17,7 @@ SteppedMotion bdf2_without_forces(const Subject& subject) {
   return stepped_motion(subject, std::move(motion), "BDF2");
 }
 
-/// What multiplies the difference of the two latest velocities in one step of ratio times
-/// the one before.
+/// Factor on the difference of the two latest velocities in one step of ratio times the one before.
 double difference_factor(const SteppedMotion& of, double ratio) {
   const double h = 1 / of.motion.omega0;
   const Eigen::MatrixXd matrix = step_matrix(of, {ratio * h, h});

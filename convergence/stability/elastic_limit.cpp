@@ -13,7 +13,8 @@ namespace foldproof {
 
 namespace {
 
-/// What resists: springs or hinges, and the exponent of the cells' width that follows for the step.
+/// Source of stiffness: springs or hinges, and the exponent of the cell width that
+/// follows for the step.
 struct Regime {
   std::string name, words;
   double stretch, bending;  // Y [N/m], ke [J]

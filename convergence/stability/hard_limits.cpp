@@ -234,17 +234,17 @@ StudyResult run_hard_limits(const Subject& subject, Tier, const Progress& progre
 }  // namespace
 
 Study hard_limits_study() {
-  return {"hard-limits",
-          "Stiffness ratios, slivers and graded meshes leave the largest stable step at 2/omega; "
-          "damping leaves it there for A and B and widens it for C; a jump of the step changes "
-          "energies by a bounded factor.",
-          "BMF03 section 3",
-          "Flat, free sheets at the edge of what the method takes are disturbed a little. The "
-          "fastest mode is found by power iteration on the elastic forces, the largest stable step "
-          "of each scheme by bisection on runs that stay bounded or do not, with heavy damping on "
-          "the spectral radius of the fastest mode's step, and compared with what the oscillator's "
-          "step matrices say.",
-          run_hard_limits};
+  return {
+      "hard-limits",
+      "Stiffness ratios, slivers and graded meshes leave the largest stable step at 2/omega; "
+      "damping leaves it there for A and B and widens it for C; a jump of the step changes "
+      "energies by a bounded factor.",
+      "BMF03 section 3",
+      "Flat, free sheets at the limit of the method are disturbed a little. The fastest mode is "
+      "found by power iteration on the elastic forces, the largest stable step of each scheme by "
+      "bisection on runs that stay bounded or do not, with heavy damping on the spectral radius of "
+      "the fastest mode's step, and compared with what the oscillator's step matrices say.",
+      run_hard_limits};
 }
 
 }  // namespace foldproof

@@ -8,7 +8,7 @@
 
 namespace foldproof {
 
-// What a jump of the step does to the energy of a vibration.
+// Effect of a jump of the step on the energy of a vibration.
 
 /// The finding hard-limits.energy-is-bounded-across-a-step-jump.<scheme>: an undamped sheet
 /// vibrates in its fastest mode in steps of 0.009 (2/omega), which jump to 0.9 (2/omega) at one of

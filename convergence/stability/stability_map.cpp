@@ -19,8 +19,8 @@ constexpr double bending = 0.0071;  // ke [J]
 // cells a side, of the mesh on which a material's damping ratio is counted
 constexpr int coarsest = 4;
 
-/// What the springs of the sheet resist with. The hinges stay what they are, so that on soft
-/// springs and narrow cells they decide the fastest mode.
+/// Stiffness and damping of the sheet's springs. The hinges are unchanged, so that on soft springs
+/// and narrow cells they decide the fastest mode.
 struct Springs {
   std::string name, words;
   double stiffness;  // Y [N/m]

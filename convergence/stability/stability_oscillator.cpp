@@ -18,7 +18,7 @@ namespace {
 
 constexpr double threshold = 1e-8;
 
-/// What is known of omega times the largest stable step: infinite for methods without limit.
+/// Known values of omega times the largest stable step; infinite for methods without limit.
 double known_limit(const Integrator& integrator, double zeta) {
   using oracles::Scheme;
   const oracles::Oscillator oscillator{1, 2 * zeta, 0, 0};

@@ -9,7 +9,7 @@
 
 namespace foldproof {
 
-// What damping does to the step of fully explicit methods as the cells become small: a part of
+// Effect of damping on the step of fully explicit methods as the cells become small: a part of
 // stability-sheet.
 
 /// Which damping a sheet has: constants of the material.

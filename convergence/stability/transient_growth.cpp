@@ -69,7 +69,7 @@ NamedFinding derived_finding(const std::string& scheme, const Table& table) {
            "measured is the largest relative deviation"}};
 }
 
-/// What multiplies the velocity in A's position: h (1 - a). In the energy norm omega
+/// Factor on the velocity in A's position update: h (1 - a). In the energy norm omega
 /// h |1 - a| of it.
 NamedFinding grows_with_damping(Table table) {
   add_column(table, "omega h |h c/2 - 1|",

@@ -73,7 +73,7 @@ Lag measured_lag(const Subject& subject, const std::string& method, double k, do
   return {std::abs(mean), 2 * farthest.value() * k / (particle_mass * turning * turning * arm)};
 }
 
-/// What a long step adds to the lag, scheme by scheme.
+/// Contribution of a long step to the lag, by scheme.
 void add_lags_of_long_steps(const Subject& subject, StudyResult& result) {
   constexpr double k = 1000;
   const double omega = std::sqrt(k / particle_mass), tau = 8 / omega;

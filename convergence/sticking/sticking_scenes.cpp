@@ -12,7 +12,7 @@ namespace foldproof {
 
 namespace {
 
-/// What the first step makes of the start's bonds, everything else at rest.
+/// Bonds after the first step, everything else at rest.
 State begun(const Subject& subject, PreparedScene& prepared, State s) {
   Work uncounted;
   s.bonds = require_offered(subject.step, "step")(prepared, {&s, 1}, 1e-12, uncounted).bonds;

@@ -70,7 +70,7 @@ Scene strip(const Springs& springs) {
   return scene;
 }
 
-/// What a run shows.
+/// Results of a run.
 struct PulledStrip {
   Springs springs;
   Table pulled{{"load", "N/m"}, {"extension", "1"}, {"of the bar", "1"}};  // frame by frame

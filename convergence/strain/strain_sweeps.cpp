@@ -57,7 +57,7 @@ JerkedSheet jerked_sheet(int cells) {
   return sheet;
 }
 
-/// What `sweeps` sweeps at most make of the sheet's velocities.
+/// The sheet's velocities after at most `sweeps` sweeps.
 struct Swept {
   PerParticle3 v;
   StrainSweeps done;

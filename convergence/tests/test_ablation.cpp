@@ -1,5 +1,5 @@
-// What `foldproof ablate` judges by: finer scenes that are the same scene, parts that are toggled
-// one by one, needs.
+// Basis of the verdicts of `foldproof ablate`: finer scenes that are the same scene, parts that are
+// toggled one by one, needs.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,4 @@
-// What is measured of wrinkles, on shapes whose answers are known; and a simulation read
-// back from its file.
+// Wrinkle measures, on shapes with known answers; and a simulation read back from its file.
 #include <catch2/catch.hpp>
 #include <cmath>
 

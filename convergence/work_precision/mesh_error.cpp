@@ -95,8 +95,8 @@ Convergence errors_of(const std::vector<MeshRun>& meshes) {
   return result;
 }
 
-/// Errors of meshes and steps. What a mesh errs by follows from its difference to the next finer
-/// one and the order that was observed:
+/// Errors of meshes and steps. The error of a mesh follows from its difference to the next finer
+/// one and the observed order:
 ///   e(dx) - e(dx/2) = e(dx) (1 - 2^-order)
 Table errors_table(const std::vector<MeshRun>& meshes, const Convergence& differences) {
   const double order = pair_orders(differences).back();

@@ -10,7 +10,7 @@
 
 namespace foldproof {
 
-/// Who says first where the motion ends. oracle: GSL, which shares no formula with the solver;
+/// Source of the reference end state. oracle: GSL, which shares no formula with the solver;
 /// runge_kutta: extrapolated RK4, for meshes on which the oracle would take minutes.
 enum class FirstOpinion { oracle, runge_kutta };
 

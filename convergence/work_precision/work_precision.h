@@ -13,7 +13,7 @@
 
 namespace foldproof {
 
-// What methods make of the slow motion that heavy damping leaves: a part of work-precision.
+// Methods on the slow motion that remains under heavy damping: a part of work-precision.
 
 /// An overdamped oscillator creeps home at a rate near k/c. The rate under A, B and C against
 /// the step: a figure, that A keeps its second order, and that C has the error derived above
@@ -57,7 +57,7 @@ enum class LimitedBy { accuracy, stability, not_tried, not_reached };
 
 std::string_view name_of(LimitedBy limit);
 
-/// What a wanted error costs. All NaN when it was not reached.
+/// Cost of reaching a given error. All NaN when it was not reached.
 struct Price {
   LimitedBy limit;
   double step;          // s
@@ -70,7 +70,7 @@ struct Price {
 /// coarser one the price is interpolated, linearly in the logarithms, unless that one diverged.
 Price price_at(const PrecisionCurve& curve, double end, double wanted);
 
-// What the work-precision study measured, between its parts.
+// Measurements passed between the parts of the work-precision study.
 
 /// One motion, what is known of it, and every method on it.
 struct PrecisionScene {

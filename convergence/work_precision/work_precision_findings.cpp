@@ -1,4 +1,4 @@
-// What the runs of the work-precision study decide.
+// Findings from the runs of the work-precision study.
 #include <algorithm>
 #include <cmath>
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double percent = 100;
 
-/// What a run is drawn against. A run that diverged on the way stands where all of its steps would
+/// Horizontal axis for a run. A run that diverged on the way stands where all of its steps would
 /// have cost as much as those that it took.
 struct CostAxis {
   std::string name, words;

@@ -1,4 +1,4 @@
-// Ways in which a body can be made to deform without an animator: it bends, twists and breathes.
+// Procedural deformations of a body: it bends, twists and breathes.
 #pragma once
 
 #include <vector>
@@ -9,22 +9,24 @@
 namespace foldproof {
 
 enum class DeformationKind {
-  // the vertical axis becomes an arc of its own length, towards +x; what is beside it turns along
+  // the vertical axis becomes an arc of its own length, towards +x; everything beside
+  // it turns with it
   bend,
   twist,   // heights turn about the axis, each in proportion
-  breathe  // widths grow, most at half the height, and by nothing at both ends
+  breathe  // widths grow, most at mid-height, not at all at either end
 };
 
-/// Comes and goes: its share of the amplitude is (1 - cos(2 pi t/period))/2, nothing at t = 0.
+/// Periodic: reaches the fraction (1 - cos(2 pi t/period))/2 of the amplitude, 0 at t = 0.
 struct BodyDeformation {
   DeformationKind kind;
-  // bend, twist: how far the top turns against the base [rad]; breathe: growth over width [1]
+  // bend, twist: rotation of the top relative to the base [rad]; breathe: relative
+  // growth of width [1]
   double amplitude;
   double period;  // s
 };
 
-/// One after the other, about the vertical (y) axis through the middle of the bounds, heights
-/// counted from their lowest point. Lengths in m.
+/// Applies the parts in order, about the vertical (y) axis through the centre of the bounds;
+/// heights are measured from the lowest point. Lengths in m.
 Deformation deformation_of(std::vector<BodyDeformation> parts, const Bounds& bounds);
 
 }  // namespace foldproof

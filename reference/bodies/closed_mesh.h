@@ -1,4 +1,5 @@
-// What a mesh must be to part inside from outside, and where it is not.
+// Closed meshes: the conditions under which a mesh separates inside from outside, and where
+// it violates them.
 #pragma once
 
 #include <vector>
@@ -8,18 +9,18 @@
 
 namespace foldproof {
 
-/// The piece of surface that each triangle belongs to, pieces hanging together by edges: M numbers
-/// from 0, in the order of the pieces' first triangles.
+/// The connected piece (by shared edges) that each triangle belongs to: M numbers from 0, in the
+/// order of the pieces' first triangles.
 std::vector<int> pieces_of(const TriangleMesh& mesh);
 
 /// The volume that the triangles enclose, positive where normals point outward [m^3].
 double enclosed_volume(const PerParticle3& x, const std::vector<Triangle>& triangles);
 
-/// The mesh of a solid: each point of space is inside once or not at all. It may be of several
-/// pieces, one beside or within the other, those around a cavity with their normals into it.
-/// Refuses (InputError that names file and line, or triangle, the place, and how many there are):
-/// all that make_triangle_mesh refuses, neighbours of opposite orientation (flipped triangles)
-/// among it; holes; triangles that intersect; pieces that are inside out.
+/// The mesh of a solid: each point of space is inside once or not at all. It may have several
+/// pieces, side by side or nested; around a cavity the normals point into the cavity. Refuses
+/// (InputError that names file and line, or triangle, the place, and the count): everything that
+/// make_triangle_mesh refuses, including neighbours of opposite orientation (flipped triangles);
+/// holes; triangles that intersect; pieces that are inside out.
 TriangleMesh make_closed_mesh(TriangleSoup soup);
 
 }  // namespace foldproof

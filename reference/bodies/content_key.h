@@ -1,4 +1,4 @@
-// A key of what something is made of: equal keys, equal content. For caches.
+// Content keys for caches: equal keys, equal content.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace foldproof {
 
-/// Fowler, Noll and Vo's hash FNV-1a of 64 bits, of values in the order in which they are added.
+/// The 64-bit FNV-1a hash (Fowler, Noll, Vo) of the values, in the order they are added.
 class ContentKey {
  public:
   template <class T>
@@ -26,7 +26,7 @@ class ContentKey {
   void add(int value) { add(&value, 1); }
   void add(std::uint64_t value) { add(&value, 1); }
 
-  /// 16 hexadecimal digits; two contents share them with probability 2^-64.
+  /// 16 hexadecimal digits; two different contents collide with probability 2^-64.
   std::string text() const {
     char digits[17];
     std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));

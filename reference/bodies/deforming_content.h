@@ -1,4 +1,4 @@
-// What a deforming body is made of and made into, as keys: equal keys, equal content. For caches.
+// Cache keys of a deforming body: of its input, and of the level sets built from it.
 #pragma once
 
 #include <string>
@@ -7,17 +7,18 @@
 
 namespace foldproof {
 
-/// 16 hexadecimal digits of everything that the level sets are computed from: triangles, times,
-/// positions and settings, bit for bit, and the version of the method. Two contents share a key
-/// with probability 2^-64.
+/// 16 hexadecimal digits that identify all input of the level sets: triangles, times, positions and
+/// settings, bit for bit, and the version of the method. Two different inputs collide with
+/// probability 2^-64.
 std::string input_key(const MeshSequence& sequence, const OctreeSettings& settings);
 
-/// The same of the level sets themselves: it tells whether stored ones are as they were written.
+/// The same for the level sets themselves; detects stored ones that have changed since
+/// they were written.
 std::string content_key(const DeformingBody& body);
 
-/// Throws InputError saying what is wrong with a body that no build made: frames that do not rise,
-/// indices out of range, arrays of lengths that do not fit, values that are no numbers. A sound
-/// body can be asked anywhere.
+/// Validates a body that was read rather than built. Throws InputError naming the defect: frame
+/// times that do not increase, indices out of range, arrays of mismatched length, values that are
+/// not finite. A valid body can be queried anywhere.
 void require_valid_content(const DeformingBody& body);
 
 }  // namespace foldproof

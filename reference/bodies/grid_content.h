@@ -1,4 +1,4 @@
-// What a grid is made of and made into, as keys: equal keys, equal content. For caches.
+// Cache keys of a grid: of its input, and of the grid itself.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace foldproof {
 
-/// Of everything that make_level_set computes from, bit for bit, and the version of its method.
+/// Key of all input of make_level_set, bit for bit, and of the version of its method.
 std::string input_key(const TriangleSoup& soup, const GridMethod& method, Repair repair);
 
-/// Of the grid itself.
+/// Key of the grid itself.
 std::string content_key(const Grid& grid);
 
-/// Throws InputError saying what is wrong with a grid that no build made. A sound grid can be
-/// asked anywhere.
+/// Validates a grid that was read rather than built; throws InputError naming the defect. A valid
+/// grid can be queried anywhere.
 void require_valid_content(const Grid& grid);
 
 }  // namespace foldproof

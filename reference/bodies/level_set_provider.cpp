@@ -11,7 +11,7 @@ namespace foldproof {
 
 namespace {
 
-/// What was made, by the key of all that it is made of.
+/// Results by the key of their input.
 template <class Field>
 class Remembered {
  public:

@@ -1,5 +1,4 @@
-// Who makes the level sets of a case's bodies: the functions of this folder, or one that keeps
-// what they made.
+// Level sets for the bodies of a case: computed, or loaded from a cache.
 #pragma once
 
 #include <functional>
@@ -10,8 +9,8 @@
 
 namespace foldproof {
 
-/// Each answers what the function of its name makes of the same arguments, bit for bit, and throws
-/// what that throws.
+/// Each member returns, bit for bit, the result of the function of the same name, and throws
+/// what it throws.
 struct LevelSetProvider {
   std::function<std::shared_ptr<const Grid>(const TriangleSoup&, const GridMethod&, Repair)>
       make_level_set;
@@ -20,14 +19,14 @@ struct LevelSetProvider {
       make_deforming_body;
 };
 
-/// Those that compute whatever they are asked for.
+/// Computes every request.
 LevelSetProvider computing_provider();
 
-/// Those that ask `provider` once for the same thing, and hand out what they made to all who ask
-/// again, in any thread. They and their copies share what they keep, as long as one of them lives.
+/// Calls `provider` once per distinct request and returns the stored result afterwards, from any
+/// thread. Copies share the stored results for as long as one of them exists.
 LevelSetProvider memoizing_provider(const LevelSetProvider& provider);
 
-/// The octree of one mesh: that of an animation of one frame.
+/// The octree of one mesh, built as a one-frame animation.
 std::shared_ptr<const Octree> make_octree(const LevelSetProvider& provider, const PerParticle3& x,
                                           const std::vector<Triangle>& triangles,
                                           const OctreeSettings& settings);

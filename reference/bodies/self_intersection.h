@@ -1,4 +1,4 @@
-// Triangles of a mesh that meet where they should not.
+// Self-intersections of a triangle mesh.
 #pragma once
 
 #include <utility>
@@ -9,12 +9,12 @@
 
 namespace foldproof {
 
-/// Do two triangles have a point in common beyond the vertices and the edge that they share by
-/// number? Touching counts, and so does lying in one plane and overlapping. Exact, see
-/// mesh/exact_sign.h. Both must have area and differ in a vertex.
+/// True if two triangles have a point in common other than the vertices and the edge that they
+/// share by index. Touching counts, as does coplanar overlap. Exact, see mesh/exact_sign.h. Both
+/// must have nonzero area and differ in at least one vertex.
 bool intersect(const PerParticle3& x, const Triangle& s, const Triangle& t);
 
-/// All pairs (s < t) of triangles that intersect, in rising order. x: 3 x N [m].
+/// All pairs (s < t) of triangles that intersect, in ascending order. x: 3 x N [m].
 std::vector<std::pair<int, int>> self_intersections(const PerParticle3& x,
                                                     const std::vector<Triangle>& triangles);
 

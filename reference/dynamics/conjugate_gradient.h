@@ -1,5 +1,5 @@
-// Conjugate gradients for the implicit velocity, matrix-free, scaled by the masses and by nothing
-// else (BMF03 section 3).
+// Matrix-free conjugate gradients for the implicit velocity, preconditioned by the masses only
+// (BMF03 section 3).
 #pragma once
 
 #include "reference/dynamics/newton_matrix.h"
@@ -7,11 +7,12 @@
 
 namespace foldproof {
 
-/// What the residual is compared with, both in the mass-weighted norm |r|^2 = sum_i
+/// Reference for the relative residual, in the mass-weighted norm |r|^2 = sum_i
 /// |r_i|^2/m_i [kg m^2/s^2]:
 enum class ResidualScale {
   momentum,  // the right-hand side M w0, sqrt(sum m_i |w0_i|^2): an error relative to the velocity
-  // of the explicit guess: an error relative to what damping changes, in every inertial frame
+  // residual of the explicit guess: an error relative to the change due to damping, the same in
+  // every inertial frame
   initial_residual
 };
 
@@ -26,26 +27,26 @@ struct SolveResult {
   // relative, as accumulated by the iteration [1]; NaN if the data were not finite
   double residual;
   bool converged;  // residual <= tolerance
-  // stopped early: a direction of no or negative curvature, the matrix is not positive definite
+  // stopped early at a direction of zero or negative curvature: the matrix is not positive definite
   bool indefinite;
 };
 
-/// Solves (M - s D) w = M w0 for the velocity w of the free particles; prescribed ones (inverse
-/// mass 0) keep theirs.
+/// Solves (M - s D) w = M w0 for the velocity w of the free particles; prescribed particles
+/// (inverse mass 0) keep theirs.
 ///   v   on entry w0 = v + s M^{-1} F with the known velocities written in; on exit w. 3 x N [m/s]
 ///   s   half the step [s]
 /// In the variable M^{1/2} w the operator I - s M^{-1/2} D M^{-1/2} is symmetric positive definite;
-/// the iteration below is that one, written with masses. It starts from the explicit guess w0, so
-/// that every iterate differs from it by internal forces only, and keeps linear and angular
-/// momentum to rounding however early it stops.
+/// the iteration is CG on that operator, written in terms of the masses. It starts from the
+/// explicit guess w0, so every iterate differs from it by internal forces only and conserves linear
+/// and angular momentum to rounding, however early it stops.
 SolveResult solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass,
                            const PerParticle& inverse_mass, const SolverSettings& settings,
                            PerParticle3& v, Work& work);
 
-/// Solves A dw = r, A symmetric, for the free particles from dw = 0; prescribed ones
-/// get 0. r: 3 x N momenta [kg m/s]; on exit dw: 3 x N [m/s]. The residual is relative to
-/// |r|. Stops at once, with `indefinite` set, when it meets a direction p with p.A p <=
-/// 0: dw is then what it had so far.
+/// Solves A dw = r, A symmetric, for the free particles from dw = 0; prescribed ones get 0. r: 3
+/// x N momenta [kg m/s]; on exit dw: 3 x N [m/s]. The residual is relative to |r|. Stops at
+/// once, with `indefinite` set, when it meets a direction p with p.A p <= 0: dw is then the
+/// latest iterate.
 SolveResult solve_newton_step(const NewtonMatrix& A, const SolverSettings& settings,
                               const PerParticle3& r, PerParticle3& dw, Work& work);
 

@@ -1,5 +1,5 @@
-// Explicit Runge-Kutta methods: what BMF03 section 3 compares its schemes with. Positions and
-// velocities alike are explicit, so damping limits the step as well as elasticity.
+// Explicit Runge-Kutta methods, against which BMF03 section 3 compares its schemes. Positions and
+// velocities are both explicit, so damping limits the step as well as elasticity does.
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@ namespace foldproof {
 /// Forward Euler: first order; unstable for undamped motion at any step.
 State forward_euler(const System& system, std::span<const State> past, double h, Work& work);
 
-/// Explicit midpoint rule (RK2): second order; undamped motion grows slowly, as
-/// (omega h)^4/8 a step.
+/// Explicit midpoint rule (RK2): second order; undamped motion grows slowly, by (omega
+/// h)^4/8 per step.
 State explicit_midpoint(const System& system, std::span<const State> past, double h, Work& work);
 
 /// Strong-stability-preserving RK3 of Shu and Osher (1988): third order; undamped stable for

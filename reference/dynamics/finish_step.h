@@ -1,4 +1,4 @@
-// How the methods that are not the paper's end a step: prescribed motion and the paper's
+// End of a step for the methods that are not the paper's: prescribed motion and the paper's
 // hook for filters.
 #pragma once
 
@@ -6,15 +6,15 @@
 
 namespace foldproof {
 
-/// What a method has found: the velocity that moves x over the step, and the one that ends
-/// it (3 x N [m/s]).
+/// Result of a method: the velocity that moves x over the step, and the velocity at its
+/// end (3 x N [m/s]).
 struct StepVelocities {
   PerParticle3 move, end;
 };
 
-/// The state after a step of h [s]: prescribed particles are put on their paths, the filters
-/// correct the velocity that moves the cloth, the one that ends the step takes up the change that
-/// they made, and is then corrected itself.
+/// The state after a step of h [s]: prescribed particles are put on their paths, and the filters
+/// correct the velocity that moves the cloth. The same change is added to the velocity at the end
+/// of the step, which is then corrected itself.
 State finish_step(const System& system, const State& now, double h, StepVelocities v, Work& work);
 
 }  // namespace foldproof

@@ -147,8 +147,8 @@ SolveResult solve_linearised(const System& system, const State& now, const Stage
   return solve;
 }
 
-/// What rounding the positions alone may do to the residual [kg^1/2 m/s]: forces change by a bound
-/// on the stiffness times a rounding of the largest coordinate.
+/// Bound on the change of the residual by rounding of the positions alone [kg^1/2 m/s]: forces
+/// change by a bound on the stiffness times a rounding of the largest coordinate.
 double rounding_at(const System& system, const Stage& stage, const PerParticle3& w) {
   const State at = state_of(stage, w);
   const PerParticle rows = stiffness_row_bounds(system.forces, at, StickingPart::all);  // N/m

@@ -1,7 +1,7 @@
-// Methods implicit in the elastic forces too: what BMF03 section 3 compares its schemes with. Each
-// step of the nonlinear ones solves one stage equation
+// Methods implicit in the elastic forces too, against which BMF03 section 3 compares its schemes.
+// Each step of the nonlinear ones solves one stage equation
 //   w:  M (w - V) = s (F_elastic(t, X + s w) + D(X + s w) w)
-// whose X, V, s and t say which method it is.
+// in which X, V, s and t depend on the method.
 #pragma once
 
 #include <span>
@@ -21,10 +21,10 @@ State linearised_backward_euler(const System& system, std::span<const State> pas
 
 /// BDF2 with the coefficients of variable steps. Second order; zero-stable while no step exceeds
 /// 1 + sqrt(2) times the one before. Needs two states; with one it takes the implicit midpoint
-/// rule, whose single step errs by O(h^3), so that the first step leaves the order alone.
+/// rule, whose local error O(h^3) keeps the order.
 State bdf2(const System& system, std::span<const State> past, double h, Work& work);
 
-/// Implicit midpoint rule: second order, symplectic, no damping of its own; keeps linear and
+/// Implicit midpoint rule: second order, symplectic, no numerical damping; conserves linear and
 /// angular momentum.
 State implicit_midpoint(const System& system, std::span<const State> past, double h, Work& work);
 

@@ -1,5 +1,5 @@
-// The table of integrators. A study runs over it and compares the observed order with `order`: a
-// wrong row is refuted.
+// The table of integrators. A study compares the observed order of each row with its `order`, so a
+// wrong entry is found.
 #pragma once
 
 #include <limits>
@@ -11,18 +11,18 @@
 
 namespace foldproof {
 
-/// Which forces a method takes implicitly. mixed: the damping in the velocity alone, as the
-/// paper does; fully_explicit: nothing, so that damping limits its step; fully_implicit: the
+/// Which forces a method treats implicitly. mixed: only the damping, in the velocity update, as
+/// in the paper; fully_explicit: none, so that damping limits its step; fully_implicit: the
 /// elastic forces too.
 enum class Family { mixed, fully_explicit, fully_implicit };
 
 struct Integrator {
   std::string_view name, title, source;
-  int order;  // of the global error in x and v, for any step sequence that keeps to largest_growth
-  int history;  // states that `step` can use, the latest last; with fewer it starts itself
+  int order;    // of the global error in x and v, for any step sequence within largest_growth
+  int history;  // states that `step` can use, the latest last; with fewer it is self-starting
   State (*step)(const System& system, std::span<const State> past, double h, Work& work);  // h [s]
   Family family = Family::mixed;
-  // of a step over the one before [1]
+  // ratio of a step to the one before [1]
   double largest_growth = std::numeric_limits<double>::infinity();
   bool damping_widens_limit = false;  // stable for h^2 K < 4 M + 2 h D, not for h^2 K < 4 M only
 };
@@ -35,18 +35,18 @@ std::vector<Integrator> paper_schemes();
 /// Throws InputError with the known names.
 const Integrator& integrator_named(std::string_view name);
 
-/// The latest states of a run, which is what a step sees.
+/// The latest states of a run, as seen by a step.
 class History {
  public:
-  /// Starts, or starts again after an event that no method must look across. length: most
+  /// Starts, or restarts after an event that no method may look across. length: most
   /// states kept, >= 1.
   History(State start, int length) : states_{std::move(start)}, length_(size_t(length)) {}
 
-  /// Goes on with states that a history of this length has kept, the latest last; at least one.
+  /// Continues from the stored states of a history of this length, the latest last; at least one.
   History(std::vector<State> states, int length)
       : states_(std::move(states)), length_(size_t(length)) {}
 
-  /// Takes up the state that a step has made.
+  /// Appends the state at the end of a step.
   void advance(State next) {
     states_.push_back(std::move(next));
     if (states_.size() > length_) states_.erase(states_.begin());

@@ -1,5 +1,4 @@
-// The matrix of a Newton step of the methods that are implicit in the elastic forces too, as
-// a function call.
+// Matrix-free Newton matrix for the methods that are implicit in the elastic forces too.
 #pragma once
 
 #include "reference/forces/damping.h"
@@ -8,13 +7,14 @@
 
 namespace foldproof {
 
-/// M - s D - s^2 K, K the forces' derivative by the positions. Symmetric if K is.
+/// M - s D - s^2 K, K the derivative of the forces with respect to the
+/// positions. Symmetric if K is.
 struct NewtonMatrix {
   const PerParticle& mass;          // N [kg]
   const PerParticle& inverse_mass;  // N [1/kg], 0 for prescribed particles
   const DampingOperator& damping;
   const ForceDifferential& stiffness;
-  double s;  // the part of the step that multiplies the rate [s]
+  double s;  // the fraction of the step that multiplies the rate [s]
 };
 
 /// q = A p at free particles, 0 at prescribed ones; both 3 x N. Counts one product with D

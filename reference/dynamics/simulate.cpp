@@ -49,7 +49,7 @@ double diagonal_of(const PerParticle3& x) {
   return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
 }
 
-/// What is wrong with `next`, if anything: values that are not finite, or a leap.
+/// The defect of `next`, if any: values that are not finite, or a jump.
 std::optional<Stop> fault_in(const State& now, const State& next, double size, long step) {
   int worst = -1;
   double farthest = sizes_per_step * size;

@@ -1,4 +1,4 @@
-// A run: steps from frame to frame, with diagnostics, until the end or until something goes wrong.
+// A run: steps from frame to frame, with diagnostics, until the end or a failure.
 #pragma once
 
 #include <functional>
@@ -11,18 +11,18 @@
 
 namespace foldproof {
 
-/// How long a step is. Each frame interval (or what an automatic step sees left of it) is divided
-/// evenly, so frames are hit exactly. So are events, at which a prescribed motion starts or stops,
-/// or an object's velocity jumps (dynamics/events.h): there a method that looks back starts anew.
+/// Rule for the step size. Each frame interval (or, for automatic steps, the rest of it) is divided
+/// evenly, so frames are hit exactly. So are events, at which a prescribed motion starts or stops
+/// or an object's velocity jumps (dynamics/events.h); multistep methods restart there.
 struct StepRule {
-  double fixed = 0;  // the largest step allowed [s]; 0: chosen each step
+  double fixed = 0;  // the largest step allowed [s]; 0: automatic
   // automatic: fraction of the elastic limit 2/omega, and for fully explicit methods of the damping
-  // limit 2/c too, c the bound on the largest damping rate [1]
+  // limit 2/c too, c being the bound on the largest damping rate [1]
   double safety = 0.5;
   // automatic: no edge's length changes by more than this fraction of its rest length [1]
   double strain_per_step = 0.1;
-  // where every step ends, ascending, frames and events among them [s]; once they are used up, or
-  // without any, the rules above hold
+  // end times of the steps, ascending, including frames and events [s]; after the last one, or if
+  // empty, the rules above apply
   std::vector<double> ends = {};
 };
 
@@ -30,7 +30,7 @@ struct Schedule {
   double end = 1;             // s
   double frame_interval = 1;  // s
   StepRule step;
-  long max_steps = 100'000'000;  // a run that reaches it stops and says so
+  long max_steps = 100'000'000;  // a run that reaches it stops and reports it
 };
 
 /// One row of diagnostics, taken after a step; the first row is the start.
@@ -39,13 +39,13 @@ struct Diagnostics {
   Energies energy;            // J
   double damping_work = 0;    // work done by the damping forces so far, by the trapezoidal rule [J]
   Vector3 linear_momentum, angular_momentum;  // kg m/s, kg m^2/s about the origin
-  double step_over_elastic_limit = 0;         // of the state that the step began at [1]
+  double step_over_elastic_limit = 0;         // at the state from which the step started [1]
   Work work;                                  // of this step
   double seconds = 0;                         // since the start of the run, clock time
 };
 
-/// Shows `visit` every number of a Diagnostics, const or not, but the clock time, in an order that
-/// stays: counts as long, the rest as double.
+/// Calls `visit` with every number of a Diagnostics, const or not, except the clock time, in a
+/// fixed order: counts as long, the rest as double.
 template <class SomeDiagnostics, class Visit>
 void for_each_value(SomeDiagnostics& d, const Visit& visit) {
   for (auto* value : {&d.time, &d.step, &d.damping_work, &d.step_over_elastic_limit}) visit(*value);
@@ -55,14 +55,14 @@ void for_each_value(SomeDiagnostics& d, const Visit& visit) {
   for_each_counter(d.work, visit);
 }
 
-// A new number must be shown above.
+// A new number must be visited above.
 static_assert(sizeof(Diagnostics) == sizeof(Energies) + sizeof(Work) + 11 * sizeof(double));
 
 struct Stop {
   std::string reason;
   double time;   // of the last good state [s]
   long step;     // number of the step that failed, from 1; 0: the start
-  int particle;  // the worst particle, -1 if none is to blame
+  int particle;  // the worst particle, -1 if no single one is the cause
 };
 
 struct RunResult {
@@ -72,22 +72,21 @@ struct RunResult {
   std::optional<Stop> stop;  // empty when the end was reached
 };
 
-/// All that a run remembers at a frame beside its system, method and schedule: what it takes to go
-/// on to the same bits.
+/// Everything that a run keeps at a frame besides its system, method and schedule: enough to
+/// resume bit for bit.
 struct Checkpoint {
-  std::vector<State> past;    // what the method looks back on; the latest is the frame's state
+  std::vector<State> past;    // history of the method; the latest is the frame's state
   long frame = 0, steps = 0;  // so far; the start is frame 0
   Work work;                  // of all steps so far
   double start_time = 0;      // of the run [s]
-  double size = 0;            // of the cloth at the start, which leaps are held against [m]
-  double event_time = 0;      // when events were last passed; the start, if there was none [s]
+  double size = 0;            // of the cloth at the start, the scale for detecting jumps [m]
+  double event_time = 0;      // time of the last event passed; the start if there was none [s]
   double damping_work = 0;    // J
   double damping_power = 0;   // at the frame [W]
   double seconds = 0;         // clock time since the start of the run
 };
 
-/// Who watches. Empty functions are not called, and diagnostics that nobody watches
-/// are not computed.
+/// Callbacks of a run. Empty functions are not called, and unobserved diagnostics are not computed.
 struct Observer {
   std::function<void(const State&)> frame;  // at 0, every frame interval, and the end
   std::function<void(const Diagnostics&)> step;
@@ -95,22 +94,20 @@ struct Observer {
   std::function<void(const Checkpoint&)> checkpoint = {};
 };
 
-/// Throws InputError for a schedule that cannot be kept (end < start, interval <= 0,
-/// safety <= 0, ...).
+/// Throws InputError for an invalid schedule (end < start, interval <= 0, safety <= 0, ...).
 RunResult simulate(const System& system, const Integrator& integrator, const State& start,
                    const Schedule& schedule, const Observer& observer);
 
-/// Goes on from a checkpoint of a run of the same system, integrator and schedule that was watched
-/// by as many functions. Frames, diagnostics but for clock time, later checkpoints and the result
-/// are those of the uninterrupted run, to the bit; what was handed out up to the checkpoint is not
-/// handed out again. Throws InputError for one without a state, or of other particles.
+/// Resumes from a checkpoint of a run of the same system, integrator and schedule with the same
+/// callbacks set. Frames, diagnostics (except clock time), later checkpoints and the result match
+/// the uninterrupted run bit for bit; callbacks made before the checkpoint are not repeated. Throws
+/// InputError for a checkpoint without a state or with a different number of particles.
 RunResult resume(const System& system, const Integrator& integrator, const Checkpoint& from,
                  const Schedule& schedule, const Observer& observer);
 
-/// The longest step [s] that the rule allows after these states. No step exceeds the one before by
-/// more than the integrator's largest_growth.
-///   limit   the elastic limit at the latest of them [s]; a rule with a fixed step does not ask
-///           for it
+/// The longest step [s] that the rule allows after these states. The ratio of a step to the
+/// previous one never exceeds the integrator's largest_growth.
+///   limit   the elastic limit at the latest of them [s]; not used by a rule with a fixed step
 double allowed_step(const System& system, const Integrator& integrator, std::span<const State> past,
                     const StepRule& rule, double limit);
 

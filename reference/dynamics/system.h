@@ -1,4 +1,4 @@
-// What moves: masses, forces, filters, and what is led. It holds only what its scene names.
+// A system: masses, forces, filters and prescribed motion. It holds only what its scene names.
 #pragma once
 
 #include <vector>
@@ -28,18 +28,18 @@ System make_system(PerParticle mass);
 /// does not exist.
 void prescribe(System& system, const PrescribedParticle& particle);
 
-/// Largest stable step of the undamped motion by the bound on the elastic frequency: 2/omega [s];
-/// infinite without stiffness.
+/// Largest stable step of the undamped motion, from the bound on the elastic frequency: 2/omega
+/// [s]; infinite without stiffness.
 double elastic_limit(const System& system, const State& s);
 
-/// The same for a scheme whose limit damping widens to h^2 K < 4 M + 2 h D (scheme C). In steps up
-/// to 2 tau_s the damping of sticking outweighs its stiffness: max(limit, min(2/omega without
-/// sticking's springs, 2 tau_s)) [s].
+/// The same for a scheme whose limit is widened by damping to h^2 K < 4 M + 2 h D (scheme C). In
+/// steps up to 2 tau_s the damping of sticking outweighs its stiffness: max(limit, min(2/omega
+/// without sticking's springs, 2 tau_s)) [s].
 ///   limit   the elastic limit [s]
 double widened_limit(const System& system, const State& s, double limit);
 
-/// Once a step, before it: bonds of sticking form and break, and self-collision renews its cache of
-/// pairs. A second call changes nothing.
+/// Call once before each step: sticking bonds form and break, and self-collision updates its pair
+/// cache. A second call changes nothing.
 void begin_step(const System& system, State& s);
 
 Energies energies(const System& system, const State& s);  // J

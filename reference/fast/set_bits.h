@@ -1,5 +1,5 @@
-// For speed alone: how many bits of a byte are set, from a table. Without the processor's own
-// instruction std::popcount is a call.
+// For speed alone: number of set bits of a byte, from a table. Without a processor instruction
+// std::popcount is a function call.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ inline constexpr std::array<unsigned char, 256> set_bits = [] {
   return count;
 }();
 
-/// Is the table std::popcount of every byte? The compiler asks.
+/// True if the table equals std::popcount for every byte; evaluated at compile time.
 constexpr bool set_bits_are_counted() {
   for (unsigned byte = 0; byte < 256; ++byte)
     if (int(set_bits[byte]) != std::popcount(byte)) return false;

@@ -1,5 +1,4 @@
-// Do two features of the cloth come together while they move? Continuous collision detection by
-// conservative advancement.
+// Continuous collision detection of two moving features of the cloth by conservative advancement.
 #pragma once
 
 #include <optional>
@@ -14,17 +13,17 @@ struct Approach {
   Nearness at;  // then
 };
 
-/// The four points move from x straight to x + way (3 x 4 [m]). Two features that start farther
-/// apart than `min_distance` [m] are to stay so; of those that start nearer, half of their
-/// distance is to be kept.
+/// The four points move straight from x to x + displacement (3 x 4 [m]). Features that start
+/// farther apart than `min_distance` [m] must stay so; features that start nearer must keep half of
+/// their distance.
 ///   nothing   they stay farther apart than that, during the whole motion
-///   a time    at which they are within half as much again of it, or have lost half of what they
-///             had to lose, or from which on 1000 planes did not suffice to show their motion
-///             harmless
-/// A meeting is never missed, whatever the motion, coplanar all along or grazing, as long as what
-/// is to be kept is beyond the rounding of the coordinates; what comes near without meeting may be
-/// reported. A step after which nothing was reported can be followed by another for ever: distances
-/// may tend to `min_distance`, and do not fall below it.
+///   a time    at which they are within 1.5 times that distance, or have used half of the
+///             distance that they may lose, or from which 1000 separating planes did not suffice
+///             to prove their motion harmless
+/// A collision is never missed, even if the motion is coplanar throughout or grazing, as long
+/// as the distance to keep exceeds the rounding of the coordinates; a near miss may be
+/// reported. Steps without a report can be repeated indefinitely: distances may approach
+/// `min_distance` but never fall below it.
 std::optional<Approach> first_approach(PairKind kind, const Corners4& x,
                                        const Corners4& displacement, double min_distance);
 

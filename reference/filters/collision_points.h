@@ -1,5 +1,5 @@
-// The points of the cloth that are held out of objects: its particles, and, for coarse cloth,
-// midpoints of edges and centres of triangles too.
+// The points of the cloth that are kept out of objects: its particles and, for coarse cloth, also
+// edge midpoints and triangle centres.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace foldproof {
 
-/// A point that is the mean of one, two or three particles, and by how much each of them answers
-/// when the point's velocity is to change: by the least impulses that do it,
+/// A point that is the mean of one, two or three particles, and the share of each particle in a
+/// change of the point's velocity, from the least impulses that achieve it:
 ///   share_i = m_i^{-1} / sum_j weight_j m_j^{-1}    (equal weights),
 /// so that sum_i weight_i share_i = 1.
 struct CollisionPoint {
@@ -19,7 +19,7 @@ struct CollisionPoint {
   int count = 0;
   Vector3 shares = Vector3::Zero();  // 1
 
-  /// Of its particles' columns.
+  /// Mean of its particles' columns.
   Vector3 mean(const PerParticle3& of) const {
     Vector3 sum = of.col(particles[0]);
     for (int k = 1; k < count; ++k) sum += of.col(particles[size_t(k)]);
@@ -27,11 +27,11 @@ struct CollisionPoint {
   }
 };
 
-/// Particles alone, or with midpoints of edges, or with those and centres of triangles.
+/// Particles only; particles and edge midpoints; or these and triangle centres.
 enum class PointKind { particles, edges, faces };
 
-/// Points that no free particle belongs to are left out. Centres come first and particles last, so
-/// that particles have the last word. inverse_mass: N [1/kg], 0 for prescribed particles.
+/// Points without a free particle are left out. Centres come first and particles last, so that the
+/// correction of a particle is final. inverse_mass: N [1/kg], 0 for prescribed particles.
 std::vector<CollisionPoint> collision_points(const TriangleMesh& mesh,
                                              const PerParticle& inverse_mass, PointKind kind);
 

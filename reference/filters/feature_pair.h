@@ -1,5 +1,5 @@
-// Two features of the cloth, a vertex and a triangle or two edges: how near they are to each
-// other, and where.
+// A pair of features, a vertex and a triangle or two edges: their distance, and where
+// it is attained.
 #pragma once
 
 #include <array>
@@ -32,8 +32,7 @@ struct Nearness {
   Eigen::Vector4d weights;  // 1
 };
 
-/// Triangles without area and edges without length or parallel to each other are as good as others:
-/// their sides and ends are asked.
+/// Degenerate triangles and degenerate or parallel edges are handled through their sides and ends.
 Nearness nearness(PairKind kind, const Corners4& x);
 
 }  // namespace foldproof

@@ -1,5 +1,5 @@
-// The hook of BMF03 section 3, "modify the velocity in place": strain limits, collisions,
-// sticking attach here.
+// The hook of BMF03 section 3, "modify the velocity in place": strain limits and
+// collisions attach here.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace foldproof {
 
-/// A filter written on the spot.
+/// A filter given as a function.
 struct CustomFilter {
   // v: 3 x N [m/s], corrected in place
   std::function<void(const Span& span, const State& s, PerParticle3& v)> modify;
@@ -35,7 +35,7 @@ using Filter = std::variant<StrainLimiter, ObjectCollision, SelfCollision, Custo
 static_assert(MotionFilter<StrainLimiter> && MotionFilter<ObjectCollision> &&
               MotionFilter<SelfCollision> && MotionFilter<CustomFilter>);
 
-/// Applies the filters in their order.
+/// Applies the filters in order.
 void correct(const std::vector<Filter>& filters, const Span& span, const State& s, PerParticle3& v,
              Work& work);
 

@@ -10,7 +10,7 @@
 
 namespace foldproof {
 
-/// The filter: each point is answered alone, by the response, in the order of the points.
+/// The filter: the response treats one point at a time, in the order of the points.
 struct ObjectCollision {
   std::vector<Object> objects;
   std::vector<CollisionPoint> points;

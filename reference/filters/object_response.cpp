@@ -19,7 +19,7 @@ constexpr double facing = -0.5;
 // A point that would reach the surface within this part of the step is on it.
 constexpr double touching = 1e-3;
 
-/// What friction leaves of a sliding velocity when the normal velocity is changed by `push` [m/s].
+/// A sliding velocity after friction when the normal velocity is changed by `push` [m/s].
 double kept_by_friction(double mu, double push, double speed) {
   return speed > 0 ? std::max(0.0, 1 - mu * push / speed) : 0;
 }

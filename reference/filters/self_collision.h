@@ -18,13 +18,13 @@ namespace foldproof {
 /// different states of one system, share it: each replaces it as a whole.
 using LatestPairCache = std::atomic<std::shared_ptr<const PairCache>>;
 
-/// The filter. It comes last: objects first, then cloth against itself.
-/// The velocity that moves the cloth leaves it with a proof: of every pair of features whose boxes
-/// meet on the way, that planes part them all along (approach.h), or that they move as one
-/// (impact_zones.h). So what is free of crossings stays free of them, and pairs farther apart than
-/// a tenth of the thickness stay so. The velocity that ends a step moves nothing; layers within the
-/// thickness are kept from approaching. Cloth that starts crossing itself is held apart only where
-/// it is not tangled, and pushed out of the tangle; there is no proof until it is out.
+/// The filter. It comes last: objects first, then cloth against itself. It returns a velocity that
+/// is proven safe: for every pair of features whose boxes meet on the way, planes separate the two
+/// throughout (approach.h), or they move rigidly together (impact_zones.h). So cloth free of
+/// crossings stays free of them, and pairs farther apart than a tenth of the thickness stay so. The
+/// velocity that ends a step moves nothing; there, layers within the thickness are only kept from
+/// approaching. Cloth that starts crossing itself is held apart only where it is not tangled, and
+/// pushed out of the tangle; until it is out there is no proof.
 struct SelfCollision {
   SelfCollisionSettings settings;
   ClothTree cloth;
@@ -32,8 +32,8 @@ struct SelfCollision {
   CrossingTriangles at_start = {};  // pairs that cross before the first step
   std::shared_ptr<LatestPairCache> cache = std::make_shared<LatestPairCache>();
 
-  /// Makes the cache anew if it is not valid at s, with a margin to spare for the next steps. It
-  /// spares most searches and changes no bit: correct() searches where the cache does not reach.
+  /// Rebuilds the cache if it is not valid at s, with a margin for the next steps. It saves most
+  /// searches without changing a bit: correct() searches where the cache is not valid.
   void update_pair_cache(const State& s) const;
 
   /// Throws DegenerateElement where prescribed particles force the cloth through itself.

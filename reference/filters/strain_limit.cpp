@@ -16,7 +16,7 @@ namespace {
 // corrected again.
 constexpr double at_the_limit = 8 * std::numeric_limits<double>::epsilon();
 
-/// What the springs of a sweep were found to be, before they were corrected.
+/// State of the springs in a sweep before correction.
 struct SweepResult {
   double violation = 0;  // the largest, over the rest length [1]
   long corrected = 0, unreachable = 0;
@@ -96,8 +96,8 @@ class Sweeps {
   }
 
  private:
-  /// What the spring needs; a violation of 0 if it is within its limits, which no square root
-  /// is needed to see.
+  /// The correction that the spring needs; a violation of 0 if it is within its limits, which no
+  /// square root is needed to see.
   Correction needed_correction(const LimitedSpring& spring) const {
     const Vector3 d = x_.col(spring.b) - x_.col(spring.a), u = v_.col(spring.b) - v_.col(spring.a);
     const double L0 = spring.rest_length, squared = (d + h_ * u).squaredNorm();

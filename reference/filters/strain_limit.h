@@ -10,56 +10,58 @@
 
 namespace foldproof {
 
-/// In which order springs are corrected.
+/// Order in which springs are corrected.
 enum class SweepOrder {
-  gauss_seidel,  // one after the other, by the particles that they join
+  gauss_seidel,  // one after the other, in the order of their particles
   alternating,   // the same, every other sweep backwards
-  // colour by colour, no two springs of a colour sharing a particle: threads may share a colour
+  // colour by colour; springs of one colour share no particle, so threads may share a colour
   coloured,
-  // all from the same velocities, each impulse divided by the number of those that meet at its ends
+  // all from the same velocities; each impulse is divided by the number of impulses that
+  // meet at its ends
   jacobi
 };
 
 struct StrainLimits {
   double extension = 0.10, compression = 0;  // share of the rest length [1]
   SweepOrder order = SweepOrder::gauss_seidel;
-  int sweeps = 20;          // the most of one call
-  double tolerance = 1e-3;  // violation over the rest length at which sweeps end [1]
-  int threads = 1;          // of coloured sweeps; the result does not depend on it
+  int sweeps = 20;          // maximum per call
+  double tolerance = 1e-3;  // relative violation at which sweeps end [1]
+  int threads = 1;          // for coloured sweeps; the result does not depend on it
 };
 
-/// What sweeps need to know of a spring: 16 bytes.
+/// Data of a spring for the sweeps: 16 bytes.
 struct LimitedSpring {
   int a, b;
   double rest_length;  // L0 [m]
 };
 
-/// The filter: for each spring the length that velocities predict for the end of a step, |d + h
-/// dv|, is brought back to the limit that it is beyond, by equal and opposite impulses along the
-/// current d. So one call keeps linear and angular momentum, to rounding; prescribed particles, and
-/// springs within rounding of their limits, it leaves bit for bit as they are.
+/// The filter: if the predicted length of a spring at the end of a step, |d + h dv|, violates a
+/// limit, equal and opposite impulses along the current d bring it back to that limit. So a call
+/// conserves linear and angular momentum to rounding. Prescribed particles, and springs within
+/// rounding of their limits, are unchanged bit for bit.
 struct StrainLimiter {
   StrainLimits limits;
   // sorted by (colour, a, b); there is one colour if the order is not coloured
   std::vector<LimitedSpring> springs;
-  std::vector<int> colours;  // where in `springs` each colour begins, and their number at the end
+  // index in `springs` where each colour begins, then the number of springs
+  std::vector<int> colours;
   PerParticle inverse_mass;  // N [1/kg], 0 for prescribed particles
 
-  /// A velocity that only ends a step is limited over the coming one, taken to be as long.
+  /// A velocity that only ends a step is limited over the next step, assumed to be as long.
   void correct(const Span& span, const State& s, PerParticle3& v, Work& work) const;
 };
 
-/// Sorts and colours the springs. Throws InputError for limits that make no sense.
+/// Sorts and colours the springs. Throws InputError for invalid limits.
 StrainLimiter make_strain_limiter(const StrainLimits& limits, const std::vector<Spring>& springs,
                                   const PerParticle& inverse_mass);
 
-/// What a call did.
+/// Result of a call.
 struct StrainSweeps {
-  int sweeps = 0;  // the one that found nothing to do included
-  /// Largest violation of a limit, over the rest length; <= the tolerance unless sweeps ran out, or
-  /// what is left is held at both ends [1].
+  int sweeps = 0;  // including the last, which found nothing to do
+  /// Largest relative violation of a limit; <= the tolerance unless sweeps ran out or both ends of
+  /// the spring are prescribed [1].
   double remaining_violation = 0;
-  // springs of the last sweep that no impulse along them brings within their limits
+  // springs of the last sweep that no impulse along them can bring within their limits
   long unreachable = 0;
 };
 

@@ -1,5 +1,5 @@
-// Bending: forces on a pair of triangles along the one mode that changes their angle and nothing
-// else (BMF03 section 4).
+// Bending: forces on a pair of triangles along the one mode that changes only their dihedral angle
+// (BMF03 section 4).
 #pragma once
 
 #include <array>
@@ -30,21 +30,21 @@ namespace foldproof {
 // u = -grad theta: the printed line d(theta)/dt = u.v has the wrong sign, the forces as printed
 // have the right one.
 
-/// Where c is taken. Only at rest is the elastic force the gradient of an energy; the paper does
-/// not say which it means.
+/// Where c is evaluated. Only at rest is the elastic force the gradient of an energy; the paper
+/// does not specify which.
 enum class Weighting { rest, current };
 
 /// The factor s of the damping force: the edge's length as printed (kd in N s), or |E|^2/(|N1| +
 /// |N2|) (kd in J s).
 enum class DampingFactor { edge, edge_squared_over_area };
 
-/// How strongly an angle is resisted: a magnitude that replaces sin(theta/2) - sin(theta0/2) and
-/// multiplies all four forces alike, as BMF03 section 4 demands of any such law. Slope 1/2 in theta
-/// at theta0 = 0, so that ke keeps its meaning.
+/// Bending resistance as a function of the angle: a magnitude that replaces sin(theta/2) -
+/// sin(theta0/2) and multiplies all four forces alike, as BMF03 section 4 requires of any such law.
+/// Slope 1/2 in theta at theta0 = 0, so that ke keeps its meaning.
 struct BendingLaw {
   std::string_view name;
   double (*magnitude)(double theta, double rest_angle);  // [1]
-  double (*slope)(double theta, double rest_angle);      // its derivative by theta [1/rad]
+  double (*slope)(double theta, double rest_angle);      // derivative with respect to theta [1/rad]
   // its integral over theta from the rest angle [1]
   double (*potential)(double theta, double rest_angle);
 };
@@ -68,7 +68,7 @@ struct BendingHinge {
   double sin_half_rest;  // sin(theta0/2)
 };
 
-/// What the positions of one hinge say. Throws nothing; callers check `degenerate`.
+/// Geometry of one hinge at its current positions. Throws nothing; callers check `degenerate`.
 struct HingeShape {
   Vector3 u1, u2;   // the bending mode at the opposite vertices [1/m]
   double b1, b2;    // their barycentric coordinates along the edge: 1 at x3, 0 at x4
@@ -83,12 +83,12 @@ HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, 
 /// theta in [-pi, pi] [rad]; 0 and pi count as positive.
 double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4);
 
-/// The same of the hinge's particles at x (3 x N [m]). Throws DegenerateElement naming them if a
+/// The same for the hinge's particles at x (3 x N [m]). Throws DegenerateElement naming them if a
 /// triangle has lost its area.
 HingeShape checked_hinge_shape(const BendingHinge& hinge, const PerParticle3& x);
 
-/// theta of the hinge's particles at x (3 x N [m]) [rad]; sin_half would not do near pi, where it
-/// hardly changes.
+/// theta of the hinge's particles at x (3 x N [m]) [rad]; near pi sin_half is too
+/// insensitive to give it.
 double angle_of(const BendingHinge& hinge, const PerParticle3& x);
 double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting);  // c [1]
 
@@ -100,8 +100,8 @@ Eigen::Matrix<double, 3, 4> bending_mode(const HingeShape& shape);
 Matrix12 bending_mode_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3,
                                const Vector3& x4);
 
-/// How the factors of a hinge's forces change with x1, x2, x3, x4, three entries a corner: |E| [1],
-/// and |E|^2/(|N1| + |N2|) [1/m].
+/// Derivatives of the factors of a hinge's forces with respect to x1, x2, x3, x4, three entries per
+/// corner: |E| [1], and |E|^2/(|N1| + |N2|) [1/m].
 Vector12 edge_gradient(const Vector3& x3, const Vector3& x4);
 Vector12 weight_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3,
                          const Vector3& x4);
@@ -121,14 +121,14 @@ struct Bending {
 
   void prepare_damping(const State& s, DampingOperator& damping) const;
 
-  /// A hinge's block is ke c (-magnitude' u u^T + magnitude grad u); semidefinite by its
-  /// eigenvalues. With current weighting the change of c is left out: it would not be symmetric.
+  /// A hinge's block is ke c (-magnitude' u u^T + magnitude grad u), made semidefinite by its
+  /// eigenvalues. With current weighting the change of c is omitted: it would not be symmetric.
   void add_elastic_differential(const State& s, Definiteness definiteness,
                                 ForceDifferential& differential) const;
 
-  /// The same, exact, with the change of c, and with it how the damping forces change with the
-  /// positions at the velocities of s: a hinge's block gets -kd (rate u (grad s)^T + s u (grad u
-  /// v)^T + s rate grad u), rate = u.v.
+  /// The same, exact, with the change of c, plus the derivative of the damping forces with respect
+  /// to the positions at the velocities of s: a hinge's block gets -kd (rate u (grad s)^T + s u
+  /// (grad u v)^T + s rate grad u), rate = u.v.
   void add_force_differential(const State& s, ForceDifferential& differential) const;
 
   /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see

@@ -6,7 +6,7 @@ namespace foldproof {
 
 namespace {
 
-/// What both derivatives are made of.
+/// Terms shared by both derivatives.
 struct HingeRates {
   HingeShape shape;
   double theta;       // rad

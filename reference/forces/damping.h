@@ -2,8 +2,8 @@
 // semi- definite.
 //
 // Every damper of cloth resists one mode: F = -w (w.v), a matrix of rank one that is never
-// assembled; what sticks is held in three. All that depends on positions is in w, computed once and
-// used for every product of a solve (BMF03 section 3).
+// assembled; sticking resists three. All dependence on positions is in w, computed once and used
+// for every product of a solve (BMF03 section 3).
 #pragma once
 
 #include <array>
@@ -21,8 +21,7 @@ struct PairDamper {
   Vector3 along;  // sqrt(coefficient [N s/m]) times the unit direction from a to b
 };
 
-/// Resists the folding of a hinge: w = sqrt(coefficient) u, of which two vectors and two weights
-/// say everything:
+/// Resists the folding of a hinge: w = sqrt(coefficient) u, stored as two vectors and two weights:
 ///   w3 = -(weight1 w1 + weight2 w2),   w4 = -((1 - weight1) w1 + (1 - weight2) w2)
 struct HingeDamper {
   std::array<int, 4> particles;
@@ -31,10 +30,10 @@ struct HingeDamper {
   Vector3 w1, w2;
 };
 
-/// Resists the motion of a particle against a place that triangles of cloth carry, of rank three:
+/// Resists the motion of a particle relative to its place on triangles of cloth, with rank three:
 ///   F = coefficient (J v - v_particle) on the particle, -J^T F on the corners
-/// Without frames the place is at rest: what moves by itself has its part among the forces that do
-/// not depend on v.
+/// Without frames the place is at rest: the velocity of a surface that moves by itself enters the
+/// forces that do not depend on v.
 struct TargetDamper {
   int particle;
   double coefficient;                 // N s/m

@@ -6,7 +6,7 @@
 
 namespace foldproof {
 
-/// An element lost its shape in motion, so that its force has no direction: reported,
+/// An element degenerated during the motion, so its force has no direction: reported,
 /// never a silent NaN.
 struct DegenerateElement : std::runtime_error {
   std::vector<int> particles;

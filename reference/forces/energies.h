@@ -1,5 +1,4 @@
-// The energies of a state, a term for each kind. Every force names the term that its
-// energy belongs to.
+// The energies of a state, one term per kind. Every force names the term of its energy.
 #pragma once
 
 #include <iterator>

@@ -1,4 +1,4 @@
-// The table of contents of what pushes.
+// The table of forces.
 #pragma once
 
 #include <concepts>
@@ -17,7 +17,7 @@
 
 namespace foldproof {
 
-/// A force written on the spot, for manufactured solutions and experiments. Empty
+/// A force given as functions, for manufactured solutions and experiments. Empty
 /// functions add nothing.
 struct CustomForce {
   static constexpr auto energy_term = &Energies::custom;
@@ -25,7 +25,7 @@ struct CustomForce {
   std::function<void(const State& s, PerParticle3& f)> elastic;  // may depend on s.time; not on s.v
   // linear in v, symmetric, dissipating
   std::function<void(const State& s, const PerParticle3& v, PerParticle3& f)> damping;
-  // of `elastic` by the positions: linear in dx, symmetric
+  // derivative of `elastic` with respect to the positions: linear in dx, symmetric
   std::function<void(const State& s, const PerParticle3& dx, PerParticle3& df)> differential;
   std::function<double(const State& s)> potential;  // [J]
 
@@ -39,26 +39,26 @@ struct CustomForce {
 };
 
 /// One force: an elastic or external part that depends on time and positions, and an energy. It may
-/// have more, which the functions below ask for by name:
-///   prepare_damping(s, damping)                               it damps
+/// also offer these functions, which are looked up by name:
+///   prepare_damping(s, damping)                               if it damps
 ///   add_elastic_differential(s, definiteness, differential),
-///   add_force_differential(s, differential)                   fully implicit methods need it
-///   add_stiffness_bound(s, rows)                              it limits automatic steps
+///   add_force_differential(s, differential)                   for fully implicit methods
+///   add_stiffness_bound(s, rows)                              to limit automatic steps
 ///   add_bound_without_springs(s, rows),
-///   shortest_forecast(s)                                      forecasts keep a part of it stable
-///   update_bonds(s)                                            its bonds form, break before a step
+///   shortest_forecast(s)                                      if forecasts stabilise a part
+///   update_bonds(s)                                            if bonds form and break
 template <class F>
 concept ForceModel = requires(const F force, const State s, PerParticle3 f, Energies energies) {
   force.add_elastic(s, f);  // f += F_e(t, x); adds and clears nothing
   { force.energy(s) } -> std::convertible_to<double>;
-  { energies.*F::energy_term } -> std::same_as<double&>;  // where its energy is counted
+  { energies.*F::energy_term } -> std::same_as<double&>;  // the term of its energy
 };
 
 using Force = std::variant<Gravity, StretchSprings, Bending, Sticking, CustomForce>;
 static_assert(ForceModel<Gravity> && ForceModel<StretchSprings> && ForceModel<Bending> &&
               ForceModel<Sticking> && ForceModel<CustomForce>);
 
-/// Calls act(force) with each force, of its own type, in their order.
+/// Calls act(force) for each force, with its own type, in order.
 template <class Act>
 void for_each_force(const std::vector<Force>& forces, const Act& act) {
   for (const Force& force : forces) std::visit(act, force);
@@ -70,13 +70,13 @@ PerParticle3 elastic_forces(const std::vector<Force>& forces, const State& s, Wo
 /// The position-dependent terms of all damping forces at s: computed once, used for every product.
 DampingOperator damping_at(const std::vector<Force>& forces, const State& s, Work& work);
 
-/// The derivative of all elastic forces by the positions at s: computed once, used
+/// The derivative of all elastic forces with respect to the positions at s: computed once, used
 /// for every product.
 ForceDifferential elastic_differential_at(const std::vector<Force>& forces, const State& s,
                                           Definiteness definiteness, Work& work);
 
-/// The exact derivative of all forces, damping forces at the velocities of s included, by the
-/// positions. Custom forces give that of their elastic part alone.
+/// The exact derivative with respect to the positions of all forces, including damping forces at
+/// the velocities of s. Custom forces contribute their elastic part only.
 ForceDifferential force_differential_at(const std::vector<Force>& forces, const State& s,
                                         Work& work);
 
@@ -87,15 +87,15 @@ PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& 
                                  StickingPart part);
 
 /// An upper bound on the largest elastic angular frequency [rad/s] at s, from springs, hinges and
-/// bonds of sticking:
+/// sticking bonds:
 ///   omega^2 <= max over particles i of (1/m_i) (sum over the stiffness matrices' rows at i)
 /// the maximum row sum, by Gershgorin after scaling with the masses. inverse_mass: N [1/kg], 0 for
 /// prescribed particles.
 double frequency_bound(const std::vector<Force>& forces, const State& s,
                        const PerParticle& inverse_mass);
 
-/// The same without the springs of sticking, whose forecasts keep scheme C stable:
-/// forces/sticking.h.
+/// The same without the springs of sticking, which scheme C integrates stably thanks to their
+/// forecast: forces/sticking.h.
 double frequency_without_sticking_springs(const std::vector<Force>& forces, const State& s,
                                           const PerParticle& inverse_mass);
 

@@ -1,4 +1,4 @@
-// Springs along the edges: stretch and shear of the sheet (BMF03 presumes them; the
+// Springs along the edges: stretch and shear of the sheet (assumed by BMF03; the
 // mesh-independent form is ours).
 #pragma once
 
@@ -35,7 +35,7 @@ struct StretchSprings {
   static constexpr auto energy_term = &Energies::stretch;
   std::vector<Spring> springs;
 
-  /// Throws DegenerateElement when the ends of a spring coincide: its direction is lost there.
+  /// Throws DegenerateElement when the ends of a spring coincide: its direction is then undefined.
   void add_elastic(const State& s, PerParticle3& f) const;
 
   /// sum of stiffness/2 (|d| - L0)^2 [J].
@@ -48,8 +48,8 @@ struct StretchSprings {
   void add_elastic_differential(const State& s, Definiteness definiteness,
                                 ForceDifferential& differential) const;
 
-  /// The same, exact, and with it how the damping forces change with the positions at the
-  /// velocities of s: for the unit direction n and dv = v_b - v_a, block = -damping (n dv^T +
+  /// The same, exact, plus the derivative of the damping forces with respect to the positions at
+  /// the velocities of s: for the unit direction n and dv = v_b - v_a, block = -damping (n dv^T +
   /// (n.dv) I)(I - n n^T)/|d|.
   void add_force_differential(const State& s, ForceDifferential& differential) const;
 
@@ -58,8 +58,7 @@ struct StretchSprings {
   void add_stiffness_bound(const State& s, PerParticle& rows) const;
 };
 
-/// One spring per edge. Throws InputError when the material's values are not: stiffness >= 0,
-/// damping >= 0, scale > 0.
+/// One spring per edge. Throws InputError unless stiffness >= 0, damping >= 0 and scale > 0.
 StretchSprings make_springs(const TriangleMesh& mesh, const StretchMaterial& material);
 
 }  // namespace foldproof

@@ -1,4 +1,4 @@
-// What sticks where: bonds that break and form.
+// Bonds of sticking: they break and form.
 #include <algorithm>
 #include <set>
 #include <tuple>

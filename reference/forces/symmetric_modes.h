@@ -5,7 +5,7 @@
 namespace foldproof {
 
 /// Eigenvalues (n, ascending) and eigenvectors (n x n, columns of length one) of a symmetric
-/// matrix, of which the lower half is read.
+/// matrix; only the lower half is read.
 struct SymmetricModes {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;

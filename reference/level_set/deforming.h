@@ -1,4 +1,4 @@
-// Bodies that deform: a level set for each frame of an animation, and what lies between two frames
+// Deforming bodies: a level set for each frame of an animation, and interpolation between frames
 // (BMF03 section 5.1).
 #pragma once
 
@@ -14,14 +14,14 @@
 namespace foldproof {
 
 /// A closed mesh in motion: the same triangles at every frame. Between frames each vertex moves
-/// straight and evenly; before the first and after the last it rests.
+/// straight and evenly; it is at rest before the first and after the last.
 struct MeshSequence {
   std::vector<Triangle> triangles;      // M
   std::vector<double> times;            // F, rising [s]
   std::vector<PerParticle3> positions;  // F of 3 x N [m]
 };
 
-/// Where the point that is at X at rest is at time t [s].
+/// Position at time t [s] of the point whose rest position is X.
 using Deformation = std::function<Vector3(const Vector3& X, double t)>;
 
 /// The mesh carried through a deformation, a frame at each of the times.
@@ -36,8 +36,8 @@ PerParticle3 positions_at(const MeshSequence& sequence, double t);
 /// first's, what read_obj refuses.
 MeshSequence read_obj_sequence(const std::string& folder, double interval, long most = 1000);
 
-/// A frame's level set. The displacement at a node is that of the surface point nearest to it, so
-/// that it is constant along N.
+/// A frame's level set. The displacement at a node is that of the nearest surface point, so it is
+/// constant along N.
 struct DeformingFrame {
   double time;  // s
   Octree field;
@@ -45,11 +45,11 @@ struct DeformingFrame {
   std::vector<BranchNodes<Vector3>> to_next;
   // one a branch, since the frame before; first: none [m]
   std::vector<BranchNodes<Vector3>> from_previous;
-  // while it was built: distinct nodes, and those whose nearest point was looked for
+  // during the build: distinct nodes, and nodes whose nearest point was searched
   long nodes = 0, searches = 0;
 };
 
-/// How phi and v are interpolated between two frames.
+/// Interpolation of phi and v between two frames.
 enum class BetweenFrames {
   // both linearly in time, at the point: a body that moves by more than its size
   // vanishes in between
@@ -64,15 +64,15 @@ struct DeformingBody {
 };
 
 /// Level sets of every frame, as octrees that cover the cube of the settings. Within the settings'
-/// band of the surface a node's value is exact. Beyond it a frame keeps the frame before's nearest
-/// points where they are still near enough: there |phi| may be too large by half of what a cell may
-/// miss, beyond (|phi| - band)/2, and the displacement is that of the point that was kept. Throws
-/// what make_octree throws, and InputError for a sequence without frames, with times that do not
-/// rise or numbers of vertices that differ.
+/// band around the surface a node's value is exact. Beyond it a frame reuses the nearest points of
+/// the previous frame where they are still close enough: there |phi| may be too large by half of a
+/// cell's allowed error, beyond (|phi| - band)/2, and the displacement is that of the reused point.
+/// Throws what make_octree throws, and InputError for a sequence without frames, with times that do
+/// not rise or numbers of vertices that differ.
 DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSettings& settings,
                                   BetweenFrames between);
 
-/// phi and N at the point p and time t, and the velocity [m/s] of the body's point there.
+/// phi and N at the point p and time t, and the velocity [m/s] of the body there.
 struct DeformingPoint {
   double phi;
   Vector3 normal, velocity;
@@ -80,7 +80,7 @@ struct DeformingPoint {
 
 DeformingPoint deforming_at(const DeformingBody& body, const Vector3& p, double t);
 
-/// Where the body takes the point that is at p at time `start` until the time `end` [m].
+/// Position at time `end` of the body's point that is at p at time `start` [m].
 Vector3 advected_position(const DeformingBody& body, const Vector3& p, double start, double end);
 
 }  // namespace foldproof

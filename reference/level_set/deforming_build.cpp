@@ -25,14 +25,14 @@ Vector3 barycentric(const Corners3& corners, const Vector3& p) {
   return {1 - b - c, b, c};
 }
 
-/// What the corners' columns of x, 3 x N, amount to at a point of the triangle.
+/// Interpolates the corners' columns of x, 3 x N, at a point of the triangle.
 Vector3 at_point_of(const Triangle& t, const Vector3& weight, const PerParticle3& x) {
   Vector3 sum = Vector3::Zero();
   for (int k = 0; k < 3; ++k) sum += weight[k] * x.col(t[k]);
   return sum;
 }
 
-/// What is known of a node: its distance, and the surface point that it is measured to.
+/// Data of a node: its distance, and the surface point that it refers to.
 struct NodeValue {
   double phi;  // m
   // |phi| is at least this; less than measured where the point is kept from the frame before [m]
@@ -122,7 +122,7 @@ class NodeValues {
   Known known_;
 };
 
-/// What the points of all nodes are displaced by, while the frame `from` becomes the frame `to`.
+/// Displacements of the points of all nodes from the frame `from` to the frame `to`.
 std::vector<BranchNodes<Vector3>> node_displacements(const Octree& tree, NodeValues& values,
                                                      const MeshSequence& sequence, std::size_t from,
                                                      std::size_t to) {

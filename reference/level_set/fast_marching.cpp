@@ -24,7 +24,7 @@ struct Trial {
   }
 };
 
-/// What is known along one axis, next to a node: (T - value)^2 weight is its part of |grad T|^2.
+/// Known values along one axis next to a node: (T - value)^2 weight is its part of |grad T|^2.
 struct Upwind {
   double value;   // m
   double weight;  // 1/m^2

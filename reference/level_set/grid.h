@@ -23,36 +23,35 @@ struct Lattice {
   Node node(long index) const;
   Vector3 position(const Node& n) const { return origin + spacing * Vector3(n[0], n[1], n[2]); }
   Bounds bounds() const;
-  /// How far the index moves from a node to the next along each axis.
+  /// Index offset from a node to the next along each axis.
   std::array<long, 3> strides() const { return {1, nodes[0], long(nodes[0]) * nodes[1]}; }
 };
 
 /// `cells` along the longest side of the bounds, and `margin` cells more on every side; the other
-/// sides are filled up to whole cells, the bounds in their middle. Throws InputError for bounds
+/// sides are rounded up to whole cells, with the bounds centred. Throws InputError for bounds
 /// without extent, fewer than 4 cells, margin < 1, or more than 2^30 nodes.
 Lattice lattice_about(const Bounds& bounds, int cells, int margin);
 
 /// Signed distance at the nodes of a lattice.
 ///
-/// Accuracy between nodes, where phi is smooth and its nodes exact: value h^2 (second differences
-/// of phi)/8 at most, gradient of the cell O(h), gradient of the nodes O(h^2). At a kink the
-/// gradient of the nodes is a blend over two cells.
+/// Accuracy between nodes, where phi is smooth and nodal values are exact: value h^2 (second
+/// differences of phi)/8 at most, cell gradient O(h), nodal gradient O(h^2). At a kink the nodal
+/// gradient is blended over two cells.
 struct Grid {
   Lattice lattice;
   std::vector<double> phi;  // at the nodes, in the order of Lattice::index [m]
 
   /// Inside the lattice: the trilinear value, and the trilinear blend of the nodes' central
-  /// differences (one- sided at the lattice's border), made a unit vector. Beyond it: the
-  /// distance to a point of the surface that a few rounds of search from the border find; no less
-  /// than the true distance but for the grid's own error, and without a jump at the border. NaN
-  /// for p that is not finite.
+  /// differences (one- sided at the lattice's border), made a unit vector. Outside: the distance to
+  /// a surface point found by a few search steps from the border; never less than the true distance
+  /// except for the grid's own error, and continuous at the border. NaN for p that is not finite.
   Distance at(const Vector3& p) const;
   /// The trilinear value and the gradient of the trilinear interpolant, which jumps from cell to
   /// cell and is not made a unit vector. p must be in the lattice's bounds.
   Distance in_cell(const Vector3& p) const;
 };
 
-/// A solid known by a grid; copies share it.
+/// A solid represented by a grid; copies share it.
 struct GridSolid {
   std::shared_ptr<const Grid> grid;
   Distance at(const Vector3& p) const { return grid->at(p); }

@@ -1,5 +1,4 @@
-// Exact signed distance to a closed triangle mesh: the nearest vertex, edge or face, and
-// the side of it.
+// Exact signed distance to a closed triangle mesh: the nearest vertex, edge or face, and the sign.
 #pragma once
 
 #include <array>
@@ -14,28 +13,28 @@
 
 namespace foldproof {
 
-/// A mesh made ready for queries. The sign is that of (p - nearest point) . n with n the normal of
+/// A mesh prepared for queries. The sign is that of (p - nearest point) . n with n the normal of
 /// the nearest feature: the face's, the sum of both faces' at an edge, the sum weighted by the
-/// angles of the corners at a vertex (Baerentzen and Aanaes 2005). On a closed, consistently
-/// oriented surface without self-intersections that sign is right everywhere; on others it is not,
-/// see bodies/closed_mesh.h.
+/// angles of the corners at a vertex (Baerentzen and Aanaes 2005). This sign is correct everywhere
+/// on a closed, consistently oriented surface without self-intersections, but not on other
+/// surfaces, see bodies/closed_mesh.h.
 ///
-/// Accuracy: |phi| to a few roundings of |p| and of the mesh's extent. Closer than that
-/// the sign is open.
+/// Accuracy: |phi| to a few roundings of |p| and of the mesh's extent. Closer than that the
+/// sign is undefined.
 struct MeshDistance {
   PerParticle3 x;                   // 3 x N [m]
   std::vector<Triangle> triangles;  // M
   BoxTree tree;                     // over the triangles
   std::vector<Corners3> corners;    // M, in the order of the tree
-  // M, in the order of the tree: of each Feature, units 1
+  // M, in the order of the tree: one per Feature [1]
   std::vector<std::array<Vector3, 7>> normals;
-  double resolution = 0;  // distances at which directions are only rounding [m]
+  double resolution = 0;  // below this distance directions are rounding error [m]
 
   Distance at(const Vector3& p) const;
 };
 
-/// x: 3 x N [m]; triangles without area are never nearest by their face, and weigh
-/// nothing in normals.
+/// x: 3 x N [m]; zero-area triangles are never nearest by their face, and have no
+/// weight in normals.
 MeshDistance make_mesh_distance(PerParticle3 x, std::vector<Triangle> triangles);
 
 /// The nearest feature closer than `bound` [m]; of several at one distance, the one found

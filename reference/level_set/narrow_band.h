@@ -7,8 +7,8 @@
 namespace foldproof {
 
 /// All nodes closer to the mesh than `cells` (at least 1) spacings, with their signed distance as
-/// MeshDistance gives it. One cell parts inside from outside; second-order marching wants two at
-/// least. Throws InputError for fewer.
+/// MeshDistance gives it. One cell separates inside from outside; second-order marching needs at
+/// least two. Throws InputError for fewer.
 Seeds narrow_band(const MeshDistance& mesh, const Lattice& lattice, double cells);
 
 }  // namespace foldproof

@@ -1,4 +1,4 @@
-// Objects: solids that stand and move in the world, and what a cloth point is told about them.
+// Objects: solids placed and moving in the world, and their answers to queries from cloth points.
 #pragma once
 
 #include <limits>
@@ -22,19 +22,18 @@ struct Span {
   double step;        // of the step that it belongs to [s]
 };
 
-/// What an object says about a point of the world.
+/// Answer of an object to a query at a point of the world.
 struct ObjectPoint {
   double phi = std::numeric_limits<double>::infinity();  // at the span's start, negative inside [m]
   Vector3 normal = Vector3::Zero();                      // N, outward, at the span's start [1]
-  // v, of the object there: its mean over the span, so that a point that
+  // v of the object there [m/s]: the mean over the span, so that a point that takes it rides along
+  // exactly; for a span of zero length, the velocity at that time
   Vector3 velocity = Vector3::Zero();
-  // takes it rides along exactly; where the span is an instant, that of then [m/s]
-  int part = -1;        // which of the objects; -1: there is none
+  int part = -1;        // index of the object; -1: none
   double friction = 0;  // mu, of that object [1]
 };
 
-/// A rigid object during a span: its poses and its velocity, which all points share,
-/// worked out once.
+/// A rigid object during a span: its poses and velocity, shared by all points and computed once.
 struct RigidOverSpan {
   const Solid* solid;
   Eigen::Matrix3d rotation;  // the solid's point X is at x = turned X + moved at the span's start
@@ -50,7 +49,7 @@ struct RigidOverSpan {
   }
 };
 
-/// A solid in rigid motion: first put in its place, then moved.
+/// A solid in rigid motion: first placed, then moved.
 struct RigidObject {
   Solid solid;
   Pose place;
@@ -65,13 +64,13 @@ struct DeformingOverSpan {
   Span span;
 
   ObjectPoint at(const Vector3& p) const;
-  /// Not known without asking.
+  /// Unknown without a query.
   double squared_relative_speed(const Vector3&, const Vector3&) const {
     return std::numeric_limits<double>::infinity();
   }
 };
 
-/// A body that deforms as its animation says; copies share it.
+/// A body deformed by its animation; copies share it.
 struct DeformingObject {
   std::shared_ptr<const DeformingBody> body;
 
@@ -87,8 +86,8 @@ struct Object {
   double friction = 0;  // mu, Coulomb's coefficient between it and cloth [1]
 };
 
-/// The two objects that a point is deepest in or nearest to, and how many it is inside of: inside
-/// two or more it is pinched (BMF03 section 5.1). The union's phi is the first's.
+/// The two objects that a point is deepest in or nearest to, and the number of objects that contain
+/// it: inside two or more it is pinched (BMF03 section 5.1). The union's phi is the first's.
 struct Nearest {
   ObjectPoint first, second;
   int inside = 0;
@@ -96,19 +95,19 @@ struct Nearest {
   bool pinched() const { return inside >= 2; }
 };
 
-/// What the objects say about one point, in any order.
+/// The two nearest of the objects' answers at one point, given in any order.
 Nearest nearest_of(std::span<const ObjectPoint> points);
 
-/// Objects during a span, to be asked about many points. The objects must outlive it.
+/// Objects during a span, for queries at many points. The objects must outlive it.
 class ObjectsOverSpan {
  public:
   ObjectsOverSpan(std::span<const Object> objects, const Span& span);
 
-  /// What each object says about p, in their order; overwritten by the next call.
+  /// Each object's answer at p, in order; overwritten by the next call.
   std::span<ObjectPoint> at(const Vector3& p);
 
-  /// True if the last answers prove, without asking, that a point at p with velocity v [m/s] cannot
-  /// reach any object within `time` [s].
+  /// True if the last answers prove, without a query, that a point at p with velocity v [m/s]
+  /// cannot reach any object within `time` [s].
   bool out_of_reach(const Vector3& p, const Vector3& v, double time) const;
 
  private:

@@ -17,7 +17,7 @@ namespace foldproof {
 
 using DistanceFunction = std::function<Distance(const Vector3&)>;
 
-/// What becomes of a node in the middle of a coarser neighbour's edge or face.
+/// Treatment of a node in the middle of a coarser neighbour's edge or face.
 enum class HangingNodes {
   constrained,  // it takes the neighbour's interpolant: phi is continuous
   free          // it keeps its own value: phi jumps there
@@ -25,15 +25,15 @@ enum class HangingNodes {
 
 /// How finely to sample.
 struct OctreeSettings {
-  Vector3 corner;     // of the cube that is covered, its least coordinates [m]
+  Vector3 corner;     // lowest corner of the covered cube [m]
   double width;       // of the cube [m]
   int depth;          // the finest cells are width / 2^depth wide
   int surface_depth;  // cells that may hold the surface are no wider than width / 2^surface_depth
-  // cells are split where the trilinear interpolant misses by more, within `band` [m]
+  // within `band`, cells are split where the trilinear interpolant has a larger error [m]
   double tolerance;
   double band;    // of |phi| [m]
-  double beyond;  // what it may miss more per distance from the band [1]
-  double reach;   // of a union: parts nearer than this are kept beside the nearest one [m]
+  double beyond;  // additional allowed error per distance beyond the band [1]
+  double reach;   // unions: parts nearer than this are stored besides the nearest one [m]
   HangingNodes hanging;
 };
 
@@ -47,7 +47,7 @@ struct OctreeBranch {
   int children;  // the first of its children that are branches; the others follow in the order of c
   int channels;  // the first of its channels
   unsigned char inner;  // bit c: child c is a branch, else it is a leaf
-  unsigned char parts;  // how many channels it has, at least one
+  unsigned char parts;  // number of its channels, at least one
 };
 
 /// Where the descent to a leaf begins: the deepest branch, down to start_level, that holds a
@@ -56,32 +56,32 @@ struct OctreeStart {
   int branch, level;
 };
 
-/// Of a union each branch holds a channel for every part that is nearest at one of its nodes, or
-/// nearer than the reach. Each channel is smooth where the part is, so that the crease of the union
-/// lies between nodes where it belongs.
+/// For a union, each branch holds a channel for every part that is nearest at one of its nodes, or
+/// nearer than the reach. Each channel is as smooth as its part, so the crease of the union is
+/// placed correctly between nodes.
 struct Octree {
   OctreeSettings settings;
   std::vector<OctreeBranch> branches;    // level by level; the first is the whole cube
-  std::vector<int> part;                 // of each channel: which body
+  std::vector<int> part;                 // body of each channel
   std::vector<BranchNodes<double>> phi;  // of each channel [m]
-  long evaluations = 0;                  // distances asked for while it was built
-  int start_level = 0;  // the last that has no more cells than the tree has branches
+  long evaluations = 0;                  // distance evaluations during the build
+  int start_level = 0;  // the deepest level with no more cells than the tree has branches
   std::vector<OctreeStart> starts = {};  // of the 2^start_level cells along each axis, x fastest
 
   /// The union of all parts: the distance to the part that is nearest or entered deepest.
   Distance at(const Vector3& p) const;
 };
 
-/// Covers the union of bodies, which must lie inside the cube. Within the band the interpolant
-/// misses by the tolerance at most at the edge, face and cell midpoints where it was compared,
-/// unless the cells there are the finest; beyond the band by `beyond` times the distance more; a
-/// constrained node adds what its coarse neighbour misses. Neighbours, also across edges and
+/// Covers the union of bodies, which must lie inside the cube. Within the band the interpolation
+/// error is at most the tolerance at the edge, face and cell midpoints where it was tested, unless
+/// the cells there are the finest; beyond the band, `beyond` times the distance is added. A
+/// constrained node adds the error of its coarse neighbour. Neighbours, also across edges and
 /// corners, differ by one level at most. Throws InputError: no bodies, a setting out of range, a
 /// body that reaches the cube's boundary.
 Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings);
 
-/// Makes a tree whose branches stand ready to be asked: the levels down to start_level are looked
-/// up, for a descent waits for memory at each.
+/// Prepares a complete tree for queries: tabulates the levels down to start_level, because a
+/// descent waits for memory at each level.
 void index_descent_starts(Octree& tree);
 
 /// The leaf that holds p, which lies in the cube.
@@ -95,18 +95,18 @@ OctreeLeaf leaf_at(const Octree& tree, const Vector3& p);
 
 inline const Distance nowhere{std::numeric_limits<double>::infinity(), Vector3::Zero()};
 
-/// What a union says about a point: the two parts it is deepest in or nearest to.
+/// Answer of a union at a point: the two parts that it is deepest in or nearest to.
 struct NearestParts {
   Distance first = nowhere, second = nowhere;
   int first_part = -1, second_part = -1;  // -1: no second part is within reach
-  int inside = 0;  // parts that the point is inside of: two or more, and it is pinched
+  int inside = 0;  // number of parts that contain the point; two or more: pinched
 };
 
 /// p anywhere; outside of the cube distances are measured from the surface point below the
 /// cube's nearest point.
 NearestParts nearest_parts(const Octree& tree, const Vector3& p);
 
-/// What a node of the union is: the part nearest to it, and whether two or more parts hold it.
+/// A node of the union: its nearest part, and whether two or more parts contain it.
 struct NodeFlags {
   int part;
   bool pinched;
@@ -116,7 +116,7 @@ struct NodeFlags {
 BranchNodes<NodeFlags> node_flags(const Octree& tree, int branch);
 
 std::size_t leaves(const Octree& tree);
-std::size_t bytes(const Octree& tree);  // that the tree occupies
+std::size_t bytes(const Octree& tree);  // memory of the tree
 
 /// A solid sampled by an octree; copies share it.
 struct OctreeSolid {

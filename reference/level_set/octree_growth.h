@@ -1,5 +1,5 @@
-// An octree while it grows: every body that may matter is sampled at every node, and children stand
-// where they were made.
+// An octree under construction: every body that may matter is sampled at every node, and children
+// are stored in order of creation.
 #pragma once
 
 #include <array>
@@ -25,16 +25,16 @@ struct OctreeGrowth {
   long evaluations = 0;
 };
 
-/// Splits cells, from the whole cube down, as long as the settings ask for it.
+/// Splits cells, from the whole cube down, until the settings are met.
 OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies,
                          const OctreeSettings& settings);
 
 /// Splits leaves that touch, be it at a corner, cells more than one level finer.
 void balance(OctreeGrowth& growth);
 
-/// Is a part worth a channel: nearer than the reach at one of the nodes, or not behind one and the
-/// same other part at all of them? Behind it at the nodes it is so between them, where phi is
-/// interpolated, and on neighbours' faces too.
+/// True if a part needs a channel: it is nearer than the reach at one of the nodes, or no single
+/// other part is nearer at all of them. A part that is farther at all nodes is also farther between
+/// them, where phi is interpolated, and on neighbours' faces.
 bool needs_channel(const std::vector<BranchNodes<double>>& phi, std::size_t part, double reach);
 
 }  // namespace foldproof

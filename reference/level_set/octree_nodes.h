@@ -1,4 +1,4 @@
-// The nodes of an octree: where they are, which of them hang, and what a cell makes of its corners.
+// The nodes of an octree: their positions, which of them hang, and the interpolant of a cell.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct OctreePlace {
   std::array<int, 3> cell;
 };
 
-/// Of every branch, in the order of the branches.
+/// The place of every branch, in order.
 std::vector<OctreePlace> branch_places(const Octree& tree);
 
 /// The node with these indices among the 2^level + 1 along each axis [m]: the same bits
@@ -57,8 +57,8 @@ T corner_mean(const BranchNodes<T>& nodes, int n) {
   return z == 1 ? T(0.5 * (along_y(0) + along_y(18))) : along_y(9 * z);
 }
 
-/// Puts each hanging node on the interpolant of the coarse neighbour: the mean of the
-/// corners about it.
+/// Sets each hanging node to the interpolant of the coarse neighbour: the mean of the
+/// surrounding corners.
 template <class T>
 void constrain(std::uint32_t hanging, BranchNodes<T>& nodes) {
   for (int n = 0; n < 27; ++n)

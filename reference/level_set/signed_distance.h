@@ -1,5 +1,5 @@
-// Signed distance to solids, and the solids for which it is known in closed form. Each stands in a
-// frame of its own; objects place and move them.
+// Signed distance to solids, and the solids with a closed form for it. Each has its own frame;
+// objects place and move them.
 #pragma once
 
 #include <concepts>
@@ -8,7 +8,7 @@
 
 namespace foldproof {
 
-/// What a solid says about a point.
+/// Answer of a solid at a point.
 struct Distance {
   double phi;  // signed distance to its surface, negative inside [m]
   // N = grad phi, outward, a unit vector; where phi has a kink, that of one of its sides

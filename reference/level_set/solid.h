@@ -1,4 +1,4 @@
-// What a body can be made of: the table of solids.
+// The table of solids that a body can be made of.
 #pragma once
 
 #include <variant>

@@ -1,5 +1,5 @@
-// Signs of determinants of coordinates, right whatever the rounding: on which side of a plane or a
-// line a point lies, and whether it lies on it.
+// Exact signs of determinants of coordinates: on which side of a plane or line a point lies, or
+// whether it lies on it.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +8,8 @@
 
 namespace foldproof {
 
-/// The sign of (b - a) x (c - a) . (d - a): positive when d lies on the side that the triangle a,
-/// b, c shows its counter-clockwise face to; 0 when all four lie in a plane. Exact as long as no
+/// The sign of (b - a) x (c - a) . (d - a): positive when d lies on the side from which the
+/// triangle a, b, c appears counter-clockwise; 0 when all four lie in a plane. Exact as long as no
 /// product of three differences of coordinates overflows or falls below 1e-290: computed in double
 /// first, and again in sums of doubles without rounding (Shewchuk 1997) where the double's own
 /// error bound leaves the sign open.

@@ -1,5 +1,5 @@
-// How refusals name the parts of a mesh: FILE:LINE for one that was read, counted from 0 for
-// one made by code.
+// How messages name the parts of a mesh: by FILE:LINE if it was read, by numbers from 0 if it
+// was made by code.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The point of a triangle that is nearest to another point, and the feature that it lies on.
+// The nearest point of a triangle to a given point, and the feature that it lies on.
 #pragma once
 
 #include <array>

@@ -118,7 +118,7 @@ std::optional<int> take_index(std::string_view& word) {
   return index;
 }
 
-/// What may follow the index of a vertex: nothing, /b, //c or /b/c.
+/// Valid suffixes of a vertex index: nothing, /b, //c or /b/c.
 bool ends_well(std::string_view rest) {
   if (rest.empty()) return true;
   if (!rest.starts_with('/')) return false;

@@ -23,19 +23,19 @@ namespace foldproof {
 /// 16 groups of one letter.
 TriangleMesh read_obj(const std::string& path);
 
-/// The same file, its triangles as they come: nothing of what make_triangle_mesh refuses is looked
-/// at but coordinates that are not finite.
+/// Reads the same file without the checks of make_triangle_mesh; refuses only coordinates that
+/// are not finite.
 TriangleSoup read_obj_soup(const std::string& path);
 
 /// Triangles by the name of their group, as read_obj numbers them: those of the faces after 'g NAME
-/// ...' or 'o NAME', until the next record of the same letter. A name that stands twice is one
-/// group; a face may be of several.
+/// ...' or 'o NAME', until the next record of the same letter. A name that occurs twice is one
+/// group; a face may belong to several.
 using FaceGroups = std::map<std::string, std::vector<int>>;
-/// Throws InputError "FILE:LINE: ..." for what read_obj refuses of the text, and for more than 16
+/// Throws InputError "FILE:LINE: ..." for syntax that read_obj refuses, and for more than 16
 /// names in a record.
 FaceGroups read_obj_groups(const std::string& path);
 
-/// The same three of a file's text; `file` names it in messages.
+/// The same three for the text of a file; `file` names it in messages.
 TriangleMesh read_obj_text(std::string_view text, const std::string& file);
 TriangleSoup read_obj_soup_text(std::string_view text, const std::string& file);
 FaceGroups read_obj_groups_text(std::string_view text, const std::string& file);

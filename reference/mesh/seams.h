@@ -5,12 +5,12 @@
 
 namespace foldproof {
 
-/// Every vertex that lies within `distance` [m] of one that comes before it, and that is itself no
-/// such vertex, becomes that one: of several the first. So no vertex moves by more than `distance`,
-/// and none twice. Triangles keep their numbers and places in the file; vertices that are left keep
-/// theirs in the file, and are numbered anew in their order. Throws InputError "FILE:LINE: ..." for
-/// a distance that is not > 0 or not finite, coordinates that are not finite, and a triangle of
-/// which two corners become one.
+/// Merges every vertex that lies within `distance` [m] of an earlier vertex that is not merged
+/// itself into the first such vertex. So no vertex moves by more than `distance`, and none twice.
+/// Triangles keep their numbers and places in the file; the remaining vertices keep their places
+/// in the file and are renumbered in order. Throws InputError "FILE:LINE: ..." for a distance
+/// that is not > 0 or not finite, coordinates that are not finite, and a triangle with two
+/// corners that merge.
 TriangleSoup close_seams(TriangleSoup panels, double distance);
 
 }  // namespace foldproof

@@ -25,7 +25,7 @@ enum class SheetPattern {
 struct Sheet {
   SheetPattern pattern = SheetPattern::one_diagonal;
   double width = 0;  // [m]
-  // [m]; equilateral and jittered: 0 stands for rows * sqrt(3)/2 * width/columns
+  // [m]; equilateral and jittered: 0 means rows * sqrt(3)/2 * width/columns
   double height = 0;
   int columns = 0, rows = 0;  // cells along x and along y; at least 1
   double jitter = 0;  // jittered only: largest displacement over width/columns [1]; in [0, 0.5)
@@ -38,9 +38,9 @@ struct Sheet {
 /// their vertices.
 ///
 /// equilateral: even rows have columns + 1 vertices, odd rows columns + 2, the first and the last
-/// of them on the border. With height 0 all edges are width/columns long but those of the half
-/// triangles (1/2 and sqrt(3)/2 of it); a given height scales y.
-/// jittered: displacements are uniform in a disc, which is scaled like y.
+/// of them on the border. With height 0 all edges are width/columns long, except those of the half
+/// triangles (1/2 and sqrt(3)/2 of it); a given height scales y. jittered: displacements are
+/// uniform in a disc, which is scaled like y.
 /// grading: cells grow by the same factor from one to the next, along x and along y alike.
 /// random_delaunay: columns and rows fix the vertices on the border; no two vertices are closer
 /// than 0.8 of the shorter side of a cell, which fills the sheet with about 1.1 columns * rows
@@ -79,8 +79,8 @@ TriangleMesh divide_edges(const TriangleMesh& mesh, int parts);
 TriangleMesh make_statue(double height, int subdivisions);
 
 /// The same figure, from the geodesic sphere of `divisions` (15 to 256, with a divisor from 15 to
-/// 29: that one is evened out, then divided), in triangles that are nearer to one size: the
-/// smallest one, not the mean, limits the steps of an explicit scheme.
+/// 29: the coarser mesh with that divisor is evened out, then divided), with triangles of more
+/// uniform size: the smallest one, not the mean, limits the steps of an explicit scheme.
 TriangleMesh make_even_statue(double height, int divisions);
 
 /// Two triangles folded at the angle theta [rad], |theta| < pi, about their shared edge of length L

@@ -1,5 +1,5 @@
-// Vertices at which a mesh hangs together by a point only: each of their fans of
-// triangles gets its own.
+// Vertices that connect parts of a mesh in a single point: each fan of triangles gets
+// its own vertex.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace foldproof {
 
-/// Of the way from a split vertex to the middle of its fan: fans that touched in a point come
-/// apart, so that cloth that is kept from itself may start from them.
+/// Fraction of the way from a split vertex to the middle of its fan: separates fans that touched in
+/// a point, so that self-collision can start from them.
 constexpr double split_share = 1e-3;
 
 struct SplitMesh {

@@ -34,7 +34,7 @@ void add_edge_points(const TriangleMesh& mesh, SubdivisionRule rule, Weights& we
   }
 }
 
-/// Who is next to each particle, and along the border.
+/// Neighbours of each particle, and those along the border.
 struct Neighbours {
   std::vector<std::vector<int>> all, on_border;
 };

@@ -1,4 +1,4 @@
-// Finer meshes over a cloth, as it is drawn: each triangle becomes four, a level at a time.
+// Finer meshes of a cloth for rendering: each triangle becomes four per level.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -12,7 +12,7 @@ enum class SubdivisionRule {
   loop       // Loop (1987), with his boundary rules: smooth, and the old vertices move too
 };
 
-/// A finer mesh and how its points follow from those of the cloth.
+/// A finer mesh, and the weights that give its points from those of the cloth.
 struct Subdivision {
   std::vector<Triangle> triangles;      // four for each one of the cloth and level
   Eigen::SparseMatrix<double> weights;  // N fine x N: each row sums to 1

@@ -1,5 +1,5 @@
-// Text files read whole, within limits: what is no file, too long or without ends of lines is
-// refused before it costs memory.
+// Reads whole text files, within limits: anything that is not a file, too long or without line ends
+// is refused before it costs memory.
 #pragma once
 
 #include <cstddef>

@@ -44,14 +44,14 @@ struct MeshOrigin {
 };
 
 /// Finds edges and hinges of the triangles over the N rest positions (3 x N [m]).
-/// Refuses (InputError naming origin's file and line, and the reason) what is no oriented manifold
-/// with boundary: no triangles, indices out of range, NaN or infinite coordinates, unused vertices,
-/// zero-area triangles, edges with three triangles or more, two neighbours of opposite orientation,
-/// a vertex whose triangles do not form one fan.
+/// Refuses (InputError naming origin's file and line, and the reason) anything but an oriented
+/// manifold with boundary: no triangles, indices out of range, NaN or infinite coordinates, unused
+/// vertices, zero-area triangles, edges with three triangles or more, two neighbours of opposite
+/// orientation, a vertex whose triangles do not form one fan.
 TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangles,
                                 const MeshOrigin& origin = {});
 
-/// The same, but a vertex may have several fans: for those who split them (split_fans.h).
+/// The same, but a vertex may have several fans, for splitting (split_fans.h).
 TriangleMesh make_mesh_of_fans(PerParticle3 rest, std::vector<Triangle> triangles,
                                const MeshOrigin& origin = {});
 

@@ -1,4 +1,4 @@
-// Triangles as they come, before anything is known of how they hang together.
+// Triangles without connectivity.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Prescribed motion: where a point that is led, not simulated, is at any time, and how fast.
+// Prescribed motion: position and velocity of a prescribed point at any time.
 #pragma once
 
 #include <limits>
@@ -39,13 +39,13 @@ struct PrescribedParticle {
 /// The times after `start` at which a motion starts or stops, ascending, each once [s].
 std::vector<double> event_times(const std::vector<PrescribedParticle>& prescribed, double start);
 
-/// The same particle with a motion that goes on smoothly for ever as it does just after `t` [s],
-/// and that is the given one until the next event. Events as little as `tolerance` [s] after t
-/// count as passed.
+/// The same particle with its motion just after `t` [s] continued smoothly for
+/// ever; identical to the given motion until the next event. Events as little as
+/// `tolerance` [s] after t count as passed.
 PrescribedParticle smooth_continuation(const PrescribedParticle& prescribed, double t,
                                        double tolerance);
 
-/// Velocities that a solve has to take as known.
+/// A velocity that a solve takes as known.
 struct KnownVelocity {
   int particle;
   Vector3 velocity;  // m/s

@@ -1,4 +1,4 @@
-// Rigid motion of a body: where it is, how it is turned, and how fast each of its points moves.
+// Rigid motion of a body: position, orientation, and the velocity of each of its points.
 #pragma once
 
 #include <Eigen/Geometry>

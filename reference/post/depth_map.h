@@ -1,4 +1,4 @@
-// Maps of signed distance that bring cloth out of an object and keep the order of its depths
+// Maps of signed distance that move cloth out of an object and preserve the order of depths
 // (BMF03 section 5.3).
 #pragma once
 
@@ -11,23 +11,23 @@ namespace foldproof {
 struct DepthBand {
   double nearest;  // eps: how far out the deepest points come to lie [m]
   double reach;    // tau: points farther out than this stay where they are [m]
-  double deepest;  // t^: the deepest penetration that is told from deeper ones [m]
+  double deepest;  // t^: the deepest penetration that is still distinguished [m]
 };
 
-/// One row of the table of maps f: phi [m] -> the signed distance to be reached [m]. All leave
-/// phi >= tau alone.
+/// One row of the table of maps f: phi [m] -> the target signed distance [m]. All leave
+/// phi >= tau unchanged.
 struct DepthMap {
   std::string_view name, title, source;
   double (*at)(const DepthBand& band, double phi);
 };
 
-/// "plain":  f = max(phi, eps). What was inside comes to lie flat on the surface.
+/// "plain":  f = max(phi, eps). Everything inside ends up flat on the surface.
 /// "power":  f = eps + (tau - eps) u^p, u = (phi + t^)/(tau + t^), p = (tau + t^)/(tau - eps): f
 ///           and f' are those of phi at tau. With t^ = 5 tau, p = 6: the deeper half of the
 ///           penetrations shares .5 % of the band.
 /// "blend":  linear up to w = (tau - eps)/2 before tau; from there its slope rises evenly to 1,
-///           reached at tau. No depth is pressed together by more than
-///           (tau + t^ - w/2)/(tau - eps - w/2), 7.7 where "power" presses without limit.
+///           reached at tau. No depth is compressed by more than
+///           (tau + t^ - w/2)/(tau - eps - w/2), 7.7 where "power" compresses without limit.
 /// The last two are eps for phi < -t^ and rise strictly from there to tau.
 const std::vector<DepthMap>& depth_maps();
 

@@ -41,7 +41,7 @@ Place move_point(Union& solids, const FoldProjection& projection, Vector3 p, Obj
   return best;
 }
 
-/// What becomes of p, of which the objects say `nearest`.
+/// Projects p, given its nearest objects.
 Place project_point(Union& solids, const FoldProjection& projection, const DepthMap& map,
                     const Vector3& p, const Nearest& nearest) {
   const double phi = nearest.first.phi, f = map.at(projection.band, phi);

@@ -1,5 +1,5 @@
-// After the simulation: points of the cloth that are inside an object, or next to it, are moved
-// along its normal to where a depth map wants them, so that folds survive (BMF03 section 5.3).
+// Post-processing: moves cloth points inside or next to an object along its normal to the distance
+// given by a depth map, so that folds survive (BMF03 section 5.3).
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@
 
 namespace foldproof {
 
-/// What becomes of points inside two or more objects. The paper leaves them alone: on their way out
-/// of one object they would go deeper into the other.
+/// Treatment of points inside two or more objects. The paper leaves them alone: moving out of one
+/// object, they would go deeper into the other.
 enum class PinchedPoints { left_alone, projected };
 
 struct FoldProjection {
@@ -24,14 +24,13 @@ struct FoldProjection {
   int max_moves;     // of one point
 };
 
-/// What became of a point.
+/// Outcome for one point.
 enum class ProjectionOutcome {
-  // not a bit of it changed: it is farther out than tau, or as far out as the map wants it
+  // bitwise unchanged: it is farther out than tau, or already at the mapped distance
   untouched,
-  moved,    // it is where the map wants it, to the tolerance
-  pinched,  // left alone, not a bit of it changed
-  // left at the place met on its way whose phi was nearest to f, as between objects that
-  // leave it no room
+  moved,    // it is at the mapped distance, within the tolerance
+  pinched,  // left alone, bitwise unchanged
+  // left where phi came nearest to f, as between objects with too little clearance
   unfinished
 };
 
@@ -45,12 +44,12 @@ struct ProjectedCloth {
   int count(ProjectionOutcome fate) const;
 };
 
-/// Projects the points x (3 x N [m]) of the cloth at `time` [s]. phi is that of the union of
-/// the objects, the min over them. A point moves by (f + tolerance/2 - phi) N, with phi and N
-/// asked anew after each move, since a phi that is interpolated, or the union's, need not rise
-/// evenly along N. Arrived points are never on the inner side of f: what is brought to the
-/// surface is not inside, not even by a rounding. Throws InputError for a band, a tolerance or
-/// a cap that means nothing.
+/// Projects the points x (3 x N [m]) of the cloth at `time` [s]. phi is that of the union of the
+/// objects, the min over them. A point moves by (f + tolerance/2 - phi) N, with phi and N
+/// queried again after each move, since an interpolated phi, or that of the union, need not
+/// increase uniformly along N. Arrived points are never on the inner side of f: a point
+/// projected onto the surface is not inside, not even by rounding. Throws InputError for an
+/// invalid band, tolerance or cap.
 ProjectedCloth project_folds(std::span<const Object> objects, const PerParticle3& x, double time,
                              const FoldProjection& projection);
 

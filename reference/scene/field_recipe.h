@@ -1,4 +1,4 @@
-// How the field of a body of triangles is to be made: what reading a case keeps of it.
+// Recipe for the field of a triangle-mesh body, kept from reading a case until the build.
 #pragma once
 
 #include <memory>
@@ -37,11 +37,11 @@ struct AnimationRecipe {
 
 struct FieldRecipe {
   std::variant<GridRecipe, OctreeRecipe, ExactRecipe, AnimationRecipe> of;
-  std::string where;  // "file:line" of the key that says how fine it is; for refusals
+  std::string where;  // "file:line" of the key that sets its resolution; for error messages
 };
 
 /// Gives the body the field that the recipe describes. Throws InputError with the recipe's place
-/// for a field that is too fine, and what the maker throws.
+/// for a field that is too fine, and whatever the provider throws.
 void make_field(const FieldRecipe& recipe, const LevelSetProvider& level_sets, Body& body);
 
 }  // namespace foldproof

@@ -23,7 +23,7 @@ std::string place(const std::string& file, const toml::source_region& source) {
              : file + ":" + std::to_string(source.begin.line);
 }
 
-/// What is converted: its full name, its file, and how many tables and lists it is in.
+/// The value being converted: its full name, its file, and its nesting depth.
 struct Place {
   std::string name;
   const std::string& file;
@@ -264,10 +264,10 @@ struct Unbearable {
   std::string why;
 };
 
-/// What the parser does not bear outside of comments and texts in quotes. A key of as many parts as
-/// a line has room for nests as many tables, and the parser's stack with them: a line may have a
-/// few hundred dots, in whatever meaning. Where toml++ 3.3 looks for blanks, letters outside ASCII
-/// lead it to where it must never come: in keys, too.
+/// Input that would break the parser, outside of comments and quoted strings. A key of as many
+/// parts as a line has room for nests as many tables, and the parser's stack with them: a line may
+/// have a few hundred dots, in whatever meaning. Where toml++ 3.3 looks for blanks, letters outside
+/// ASCII lead it to where it must never come: in keys, too.
 std::optional<Unbearable> unbearable(std::string_view text) {
   int line = 1, dots = 0;
   // the mark that some editors put before UTF-8

@@ -1,4 +1,4 @@
-// Keys of a TOML file, each with the place it was read; a key that nobody asks for is an error.
+// Keys of a TOML file, each with the place it was read; an unused key is an error.
 #pragma once
 
 #include <map>
@@ -27,7 +27,7 @@ class KeyTable {
   KeyTable(std::string name, std::string where)
       : name_(std::move(name)), where_(std::move(where)) {}
 
-  bool has(const std::string& key) const;  // asking makes the key known
+  bool has(const std::string& key) const;  // this marks the key as known
   double number(const std::string& key) const;
   double number_or(const std::string& key, double fallback) const;
   long integer(const std::string& key) const;
@@ -56,12 +56,11 @@ class KeyTable {
   std::string where(const std::string& key) const;
   const std::string& where() const { return where_; }
 
-  /// Throws InputError for the first key, here or below, that no one asked for, and lists
-  /// those that were.
+  /// Throws InputError for the first unused key, here or below, and lists the known ones.
   void reject_unused() const;
 
   std::map<std::string, KeyValue> entries;
-  std::map<std::string, KeyValue> replaced;  // what the file says of keys that set_key replaced
+  std::map<std::string, KeyValue> replaced;  // values from the file for keys that set_key replaced
 
  private:
   const KeyValue& require_key(const std::string& key) const;
@@ -79,9 +78,9 @@ std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string&
 /// Whether a value's place is an override on the command line, not a line of a file.
 bool is_override(const std::string& where);
 
-/// Overrides "a.b.c=value" (value as in TOML; what does not parse as such is taken for a string; a
-/// number in the path picks an entry of a list, and the only entry needs none). Missing tables are
-/// made. Throws InputError for an override without '=' or a path through a value.
+/// Overrides "a.b.c=value" (value as in TOML, or else a string; a number in the path picks an entry
+/// of a list, and the only entry needs none). Missing tables are made. Throws InputError for an
+/// override without '=' or a path through a value.
 void set_key(KeyTable& root, const std::string& assignment);
 
 /// The whole file. Throws InputError if it cannot be read, is empty, or is longer than

@@ -32,7 +32,7 @@ Choice choice(const KeyTable& keys, const std::string& key,
   throw InputError(keys.where(key) + ": unknown " + key + " '" + wanted + "'; known: " + known);
 }
 
-/// What make() returns; a refusal that names no place gets this one.
+/// Returns make(); adds this place to an InputError that names none.
 template <class Make>
 auto with_error_location(const std::string& where, const Make& make) {
   try {
@@ -52,8 +52,8 @@ Motion read_motion(const KeyTable& keys);
 Eigen::AngleAxisd read_turn(const KeyTable& keys);
 
 /// The file or folder that the key names. In a case file it is relative to the file's folder and
-/// may not leave it, by an absolute path, by "..", or by a link; what was given by --set is taken
-/// as it was typed, from the working folder.
+/// may not leave it, by an absolute path, by "..", or by a link; a value given by --set is taken as
+/// typed, relative to the working folder.
 std::string path_of(const KeyTable& keys, const std::string& key, const std::string& folder);
 
 /// Throws InputError, naming `where`, if the file does not lie in the folder or one below it,

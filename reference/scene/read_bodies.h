@@ -14,7 +14,7 @@
 
 namespace foldproof {
 
-/// What a body's keys do not say.
+/// Context of a body that its keys do not contain.
 struct CaseContext {
   std::string folder;  // where relative files of the case are looked for
   double end;          // of the run [s]
@@ -23,12 +23,12 @@ struct CaseContext {
 
 /// A solid in its own frame, with its surface.
 struct BodyShape {
-  Solid solid;  // without its field if there is a recipe of it
+  Solid solid;  // without its field if there is a recipe for it
   ObjectSurface surface;
   std::shared_ptr<const FieldRecipe> field = {};
 };
 
-/// Do the keys say that the body deforms: `frames` or [[object.deform]]?
+/// True if the body deforms: `frames` or [[object.deform]]?
 bool is_deforming(const KeyTable& keys);
 
 /// `shape = "statue"` or `mesh`, as the exact distance, a grid or an octree of
@@ -42,7 +42,7 @@ struct DeformingShape {
 };
 
 /// `frames` or [[object.deform]] of a body of triangles, in its place before it deforms. Throws
-/// InputError "file:line: frame ..." for a frame that is no closed mesh.
+/// InputError "file:line: frame ..." for a frame that is not a closed mesh.
 DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place,
                                    const CaseContext& context);
 

@@ -21,11 +21,10 @@ struct PlacedMesh {
 PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder,
                            const SceneLimits& limits);
 
-/// Where the OBJ file is that the key 'mesh' names. table: its name in messages,
-/// "cloth" or "object".
+/// Path of the OBJ file named by the key 'mesh'. table: its name in messages, "cloth" or "object".
 std::string mesh_file(const KeyTable& keys, const std::string& folder, const std::string& table);
 
-/// By how much 'fit' scales the positions x (3 x N [m]); 1 if it is not given.
+/// The factor by which 'fit' scales the positions x (3 x N [m]); 1 if it is not given.
 double fit_factor(const KeyTable& keys, const PerParticle3& x);
 
 /// Scales the positions x (3 x N [m]) so that their largest extent is 'fit', if that is given.

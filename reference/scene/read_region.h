@@ -1,4 +1,4 @@
-// Which particles or triangles a table of a case names: by number, box or sphere.
+// Particles or triangles selected by a table of a case: by number, box or sphere.
 #pragma once
 
 #include <string>

@@ -206,9 +206,9 @@ namespace {
 Scene scene_alone(const CaseKeys& of, const SceneLimits& limits) {
   Scene scene = scene_from(of, limits);
   const KeyTable& keys = *of.keys;
-  keys.leave("expect");    // what must hold of the run: whoever judges it reads that table
-  keys.leave("ablation");  // why parts are there or left out: whoever toggles them reads that table
-  keys.leave("quantity");  // what is measured of the run: whoever measures reads those tables
+  keys.leave("expect");    // expectations of the run: read by its judge
+  keys.leave("ablation");  // reasons for parts present or absent: read by the ablation
+  keys.leave("quantity");  // measurements of the run: read by its measurer
   keys.reject_unused();
   return scene;
 }

@@ -1,4 +1,4 @@
-// The table [start] of a case: what is done to the cloth before time 0.
+// The table [start] of a case: changes to the cloth before time 0.
 #pragma once
 
 #include "reference/scene/key_file.h"

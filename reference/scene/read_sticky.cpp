@@ -43,7 +43,7 @@ std::vector<int> triangles_of_group(const KeyTable& keys, const StickySheet& she
                    "'; known: " + (known.empty() ? "none" : known));
 }
 
-/// What a table names of things at the places x, and of a group by of_group; all if it names none.
+/// Things selected by a table: at the places x, and of a group by of_group; all if it selects none.
 std::vector<int> read_region(const KeyTable& keys, const std::string& list, const PerParticle3& x,
                              const std::function<std::vector<int>()>& of_group) {
   const bool is_list = keys.has(list), is_box = keys.has("box"), is_sphere = keys.has("sphere"),

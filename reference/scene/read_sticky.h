@@ -1,4 +1,4 @@
-// What is sticky, and what sticks to it: [[sticky]].
+// Sticky patches and the particles that stick to them: [[sticky]].
 #pragma once
 
 #include <string>
@@ -9,8 +9,7 @@
 namespace foldproof {
 
 /// Reads [[sticky]] into the scene, whose cloth, schedule and objects are known.
-///   case_keys   of the whole file: OBJ files that [cloth] and [[object]] name are asked for their
-///               groups
+///   case_keys   of the whole file; [cloth] and [[object]] name the OBJ files with the groups
 ///   folder      where relative files of the case are looked for
 void read_sticky(const KeyTable& case_keys, const std::string& folder, Scene& scene);
 

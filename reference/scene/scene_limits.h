@@ -1,5 +1,5 @@
-// How much a case may ask for, so that no number in a file can ask for more memory
-// than a machine has.
+// Upper limits on the size of a case, so that no number in a file can exhaust the
+// memory of a machine.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace foldproof {
 
 struct SceneLimits {
   double triangles = 1e7;  // of the cloth with its copies, or of a body, made by code: about 4 GB
-  double frames = 1000;    // of a body that deforms: each is a level set
+  double frames = 1000;    // of a deforming body: each is a level set
 };
 
 /// Throws InputError "file:line: ..." where the key asks for more triangles than the limit.

@@ -1,4 +1,4 @@
-"""One number for what a case simulates: two files with the same number are the same scene, whatever they say of it."""
+"""A digest of the scene of a case: two files with the same digest simulate the same scene, whatever their comments."""
 from __future__ import annotations
 
 import hashlib
@@ -8,11 +8,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-PROSE = ("title", "about", "ablation")  # of a case: what it says of itself, and what it says of its parts
+PROSE = ("title", "about", "ablation")  # prose keys of a case, which the digest ignores
 
 
 def case_digest(name: str, read: Callable[[str], bytes]) -> str:
-    """16 hexadecimal digits of the case `name` ("balloon.toml", "hard/twist.toml"), its meshes with it. `read` gives
+    """16 hexadecimal digits of the case `name` ("balloon.toml", "hard/twist.toml") and its meshes. `read` gives
     the bytes of a file of the folder cases/, and raises FileNotFoundError if there is none. Throws ValueError for a case
     with a body of `frames`, whose files it does not name."""
     said = tomllib.loads(read(name).decode("utf-8"))
@@ -25,7 +25,7 @@ def case_digest(name: str, read: Callable[[str], bytes]) -> str:
 
 
 def mesh_files(value: Any) -> list[str]:
-    """All files of meshes that a case names, in its order."""
+    """All mesh files that a case names, in order."""
     if isinstance(value, dict):
         if "frames" in value:
             raise ValueError(f"the files of the folder {value['frames']} cannot be told from the case: it has no digest")
@@ -36,5 +36,5 @@ def mesh_files(value: Any) -> list[str]:
 
 
 def case_files(cases: Path) -> dict[str, str]:
-    """Of each case, the name of its file, as case_digest takes it."""
+    """The file name of each case, as used by case_digest."""
     return {file.stem: str(file.relative_to(cases)) for file in sorted(cases.glob("**/*.toml"))}

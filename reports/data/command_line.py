@@ -1,4 +1,4 @@
-"""What a script of this folder needs, and how it refuses what was typed: in one line, with exit code 2."""
+"""Command line of the scripts in this folder: required packages, and errors in one line with exit code 2."""
 from __future__ import annotations
 
 import argparse

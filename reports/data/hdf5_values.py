@@ -50,7 +50,7 @@ def attributes_of(item: h5py.Group | h5py.Dataset) -> dict[str, Any]:
     return {plain(key): _decode(value) for key, value in item.attrs.items()}
 
 
-# What no XML may hold, so that no SVG and no page may: control characters, halves of surrogate pairs (which is how bytes
+# Characters that XML, and so SVG and the page, does not allow: control characters, halves of surrogate pairs (which is how bytes
 # that are no UTF-8 come), and two that are no characters.
 _NO_TEXT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 

@@ -61,7 +61,7 @@ class Curve:
 
 @dataclass
 class OnAxes:
-    """What a figure and a map have in common."""
+    """Fields common to figures and maps."""
     name: str
     title: str
     caption: str
@@ -126,7 +126,7 @@ class Claim:
 
 @dataclass
 class FaultCheck:
-    """What one check or test said of a program with a fault in it. Tests measure nothing: NaN."""
+    """Result of one check or test on a program with a seeded fault. Tests measure nothing: NaN."""
     name: str
     outcome: str
     measured: float

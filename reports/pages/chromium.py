@@ -85,7 +85,7 @@ class Browser:
             self._call("Input.dispatchKeyEvent", type=kind, key=key, text=key if kind == "keyDown" else "")
 
     def picture(self) -> bytes:
-        """What the window shows, as PNG."""
+        """Screenshot of the window, as PNG."""
         return b64decode(self._call("Page.captureScreenshot", format="png")["data"])
 
     def pdf(self, head: str, foot: str) -> bytes:

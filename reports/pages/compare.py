@@ -48,7 +48,7 @@ class Change:
 
 @dataclass
 class Cost:
-    """What one thing cost in both runs."""
+    """Cost of one item in both runs."""
     what: str
     unit: str
     a: float           # [unit]
@@ -112,7 +112,7 @@ def read_side(letter: str, given: Path) -> Side:
 
 
 def _match(a: Iterable[Any], b: Iterable[Any]) -> tuple[list[tuple[Any, Any]], list[Any], list[Any]]:
-    """What both have, by name, in B's order; what only A has; what only B has."""
+    """Items in both, by name, in B's order; items only in A; items only in B."""
     of_a, of_b = ({item.name: item for item in items} for items in (a, b))
     return ([(of_a[name], item) for name, item in of_b.items() if name in of_a],
             [item for name, item in of_a.items() if name not in of_b],

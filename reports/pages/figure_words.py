@@ -1,4 +1,4 @@
-"""What stands in words around a study's figure: observed orders, keys of curves, notes."""
+"""Text around a study's figure: observed orders, keys of curves, notes."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -46,7 +46,7 @@ def figure_keys(figure: StudyFigure) -> list[tuple[Markup, str]]:
 
 
 def figure_notes(figure: StudyFigure) -> list[str]:
-    """What a reader of the plot must know and cannot see."""
+    """Notes that a reader of the plot needs."""
     notes = []
     left_out, floors = points_left_out(figure), floors_below(figure)
     if left_out:

@@ -14,7 +14,7 @@ PREFIX = "case."
 
 @dataclass
 class CaseFindings:
-    """What must hold of one case."""
+    """Expectations of one case."""
     name: str
     title: str
     file: str          # "cases/hard/twist.toml"

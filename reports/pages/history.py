@@ -33,7 +33,7 @@ class History:
 
     @property
     def newest_regressions(self) -> list[Change]:
-        """What got worse in the last run."""
+        """Changes for the worse in the last run."""
         return [change for change in self.changes if change.run is self.rows[-1] and change.is_regression]
 
     def changes_of(self, row: RunRow) -> list[Change]:

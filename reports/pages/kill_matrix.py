@@ -12,7 +12,7 @@ from data.unreadable import reading
 
 @dataclass
 class Cell:
-    """What the checks of one group say of one fault."""
+    """Results of one group of checks on one fault."""
     failing: int
     margin: float        # the largest measured/bound of those that fail; NaN where none is known
     named: list[FaultCheck]
@@ -62,7 +62,7 @@ def _cell(fault: Fault, group: str) -> Cell | None:
 
 @dataclass
 class Mutation:
-    """What scripts/mutate found: a row for each file, and the mutants that no finding noticed."""
+    """Results of scripts/mutate: a row for each file, and the mutants that no finding caught."""
     seed: int
     rows: list[dict[str, Any]]
     survivors: list[dict[str, Any]]

@@ -85,7 +85,7 @@ class CaseNeeds:
 
 @dataclass
 class Needs:
-    """What was found for all cases that were asked for."""
+    """Results for all requested cases."""
     cases: list[CaseNeeds]
 
     def commits(self, recorded: bool) -> list[str]:
@@ -115,7 +115,7 @@ class Needs:
         return " ".join(f"{count} part{'s are' if count != 1 else ' is'} {said[standing]}." for standing, count in counts.items() if count)
 
     def of(self, name: str) -> CaseNeeds | None:
-        """What was found for the case of that name; None if it was not asked for."""
+        """Result for the case of that name; None if it was not requested."""
         return next((case for case in self.cases if case.name == name), None)
 
 

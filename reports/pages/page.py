@@ -123,14 +123,14 @@ def render(page: Page) -> str:
 
 
 def program_of(page: Page) -> str:
-    """What to type for the program: what an installed one made is repeated by it."""
+    """Command for the program: results of an installed one are repeated with that one."""
     made_by = [page.provenance, *(view.case.about_run for view in page.cases if view.case)]
     typed = {str(about.get("command", "")).split(" ")[0] for about in made_by} - {""}
     return "foldproof" if typed == {"foldproof"} else "build/foldproof"
 
 
 def commands_of(page: Page) -> dict[str, str]:
-    """What repeats findings of simulations that no run of the verification made: the command that made each."""
+    """Commands that repeat findings of simulations outside a verification run."""
     if not page.alone:
         return {}
     made_by = {view.entry.name: str(view.case.about_run.get("command", "")) for view in page.cases if view.case}
@@ -146,7 +146,7 @@ def render_comparison(comparison: Comparison) -> str:
 
 
 def new_environment() -> Environment:
-    """What all templates share."""
+    """Values shared by all templates."""
     environment = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined,
                               trim_blocks=True, lstrip_blocks=True)
     environment.filters.update(number=quantities.number_html, known=quantities.known_html, unit=quantities.unit_text,
@@ -243,7 +243,7 @@ class ShownTable:
 
 
 def select_rows(columns: list[Column], most: int = WHOLE_TABLE) -> ShownTable:
-    """What is shown of a table, all of it up to `most` rows; vectors are set as one column for each component."""
+    """The displayed part of a table, up to `most` rows; vectors get one column per component."""
     flat = [part for column in columns for part in _components(column)]
     count = max((len(column.values) for column in flat), default=0)
     whole = count <= most

@@ -49,7 +49,7 @@ class CoveredFile:
 
 @dataclass
 class Coverage:
-    """What scripts/coverage counted."""
+    """Results of scripts/coverage."""
     commit: str
     ran: str
     least: float               # percent of lines
@@ -68,7 +68,7 @@ class VariantRun:
 
 @dataclass
 class Variants:
-    """What scripts/variants found."""
+    """Results of scripts/variants."""
     commit: str
     runs: list[VariantRun]
 
@@ -121,7 +121,7 @@ def load_variants(file: Path) -> Variants | None:
 
 
 def note_on_unfinished_run(file: Path) -> str:
-    """What to say if the last run into this folder did not come to its end; "" if it did, or if there is no file.
+    """A warning if the last run into this folder did not finish; "" if it did, or if there is no file.
     Throws Unreadable for another file."""
     if not file.is_file():
         return ""

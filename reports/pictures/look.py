@@ -1,4 +1,4 @@
-"""What cloth and objects look like, in the pictures, the films and the view in the page alike: colours and lights."""
+"""Appearance of cloth and objects in pictures, films and the 3D view: colours and lights."""
 from __future__ import annotations
 
 import numpy as np

@@ -13,7 +13,7 @@ PAIRS_AT_ONCE = 1_500_000                   # rows of triangles treated together
 
 @dataclass
 class Raster:
-    """What each sample of a picture sees: a row of `triangles` (-1: nothing), and how near that is [m]."""
+    """Visible triangle of each sample: a row of `triangles` (-1: none), and its depth [m]."""
     seen: np.ndarray       # height x width
     nearness: np.ndarray   # height x width [m]
     triangles: np.ndarray  # M x 3, those that can be drawn

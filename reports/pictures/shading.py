@@ -99,7 +99,7 @@ def _light_share(seen: SeenSamples, surface: Surface, camera: Camera, normal: li
 
 
 def _lights(normal: list[np.ndarray], reached: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """What light falls on a sample: soft from above, a wrapped key light where it reaches, a weak fill. And what shines
+    """Light on a sample: soft from above, a wrapped key light where it reaches, a weak fill. And what shines
     back whatever the colour: a rim where the cloth turns away, and a little of the key light."""
     key = reached * np.clip((_toward(KEY_LIGHT, normal) + WRAP) / (1.0 + WRAP), 0.0, 1.0)
     fill = np.clip(_toward(FILL_LIGHT, normal), 0.0, 1.0)

@@ -46,7 +46,7 @@ def plot_study_map(study_map: StudyMap, name: str, folder: Path) -> Plot:
 
 
 def map_notes(study_map: StudyMap) -> list[str]:
-    """What a reader of the map must know and cannot see."""
+    """Notes that a reader of the map needs."""
     hatched = int((~_drawable(study_map)).sum())
     if not hatched:
         return []

@@ -1,4 +1,4 @@
-"""What becomes of runs that have no error to draw: a strip above the others for those that diverged, and hollow
+"""Marks for runs without an error to draw: a strip above the others for those that diverged, and hollow
 markers for those on whose way a solve did not finish."""
 from __future__ import annotations
 

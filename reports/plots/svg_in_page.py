@@ -1,4 +1,4 @@
-"""What a figure's SVG file becomes inside the page. A page holds hundreds of figures, so what no reader sees is left
+"""Embeds a figure's SVG file in the page. A page holds hundreds of figures, so what no reader sees is left
 out: ids that nothing refers to, groups that say nothing, digits that no pixel shows."""
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _REFERENCE = re.compile(r'(?<=href="#)[^"]+|(?<=url\(#)[^)]+')
 
 @dataclass
 class _Names:
-    """What ids and colours of a file are called in the page."""
+    """Names of a file's ids and colours in the page."""
     ids: dict[str, str]             # only those that are referred to
     variables: Mapping[str, str]    # colour: CSS variable
 

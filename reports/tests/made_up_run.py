@@ -73,7 +73,7 @@ def put_claim(file: h5py.File, order: int, name: str, ruling: str, decided_by: l
 
 
 def made_up_verdicts() -> dict[str, Any]:
-    """What a verdicts.json holds: a finding of every outcome, one of them NaN, and two claims."""
+    """A made-up verdicts.json: a finding of every outcome, one of them NaN, and two claims."""
     program = dict(name="foldproof", version="0.2.0", commit="0123456789" * 4, tree="dirty", compiler="GNU 12.2.0",
                    flags=" -O3", cpu=HOSTILE, date="2026-11-22T06:51:18Z", command="build/foldproof verify", tier="quick",
                    seed=0, subject="foldproof reference")

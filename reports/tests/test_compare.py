@@ -49,7 +49,7 @@ class TwoRuns(unittest.TestCase):
             file["diagnostics/cg_iterations"][:] = 1.0
 
     def compared(self) -> Comparison:
-        """What is found to differ."""
+        """Detected differences."""
         return compare(read_side("A", self.a), read_side("B", self.b))
 
     def test_what_differs_is_found(self) -> None:

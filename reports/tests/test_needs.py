@@ -30,7 +30,7 @@ until = 2
 
 
 def told(case: str, commit: str) -> dict[str, Any]:
-    """What `foldproof ablate` writes of one case."""
+    """Output of `foldproof ablate` for one case."""
     run = {"seconds": 2.0, "steps": 40, "elastic_evaluations": 80, "cg_iterations": 0, "object_queries": 0, "strain_sweeps": 0,
            "crossing_queries": 0, "deepest": 0.0, "crossings": 0.0, "stopped": "", "failed": []}
     part = {"name": "gravity <b>", "present": True, "need": "not needed here", "because": "it moves <nothing>", "declared": "", "as_it_should_be": False,
@@ -147,7 +147,7 @@ class Digests(unittest.TestCase):
 
 
 class Record(unittest.TestCase):
-    """What is recorded of the shipped cases."""
+    """Records of the shipped cases."""
 
     def test_each_shipped_case_was_asked_as_it_is_and_has_what_it_needs_and_nothing_else(self) -> None:
         found = load_needs(Path("none"), SHIPPED_CASES)

@@ -26,7 +26,7 @@ TEXT_COLOURS = ("ink", "soft", "holds", "fails", "inconclusive", "none", "link",
 
 
 class Outline(HTMLParser):
-    """What of a page matters to those who do not see it: headings, pictures without words, cells without a scope."""
+    """Accessibility of a page: headings, pictures without text, cells without a scope."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -61,7 +61,7 @@ class MadeUpPage(unittest.TestCase):
 
 
 class Order(MadeUpPage):
-    """What stands where."""
+    """Contents of the page."""
 
     def test_sections_have_their_order(self) -> None:
         places = [self.text.index(f'<section id="{name}"') for name in SECTIONS]

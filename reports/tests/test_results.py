@@ -29,7 +29,7 @@ REPORTS = Path(__file__).resolve().parents[1]
 
 
 class ResultsInNumpy(unittest.TestCase):
-    """What foldproof_results.py hands to programs of others."""
+    """The interface of foldproof_results.py for other programs."""
 
     def setUp(self) -> None:
         folder = tempfile.TemporaryDirectory()

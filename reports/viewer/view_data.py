@@ -32,7 +32,7 @@ Arrays = list[tuple[dict[str, Any], bytes]]   # name, bytes of a number, how man
 
 @dataclass
 class ViewData:
-    """What the page holds of a case for its view."""
+    """Data of a case for its view in the page."""
     text: str                       # as above
     frames: int                     # that it holds
     stride: int                     # of those that can be shown it holds every so many-th
@@ -107,7 +107,7 @@ def field_ticks(field: Field) -> list[str]:
 
 
 def _object(part: Any, k: int, frames: list[int], arrays: Arrays) -> dict[str, Any]:
-    """What the header says of an object; its arrays are added to `arrays`."""
+    """Header entry of an object; its arrays are added to `arrays`."""
     about = {"name": part.name, "vertices": len(part.vertices), "ground": part.shape == ENDLESS,
              "deforms": part.deformed is not None}
     places = part.vertices[None] if part.deformed is None else part.deformed[frames]

@@ -74,7 +74,7 @@ Ablation plan_ablation(const std::string& file, const Options& options,
   return plan;
 }
 
-/// What is done when a run is over; by one thread at a time.
+/// Called when a run has ended, by one thread at a time.
 using AfterRun = std::function<void(Ablation&)>;
 
 /// The run of `input_case`, which `one` asks for and finds in `into`.
@@ -220,7 +220,7 @@ nlohmann::json to_json(const std::vector<Ablation>& all, const Options& options)
           {"cases", std::move(cases)}};
 }
 
-/// What was found, and after it what the file says of other cases, if the same program wrote it.
+/// The new results, followed by the file's results for other cases if the same program wrote it.
 nlohmann::json with_others_of(const std::string& path, nlohmann::json found) {
   if (!std::filesystem::is_regular_file(path)) return found;
   try {

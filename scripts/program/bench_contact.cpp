@@ -1,4 +1,4 @@
-// What contact with an object adds to a step.
+// Cost of contact with an object per step.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What all benches are put together from: times, targets, records.
+// Parts shared by all benches: times, targets, records.
 #pragma once
 
 #include <functional>

@@ -35,7 +35,7 @@ json findings_of(const std::string& folder) {
                           return row.is_object();
                         });
   if (!are_rows)
-    throw InputError(path + ": its findings are no list of findings; make them anew with `" +
+    throw InputError(path + ": its findings are not a list; write them again with `" +
                      program_command() + " verify`");
   return findings;
 }

@@ -3,8 +3,8 @@
 
 namespace foldproof {
 
-/// What a long command throws when it finds itself interrupted; no std::exception, so that nothing
-/// that reports errors takes it for one.
+/// Thrown by a long command when it is interrupted; not a std::exception, so that nothing that
+/// reports errors takes it for one.
 struct Interrupted {
   int signal;
 };

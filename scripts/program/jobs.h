@@ -10,7 +10,7 @@
 
 namespace foldproof {
 
-/// What is run by itself: it depends on no other job, and its result on no order.
+/// A unit of work: independent of other jobs, with a result independent of their order.
 struct Job {
   std::string name;  // of the check or the study; of a case "case." and its name
   double length;     // how long it takes beside others, roughly

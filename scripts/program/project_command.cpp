@@ -105,7 +105,7 @@ Wrinkles wrinkles_of(const std::string& of, const Source& source, const PerParti
   return wrinkles;
 }
 
-/// What there is to say.
+/// The report of the command.
 struct Report {
   FoldProjection projection;
   std::string file;

@@ -1,4 +1,4 @@
-// What the scripts of reports/ do: pages, films, files for other programs.
+// Commands that run the scripts of reports/: pages, films, files for other programs.
 #pragma once
 
 #include <string>

@@ -20,7 +20,7 @@ struct Selection {
   std::vector<std::string> findings;
 };
 
-/// What the names choose: checks, studies, single findings of studies, or groups ("bending" for all
+/// Selection by name: checks, studies, single findings of studies, or groups ("bending" for all
 /// that begins with "bending."), "case.NAME" for what is expected of a shipped case, whatever its
 /// tier, and "case" for all shipped cases of the tier. No name: all of the kinds. Without "check"
 /// among the kinds, names choose studies and their findings only. Throws InputError for a name that

@@ -45,7 +45,7 @@ Observer writing_checkpoints(const Observer& observer, const CheckpointFolder& c
           }};
 }
 
-/// What was handed out up to the last checkpoint is handed out again; then the run goes on.
+/// Replays all callbacks up to the last checkpoint, then continues the run.
 Runner from_checkpoints(const BuiltCase& of, const CheckpointFolder& checkpoints, Start start) {
   return [&of, &checkpoints, start](const Observer& observer) {
     std::optional<Checkpoint> last;

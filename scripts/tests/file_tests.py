@@ -1,4 +1,4 @@
-"""What tests of the program on files have in common: a folder, small cases, runs under limits."""
+"""Shared by tests of the program on files: a folder, small cases, runs under limits."""
 
 import resource
 import subprocess

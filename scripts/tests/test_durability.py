@@ -59,7 +59,7 @@ class Kills(FileTest):
                           self.report_of(done.stdout), seconds)
 
     def report_of(self, printed: str) -> dict:
-        """What a run says of itself but its clock time and folder."""
+        """Output of a run without its clock time and folder."""
         return {key: value for key, value in json.loads(printed).items() if key not in ("seconds", "file")}
 
     def run_and_kill(self, case: KilledCase, out: Path, wait: float, *more: str) -> bool:
@@ -175,7 +175,7 @@ class Kills(FileTest):
 
 
 class FullDisk(FileTest):
-    """What cannot be written is an error; what was there before stays, and a run can go on later."""
+    """A failed write is an error; existing files stay, and the run can be resumed."""
 
     def files_in(self, folder: Path) -> dict[str, bytes]:
         return {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file() and path.suffix != ".partial"}

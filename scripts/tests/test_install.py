@@ -27,7 +27,7 @@ LINK = re.compile(r"\]\((?!https?:)([^)#\s]+)")    # of Markdown, to a file
 
 
 def output_of(*words: str | Path, folder: Path | None = None) -> str:
-    """What a command prints. Its messages are the error if it fails."""
+    """Output of a command; if it fails, its messages are the error."""
     done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode:
         raise AssertionError(f"{words}: {done.returncode}\n{done.stdout}{done.stderr}")
@@ -75,7 +75,7 @@ def setUpModule() -> None:  # noqa: N802
 
 
 class Installed(unittest.TestCase):
-    """What all tests share."""
+    """Shared by all tests."""
     here: Installation
 
 
@@ -180,7 +180,7 @@ class Library(Installed):
             self.assertNotIn("foldproof install ", text)
 
     def cmake(self, source: Path, made: Path, *options: str) -> str:
-        """What CMake says as it configures `source`; the source tree of foldproof is of no use to it."""
+        """Output of CMake as it configures `source`, with the source tree of foldproof hidden."""
         done = subprocess.run([*self.here.blind, "cmake", "-S", source, "-B", made, f"-DCMAKE_PREFIX_PATH={self.here.prefix}",
                                *options], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)

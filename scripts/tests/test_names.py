@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Names that one file gives to what stands in another: every name in faults, claims, needs and equivalent mutants exists.
+"""Cross-references between files: every name in faults, claims, needs and equivalent mutants exists.
 
 Runs in seconds; nothing is compiled or simulated for it.
-Findings of studies are known here by their study; that the study makes them is asked where studies run (`foldproof
+Findings of studies are known here by their study; whether the study produces them is tested where studies run (`foldproof
 study`, `foldproof verify`).
 """
 from __future__ import annotations
@@ -29,7 +29,7 @@ def output_of(*words: str) -> str:
 
 
 class Names(unittest.TestCase):
-    """What exists, asked of the program and of the tests once."""
+    """The existing names, queried once from the program and the tests."""
 
     listed: dict = {}
     tests: set[str] = set()
@@ -84,7 +84,7 @@ class Names(unittest.TestCase):
 
     @staticmethod
     def can_become(text: str, line: str, becomes: str) -> bool:
-        """Is one of the edits of the text that change of a line?"""
+        """True if one of the edits of the text changes the line in this way."""
         for change in changes_of(text):
             number = text.count("\n", 0, change.at)
             if text.splitlines()[number].strip() == line and apply(text, change).splitlines()[number].strip() == becomes:

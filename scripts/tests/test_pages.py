@@ -21,7 +21,7 @@ def prose_of(text: str) -> str:
 
 
 def anchors_of(text: str) -> set[str]:
-    """What a link to a heading of the page may be called."""
+    """Valid link anchors for the headings of the page."""
     headings = re.findall(r"^#+ (.*)$", prose_of(text), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 

@@ -505,7 +505,7 @@ step = 0.001
             "precision hinge --effort x": "'x' is not a number above 0",
             "converge hinge --out notes.txt": "notes.txt: cannot make this folder",
             "check bending --seed x": "'x' is not a whole number from 0 to 1000000000",
-            "check bending --tier fast": "'fast' is none of quick, full",
+            "check bending --tier fast": "'fast' is not one of quick, full",
             "check bending --out notes.txt": "notes.txt: cannot make this folder",
             "bench --out notes.txt": "notes.txt: cannot make this folder",
             "report": "DIR is missing; usage: foldproof report DIR [DIR]",

@@ -17,7 +17,7 @@ NEEDED = ("scripts/record_needs", "reports/data/case_digest.py", "reports/data/u
 
 
 class Recorded(unittest.TestCase):
-    """What is written of made-up answers, and what is refused."""
+    """Recording of made-up results, and refused input."""
 
     def setUp(self) -> None:
         folder = tempfile.TemporaryDirectory()
@@ -35,7 +35,7 @@ class Recorded(unittest.TestCase):
         self.commit = self.git("rev-parse", "HEAD")
 
     def git(self, *words: str) -> str:
-        """What it says."""
+        """The output."""
         return subprocess.run(["git", "-C", str(self.root), *words], capture_output=True, text=True, check=True).stdout.strip()
 
     def answers(self, name: str, *cases: str, date: str = "2026-01-02T00:00:00Z", tree: str = "clean", **of_row: Any) -> str:

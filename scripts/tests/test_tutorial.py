@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Runs the commands of reports/TUTORIAL.md from top to bottom, and compares what they print with what stands there.
+"""Runs the commands of reports/TUTORIAL.md from top to bottom, and compares their output with the page.
 
-Usage: scripts/tests/test_tutorial.py [--update]     --update prints what each command says, instead of comparing
-Exit code: 0 all as it stands there; 1 not so.
+Usage: scripts/tests/test_tutorial.py [--update]     --update prints the output of each command instead of comparing
+Exit code: 0 if all outputs match; 1 otherwise.
 """
 
 import doctest
@@ -37,7 +37,7 @@ def commands_of(block: str, line: int) -> list[Command]:
 
 
 def answer(command: str, folder: Path) -> str:
-    """What it prints, lines of progress left out, and its exit code if that is not 0."""
+    """Its output without progress lines, and its exit code if not 0."""
     done = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True, check=False)
     lines = [row.rstrip() for row in (done.stderr + done.stdout).splitlines() if not PROGRESS.fullmatch(row)]
     if done.returncode:
@@ -46,7 +46,7 @@ def answer(command: str, folder: Path) -> str:
 
 
 def prepare(folder: Path) -> None:
-    """What the tutorial finds where it is typed."""
+    """Sets up the folder in which the tutorial runs."""
     for name in ("build", "cases", "reports"):
         (folder / name).symlink_to(ROOT / name)
 

@@ -125,7 +125,7 @@ Case with_usual_expectations(Case input_case) {
          "a force that is not the gradient of its energy"},
         input_case.expectations);
   add_unless_stated(
-      {"is_reproducible", 0, "the same numbers in the same order give the same bits, whoever asks"},
+      {"is_reproducible", 0, "the same numbers in the same order give the same bits on every run"},
       input_case.expectations);
   if (const auto faces = expected_faces_outside(scene, input_case.expectations))
     add_unless_stated(*faces, input_case.expectations);
@@ -135,8 +135,8 @@ Case with_usual_expectations(Case input_case) {
       {"never_crosses_itself", 0,
        scene.self_collision ? "what starts free of crossings stays free of them: repulsion and "
                               "impulses may fail, impact zones may not"
-                            : "no part of the scene keeps the cloth from itself, and none has to: "
-                              "cloth that would pass through itself needs [self_collision]"},
+                            : "the scene has no self-collision, and needs none: cloth that would "
+                              "pass through itself needs [self_collision]"},
       input_case.expectations);
   return input_case;
 }

@@ -1,4 +1,4 @@
-// What must hold of a case's run: the [expect] table of its file.
+// Expectations of a case: the [expect] table of its file.
 #pragma once
 
 #include <string>
@@ -9,46 +9,45 @@
 
 namespace foldproof {
 
-/// One entry of [expect]: `key = { at_most = bound, why = "..." }`, or at_least where the quantity
-/// is one to be reached. Keys, units and what is measured: verification/cases/quantities.h.
+/// One entry of [expect]: `key = { at_most = bound, why = "..." }`, or at_least for a lower bound.
+/// Keys, units and what is measured: verification/cases/quantities.h.
 struct Expectation {
   std::string key;
   double bound;                // in the quantity's unit
-  std::string why;             // the bound's reason in words
-  std::string not_asked = {};  // why this run is not held to it; "" if it is
+  std::string why;             // the reason for the bound
+  std::string not_asked = {};  // why it does not apply to this run; "" if it does
 };
 
-/// One entry of [ablation]: `"part" = "why"`. A part that is there though nothing that `foldproof
-/// ablate` measures needs it, or is left out though its presence would show; parts are named as
-/// convergence/any_case/ablation.h names them.
+/// One entry of [ablation]: `"part" = "why"`. A part that is present although nothing that
+/// `foldproof ablate` measures needs it, or absent although its presence would show; parts are
+/// named as in convergence/any_case/ablation.h.
 struct DeclaredPart {
   std::string part, why;
 };
 
-/// A scene with what must hold of it.
+/// A scene and its expectations.
 struct Case {
   Scene scene;
   std::vector<Expectation> expectations;
   std::vector<DeclaredPart> declared = {};
   // of [ablation]: overrides "a.b=number" that make it coarser
   std::vector<std::string> coarser_mesh = {};
-  double ablated_until = 0;  // of [ablation]: how much of the run is asked [s]; 0: all of it
+  double ablated_until = 0;  // of [ablation]: duration of the ablated runs [s]; 0: the full run
   std::vector<Measurement> quantities = {};  // of [[quantity]]
 };
 
 /// Reads the case file's scene and its tables [expect], [ablation] and [[quantity]], from one tree
 /// of keys. Throws InputError "file:line: ..." for what read_scene refuses, an unknown quantity,
-/// one that makes no sense for the scene, and an entry without bound or reason.
+/// one that is meaningless for the scene, and an entry without bound or reason.
 ///   overrides   "a.b=c", applied in order; expect.KEY.at_most=... is one, too. Where one puts
 ///               another mesh or shape in the place of the file's, bounds of the file on quantities
 ///               of Scope::this_shape are not asked; those that an override states are
 Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
-/// Adds what is expected of every shipped case that does not say otherwise: that it runs to its
-/// end; where the forces have an energy and nothing is driven, that the energy is accounted for;
-/// that the run is reproducible; where there are objects, that whole triangles stay outside but for
-/// what face_bound.h derives; and that the cloth crosses itself in no frame, unless
-/// tangle_does_not_grow is stated.
+/// Adds the default expectations of every shipped case: that it runs to its end; if the forces have
+/// an energy and nothing is driven, that the energy balances; that the run is reproducible; where
+/// there are objects, that whole triangles stay outside up to the depth that face_bound.h derives;
+/// and that the cloth crosses itself in no frame, unless tangle_does_not_grow is stated.
 Case with_usual_expectations(Case input_case);
 
 /// The name of the finding: "case.<scene>.<key>", with hyphens.

@@ -1,4 +1,4 @@
-// Measures what is expected of a case while it runs, and says what came of it.
+// Measures the expected quantities of a case while it runs, and judges them.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ class CaseJudge {
  public:
   /// of: must outlive it.
   ///   objects      of the system that runs, which must outlive it
-  ///   level_sets   for a system built anew; they should remember those that were made
+  ///   level_sets   for a rebuilt system; should be memoizing
   ///                (bodies/level_set_provider.h)
   CaseJudge(const Case& of, std::span<const Object> objects, const LevelSetProvider& level_sets)
       : case_(of),
@@ -28,9 +28,9 @@ class CaseJudge {
   void record(const Checkpoint& at) { repetition_.record(at); }
   void record(const State& frame);
 
-  /// One record for each expectation, named finding_name(...). Of a run that stopped, all but
-  /// runs_to_its_end fail: nothing is known of what was to come. One that is not asked is not
-  /// applicable, with the reason as its note.
+  /// One record for each expectation, named finding_name(...). If the run stopped, all but
+  /// runs_to_its_end fail, because the rest of it is unknown. An expectation that does not apply is
+  /// recorded as not applicable, with the reason as its note.
   std::vector<Record> records(const RunResult& result) const;
 
  private:

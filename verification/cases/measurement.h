@@ -1,4 +1,4 @@
-// Numbers that a user wants of a run: [[quantity]] of a case file, each a value with a unit.
+// Quantities that a user defines for a run: [[quantity]] of a case file, each a value with a unit.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,7 @@
 
 namespace foldproof {
 
-/// Particles of a cloth, as the case names them; a finer mesh of the same cloth has more
-/// of them in a box.
+/// Particles of a cloth, as selected by the case; on a finer mesh a box contains more of them.
 struct ParticleRegion {
   std::vector<int> particles;                      // by number
   std::optional<std::pair<Vector3, Vector3>> box;  // lowest and highest corner, of the start [m]
@@ -36,7 +35,7 @@ struct Measurement {
   Vector3 along = Vector3::Zero();  // of what = "position": a direction; zero: up
 };
 
-/// Every run as a measurement sees it at one frame.
+/// A run at one frame, as seen by a measurement.
 struct FrameView {
   const Scene& scene;
   const System& system;
@@ -48,7 +47,7 @@ struct FrameView {
 /// A row of the table of what can be measured at a frame.
 struct Measurable {
   const char *what, *unit, *meaning;
-  int particles;  // how many it needs by number; 0: any region
+  int particles;  // number of particles that it needs by index; 0: any region
   double (*at)(const FrameView& frame, const Measurement& m, const std::vector<int>& of);
 };
 
@@ -61,12 +60,12 @@ std::string unit_of(const Measurement& m);
 /// region without particles, and a quantity that makes no sense for the scene.
 Measurement read_measurement(const KeyTable& keys, const Scene& scene);
 
-/// What is measured of a case that names nothing itself: energies at the end, heights at the end
+/// The default measurements of a case without [[quantity]]: energies at the end, heights at the end
 /// (where there is gravity), and the quantities of its expectations.
 std::vector<Measurement> usual_measurements(const Scene& scene,
                                             const std::vector<std::string>& expected);
 
-/// Takes measurements while a run goes on: give it every row and every frame, then ask.
+/// Takes measurements during a run: pass it every row and every frame, then call values().
 class Measurer {
  public:
   /// All must outlive it.
@@ -76,7 +75,7 @@ class Measurer {
   void record(const Diagnostics& row);
   void record(const State& frame);
 
-  /// One value a measurement; NaN where the run stopped before its instant.
+  /// One value per measurement; NaN if the run stopped before its time.
   std::vector<double> values(const RunResult& result) const;
 
  private:

@@ -97,7 +97,7 @@ double length_change(const Scene& scene, const State& s) {
   return worst.value();
 }
 
-/// What the objects say about each particle in a frame.
+/// The objects' answers for each particle in a frame.
 std::vector<Nearest> nearest_at(std::span<const Object> objects, const State& s) {
   ObjectsOverSpan now(objects, {s.time, s.time, 0});
   std::vector<Nearest> nearest;
@@ -237,18 +237,17 @@ std::vector<Quantity> quantities_of_the_run() {
        "The linear solves keep their tolerance before their cap on iterations.", Sense::at_most,
        Scope::any_cloth, nullptr, unfinished_solves, nullptr},
       {"energy_is_accounted_for", "1",
-       "Kinetic, elastic and gravitational energy less the work of damping stays what it was, over "
-       "the energy exchanged.",
+       "Kinetic, elastic and gravitational energy less the work of damping is conserved, over the "
+       "energy exchanged.",
        Sense::at_most, Scope::any_cloth, nullptr, energy_unaccounted, nullptr},
       {"energy_does_not_drift", "1",
        "The mean of that energy over the last tenth of the run is that over the first tenth, over "
        "the energy exchanged.",
        Sense::at_most, Scope::any_cloth, nullptr, energy_drift, nullptr},
-      {"linear_momentum_is_conserved", "1",
-       "Linear momentum stays what it was, over sqrt(2 m E_kin).", Sense::at_most, Scope::any_cloth,
-       nullptr, linear_change, nullptr},
+      {"linear_momentum_is_conserved", "1", "Linear momentum is conserved, over sqrt(2 m E_kin).",
+       Sense::at_most, Scope::any_cloth, nullptr, linear_change, nullptr},
       {"angular_momentum_is_conserved", "1",
-       "Angular momentum about the origin stays what it was, over the cloth's reach times sqrt(2 m "
+       "Angular momentum about the origin is conserved, over the cloth's reach times sqrt(2 m "
        "E_kin).",
        Sense::at_most, Scope::any_cloth, nullptr, angular_change, nullptr},
   };

@@ -1,4 +1,4 @@
-// What can be expected of a case: quantities measured while it runs, each with its
+// Quantities that a case can put bounds on, measured while it runs, each with its
 // unit and its claim.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace foldproof {
 
-/// What all rows of diagnostics say together.
+/// Summary of all rows of diagnostics.
 struct DiagnosticsSummary {
   Diagnostics start;  // the first row
   // |kinetic + elastic + gravitational energy - work of damping - that at the start| [J]
@@ -34,7 +34,7 @@ struct DiagnosticsSummary {
   bool is_begun_ = false;
 };
 
-/// A run as its quantities see it.
+/// A run, as seen by its quantities.
 struct RunView {
   const Scene& scene;
   const DiagnosticsSummary& summary;
@@ -45,8 +45,8 @@ struct RunView {
 
 enum class Sense { at_most, at_least };
 
-/// What a bound on the quantity is written for: every cloth, since the method or its forces promise
-/// it; or the mesh and the objects of the case, since other ones come to something else.
+/// Scope of a bound on the quantity: any cloth, because the method or its forces guarantee it; or
+/// only the mesh and objects of the case, because others give other values.
 enum class Scope { any_cloth, this_shape };
 
 struct Quantity {
@@ -55,12 +55,12 @@ struct Quantity {
   Sense sense;
   Scope scope;
   /// At one frame's state; the largest over all frames counts. nullptr: the quantity belongs to the
-  /// whole run, or asks the objects.
+  /// whole run, or needs the objects.
   double (*of_frame)(const Scene& scene, const State& frame);
   double (*of_run)(const RunView& run);  // nullptr: the quantity belongs to frames
-  // why it makes no sense for the scene, or ""; nullptr: always does
+  // why it is meaningless for the scene, or ""; nullptr: never
   std::string (*rejection)(const Scene& scene);
-  /// As of_frame, of a quantity that asks the objects.
+  /// As of_frame, for a quantity that needs the objects.
   double (*of_objects)(const Scene& scene, std::span<const Object> objects,
                        const State& frame) = nullptr;
 };
@@ -88,7 +88,7 @@ std::vector<Quantity> wrinkle_quantities();
 /// The table of quantities.
 const std::vector<Quantity>& quantities();
 
-/// Why a quantity of springs, of hinges, or of the vertical, makes no sense for the scene, or "".
+/// Why a quantity of springs, of hinges, or of the vertical, is meaningless for the scene, or "".
 std::string without_springs(const Scene& scene);
 std::string without_bending(const Scene& scene);
 std::string without_gravity(const Scene& scene);

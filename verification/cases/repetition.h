@@ -1,4 +1,4 @@
-// Does a run repeat itself to the bit? Parts of it are run again, in a thread of their own.
+// Tests whether a run repeats bit for bit: parts of it are rerun in a separate thread.
 #pragma once
 
 #include <vector>
@@ -9,20 +9,20 @@
 
 namespace foldproof {
 
-/// Give it every checkpoint and every row of diagnostics of a run; then ask. It keeps the state at
-/// the start, in the middle and before the last frame, and the ten steps after each.
+/// Pass it every checkpoint and every row of diagnostics of a run, then call
+/// count_differing_steps(). It keeps the state at the start, in the middle and before the last
+/// frame, and the ten steps after each.
 class Repetition {
  public:
-  /// scene: must outlive it. level_sets: of the system built anew.
+  /// scene: must outlive it. level_sets: for the rebuilt system.
   Repetition(const Scene& scene, const LevelSetProvider& level_sets)
       : scene_(scene), level_sets_(level_sets) {}
 
   void record(const Checkpoint& at);
   void record(const Diagnostics& row);
 
-  /// Goes on from the kept states anew, with a system built anew, and counts the steps whose
-  /// diagnostics have other bits than before, clock time apart, and those that are missing. NaN if
-  /// no step was seen.
+  /// Resumes from the stored states with a rebuilt system, and counts the steps whose diagnostics
+  /// (except clock time) differ in any bit or are missing. NaN if no step was seen.
   double count_differing_steps() const;
 
  private:

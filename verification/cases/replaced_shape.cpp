@@ -9,7 +9,7 @@ namespace foldproof {
 
 namespace {
 
-/// What was replaced, and by what, in words.
+/// Describes a replacement: the original and the new shape.
 struct Replaced {
   std::vector<std::string> written, used;
 

@@ -7,9 +7,9 @@
 
 namespace foldproof {
 
-/// Where an override has put another mesh, shape or animation, of the cloth or of an object, in the
-/// place of the case file's: "written for skirt.obj; this run uses YOURS.obj". "" where none has,
-/// or where both are one file.
+/// Describes an override that replaces the mesh, shape or animation of the cloth or of an object in
+/// the case file: "written for skirt.obj; this run uses YOURS.obj". "" if there is none, or if both
+/// are the same file.
 std::string replaced_shape(const CaseKeys& of);
 
 }  // namespace foldproof

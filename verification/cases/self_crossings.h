@@ -1,4 +1,4 @@
-// Does the cloth pass through itself?
+// Self-intersections of the cloth.
 #pragma once
 
 #include "reference/scene/scene.h"
@@ -6,8 +6,9 @@
 
 namespace foldproof {
 
-/// Pairs of an edge and a triangle of the cloth that meet, decided without rounding: see
-/// verification/oracles/exact_crossings.h for what is counted. NaN if a position is not finite.
+/// Pairs of an edge and a triangle of the cloth that intersect, in exact arithmetic;
+/// verification/oracles/exact_crossings.h defines which pairs count. NaN if a
+/// position is not finite.
 double self_crossings(const Scene& scene, const State& frame);
 double self_crossings_at_end(const RunView& run);
 

@@ -19,7 +19,7 @@ const Record* record_named(const std::string& name, const std::vector<Record>& r
   return found == records.end() ? nullptr : &*found;
 }
 
-/// What a finding has to say: it held, it did not, or nothing.
+/// State of a finding: it held, it did not, or it is undecided.
 enum class Answer { held, failed, silent };
 
 /// A finding that failed without a number (it threw, or measured NaN) has measured nothing.

@@ -1,5 +1,5 @@
-// A claim of a paper, and the rule by which findings decide it. The claims themselves are
-// data: see read_claims.h.
+// A claim of a paper, and the rule for deciding it from findings. The claims themselves are data:
+// see read_claims.h.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace foldproof {
 
-/// What a finding says about a claim when it holds.
+/// Effect of a finding on a claim when it holds.
 enum class Role {
   supports,    // the claim needs it
-  limits,      // it shows a condition under which alone the claim stands
-  contradicts  // it refutes the sentence, as the paper has it
+  limits,      // it shows a condition that the claim needs
+  contradicts  // it refutes the claim as stated in the paper
 };
 
 enum class Ruling { confirmed, conditional, refuted, undecided };
@@ -22,19 +22,20 @@ std::string_view name_of(Role role);  // "supports", "limits", "contradicts"
 // "confirmed", "confirmed under a condition", "refuted", "undecided"
 std::string_view name_of(Ruling ruling);
 
-/// A finding's name and what it says about the claim.
+/// A finding's name and its effect on the claim.
 struct Decider {
   std::string finding;
   Role role;
 };
 
-/// A sentence of a paper in our words.
+/// A sentence of a paper, in our words.
 struct Claim {
   std::string paper;        // its key: "BMF03"
   std::string id, section;  // section: where the paper says it
   std::string statement;
   std::vector<Decider> decided_by;
-  Ruling recorded;        // what the authors of this suite found; a run that finds otherwise fails
+  // the ruling found by the authors of this suite; a run with a different ruling fails
+  Ruling recorded;
   std::string condition;  // in words, if recorded as conditional; else empty
   std::string why;        // a paragraph with placeholders for its numbers, see filled()
 };
@@ -47,11 +48,11 @@ struct ClaimRecord {
   Ruling ruling;
 };
 
-/// The ruling that these findings give; the table stands above its definition.
+/// The ruling from these findings; see the table above its definition.
 Ruling ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records);
 
-/// The text with each placeholder replaced by a number of the run: three digits, a power of ten
-/// where the first is beyond the third place or the sixth, and its unit:
+/// The text with each placeholder replaced by a number of the run: three significant digits, in
+/// scientific notation for very small or large numbers, and its unit:
 ///   {name}                    what the finding measured
 ///   {name|bound}              its bound
 ///   {name|column|row}         evidence: a row counted from 1, "first", "last", "smallest",
@@ -63,19 +64,18 @@ Ruling ruling(const std::vector<Decider>& deciders, const std::vector<Record>& r
 /// Throws std::runtime_error naming the placeholder if the run has no such number.
 std::string fill_placeholders(const std::string& text, const std::vector<Record>& records);
 
-/// The findings whose numbers the placeholders of a text ask for. Throws std::runtime_error for a
-/// brace that is not closed.
+/// The findings that the placeholders of a text refer to. Throws std::runtime_error for a brace
+/// that is not closed.
 std::vector<std::string> findings_in_text(const std::string& text);
 
 /// The findings that a claim rests on or takes numbers from; some more than once.
 std::vector<std::string> findings_named_in(const Claim& claim);
 
-/// Are all findings that the claim names in the run?
+/// True if the run contains all findings that the claim names.
 bool is_covered(const Claim& claim, const std::vector<Record>& records);
 
-/// Rules a claim. The text of a claim that stays undecided keeps a placeholder whose number
-/// is missing. Throws std::runtime_error naming the claim for a placeholder that cannot be
-/// filled otherwise.
+/// Decides a claim. The text of an undecided claim keeps placeholders whose number is missing.
+/// Throws std::runtime_error naming the claim for a placeholder that cannot be filled otherwise.
 ClaimRecord rule_claim(const Claim& claim, const std::vector<Record>& records);
 
 /// holds if the ruling is the recorded one, fails if not; inconclusive if both are undecided.

@@ -1,4 +1,4 @@
-// The claims as they are written down: verification/claims/PAPER.toml, one file a paper.
+// Reads the claims: verification/claims/PAPER.toml, one file per paper.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@ namespace foldproof {
 
 /// The claims of every *.toml in the folder: papers in the order of file names, claims in the order
 /// of their file. The keys are explained at the top of bmf03.toml. Throws InputError
-///   - "file:line: ..." for an unknown key, role or ruling; a missing or empty text; an id that is
-///     taken or no name; a claim that nothing decides, or that names a finding twice; a condition
-///     where the recorded ruling is not conditional, or none where it is; a placeholder whose brace
-///     is not closed;
+///   - "file:line: ..." for an unknown key, role or ruling; a missing or empty text; a duplicate or
+///     invalid id; a claim without deciders, or that names a finding twice; a condition where the
+///     recorded ruling is not conditional, or none where it is; a placeholder whose brace is not
+///     closed;
 ///   - "file: ..." for a file without [paper] or without claims;
 ///   - "folder: ..." for a folder without such files.
 std::vector<Claim> read_claims(const std::string& folder);

@@ -9,7 +9,7 @@
 
 namespace foldproof {
 
-/// A seeded fault: a textual edit of one file, and who must notice it.
+/// A seeded fault: a textual edit of one file, and the findings or tests that must catch it.
 struct Fault {
   std::string name, file, find, replace, law;
   std::vector<std::string> caught_by;        // findings
@@ -18,13 +18,13 @@ struct Fault {
 };
 
 /// The room of a source file, which names the file of its faults: the folder below reference/ or
-/// verification/, or the file's name without its ending if it is right there; "convergence";
+/// verification/, or the file's base name if it lies directly there; "convergence";
 /// "program" for scripts/program/. Empty for any other file.
 std::string room_of(const std::string& file);
 
 /// The faults of every *.toml in the folder but equivalent_mutants.toml, in the order of file
 /// names. Throws InputError "file:line: ..." for a row that lacks a key, has an unknown one, stands
-/// in the file of another room, or has the name of an earlier row; "folder: ..." for a folder
+/// in the file of another room, or repeats the name of an earlier row; "folder: ..." for a folder
 /// without such files.
 std::vector<Fault> read_faults(const std::string& folder);
 

@@ -171,7 +171,7 @@ CheckpointRecord record_of(const StoredCheckpoint& stored) {
   return record;
 }
 
-/// What `stored` is of that `mine` is not; "" if they are the same.
+/// How `stored` differs from `mine`; "" if they are the same.
 std::string difference(const RunIdentity& stored, const RunIdentity& mine) {
   std::string what;
   if (stored.case_text != mine.case_text) what = "another case text, or other overrides";

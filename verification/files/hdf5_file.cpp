@@ -196,7 +196,7 @@ bool is_readable(hid_t set) {
   return true;
 }
 
-/// What the library calls back must not throw through it.
+/// Callbacks from the library must not throw through it.
 template <class Act>
 herr_t without_error_stack(const Act& act) {
   try {

@@ -1,4 +1,5 @@
-// Writing and reading HDF5. The only door to the library: everything else sees these two classes.
+// Writing and reading HDF5. The only file that uses the library; everything else uses
+// these two classes.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +21,8 @@ class Hdf5 {
   /// A new file, in place of any that has this path.
   static Hdf5 create_file(const std::string& path);
 
-  /// An existing file, to be read only. All of it is read once before, in a process of its own,
-  /// which a damaged file may bring down.
+  /// Opens an existing file for reading. All of it is first read once in a child process, so that a
+  /// damaged file cannot crash this one.
   static Hdf5 open_file(const std::string& path);
 
   Hdf5(Hdf5&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
@@ -42,19 +43,19 @@ class Hdf5 {
   Hdf5 array(const std::string& name, const Shape& shape, const int* values) const;
   Hdf5 array(const std::string& name, const Shape& shape, const unsigned char* values) const;
 
-  /// What is there to be read, of any length; what has another type than asked for is refused, and
-  /// so is a dataset that claims more numbers than its file can hold.
+  /// Readers for data of any length. A type mismatch is refused, as is a dataset that claims more
+  /// numbers than its file can hold.
   Hdf5 open_group(const std::string& name) const;
   bool has(const std::string& name) const;
   std::string read_text(const std::string& attribute) const;
   std::vector<double> read_doubles(const std::string& dataset) const;
   std::vector<int> read_ints(const std::string& dataset) const;
 
-  /// Hands what was written so far to the operating system.
+  /// Passes everything written so far to the operating system.
   void flush() const;
 
-  /// Closes a file nothing of which is open any longer; throws if what was still buffered cannot be
-  /// written. A file that merely goes out of scope may not be whole.
+  /// Closes a file in which nothing is open any more; throws if buffered data cannot be written. A
+  /// file that merely goes out of scope may be incomplete.
   void close();
 
  private:
@@ -65,8 +66,8 @@ class Hdf5 {
   int (*close_)(std::int64_t);
 };
 
-/// Writes a new file as `write` says, under the name "<path>.partial", and renames it when it is
-/// whole. Throws std::runtime_error naming the file; what was at `path` is then still there, and no
+/// Writes a new file with `write`, under the name "<path>.partial", and renames it when complete.
+/// Throws std::runtime_error naming the file; what was at `path` is then still there, and no
 /// partial file is left.
 void write_hdf5(const std::string& path, const std::function<void(const Hdf5& file)>& write);
 

@@ -7,14 +7,12 @@
 
 namespace foldproof {
 
-/// Writes the frames with the key of what they were computed from, under a temporary name until
-/// they are whole.
+/// Writes the frames with the key of their input, under a temporary name until complete.
 void write_level_sets(const std::string& path, const DeformingBody& body,
                       const std::string& origin);
 
-/// Reads them. Throws std::runtime_error saying why the file is refused: not there, no HDF5 file or
-/// not whole, not a file of level sets, computed from something else than `origin` names (stale),
-/// not what was written, unsound.
+/// Reads them. Throws std::runtime_error with the reason: missing, not HDF5 or incomplete, not a
+/// level-set file, stale (input differs from `origin`), changed since it was written, or invalid.
 DeformingBody read_level_sets(const std::string& path, const std::string& origin,
                               const OctreeSettings& settings, BetweenFrames between);
 

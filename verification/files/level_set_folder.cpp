@@ -53,8 +53,8 @@ std::shared_ptr<const Grid> read_grid(const std::string& path, const std::string
 /// Of cases that run at the same time and name the same body, the second finds the first's file.
 std::mutex one_at_a_time;
 
-/// What the file holds, or else what is made and then written; `read` throws std::runtime_error for
-/// a file that it refuses.
+/// The content of the file, or else a newly built result, which is then written; `read` throws
+/// std::runtime_error for a file that it refuses.
 template <class Read, class Make, class Write>
 auto kept(const std::string& path, const std::function<void(const std::string&)>& log_line,
           const Read& read, const Make& make, const Write& write) {

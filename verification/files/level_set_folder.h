@@ -1,4 +1,4 @@
-// A folder of level sets, so that what one run made serves all that follow (BMF03 section 5.1).
+// A folder of cached level sets, computed once and reused by later runs (BMF03 section 5.1).
 #pragma once
 
 #include <functional>
@@ -8,9 +8,9 @@
 
 namespace foldproof {
 
-/// Makers that keep what they make in the folder, one file each, named after the key of all that it
-/// is computed from. `log_line` is told of every file that is loaded, written, or refused and
-/// replaced, and why. A folder or file that cannot be written throws.
+/// A provider that caches its results in the folder, one file each, named by the key of its input.
+/// `log_line` receives a message for every file that is loaded, written, or refused and replaced,
+/// with the reason. A folder or file that cannot be written throws.
 LevelSetProvider caching_provider(const std::string& folder,
                                   std::function<void(const std::string&)> log_line);
 

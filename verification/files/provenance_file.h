@@ -1,4 +1,4 @@
-// Where numbers come from, as every results file says it.
+// Provenance of the numbers in every results file.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Results of runs, kept by what they are results of: a run that was made once is not made again.
+// A store of run results, keyed by their input: no run is repeated.
 #pragma once
 
 #include <map>
@@ -9,26 +9,26 @@
 
 namespace foldproof {
 
-/// What a run leaves: arrays of numbers, and words.
+/// Result of a run: arrays of numbers, and texts.
 struct StoredResult {
   std::map<std::string, std::vector<double>> arrays;
   std::map<std::string, std::string> texts;
 };
 
 /// A folder that several programs may write to at a time:
-///   shards/*.jsonl     one file a process, which only grows; a line {"start": key, "label": ...}
+///   shards/*.jsonl     one append-only file per process; a line {"start": key, "label": ...}
 ///                      when a run begins, and {"result": key, "texts": ..., "arrays":
 ///                      {name: length}} when it has ended; a torn last line is ignored
-///   arrays/kk/key.h5   the arrays of a result, there before its line is written
-/// The key is the caller's: a digest of all that the result depends on. A run that was started and
-/// has no result was cut off, and is made again. Safe to call from several threads.
+///   arrays/kk/key.h5   the arrays of a result, written before its line
+/// The key is the caller's: a digest of all that the result depends on. A run that was started but
+/// has no result was interrupted, and is repeated. Safe to call from several threads.
 class ResultStore {
  public:
-  /// Keeps nothing, finds nothing.
+  /// Stores nothing, finds nothing.
   ResultStore() = default;
 
-  /// Reads what the folder has; makes nothing before the first result. Throws InputError naming the
-  /// folder if it is something else than a folder.
+  /// Reads the folder; creates nothing before the first result. Throws InputError naming the path
+  /// if it is not a folder.
   explicit ResultStore(std::string folder);
 
   /// The result of this key, if there is one that can be read.

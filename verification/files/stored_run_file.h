@@ -16,7 +16,7 @@ struct StoredRun {
   State frame(std::size_t k) const;
 };
 
-/// Of a stored simulation nothing but how its cloth moves: any program can write this much.
+/// Only the motion of the cloth of a stored simulation: the minimum that any program can write.
 struct StoredFrames {
   std::vector<Triangle> triangles;  // /mesh/triangles, M
   std::vector<double> times;        // /frames/time, T [s]
@@ -30,7 +30,7 @@ StoredFrames read_stored_frames(const std::string& path);
 
 /// Reads a stored simulation; meshes that its case names by a relative path are looked for beside
 /// the case file that was simulated, those of --set from the working folder. Throws InputError
-/// naming the file if it holds no simulation, or one of another cloth than its case text says.
+/// naming the file if it holds no simulation, or if its cloth does not match its case text.
 StoredRun read_stored_run(const std::string& path);
 
 }  // namespace foldproof

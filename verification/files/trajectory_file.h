@@ -18,7 +18,7 @@ namespace foldproof {
 /// kept in the partial file.
 class TrajectoryFile {
  public:
-  /// scene, and its objects as they were built: must outlive the file.
+  /// scene, and its objects as built: must outlive the file.
   TrajectoryFile(const std::string& path, const Scene& scene, const System& system,
                  std::span<const Object> objects, const Provenance& provenance);
   ~TrajectoryFile();
@@ -28,7 +28,7 @@ class TrajectoryFile {
   void add_frame(const State& s);
   void add_diagnostics(const Diagnostics& row);
 
-  /// stopped: "" or why the run ended early. findings: what was expected of it, judged.
+  /// stopped: "" or why the run ended early. findings: its judged expectations.
   void finish(const std::string& stopped, double seconds, const std::vector<Record>& findings);
 
  private:

@@ -10,11 +10,11 @@ namespace foldproof {
 /// The findings as JSON text: {"schema": 1, "program": {...}, "findings": [...]}. NaN becomes null.
 std::string verdicts_json(const RunRecord& run);
 
-/// The text as it may stand in XML, in an attribute too: what no XML may hold (control characters,
-/// bytes that are no UTF-8) becomes a blank or U+FFFD.
+/// The text escaped for XML, also in attributes: characters that XML does not allow (control
+/// characters, invalid UTF-8) become a blank or U+FFFD.
 std::string xml_text(const std::string& text);
 
-/// Writes verdicts.json and junit.xml into the folder, each renamed when whole.
+/// Writes verdicts.json and junit.xml into the folder, each renamed when complete.
 void write_verdicts(const std::string& folder, const RunRecord& run);
 
 }  // namespace foldproof

@@ -1,4 +1,4 @@
-// What a fuzz target says when it has found something.
+// How a fuzz target reports a finding.
 #pragma once
 
 #include <cstdio>

@@ -18,7 +18,7 @@ void require_valid_content(const PerParticle3& rest, const std::vector<Triangle>
       require(v >= 0 && v < rest.cols(), "the corners of a triangle are vertices of the mesh");
 }
 
-/// What read(text, name) answers is handed to `look`; a refusal names a line. Returns whether
+/// Passes the result of read(text, name) to `look`; a refusal must name a line. Returns whether
 /// there was an answer.
 template <class Read, class Look>
 bool read_with(const Read& read, std::string_view text, const Look& look) {

@@ -6,8 +6,8 @@
 
 #include "verification/oracles/exact_solutions.h"
 
-// What one step of a method makes of a linear oscillator: the numbers by which its two modes
-// are multiplied.
+// Amplification factors of one step of a method on a linear oscillator, one for each
+// of its two modes.
 
 namespace foldproof::oracles {
 
@@ -15,12 +15,12 @@ namespace foldproof::oracles {
 /// and - before the square root. Good to about ten roundings of 1.
 using Factors = std::array<std::complex<double>, 2>;
 
-/// e^{lambda h}, the truth. h [s] > 0.
+/// e^{lambda h}, the exact factors. h [s] > 0.
 Factors exact_factors(const Oscillator& oscillator, double h);
 
-/// What the method makes of it, with z = lambda h:
-///   forward-euler, RK2, SSP-RK3, RK4        1 + z + ... + z^p/p!, p = 1, 2, 3, 4 (p stages of
-///                                           order p leave no other polynomial)
+/// The factors of the method, with z = lambda h:
+///   forward-euler, RK2, SSP-RK3, RK4        1 + z + ... + z^p/p!, p = 1, 2, 3, 4 (p stages
+///                                           and order p allow no other polynomial)
 ///   backward-euler, linear-backward-euler   1/(1 - z)
 ///   implicit-midpoint                       (1 + z/2)/(1 - z/2)
 ///   BDF2                                    (2 + sqrt(1 + 2 z))/(3 - 2 z), the root that tends to

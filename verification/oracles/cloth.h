@@ -11,8 +11,8 @@
 #include "verification/oracles/ode.h"
 
 // A whole sheet as an ordinary differential equation, M x'' = F(t, x, x') with the forces of
-// definitions.h in double precision, for an ODE solver that knows nothing of cloth. Everything is
-// plain data: particles are numbered from 0.
+// definitions.h in double precision, for a general ODE solver. Everything is plain data: particles
+// are numbered from 0.
 
 namespace foldproof::oracles {
 
@@ -31,7 +31,7 @@ struct HingeDefinition {
   double rest_edge_length = 0;   // |E| at rest [m], > 0
 };
 
-/// What the sheet is made of.
+/// Material of the sheet.
 struct ClothMaterial {
   double young = 0;              // Y [N/m]
   double spring_damping = 0;     // kd_s [N s/m]
@@ -43,8 +43,8 @@ struct ClothMaterial {
 };
 
 /// A given motion: position [m] and velocity [m/s] at any time [s], the second being the
-/// derivative of the first. A lambda written for it must return a Vector3, not an Eigen
-/// expression, whose operands die.
+/// derivative of the first. A lambda written for it must return a Vector3; an Eigen expression
+/// would refer to dead operands.
 struct Motion {
   std::function<Vector3(double t)> x, v;
 };
@@ -62,7 +62,7 @@ struct ClothDefinition {
   std::vector<HingeDefinition> hinges;
   ClothMaterial material;
   Vector3 gravity = Vector3::Zero();  // [m/s^2]
-  std::map<int, Motion> prescribed;   // particles that do not obey the forces
+  std::map<int, Motion> prescribed;   // particles that ignore the forces
   // [N] on free particles, as a Vector3 (see Motion); empty: none
   std::function<Vector3(int particle, double t)> external_force;
 };
@@ -75,7 +75,7 @@ struct ClothState {
 Motion fixed_motion(const Vector3& x);
 Motion harmonic_motion(const Harmonic& harmonic);
 
-/// A hinge whose two factors are measured on the rest positions 3 x N [m].
+/// A hinge with its two factors computed from the rest positions 3 x N [m].
 HingeDefinition hinge_at_rest(const std::array<int, 4>& corners, const PerParticle3& rest,
                               double rest_angle);
 
@@ -88,7 +88,7 @@ RightHandSide cloth_rhs(const ClothDefinition& cloth);
 /// y of a state: prescribed particles are left out.
 std::vector<double> free_coordinates(const ClothDefinition& cloth, const ClothState& state);
 
-/// The state of a y at time t [s]; prescribed particles are where their motions say. Wrong
+/// The state of a y at time t [s]; prescribed particles are at their prescribed positions. Wrong
 /// size: InputError.
 ClothState cloth_state(const ClothDefinition& cloth, double t, std::span<const double> y);
 

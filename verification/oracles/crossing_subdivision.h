@@ -1,4 +1,5 @@
-// A second opinion on whether moving features meet: halved times, fixed directions, no roots.
+// A second opinion on whether moving features meet: time bisection and fixed directions,
+// no root finding.
 #pragma once
 
 #include "verification/oracles/exact_crossing_times.h"
@@ -7,10 +8,10 @@ namespace foldproof::oracles {
 
 enum class MeetDecision { meet, apart, unclear };
 
-/// Over a short time, two features are apart if some fixed direction parts them at its start and at
-/// its end; and they meet if their plane passes while, seen along some fixed direction, they stay
-/// one over the other. Times are halved `halvings` times at most; what is then neither, such as
-/// touching, is unclear. In whole numbers throughout.
+/// Over a short time, two features stay apart if some fixed direction separates them at its start
+/// and at its end; they meet if they pass through a common plane while they overlap when seen along
+/// some fixed direction. The time is halved at most `halvings` times; anything still undecided,
+/// such as touching, is unclear. In integers throughout.
 MeetDecision decide_by_subdivision(Features features, const Motion& motion, int halvings);
 
 }  // namespace foldproof::oracles

@@ -7,10 +7,10 @@
 #include "verification/oracles/estimate.h"
 #include "verification/oracles/triple.h"
 
-// The forces of the paper, written down as they are defined and with no thought of speed or of
-// rounding. The templates run in any scalar (double, 50 digits, automatically differentiated
-// numbers); the functions at the end of the file run them in 50 digits and hand back doubles. They
-// share nothing with the code they judge.
+// The forces of the paper, coded as defined, without regard to speed or rounding. The templates
+// run in any scalar (double, 50 digits, automatically differentiated numbers); the functions at
+// the end of the file run them in 50 digits and hand back doubles. They share nothing with the
+// code they judge.
 //
 //      x1
 //     /  \      N1 = (x1 - x3) x (x1 - x4)      |N1| = twice the area [m^2]
@@ -72,7 +72,7 @@ Scalar edge_length(const Quad<Scalar>& x) {
   return length(hinge_shape(x).E);
 }
 
-/// |E|^2 / (|N1| + |N2|) [1], the factor of the elastic force. Hand it the rest corners or
+/// |E|^2 / (|N1| + |N2|) [1], the factor of the elastic force. Pass the rest corners or
 /// the current ones.
 template <class Scalar>
 Scalar anisotropy_factor(const Quad<Scalar>& x) {
@@ -101,7 +101,7 @@ Quad<Scalar> bending_damping_force(const Quad<Scalar>& x, const Quad<Scalar>& v,
   return {magnitude * u[0], magnitude * u[1], magnitude * u[2], magnitude * u[3]};
 }
 
-/// W [J] of which the elastic force is -grad if its factor is the one at rest:
+/// Energy W [J]; the elastic force is -grad W if its factor is evaluated at rest:
 /// dW/dtheta = ke factor (sin(theta/2) - sin(theta0/2)), W(theta0) = 0.
 template <class Scalar>
 Scalar bending_energy(const Quad<Scalar>& x, const Scalar& ke, const Scalar& rest_factor,
@@ -111,7 +111,7 @@ Scalar bending_energy(const Quad<Scalar>& x, const Scalar& ke, const Scalar& res
   return ke * rest_factor * (Scalar(2) * (cos(half0) - cos(half)) - sin(half0) * (theta - theta0));
 }
 
-/// One spring: an edge of the mesh and what the sheet is made of.
+/// One spring: an edge of the mesh and its material.
 template <class Scalar>
 struct SpringLaw {
   Scalar young;        // Y, two-dimensional modulus [N/m]
@@ -168,7 +168,7 @@ enum class Geometry { rest, current };
 /// mesh-independent.
 enum class DampingFactor { edge_length, anisotropy };
 
-/// One hinge and all that its forces depend on.
+/// One hinge and everything that its forces depend on.
 struct HingeInput {
   std::array<Vector3, 4> x, v, rest;              // corners x1..x4 [m], [m/s], rest corners [m]
   double ke = 0;                                  // bending stiffness [J]
@@ -179,13 +179,13 @@ struct HingeInput {
   DampingFactor damping_factor = DampingFactor::edge_length;
 };
 
-/// One spring and all that its forces depend on; ends a, b.
+/// One spring and everything that its forces depend on; ends a, b.
 struct SpringInput {
   std::array<Vector3, 2> x, v;  // [m], [m/s]
   SpringLaw<double> law;
 };
 
-/// N vectors and how far any component of the truth may lie from them, in the vectors' unit.
+/// N vectors and the uncertainty of any component, in the vectors' unit.
 template <int N>
 struct VectorsEstimate {
   std::array<Vector3, static_cast<std::size_t>(N)> value;
@@ -193,9 +193,9 @@ struct VectorsEstimate {
 };
 
 // 50 digits inside, doubles outside; the inputs count as exact and the uncertainty is one
-// rounding to double, to which sin(theta/2) as printed, losing half of the digits, adds
-// 1e-24. A hinge with a triangle of no area, a spring of no length, an input that is not
-// finite: InputError naming the quantity.
+// rounding to double, to which sin(theta/2) as printed, losing half of the digits, adds 1e-24. A
+// hinge with a zero-area triangle, a zero-length spring, an input that is not finite: InputError
+// naming the quantity.
 
 /// theta [rad] by atan2.
 Estimate hinge_angle_50(const std::array<Vector3, 4>& x);
@@ -226,15 +226,14 @@ Estimate theta_rate_autodiff(const std::array<Vector3, 4>& x, const std::array<V
 /// the elastic force with its factor at rest is minus this.
 VectorsEstimate<4> energy_gradient_autodiff(const HingeInput& hinge);
 
-/// A 12 x 12 matrix, three rows and columns a corner, and how far any entry of the truth
-/// may lie from it.
+/// A 12 x 12 matrix, three rows and columns per corner, and the uncertainty of any entry.
 struct MatrixEstimate {
   Eigen::Matrix<double, 12, 12> value;
   double uncertainty = 0;
 };
 
-/// The derivative of the elastic force with its factor at rest by the corners [N/m], by automatic
-/// differentiation of the force as printed, with sin(theta/2) from the atan2 form.
+/// The derivative of the elastic force (factor at rest) with respect to the corners [N/m], by
+/// automatic differentiation of the force as printed, with sin(theta/2) from the atan2 form.
 MatrixEstimate bending_elastic_derivative_autodiff(const HingeInput& hinge);
 
 /// The same by central differences of the force in 50 digits: shares no derivative rule

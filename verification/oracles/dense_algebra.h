@@ -1,5 +1,5 @@
-// Eigenvalues, solutions and turns by Eigen's decompositions. Each takes seconds to compile
-// wherever it stands: here they are compiled once.
+// Eigenvalues, linear solves and rotations by Eigen's decompositions. They are slow to compile, so
+// they are compiled once, here.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,10 +7,10 @@
 
 namespace foldproof::oracles {
 
-/// Of any square matrix, in no order.
+/// Eigenvalues of any square matrix, in no particular order.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 
-/// Of a symmetric matrix, of which the lower half is read, ascending.
+/// Eigenvalues of a symmetric matrix, ascending; only the lower half is read.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 
 /// Values ascending; column i of the vectors belongs to value i.
@@ -39,7 +39,7 @@ struct SingularParts {
 };
 SingularParts singular_parts(const Eigen::MatrixXd& matrix);
 
-/// The least turn that takes the direction `from` to `to`; neither needs to be of length one.
+/// The smallest rotation that takes the direction `from` to `to`; neither needs unit length.
 Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace foldproof::oracles

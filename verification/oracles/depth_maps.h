@@ -1,4 +1,4 @@
-// The depth maps of the fold-preserving projection as their conditions define them, in 50 digits.
+// The depth maps of the fold-preserving projection, from their defining conditions, in 50 digits.
 #pragma once
 
 #include "verification/oracles/estimate.h"

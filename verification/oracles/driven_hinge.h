@@ -9,7 +9,7 @@
 
 namespace foldproof::oracles {
 
-/// The smallest piece of cloth on which an order study means something: one hinge with springs on
+/// The smallest piece of cloth on which an order study is meaningful: one hinge with springs on
 /// its five edges, nonlinear, damped, and not autonomous once a corner moves as prescribed or a
 /// force depends on time. Corners x1..x4 are particles 0..3; any of them may be prescribed, the
 /// others are free.

@@ -2,9 +2,8 @@
 
 namespace foldproof::oracles {
 
-/// What an oracle answers: a number and how far the truth may lie from it, both in the same
-/// unit. The uncertainty is never negative; a verdict adds it to what was measured, against
-/// the same bound.
+/// Answer of an oracle: a number and its uncertainty, both in the same unit. The uncertainty is
+/// never negative; a verdict adds it to what was measured, against the same bound.
 struct Estimate {
   double value = 0;
   double uncertainty = 0;

@@ -18,7 +18,7 @@ std::vector<Triple<Scalar>> differences(Features features, const Quad<Scalar>& x
   return {x[0] - x[2], x[0] - x[3], x[1] - x[3], x[1] - x[2]};
 }
 
-/// What decides whether the origin is in the polygon, see above.
+/// The polynomials that decide whether the origin is in the polygon, see above.
 template <class Scalar>
 struct Polygon {
   Scalar height;                                     // n . d_0

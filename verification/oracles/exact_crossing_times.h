@@ -1,15 +1,15 @@
-// Do two features of a cloth that move in straight lines ever have a point in common? Decided
-// without rounding.
+// Decides, without rounding, whether two features of a cloth that move in straight lines ever have
+// a point in common.
 //
-// A vertex p and a triangle f1 f2 f3 have one just when the origin is in the triangle f1 - p, f2 -
-// p, f3 - p; two edges a0 a1 and b0 b1 when it is in the parallelogram of all differences a_i -
-// b_k. Both are flat convex polygons whose corners d_i move in straight lines. With any two sides
-// spanning n, the origin is in the polygon just when
+// A vertex p and a triangle f1 f2 f3 have one if and only if the origin is in the triangle f1 - p,
+// f2 - p, f3 - p; two edges a0 a1 and b0 b1 when it is in the parallelogram of all differences
+// a_i - b_k. Both are flat convex polygons whose corners d_i move in straight lines. With any two
+// sides spanning n, the origin is in the polygon if and only if
 //   n . d_0 = 0 and n != 0 and every d_i x d_{i+1} points as n does or is zero, or
 //   n = 0, which leaves a segment or a point, and some d_i x d_k = 0, d_i . d_k <= 0.
 // All these are polynomials of the time, of degree 3 and 2. Closed features share a point during a
-// closed set of times: if ever, then at the start, at the end, or where the sign of one of them
-// changes, that is at a root; and unless n . d_0 is zero throughout, at a root of that.
+// closed set of times. So if they ever do, they do at the start, at the end, or at a root of one of
+// these polynomials; unless n . d_0 vanishes identically, at one of its roots.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ enum class Features { vertex_and_triangle, edge_and_edge };
 // columns: the vertex and the corners; or one edge's ends, the other's
 using FourPoints = Eigen::Matrix<double, 3, 4>;
 
-/// Four points at start + t way, t in [0, 1], in whole numbers of some unit of length.
+/// Four points at start + t way, t in [0, 1], in integer multiples of some unit of length.
 struct Motion {
   Quad<Whole> start, displacement;
 };
@@ -43,10 +43,11 @@ struct Fraction {
 /// From the first four points to the last four.
 Motion motion_between(const std::array<std::array<Fraction, 3>, 8>& points);
 
-/// Have the two closed features, which may be degenerate, a point in common at some time in [0, 1]?
+/// True if the two closed features, which may be degenerate, have a point in common at some
+/// time in [0, 1].
 bool ever_meet(Features features, const Motion& motion);
 
-/// Have they one as they are?
+/// True if they have one at rest.
 bool meet(Features features, const FourPoints& x);
 
 }  // namespace foldproof::oracles

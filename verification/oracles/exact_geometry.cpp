@@ -121,7 +121,7 @@ Vector3 far_point(const TriangleSoup& surface, const Vector3& p, std::mt19937_64
           p.z() + 0.05 * size * (random() - 0.5)};
 }
 
-/// What a segment from p says.
+/// Result for one segment from p.
 enum class Crossings { even, odd, on_surface, unclear };
 
 Crossings crossings(const TriangleSoup& surface, const std::vector<Bounds>& bounds,

@@ -1,5 +1,5 @@
-// Who is inside what, decided without rounding: the given doubles are taken as exact numbers, and
-// every decision is the sign of a polynomial of them in rational arithmetic.
+// Inside and intersection tests without rounding: the given doubles are exact numbers, and every
+// decision is the sign of a polynomial in rational arithmetic.
 #pragma once
 
 #include <array>
@@ -26,17 +26,17 @@ TriangleSoup box_between(const Vector3& low, const Vector3& high);
 /// The sign of det(b - a, c - a, d - a): +1, 0 or -1.
 int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
 
-/// Have the closed triangles a point in common?
+/// True if the closed triangles have a point in common.
 bool triangles_meet(const Corners3& s, const Corners3& t);
 
 enum class Side { inside, on_surface, outside };
 
-/// Of a closed surface, by the number of times that a segment to a point far off crosses it; of
-/// segments that touch an edge or a corner another is tried. Orientation does not matter. Throws
+/// For a closed surface, by counting how often a segment to a distant point crosses it; if the
+/// segment touches an edge or a corner, another is tried. Orientation does not matter. Throws
 /// std::runtime_error if none of a hundred segments is clean.
 Side side_of(const TriangleSoup& surface, const Vector3& p);
 
-/// Is every point of the triangle farther from `centre` than `radius` [m]?
+/// True if every point of the triangle is farther from `centre` than `radius` [m].
 bool clears_ball(const Corners3& t, const Vector3& centre, double radius);
 
 /// Triangles of the cloth that have a point in common with the closed body, surface or inside:

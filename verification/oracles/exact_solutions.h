@@ -18,7 +18,7 @@ struct Oscillator {
   double v0 = 0;         // [m/s]
 };
 
-/// Where an oscillator is and how fast.
+/// Position and velocity of an oscillator.
 struct OscillatorEstimate {
   Estimate x;  // [m]
   Estimate v;  // [m/s]
@@ -27,8 +27,7 @@ struct OscillatorEstimate {
 /// Exact state at time t [s] >= 0; under-, over- and critically damped.
 OscillatorEstimate oscillator_at(const Oscillator& oscillator, double t);
 
-/// What velocity Verlet makes of the undamped oscillator after n steps of h [s]: with
-/// sin(phi) = omega h/2,
+/// The undamped oscillator after n steps of h [s] of velocity Verlet: with sin(phi) = omega h/2,
 ///   x_n = x0 cos(2 n phi) + v0/(omega cos(phi)) sin(2 n phi)
 ///   v_n = v0 cos(2 n phi) - x0 omega cos(phi) sin(2 n phi)
 /// Needs damping = 0, stiffness > 0 and omega h < 2. Undamped, schemes A, B and C all are
@@ -57,7 +56,7 @@ struct FallEstimate {
   double v_uncertainty = 0;  // [m/s], of every coordinate
 };
 
-/// A body let go at x0 [m] with v0 [m/s].
+/// A body released at x0 [m] with v0 [m/s].
 struct Launch {
   Vector3 x0, v0, g;  // [m], [m/s], [m/s^2]
 };

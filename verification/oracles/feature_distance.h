@@ -1,5 +1,4 @@
-// How far two features of a cloth are from each other, by trying all of their points that
-// can be nearest.
+// Distance of two features of a cloth, by trying all candidate nearest points.
 #pragma once
 
 #include "verification/oracles/estimate.h"

@@ -1,11 +1,11 @@
-// Interface forecasting and Coulomb friction (BMF03 section 5.2) as they are printed, in 50 digits.
+// Interface forecasting and Coulomb friction (BMF03 section 5.2) as printed, in 50 digits.
 #pragma once
 
 #include "reference/types.h"
 
 namespace foldproof::oracles {
 
-/// A particle near an object. The inputs count as exact, the normal is not made shorter or longer.
+/// A particle near an object. The inputs count as exact, the normal is not normalised.
 struct ForecastInput {
   double phi;            // signed distance, negative inside [m]
   Vector3 normal;        // N, outward [1]

@@ -1,5 +1,5 @@
-// Golden values: inputs and outputs of the paper's formulas, each output the double next to the
-// truth, for unit tests of any code in any language.
+// Golden values: inputs and outputs of the paper's formulas, each output correctly rounded to
+// double, for unit tests of any code in any language.
 #pragma once
 
 #include <string>

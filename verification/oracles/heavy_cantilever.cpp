@@ -23,7 +23,7 @@ namespace {
 constexpr double tolerance = 1e-13;
 const double log_right_angle = std::log(0.5 * pi);
 
-/// What shooting with one value of ln b finds at the clamp.
+/// Result at the clamp of shooting with one value of ln b.
 struct Shot {
   double miss;  // ln(phi(1)) - ln(pi/2)
   double drop, reach;

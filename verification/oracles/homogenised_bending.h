@@ -4,14 +4,15 @@
 #include <array>
 #include <vector>
 
-// What a flat mesh of hinges resists to small curvature, from the definition of a hinge alone. With
+// Bending stiffness of a flat mesh of hinges at small curvature, from the definition of a
+// hinge alone. With
 //   w = (K11 x^2 + 2 K12 x y + K22 y^2)/2,   k = (K11, K22, 2 K12) [1/m],
 // each hinge turns by theta = q.k and stores ke c theta^2/4, c = |E|^2/(|N1| + |N2|); the
 // sum over a cell is
 //   energy per area = ke/2 k.R k,   R in units of ke [1].
-// A mesh that repeats itself has a cell; where a cell has several vertices, these may leave the
-// curved surface by a periodic displacement: "forced" is R without it, "relaxed" with the
-// displacement of least energy.
+// A periodic mesh has a cell; if the cell has several vertices, these may leave the curved
+// surface by a periodic displacement: "forced" is R without it, "relaxed" with the displacement
+// of least energy.
 
 namespace foldproof::oracles {
 
@@ -21,7 +22,7 @@ struct PeriodicCorner {
   int along_a = 0, along_b = 0;
 };
 
-/// A plane mesh that repeats itself; triangles counter-clockwise.
+/// A plane periodic mesh; triangles counter-clockwise.
 struct PeriodicMesh {
   Eigen::Vector2d period_a, period_b;  // [m]
   std::vector<Eigen::Vector2d> sites;  // of one cell [m]
@@ -48,7 +49,7 @@ Eigen::Matrix3d relaxed_rigidity(const PeriodicMesh& mesh);
 /// D/ke of bending to a cylinder, curved along the direction at `angle` [rad] to x and held so [1].
 double cylinder_rigidity(const Eigen::Matrix3d& R, double angle);
 
-/// B/ke of a narrow strip along that direction, whose edges are free to curve as they like [1].
+/// B/ke of a narrow strip along that direction, whose long edges are free to curve [1].
 double strip_rigidity(const Eigen::Matrix3d& R, double angle);
 
 /// Least and greatest cylinder_rigidity over all directions, to 2e-6 of the greatest.
@@ -61,8 +62,8 @@ RigidityRange cylinder_range(const Eigen::Matrix3d& R);
 struct PlaneSheet {
   Eigen::Matrix2Xd points;                 // [m]
   std::vector<std::array<int, 4>> hinges;  // x1, x2, x3, x4: opposite corners, then the edge's ends
-  std::vector<char> counted;               // one a hinge: whether its energy counts
-  std::vector<char> held;                  // one a point: whether it stays on the curved surface
+  std::vector<char> counted;               // one per hinge: whether its energy counts
+  std::vector<char> held;                  // one per point: whether it stays on the curved surface
 };
 
 /// D/ke of the counted hinges at small curvature along `angle` [rad], each standing for a third of

@@ -4,7 +4,7 @@
 
 namespace foldproof::oracles {
 
-/// A spring, its ends' motion, and what its predicted length may be.
+/// A spring, the motion of its ends, and the limits of its predicted length.
 struct LimitedSpringInput {
   Vector3 x_a, x_b, v_a, v_b;             // m, m/s
   double inverse_mass_a, inverse_mass_b;  // 1/kg, 0 for prescribed ends
@@ -22,8 +22,8 @@ struct LimitedSpringAnswer {
   double sensitivity = 1;
 };
 
-/// Equal and opposite impulses along d = x_b - x_a that take |d + h (v_b - v_a)| to the limit that
-/// it is beyond (BMF03 section 3, after Provot 1995), or as near to it as they can, with (d + h
+/// Equal and opposite impulses along d = x_b - x_a that bring |d + h (v_b - v_a)| back to the
+/// violated limit (BMF03 section 3, after Provot 1995), or as near to it as they can, with (d + h
 /// dv).d >= 0 afterwards. By Pythagoras in 50 digits: the part across d stays, the part along d
 /// becomes the other leg.
 LimitedSpringAnswer limited_spring(const LimitedSpringInput& input);

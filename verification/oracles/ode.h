@@ -10,7 +10,7 @@ namespace foldproof::oracles {
 using RightHandSide =
     std::function<void(double t, std::span<const double> y, std::span<double> dydt)>;
 
-/// A solution at some times, and how far each of its components may be from the truth.
+/// A solution at given times, and its uncertainty.
 struct ReferenceSolution {
   std::vector<double> times;                // as asked for
   std::vector<std::vector<double>> values;  // one y per time

@@ -1,4 +1,4 @@
-// Solids whose inside is decided in whole numbers: prisms over polygons, one within the other.
+// Solids with an exact integer inside test: nested prisms over polygons.
 #pragma once
 
 #include <array>

@@ -1,5 +1,4 @@
-// Stability limits of methods on linear motion, from what the literature and a few lines of
-// algebra say of them.
+// Stability limits of methods on linear motion, from the literature and a few lines of algebra.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,9 +33,8 @@ Estimate largest_leapfrog_step(const Eigen::MatrixXd& K);
 /// v = 0 and the move -2 q = h (1 + h/2 C)^{-1} (-h/2 K q).
 Estimate largest_variable_newmark_step(const Eigen::MatrixXd& K, const Eigen::MatrixXd& C);
 
-/// The ratio of neighbouring steps from which on BDF2 with steps of that constant ratio r
-/// amplifies differences of y' = 0: they are multiplied by r^2/(1 + 2 r) a step, which is 1 at
-/// r = 1 + sqrt(2).
+/// The constant step ratio r above which BDF2 amplifies differences of solutions of y' = 0: they
+/// are multiplied by r^2/(1 + 2 r) a step, which is 1 at r = 1 + sqrt(2).
 Estimate bdf2_largest_ratio();
 
 /// Largest sqrt(energy) over the start's in the undamped leapfrog: with c = omega h/2 it keeps

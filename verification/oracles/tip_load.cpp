@@ -30,7 +30,7 @@ Elliptic elliptic(double eta) {
           std::comp_ellint_2(k) - std::ellint_2(k, phi)};
 }
 
-/// What shooting with one curvature at the clamp finds at the tip: slope, curvature, drop, reach.
+/// Result at the tip of shooting with one curvature at the clamp: slope, curvature, drop, reach.
 ReferenceSolution shoot(double alpha, double curvature) {
   const RightHandSide rhs = [alpha](double, std::span<const double> y, std::span<double> dy) {
     dy[0] = y[1];

@@ -4,7 +4,7 @@
 
 namespace foldproof::oracles {
 
-/// Where the free end of a strip is, in units of the strip's length [1].
+/// Position of the free end of a strip, in units of the strip's length [1].
 struct LoadedTip {
   Estimate drop;   // below the clamp
   Estimate reach;  // out from the clamp
@@ -19,7 +19,7 @@ struct LoadedTip {
 LoadedTip tip_load(double alpha);
 
 /// The same by GSL's ODE solver, shooting with the curvature at the clamp: shares no formula
-/// with the former.
+/// with the above.
 LoadedTip tip_load_by_shooting(double alpha);
 
 }  // namespace foldproof::oracles

@@ -1,4 +1,4 @@
-// Distance from a point to triangles as it is defined, with no tree and no regions.
+// Distance from a point to triangles from its definition, without tree or regions.
 #pragma once
 
 #include <array>

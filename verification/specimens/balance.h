@@ -1,4 +1,4 @@
-// Sums of forces and torques, and rigid motion, in which there are none.
+// Sums of forces and torques, and rigid motion, for which both vanish.
 #pragma once
 
 #include "reference/types.h"

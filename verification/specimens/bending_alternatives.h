@@ -1,5 +1,5 @@
-// The usual alternatives to the paper's bending element, as their authors define
-// them: forces on one hinge.
+// Common alternatives to the paper's bending element, as defined by their
+// authors: forces on one hinge.
 #pragma once
 
 #include <array>

@@ -1,5 +1,4 @@
-// Free particles about objects whose distance, normal and velocity are known by
-// formulas of their own.
+// Free particles around objects whose distance, normal and velocity are known in closed form.
 #pragma once
 
 #include <functional>
@@ -12,7 +11,7 @@
 
 namespace foldproof {
 
-/// What there is to know of an object at a point over a span.
+/// Exact data of an object at a point over a span.
 struct KnownPoint {
   double phi;        // at the span's start [m]
   Vector3 normal;    // outward, at the span's start
@@ -31,8 +30,8 @@ struct Contact {
 };
 
 /// A ball on a bent path that turns as it goes, and a slope that rises and turns; each with
-/// forecast times of the step, shorter and longer. A twentieth of the particles has no velocity
-/// along the surface but the object's, and as many rest on it.
+/// forecast times of the step, shorter and longer. One particle in twenty has no tangential
+/// velocity relative to the object, and one in twenty rests on it.
 std::vector<Contact> known_contacts();
 
 /// Two balls that overlap, both moving, and particles inside both.
@@ -46,7 +45,7 @@ struct Pinch {
 };
 Pinch known_pinch();
 
-/// What the subject makes of the velocities of `state`, 3 x N [m/s].
+/// The velocities of `state` as corrected by the subject, 3 x N [m/s].
 PerParticle3 corrected_by_objects(const Subject& subject, const Scene& scene, const Span& span,
                                   const State& state);
 
@@ -59,7 +58,7 @@ SceneObject object_at(const std::string& name, const Solid& solid, const Pose& p
 /// The object with a motion and a coefficient of friction.
 SceneObject with_motion(SceneObject part, const Motion& motion, double friction);
 
-/// A rotation about an axis [rad], in the way of Rodrigues.
+/// A rotation about an axis [rad], by Rodrigues' formula.
 Vector3 rotate(const Vector3& x, const Vector3& turn);
 
 }  // namespace foldproof

@@ -1,4 +1,4 @@
-// How far two states lie apart, and how large a state is.
+// Differences between two states, and the size of a state.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@ namespace foldproof {
 /// Largest distance between the columns of two 3 x N arrays; NaN if any is.
 double largest_difference(const PerParticle3& a, const PerParticle3& b);
 
-/// How many numbers of two 3 x N arrays differ; NaN differs from everything.
+/// Number of entries in which two 3 x N arrays differ; NaN differs from everything.
 double count_differing_entries(const PerParticle3& a, const PerParticle3& b);
 
 /// Half the diagonal of the box around all positions, plus the distance of its centre from
 /// the origin [m].
 double extent(const PerParticle3& x);
 
-/// Says in a note what a bound in roundings lets through: "The smallest defect that this notices is
+/// A note on the sensitivity of a bound in roundings: "The smallest defect that this notices is
 /// 3.1e-13 of the extent." bound: in epsilon of the scale.
 std::string smallest_defect(double bound, const std::string& scale);
 

@@ -1,4 +1,4 @@
-// Sheets close above each other, in motion: cloth to try self-collision on.
+// Closely stacked sheets in motion: test cloth for self-collision.
 #pragma once
 
 #include "reference/filters/feature_pair.h"
@@ -7,7 +7,7 @@
 
 namespace foldproof {
 
-/// How sheets lie and move.
+/// Arrangement and motion of the sheets.
 struct LayeredSheets {
   int sheets = 3;
   double gap = 0.003;     // between two [m]; the thickness is .004
@@ -21,8 +21,8 @@ struct LayeredSheets {
 /// self-collision is named.
 Scene layered_scene(const LayeredSheets& wanted);
 
-/// What the subject's self-collision makes of the start's velocities over a step of `step` [s]
-/// from time 0: of the velocity that moves the cloth, or, with `moves` = false, of one that ends a
+/// The start velocities as corrected by the subject's self-collision over a step of `step` [s]
+/// from time 0: a velocity that moves the cloth or, with `moves` = false, one that ends a
 /// step. 3 x N [m/s].
 struct StepRequest {
   double step;

@@ -12,9 +12,9 @@ Scene free_sheet();
 /// The same without any damping.
 Scene undamped_sheet();
 
-/// A jittered sheet under gravity, damped, moving: one corner is held, two particles are led (an
-/// oscillation with drift, a rotation with drift), the others are free. Elastic limit about 2
-/// ms, by the bound.
+/// A jittered sheet under gravity, damped, moving: one corner is fixed, two particles are
+/// prescribed (an oscillation with drift, a rotation with drift), the others are free. Elastic
+/// limit about 2 ms, by the bound.
 Scene partly_prescribed_sheet();
 
 }  // namespace foldproof

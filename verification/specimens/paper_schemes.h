@@ -1,4 +1,4 @@
-// Checks that are asked of each of the paper's schemes.
+// Checks that run for each of the paper's schemes.
 #pragma once
 
 #include <functional>

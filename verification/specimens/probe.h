@@ -1,4 +1,4 @@
-// A scene whose forces a subject is asked for.
+// Queries the forces of a scene from a subject.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +8,7 @@
 
 namespace foldproof {
 
-/// A scene made ready by a subject. Each call throws NotOffered if the subject has no
-/// such operation.
+/// A scene prepared by a subject. Each call throws NotOffered if the subject has no such operation.
 class Probe {
  public:
   Probe(const Subject& subject, const Scene& scene);

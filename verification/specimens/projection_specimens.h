@@ -1,4 +1,4 @@
-// Cloth and objects to try the projection on.
+// Cloth and objects for tests of the projection.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Random numbers, the same on every machine.
+// Random numbers, identical on every machine.
 #pragma once
 
 #include <random>

@@ -1,4 +1,4 @@
-// The message of a refusal.
+// The message of a rejected input.
 #pragma once
 
 #include <functional>
@@ -6,7 +6,7 @@
 
 namespace foldproof {
 
-/// The message with which `act` refuses; empty if it does not, or by anything but InputError.
+/// The message of the InputError that `act` throws; empty if it throws none.
 std::string rejection_message(const std::function<void()>& act);
 
 }  // namespace foldproof

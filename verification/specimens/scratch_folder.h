@@ -1,4 +1,4 @@
-// A folder of its own for files that a check writes.
+// A temporary folder for files that a check writes.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace foldproof {
 
-/// Made under the system's folder for temporary files, and removed with all that is in it.
+/// Created under the system's temporary folder, and removed with all its contents.
 class ScratchFolder {
  public:
   ScratchFolder();  // throws std::system_error if it cannot be made

@@ -1,5 +1,4 @@
-// One implicit velocity to be solved for, as the reference solves it and as dense
-// linear algebra does.
+// One solve for the implicit velocity, for the reference and for dense linear algebra.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +9,7 @@
 
 namespace foldproof {
 
-/// A crumpled sheet, its damping, and random velocities to start from; some of them may be known.
+/// A crumpled sheet, its damping, and random initial velocities, some of which may be prescribed.
 struct Problem {
   System system;
   State s;
@@ -23,7 +22,7 @@ Problem make_problem(const Scene& scene, unsigned seed);
 /// (M - s D) and M w0 of a problem, with the rows and columns of known velocities kept apart.
 struct DenseProblem {
   Eigen::MatrixXd A;               // of the free coordinates [kg]
-  Eigen::VectorXd b;               // [kg m/s], what known velocities contribute included
+  Eigen::VectorXd b;               // [kg m/s], including the contribution of known velocities
   Eigen::VectorXd mass;            // of the free coordinates [kg]
   Eigen::VectorXd momentum;        // M w0 of the free coordinates [kg m/s]
   std::vector<Eigen::Index> free;  // coordinates
@@ -35,7 +34,7 @@ DenseProblem make_dense(const Problem& problem, double s);
 /// sqrt(sum |r_k|^2/m_k) [kg^(1/2) m/s].
 double weighted_norm(const Eigen::VectorXd& r, const Eigen::VectorXd& mass);
 
-/// What a residual is compared with, straight from the words of ResidualScale.
+/// The reference value of a residual, straight from the definition of ResidualScale.
 double scale_of(const DenseProblem& dense, ResidualScale scale);
 
 }  // namespace foldproof

@@ -1,4 +1,4 @@
-// Cloth to try forces on: crumpled sheets of every pattern, hinges of any shape and angle, shapes
+// Test cloth for forces: crumpled sheets of every pattern, hinges of any shape and angle, shapes
 // that are curved at rest.
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace foldproof {
 
-/// A scene and a state of it. The scene names no force: who uses it adds the one that is asked
-/// about. Its rest angles are there, one a hinge.
+/// A scene and one of its states. The scene names no force; add the one under test. It has rest
+/// angles, one per hinge.
 struct Specimen {
   std::string name;
   Scene scene;
@@ -47,7 +47,7 @@ Corners random_corners(Random& random, double angle);
 /// its rest angle random too.
 Specimen random_hinge(unsigned seed, double angle);
 
-/// Random hinges at angles all round the circle [rad]: flat, slight, right, obtuse,
+/// Random hinges at angles all around the circle [rad]: flat, slight, right, obtuse,
 /// sharp, of both signs.
 std::vector<Specimen> hinges_of_all_angles();
 
@@ -61,11 +61,11 @@ State resting_state(PerParticle3 x);
 
 Corners corners_of(const Hinge& hinge, const PerParticle3& x);
 
-/// What the oracles ask of one hinge of a specimen, with the constants of its scene's bending.
+/// Oracle input for one hinge of a specimen, with the constants of its scene's bending.
 oracles::HingeInput hinge_input(const Specimen& specimen, size_t hinge);
 
-/// Longest side squared over twice the area, of the worse of the two triangles [1]: by how much
-/// rounding in the normals is magnified. 1.15 for equilateral triangles.
+/// Longest side squared over twice the area, of the worse of the two triangles [1]: the
+/// amplification of rounding errors in the normals. 1.15 for equilateral triangles.
 double aspect_ratio(const Corners& x);
 
 /// Bending with rest and with current weighting by each law; constants pairwise distinct.
@@ -74,7 +74,7 @@ std::vector<BendingMaterial> bending_variants();
 /// Damped bending with each of the two factors; constants distinct.
 std::vector<BendingMaterial> damped_bending_variants();
 
-/// "jittered, current, cubic": a specimen with the material it got.
+/// "jittered, current, cubic": a specimen and its material.
 std::string describe(const Specimen& specimen, const BendingMaterial& material);
 
 }  // namespace foldproof

@@ -9,7 +9,7 @@
 
 namespace foldproof {
 
-/// A scene made ready by a subject, stepped by it.
+/// A scene prepared and stepped by a subject.
 class Stepper {
  public:
   Stepper(const Subject& subject, Scene scene, const std::string& integrator);
@@ -30,9 +30,9 @@ class Stepper {
   Work work_;
 };
 
-/// How many times a small disturbance of the start has grown at most, in all of `steps` steps of h
-/// [1], at least 1. It is random, its velocities scaled with 1/(steps h); rounding errors on the
-/// way grow no faster.
+/// Largest growth factor of a small initial disturbance during `steps` steps of h [1], at least 1.
+/// The disturbance is random, its velocities scaled by 1/(steps h); rounding errors on the way
+/// grow no faster.
 double growth(Stepper& stepper, const State& start, double h, int steps);
 
 }  // namespace foldproof

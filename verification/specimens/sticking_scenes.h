@@ -1,4 +1,4 @@
-// Cloth that sticks to cloth and to surfaces that move, with answers of the oracle beside it.
+// Cloth that sticks to cloth and to surfaces that move, with the oracle's answers.
 #pragma once
 
 #include <string>
@@ -30,7 +30,7 @@ std::vector<StuckSpecimen> stuck_layers();
 /// says: rates are known.
 StuckSpecimen stuck_to_turning_surface();
 
-/// What the oracle says of the specimen's elastic forces (3 x N [N]) and energy [J].
+/// The oracle's elastic forces (3 x N [N]) and energy [J] of the specimen.
 PerParticle3 expected_elastic(const StuckSpecimen& specimen);
 double expected_energy(const StuckSpecimen& specimen);
 
@@ -43,7 +43,7 @@ Eigen::MatrixXd expected_damping(const StuckSpecimen& specimen);
 TriangleMesh two_sheets(int n, double side, double gap);
 
 /// The second half of the particles may stick to the triangles of the first
-/// half; nothing else is said.
+/// half; nothing else is set.
 StickyPatch layer_patch(const TriangleMesh& mesh);
 
 /// A horizontal square to stick to, of two triangles that face upwards, about the origin at rest: a

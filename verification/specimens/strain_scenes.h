@@ -1,4 +1,4 @@
-// Cloth with strain limits, in states and motions to try them on.
+// Cloth with strain limits, in states and motions for tests.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace foldproof {
 
-/// A scene with springs and strain limits, within which its state is; its motion is not.
+/// A scene with springs and strain limits; its state is within the limits, its motion is not.
 struct LimitedCloth {
   std::string name;
   Scene scene;
@@ -20,11 +20,10 @@ struct LimitedCloth {
 /// Crumpled sheets of every pattern, a disc and a sphere, each twice: as they are, with limits just
 /// outside of their strains, and nearly flat, stretched by 5 %, with limits of +10 % and 0 %.
 /// Random velocities move the ends of a spring against each other by up to .3 of its length in a
-/// step: at half, sweeps may lead ever farther from the limits.
+/// step: at half, sweeps may diverge from the limits.
 std::vector<LimitedCloth> limited_cloths(SweepOrder order);
 
-/// How far the ends of a spring move against each other in a step h [s], over its
-/// length: the largest [1].
+/// Largest relative motion of the ends of a spring in a step h [s], over its length [1].
 double relative_motion(const LimitedCloth& cloth, double h);
 
 /// The four orders with the names that case files give them.
@@ -38,7 +37,7 @@ const std::vector<NamedOrder>& sweep_orders();
 /// lengths [1]; negative: all are within.
 double strain_violation(const Scene& scene, const PerParticle3& x);
 
-/// The velocities that the subject's strain limits make of v (3 x N [m/s]) for the cloth's step.
+/// The velocities v (3 x N [m/s]) as corrected by the subject's strain limits for the cloth's step.
 PerParticle3 corrected_by_strain_limits(const Subject& subject, const LimitedCloth& cloth,
                                         const PerParticle3& v);
 

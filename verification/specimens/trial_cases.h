@@ -1,4 +1,4 @@
-// Small case files, written on the spot, and what differs between what they say and what is read.
+// Small case files written by code, and the differences between their text and what is read.
 #pragma once
 
 #include <string>
@@ -33,21 +33,22 @@ step = 0.003
 Scene trial_scene(const std::string& tables, const std::vector<std::string>& overrides = {},
                   const std::string& path = "trial.toml");
 
-/// Tables that have to be refused, and words of the message.
+/// Tables that must be refused, and words of the message.
 struct RejectedCase {
   std::string tables;
   std::vector<std::string> words;
 };
 
-/// How many are accepted and built, or refused without file and line or one of the words.
+/// Counts the cases that are accepted and built, or refused without file and line or
+/// one of the words.
 Finding rejected_cases(const std::vector<RejectedCase>& cases,
                        const std::string& path = "trial.toml");
 
 /// The positions of that sheet, 3 x N [m].
 PerParticle3 plain_positions();
 
-/// For differences between what was read and what was written, a row each: in words, and in
-/// roundings of the size of what is compared.
+/// A table for differences between what was read and what was written, one per row: a description,
+/// and the difference in roundings of the compared size.
 Table no_differences();
 
 /// |difference| over epsilon times its size, which is in the same unit.

@@ -1,4 +1,4 @@
-// Closed meshes that are hard to tell inside from outside on, with an inside known exactly.
+// Closed meshes on which inside and outside are hard to tell, with an exact inside test.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct UglySolid {
   std::vector<oracles::WholePrism> prisms;  // before the shear, in units of 1/1024 m
 };
 
-/// A thick star, a fin one unit thick and eighty wide, four shells one in the other.
+/// A thick star, a fin one unit thick and eighty wide, four nested shells.
 std::vector<UglySolid> ugly_solids();
 
 /// Units in a metre: points at whole multiples of 1/units have exact answers.

@@ -15,7 +15,7 @@ struct NamedText {
   std::string text, name;
 };
 
-/// What is printed of such rows: a heading, and 24 finite numbers for each. rest: no text means
+/// The output for such rows: a heading, and 24 finite numbers for each. rest: no text means
 /// current weighting.
 std::string bending_of_rows(const NamedText& rows, const NamedText& rest);
 

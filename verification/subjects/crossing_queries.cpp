@@ -99,7 +99,7 @@ Corners4 corners_at(const FileQuery& query, std::size_t from) {
   return x;
 }
 
-/// What the queries of a file are about: as given, or as its path says.
+/// Kind of the queries of a file: as given, or from its path.
 std::string kind_of(const std::string& file, const std::string& given) {
   if (!given.empty()) return given;
   for (const char* kind : {"vertex-face", "edge-edge"})

@@ -4,17 +4,17 @@
 
 namespace foldproof {
 
-/// Asks the reference and the exact judge about the queries of a file: rows of 7 whole numbers,
-/// numerator and denominator of x, y and z, and 1 or 0 for whether the file says that they meet;
+/// Runs the reference and the exact judge on the queries of a file: rows of 7 whole numbers,
+/// numerator and denominator of x, y and z, and the expected answer, 1 (they meet) or 0;
 /// eight rows a query. kind "vertex-face": the vertex and the triangle's corners, at the start and
 /// then at the end; "edge-edge": the ends of both edges likewise. Of a folder, all .csv files
 /// below it. An empty kind: the path says which. Prints misses and false alarms of both against
-/// the file. keep [m], > 0: what the reference is to keep apart. Returns whether the reference
-/// misses none and the exact judge agrees. Throws InputError "file:line: ...". Numbers have at
-/// most 1000 digits.
+/// the file. keep [m], > 0: the distance that the reference must keep. Returns true if the
+/// reference misses none and the exact judge agrees. Throws InputError "file:line: ...". Numbers
+/// have at most 1000 digits.
 bool evaluate_crossings(const std::string& path, const std::string& kind, double keep);
 
-/// What was found against the truth that a file says.
+/// Results compared with the expected answers of a file.
 struct CrossingAccount {
   long misses = 0, alarms = 0;
 
@@ -30,7 +30,7 @@ struct JudgedQueries {
   CrossingAccount reference, exact;
 };
 
-/// The same of a file's text; `name` is what messages call it.
+/// The same for a file's text; messages call it `name`.
 JudgedQueries judge_queries(const std::string& text, const std::string& name,
                             const std::string& kind, double keep);
 

@@ -1,4 +1,4 @@
-// Two hinges at parameter points that share no value, and lengths of four corners taken together.
+// Two hinges at parameter points that share no value, and norms over all four corners.
 #pragma once
 
 #include <array>

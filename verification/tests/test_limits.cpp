@@ -1,4 +1,4 @@
-// What readers refuse because a number in a file asks for too much, or for what no double holds.
+// Numbers in files that readers refuse: too large, or not representable as a double.
 #include <catch2/catch.hpp>
 
 #include "reference/level_set/grid.h"

@@ -55,7 +55,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// What must be typed, and whether more may be.
+/// Required arguments, and whether more are allowed.
 std::string usage_of(const CLI::App& app) {
   std::string usage = full_name(app);
   if (!commands_of(app).empty()) usage += " COMMAND";
@@ -112,7 +112,7 @@ std::string mismatch(const CLI::App& app, const std::string& what) {
   return fmt::format("too many words; usage: {}", usage_of(app));
 }
 
-/// What is wrong, in one line.
+/// The error in one line.
 std::string describe(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = innermost(app);
   const std::string what = error.what(), kind = error.get_name();
@@ -182,7 +182,7 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
             const std::string known = fmt::format("{}", fmt::join(names, ", "));
             if (std::ranges::find(names, typed) != names.end()) return std::string();
             if (is_no_value(typed)) return "a value is missing; give one of " + known;
-            return fmt::format("'{}' is none of {}{}", typed, known,
+            return fmt::format("'{}' is not one of {}{}", typed, known,
                                did_you_mean(nearest_names(typed, names)));
           },
           ""};

@@ -18,7 +18,7 @@ class PlainHelp : public CLI::Formatter {
   std::string make_subcommand(const CLI::App* command) const override;
 };
 
-/// What is asked of a value before it is read; each says what would do.
+/// Validators of a value before it is read; each message says what is valid.
 CLI::Validator one_of(const std::vector<std::string>& names);
 CLI::Validator whole_number(long least, long most);
 CLI::Validator finite_number();

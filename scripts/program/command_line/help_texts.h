@@ -1,4 +1,4 @@
-// What `--help` shows below the options: notes, examples that can be typed as they
+// Text that `--help` shows below the options: notes, examples that can be typed as they
 // stand, exit codes.
 #pragma once
 

@@ -23,7 +23,7 @@ const FileKind table_kind{".csv", "a table of numbers"};
 
 namespace {
 
-/// What may be typed instead, by the names of files without folder and ending.
+/// Suggestions, from file names without folder and extension.
 std::map<std::string, std::string> candidates(const fs::path& typed, const FileKind& kind) {
   std::map<std::string, std::string> words;
   if (&kind == &case_kind)

@@ -1,4 +1,4 @@
-// What a command is asked to read, looked at before anything is computed or written.
+// Input files of a command, validated before anything is computed or written.
 #pragma once
 
 #include <string>

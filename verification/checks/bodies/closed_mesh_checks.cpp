@@ -90,7 +90,7 @@ Finding bad_solids_are_rejected(const Subject&) {
     measured.row(bad.name, missing, message.substr(std::min(message.size(), folder_size)));
   }
   return judge_worst(measured, "file or words missing from the refusal", 0,
-                     "each refusal must name the file, what is wrong, and how much of it");
+                     "each message must name the file, the defect, and how often it occurs");
 }
 
 Finding places_are_right(const Subject&) {
@@ -243,7 +243,7 @@ Finding neighbours_are_told_apart(const Subject&) {
   for (const auto& [name, triangle, meets] : cases)
     measured.row(name,
                  (intersect(x, base, triangle) != meets) + (intersect(x, triangle, base) != meets));
-  return judge_worst(measured, 0, "what they share by number does not count, anything more does");
+  return judge_worst(measured, 0, "common vertices by index do not count, any other contact does");
 }
 
 /// The tree must find the pairs that a look at all of them finds.

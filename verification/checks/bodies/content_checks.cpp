@@ -1,5 +1,5 @@
-// What is kept of level sets between runs: keys that change with everything they are made of, and
-// content that must not be trusted.
+// Level sets cached between runs: keys that change with every input, and content that must
+// not be trusted.
 #include <array>
 #include <cmath>
 #include <functional>
@@ -233,7 +233,7 @@ std::vector<Check> content_checks() {
   const std::string source = "good practice";
   return {
       {"content.grid-recipe-keys-cover-every-number",
-       "The key of what a grid is made of follows every kind of number in it, bit for bit.",
+       "The key of a grid's input changes with every kind of number in it, bit for bit.",
        "Fowler, Noll and Vo 1991", grid_origin_finding},
       {"content.grid-keys-cover-every-value",
        "The key of a grid follows its values and its lattice, bit for bit.",
@@ -241,8 +241,7 @@ std::vector<Check> content_checks() {
       {"content.invalid-grids-are-rejected",
        "A grid that no build made is refused, with the reason.", source, grid_sound_finding},
       {"content.deforming-recipe-keys-cover-every-number",
-       "The key of what a deforming body is made of follows every kind of number in it, bit for "
-       "bit.",
+       "The key of a deforming body's input changes with every kind of number in it, bit for bit.",
        "Fowler, Noll and Vo 1991", body_origin_finding},
       {"content.deforming-body-keys-cover-every-value",
        "The key of a deforming body follows every kind of number in it, bit for bit.",

@@ -44,7 +44,7 @@ Finding parity_agrees(const Subject&) {
       "on closed surfaces all three rays and the pseudonormal answer the same question");
 }
 
-/// What is said of meshes whose defects are known.
+/// Reports on meshes with known defects.
 Finding inspection_tells(const Subject&) {
   const TriangleMesh ball = make_icosphere(0.7, 3);
   TriangleSoup whole{ball.rest, ball.triangles, {}}, open = whole, flipped = whole;
@@ -66,7 +66,7 @@ Finding inspection_tells(const Subject&) {
   measured.row("a flipped triangle", lacks(c.rejection, "opposite orientation"));
   measured.row("a triangle alone has no inside",
                lacks(d.repair_failure, "no inside") || d.nodes != 0);
-  return judge_worst(measured, 0, "each defect must be told, and none made up");
+  return judge_worst(measured, 0, "each defect must be reported, and no others");
 }
 
 Finding parity_shows_holes(const Subject&) {

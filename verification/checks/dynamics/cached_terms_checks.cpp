@@ -1,4 +1,4 @@
-// What it saves to compute the position-dependent terms of damping once a solve, and to
+// Savings from computing the position-dependent terms of damping once per solve, and to
 // assemble no matrix.
 #include <algorithm>
 #include <array>

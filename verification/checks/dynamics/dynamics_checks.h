@@ -1,4 +1,4 @@
-// Checks of what dynamics does: solves, steps, runs. A function a file; the list of all is
+// Checks of dynamics: solves, steps, runs. One function per file; the list of all is
 // verification/checks.cpp.
 #pragma once
 
@@ -19,10 +19,10 @@ std::vector<Check> symmetry_checks();  // units, frames of reference, repetition
 std::vector<Check> run_checks();       // frames, automatic steps, stops
 std::vector<Check> resume_checks();    // runs that go on from a checkpoint
 std::vector<Check> event_checks();     // motions that start and stop
-std::vector<Check> method_checks();    // the methods that the paper's schemes are compared with
+std::vector<Check> method_checks();    // the methods for comparison with the paper's schemes
 std::vector<Check> energy_checks();    // diagnostics and the balance of energy
 
-/// For statements that are true or false, a row each.
+/// A table for statements that are true or false, one per row.
 Table no_statements();
 
 /// How many statements are false; NaN without any.

@@ -101,7 +101,7 @@ Finding satisfies_its_equations(const Subject& subject, const std::string& metho
   return judge_worst(
       measured, 100 * tolerance,
       "the solver's tolerance is 1e-11 of the momentum at its guess, which may be some ten times "
-      "what the step changes, and masses that differ by as much weigh it otherwise here");
+      "what the step changes, and this norm weights masses differently, by as much");
 }
 
 /// One step of the linearised method against a dense solve of its equation, with the
@@ -215,7 +215,7 @@ Finding rest_is_found(const Subject& subject) {
     }
   return judge_worst(
       measured, 0,
-      "what is at rest but for the rounding of its place needs no solve, nor can one improve it");
+      "cloth at rest up to the rounding of its positions needs no solve, and none can improve it");
 }
 
 /// Sheets that turn and crumple against damping a hundred times their usual.
@@ -374,8 +374,8 @@ std::vector<Check> method_checks() {
        "damped crumpled sheets, and of a compressed undamped one: all but two of 36 at most.",
        "what BMF03 section 3 expects of a fully implicit method", large_steps_finding},
       {"methods.newton-accepts-cloth-at-rest",
-       "A step of shapes at rest far from the origin is not called unfinished: no force is asked "
-       "to vanish below what rounding makes of it.",
+       "A step of shapes at rest far from the origin is not counted as unfinished: no force is "
+       "required to vanish below what rounding makes of it.",
        "floating-point arithmetic", rest_is_found},
       {"methods.newton-converges-quickly-on-damped-cloth",
        "Newton's method takes at most ten iterations a step on heavily damped cloth that turns and "

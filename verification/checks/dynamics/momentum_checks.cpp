@@ -1,4 +1,4 @@
-// What every step keeps: momentum, and, without damping, the way back.
+// Conservation in every step: momentum and, without damping, reversibility.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -72,7 +72,7 @@ void add(const Checkpoint& checkpoint, Numbers& all) {
                          checkpoint.damping_power});
 }
 
-/// What is handed out after these many frames, rows and checkpoints, and what comes of the run.
+/// Output after the given numbers of frames, rows and checkpoints, and the result of the run.
 Numbers numbers_after(const Followed& run, std::size_t frames, std::size_t rows,
                       std::size_t checkpoints) {
   Numbers all;

@@ -35,9 +35,9 @@ RecordedRun record_run(const System& system, const std::string& integrator, cons
   return run;
 }
 
-/// What is wrong with the frames and steps of a run that should have `frames` frames: the largest
-/// error in time [s], of a product and a sum that may be rounded as one; NaN for a wrong count or a
-/// step longer than the one asked for.
+/// Defects in the frames and steps of a run that should have `frames` frames: the largest error in
+/// time [s], of a product and a sum that may be rounded as one; NaN for a wrong count or a step
+/// longer than the one asked for.
 double frame_error(const RecordedRun& run, const Schedule& schedule, size_t frames) {
   Worst worst;
   if (run.frames.size() != frames || run.result.stop) worst.observe(NAN);
@@ -231,7 +231,8 @@ Finding lost_triangle_finding(const Subject&) {
     statements.row("five frames were delivered", run.frames.size() == 5);
   }
   return judged_statements(
-      statements, "a vertex is led into the opposite edge, which it reaches at the end of step 20");
+      statements,
+      "a vertex is moved into the opposite edge, which it reaches at the end of step 20");
 }
 
 Finding cap_finding(const Subject&) {

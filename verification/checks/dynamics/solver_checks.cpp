@@ -62,7 +62,7 @@ Finding promise_finding(const Subject&) {
   Worst worst;
   for (size_t k = 0; k < table.rows(); ++k) worst.observe(recomputed[k] / tolerance[k]);
   return {{worst.value(), 1.05, 0, "of the tolerance",
-           "the tolerance, and what the iteration's residual and the true one drift apart: some "
+           "the tolerance, and the drift between the iteration's residual and the true one: some "
            "hundred epsilon, a twentieth of the smallest tolerance, 1e-12"},
           table,
           "The residual b - (M - s D) w is recomputed with a dense D made of the modes of all "
@@ -268,7 +268,7 @@ Finding large_finding(const Subject&) {
   }
   return judge_worst(
       measured, 1.05,
-      "the tolerance, and what the iteration's residual and the true one drift apart");
+      "the tolerance, and the drift between the iteration's residual and the true one");
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ Finding trapezoidal_finding(const Subject& subject, const std::string& integrato
       "the solve's tolerance, 1e-12 of the velocity before damping; as much again for rounding");
 }
 
-/// What a filter was called with and what it left.
+/// Arguments and result of a filter call.
 struct Call {
   Span span;
   PerParticle3 given, left;
@@ -167,7 +167,7 @@ Finding held_finding(const Subject& subject) {
     counts.row(integrator.name, here);
   }
   return {{counts.worst("numbers that differ"), 0, 0, "numbers that differ",
-           "what is held has the velocity 0 and keeps every bit of its place"},
+           "held particles have velocity 0 and keep every bit of their position"},
           counts,
           ""};
 }
@@ -266,7 +266,7 @@ std::vector<Check> step_checks() {
        "step.",
        source, [](const Subject& subject) { return trapezoidal_finding(subject, "A"); }},
       {"dynamics.A-continues-from-the-unmodified-velocity",
-       "The reference's end velocity in A continues from v*, not from what a filter made of it.",
+       "The reference's end velocity in A continues from v*, not from the filtered velocity.",
        source, [](const Subject&) { return continues_finding("A"); }},
       {"dynamics.B-continues-from-the-modified-velocity",
        "The reference's end velocity in B continues from the filtered velocity.", source,
@@ -274,8 +274,9 @@ std::vector<Check> step_checks() {
       {"dynamics.C-continues-from-the-start-velocity",
        "The reference's end velocity in C continues from v_n, whatever a filter did.", source,
        [](const Subject&) { return continues_finding("C"); }},
-      {"dynamics.held-particles-do-not-move", "Held particles do not move, whatever pulls at them.",
-       "our reading of BMF03 section 3", held_finding},
+      {"dynamics.held-particles-do-not-move",
+       "Held particles do not move, whatever forces act on them.", "our reading of BMF03 section 3",
+       held_finding},
       {"dynamics.solves-are-counted", "A and B solve once a step, C twice.", source,
        counts_finding},
       {"dynamics.position-terms-are-computed-once-per-position",
@@ -289,12 +290,13 @@ std::vector<Check> step_checks() {
                        source,
                        {}},
                       filter_finding);
-  add_for_each_scheme(list,
-                      {"dynamics.prescribed-particles-follow-their-path",
-                       "led particles are on their path, with its velocity, after every step.",
-                       "our reading of BMF03 section 3",
-                       {}},
-                      led_finding);
+  add_for_each_scheme(
+      list,
+      {"dynamics.prescribed-particles-follow-their-path",
+       "prescribed particles are on their path, with its velocity, after every step.",
+       "our reading of BMF03 section 3",
+       {}},
+      led_finding);
   return list;
 }
 

@@ -1,4 +1,4 @@
-// What may be changed without changing the answer: units, the frame of reference, the day on
+// Invariance of the answer under changes of units, the frame of reference, the day on
 // which it is run.
 #include <Eigen/Geometry>
 #include <cmath>

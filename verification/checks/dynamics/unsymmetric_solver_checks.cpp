@@ -100,7 +100,7 @@ Finding promise_is_kept(const Subject&) {
     }
   return judge_worst(
       measured, 1.05,
-      "the tolerance, and what the iteration's residual and the true one drift apart: epsilon "
+      "the tolerance, and the drift between the iteration's residual and the true one: epsilon "
       "times the largest residual on the way, far below a twentieth of the smallest tolerance");
 }
 

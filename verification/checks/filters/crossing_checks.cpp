@@ -87,7 +87,7 @@ Finding distance_is_exact(const Subject&) {
                    oracles::Estimate{worst.value(), uncertainty.value()});
     }
   return judge_worst(measured, 16,
-                     "each coordinate of what is between the nearest points is a sum of four "
+                     "each coordinate of the vector between the nearest points is a sum of four "
                      "products, and errors of the weights move these points along their features, "
                      "which changes their distance in second order");
 }

@@ -1,5 +1,5 @@
-// Checks of what corrects velocities: objects, cloth itself, strain limits. A function a file; the
-// list of all is verification/checks.cpp.
+// Checks of the velocity filters: objects, self-collision, strain limits. One function per file;
+// the list of all is verification/checks.cpp.
 #pragma once
 
 #include <vector>
@@ -16,8 +16,8 @@ std::vector<Check> friction_checks();         // slopes, a belt, a turntable
 std::vector<Check> capstan_checks();          // a strip round a drum
 std::vector<Check> repulsion_checks();        // layers within the thickness
 std::vector<Check> impact_checks();           // motion without crossings, rigid zones
-std::vector<Check> impulse_checks();          // what impulses permit, leave alone and conserve
-std::vector<Check> crossing_checks();         // how near two features of a cloth are
+std::vector<Check> impulse_checks();          // impulses: limits, no effect, conservation
+std::vector<Check> crossing_checks();         // distance between two features of a cloth
 std::vector<Check> strain_limit_checks();     // one correction
 std::vector<Check> strain_step_checks();      // steps, sweeps, colours, case files
 

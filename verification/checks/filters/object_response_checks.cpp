@@ -28,8 +28,8 @@ double known_push(double depth, double push) {
   return std::abs(depth) < 1e-12 ? NAN : depth > 0 ? push : 0;
 }
 
-/// What a response makes of the particles of all contacts against what it should: `moves`: their
-/// velocity takes them through the step, or else it is the one that ends it.
+/// Actual against expected response for the particles of all contacts. `moves`: their velocity
+/// takes them through the step, or else it is the one that ends it.
 Finding response_finding(const Subject& subject, const std::string& response, bool moves,
                          const Push& push) {
   Table measured = roundings_of("speed");

@@ -1,4 +1,4 @@
-// What interface forecasting does to one point at one object (BMF03 section 5.2).
+// Interface forecasting for one point at one object (BMF03 section 5.2).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -42,8 +42,8 @@ Answer answer_of(const Contact& contact, const PerParticle3& after, Eigen::Index
 /// [m]; lengths are near 1 m.
 double unsure(const Contact& contact) { return 100 * epsilon * (1 + 4 * contact.tau); }
 
-// What phi and the object's velocity inherit from a rounding of positions near 1 m, in velocities
-// of a step of a hundredth of a second: the scale of all bounds below.
+// Error of phi and of the object's velocity due to rounding of positions near 1 m, in velocities of
+// a step of a hundredth of a second: the scale of all bounds below.
 constexpr const char* why_roundings =
     "a few dozen roundings on the way through the object's frame and back, of lengths of a metre, "
     "divided by the step where a mean velocity is made of them";

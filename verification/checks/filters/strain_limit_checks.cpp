@@ -1,4 +1,4 @@
-// What one correction by strain limits does: to one spring, exactly; to a cloth, whatever the
+// One correction by strain limits: of one spring, exactly; of a cloth, whatever the
 // order of sweeps.
 #include "reference/dynamics/system.h"
 #include "verification/checks/filters/filter_checks.h"

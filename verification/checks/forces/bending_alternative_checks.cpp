@@ -1,4 +1,4 @@
-// What the usual alternatives break that the paper's element keeps: momentum, or
+// Properties of the paper's element that common alternatives violate: momentum, or
 // nothing but bending.
 #include <Eigen/Geometry>
 #include <cmath>

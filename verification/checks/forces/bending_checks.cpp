@@ -72,7 +72,7 @@ Finding other_laws_keep_momentum(const Subject& subject) {
           "the sum of sizes is sum |F_i| for the net force, sum |x_i||F_i| for the net torque"};
 }
 
-/// What 50 digits say of the elastic forces of a whole specimen: the sum over its hinges, N each.
+/// The elastic forces of a whole specimen in 50 digits: the sum over its hinges, N each.
 struct Expected {
   PerParticle3 force;  // 3 x N [N]
   // sum over the hinges at a particle of what a rounding of the magnitude 1 would move [N]

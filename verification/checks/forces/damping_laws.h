@@ -8,7 +8,7 @@
 
 namespace foldproof {
 
-/// A scene with damping, small enough for a dense matrix, and a state of it.
+/// A scene with damping, small enough for a dense matrix, and one of its states.
 struct DampedScene {
   std::string name;
   Scene scene;
@@ -23,17 +23,17 @@ struct DampingPower {
 /// At the state's own velocities.
 DampingPower damping_power_of(const Probe& probe, const State& s);
 
-/// Columns for powers of damping, case by case: name, share and power.
+/// A table for damping powers, one case per row: name, share and power.
 Table no_powers();
 
-/// The largest of the powers' shares, with its sign: negative when every motion loses energy.
+/// The largest share of the table, with its sign: negative when every motion loses energy.
 Finding dissipation(const Table& powers);
 
 /// Largest entry of D - D^T, over epsilon times the largest entry of D.
 Finding asymmetry(const Subject& subject, const std::vector<DampedScene>& cases);
 
-/// Largest eigenvalue of D over epsilon 3N times the largest in size; the whole spectrum's
-/// ends as evidence.
+/// Largest eigenvalue of D over epsilon 3N times the largest in magnitude; both ends of the
+/// spectrum as evidence.
 Finding largest_eigenvalue(const Subject& subject, const std::vector<DampedScene>& cases);
 
 }  // namespace foldproof

@@ -172,7 +172,7 @@ std::vector<Specimen> far_from_rest() {
   return cases;
 }
 
-/// What the springs and hinges say of each particle's row [N/m].
+/// Bound on each particle's row from its springs and hinges [N/m].
 PerParticle row_bounds(const Specimen& specimen) {
   const System system = build_system(specimen.scene);
   PerParticle rows = PerParticle::Zero(specimen.state.x.cols());

@@ -1,4 +1,4 @@
-// What bonds form and break, when, and that a state remembers them.
+// Forming and breaking of bonds, and their storage in the state.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What is stuck is carried: how it follows, how it lags, what steps it takes.
+// Motion of stuck cloth: how it follows its target, its lag, its stable steps.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>

@@ -22,19 +22,18 @@ Path random_line(const PerParticle3& x, double size, unsigned seed);
 Path random_loop(const PerParticle3& x, double size, unsigned seed);
 
 /// |E(1) - E(0) + work| over epsilon times (integral of |F||dx| + |E(0)| + |E(1)|). Gauss-Legendre
-/// quadrature of tenth order on 8, 16, ... up to 128 panels, until two of them differ by less than
-/// roundings; that difference is the uncertainty.
+/// quadrature of tenth order on 8, 16, ... up to 128 panels, until two results agree to rounding;
+/// their difference is the uncertainty.
 oracles::Estimate energy_against_work(const Probe& probe, const Path& path);
 
-/// What the elastic forces do once round a closed path.
+/// Work of the elastic forces once around a closed path.
 struct RoundTrip {
   double work = 0, uncertainty = 0;  // J
   double scale = 0;                  // integral of |F||dx| [J]
 };
 
-/// By the trapezoidal rule, which converges exponentially on a smooth closed path, on 64, 128,
-/// ... up to 1024 points, until two of them differ by less than roundings; that difference is
-/// the uncertainty.
+/// By the trapezoidal rule, which converges exponentially on a smooth closed path, on 64, 128, ...
+/// up to 1024 points, until two results agree to rounding; their difference is the uncertainty.
 RoundTrip round_trip(const Probe& probe, const Path& loop);
 
 }  // namespace foldproof

@@ -1,5 +1,5 @@
-// Checks of level sets: exact distances, grids, octrees, bodies that deform. A function a file; the
-// list of all is verification/checks.cpp.
+// Checks of level sets: exact distances, grids, octrees, bodies that deform. One function per file;
+// the list of all is verification/checks.cpp.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace foldproof {
 std::vector<Check> mesh_distance_checks();  // the exact distance to a mesh
 std::vector<Check> grid_checks();           // values between nodes
 std::vector<Check> marching_checks();       // fast marching
-std::vector<Check> octree_checks();         // the adaptively sampled distance of one body
+std::vector<Check> octree_checks();         // adaptively sampled distance of one body
 std::vector<Check> octree_union_checks();   // several bodies on one tree
 std::vector<Check> deforming_checks();      // level sets at frames and between them
 

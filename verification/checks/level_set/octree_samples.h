@@ -1,11 +1,11 @@
-// Octrees to look at, and where they jump.
+// Sample octrees, and their discontinuities.
 #pragma once
 
 #include "reference/level_set/octree.h"
 
 namespace foldproof {
 
-/// A torus of radii 0.29 m and 0.11 m, turned and shifted so that nothing of it lies along an axis.
+/// A torus of radii 0.29 m and 0.11 m, rotated and shifted out of alignment with the axes.
 Distance tilted_torus(const Vector3& p);
 
 /// A cube of 1 m about the origin, sampled to `tolerance` [m] in a band of 0.06 m, with cells down

@@ -29,7 +29,7 @@ OctreeSettings union_sampling(double tolerance) {
   return settings;
 }
 
-/// What the union of bodies is at a point, from the definition.
+/// The union of bodies at a point, from the definition.
 struct Exact {
   double first = INFINITY, second = INFINITY;  // phi of the two nearest parts [m]
   int part = -1, second_part = -1;

@@ -97,7 +97,7 @@ std::set<int> fan_at(const TriangleSoup& soup, int v, int first) {
   return {fan.begin(), fan.end()};
 }
 
-/// What a split has to give.
+/// Expected result of a split.
 struct Expected {
   std::vector<Triangle> triangles;
   std::vector<int> copy_of;

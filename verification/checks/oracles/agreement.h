@@ -1,4 +1,4 @@
-// Whether two oracles that share nothing agree as closely as both promise.
+// Agreement of two independent oracles within their uncertainties.
 #pragma once
 
 #include <string>
@@ -10,22 +10,22 @@
 
 namespace foldproof {
 
-/// For answers of two roads to the same numbers, a row a point: each answer comes with how far the
-/// truth may lie from it.
+/// A table for two independent computations of the same numbers, one point per row; each answer has
+/// its uncertainty.
 Table no_answers();
 
 void compare(Table& answers, const std::string& point, const oracles::Estimate& one,
              const oracles::Estimate& other);
 
-/// Of the numbers of one answer the pair that is furthest apart, by its uncertainty.
+/// Adds the pair of numbers that differ most, relative to their uncertainty.
 void compare_worst(Table& answers, const std::string& point,
                    const std::vector<std::pair<oracles::Estimate, oracles::Estimate>>& pairs);
 
-/// Answers that are whole: a count, yes or no. They agree or they do not.
+/// For exact answers (counts, yes or no): they either agree or not.
 void compare_exact(Table& answers, const std::string& point, double one, double other);
 
-/// The worst |one - other| over the sum of their uncertainties, against 1; an answer that is exact
-/// on both sides counts 0 or infinity. NaN, which fails, if fewer than two points were compared.
+/// The worst |one - other| over the sum of their uncertainties, against 1; if both answers are
+/// exact the ratio is 0 or infinity. NaN, which fails, if fewer than two points were compared.
 Finding judged_agreement(const Table& answers);
 
 /// The largest uncertainty over the size of its answer (of the larger answer, or of 1 where both

@@ -1,4 +1,4 @@
-// Oracles judged by oracles: each is held against a second road to the same numbers, at several
+// Oracles checked by oracles: each is compared with an independent computation at several
 // parameter points.
 #pragma once
 

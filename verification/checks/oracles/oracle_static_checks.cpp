@@ -19,7 +19,7 @@ namespace {
 using oracles::Estimate;
 using Series = std::array<long double, 26>;  // coefficients of powers of the arc length
 
-/// What the strip with one curvature at the clamp has at its tip: slope's derivative, drop, reach.
+/// Tip of the strip for one curvature at the clamp: slope's derivative, drop, reach.
 struct Tip {
   long double curvature, drop, reach;
 };

@@ -86,7 +86,7 @@ Finding no_point_is_left_inside(const Subject&) {
                      "even a rounding leaves one inside");
 }
 
-/// What must be said of a point that was at phi and is now at `after` [m].
+/// Expected outcome for a point that was at phi and is now at `after` [m].
 ProjectionOutcome expected_fate(const DepthMap& map, const FoldProjection& projection, double phi,
                                 double after) {
   const double f = map.at(projection.band, phi);

@@ -1,4 +1,4 @@
-// Checks of the fold-preserving projection. A function a file; the list of all is
+// Checks of the fold-preserving projection. One function per file; the list of all is
 // verification/checks.cpp.
 #pragma once
 

@@ -90,7 +90,7 @@ PerParticle3 project_out(const Target& target, const Sunk& sunk, const std::stri
   return x;
 }
 
-/// What is counted of each sheet, over targets, maps and depths.
+/// Counts for each sheet, over targets, maps and depths.
 template <class Count>
 Table over_sheets(bool has_clearance, const std::string& counted, const Count& count) {
   Table measured{{"case", ""}, {counted, "1"}};

@@ -1,4 +1,4 @@
-// What is built of what a case file says.
+// Scenes built from case files.
 #include "verification/checks/scene/scene_checks.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,4 @@
-// Checks of what a case file can say. A function a file; the list of all is
-// verification/checks.cpp.
+// Checks of case files. One function per file; the list of all is verification/checks.cpp.
 #pragma once
 
 #include <vector>
@@ -8,12 +7,12 @@
 
 namespace foldproof {
 
-std::vector<Check> scene_rejection_checks();  // what a case file may not say
-std::vector<Check> scene_meaning_checks();    // what is built of what it says (scene_checks.cpp)
+std::vector<Check> scene_rejection_checks();  // invalid case files
+std::vector<Check> scene_meaning_checks();    // what is built from a case file (scene_checks.cpp)
 std::vector<Check> scene_place_checks();      // where the cloth is, how it starts and is held
 std::vector<Check> scene_object_checks();     // objects and how cloth meets them
 std::vector<Check> scene_body_checks();       // bodies of triangles, sampled and deforming
 std::vector<Check> scene_cloth_checks();      // shapes, copies, folds, cloth meeting itself
-std::vector<Check> sticking_scene_checks();   // what a case file says of sticking
+std::vector<Check> sticking_scene_checks();   // sticking in case files
 
 }  // namespace foldproof

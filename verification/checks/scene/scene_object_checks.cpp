@@ -1,4 +1,4 @@
-// What a case file says of objects and of how cloth meets them.
+// Objects and their contact with cloth in case files.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

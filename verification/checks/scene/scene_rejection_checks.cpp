@@ -1,4 +1,4 @@
-// What a case file may not say, and how it is told.
+// Invalid case files, and their error messages.
 #include <cmath>
 
 #include "reference/scene/scene.h"
@@ -67,7 +67,7 @@ std::string expected_place(const Rejection& rejection) {
   return "trial.toml:" + std::to_string(line) + ": ";
 }
 
-/// What is missing in the refusal's message; empty if nothing is.
+/// Words missing in the error message; empty if there are none.
 std::string missing(const Rejection& rejection, std::string& message) {
   try {
     read_scene_text(edit(rejection), "trial.toml");

@@ -1,4 +1,4 @@
-// What a case file says of sticking: regions, groups of OBJ files, refusals.
+// Sticking in case files: regions, groups of OBJ files, refusals.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
