@@ -174,7 +174,7 @@ TEST_CASE(
     "an id that is taken, in the same file or in another, and one that is no name are refused") {
   CHECK_THROWS_WITH(
       read(std::string(paper) + claim + claim),
-      Contains("abc99.toml:22: the id 'ABC-1' is taken at ") && Contains("abc99.toml:8"));
+      Contains("abc99.toml:26: the id 'ABC-1' is taken at ") && Contains("abc99.toml:8"));
   const ScratchFolder folder;
   for (const char* file : {"a.toml", "b.toml"}) std::ofstream(folder.file(file)) << paper << claim;
   CHECK_THROWS_WITH(read_claims(folder.file(".")),
