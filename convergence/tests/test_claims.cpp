@@ -59,6 +59,17 @@ bool is_known(const std::string& name) {
 
 }  // namespace
 
+TEST_CASE("every claim names the paragraph and the first words of the paper's sentence") {
+  for (const Claim& claim : read_claims(CLAIMS_FOLDER)) {
+    INFO(claim.id << ": " << claim.cited.begins);
+    CHECK(claim.cited.paragraph >= 1);
+    const auto blanks = std::ranges::count(claim.cited.begins, ' ');
+    CHECK(blanks >= 3);   // enough words to find the sentence
+    CHECK(blanks <= 11);  // and no more than a citation
+    CHECK(claim.cited.printed.empty() == claim.cited.restored.empty());
+  }
+}
+
 TEST_CASE(
     "a claim is confirmed when all that it needs holds and nothing limits or contradicts it") {
   CHECK(with(holds, holds, fails, fails) == Ruling::confirmed);

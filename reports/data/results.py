@@ -122,6 +122,10 @@ class Claim:
     condition: str     # in words; "" if none
     why: str           # a paragraph
     decided_by: list[tuple[str, str]]   # name of a finding, its role
+    paragraph: int = 0      # of the section, from 1; 0 in files that do not hold it
+    begins: str = ""        # the first words of the paper's sentence
+    printed: str = ""       # a formula as printed, and
+    restored: str = ""      # as it must read; "" where they agree
 
 
 @dataclass
@@ -354,9 +358,11 @@ def _curve(name: str, group: h5py.Group) -> Curve:
 def _claim(name: str, group: h5py.Group) -> Claim:
     attributes = attributes_of(group)
     texts = {key: text_of(attributes, key)
-             for key in ("section", "statement", "ruling", "recorded", "condition", "why")}
+             for key in ("section", "statement", "ruling", "recorded", "condition", "why", "begins", "printed", "restored")}
     names, roles = texts_of(attributes, "decided_by"), texts_of(attributes, "roles")
-    return Claim(name=name, **texts, decided_by=list(zip(names, roles + [""] * len(names))))
+    paragraph = number_of(attributes, "paragraph")
+    return Claim(name=name, **texts, decided_by=list(zip(names, roles + [""] * len(names))),
+                 paragraph=0 if np.isnan(paragraph) else int(paragraph))
 
 
 def _case_entry(name: str, group: h5py.Group, folder: Path) -> CaseEntry:

@@ -65,11 +65,11 @@ def put_map(file: h5py.File, study: str) -> None:
     limit["x"], limit["y"] = np.array([0.1, 0.5, np.nan]), np.array([0.02, 5.0, 1.0])
 
 
-def put_claim(file: h5py.File, order: int, name: str, ruling: str, decided_by: list[str]) -> None:
-    """Adds a claim, each of whose findings supports it."""
+def put_claim(file: h5py.File, order: int, name: str, ruling: str, decided_by: list[str], **place: Any) -> None:
+    """Adds a claim, each of whose findings supports it. `place` in the paper: files of older programs have none."""
     put(file.create_group(f"claims/{name}"), order=order, section="3", statement=f"Statement {HOSTILE}",
         ruling=ruling, recorded="confirmed", condition="", why=f"Why {name}: {HOSTILE}", decided_by=decided_by,
-        roles=["supports"] * len(decided_by))
+        roles=["supports"] * len(decided_by), **place)
 
 
 def made_up_verdicts() -> dict[str, Any]:
@@ -151,7 +151,8 @@ def put_run(folder: Path) -> None:
         put_finding(file, 8, NAMES[7], "check", source="A sharp fold", uncertainty=1.0)
         put_study(file)
         put_map(file, "stability-oscillator")
-        put_claim(file, 1, "T1", "confirmed", [NAMES[0], "gone.finding"])
+        put_claim(file, 1, "T1", "confirmed", [NAMES[0], "gone.finding"], paragraph=4, begins="Sums add up",
+                  printed="a - b", restored="a + b")
         put_claim(file, 2, "T17", "refuted", [NAMES[3]])
         put_case(folder, "fold")
         put(file.create_group("cases/fold"), order=1, file="fold.h5", title=HOSTILE, about=HOSTILE,

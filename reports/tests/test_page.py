@@ -67,6 +67,11 @@ class Order(MadeUpPage):
         places = [self.text.index(f'<section id="{name}"') for name in SECTIONS]
         self.assertEqual(places, sorted(places))
 
+    def test_a_claim_says_where_the_paper_makes_it_where_the_file_knows(self) -> None:
+        self.assertIn("The paper, section 3, paragraph 4: &ldquo;Sums add up &hellip;&rdquo;", self.text)
+        self.assertIn("Printed: <code>a - b</code>. Restored: <code>a + b</code>.", self.text)
+        self.assertEqual(self.text.count('<p class="cited">'), 2)  # none of T17, from an older program
+
     def test_what_was_not_asked_shows_its_reason_and_no_numbers(self) -> None:
         row = re.search(r'<span class="claim">(?:(?!<span class="claim">).)*?written for another mesh</span></span>', self.text, re.DOTALL)
         self.assertIsNotNone(row)

@@ -90,8 +90,19 @@ void print_decider(const json& decider, const json& findings) {
              name, numbers);
 }
 
+/// Where the paper says it; files of older programs do not know.
+void print_place(const json& claim) {
+  if (text_of(claim, "begins").empty()) return;
+  fmt::print("\n{}, paragraph {}: \"{} ...\"\n", text_of(claim, "source"),
+             claim.value("paragraph", 0), text_of(claim, "begins"));
+  if (!text_of(claim, "printed").empty())
+    fmt::print("printed:  {}\nrestored: {}\n", text_of(claim, "printed"),
+               text_of(claim, "restored"));
+}
+
 void print_whole(const json& claim, const json& findings) {
   print_row(claim);
+  print_place(claim);
   if (!text_of(claim, "condition").empty())
     fmt::print("\nCondition: {}.\n", text_of(claim, "condition"));
   if (!text_of(claim, "why").empty()) fmt::print("\n{}\n", text_of(claim, "why"));

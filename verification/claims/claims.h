@@ -28,6 +28,14 @@ struct Decider {
   Role role;
 };
 
+/// Where in its section the paper says it, to be found on the page.
+struct Citation {
+  int paragraph = 0;   // of the section, counted from 1; lists and formulas belong to it
+  std::string begins;  // the first words of the sentence
+  // a formula as printed and as it must read; empty where they agree
+  std::string printed, restored;
+};
+
 /// A sentence of a paper, in our words.
 struct Claim {
   std::string paper;        // its key: "BMF03"
@@ -38,6 +46,7 @@ struct Claim {
   Ruling recorded;
   std::string condition;  // in words, if recorded as conditional; else empty
   std::string why;        // a paragraph with placeholders for its numbers, see filled()
+  Citation cited = {};
 };
 
 /// Ruling of a claim in one run.

@@ -92,6 +92,24 @@ std::string condition_of(const KeyTable& row, Ruling recorded) {
   return "";
 }
 
+Citation citation_of(const KeyTable& row) {
+  Citation cited;
+  cited.paragraph = row.integer("paragraph");
+  if (cited.paragraph < 1)
+    throw InputError(row.where("paragraph") + ": 'paragraph' is counted from 1");
+  cited.begins = written_text(row, "begins");
+  if (row.has("printed") != row.has("restored"))
+    throw InputError(row.where("begins") +
+                     ": 'printed' and 'restored' belong together; only one is given");
+  if (row.has("printed")) {
+    cited.printed = written_text(row, "printed");
+    cited.restored = written_text(row, "restored");
+    if (cited.printed == cited.restored)
+      throw InputError(row.where("restored") + ": 'restored' is what is printed; leave both out");
+  }
+  return cited;
+}
+
 Claim claim_of(const KeyTable& row, const std::string& paper) {
   Claim claim{paper,
               id_of(row),
@@ -103,6 +121,7 @@ Claim claim_of(const KeyTable& row, const std::string& paper) {
               "",
               text_with_numbers(row, "why")};
   claim.condition = condition_of(row, claim.recorded);
+  claim.cited = citation_of(row);
   return claim;
 }
 

@@ -57,6 +57,10 @@ void write_claims(const Hdf5& file, const std::vector<ClaimRecord>& claims) {
     }
     here.attribute("order", order++);
     here.attribute("section", record.claim.section);
+    here.attribute("paragraph", record.claim.cited.paragraph);
+    here.attribute("begins", record.claim.cited.begins);
+    here.attribute("printed", record.claim.cited.printed);
+    here.attribute("restored", record.claim.cited.restored);
     here.attribute("statement", record.claim.statement);
     here.attribute("ruling", std::string(name_of(record.ruling)));
     here.attribute("recorded", std::string(name_of(record.claim.recorded)));

@@ -18,11 +18,15 @@ authors = ["A. Adder", "B. Bee"]
 year = 1999
 )";
 
-// lines 6 to 19 behind the paper
+// lines 6 to 23 behind the paper
 constexpr const char* claim = R"(
 [[claim]]
 id = "ABC-1"
 section = "2.4"
+paragraph = 3
+begins = "Sums of all kinds"
+printed = "a - b"
+restored = "a + b"
 statement = """
 Sums add \
 up."""
@@ -66,6 +70,10 @@ TEST_CASE("a claim is read with its paper, its joined lines and its deciders in 
   CHECK(only.paper == "ABC99");
   CHECK(only.id == "ABC-1");
   CHECK(only.section == "2.4");
+  CHECK(only.cited.paragraph == 3);
+  CHECK(only.cited.begins == "Sums of all kinds");
+  CHECK(only.cited.printed == "a - b");
+  CHECK(only.cited.restored == "a + b");
   CHECK(only.statement == "Sums add up.");
   REQUIRE(only.decided_by.size() == 2);
   CHECK(only.decided_by[0].finding == "sums.add-up");
@@ -100,17 +108,26 @@ TEST_CASE("papers come in the order of their files' names, claims in that of the
 
 TEST_CASE("an unknown key of a claim, of a decider or of a paper is refused") {
   rejected("section =", "chapter = \"2\"\nsection =", 9, "unknown key 'chapter'");
-  rejected("{role =", "{weight = 3, role =", 14, "unknown key 'weight'");
+  rejected("{role =", "{weight = 3, role =", 18, "unknown key 'weight'");
   CHECK_THROWS_WITH(read(with(paper, "year", "pages = 9\nyear") + claim),
                     Contains("abc99.toml:5: unknown key 'pages'"));
   CHECK_THROWS_WITH(read("words = 3\n" + std::string(paper) + claim),
                     Contains("abc99.toml:1: unknown key 'words'"));
 }
 
+TEST_CASE("a claim without its place in the paper, or with half a formula, is refused") {
+  rejected("paragraph = 3\n", "", 7, "'paragraph'");
+  rejected("paragraph = 3", "paragraph = 0", 10, "counted from 1");
+  rejected("begins = \"Sums of all kinds\"\n", "", 7, "'begins'");
+  rejected("begins = \"Sums of all kinds\"", "begins = \" \"", 11, "'begins' is empty");
+  rejected("restored = \"a + b\"\n", "", 11, "belong together");
+  rejected("a + b", "a - b", 13, "'restored' is what is printed");
+}
+
 TEST_CASE("an unknown role and an unknown ruling are refused, with those that are known") {
-  rejected("\"limits\"", "\"limit\"", 15,
+  rejected("\"limits\"", "\"limit\"", 19,
            "unknown role 'limit'; known: supports, limits, contradicts");
-  rejected("confirmed under a condition", "conditional", 17,
+  rejected("confirmed under a condition", "conditional", 21,
            "unknown recorded 'conditional'; known: confirmed, confirmed under a condition, "
            "refuted, undecided");
 }
@@ -119,10 +136,10 @@ TEST_CASE("a text of a claim that is missing or empty is refused") {
   rejected("id = \"ABC-1\"\n", "", 7, "needs the key 'id'");
   rejected("\"ABC-1\"", "\"\"", 8, "'id' is empty");
   rejected("\"2.4\"", "\" \"", 9, "'section' is empty");
-  rejected("Sums add \\\nup.", "", 10, "'statement' is empty");
-  rejected("\"sums.add-up\"", "\"\"", 14, "'finding' is empty");
-  rejected("\"below {sums.overflow|bound}\"", "\"\"", 18, "'condition' is empty");
-  rejected("\"They add up to {sums.add-up}.\"", "\"\"", 19, "'why' is empty");
+  rejected("Sums add \\\nup.", "", 14, "'statement' is empty");
+  rejected("\"sums.add-up\"", "\"\"", 18, "'finding' is empty");
+  rejected("\"below {sums.overflow|bound}\"", "\"\"", 22, "'condition' is empty");
+  rejected("\"They add up to {sums.add-up}.\"", "\"\"", 23, "'why' is empty");
 }
 
 TEST_CASE("a paper without its key, title, authors or year is refused") {
@@ -139,8 +156,8 @@ TEST_CASE("a paper without its key, title, authors or year is refused") {
 }
 
 TEST_CASE("a condition is given if and only if the recorded ruling is conditional") {
-  rejected("condition = \"below {sums.overflow|bound}\"\n", "", 17, "needs the key 'condition'");
-  rejected("confirmed under a condition", "confirmed", 18, "is not recorded");
+  rejected("condition = \"below {sums.overflow|bound}\"\n", "", 21, "needs the key 'condition'");
+  rejected("confirmed under a condition", "confirmed", 22, "is not recorded");
 }
 
 TEST_CASE("a claim that nothing decides, or that names a finding twice, is refused") {
@@ -148,8 +165,8 @@ TEST_CASE("a claim that nothing decides, or that names a finding twice, is refus
       with(claim, "  {role = \"supports\", finding = \"sums.add-up\"},\n", "");
   CHECK_THROWS_WITH(
       read(paper + with(deciders, "  {role = \"limits\", finding = \"sums.overflow\"},\n", "")),
-      Contains("abc99.toml:13: no finding decides this claim"));
-  rejected("\"sums.overflow\"}", "\"sums.add-up\"}", 15,
+      Contains("abc99.toml:17: no finding decides this claim"));
+  rejected("\"sums.overflow\"}", "\"sums.add-up\"}", 19,
            "the finding 'sums.add-up' is named twice");
 }
 
@@ -157,7 +174,7 @@ TEST_CASE(
     "an id that is taken, in the same file or in another, and one that is no name are refused") {
   CHECK_THROWS_WITH(
       read(std::string(paper) + claim + claim),
-      Contains("abc99.toml:22: the id 'ABC-1' is taken at ") && Contains("abc99.toml:8"));
+      Contains("abc99.toml:26: the id 'ABC-1' is taken at ") && Contains("abc99.toml:8"));
   const ScratchFolder folder;
   for (const char* file : {"a.toml", "b.toml"}) std::ofstream(folder.file(file)) << paper << claim;
   CHECK_THROWS_WITH(read_claims(folder.file(".")),
@@ -166,8 +183,8 @@ TEST_CASE(
 }
 
 TEST_CASE("a placeholder whose brace is not closed is refused when claims are read") {
-  rejected("{sums.add-up}.", "{sums.add-up.", 19, "the brace is not closed");
-  rejected("|bound}", "|bound", 18, "the brace is not closed");
+  rejected("{sums.add-up}.", "{sums.add-up.", 23, "the brace is not closed");
+  rejected("|bound}", "|bound", 22, "the brace is not closed");
 }
 
 TEST_CASE("a folder without claims is refused by its name") {
