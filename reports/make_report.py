@@ -49,6 +49,9 @@ from viewer.field_pictures import make_field_view  # noqa: E402
 SHIPPED_CASES = Path(__file__).resolve().parent.parent / "cases"
 VIEWS = 4_000_000                   # characters that the data of all views of a page may take, shared equally
 
+CONVERGE = "converge.h5"            # of `foldproof converge`: how large errors are
+NOTHING = Run(provenance={}, findings=[], studies=[], cases=[], faults=[])
+
 Job = tuple[Callable[..., Any], tuple[Any, ...]]
 
 
@@ -119,15 +122,16 @@ def read_folder(folder: Path) -> tuple[Run, Run | None]:
     bench = load_run(folder / "bench.h5") if (folder / "bench.h5").is_file() else None
     if (folder / "run.h5").is_file():
         return load_run(folder / "run.h5"), bench
-    entries = [case_entry_of_file(path) for path in sorted(folder.glob("*.h5")) if path.name != "bench.h5"]
+    errors = load_run(folder / CONVERGE) if (folder / CONVERGE).is_file() else None
+    entries = [case_entry_of_file(path) for path in sorted(folder.glob("*.h5")) if path.name not in ("bench.h5", CONVERGE)]
     cases = [entry for entry in entries if entry is not None]
-    if not cases and bench is None:
-        raise FileNotFoundError(f"{folder}: no run.h5, no bench.h5 and no case file; run `foldproof verify` "
-                                "or `foldproof simulate` with --out first")
+    if not cases and bench is None and errors is None:
+        raise FileNotFoundError(f"{folder}: no run.h5, no bench.h5, no converge.h5 and no case file; run "
+                                "`foldproof verify` or `foldproof simulate` with --out first")
     simulations = [one for case in cases if (one := load_if_readable(case.path))]
-    provenance = common_to([one.about_run for one in simulations]) if simulations else bench.provenance if bench else {}
+    provenance = common_to([one.about_run for one in simulations]) if simulations else (errors or bench or NOTHING).provenance
     findings = [finding for one in simulations for finding in one.findings]
-    return Run(provenance=provenance, findings=findings, studies=[], cases=cases, faults=[]), bench
+    return Run(provenance=provenance, findings=findings, studies=errors.studies if errors else [], cases=cases, faults=[]), bench
 
 
 def load_if_readable(path: Path) -> Case | None:

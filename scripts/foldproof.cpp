@@ -221,6 +221,11 @@ void add_converge(CLI::App& app, Options& options) {
                    "Ask only the beginning of the run, up to this time [s]")
       ->type_name("TIME")
       ->check(positive_number());
+  converge
+      ->add_option("--hours", options.hours,
+                   "Refuse levels with which the ladder would take longer than this [h]")
+      ->type_name("H")
+      ->check(positive_number());
   add_overrides(converge, options);
   add_folder(converge, options,
              "Folder whose store/ keeps every run; a second call makes only what is missing")

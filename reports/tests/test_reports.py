@@ -315,6 +315,21 @@ class PartsMissing(unittest.TestCase):
             put_finding(file, 1, NAMES[4], "bench", outcome="measured", better="lower")
         self.assertIn("targets that no verdict depends on", self.made())
 
+    def test_the_errors_of_a_case_alone(self) -> None:
+        with h5py.File(self.root / "converge.h5", "w") as file:
+            put_study(file)
+            file.move("studies/time-order", "studies/converge.strip.C.in-time")
+            file["studies/converge.strip.C.in-time"].attrs["claim"] = "The step puts positions off by 3 mm."
+            figure = file["studies/converge.strip.C.in-time/figures/x"]
+            for curve in figure["curves"].values():
+                curve.create_dataset("marks", data=["unfinished"] * len(curve["x"]), dtype=TEXT)
+            figure.attrs["caption"] = "Hollow: outside the asymptotic range."
+        text = self.made()
+        self.assertIn("how large the errors of a case are", text)
+        self.assertIn("The step puts positions off by 3 mm.", text)
+        self.assertIn("outside the asymptotic range", text)
+        self.assertNotIn("a solve on the way", text)
+
     def test_a_file_name_in_a_run_leads_nowhere(self) -> None:
         put_run(self.root)
         with h5py.File(self.root / "run.h5", "r+") as file:

@@ -33,6 +33,7 @@ struct Options {
   int cells = 64;                    // of inspect: along the longest side
   int subdivisions = 0;              // of project
   int levels = 4;                    // of converge: runs
+  double hours = 0;                  // of converge: of the clock, for all runs; 0: no limit
   std::vector<std::string> methods;  // of converge: integrators
   double until = 0;                  // of converge: how much of the run is asked [s]; 0: all of it
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,

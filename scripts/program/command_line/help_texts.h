@@ -213,6 +213,11 @@ by which differences between levels fall, Richardson's limit, and the grid conve
 error bar (safety 1.25 where the order has settled, else 3). Quantities are those of the case's
 [[quantity]] tables; without any: positions, energies, heights, and what its [expect] asks.
 
+The folder keeps every run: what was cut off goes on, and a second call runs only what is missing.
+The first two levels, run alone, show what the others cost; those that the memory or --hours does not
+allow are refused, and the levels that ran answer. Seconds are the processor's, of a run's own thread.
+DIR/converge.h5 is for `foldproof report DIR`.
+
 Examples:
   foldproof converge hinge --until 0.2
   foldproof converge hanging_sheet --levels 3 --method BDF2 --out mine
