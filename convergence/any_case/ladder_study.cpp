@@ -34,13 +34,17 @@ Axis size_axis(const LadderAnswer& answer) {
 }
 
 constexpr const char* caption =
-    "Each point is the difference between two neighbouring levels. Filled: the asymptotic range, in "
-    "which neighbouring orders agree within 0.2. Hollow: outside it. The triangle is the order that "
-    "the method promises.";
+    "Each point is the difference between two neighbouring levels. Filled: the asymptotic range, "
+    "in which neighbouring orders agree within 0.2. Hollow: outside it. The triangle is the order "
+    "that the method promises.";
 
 Figure positions_figure(const LadderAnswer& answer) {
-  return {"positions", "Positions: difference between levels", size_axis(answer),
-          {"largest root mean square difference", "m", Scale::log}, formal_order(answer), caption,
+  return {"positions",
+          "Positions: difference between levels",
+          size_axis(answer),
+          {"largest root mean square difference", "m", Scale::log},
+          formal_order(answer),
+          caption,
           {curve_over_levels(answer, answer.quantities.front(), 1)}};
 }
 
@@ -57,9 +61,13 @@ bool can_be_drawn(const QuantityOverLevels& q) {
 }
 
 Figure values_figure(const LadderAnswer& answer) {
-  Figure figure{"quantities", "Quantities: relative difference between levels", size_axis(answer),
-                {"difference over the largest value", "1", Scale::log}, formal_order(answer),
-                caption, {}};
+  Figure figure{"quantities",
+                "Quantities: relative difference between levels",
+                size_axis(answer),
+                {"difference over the largest value", "1", Scale::log},
+                formal_order(answer),
+                caption,
+                {}};
   for (size_t k = 1; k < answer.quantities.size(); ++k)
     if (const QuantityOverLevels& q = answer.quantities[k]; can_be_drawn(q))
       figure.curves.push_back(curve_over_levels(answer, q, largest_of(q.values)));
@@ -67,8 +75,9 @@ Figure values_figure(const LadderAnswer& answer) {
 }
 
 Table quantities_table(const LadderAnswer& answer) {
-  Table table{{"quantity", ""}, {"in", ""}, {"finest value", ""}, {"limit", ""}, {"error bar", ""},
-              {"error as it is", ""}, {"order", "1"}, {"reading", ""}};
+  Table table{{"quantity", ""}, {"in", ""},        {"finest value", ""},
+              {"limit", ""},    {"error bar", ""}, {"error as it is", ""},
+              {"order", "1"},   {"reading", ""}};
   for (const QuantityOverLevels& q : answer.quantities)
     table.row(q.name, q.unit, q.values.empty() ? nan : q.values.back(), q.bar.limit,
               q.bar.half_width, q.first_error, q.bar.order,
@@ -78,9 +87,11 @@ Table quantities_table(const LadderAnswer& answer) {
 }
 
 Table levels_table(const LadderAnswer& answer) {
-  Table table{{"level", "1"}, {answer.in == "time" ? "mean step" : "size",
-                               answer.in == "time" ? "s" : "m"},
-              {"operator applications", "1"}, {"processor time", "s"}, {"stopped", ""}};
+  Table table{{"level", "1"},
+              {answer.in == "time" ? "mean step" : "size", answer.in == "time" ? "s" : "m"},
+              {"operator applications", "1"},
+              {"processor time", "s"},
+              {"stopped", ""}};
   for (size_t k = 0; k < answer.sizes.size(); ++k)
     table.row(k + 1, answer.sizes[k], answer.work[k], answer.seconds[k],
               answer.stopped[k].empty() ? std::string("no") : answer.stopped[k]);
@@ -104,8 +115,8 @@ std::string in_words(const LadderAnswer& answer) {
     return first + " That is a spread and no estimate: " + bar.reason + ".";
   if (bar.reading == Reading::asymptotic)
     return first + fmt::format(" Differences fall with order {:.2f}: asymptotic.", bar.order);
-  return first + fmt::format(" The last order is {:.2f}, not asymptotic: {}.", bar.order,
-                             bar.reason);
+  return first +
+         fmt::format(" The last order is {:.2f}, not asymptotic: {}.", bar.order, bar.reason);
 }
 
 std::vector<Mark> range_marks(const QuantityOverLevels& quantity) {
