@@ -226,6 +226,19 @@ void add_converge(CLI::App& app, Options& options) {
                    "Refuse levels with which the ladder would take longer than this [h]")
       ->type_name("H")
       ->check(positive_number());
+  converge
+      ->add_option("--fraction", options.fraction,
+                   "Twin runs have parted when this share of the motion lies between them")
+      ->type_name("SHARE")
+      ->check(share())
+      ->capture_default_str();
+  converge
+      ->add_option("--ensemble", options.ensemble,
+                   "Runs with disturbed starts, whose statistics are compared once positions are "
+                   "not predictable; below 2: none")
+      ->type_name("N")
+      ->check(whole_number(0, 1000))
+      ->capture_default_str();
   add_overrides(converge, options);
   add_folder(converge, options,
              "Folder whose store/ keeps every run; a second call makes only what is missing")

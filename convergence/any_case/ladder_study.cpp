@@ -74,15 +74,24 @@ Figure values_figure(const LadderAnswer& answer) {
   return figure;
 }
 
+/// The value down to the second digit of its bar.
+std::string value_text(double value, double bar) {
+  if (!std::isfinite(value)) return "\u2013";
+  if (!(bar > 0) || !std::isfinite(bar)) return fmt::format("{:.6g}", value);
+  const double digits = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(bar)) + 2;
+  return fmt::format("{:.{}g}", value, int(std::clamp(digits, 2.0, 12.0)));
+}
+
 Table quantities_table(const LadderAnswer& answer) {
   Table table{{"quantity", ""}, {"in", ""},        {"finest value", ""},
               {"limit", ""},    {"error bar", ""}, {"error as it is", ""},
               {"order", "1"},   {"reading", ""}};
   for (const QuantityOverLevels& q : answer.quantities)
-    table.row(q.name, q.unit, q.values.empty() ? nan : q.values.back(), q.bar.limit,
-              q.bar.half_width, q.first_error, q.bar.order,
-              q.bar.reason.empty() ? std::string(name_of(q.bar.reading))
-                                   : fmt::format("{}: {}", name_of(q.bar.reading), q.bar.reason));
+    table.row(
+        q.name, q.unit, value_text(q.values.empty() ? nan : q.values.back(), q.bar.half_width),
+        value_text(q.bar.limit, q.bar.half_width), q.bar.half_width, q.first_error, q.bar.order,
+        q.bar.reason.empty() ? std::string(name_of(q.bar.reading))
+                             : fmt::format("{}: {}", name_of(q.bar.reading), q.bar.reason));
   return {"quantities", "Quantities, each in its unit", table};
 }
 

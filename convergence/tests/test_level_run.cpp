@@ -157,7 +157,8 @@ TEST_CASE("a run that stopped is kept with its reason") {
 
 TEST_CASE("a stored run that lacks something is made again") {
   const Level level = time_level(trial(), 0, {});
-  for (const char* lacking : {"values", "times", "positions", "cost", "stopped"}) {
+  for (const char* lacking :
+       {"values", "times", "positions", "kinetic", "elastic", "contacts", "cost", "stopped"}) {
     INFO(lacking);
     const ScratchFolder scratch;
     ResultStore store(scratch.file("store"));

@@ -11,6 +11,7 @@
 #include "scripts/program/converge_file.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/ladder_runs.h"
+#include "scripts/program/predictability_runs.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/run_case.h"
 #include "verification/files/atomic_file.h"
@@ -102,13 +103,18 @@ int converge(const Options& options) {
   require_replaceable(options.out + "/converge.h5");
   ResultStore store(options.out + "/store");
   const LadderRuns ladder = ladder_runs(plan, level_sets, store, options);
-  const LadderAnswer answer = time_answer(plan, ladder.runs);
   if (!ladder.refused.empty()) log_line(ladder.refused);
+  const PredictabilityAnswer twins = run_twins(plan, ladder.runs, level_sets, store, options);
+  const LadderAnswer answer = answer_before_horizon(plan, ladder.runs, twins);
   write_answers(options.out + "/converge.h5", {answer}, options.command);
-  if (options.json)
-    fmt::print("{}\n", json_text(to_json(answer)));
-  else
+  if (options.json) {
+    json answer_json = to_json(answer);
+    answer_json["predictability"] = to_json(twins);
+    fmt::print("{}\n", json_text(answer_json));
+  } else {
     print(answer);
+    print(twins);
+  }
   return answer.quantities.front().bar.reading == Reading::inconclusive ? some_fail : all_hold;
 }
 

@@ -34,6 +34,8 @@ struct Options {
   int subdivisions = 0;              // of project
   int levels = 4;                    // of converge: runs
   double hours = 0;                  // of converge: of the clock, for all runs; 0: no limit
+  double fraction = 0.1;             // of converge: of the motion, at which twin runs have parted
+  int ensemble = 4;                  // of converge: runs with disturbed starts; 0: none
   std::vector<std::string> methods;  // of converge: integrators
   double until = 0;                  // of converge: how much of the run is asked [s]; 0: all of it
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,

@@ -213,6 +213,11 @@ by which differences between levels fall, Richardson's limit, and the grid conve
 error bar (safety 1.25 where the order has settled, else 3). Quantities are those of the case's
 [[quantity]] tables; without any: positions, energies, heights, and what its [expect] asks.
 
+Two more runs start disturbed: by 1e-12 of the cloth's extent, and by the size of the step's error.
+Where they part from the undisturbed run by --fraction of its motion, positions stop being
+predictable. Orders and bars are asked up to there only. Beyond it, --ensemble such runs give means
+over time of height, energies, contacts and fold angles, with their spread.
+
 The folder keeps every run: what was cut off goes on, and a second call runs only what is missing.
 The first two levels, run alone, show what the others cost; those that the memory or --hours does not
 allow are refused, and the levels that ran answer. Seconds are the processor's, of a run's own thread.
@@ -220,6 +225,7 @@ DIR/converge.h5 is for `foldproof report DIR`.
 
 Examples:
   foldproof converge hinge --until 0.2
+  foldproof converge drape_sphere --ensemble 8
   foldproof converge hanging_sheet --levels 3 --method BDF2 --out mine
 
 Exit codes:
