@@ -49,8 +49,7 @@ from viewer.field_pictures import make_field_view  # noqa: E402
 SHIPPED_CASES = Path(__file__).resolve().parent.parent / "cases"
 VIEWS = 4_000_000                   # characters that the data of all views of a page may take, shared equally
 
-CONVERGE = "converge.h5"            # of `foldproof converge`: how large errors are
-NOTHING = Run(provenance={}, findings=[], studies=[], cases=[], faults=[])
+OF_A_CASE = ("precision.h5", "converge.h5")   # of `foldproof precision` and `foldproof converge`
 
 Job = tuple[Callable[..., Any], tuple[Any, ...]]
 
@@ -120,18 +119,21 @@ def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = False
 def read_folder(folder: Path) -> tuple[Run, Run | None]:
     """The run (made up of the case files alone if there is no run.h5) and the speed measurements, if any."""
     bench = load_run(folder / "bench.h5") if (folder / "bench.h5").is_file() else None
+    others = [load_run(folder / name) for name in OF_A_CASE if (folder / name).is_file()]
+    studies = [study for other in others for study in other.studies]
     if (folder / "run.h5").is_file():
-        return load_run(folder / "run.h5"), bench
-    errors = load_run(folder / CONVERGE) if (folder / CONVERGE).is_file() else None
-    entries = [case_entry_of_file(path) for path in sorted(folder.glob("*.h5")) if path.name not in ("bench.h5", CONVERGE)]
+        run = load_run(folder / "run.h5")
+        return replace(run, studies=run.studies + studies), bench
+    entries = [case_entry_of_file(path) for path in sorted(folder.glob("*.h5")) if path.name not in ("bench.h5", *OF_A_CASE)]
     cases = [entry for entry in entries if entry is not None]
-    if not cases and bench is None and errors is None:
-        raise FileNotFoundError(f"{folder}: no run.h5, no bench.h5, no converge.h5 and no case file; run "
-                                "`foldproof verify` or `foldproof simulate` with --out first")
+    if not cases and bench is None and not others:
+        raise FileNotFoundError(f"{folder}: no run.h5, no bench.h5 and no case file; run `foldproof verify` "
+                                "or `foldproof simulate` with --out first")
     simulations = [one for case in cases if (one := load_if_readable(case.path))]
-    provenance = common_to([one.about_run for one in simulations]) if simulations else (errors or bench or NOTHING).provenance
+    alone = bench or (others[0] if others else None)
+    provenance = common_to([one.about_run for one in simulations]) if simulations else alone.provenance if alone else {}
     findings = [finding for one in simulations for finding in one.findings]
-    return Run(provenance=provenance, findings=findings, studies=errors.studies if errors else [], cases=cases, faults=[]), bench
+    return Run(provenance=provenance, findings=findings, studies=studies, cases=cases, faults=[]), bench
 
 
 def load_if_readable(path: Path) -> Case | None:

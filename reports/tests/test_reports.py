@@ -25,7 +25,7 @@ from data.unreadable import Unreadable  # noqa: E402
 from make_report import make_report, read_folder  # noqa: E402
 from pages.page import Anchors  # noqa: E402
 from pages.trust import tolerances_of  # noqa: E402
-from tests.made_up_run import HOSTILE, NAMES, put, put_case, put_finding, put_run  # noqa: E402
+from tests.made_up_run import HOSTILE, NAMES, TEXT, put, put_case, put_finding, put_run, put_study  # noqa: E402
 
 
 class Seen(HTMLParser):

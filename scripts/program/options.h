@@ -36,8 +36,11 @@ struct Options {
   double hours = 0;                  // of converge: of the clock, for all runs; 0: no limit
   double fraction = 0.1;             // of converge: of the motion, at which twin runs have parted
   int ensemble = 4;                  // of converge: runs with disturbed starts; 0: none
-  std::vector<std::string> methods;  // of converge: integrators
-  double until = 0;                  // of converge: how much of the run is asked [s]; 0: all of it
+  std::vector<std::string> methods;  // of converge and precision: integrators
+  // of converge and precision: how much of the run is asked [s]; 0: all of it
+  double until = 0;
+  std::vector<std::string> errors = {"1e-2", "1e-3"};  // of precision: wanted, as typed [1]
+  double effort = 1;  // of precision: largest work of a run over the usual budget [1]
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,
        restarts = false, pdf = false, papers = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code
