@@ -49,6 +49,8 @@ from viewer.field_pictures import make_field_view  # noqa: E402
 SHIPPED_CASES = Path(__file__).resolve().parent.parent / "cases"
 VIEWS = 4_000_000                   # characters that the data of all views of a page may take, shared equally
 
+OF_A_CASE = ("precision.h5", "converge.h5")   # of `foldproof precision` and `foldproof converge`
+
 Job = tuple[Callable[..., Any], tuple[Any, ...]]
 
 
@@ -117,18 +119,18 @@ def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = False
 def read_folder(folder: Path) -> tuple[Run, Run | None]:
     """The run (made up of the case files alone if there is no run.h5) and the speed measurements, if any."""
     bench = load_run(folder / "bench.h5") if (folder / "bench.h5").is_file() else None
-    precision = load_run(folder / "precision.h5") if (folder / "precision.h5").is_file() else None
-    studies = precision.studies if precision else []
+    others = [load_run(folder / name) for name in OF_A_CASE if (folder / name).is_file()]
+    studies = [study for other in others for study in other.studies]
     if (folder / "run.h5").is_file():
         run = load_run(folder / "run.h5")
         return replace(run, studies=run.studies + studies), bench
-    entries = [case_entry_of_file(path) for path in sorted(folder.glob("*.h5")) if path.name not in ("bench.h5", "precision.h5")]
+    entries = [case_entry_of_file(path) for path in sorted(folder.glob("*.h5")) if path.name not in ("bench.h5", *OF_A_CASE)]
     cases = [entry for entry in entries if entry is not None]
-    if not cases and bench is None and precision is None:
+    if not cases and bench is None and not others:
         raise FileNotFoundError(f"{folder}: no run.h5, no bench.h5 and no case file; run `foldproof verify` "
                                 "or `foldproof simulate` with --out first")
     simulations = [one for case in cases if (one := load_if_readable(case.path))]
-    alone = bench or precision
+    alone = bench or (others[0] if others else None)
     provenance = common_to([one.about_run for one in simulations]) if simulations else alone.provenance if alone else {}
     findings = [finding for one in simulations for finding in one.findings]
     return Run(provenance=provenance, findings=findings, studies=studies, cases=cases, faults=[]), bench

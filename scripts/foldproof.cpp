@@ -222,6 +222,11 @@ void add_converge(CLI::App& app, Options& options) {
       ->type_name("TIME")
       ->check(positive_number());
   converge
+      ->add_option("--hours", options.hours,
+                   "Refuse levels with which the ladder would take longer than this [h]")
+      ->type_name("H")
+      ->check(positive_number());
+  converge
       ->add_option("--fraction", options.fraction,
                    "Twin runs have parted when this share of the motion lies between them")
       ->type_name("SHARE")

@@ -1,20 +1,22 @@
 #include "convergence/any_case/level_run.h"
 
-#include <chrono>
 #include <cmath>
 #include <exception>
+#include <optional>
 
 #include "convergence/any_case/distances.h"
 #include "convergence/work_precision/precision_problem.h"
 #include "reference/bodies/content_key.h"
 #include "verification/cases/judge.h"
 #include "verification/files/checkpoint_file.h"
+#include "verification/processor_time.h"
 
 namespace foldproof {
 
 namespace {
 
-LevelRun watched_level(const Level& level, const LevelSetProvider& level_sets) {
+LevelRun watched_level(const Level& level, const LevelSetProvider& level_sets,
+                       const Progress& progress) {
   const Scene& scene = level.input_case.scene;
   const BuiltScene built = build(scene, level_sets);
   Measurer measurer(scene, built, level.measurements);
@@ -33,6 +35,7 @@ LevelRun watched_level(const Level& level, const LevelSetProvider& level_sets) {
                             measurer.record(row);
                             contacts = row.work.object_contacts;
                             if (row.step > 0) run.step_ends.push_back(row.time);
+                            progress(row.time / scene.schedule.end);
                           }};
   const RunResult result = simulate(built.system, integrator_named(scene.integrator), built.start,
                                     scene.schedule, observer);
@@ -66,7 +69,8 @@ std::vector<double> array_of(const StoredResult& kept, const std::string& name) 
   return found == kept.arrays.end() ? std::vector<double>() : found->second;
 }
 
-LevelRun unpack(const StoredResult& kept) {
+/// The run; none where something is missing of it, or of the level's measurements and particles.
+std::optional<LevelRun> unpack(const StoredResult& kept, const Level& level) {
   LevelRun run;
   run.values = array_of(kept, "values");
   run.times = array_of(kept, "times");
@@ -75,29 +79,36 @@ LevelRun unpack(const StoredResult& kept) {
   run.contacts = array_of(kept, "contacts");
   run.step_ends = array_of(kept, "step_ends");
   const std::vector<double> positions = array_of(kept, "positions"), cost = array_of(kept, "cost");
-  run.work = cost.at(0);
-  run.seconds = cost.at(1);
-  run.stopped = kept.texts.at("stopped");
-  if (run.times.empty()) return run;
-  const Eigen::Index particles = Eigen::Index(positions.size() / run.times.size()) / 3;
+  const size_t numbers = 3 * size_t(level.particles);  // of a frame
+  const auto stopped = kept.texts.find("stopped");
+  if (cost.size() != 2 || stopped == kept.texts.end() ||
+      run.values.size() != level.measurements.size() ||
+      positions.size() != run.times.size() * numbers)
+    return {};
+  for (const std::vector<double>* of_frames : {&run.kinetic, &run.elastic, &run.contacts})
+    if (of_frames->size() != run.times.size()) return {};
+  run.work = cost[0];
+  run.seconds = cost[1];
+  run.stopped = stopped->second;
   for (size_t k = 0; k < run.times.size(); ++k)
-    run.x.push_back(Eigen::Map<const PerParticle3>(
-        positions.data() + Eigen::Index(k) * 3 * particles, 3, particles));
+    run.x.push_back(
+        Eigen::Map<const PerParticle3>(positions.data() + k * numbers, 3, level.particles));
   return run;
 }
 
 }  // namespace
 
-LevelRun run_level(const Level& level, const LevelSetProvider& level_sets) {
-  const auto start = std::chrono::steady_clock::now();
+LevelRun run_level(const Level& level, const LevelSetProvider& level_sets,
+                   const Progress& progress) {
+  const double start = processor_seconds();
   LevelRun run;
   try {
-    run = watched_level(level, level_sets);
+    run = watched_level(level, level_sets, progress);
   } catch (const std::exception& error) {
     run.stopped = error.what();
   }
   run.values.resize(level.measurements.size(), nan);
-  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  run.seconds = processor_seconds() - start;
   return run;
 }
 
@@ -111,7 +122,8 @@ std::string key_of(const Level& level, const std::string& program) {
   const StepRule& step = scene.schedule.step;
   for (const double number :
        {scene.schedule.end, scene.schedule.frame_interval, step.fixed, step.safety,
-        step.strain_per_step, scene.solver.tolerance, double(scene.solver.max_iterations)})
+        step.strain_per_step, scene.solver.tolerance, double(scene.solver.max_iterations),
+        double(scene.schedule.max_steps)})
     key.add(number);
   key.add(step.ends);
   key.add(level.particles);
@@ -127,11 +139,12 @@ std::string key_of(const Level& level, const std::string& program) {
 }
 
 LevelRun stored_level(const Level& level, const LevelSetProvider& level_sets, ResultStore& store,
-                      const std::string& program) {
+                      const std::string& program, const Progress& progress) {
   const std::string key = key_of(level, program);
-  if (const auto kept = store.find(key)) return unpack(*kept);
+  if (const auto kept = store.find(key))
+    if (std::optional<LevelRun> run = unpack(*kept, level)) return *std::move(run);
   store.start(key, level.label);
-  LevelRun run = run_level(level, level_sets);
+  LevelRun run = run_level(level, level_sets, progress);
   store.keep(key, pack(run));
   return run;
 }

@@ -19,7 +19,7 @@ struct LevelRun {
   std::vector<double> contacts;   // in each frame: points that objects corrected in the last step
   std::vector<double> step_ends;  // s
   double work = 0;                // evaluations, preparations and products of all forces [1]
-  double seconds = 0;             // of the clock, with others running beside
+  double seconds = 0;             // of the processor, in the run's own thread
   std::string stopped;            // why the run came to no end, or ""
 };
 
@@ -31,16 +31,21 @@ struct Level {
   int particles;  // of these, the first ones, positions are kept
 };
 
-/// Runs the level. An error in building or running goes into `stopped`.
-LevelRun run_level(const Level& level, const LevelSetProvider& level_sets);
+/// Runs the level; shows `progress` the part that is done. An error in building or running is
+/// told in `stopped`.
+LevelRun run_level(
+    const Level& level, const LevelSetProvider& level_sets,
+    const Progress& progress = [](double) {});
 
 /// The key of the level's result: of its case text, meshes, start, schedule, method and
 /// measurements, and of the program.
 std::string key_of(const Level& level, const std::string& program);
 
-/// The level's run from the store, or made now and kept there. Also keeps runs that stopped.
-LevelRun stored_level(const Level& level, const LevelSetProvider& level_sets, ResultStore& store,
-                      const std::string& program);
+/// The level's run from the store, or made now and kept there. Also keeps runs that stopped. What
+/// the store has and is no whole run is made again.
+LevelRun stored_level(
+    const Level& level, const LevelSetProvider& level_sets, ResultStore& store,
+    const std::string& program, const Progress& progress = [](double) {});
 
 /// The largest difference over the frames: the root mean square over particles, weighted with their
 /// masses (N [kg]), of how far apart they are [m]. NaN where one of the runs stopped.

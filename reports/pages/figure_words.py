@@ -53,7 +53,8 @@ def figure_notes(figure: StudyFigure) -> list[str]:
         logarithmic = "log" in (figure.x_scale, figure.y_scale)
         what = "NaN, infinite, or not positive on a logarithmic axis" if logarithmic else "NaN or infinite"
         notes.append(f"{left_out} point{'s' if left_out > 1 else ''} not drawn ({what}).")
-    if any(has_mark(curve, "unfinished").any() for curve in figure.curves):
+    # of a ladder the caption says what hollow points are
+    if any(has_mark(curve, "unfinished").any() for curve in figure.curves) and "Hollow:" not in figure.caption:
         notes.append("Hollow: a solve on the way of that run did not finish.")
     if floors:
         plural = "s" if len(floors) > 1 else ""

@@ -98,6 +98,10 @@ class Page:
         """All other studies, as the run lists them."""
         return [view for view in self.studies if view.study.name not in FIRST_STUDIES + HARD_STUDIES]
 
+    def errors_alone(self) -> bool:
+        """Is this what `foldproof converge` found, and nothing else?"""
+        return bool(self.studies) and all(view.study.name.startswith("converge.") for view in self.studies)
+
     def all_findings(self) -> list[Finding]:
         """All that the page shows, once each."""
         of_studies = [finding for view in self.studies + self.bench_studies for finding in view.findings]

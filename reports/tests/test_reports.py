@@ -25,7 +25,7 @@ from data.unreadable import Unreadable  # noqa: E402
 from make_report import make_report, read_folder  # noqa: E402
 from pages.page import Anchors  # noqa: E402
 from pages.trust import tolerances_of  # noqa: E402
-from tests.made_up_run import HOSTILE, NAMES, put, put_case, put_finding, put_run  # noqa: E402
+from tests.made_up_run import HOSTILE, NAMES, TEXT, put, put_case, put_finding, put_run, put_study  # noqa: E402
 
 
 class Seen(HTMLParser):
@@ -314,6 +314,23 @@ class PartsMissing(unittest.TestCase):
         with h5py.File(self.root / "bench.h5", "w") as file:
             put_finding(file, 1, NAMES[4], "bench", outcome="measured", better="lower")
         self.assertIn("targets that no verdict depends on", self.made())
+
+    def test_the_errors_of_a_case_alone(self) -> None:
+        with h5py.File(self.root / "converge.h5", "w") as file:
+            put_study(file)
+            file.move("studies/time-order", "studies/converge.strip.C.in-time")
+            file["studies/converge.strip.C.in-time"].attrs["claim"] = "The step puts positions off by 3 mm."
+            figure = file["studies/converge.strip.C.in-time/figures/x"]
+            for curve in figure["curves"].values():
+                if "marks" in curve:
+                    del curve["marks"]
+                curve.create_dataset("marks", data=["unfinished"] * len(curve["x"]), dtype=TEXT)
+            figure.attrs["caption"] = "Hollow: outside the asymptotic range."
+        text = self.made()
+        self.assertIn("how large the errors of a case are", text)
+        self.assertIn("The step puts positions off by 3 mm.", text)
+        self.assertIn("outside the asymptotic range", text)
+        self.assertNotIn("a solve on the way", text)
 
     def test_a_file_name_in_a_run_leads_nowhere(self) -> None:
         put_run(self.root)

@@ -8,11 +8,13 @@
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/converge_file.h"
 #include "scripts/program/json_text.h"
+#include "scripts/program/ladder_runs.h"
 #include "scripts/program/predictability_runs.h"
 #include "scripts/program/progress.h"
-#include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
+#include "verification/files/atomic_file.h"
 
 namespace foldproof {
 
@@ -20,32 +22,15 @@ namespace {
 
 using nlohmann::json;
 
-/// The level's run as a job; the result is left in `into`.
-Job job_of(Level level, double length, const LevelSetProvider& level_sets, ResultStore& store,
-           LevelRun& into) {
-  return {level.input_case.scene.name, length,
-          [level = std::move(level), &level_sets, &store, &into,
-           program = program_identity()](const Progress&) {
-            into = stored_level(level, level_sets, store, program);
-            return RunRecord{};
-          }};
-}
-
-/// The first level alone, since the others divide its steps; then all others at a time.
-std::vector<LevelRun> ladder_runs(const LadderPlan& plan, const LevelSetProvider& level_sets,
-                                  ResultStore& store, const JobSettings& running) {
-  std::vector<LevelRun> runs(size_t(plan.levels));
-  RunRecord unused;
-  run_jobs({job_of(time_level(plan, 0, {}), 1, level_sets, store, runs[0])}, "the case as it is",
-           running, unused);
-  if (!runs[0].stopped.empty())
-    throw InputError("the case itself comes to no end: " + runs[0].stopped);
-  std::vector<Job> jobs;
-  for (int k = 1; k < plan.levels; ++k)
-    jobs.push_back(
-        job_of(time_level(plan, k, runs[0].step_ends), 1 << k, level_sets, store, runs[size_t(k)]));
-  run_jobs(jobs, "its steps divided", running, unused);
-  return runs;
+/// The first level, and the others, which divide its steps.
+LadderRuns ladder_runs(const LadderPlan& plan, const LevelSetProvider& level_sets,
+                       ResultStore& store, const Options& options) {
+  return run_ladder({plan.levels,
+                     [&](int k, const std::vector<LevelRun>& runs) {
+                       return time_level(plan, k,
+                                         k > 0 ? runs[0].step_ends : std::vector<double>());
+                     }},
+                    level_sets, store, options.running, limits_of(options.hours));
 }
 
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.6g}", value); }
@@ -109,12 +94,19 @@ int converge(const Options& options) {
     plan.input_case.scene.schedule.end =
         std::min(options.until, plan.input_case.scene.schedule.end);
   plan.measurements = measurements_of(plan.input_case);
+  for (const Measurement& m : plan.measurements)
+    if (m.when == Instant::at_time && m.time > plan.input_case.scene.schedule.end)
+      throw InputError(fmt::format("quantity '{}' is asked at {:g} s, beyond --until {:g}", m.name,
+                                   m.time, options.until));
   build(plan.input_case.scene, level_sets);  // refuses now what cannot be built
   const OutFolder folder(options.out);
+  require_replaceable(options.out + "/converge.h5");
   ResultStore store(options.out + "/store");
-  const std::vector<LevelRun> runs = ladder_runs(plan, level_sets, store, options.running);
-  const PredictabilityAnswer twins = run_twins(plan, runs, level_sets, store, options);
-  const LadderAnswer answer = answer_before_horizon(plan, runs, twins);
+  const LadderRuns ladder = ladder_runs(plan, level_sets, store, options);
+  if (!ladder.refused.empty()) log_line(ladder.refused);
+  const PredictabilityAnswer twins = run_twins(plan, ladder.runs, level_sets, store, options);
+  const LadderAnswer answer = answer_before_horizon(plan, ladder.runs, twins);
+  write_answers(options.out + "/converge.h5", {answer}, options.command);
   if (options.json) {
     json answer_json = to_json(answer);
     answer_json["predictability"] = to_json(twins);

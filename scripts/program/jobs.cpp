@@ -44,14 +44,12 @@ std::vector<size_t> order_of_jobs(const std::vector<Job>& jobs, unsigned order) 
 /// The jobs that wait, and what came of those that are done. Shared by all threads.
 class Queue {
  public:
-  Queue(const std::vector<Job>& jobs, const std::string& label, unsigned order)
+  Queue(const std::vector<Job>& jobs, const ProgressSpan& span, unsigned order)
       : jobs_(jobs),
         waiting_(order_of_jobs(jobs, order)),
         done_(jobs.size()),
         parts_(jobs.size()),
-        progress_(label) {
-    for (const Job& job : jobs) whole_ += job.length;
-  }
+        span_(span) {}
 
   /// Takes jobs until none is left.
   void work() {
@@ -90,7 +88,7 @@ class Queue {
     const std::lock_guard held(mutex_);
     total_ += jobs_[i].length * (part - done_[i]);
     done_[i] = part;
-    progress_.show(total_ / whole_);
+    span_.line.show((span_.before + total_) / span_.whole);
   }
 
   const std::vector<Job>& jobs_;
@@ -98,8 +96,8 @@ class Queue {
   std::vector<size_t> waiting_;
   std::vector<double> done_;  // the part of each job
   std::vector<RunRecord> parts_;
-  double whole_ = 0, total_ = 0;
-  ProgressLine progress_;
+  double total_ = 0;  // of the lengths, done
+  ProgressSpan span_;
 };
 
 }  // namespace
@@ -117,7 +115,15 @@ Record unfinished_record(const std::string& name, std::optional<Outcome> outcome
 
 void run_jobs(const std::vector<Job>& jobs, const std::string& label, const JobSettings& settings,
               RunRecord& run) {
-  Queue queue(jobs, label, settings.order);
+  ProgressLine line(label);
+  double whole = 0;
+  for (const Job& job : jobs) whole += job.length;
+  run_jobs(jobs, {line, 0, whole}, settings, run);
+}
+
+void run_jobs(const std::vector<Job>& jobs, const ProgressSpan& span, const JobSettings& settings,
+              RunRecord& run) {
+  Queue queue(jobs, span, settings.order);
   {
     const size_t threads =
         settings.threads > 0 ? settings.threads : std::thread::hardware_concurrency();

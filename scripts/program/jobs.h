@@ -29,10 +29,23 @@ struct JobSettings {
   unsigned order = 0;  // 0: the longest of a group first; else shuffled, each number another order
 };
 
+class ProgressLine;
+
+/// Where jobs stand in a longer work, in the unit of their lengths.
+struct ProgressSpan {
+  ProgressLine& line;
+  double before;  // of the work, done
+  double whole;   // > 0
+};
+
 /// Runs the jobs; says a line about each finding that does not hold, and adds what they made
 /// to the run in the order of the list. A job that throws becomes a finding of its name that
 /// fails and says why.
 void run_jobs(const std::vector<Job>& jobs, const std::string& label, const JobSettings& settings,
+              RunRecord& run);
+
+/// As above; shows its progress as a part of a longer work.
+void run_jobs(const std::vector<Job>& jobs, const ProgressSpan& span, const JobSettings& settings,
               RunRecord& run);
 
 }  // namespace foldproof

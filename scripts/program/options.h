@@ -33,6 +33,7 @@ struct Options {
   int cells = 64;                    // of inspect: along the longest side
   int subdivisions = 0;              // of project
   int levels = 4;                    // of converge: runs
+  double hours = 0;                  // of converge: of the clock, for all runs; 0: no limit
   double fraction = 0.1;             // of converge: of the motion, at which twin runs have parted
   int ensemble = 4;                  // of converge: runs with disturbed starts; 0: none
   std::vector<std::string> methods;  // of converge and precision: integrators

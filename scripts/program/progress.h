@@ -15,9 +15,10 @@ class ProgressLine {
   /// fraction done, from 0 to 1.
   void show(double fraction);
 
- private:
+  /// Since it was made [s].
   double seconds() const;
 
+ private:
   std::string label_;
   bool on_terminal_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -105,8 +105,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
     for (const auto& [key, value] : expect->entries)
       result.expectations.push_back(read_entry(*expect, key, result.scene, replaced));
   if (const auto ablation = of.keys->table("ablation")) read_ablation(*ablation, result);
-  for (const auto& quantity : of.keys->tables("quantity"))
-    result.quantities.push_back(read_measurement(*quantity, result.scene));
+  result.quantities = read_measurements(*of.keys, result.scene);
   of.keys->reject_unused();
   return result;
 }

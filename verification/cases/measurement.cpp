@@ -184,6 +184,26 @@ void read_instant(const KeyTable& keys, const Scene& scene, Measurement& m) {
       {{"end", Instant::end}, {"maximum", Instant::maximum}, {"minimum", Instant::minimum}});
 }
 
+void reject_key(const KeyTable& keys, const std::string& key, const std::string& why) {
+  if (keys.has(key)) throw InputError(keys.where(key) + ": " + why);
+}
+
+/// A quantity of [expect], which takes nothing but its name.
+void require_expected(const KeyTable& keys, const std::string& what, const Scene& scene) {
+  const Quantity* quantity = find_quantity(what);
+  if (!quantity)
+    throw InputError(keys.where("what") + ": unknown quantity '" + what +
+                     "'; known: " + known_measurements());
+  if (what == "is_reproducible")
+    throw InputError(keys.where("what") +
+                     ": 'is_reproducible' repeats steps and is no number of one run; use [expect]");
+  for (const char* key : {"of", "when"})
+    reject_key(keys, key, "'" + what + "' is measured as [expect] does; leave out '" + key + "'");
+  const std::string rejection = quantity->rejection ? quantity->rejection(scene) : "";
+  if (!rejection.empty())
+    throw InputError(keys.where("what") + ": '" + what + "' makes no sense here: " + rejection);
+}
+
 }  // namespace
 
 std::vector<int> particles_in(const ParticleRegion& region, const Scene& scene) {
@@ -200,24 +220,26 @@ std::vector<int> particles_in(const ParticleRegion& region, const Scene& scene) 
 
 const std::vector<Measurable>& measurable() {
   static const std::vector<Measurable> table = {
-      {"height", "m", "mean height of the particles, by mass, against gravity", 0, mean_height},
-      {"lowest", "m", "height of the lowest particle", 0, lowest},
-      {"highest", "m", "height of the highest particle", 0, highest},
-      {"position", "m", "mean position along a direction, by mass", 0, position_along},
-      {"displacement", "m", "root mean square distance from the start, by mass", 0, displacement},
+      {"height", "m", "mean height of the particles, by mass, against gravity", any_region,
+       mean_height},
+      {"lowest", "m", "height of the lowest particle", any_region, lowest},
+      {"highest", "m", "height of the highest particle", any_region, highest},
+      {"position", "m", "mean position along a direction, by mass", any_region, position_along},
+      {"displacement", "m", "root mean square distance from the start, by mass", any_region,
+       displacement},
       {"distance", "m", "between two particles", 2, distance},
       {"angle", "degrees", "at the second of three particles", 3, angle},
-      {"mean_curvature", "1/m", "mean of |H| over the cloth", 0, mean_curvature},
-      {"speed", "m/s", "of the fastest particle", 0, fastest},
-      {"kinetic_energy", "J", "of the cloth", 0, kinetic},
-      {"elastic_energy", "J", "of stretching and bending", 0, elastic},
-      {"gravitational_energy", "J", "of the cloth", 0, gravitational},
-      {"energy", "J", "kinetic, elastic and gravitational", 0, total_energy},
-      {"momentum", "kg m/s", "size of the linear momentum", 0, momentum},
-      {"angular_momentum", "kg m^2/s", "size, about the origin", 0, spin},
-      {"contact_points", "1", "points that objects corrected in the step before", 0,
+      {"mean_curvature", "1/m", "mean of |H| over the cloth", whole_cloth, mean_curvature},
+      {"speed", "m/s", "of the fastest particle", any_region, fastest},
+      {"kinetic_energy", "J", "of the cloth", whole_cloth, kinetic},
+      {"elastic_energy", "J", "of stretching and bending", whole_cloth, elastic},
+      {"gravitational_energy", "J", "of the cloth", whole_cloth, gravitational},
+      {"energy", "J", "kinetic, elastic and gravitational", whole_cloth, total_energy},
+      {"momentum", "kg m/s", "size of the linear momentum", whole_cloth, momentum},
+      {"angular_momentum", "kg m^2/s", "size, about the origin", whole_cloth, spin},
+      {"contact_points", "1", "points that objects corrected in the step before", whole_cloth,
        contact_points},
-      {"depth", "m", "of the deepest free particle inside an object", 0, depth},
+      {"depth", "m", "of the deepest free particle inside an object", whole_cloth, depth},
   };
   return table;
 }
@@ -231,24 +253,38 @@ std::string unit_of(const Measurement& m) {
 Measurement read_measurement(const KeyTable& keys, const Scene& scene) {
   Measurement m{keys.text_or("name", ""), keys.text("what")};
   if (m.name.empty()) m.name = m.what;
-  m.of = read_region(keys, scene);
-  read_instant(keys, scene, m);
-  if (const Measurable* row = find_measurable(m.what)) {
-    if (row->particles > 0 && int(m.of.particles.size()) != row->particles)
-      throw InputError(keys.where("what") +
-                       fmt::format(": '{}' needs of = {{ particles = [...] }} with {} numbers",
-                                   m.what, row->particles));
-    if (m.what == "position") m.along = keys.vector_or("along", Vector3::Zero());
+  const Measurable* row = find_measurable(m.what);
+  if (!row) {
+    require_expected(keys, m.what, scene);
     return m;
   }
-  const Quantity* quantity = find_quantity(m.what);
-  if (!quantity)
-    throw InputError(keys.where("what") + ": unknown quantity '" + m.what +
-                     "'; known: " + known_measurements());
-  const std::string rejection = quantity->rejection ? quantity->rejection(scene) : "";
-  if (!rejection.empty())
-    throw InputError(keys.where("what") + ": '" + m.what + "' makes no sense here: " + rejection);
+  if (row->particles == whole_cloth)
+    reject_key(keys, "of", "'" + m.what + "' is measured on the whole cloth; leave out 'of'");
+  else
+    m.of = read_region(keys, scene);
+  read_instant(keys, scene, m);
+  if (row->particles > 0 && int(m.of.particles.size()) != row->particles)
+    throw InputError(keys.where("what") +
+                     fmt::format(": '{}' needs of = {{ particles = [...] }} with {} numbers",
+                                 m.what, row->particles));
+  if (m.what == "position" && keys.has("along")) {
+    m.along = keys.vector("along");
+    if (!(m.along.norm() > 0))
+      throw InputError(keys.where("along") + ": 'along' is a direction and must not be zero");
+  }
   return m;
+}
+
+std::vector<Measurement> read_measurements(const KeyTable& keys, const Scene& scene) {
+  std::vector<Measurement> all;
+  for (const auto& table : keys.tables("quantity")) {
+    all.push_back(read_measurement(*table, scene));
+    for (size_t k = 0; k + 1 < all.size(); ++k)
+      if (all[k].name == all.back().name)
+        throw InputError(table->where("what") + ": two quantities are called '" + all[k].name +
+                         "'; give one of them another 'name'");
+  }
+  return all;
 }
 
 std::vector<Measurement> usual_measurements(const Scene& scene,
@@ -266,7 +302,12 @@ std::vector<Measurement> usual_measurements(const Scene& scene,
 
 Measurer::Measurer(const Scene& scene, const BuiltScene& built,
                    const std::vector<Measurement>& measurements)
-    : scene_(scene), built_(built), measurements_(measurements), values_(measurements.size(), nan) {
+    : scene_(scene),
+      built_(built),
+      measurements_(measurements),
+      values_(measurements.size(), nan),
+      nearest_(measurements.size(), std::numeric_limits<double>::infinity()),
+      is_first_(measurements.size(), true) {
   for (const Measurement& m : measurements) particles_.push_back(particles_in(m.of, scene));
 }
 
@@ -284,27 +325,28 @@ double Measurer::at_frame(size_t k, const State& frame) const {
 }
 
 void Measurer::record(const State& frame) {
-  const bool is_first = frame.time == 0;
-  const double close = 1e-9 * scene_.schedule.frame_interval;
-  for (size_t k = 0; k < measurements_.size(); ++k) {
-    const Measurement& m = measurements_[k];
-    // its largest over the frames, as [expect] takes it
-    const bool is_expected = !find_measurable(m.what);
-    if (m.when == Instant::at_time &&
-        std::abs(frame.time - m.time) > scene_.schedule.frame_interval / 2)
-      continue;
-    if (m.when == Instant::end && !is_expected &&
-        std::abs(frame.time - scene_.schedule.end) > close)
-      continue;
-    const double value = at_frame(k, frame);
-    const double before = values_[k];
-    if (is_first || m.when == Instant::at_time || (m.when == Instant::end && !is_expected))
-      values_[k] = value;
-    else if (m.when == Instant::minimum)
-      values_[k] = std::isnan(value) ? value : std::min(before, value);
-    else
-      values_[k] = std::isnan(value) ? value : std::max(before, value);
+  for (size_t k = 0; k < measurements_.size(); ++k) record(k, frame);
+}
+
+void Measurer::record(size_t k, const State& frame) {
+  const Measurement& m = measurements_[k];
+  // quantities of [expect]: the largest over all frames
+  const Instant when = find_measurable(m.what) ? m.when : Instant::maximum;
+  const double interval = scene_.schedule.frame_interval, close = 1e-9 * interval;
+  if (when == Instant::at_time || when == Instant::end) {
+    const double off = std::abs(frame.time - (when == Instant::end ? scene_.schedule.end : m.time));
+    const double most = close + (when == Instant::end ? 0 : interval / 2);
+    if (!(off <= most) || !(off < nearest_[k] - close)) return;  // of two as near, the earlier
+    nearest_[k] = off;
+    values_[k] = at_frame(k, frame);
+    return;
   }
+  const double value = at_frame(k, frame), before = values_[k];
+  if (is_first_[k] || std::isnan(value))
+    values_[k] = value;
+  else if (!std::isnan(before))  // a NaN of an earlier frame stays
+    values_[k] = when == Instant::minimum ? std::min(before, value) : std::max(before, value);
+  is_first_[k] = false;
 }
 
 std::vector<double> Measurer::values(const RunResult& result) const {

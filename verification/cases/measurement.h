@@ -44,10 +44,12 @@ struct FrameView {
   long contacts;  // points whose motion objects corrected in the step that ended here
 };
 
+constexpr int any_region = 0, whole_cloth = -1;
+
 /// A row of the table of what can be measured at a frame.
 struct Measurable {
   const char *what, *unit, *meaning;
-  int particles;  // number of particles that it needs by index; 0: any region
+  int particles;  // number of particles that it needs by index; any_region; whole_cloth
   double (*at)(const FrameView& frame, const Measurement& m, const std::vector<int>& of);
 };
 
@@ -57,8 +59,12 @@ const std::vector<Measurable>& measurable();
 std::string unit_of(const Measurement& m);
 
 /// One entry of [[quantity]]. Throws InputError "file:line: ..." for an unknown `what` or `when`, a
-/// region without particles, and a quantity that makes no sense for the scene.
+/// region without particles, a quantity that makes no sense for the scene, and keys that it would
+/// not use: `of` where the whole cloth is measured, `of` and `when` of a quantity of [expect].
 Measurement read_measurement(const KeyTable& keys, const Scene& scene);
+
+/// All tables of [[quantity]]. Throws InputError for a name that two of them have.
+std::vector<Measurement> read_measurements(const KeyTable& keys, const Scene& scene);
 
 /// The default measurements of a case without [[quantity]]: energies at the end, heights at the end
 /// (where there is gravity), and the quantities of its expectations.
@@ -75,11 +81,13 @@ class Measurer {
   void record(const Diagnostics& row);
   void record(const State& frame);
 
-  /// One value per measurement; NaN if the run stopped before its time.
+  /// One value per measurement; NaN if the run stopped before its time. Extremes are over the
+  /// frames that exist.
   std::vector<double> values(const RunResult& result) const;
 
  private:
   double at_frame(size_t k, const State& frame) const;
+  void record(size_t k, const State& frame);
 
   const Scene& scene_;
   const BuiltScene& built_;
@@ -87,7 +95,9 @@ class Measurer {
   std::vector<std::vector<int>> particles_;  // of each measurement
   DiagnosticsSummary summary_;
   long contacts_ = 0;
-  std::vector<double> values_;  // of those that belong to frames
+  std::vector<double> values_;   // of those that belong to frames
+  std::vector<double> nearest_;  // of those of a time: how far the frame is from it [s]
+  std::vector<bool> is_first_;   // of extremes: no frame was seen yet
 };
 
 }  // namespace foldproof

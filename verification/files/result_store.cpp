@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -24,14 +25,16 @@ std::string one_line(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+std::atomic<int> stores_opened = 0;  // by this process
+
 /// A name that no other process on any machine takes, for all that is likely.
 std::string new_shard_name() {
   char host[64] = "host";
   gethostname(host, sizeof host - 1);
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::string(host) + "-" + std::to_string(getpid()) + "-" +
-         std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(now).count()) +
-         ".jsonl";
+         std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(now).count()) + "-" +
+         std::to_string(stores_opened++);
 }
 
 /// The whole text in one call, so that lines of two writers never mix.
@@ -49,47 +52,69 @@ ResultStore::ResultStore(std::string folder) : folder_(std::move(folder)) {
   if (folder_.empty()) return;
   if (fs::exists(folder_) && !fs::is_directory(folder_))
     throw InputError(folder_ + ": results are kept in a folder, and this is none");
-  shard_ = folder_ + "/shards/" + new_shard_name();
+  shard_ = new_shard_name();
   if (!fs::is_directory(folder_ + "/shards")) return;
-  for (const auto& entry : fs::directory_iterator(folder_ + "/shards")) {
-    std::ifstream shard(entry.path());
-    for (std::string line; std::getline(shard, line);) {
-      const json record = json::parse(line, nullptr, false);
-      if (!record.is_object()) continue;  // torn
-      if (record.contains("start")) ++starts_[record["start"].get<std::string>()];
-      if (record.contains("result"))
-        texts_[record["result"].get<std::string>()] =
-            record.value("texts", std::map<std::string, std::string>());
+  std::vector<fs::directory_entry> shards;
+  for (const auto& entry : fs::directory_iterator(folder_ + "/shards"))
+    if (entry.path().extension() == ".jsonl") shards.push_back(entry);
+  std::ranges::sort(shards, {}, [](const auto& entry) { return entry.last_write_time(); });
+  for (const auto& entry : shards) read_shard(entry.path().string(), entry.path().stem().string());
+}
+
+void ResultStore::read_shard(const std::string& path, const std::string& shard) {
+  std::ifstream file(path);
+  for (std::string text; std::getline(file, text);) {
+    const json record = json::parse(text, nullptr, false);
+    try {
+      if (record.contains("start")) ++starts_[record.at("start").get<std::string>()];
+      if (!record.contains("result")) continue;
+      const Line line{record.at("texts").get<std::map<std::string, std::string>>(),
+                      record.at("arrays").get<std::map<std::string, size_t>>(), shard};
+      results_[record.at("result").get<std::string>()].push_back(line);
+    } catch (const json::exception&) {  // torn, or none of ours
     }
   }
 }
 
-std::string ResultStore::arrays_file(const std::string& key) const {
-  return folder_ + "/arrays/" + key.substr(0, 2) + "/" + key + ".h5";
+std::string ResultStore::arrays_file(const std::string& key, const std::string& shard) const {
+  return folder_ + "/arrays/" + key.substr(0, 2) + "/" + key + "-" + shard + ".h5";
 }
 
-std::optional<StoredResult> ResultStore::find(const std::string& key) const {
-  StoredResult result;
-  {
-    const std::lock_guard held(mutex_);
-    const auto kept = texts_.find(key);
-    if (kept == texts_.end()) return {};
-    result.texts = kept->second;
-  }
+std::optional<StoredResult> ResultStore::read(const std::string& key, const Line& line) const {
+  StoredResult result{{}, line.texts};
   try {
-    const Hdf5 file = Hdf5::open_file(arrays_file(key));
-    for (const std::string& name :
-         json::parse(file.read_text("names")).get<std::vector<std::string>>())
+    const Hdf5 file = Hdf5::open_file(arrays_file(key, line.shard));
+    for (const auto& [name, length] : line.lengths) {
       result.arrays[name] = file.read_doubles(name);
+      if (result.arrays[name].size() != length) return {};
+    }
   } catch (const std::exception&) {
     return {};  // as if it had never been made
   }
   return result;
 }
 
+std::optional<StoredResult> ResultStore::find(const std::string& key) const {
+  std::vector<Line> lines;
+  {
+    const std::lock_guard held(mutex_);
+    const auto kept = results_.find(key);
+    if (kept == results_.end()) return {};
+    lines = kept->second;
+  }
+  for (auto line = lines.rbegin(); line != lines.rend(); ++line)
+    if (auto result = read(key, *line)) return result;
+  return {};
+}
+
+bool ResultStore::contains(const std::string& key) const {
+  const std::lock_guard held(mutex_);
+  return results_.contains(key);
+}
+
 void ResultStore::append(const std::string& line) {
   fs::create_directories(folder_ + "/shards");
-  append_to_file(shard_, line + "\n");
+  append_to_file(folder_ + "/shards/" + shard_ + ".jsonl", line + "\n");
 }
 
 void ResultStore::start(const std::string& key, const std::string& label) {
@@ -102,19 +127,18 @@ void ResultStore::start(const std::string& key, const std::string& label) {
 void ResultStore::keep(const std::string& key, const StoredResult& result) {
   if (folder_.empty()) return;
   const std::lock_guard held(mutex_);
-  fs::create_directories(fs::path(arrays_file(key)).parent_path());
-  json names = json::array(), lengths = json::object();
-  write_hdf5(arrays_file(key), [&](const Hdf5& file) {
+  const std::string path = arrays_file(key, shard_);
+  fs::create_directories(fs::path(path).parent_path());
+  Line line{result.texts, {}, shard_};
+  write_hdf5(path, [&](const Hdf5& file) {
     for (const auto& [name, values] : result.arrays) {
       if (values.empty()) continue;
       file.dataset(name, values);
-      names.push_back(name);
-      lengths[name] = values.size();
+      line.lengths[name] = values.size();
     }
-    file.attribute("names", names.dump());
   });
-  append(one_line({{"result", key}, {"texts", result.texts}, {"arrays", lengths}}));
-  texts_[key] = result.texts;
+  append(one_line({{"result", key}, {"texts", line.texts}, {"arrays", line.lengths}}));
+  results_[key].push_back(line);
 }
 
 int ResultStore::starts(const std::string& key) const {

@@ -1,0 +1,49 @@
+// What the levels of a ladder cost: of those that ran, and of those to come.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "convergence/any_case/level_run.h"
+
+namespace foldproof {
+
+struct LevelCost {
+  double work = 0;     // operator applications times particles [1]
+  double seconds = 0;  // of the processor, for one thread [s]
+  // what the run keeps in memory: positions of all frames and ends of steps, twice while it is
+  // written [bytes]
+  double bytes = 0;
+};
+
+LevelCost cost_of(const Level& level, const LevelRun& run);
+
+/// The costs of all `levels`: those measured, of which there are two or more, then those to come.
+/// Work and bytes grow from level to level by the factor of the last two measured ones (bytes never
+/// fall), seconds as work does.
+std::vector<LevelCost> foreseen_costs(const std::vector<LevelCost>& measured, int levels);
+
+struct LadderLimits {
+  double seconds = std::numeric_limits<double>::infinity();  // of the clock, for the whole ladder
+  double bytes = std::numeric_limits<double>::infinity();
+};
+
+/// Seconds of the clock for levels first .. last, side by side on `threads` cores.
+double clock_seconds(const std::vector<LevelCost>& costs, size_t first, size_t last, int threads);
+
+/// How many levels are run, and why the next one is not, with the numbers; "" if all are.
+struct Affordable {
+  int levels;
+  std::string refusal;
+};
+
+/// The levels that ran, and those to come that fit the limits with all before them. costs: of all
+/// levels; no seconds where a result is there already. spent: of the clock so far [s].
+Affordable affordable_levels(const std::vector<LevelCost>& costs, size_t measured, double spent,
+                             const LadderLimits& limits, int threads);
+
+/// "40 s", "12 min", "5.2 h".
+std::string duration_text(double seconds);
+
+}  // namespace foldproof

@@ -1,0 +1,159 @@
+#include "convergence/any_case/ladder_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/dynamics/integrator.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double order_in_space = 2;  // of springs and hinges on a sheet that bends smoothly
+
+double formal_order(const LadderAnswer& answer) {
+  return answer.in == "time" ? integrator_named(answer.method).order : order_in_space;
+}
+
+/// "step" or "mesh": what is refined.
+std::string refined(const LadderAnswer& answer) { return answer.in == "time" ? "step" : "mesh"; }
+
+/// Differences over `scale`, each at the size of its coarser level.
+Curve curve_over_levels(const LadderAnswer& answer, const QuantityOverLevels& q, double scale) {
+  Curve curve{q.name, {}, {}, nan, q.bar.orders, nan, range_marks(q)};
+  for (size_t k = 0; k < q.differences.size(); ++k)
+    curve.point(answer.sizes[k], std::abs(q.differences[k]) / scale);
+  return curve;
+}
+
+Axis size_axis(const LadderAnswer& answer) {
+  return {answer.in == "time" ? "mean step of the coarser level" : "size of the coarser level",
+          answer.in == "time" ? "s" : "m", Scale::log};
+}
+
+constexpr const char* caption =
+    "Each point is the difference between two neighbouring levels. Filled: the asymptotic range, "
+    "in which neighbouring orders agree within 0.2. Hollow: outside it. The triangle is the order "
+    "that the method promises.";
+
+Figure positions_figure(const LadderAnswer& answer) {
+  return {"positions",
+          "Positions: difference between levels",
+          size_axis(answer),
+          {"largest root mean square difference", "m", Scale::log},
+          formal_order(answer),
+          caption,
+          {curve_over_levels(answer, answer.quantities.front(), 1)}};
+}
+
+double largest_of(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+/// Whether a logarithmic axis has a place for it.
+bool can_be_drawn(const QuantityOverLevels& q) {
+  return largest_of(q.differences) > 0 && largest_of(q.values) > 0;
+}
+
+Figure values_figure(const LadderAnswer& answer) {
+  Figure figure{"quantities",
+                "Quantities: relative difference between levels",
+                size_axis(answer),
+                {"difference over the largest value", "1", Scale::log},
+                formal_order(answer),
+                caption,
+                {}};
+  for (size_t k = 1; k < answer.quantities.size(); ++k)
+    if (const QuantityOverLevels& q = answer.quantities[k]; can_be_drawn(q))
+      figure.curves.push_back(curve_over_levels(answer, q, largest_of(q.values)));
+  return figure;
+}
+
+/// The value down to the second digit of its bar.
+std::string value_text(double value, double bar) {
+  if (!std::isfinite(value)) return "\u2013";
+  if (!(bar > 0) || !std::isfinite(bar)) return fmt::format("{:.6g}", value);
+  const double digits = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(bar)) + 2;
+  return fmt::format("{:.{}g}", value, int(std::clamp(digits, 2.0, 12.0)));
+}
+
+Table quantities_table(const LadderAnswer& answer) {
+  Table table{{"quantity", ""}, {"in", ""},        {"finest value", ""},
+              {"limit", ""},    {"error bar", ""}, {"error as it is", ""},
+              {"order", "1"},   {"reading", ""}};
+  for (const QuantityOverLevels& q : answer.quantities)
+    table.row(
+        q.name, q.unit, value_text(q.values.empty() ? nan : q.values.back(), q.bar.half_width),
+        value_text(q.bar.limit, q.bar.half_width), q.bar.half_width, q.first_error, q.bar.order,
+        q.bar.reason.empty() ? std::string(name_of(q.bar.reading))
+                             : fmt::format("{}: {}", name_of(q.bar.reading), q.bar.reason));
+  return {"quantities", "Quantities, each in its unit", table};
+}
+
+Table levels_table(const LadderAnswer& answer) {
+  Table table{{"level", "1"},
+              {answer.in == "time" ? "mean step" : "size", answer.in == "time" ? "s" : "m"},
+              {"operator applications", "1"},
+              {"processor time", "s"},
+              {"stopped", ""}};
+  for (size_t k = 0; k < answer.sizes.size(); ++k)
+    table.row(k + 1, answer.sizes[k], answer.work[k], answer.seconds[k],
+              answer.stopped[k].empty() ? std::string("no") : answer.stopped[k]);
+  return {"levels", "Levels, and their cost", table};
+}
+
+}  // namespace
+
+std::string in_words(const LadderAnswer& answer) {
+  const QuantityOverLevels& positions = answer.quantities.front();
+  const ErrorBar& bar = positions.bar;
+  if (std::isnan(bar.half_width))
+    return fmt::format("No error can be stated for {} with method {}: {}.", answer.scene,
+                       answer.method, bar.reason);
+  const std::string first = fmt::format(
+      "The {} of {} with method {} puts its positions off by {:.2g} m at most; the finest of {} "
+      "levels has an error bar of {:.2g} m.",
+      refined(answer), answer.scene, answer.method, positions.first_error, answer.sizes.size(),
+      bar.half_width);
+  if (bar.reading == Reading::inconclusive)
+    return first + " That is a spread and no estimate: " + bar.reason + ".";
+  if (bar.reading == Reading::asymptotic)
+    return first + fmt::format(" Differences fall with order {:.2f}: asymptotic.", bar.order);
+  return first +
+         fmt::format(" The last order is {:.2f}, not asymptotic: {}.", bar.order, bar.reason);
+}
+
+std::vector<Mark> range_marks(const QuantityOverLevels& quantity) {
+  std::vector<Mark> marks(quantity.differences.size(), Mark::unfinished);
+  if (quantity.bar.reading != Reading::asymptotic) return marks;
+  const std::vector<double>& orders = quantity.bar.orders;
+  size_t first = orders.size() - 1;  // of the orders in the range
+  while (first > 0 && std::abs(orders[first - 1] - orders[first]) <= same_order) --first;
+  std::fill(marks.begin() + long(first), marks.end(), Mark::measured);
+  return marks;
+}
+
+StudyRecord study_of(const LadderAnswer& answer) {
+  StudyRecord study;
+  study.name = fmt::format("converge.{}.{}.in-{}", answer.scene, answer.method, answer.in);
+  study.claim = in_words(answer);
+  study.source = "Roache 1994; Celik et al. 2008";
+  study.about = fmt::format(
+      "The same case with its {} refined from level to level. The limit is Richardson's; the error "
+      "bar belongs to the finest level and is the grid convergence index. The error as it is "
+      "belongs to the first level, bar included.",
+      refined(answer));
+  for (const double seconds : answer.seconds) study.seconds += seconds;
+  study.figures = {positions_figure(answer)};
+  if (Figure others = values_figure(answer); !others.curves.empty())
+    study.figures.push_back(std::move(others));
+  study.tables = {quantities_table(answer), levels_table(answer)};
+  return study;
+}
+
+}  // namespace foldproof

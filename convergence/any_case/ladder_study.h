@@ -1,0 +1,22 @@
+// A ladder's answer as evidence: curves of differences, tables, and a sentence.
+#pragma once
+
+#include "convergence/any_case/converge.h"
+#include "verification/verdict.h"
+
+namespace foldproof {
+
+/// How large the error of the case as it stands is, in one or two sentences.
+std::string in_words(const LadderAnswer& answer);
+
+/// One mark a difference of the quantity: measured in the asymptotic range, which ends at the
+/// finest pair and reaches back as long as neighbouring orders agree within same_order; unfinished
+/// (drawn hollow) outside it.
+std::vector<Mark> range_marks(const QuantityOverLevels& quantity);
+
+/// The study "converge.CASE.METHOD.in-time" (or in-space): positions and all other quantities over
+/// the levels, in figures with the method's order as their slope; quantities with order, limit, bar
+/// and reading, and levels with their cost, in tables.
+StudyRecord study_of(const LadderAnswer& answer);
+
+}  // namespace foldproof

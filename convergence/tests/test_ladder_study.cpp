@@ -1,0 +1,77 @@
+// What `foldproof converge` hands to reports.
+#include <catch2/catch.hpp>
+
+#include "convergence/any_case/ladder_study.h"
+
+namespace foldproof {
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+QuantityOverLevels quantity_of(const std::string& name, const std::vector<double>& differences) {
+  return {name, "m", {}, differences, error_bar({{}, differences, 2, 2, 0}), 0.5};
+}
+
+LadderAnswer answer_of(std::vector<QuantityOverLevels> quantities) {
+  const std::vector<double> sizes = {0.08, 0.04, 0.02, 0.01};
+  return {"strip",
+          "C",
+          "time",
+          sizes,
+          {1, 2, 4, 8},
+          {3, 6, 12, 24},
+          {"", "", "", "fell"},
+          std::move(quantities)};
+}
+
+}  // namespace
+
+TEST_CASE("the asymptotic range reaches back as long as orders agree") {
+  const auto M = Mark::measured, U = Mark::unfinished;
+  // orders 1, 2, 2
+  CHECK(range_marks(quantity_of("x", {2, 1, 0.25, 0.0625})) == std::vector<Mark>{U, M, M, M});
+  CHECK(range_marks(quantity_of("x", {16, 4, 1, 0.25})) == std::vector<Mark>{M, M, M, M});
+  CHECK(range_marks(quantity_of("x", {4, 1, 0.5})) == std::vector<Mark>{U, U, U});
+  CHECK(range_marks(quantity_of("x", {1, 2, 4})) == std::vector<Mark>{U, U, U});
+}
+
+TEST_CASE("an answer in words says what the reading is worth") {
+  CHECK_THAT(in_words(answer_of({quantity_of("positions", {16, 4, 1})})),
+             Contains("off by 0.5 m at most") && Contains("error bar of 0.42 m") &&
+                 Contains("order 2.00: asymptotic."));
+  CHECK_THAT(in_words(answer_of({quantity_of("positions", {16, 4, 2})})),
+             Contains("not asymptotic: the order still changes"));
+  CHECK_THAT(in_words(answer_of({quantity_of("positions", {1, 2, 4})})),
+             Contains("a spread and no estimate: differences between levels grow."));
+  CHECK_THAT(in_words(answer_of({quantity_of("positions", {1, 2, nan})})),
+             Contains("No error can be stated for strip with method C"));
+}
+
+TEST_CASE("a study of a ladder has its differences, its bars and its costs") {
+  QuantityOverLevels height = quantity_of("height", {-16, 4, 1});
+  height.values = {30, 14, 18, 19};
+  QuantityOverLevels constant = quantity_of("constant", {0, 0, 0});
+  constant.values = {5, 5, 5, 5};
+  const StudyRecord study =
+      study_of(answer_of({quantity_of("positions", {16, 4, 1}), height, constant}));
+  CHECK(study.name == "converge.strip.C.in-time");
+  CHECK(study.seconds == 45);
+  REQUIRE(study.figures.size() == 2);
+  const Curve& positions = study.figures[0].curves.at(0);
+  CHECK(positions.x == std::vector<double>{0.08, 0.04, 0.02});
+  CHECK(positions.y == std::vector<double>{16, 4, 1});
+  CHECK(positions.pair_orders == std::vector<double>{2, 2});
+  CHECK(study.figures[0].slope == 2);
+  REQUIRE(study.figures[1].curves.size() == 1);  // what does not change has no place on a log axis
+  CHECK(study.figures[1].curves[0].y.at(0) == Approx(16.0 / 30));
+  const Table& quantities = study.tables.at(0);
+  CHECK(quantities.texts("quantity") ==
+        std::vector<std::string>{"positions", "height", "constant"});
+  CHECK(quantities.numbers("error bar").at(0) == Approx(1.25 / 3));
+  CHECK_THAT(quantities.texts("reading").at(2), Contains("inconclusive: differences"));
+  CHECK(study.tables.at(1).texts("stopped") == std::vector<std::string>{"no", "no", "no", "fell"});
+  CHECK(study.tables[1].numbers("processor time") == std::vector<double>{3, 6, 12, 24});
+}
+
+}  // namespace foldproof

@@ -1,0 +1,158 @@
+#!/usr/bin/python3
+"""Tests of `foldproof converge`: what it answers, what it keeps, what it runs again, what it refuses.
+
+scripts/tests/test_converge.py [ConvergeTest.test_...]
+"""
+
+import json
+import subprocess
+import sys
+import time
+import unittest
+from typing import Any
+
+sys.dont_write_bytecode = True
+
+from file_tests import CLOCK, PROGRAM, FileTest, run  # noqa: E402
+
+SHEET = """
+[cloth]
+shape = "sheet"
+width = 0.3
+height = 0.2
+columns = 6
+rows = 4
+density = 0.2
+[gravity]
+[stretch]
+stiffness = 40.0
+damping = 0.02
+[bending]
+stiffness = 1e-3
+[[hold]]
+box = [[-1, 0.19, -1], [1, 1, 1]]
+[solver]
+tolerance = 1e-12
+[time]
+end = 0.06
+frames_per_second = 50
+[[quantity]]
+what = "lowest"
+[[quantity]]
+name = "swing"
+what = "kinetic_energy"
+when = "maximum"
+"""
+
+
+class ConvergeTest(FileTest):
+    def converge(self, *arguments: str) -> subprocess.CompletedProcess[str]:
+        return run("converge", *arguments, "--out", str(self.path / "out"))
+
+    def answer(self, *arguments: str) -> dict[str, Any]:
+        """The answer in time as JSON."""
+        done = self.converge(*arguments, "--json")
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        said = json.loads(done.stdout)
+        return said["ladders"][0] if "ladders" in said else said
+
+    def lines(self, kind: str) -> list[dict[str, Any]]:
+        """Lines of the store of this kind, "start" or "result", of the ladder's levels."""
+        found = []
+        for shard in sorted((self.path / "out" / "store" / "shards").glob("*.jsonl")):
+            for line in shard.read_text().splitlines():
+                try:
+                    found.append(json.loads(line))
+                except json.JSONDecodeError:  # torn
+                    continue
+        levels = {line["start"] for line in found if "steps divided" in line.get("label", "")}
+        return [line for line in found if line.get(kind) in levels]
+
+    def test_a_smooth_case_has_the_order_of_its_method(self) -> None:
+        answer = self.answer(self.write("sheet.toml", SHEET))
+        self.assertEqual(len(answer["mean_step"]) if "mean_step" in answer else len(answer["sizes"]), 4)
+        for quantity in answer["quantities"]:
+            self.assertEqual(quantity["reading"], "asymptotic", quantity)
+            self.assertAlmostEqual(quantity["order"], 2, delta=0.2)
+            self.assertGreater(quantity["error_as_it_is"], quantity["error_bar"])
+        self.assertEqual([quantity["name"] for quantity in answer["quantities"]], ["positions", "lowest", "swing"])
+
+    def test_a_bar_holds_what_two_finer_levels_say(self) -> None:
+        sheet = self.write("sheet.toml", SHEET)
+        coarse, fine = self.answer(sheet, "--levels", "4"), self.answer(sheet, "--levels", "6")
+        for before, after in list(zip(coarse["quantities"], fine["quantities"]))[1:]:
+            self.assertEqual(before["values"], after["values"][:4])
+            self.assertLess(abs(before["values"][-1] - after["limit"]), before["error_bar"])
+            self.assertLess(after["error_bar"], before["error_bar"] / 8)
+
+    def test_a_second_call_runs_only_what_is_missing(self) -> None:
+        sheet = self.write("sheet.toml", SHEET)
+        first = self.answer(sheet, "--levels", "3")
+        self.assertEqual((len(self.lines("start")), len(self.lines("result"))), (3, 3))
+        self.assertEqual(self.answer(sheet, "--levels", "3"), first)
+        self.assertEqual(len(self.lines("start")), 3)
+        self.answer(sheet, "--levels", "4")
+        self.assertEqual(len(self.lines("start")), 4)
+        self.answer(sheet, "--levels", "3", "--set", "gravity.acceleration=[0,-9.8,0]")
+        self.assertEqual(len(self.lines("start")), 7)
+        self.answer(sheet, "--levels", "3", "--method", "BDF2")
+        self.assertEqual(len(self.lines("start")), 10)
+        for arrays in (self.path / "out" / "store" / "arrays").rglob("*.h5"):
+            arrays.write_bytes(b"damaged")
+        self.assertEqual(self.answer(sheet, "--levels", "3")["quantities"], first["quantities"])
+        self.assertEqual(len(self.lines("start")), 13)
+
+    def test_a_killed_call_goes_on_with_the_runs_that_it_had_ended(self) -> None:
+        sheet = self.write("sheet.toml", SHEET.replace("columns = 6", "columns = 24").replace("rows = 4", "rows = 16"))
+        running = subprocess.Popen([str(PROGRAM), "converge", sheet, "--levels", "7", "--threads", "1", "--out", str(self.path / "out")],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        end = time.monotonic() + CLOCK
+        try:
+            while len(self.lines("result")) < 2 and running.poll() is None and time.monotonic() < end:
+                time.sleep(0.01)
+        finally:
+            running.kill()
+            running.wait()
+        ended = {line["result"] for line in self.lines("result")}
+        self.assertGreaterEqual(len(ended), 2)
+        self.assertLess(len(ended), 7)
+        self.answer(sheet, "--levels", "4")
+        started = [line["start"] for line in self.lines("start")]
+        for key in ended:
+            self.assertEqual(started.count(key), 1)
+        self.assertGreaterEqual(len({line["result"] for line in self.lines("result")}), 4)
+
+    def test_levels_that_take_too_long_are_refused_with_the_numbers(self) -> None:
+        sheet = self.write("sheet.toml", SHEET)
+        done = self.converge(sheet, "--hours", "1e-9")
+        self.assert_rejected(done, "an error bar needs three levels, and level 3 of 4 would take ")
+        self.assertRegex(done.stderr, r"--hours allows 3.6e-06 s")
+        larger = self.write("larger.toml", SHEET.replace("columns = 6", "columns = 12").replace("rows = 4", "rows = 8"))
+        second = self.answer(larger, "--levels", "3")["seconds"][1]
+        # twelve levels are 2047 times the second; this is enough for nine
+        done = self.converge(larger, "--levels", "12", "--threads", "1", "--hours", f"{500 * second / 3600:.6g}", "--json")
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        self.assertRegex(done.stderr, r"level \d+ of 12 would take [^;]*; --hours allows ")
+        said = json.loads(done.stdout)
+        values = (said["ladders"][0] if "ladders" in said else said)["quantities"][1]["values"]
+        self.assertLess(len(values), 12)
+        self.assertGreaterEqual(len(values), 3)
+
+    def test_wrong_input_is_one_line(self) -> None:
+        sheet = self.write("sheet.toml", SHEET)
+        self.assert_rejected(self.converge(sheet, "--levels", "2"), "'2' is not a whole number from 3 to 12")
+        self.assert_rejected(self.converge(sheet, "--hours", "0"), "'0' is not a number above 0")
+        self.assert_rejected(self.converge(sheet, "--set", "quantity.0.what=heigth"), "unknown quantity 'heigth'")
+        self.assert_rejected(self.converge(sheet, "--set", "quantity.1.name=lowest"), "two quantities are called 'lowest'")
+        self.assert_rejected(self.converge(sheet, "--set", "time.max_steps=3"), "comes to no end")
+        self.assert_rejected(self.converge(sheet, "--method", "scheme Z"), "scheme Z")
+        out = self.path / "out"
+        out.mkdir(exist_ok=True)
+        for entry in out.glob("store"):
+            subprocess.run(["rm", "-r", str(entry)], check=True)
+        (out / "store").write_text("a file")
+        self.assert_rejected(self.converge(sheet), "store: results are kept in a folder, and this is none")
+
+
+if __name__ == "__main__":
+    unittest.main()
