@@ -287,6 +287,24 @@ void add_film(CLI::App& app, Options& options) {
   film->get_option("--out")->type_name("FILE");
 }
 
+void add_history(CLI::App& app, Options& options) {
+  CLI::App* history = add_command(
+      app, options,
+      {"history", "Show what changed over several runs, and in which run first", help::history},
+      show_history);
+  history
+      ->add_option("DIR", options.names, "Folders of finished runs, or their verdicts.json files")
+      ->check(some_text("a file or folder"));
+  history
+      ->add_option("--log", options.log,
+                   "JSON lines, one a run: the runs given are appended, all in it are shown")
+      ->type_name("FILE")
+      ->check(some_text("a file"));
+  add_out_if_typed(history, options, "Also write a page to this file");
+  history->get_option("--out")->type_name("FILE");
+  add_json(history, options);
+}
+
 /// What reports/ makes of stored results.
 void add_pages(CLI::App& app, Options& options) {
   CLI::App* report = add_command(
@@ -300,6 +318,7 @@ void add_pages(CLI::App& app, Options& options) {
   add_switch(report, "--pdf", options.pdf, "Also DIR/report.pdf, printed by chromium");
   add_switch(report, "--papers", options.papers,
              "Figures and pictures also as PDF and PNG files, in DIR/figures");
+  add_history(app, options);
   add_film(app, options);
   CLI::App* files =
       add_command(app, options,

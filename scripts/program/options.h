@@ -17,6 +17,7 @@ struct Options {
   std::vector<std::string> words;  // as typed, the program's name first
   std::string out = "results", tier = "quick", file, rest_file;
   std::vector<std::string> names, overrides;
+  std::string log;                 // of history: file of JSON lines
   std::string cache;               // folder that keeps level sets; none if empty
   std::string map, rule = "loop";  // of project: a depth map, a rule of subdivision
   double reach = 0, eps = 0;       // of project [m]

@@ -47,6 +47,19 @@ Exit codes:
   0    written; its path is printed
   2    there is nothing to report on, it cannot be read, or a package is missing)";
 
+constexpr const char* history =
+    R"(Needs the Debian packages python3-h5py, python3-matplotlib and python3-jinja2.
+
+Examples:
+  foldproof history results-monday results             what changed from one run to the next
+  foldproof history results --log history.jsonl        append this run to a log, then show it
+  foldproof history --log history.jsonl --out history.html
+
+Exit codes:
+  0    nothing got worse in the newest run
+  1    something did: it held before, and holds no longer
+  2    bad input, or a package is missing)";
+
 constexpr const char* film =
     R"(Needs the Debian packages ffmpeg, python3-h5py, python3-matplotlib and python3-pil.
 
