@@ -21,7 +21,9 @@ LevelRun watched_level(const Level& level, const LevelSetProvider& level_sets) {
   const Observer observer{[&](const State& s) {
                             measurer.record(s);
                             run.times.push_back(s.time);
-                            run.x.push_back(s.x.leftCols(level.particles));
+                            run.x.push_back(level.common.empty()
+                                                ? PerParticle3(s.x.leftCols(level.particles))
+                                                : PerParticle3(s.x(Eigen::all, level.common)));
                           },
                           [&](const Diagnostics& row) {
                             measurer.record(row);
@@ -106,6 +108,7 @@ std::string key_of(const Level& level, const std::string& program) {
     key.add(number);
   key.add(step.ends);
   key.add(level.particles);
+  key.add(level.common);
   for (const Measurement& m : level.measurements) {
     for (const std::string& text : {m.name, m.what}) add(text, key);
     key.add(m.of.particles);

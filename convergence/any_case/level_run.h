@@ -26,7 +26,8 @@ struct Level {
   std::string label;  // for progress and for the store
   Case input_case;
   std::vector<Measurement> measurements;
-  int particles;  // of these, the first ones, positions are kept
+  int particles;                 // of these, the first ones, positions are kept
+  std::vector<int> common = {};  // of these instead, if there are any
 };
 
 /// Runs the level. An error in building or running is told in `stopped`.

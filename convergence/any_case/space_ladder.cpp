@@ -15,7 +15,9 @@ namespace foldproof {
 
 namespace {
 
-constexpr double same_place = 1e-9;  // over the cloth's extent [1]: two points are one
+constexpr double order_in_space = 2;     // of linear elements, where the motion is smooth
+constexpr double most_step_error = 0.1;  // over the last difference between meshes [1]
+constexpr double same_place = 1e-9;      // over the cloth's extent [1]: two points are one
 
 double extent_of(const PerParticle3& x) {
   return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
@@ -80,14 +82,14 @@ std::vector<ParticleList> particle_lists(const KeyTable& keys) {
   return lists;
 }
 
-/// Why something of the case goes by number, so that meshes must be refined by middles; "" if
-/// nothing does.
+/// Why something of the case goes by number, so that meshes must be refined by middles; ""
+/// if nothing does.
 std::string what_goes_by_number(const KeyTable& keys) {
   if (const auto start = keys.table("start"); start && start->number_or("noise", 0) > 0)
     return "the noise of the start goes by particle";
-  if (const auto bending = keys.table("bending");
-      bending && bending->has("rest_angle") && !bending->is_text("rest_angle") &&
-      bending->number("rest_angle") != 0)
+  if (const auto bending = keys.table("bending"); bending && bending->has("rest_angle") &&
+                                                  !bending->is_text("rest_angle") &&
+                                                  bending->number("rest_angle") != 0)
     return "one rest angle is given for all hinges";
   for (const auto& patch : keys.tables("sticky"))
     if (const auto surface = patch->table("surface");
@@ -153,9 +155,13 @@ Case read_level(const CaseSource& source, const std::vector<std::string>& finer,
 }
 
 double mean_edge(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (const Edge& edge : mesh.edges) sum += (mesh.rest.col(edge.b) - mesh.rest.col(edge.a)).norm();
-  return sum / double(mesh.edges.size());
+  double area = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3 ab = mesh.rest.col(t[1]) - mesh.rest.col(t[0]),
+                  ac = mesh.rest.col(t[2]) - mesh.rest.col(t[0]);
+    area += ab.cross(ac).norm() / 2;
+  }
+  return std::sqrt(4 / std::sqrt(3.0) * area / double(mesh.triangles.size()));
 }
 
 SpaceLevel level_with(const CaseSource& source, std::vector<std::string> finer, const Case& coarse,
@@ -268,10 +274,34 @@ std::vector<std::string> warnings_of(const KeyTable& keys, const SpaceLadder& la
   if (!scene.sticky.empty())
     warnings.push_back("the stiffness of sticking is that of a bond: finer meshes stick more");
   if (scene.schedule.step.fixed > 0)
-    warnings.push_back(fmt::format("the fixed step is divided by {} on all meshes, since the "
-                                   "elastic limit falls with the edges",
-                                   1 << (ladder.levels.size() - 1)));
+    warnings.push_back(
+        fmt::format("the fixed step is divided by {} on all meshes, since the elastic limit falls "
+                    "with the edges",
+                    1 << (ladder.levels.size() - 1)));
   return warnings;
+}
+
+/// Errors of the ladder's own steps, from one mesh with them and with halves of them: that much
+/// times 2^p / (2^p - 1), p the order of the method.
+void add_step_errors(const Scene& scene, const LevelRun& run, const LevelRun& halved,
+                     LadderAnswer& answer) {
+  const double gain = std::pow(2.0, integrator_named(scene.integrator).order);
+  const double whole = gain / (gain - 1);
+  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  for (size_t q = 0; q < answer.quantities.size(); ++q) {
+    QuantityOverLevels& over = answer.quantities[q];
+    const double difference =
+        q == 0
+            ? field_difference(run, halved, mass)
+            : (halved.stopped.empty() ? std::abs(run.values[q - 1] - halved.values[q - 1]) : nan);
+    over.step_error = whole * difference;
+    const double last = std::abs(over.differences.back());
+    if (!(over.step_error <= most_step_error * last) && last > 0)
+      answer.warnings.push_back(
+          fmt::format("{}: the steps' own error, {:.2g} {}, is not below a tenth of the last "
+                      "difference between meshes, {:.2g}: shorten them (--set time.safety=...)",
+                      over.name, over.step_error, over.unit, last));
+  }
 }
 
 }  // namespace
@@ -299,7 +329,8 @@ std::vector<int> matching_points(const PerParticle3& of, const PerParticle3& amo
   for (Eigen::Index p = 0; p < of.cols(); ++p) {
     const double place = direction.dot(of.col(p));
     int found = -1, count = 0;
-    auto next = std::ranges::lower_bound(order, place - tolerance, {}, [&](int i) { return along[i]; });
+    auto next =
+        std::ranges::lower_bound(order, place - tolerance, {}, [&](int i) { return along[i]; });
     for (; next != order.end() && along[*next] <= place + tolerance; ++next)
       if ((among.col(*next) - of.col(p)).norm() <= tolerance) found = *next, ++count;
     if (count != 1) return {};
@@ -332,9 +363,7 @@ SpaceLadder space_ladder(const CaseSource& source, int levels, ObjectsToo object
 Level space_level(const SpaceLadder& ladder, int k, const std::vector<double>& step_ends) {
   const SpaceLevel& at = ladder.levels[size_t(k)];
   Level level{fmt::format("{}, edges divided by {}", at.input_case.scene.name, 1 << k),
-              at.input_case,
-              measurements_of(at.input_case),
-              at.input_case.scene.mesh.particles(),
+              at.input_case, measurements_of(at.input_case), at.input_case.scene.mesh.particles(),
               at.common};
   StepRule& rule = level.input_case.scene.schedule.step;
   rule.fixed = std::ldexp(rule.fixed, 1 - int(ladder.levels.size()));
@@ -346,6 +375,25 @@ Level step_check_level(const SpaceLadder& ladder, const std::vector<double>& ste
   Level level = space_level(ladder, int(ladder.levels.size()) - 2, divide_steps(step_ends, 0, 2));
   level.label += ", steps halved";
   return level;
+}
+
+LadderAnswer space_answer(const SpaceLadder& ladder, const std::vector<LevelRun>& runs,
+                          const LevelRun& halved) {
+  const Scene& scene = ladder.levels.front().input_case.scene;
+  LadderAnswer answer = answer_about(scene, "space", runs);
+  for (const SpaceLevel& level : ladder.levels) {
+    answer.sizes.push_back(level.edge);
+    answer.particles.push_back(level.input_case.scene.mesh.particles());
+    answer.overrides.push_back(level.overrides);
+  }
+  answer.refined_by = ladder.refined_by;
+  answer.warnings = ladder.warnings;
+  const std::vector<Measurement> measurements = measurements_of(ladder.levels.front().input_case);
+  answer.quantities.push_back(positions_over_levels(scene, runs, order_in_space));
+  for (size_t m = 0; m < measurements.size(); ++m)
+    answer.quantities.push_back(value_over_levels(measurements[m], m, runs, order_in_space));
+  add_step_errors(scene, runs[runs.size() - 2], halved, answer);
+  return answer;
 }
 
 }  // namespace foldproof

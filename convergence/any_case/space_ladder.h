@@ -19,13 +19,13 @@ struct CaseSource {
 /// The case; read_case's errors.
 Case case_of(const CaseSource& source);
 
-/// One mesh of the ladder: the case's file read with further overrides, so that
-/// `foldproof simulate` can run it alone.
+/// One mesh of the ladder: the case's file read with further overrides, so that `foldproof
+/// simulate` can run it alone.
 struct SpaceLevel {
   std::vector<std::string> overrides;  // that make it finer; none for level 0
   Case input_case;
   std::vector<int> common;  // N of level 0: the particle here that each particle there is
-  double edge = 0;          // mean length of an edge at rest [m]
+  double edge = 0;          // of an equilateral triangle as large as the mean one at rest [m]
 };
 
 /// All meshes, coarse to fine.
@@ -43,9 +43,9 @@ enum class ObjectsToo { no, yes };
 ///   by middles     all else, by [cloth] refine: files, hinges, statues, irregular sheets, graded
 ///                  ones; and where something goes by the number of a particle, a triangle or a
 ///                  hinge: noise of the start, one rest angle for all hinges, sticky triangles
-/// Boxes, spheres, groups and `top` mean regions and are asked anew on each mesh; lists of particles
-/// mean points, the same ones on each mesh. A thickness of self-collision too large for finer
-/// triangles becomes what they allow. objects: yes, if level sets get cells as much smaller.
+/// Boxes, spheres, groups and `top` mean regions and are asked anew on each mesh; lists of
+/// particles mean points, the same ones on each mesh. A thickness of self-collision too large for
+/// finer triangles becomes what they allow. objects: yes, if level sets get cells as much smaller.
 /// Throws InputError, "level k: ...", for a mesh that a case may not have.
 SpaceLadder space_ladder(const CaseSource& source, int levels, ObjectsToo objects);
 
@@ -59,14 +59,14 @@ std::vector<int> matching_points(const PerParticle3& of, const PerParticle3& amo
 /// level, since an elastic limit falls with the edges.
 Level space_level(const SpaceLadder& ladder, int k, const std::vector<double>& step_ends);
 
-/// The run that tells how much the steps of the ladder matter: the second-finest mesh, with each
-/// step halved.
+/// The run that tells how much the steps of the ladder matter: the second-finest mesh, with
+/// each step halved.
 Level step_check_level(const SpaceLadder& ladder, const std::vector<double>& step_ends);
 
 /// Reads all levels, coarse to fine, with the formal order 2 in space. halved: the run of
-/// step_check_level. A time error above a tenth of the last difference in space is warned of: below
-/// it, it changes an observed order by at most log2(1.1) = 0.14, less than what is taken for the
-/// same order.
+/// step_check_level. A time error above a tenth of the last difference in space is warned
+/// of: below it, it changes an observed order by at most log2(1.1) = 0.14, less than what is
+/// taken for the same order.
 LadderAnswer space_answer(const SpaceLadder& ladder, const std::vector<LevelRun>& runs,
                           const LevelRun& halved);
 

@@ -83,8 +83,8 @@ std::vector<Triangle> read_triangles(const KeyTable& keys, const StickySheet& sh
     centres.col(Eigen::Index(t)) = (sheet.x.col(a) + sheet.x.col(b) + sheet.x.col(c)) / 3;
   }
   std::vector<Triangle> chosen;
-  for (const int t :
-       read_region(keys, "triangles", sheet.parts, centres, [&] { return triangles_of_group(keys, sheet); }))
+  for (const int t : read_region(keys, "triangles", sheet.parts, centres,
+                                 [&] { return triangles_of_group(keys, sheet); }))
     chosen.push_back(sheet.triangles[size_t(t)]);
   return chosen;
 }

@@ -1,13 +1,16 @@
-// foldproof converge: the error that a case owes to its step, quantity by quantity.
+// foldproof converge: the errors that a case owes to its step and to its mesh,
+// quantity by quantity.
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "convergence/any_case/converge.h"
+#include "convergence/any_case/space_ladder.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/converge_report.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
@@ -17,107 +20,118 @@ namespace foldproof {
 
 namespace {
 
-using nlohmann::json;
+/// Runs levels, each once in the life of its store.
+struct LevelRunner {
+  const LevelSetProvider& level_sets;
+  ResultStore& store;
+  const JobSettings& running;
 
-/// The level's run as a job; the result is left in `into`.
-Job job_of(Level level, double length, const LevelSetProvider& level_sets, ResultStore& store,
-           LevelRun& into) {
-  return {level.input_case.scene.name, length,
-          [level = std::move(level), &level_sets, &store, &into,
-           program = program_identity()](const Progress&) {
-            into = stored_level(level, level_sets, store, program);
-            return RunRecord{};
-          }};
+  /// The level's run as a job; the result is left in `into`.
+  Job job_of(Level level, double length, LevelRun& into) const {
+    return {level.input_case.scene.name, length,
+            [level = std::move(level), &into, this, program = program_identity()](const Progress&) {
+              into = stored_level(level, level_sets, store, program);
+              return RunRecord{};
+            }};
+  }
+
+  void run(const std::vector<Job>& jobs, const std::string& label) const {
+    RunRecord unused;
+    run_jobs(jobs, label, running, unused);
+  }
+};
+
+void require_end(const LevelRun& run, const std::string& which) {
+  if (!run.stopped.empty()) throw InputError(which + " comes to no end: " + run.stopped);
 }
 
 /// The first level alone, since the others divide its steps; then all others at a time.
-std::vector<LevelRun> ladder_runs(const LadderPlan& plan, const LevelSetProvider& level_sets,
-                                  ResultStore& store, const JobSettings& running) {
+LadderAnswer answer_in_time(const LadderPlan& plan, const LevelRunner& runner) {
   std::vector<LevelRun> runs(size_t(plan.levels));
-  RunRecord unused;
-  run_jobs({job_of(time_level(plan, 0, {}), 1, level_sets, store, runs[0])}, "the case as it is",
-           running, unused);
-  if (!runs[0].stopped.empty())
-    throw InputError("the case itself comes to no end: " + runs[0].stopped);
+  runner.run({runner.job_of(time_level(plan, 0, {}), 1, runs[0])}, "the case as it is");
+  require_end(runs[0], "the case itself");
   std::vector<Job> jobs;
   for (int k = 1; k < plan.levels; ++k)
-    jobs.push_back(
-        job_of(time_level(plan, k, runs[0].step_ends), 1 << k, level_sets, store, runs[size_t(k)]));
-  run_jobs(jobs, "its steps divided", running, unused);
-  return runs;
+    jobs.push_back(runner.job_of(time_level(plan, k, runs[0].step_ends), 1 << k, runs[size_t(k)]));
+  runner.run(jobs, "its steps divided");
+  return time_answer(plan, runs);
 }
 
-std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.6g}", value); }
-
-std::string orders_in_words(const ErrorBar& bar) {
-  std::string words;
-  for (const double order : bar.orders)
-    words += (words.empty() ? "" : " ") + (std::isnan(order) ? "-" : fmt::format("{:.2f}", order));
-  return words;
+/// The finest mesh alone, since all others take its steps; then all others at a time.
+LadderAnswer answer_in_space(const SpaceLadder& ladder, const LevelRunner& runner) {
+  const int finest = int(ladder.levels.size()) - 1;
+  std::vector<LevelRun> runs(ladder.levels.size());
+  LevelRun halved;
+  runner.run({runner.job_of(space_level(ladder, finest, {}), 1, runs.back())}, "the finest mesh");
+  require_end(runs.back(), "the finest mesh");
+  const std::vector<double>& ends = runs.back().step_ends;
+  std::vector<Job> jobs = {
+      runner.job_of(step_check_level(ladder, ends), 2 << (2 * finest), halved)};
+  for (int k = 0; k < finest; ++k)
+    jobs.push_back(runner.job_of(space_level(ladder, k, ends), 1 << (2 * k), runs[size_t(k)]));
+  runner.run(jobs, "coarser meshes, the case as it is among them");
+  return space_answer(ladder, runs, halved);
 }
 
-void print(const LadderAnswer& answer) {
-  fmt::print("{}, method {}, in {}: {} levels; mean step {:.3g} s down to {:.3g} s\n\n",
-             answer.scene, answer.method, answer.in, answer.sizes.size(), answer.sizes.front(),
-             answer.sizes.back());
-  fmt::print("{:<24} {:<10} {:<16} {:>12} {:>10} {:>10}  {}\n", "quantity", "unit", "order by pair",
-             "limit", "+-", "as it is", "reading");
-  for (const QuantityOverLevels& q : answer.quantities)
-    fmt::print("{:<24} {:<10} {:<16} {:>12} {:>10.2g} {:>10.2g}  {}\n", q.name, q.unit,
-               orders_in_words(q.bar), number(q.bar.limit), q.bar.half_width, q.first_error,
-               q.bar.reason.empty() ? std::string(name_of(q.bar.reading))
-                                    : fmt::format("{}: {}", name_of(q.bar.reading), q.bar.reason));
-  fmt::print(
-      "\nlimit: Richardson's value for steps of no length; +-: error bar of the finest level (grid "
-      "convergence index);\n"
-      "as it is: error of the case with its own step, bar included.\n");
+std::vector<LadderAnswer> answers_for(const CaseSource& source, const Options& options,
+                                      const LevelRunner& runner) {
+  std::vector<LadderAnswer> answers;
+  if (options.in != "space") {
+    LadderPlan plan{case_of(source), options.levels, {}};
+    plan.measurements = measurements_of(plan.input_case);
+    answers.push_back(answer_in_time(plan, runner));
+  }
+  if (options.in != "time")
+    answers.push_back(
+        answer_in_space(space_ladder(source, options.levels,
+                                     options.refines_objects ? ObjectsToo::yes : ObjectsToo::no),
+                        runner));
+  return answers;
 }
 
-json to_json(const QuantityOverLevels& q) {
-  return {{"name", q.name},
-          {"unit", q.unit},
-          {"values", q.values},
-          {"differences", q.differences},
-          {"orders", q.bar.orders},
-          {"reading", name_of(q.bar.reading)},
-          {"because", q.bar.reason},
-          {"order", q.bar.order},
-          {"limit", q.bar.limit},
-          {"safety_factor", q.bar.safety},
-          {"error_bar", q.bar.half_width},
-          {"error_as_it_is", q.first_error}};
+/// Those asked for, or the case's own, "".
+std::vector<std::string> methods_of(const Options& options) {
+  std::vector<std::string> methods = options.methods;
+  if (std::ranges::find(methods, "all") != methods.end()) {
+    methods.clear();
+    for (const Integrator& integrator : integrators()) methods.emplace_back(integrator.name);
+  }
+  for (const std::string& method : methods) integrator_named(method);
+  if (methods.empty()) methods.emplace_back();
+  return methods;
 }
 
-json to_json(const LadderAnswer& answer) {
-  json answer_json = {{"case", answer.scene},      {"method", answer.method},
-                      {"in", answer.in},           {"mean_step", answer.sizes},
-                      {"work", answer.work},       {"seconds", answer.seconds},
-                      {"stopped", answer.stopped}, {"quantities", json::array()}};
-  for (const QuantityOverLevels& q : answer.quantities)
-    answer_json["quantities"].push_back(to_json(q));
-  return answer_json;
+int report(const std::vector<LadderAnswer>& answers, const Options& options) {
+  nlohmann::json ladders = nlohmann::json::array();
+  bool is_conclusive = true;
+  for (const LadderAnswer& answer : answers) {
+    if (options.json)
+      ladders.push_back(to_json(answer));
+    else
+      print(answer), fmt::print("\n");
+    is_conclusive &= answer.quantities.front().bar.reading != Reading::inconclusive;
+  }
+  if (options.json) fmt::print("{}\n", json_text({{"ladders", ladders}}));
+  return is_conclusive ? all_hold : some_fail;
 }
 
 }  // namespace
 
 int converge(const Options& options) {
   const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
-  LadderPlan plan{read_case(case_file(options.file), options.overrides), options.levels, {}};
-  if (!options.methods.empty()) plan.input_case.scene.integrator = options.methods.front();
-  if (options.until > 0)
-    plan.input_case.scene.schedule.end =
-        std::min(options.until, plan.input_case.scene.schedule.end);
-  plan.measurements = measurements_of(plan.input_case);
-  build(plan.input_case.scene, level_sets);  // refuses now what cannot be built
+  CaseSource source{case_file(options.file), options.overrides, "", options.until};
+  const std::vector<std::string> methods = methods_of(options);
+  build(case_of(source).scene, level_sets);  // refuses now what cannot be built
   const OutFolder folder(options.out);
   ResultStore store(options.out + "/store");
-  const LadderAnswer answer =
-      time_answer(plan, ladder_runs(plan, level_sets, store, options.running));
-  if (options.json)
-    fmt::print("{}\n", json_text(to_json(answer)));
-  else
-    print(answer);
-  return answer.quantities.front().bar.reading == Reading::inconclusive ? some_fail : all_hold;
+  const LevelRunner runner{level_sets, store, options.running};
+  std::vector<LadderAnswer> answers;
+  for (const std::string& method : methods) {
+    source.method = method;
+    for (LadderAnswer& answer : answers_for(source, options, runner))
+      answers.push_back(std::move(answer));
+  }
+  return report(answers, options);
 }
 
 }  // namespace foldproof

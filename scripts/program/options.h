@@ -34,6 +34,8 @@ struct Options {
   int subdivisions = 0;              // of project
   int levels = 4;                    // of converge: runs
   std::vector<std::string> methods;  // of converge: integrators
+  std::string in = "time";           // of converge: time, space or both
+  bool refines_objects = false;      // of converge: level sets with the cloth
   double until = 0;                  // of converge: how much of the run is asked [s]; 0: all of it
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,
        restarts = false, pdf = false, papers = false;
