@@ -232,6 +232,19 @@ void add_converge(CLI::App& app, Options& options) {
                    "Ask only the beginning of the run, up to this time [s]")
       ->type_name("TIME")
       ->check(positive_number());
+  converge
+      ->add_option("--fraction", options.fraction,
+                   "Twin runs have parted when this share of the motion lies between them")
+      ->type_name("SHARE")
+      ->check(share())
+      ->capture_default_str();
+  converge
+      ->add_option("--ensemble", options.ensemble,
+                   "Runs with disturbed starts, whose statistics are compared once positions are "
+                   "not predictable; below 2: none")
+      ->type_name("N")
+      ->check(whole_number(0, 1000))
+      ->capture_default_str();
   add_overrides(converge, options);
   add_folder(converge, options,
              "Folder whose store/ keeps every run; a second call makes only what is missing")

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "convergence/any_case/converge.h"
 #include "convergence/any_case/space_ladder.h"
@@ -12,6 +13,7 @@
 #include "scripts/program/commands.h"
 #include "scripts/program/converge_report.h"
 #include "scripts/program/json_text.h"
+#include "scripts/program/predictability_runs.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
@@ -45,8 +47,14 @@ void require_end(const LevelRun& run, const std::string& which) {
   if (!run.stopped.empty()) throw InputError(which + " comes to no end: " + run.stopped);
 }
 
+/// A ladder, and of one in time how long its positions are predictable.
+struct Told {
+  LadderAnswer ladder;
+  std::optional<PredictabilityAnswer> twins;
+};
+
 /// The first level alone, since the others divide its steps; then all others at a time.
-LadderAnswer answer_in_time(const LadderPlan& plan, const LevelRunner& runner) {
+Told told_in_time(const LadderPlan& plan, const LevelRunner& runner, const Options& options) {
   std::vector<LevelRun> runs(size_t(plan.levels));
   runner.run({runner.job_of(time_level(plan, 0, {}), 1, runs[0])}, "the case as it is");
   require_end(runs[0], "the case itself");
@@ -54,7 +62,10 @@ LadderAnswer answer_in_time(const LadderPlan& plan, const LevelRunner& runner) {
   for (int k = 1; k < plan.levels; ++k)
     jobs.push_back(runner.job_of(time_level(plan, k, runs[0].step_ends), 1 << k, runs[size_t(k)]));
   runner.run(jobs, "its steps divided");
-  return time_answer(plan, runs);
+  PredictabilityAnswer twins = run_twins(plan, runs, runner.level_sets, runner.store, options);
+  LadderAnswer ladder = answer_before_horizon(plan, runs, twins);
+  ladder.particles.assign(runs.size(), plan.input_case.scene.mesh.particles());
+  return {std::move(ladder), std::move(twins)};
 }
 
 /// The finest mesh alone, since all others take its steps; then all others at a time.
@@ -73,20 +84,19 @@ LadderAnswer answer_in_space(const SpaceLadder& ladder, const LevelRunner& runne
   return space_answer(ladder, runs, halved);
 }
 
-std::vector<LadderAnswer> answers_for(const CaseSource& source, const Options& options,
-                                      const LevelRunner& runner) {
-  std::vector<LadderAnswer> answers;
+std::vector<Told> told_for(const CaseSource& source, const Options& options,
+                           const LevelRunner& runner) {
+  std::vector<Told> all;
   if (options.in != "space") {
     LadderPlan plan{case_of(source), options.levels, {}};
     plan.measurements = measurements_of(plan.input_case);
-    answers.push_back(answer_in_time(plan, runner));
+    all.push_back(told_in_time(plan, runner, options));
   }
-  if (options.in != "time")
-    answers.push_back(
-        answer_in_space(space_ladder(source, options.levels,
-                                     options.refines_objects ? ObjectsToo::yes : ObjectsToo::no),
-                        runner));
-  return answers;
+  if (options.in != "time") {
+    const auto objects = options.refines_objects ? ObjectsToo::yes : ObjectsToo::no;
+    all.push_back({answer_in_space(space_ladder(source, options.levels, objects), runner), {}});
+  }
+  return all;
 }
 
 /// Those asked for, or the case's own, "".
@@ -101,17 +111,30 @@ std::vector<std::string> methods_of(const Options& options) {
   return methods;
 }
 
-int report(const std::vector<LadderAnswer>& answers, const Options& options) {
+nlohmann::json to_json(const Told& told) {
+  nlohmann::json all = to_json(told.ladder);
+  if (told.twins) all["predictability"] = to_json(*told.twins);
+  return all;
+}
+
+/// One ladder as an object; several as a list, "ladders".
+nlohmann::json to_json(const std::vector<Told>& all) {
+  if (all.size() == 1) return to_json(all.front());
   nlohmann::json ladders = nlohmann::json::array();
+  for (const Told& told : all) ladders.push_back(to_json(told));
+  return {{"ladders", ladders}};
+}
+
+int report(const std::vector<Told>& all, const Options& options) {
   bool is_conclusive = true;
-  for (const LadderAnswer& answer : answers) {
-    if (options.json)
-      ladders.push_back(to_json(answer));
-    else
-      print(answer), fmt::print("\n");
-    is_conclusive &= answer.quantities.front().bar.reading != Reading::inconclusive;
+  for (const Told& told : all) {
+    is_conclusive &= told.ladder.quantities.front().bar.reading != Reading::inconclusive;
+    if (options.json) continue;
+    print(told.ladder);
+    if (told.twins) print(*told.twins);
+    if (&told != &all.back()) fmt::print("\n");
   }
-  if (options.json) fmt::print("{}\n", json_text({{"ladders", ladders}}));
+  if (options.json) fmt::print("{}\n", json_text(to_json(all)));
   return is_conclusive ? all_hold : some_fail;
 }
 
@@ -125,13 +148,12 @@ int converge(const Options& options) {
   const OutFolder folder(options.out);
   ResultStore store(options.out + "/store");
   const LevelRunner runner{level_sets, store, options.running};
-  std::vector<LadderAnswer> answers;
+  std::vector<Told> all;
   for (const std::string& method : methods) {
     source.method = method;
-    for (LadderAnswer& answer : answers_for(source, options, runner))
-      answers.push_back(std::move(answer));
+    for (Told& told : told_for(source, options, runner)) all.push_back(std::move(told));
   }
-  return report(answers, options);
+  return report(all, options);
 }
 
 }  // namespace foldproof

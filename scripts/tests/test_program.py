@@ -199,6 +199,37 @@ step = 0.001
             self.assertEqual(done.returncode, 2)
             self.assertIn(f"{name}: there is no such case file, and no shipped case of that name", done.stderr)
 
+    def test_converge_tells_how_long_positions_are_predictable(self) -> None:
+        asked = ("converge", "hinge", "--until", "0.1", "--levels", "3", "--out", "out")
+        done = run(*asked, folder=self.path)
+        self.assertIn("predictable to its end (t = 0.1 s)", done.stdout, done.stderr)
+        told = json.loads(run(*asked, "--json", folder=self.path).stdout)["predictability"]
+        self.assertIsNone(told["horizon"])
+        self.assertEqual([len(twin["distances"]) for twin in told["twins"]], [len(told["times"])] * 2)
+        self.assertLess(told["twins"][0]["disturbance"], 1e-11)
+        self.assertAlmostEqual(told["twins"][1]["distances"][0] / told["twins"][1]["disturbance"], 1, 6)
+        strict = run(*asked, "--fraction", "1e-9", "--ensemble", "3", "--json", folder=self.path)
+        told = json.loads(strict.stdout)
+        self.assertLess(told["predictability"]["horizon"], 0.1)
+        self.assertEqual(told["predictability"]["ensemble"], 3)
+        self.assertEqual(len(told["predictability"]["statistics"][0]["levels"]), 3)
+        self.assertIn("only statistics are predictable", told["quantities"][-1]["because"])
+        for words in ("--fraction 1", "--fraction 0", "--ensemble -1"):
+            self.assert_rejected("converge", "hinge", *words.split())
+
+    def test_converge_refines_the_mesh(self) -> None:
+        asked = ("converge", "hinge", "--in", "space", "--until", "0.02", "--levels", "3", "--out", "out")
+        done = run(*asked, folder=self.path)
+        self.assertIn("refined by middles of edges, since shape 'hinge' has no finer one", done.stdout, done.stderr)
+        told = json.loads(run(*asked, "--json", folder=self.path).stdout)
+        self.assertEqual(told["particles"], [4, 9, 25])
+        self.assertEqual(told["overrides"], [[], ["cloth.refine=1"], ["cloth.refine=2"]])
+        both = json.loads(run(*asked[:3], "both", *asked[4:], "--method", "C,BDF2", "--json", folder=self.path).stdout)
+        self.assertEqual([(ladder["in"], ladder["method"]) for ladder in both["ladders"]],
+                         [("time", "C"), ("space", "C"), ("time", "BDF2"), ("space", "BDF2")])
+        self.assert_rejected(*asked, "--method", "D")
+        self.assert_rejected("converge", "hinge", "--in", "height")
+
     def test_any_obj_mesh_runs(self) -> None:
         quad = "v 0 0 0\nv 1 0 0\nv 1 1 0.1\nv 0 1 0\nv 0 2 0.2\nv 1 2 0\nf 1 2 3 4\nf 4 3 6 5\n"
         done = self.simulate(str(ROOT / "cases/any_mesh.toml"), "--set", "cloth.mesh=" + self.write("quad.obj", quad),

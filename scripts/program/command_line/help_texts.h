@@ -219,8 +219,14 @@ without any: positions, energies, heights, and what its [expect] asks.
              particles. All meshes take the steps that the finest one needs; one more run, with
              half of them, tells their own error.
 
+Two more runs start disturbed: by 1e-12 of the cloth's extent, and by the size of the step's error.
+Where they part from the undisturbed run by --fraction of its motion, positions stop being
+predictable. Orders and bars are asked up to there only. Beyond it, --ensemble such runs give means
+over time of height, energies, contacts and fold angles, with their spread.
+
 Examples:
   foldproof converge hinge --until 0.2
+  foldproof converge drape_sphere --ensemble 8
   foldproof converge hanging_sheet --levels 3 --method BDF2,C --out mine
   foldproof converge hanging_sheet --in space --set cloth.columns=6 --set cloth.rows=6 --until 0.3
 
