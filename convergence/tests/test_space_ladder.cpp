@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "convergence/any_case/space_ladder.h"
 #include "reference/forces/bending.h"
@@ -27,9 +28,11 @@ std::string sheet_of(const std::string& pattern, const std::string& more = "") {
          "\"\nwidth = 0.3\nheight = 0.2\ncolumns = 3\nrows = 4\ndensity = 0.2\n" + more + physics;
 }
 
-/// A case file in the system's temporary folder.
+/// A case file in the system's temporary folder, another one for each process.
 CaseSource source_of(const std::string& text) {
-  const auto path = std::filesystem::temp_directory_path() / "foldproof_space_ladder.toml";
+  static const unsigned process = std::random_device{}();
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("foldproof_space_ladder_" + std::to_string(process) + ".toml");
   std::ofstream(path) << text;
   return {path.string(), {}, "", 0};
 }

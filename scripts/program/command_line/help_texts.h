@@ -225,9 +225,7 @@ predictable. Orders and bars are asked up to there only. Beyond it, --ensemble s
 over time of height, energies, contacts and fold angles, with their spread.
 
 Examples:
-  foldproof converge hinge --until 0.2
-  foldproof converge drape_sphere --ensemble 8
-  foldproof converge hanging_sheet --levels 3 --method BDF2,C --out mine
+  foldproof converge drape_sphere --ensemble 8 --method BDF2,C
   foldproof converge hanging_sheet --in space --set cloth.columns=6 --set cloth.rows=6 --until 0.3
 
 Exit codes:
