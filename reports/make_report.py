@@ -117,17 +117,21 @@ def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = False
 def read_folder(folder: Path) -> tuple[Run, Run | None]:
     """The run (made up of the case files alone if there is no run.h5) and the speed measurements, if any."""
     bench = load_run(folder / "bench.h5") if (folder / "bench.h5").is_file() else None
+    precision = load_run(folder / "precision.h5") if (folder / "precision.h5").is_file() else None
+    studies = precision.studies if precision else []
     if (folder / "run.h5").is_file():
-        return load_run(folder / "run.h5"), bench
-    entries = [case_entry_of_file(path) for path in sorted(folder.glob("*.h5")) if path.name != "bench.h5"]
+        run = load_run(folder / "run.h5")
+        return replace(run, studies=run.studies + studies), bench
+    entries = [case_entry_of_file(path) for path in sorted(folder.glob("*.h5")) if path.name not in ("bench.h5", "precision.h5")]
     cases = [entry for entry in entries if entry is not None]
-    if not cases and bench is None:
+    if not cases and bench is None and precision is None:
         raise FileNotFoundError(f"{folder}: no run.h5, no bench.h5 and no case file; run `foldproof verify` "
                                 "or `foldproof simulate` with --out first")
     simulations = [one for case in cases if (one := load_if_readable(case.path))]
-    provenance = common_to([one.about_run for one in simulations]) if simulations else bench.provenance if bench else {}
+    alone = bench or precision
+    provenance = common_to([one.about_run for one in simulations]) if simulations else alone.provenance if alone else {}
     findings = [finding for one in simulations for finding in one.findings]
-    return Run(provenance=provenance, findings=findings, studies=[], cases=cases, faults=[]), bench
+    return Run(provenance=provenance, findings=findings, studies=studies, cases=cases, faults=[]), bench
 
 
 def load_if_readable(path: Path) -> Case | None:

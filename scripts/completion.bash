@@ -22,7 +22,7 @@ _foldproof_case_findings() { _foldproof_cases "$1" | sed 's|.*/||; s|^|case.|'; 
 
 _foldproof_kind() {
   case $1 in
-    simulate | ablate | converge) echo toml ;;
+    simulate | ablate | converge | precision) echo toml ;;
     inspect) echo obj ;;
     project | film | export) echo h5 ;;
     crossings) echo 'h5|obj' ;;

@@ -254,6 +254,47 @@ void add_converge(CLI::App& app, Options& options) {
   add_json(converge, options);
 }
 
+void add_precision(CLI::App& app, Options& options) {
+  CLI::App* precision =
+      add_command(app, options,
+                  {"precision",
+                   "Which integrator is cheapest for a case at a wanted error? Writes precision.h5",
+                   help::precision},
+                  ::foldproof::precision);
+  add_input(precision, "CASE", options.file, case_words);
+  precision->add_option("--methods", options.methods, "Integrators, as A,C,RK4 (default: all)")
+      ->type_name("METHODS")
+      ->check(some_text("integrators, or all"))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  precision
+      ->add_option("--errors", options.errors,
+                   "Errors over the motion whose price is wanted (default: 1e-2,1e-3)")
+      ->type_name("ERRORS")
+      ->check(positive_number())
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  precision
+      ->add_option("--until", options.until,
+                   "Ask only the beginning of the run, up to this time [s]")
+      ->type_name("TIME")
+      ->check(positive_number());
+  precision
+      ->add_option("--effort", options.effort,
+                   "Let each run take this many times the usual work, for shorter steps")
+      ->type_name("TIMES")
+      ->check(positive_number())
+      ->capture_default_str();
+  add_overrides(precision, options);
+  add_folder(precision, options,
+             "Folder for precision.h5; its store/ keeps every run, and a second call makes only "
+             "what is missing")
+      ->capture_default_str();
+  add_cache(precision, options);
+  add_threads(precision, options);
+  add_json(precision, options);
+}
+
 CLI::Option* add_length(CLI::App* command, const std::string& name, double& value,
                         const std::string& what) {
   return command->add_option(name, value, what)->type_name("LENGTH")->check(finite_number());
@@ -465,6 +506,7 @@ int run(int argc, char** argv) {
   add_readers(app, options);
   add_ablate(app, options);
   add_converge(app, options);
+  add_precision(app, options);
   add_project(app, options);
   try {
     app.parse(argc, argv);

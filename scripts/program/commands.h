@@ -9,6 +9,7 @@ int list(const Options& options);
 int simulate_case(const Options& options);  // simulate_command.cpp
 int ablate(const Options& options);         // ablate_command.cpp
 int converge(const Options& options);       // converge_command.cpp
+int precision(const Options& options);      // precision_command.cpp
 int project_run(const Options& options);    // project_command.cpp
 int inspect(const Options& options);        // inspect_command.cpp
 int run_checks(const Options& options);

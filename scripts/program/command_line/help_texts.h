@@ -233,6 +233,24 @@ Exit codes:
   1    the order of the positions is inconclusive
   2    bad input, or a file that cannot be written)";
 
+constexpr const char* precision =
+    R"(Runs the case with every integrator and with constant steps, halved from run to run. Prints for each
+wanted error the cheapest method and its step, and what the others cost over it, in applications of
+force operators. Error: the distance from the truth (root mean square over the free particles, by
+mass, in the worst frame) over the motion, the largest such distance from the start. Truth: two
+methods of different families, each extrapolated where its order has settled; an error that is not
+ten times as large as their distance gets no price. Prices are interpolated between the two runs
+that bracket the error. Methods whose prices are closer than the steps tried are tied.
+
+Examples:
+  foldproof precision hinge --until 0.2
+  foldproof precision hanging_sheet --methods A,C,RK4 --errors 1e-2 --out mine
+
+Exit codes:
+  0    every wanted error is reached by some method, and the truth is good for it
+  1    an error is not reached, or the truth is not known well enough
+  2    bad input, or a file that cannot be written)";
+
 constexpr const char* project =
     R"(Prints how many points were moved, and of the last frame how much of the wrinkles is left: the
 standard deviation of the depths of points that were inside, and where the spectrum of the depth

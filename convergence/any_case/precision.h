@@ -1,0 +1,118 @@
+// Which integrator is cheapest for a case, at the error that is wanted? Every method runs the case
+// with steps that are halved; the truth is where two methods agree.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "convergence/any_case/error_bar.h"
+#include "convergence/any_case/precision_run.h"
+#include "convergence/work_precision/work_precision.h"
+
+namespace foldproof {
+
+/// What is asked.
+struct PrecisionPlan {
+  Case input_case;                   // with the end that is asked for
+  std::vector<std::string> methods;  // asked for
+  // run beside them because the truth needs methods of two families
+  std::vector<std::string> for_truth;
+  std::vector<double> wanted;        // errors over the motion, the largest first [1]
+  double budget;                     // of one run [visits]
+  std::map<std::string, int> first;  // steps a frame that each method begins with
+  PerParticle mass;                  // N, 0 where the motion is prescribed [kg]
+};
+
+/// The methods, checked and in the order of the table of integrators, with what the truth needs
+/// beside them, and where each begins: with a step of at most four times the elastic limit at the
+/// start (for explicit methods the damping limit, too), and at most a frame.
+/// Throws InputError for unknown methods, and for a case without a particle that is free.
+PrecisionPlan precision_plan(const Case& input_case, std::vector<std::string> methods,
+                             std::vector<double> wanted, double budget,
+                             const LevelSetProvider& level_sets);
+
+/// All runs so far, by method and steps a frame.
+using TrialRuns = std::map<std::string, std::map<int, TrialRun>>;
+
+/// What one method says of where the cloth is: its finest run, or Richardson's extrapolation of its
+/// last two where their order has settled.
+struct Opinion {
+  std::string method;
+  int parts = 0;
+  bool is_extrapolated = false;
+  std::vector<PerParticle3> x;  // in each kept frame, 3 x N [m]
+  double half_width = nan;      // of the finest run's own error bar [m]
+};
+
+/// Errors are root mean squares over the free particles, weighted with their masses, in the worst
+/// frame, over the motion: the largest distance from the start, measured alike.
+struct CaseTruth {
+  Opinion first, second;     // of methods of two families; the first has the smaller error bar
+  double motion = nan;       // of the first [m]
+  double uncertainty = nan;  // how far apart they are, over the motion [1]; NaN: there are no two
+};
+
+/// The truth that the runs allow. Opinions are chosen by their own error bars, never by how
+/// well they agree.
+CaseTruth case_truth(const PrecisionPlan& plan, const TrialRuns& runs);
+
+/// An error is told where the truth is known to a tenth of it [1].
+constexpr double truth_part = 0.1;
+
+/// The least error that the truth is good for [1]; NaN without a truth.
+inline double least_error(const CaseTruth& truth) { return truth.uncertainty / truth_part; }
+
+/// One method on the case.
+struct MethodCurve {
+  std::string method;
+  PrecisionCurve curve;              // of all its runs, coarse to fine
+  std::vector<int> parts;            // steps a frame of each
+  std::vector<std::string> stopped;  // of each
+  ErrorBar bar;  // of the positions, by its own halved steps; without three: inconclusive
+  // of steps between which the largest stable step lies [s]; NaN: no stable one, no unstable one
+  double stable_step = nan, unstable_step = nan;
+};
+
+/// The curves of all methods, those for the truth last.
+std::vector<MethodCurve> method_curves(const PrecisionPlan& plan, const TrialRuns& runs,
+                                       const CaseTruth& truth);
+
+/// The runs to make next; none when all is answered, or exceeds the budget. A method's steps are
+/// doubled until they are unstable (those of fully implicit methods, until they miss the largest
+/// wanted error), and halved until its error is the least wanted one and three runs came to an
+/// end; unless the next wanted error, by the method's order, costs more than the budget, or
+/// `dearest` times what the cheapest method pays. Then both opinions on the truth are refined
+/// until they agree. Then brackets of prices of methods that might be cheapest are narrowed to a
+/// quarter of a step.
+std::vector<Trial> next_trials(const PrecisionPlan& plan, const TrialRuns& runs);
+
+constexpr double dearest = 16;
+
+/// What an error costs with one method.
+struct MethodPrice {
+  std::string method;
+  Price price;
+  double spacing = nan;      // of the work of the runs between which it lies [1]
+  double over_best = nan;    // its work over the cheapest one's [1]
+  bool is_tied = false;      // with the cheapest: closer than the spacing of what was tried
+  std::string because = "";  // why there is none; or ""
+};
+
+/// The prices of one wanted error, the cheapest first, by work; those that have none last. None of
+/// them has one where the truth is not known to a tenth of the error.
+struct PriceList {
+  double wanted;
+  std::vector<MethodPrice> prices;
+};
+
+struct PrecisionAnswer {
+  PrecisionPlan plan;
+  CaseTruth truth;
+  std::vector<MethodCurve> curves;
+  std::vector<PriceList> lists;
+};
+
+PrecisionAnswer precision_answer(const PrecisionPlan& plan, const TrialRuns& runs);
+
+}  // namespace foldproof

@@ -1,0 +1,172 @@
+#include "convergence/any_case/precision_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace foldproof {
+
+namespace {
+
+constexpr double percent = 100, milli = 1e-3;
+
+std::string step_in_words(const Price& price) {
+  return fmt::format("h {} {:.3g} ms", price.limit == LimitedBy::not_tried ? ">=" : "=",
+                     price.step / milli);
+}
+
+std::string sentence_of(const PrecisionAnswer& answer, const PriceList& list) {
+  const std::string head =
+      fmt::format("{} at {:.3g} %: ", answer.plan.input_case.scene.name, percent * list.wanted);
+  if (!(list.wanted >= least_error(answer.truth)))
+    return head + "no price, since the truth is not known to a tenth of this error";
+  std::vector<std::string> parts, ties, unreached;
+  for (const MethodPrice& price : list.prices) {
+    if (std::isnan(price.price.applications))
+      unreached.push_back(price.method);
+    else if (parts.empty())
+      parts.push_back(fmt::format("{} with {}, 1.0", price.method, step_in_words(price.price)));
+    else
+      parts.push_back(fmt::format("{} {:.3g}{}", price.method, price.over_best,
+                                  price.is_tied ? " (tied)" : ""));
+  }
+  std::string sentence = head + fmt::format("{}", fmt::join(parts, "; "));
+  if (!unreached.empty())
+    sentence += fmt::format("{}{} {} not reach it", parts.empty() ? "" : "; ",
+                            fmt::join(unreached, ", "), unreached.size() == 1 ? "does" : "do");
+  return sentence;
+}
+
+struct CostAxis {
+  std::string name;
+  Axis axis;
+  double (*of)(const PrecisionRun& run, double end);
+};
+
+std::vector<CostAxis> cost_axes() {
+  return {{"work",
+           {"applications of force operators", "1", Scale::log},
+           [](const PrecisionRun& run, double) { return run.applications / run.part; }},
+          {"time",
+           {"processor time", "s", Scale::log},
+           [](const PrecisionRun& run, double) { return run.seconds / run.part; }},
+          {"step", {"step", "s", Scale::log}, [](const PrecisionRun& run, double end) {
+             return end / run.steps;
+           }}};
+}
+
+Figure figure_of(const PrecisionAnswer& answer, const CostAxis& cost) {
+  const Scene& scene = answer.plan.input_case.scene;
+  Figure figure{
+      scene.name + "-" + cost.name,
+      "Error against " + cost.name + ": " + scene.name,
+      cost.axis,
+      {"position error over the motion", "%", Scale::log},
+      nan,
+      "Root mean square over the free particles, in the worst frame, over the largest such "
+      "distance from the start. In the strip at the top: runs that came to no end or err by more "
+      "than the motion. The floor is the distance of the two opinions on the truth.",
+      {}};
+  for (const MethodCurve& method : answer.curves) {
+    if (method.curve.runs.empty()) continue;
+    Curve curve{method.method, {}, {}, percent * answer.truth.uncertainty, {}};
+    for (const PrecisionRun& run : method.curve.runs) {
+      curve.point(cost.of(run, scene.schedule.end), percent * run.error);
+      curve.marks.push_back(mark_of(run));
+    }
+    figure.curves.push_back(std::move(curve));
+  }
+  return figure;
+}
+
+Table price_table(const PrecisionAnswer& answer) {
+  Table table{{"error wanted", "%"},
+              {"method", "1"},
+              {"step", "s"},
+              {"step limited by", "1"},
+              {"operator applications", "1"},
+              {"over the cheapest", "1"},
+              {"tied with it", "1"},
+              {"processor time", "s"},
+              {"why no price", "1"}};
+  for (const PriceList& list : answer.lists)
+    for (const MethodPrice& price : list.prices)
+      table.row(percent * list.wanted, price.method, price.price.step, name_of(price.price.limit),
+                price.price.applications, price.over_best, price.is_tied ? "yes" : "no",
+                price.price.seconds, price.because);
+  return {"prices", "What a position error costs with each method, the cheapest by work first",
+          table};
+}
+
+Table method_table(const PrecisionAnswer& answer) {
+  Table table{{"method", "1"},
+              {"order of the table", "1"},
+              {"observed order", "1"},
+              {"reading", "1"},
+              {"because", "1"},
+              {"largest stable step found", "s"},
+              {"next longer step, unstable", "s"}};
+  for (const MethodCurve& curve : answer.curves)
+    table.row(curve.method, curve.curve.integrator.order, curve.bar.order,
+              name_of(curve.bar.reading), curve.bar.reason, curve.stable_step, curve.unstable_step);
+  return {"methods", "Order and largest stable step of each method on this case", table};
+}
+
+Table run_table(const PrecisionAnswer& answer) {
+  Table table{{"method", "1"},
+              {"steps a frame", "1"},
+              {"steps", "1"},
+              {"error", "%"},
+              {"operator applications", "1"},
+              {"processor time", "s"},
+              {"unfinished solves", "1"},
+              {"stopped", "1"}};
+  for (const MethodCurve& curve : answer.curves)
+    for (size_t k = 0; k < curve.parts.size(); ++k) {
+      const PrecisionRun& run = curve.curve.runs[k];
+      table.row(curve.method, curve.parts[k], run.steps, percent * run.error, run.applications,
+                run.seconds, run.work.unfinished_solves, curve.stopped[k]);
+    }
+  return {"runs", "Every run; no error where it came to no end", table};
+}
+
+}  // namespace
+
+std::vector<std::string> precision_sentences(const PrecisionAnswer& answer) {
+  std::vector<std::string> sentences;
+  for (const PriceList& list : answer.lists) sentences.push_back(sentence_of(answer, list));
+  return sentences;
+}
+
+std::string truth_in_words(const PrecisionAnswer& answer) {
+  const CaseTruth& truth = answer.truth;
+  if (std::isnan(truth.uncertainty))
+    return "truth: unknown; no two methods of different families came to an end with two steps";
+  const auto words = [](const Opinion& opinion) {
+    return fmt::format("{} with {} steps a frame{}", opinion.method, opinion.parts,
+                       opinion.is_extrapolated ? ", extrapolated" : "");
+  };
+  return fmt::format(
+      "truth: {}; {} differs by {:.2g} % of the motion ({:.3g} m), good for errors down to {:.2g} "
+      "%",
+      words(truth.first), words(truth.second), percent * truth.uncertainty, truth.motion,
+      percent * least_error(truth));
+}
+
+StudyRecord precision_record(const PrecisionAnswer& answer, double seconds) {
+  const std::string name = answer.plan.input_case.scene.name;
+  StudyRecord record{"precision." + name, "", "", "", seconds, {}, {}, {}};
+  record.claim = fmt::format("{}.", fmt::join(precision_sentences(answer), ". "));
+  record.about =
+      "Which integrator is cheapest for this case at a wanted error? Every method runs it with "
+      "constant steps, halved from run to run. Work is counted in applications of force operators; "
+      "queries of contact are not among them. Prices are interpolated in logarithms between the "
+      "two runs that bracket the error, never beyond them. " +
+      truth_in_words(answer) + ".";
+  for (const CostAxis& cost : cost_axes()) record.figures.push_back(figure_of(answer, cost));
+  record.tables = {price_table(answer), method_table(answer), run_table(answer)};
+  return record;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,177 @@
+#include "convergence/any_case/precision_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "convergence/any_case/level_run.h"
+#include "verification/cases/judge.h"
+#include "verification/processor_time.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double most_numbers = 1e6;     // that a run keeps
+constexpr int most_timings = 4;          // of a short run
+constexpr double enough_seconds = 0.03;  // after which a run is not timed again
+
+struct OverBudget {};
+
+/// Every so many frames one is kept.
+long stride_of(const Scene& scene) {
+  const double frames = scene.schedule.end / scene.schedule.frame_interval + 1;
+  return std::max(1L, std::lround(std::ceil(3 * frames * scene.mesh.particles() / most_numbers)));
+}
+
+double elements(const Scene& scene) {
+  return double((scene.stretch ? scene.mesh.edges.size() : 0) +
+                (scene.bending ? scene.mesh.hinges.size() : 0) + 1);
+}
+
+/// The run, not timed.
+TrialRun watched_trial(const Scene& scene, double budget, const BuiltScene& built) {
+  TrialRun run;
+  Schedule schedule = scene.schedule;
+  schedule.max_steps =
+      std::min(schedule.max_steps, std::lround(std::ceil(budget / elements(scene))));
+  const long stride = stride_of(scene);
+  long frame = 0;
+  double reached = 0;
+  Observer observer;
+  observer.frame = [&](const State& s) {
+    reached = s.time;
+    if (frame++ % stride != 0 && s.time < schedule.end) return;
+    run.times.push_back(s.time);
+    run.x.push_back(s.x);
+  };
+  observer.checkpoint = [&](const Checkpoint& at) {
+    run.work = at.work;
+    run.steps = at.steps;
+    if (visits(scene, at.work) > budget) throw OverBudget{};
+  };
+  try {
+    const RunResult result =
+        simulate(built.system, integrator_named(scene.integrator), built.start, schedule, observer);
+    run.work = result.work;
+    run.steps = result.steps;
+    reached = result.last.time;
+    if (result.stop) run.stopped = describe(*result.stop);
+    if (result.stop && schedule.max_steps < scene.schedule.max_steps &&
+        result.steps >= schedule.max_steps)
+      throw OverBudget{};
+  } catch (const OverBudget&) {
+    run.over_budget = budget;
+    run.stopped = "its work exceeds the budget";
+  }
+  run.part = reached / schedule.end;
+  return run;
+}
+
+TrialRun timed_trial(const Scene& scene, double budget, const BuiltScene& built) {
+  const double start = processor_seconds();
+  TrialRun run = watched_trial(scene, budget, built);
+  run.seconds = processor_seconds() - start;
+  double spent = run.seconds;
+  for (int i = 1; i < most_timings && spent < enough_seconds; ++i) {
+    const double before = processor_seconds();
+    watched_trial(scene, budget, built);
+    const double one = processor_seconds() - before;
+    run.seconds = std::min(run.seconds, one);
+    spent += one;
+  }
+  return run;
+}
+
+StoredResult packed(const TrialRun& run) {
+  StoredResult kept;
+  std::vector<double> positions, work;
+  for (const PerParticle3& x : run.x)
+    positions.insert(positions.end(), x.data(), x.data() + x.size());
+  for_each_counter(run.work, [&](auto value) { work.push_back(double(value)); });
+  kept.arrays = {{"times", run.times},
+                 {"positions", positions},
+                 {"work", work},
+                 {"cost", {double(run.steps), run.seconds, run.part, run.over_budget}}};
+  kept.texts["stopped"] = run.stopped;
+  return kept;
+}
+
+TrialRun unpacked(const StoredResult& kept) {
+  TrialRun run;
+  const auto array = [&](const char* name) {
+    const auto found = kept.arrays.find(name);
+    return found == kept.arrays.end() ? std::vector<double>() : found->second;
+  };
+  run.times = array("times");
+  const std::vector<double> positions = array("positions"), work = array("work"),
+                            cost = array("cost");
+  size_t next = 0;
+  for_each_counter(run.work, [&](auto& value) {
+    value = std::remove_reference_t<decltype(value)>(work.at(next++));
+  });
+  run.steps = long(cost.at(0));
+  run.seconds = cost.at(1);
+  run.part = cost.at(2);
+  run.over_budget = cost.at(3);
+  run.stopped = kept.texts.at("stopped");
+  if (run.times.empty()) return run;
+  const Eigen::Index size = Eigen::Index(positions.size() / run.times.size());
+  for (size_t k = 0; k < run.times.size(); ++k)
+    run.x.push_back(
+        Eigen::Map<const PerParticle3>(positions.data() + Eigen::Index(k) * size, 3, size / 3));
+  return run;
+}
+
+}  // namespace
+
+double visits(const Scene& scene, const Work& w) {
+  const double applications =
+      double(w.elastic_evaluations + w.damping_preparations + w.damping_products +
+             w.stiffness_preparations + w.stiffness_products);
+  return applications * elements(scene) +
+         double(w.strain_sweeps) * double(scene.mesh.edges.size()) + double(w.object_queries) +
+         double(w.close_pairs + w.crossing_queries);
+}
+
+Scene scene_of(const Scene& scene, const Trial& trial) {
+  Scene tried = scene;
+  tried.integrator = trial.method;
+  StepRule& step = tried.schedule.step;
+  step.ends.clear();
+  step.fixed = std::min(scene.schedule.frame_interval, scene.schedule.end) / trial.parts;
+  return tried;
+}
+
+TrialRun run_trial(const Case& input_case, const Trial& trial, const LevelSetProvider& level_sets) {
+  const Scene scene = scene_of(input_case.scene, trial);
+  try {
+    return timed_trial(scene, trial.budget, build(scene, level_sets));
+  } catch (const std::exception& error) {
+    TrialRun none;
+    none.stopped = error.what();
+    return none;
+  }
+}
+
+TrialRun stored_trial(const Case& input_case, const Trial& trial,
+                      const LevelSetProvider& level_sets, ResultStore& store,
+                      const std::string& program) {
+  Level level{input_case.scene.name + ", " + trial.method + ", " + std::to_string(trial.parts) +
+                  " steps a frame",
+              input_case,
+              {},
+              input_case.scene.mesh.particles()};
+  level.input_case.scene = scene_of(input_case.scene, trial);
+  const std::string key = key_of(level, program + "; precision");
+  if (const auto kept = store.find(key)) {
+    const TrialRun run = unpacked(*kept);
+    if (!(run.over_budget > 0) || run.over_budget >= trial.budget) return run;
+  }
+  store.start(key, level.label);
+  TrialRun run = run_trial(input_case, trial, level_sets);
+  store.keep(key, packed(run));
+  return run;
+}
+
+}  // namespace foldproof

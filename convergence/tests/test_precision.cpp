@@ -1,0 +1,256 @@
+// The cheapest method of a case: found on motions whose error is known by formula.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+
+#include "convergence/any_case/precision_report.h"
+#include "reference/mesh/shapes.h"
+
+using namespace foldproof;
+
+namespace {
+
+constexpr double end_time = 0.7;
+constexpr int frames = 7;
+
+/// A hinge that falls freely, 7 frames of 0.1 s; two of its four particles are held if asked.
+Case falling(bool with_held_particles) {
+  Case input_case;
+  Scene& scene = input_case.scene;
+  scene = scene_at_rest(make_hinge(0.3, 0.4), 0.2);
+  scene.name = "falling";
+  scene.gravity = Vector3(0, 0, -9);
+  scene.schedule.end = end_time;
+  scene.schedule.frame_interval = end_time / frames;
+  if (with_held_particles)
+    for (const int i : {2, 3}) scene.prescribed.push_back({i, scene.mesh.rest.col(i), {}});
+  return input_case;
+}
+
+/// How a made-up method errs: by coefficient * parts^-order of the motion, plus a bias that no step
+/// removes; with fewer than `least_parts` steps a frame it diverges halfway.
+struct Law {
+  double coefficient, order;
+  int least_parts;
+  long work_of_step;
+  double bias = 0;
+};
+
+/// The run that the law makes of the trial. Free particles move by t, from 0 to 0.7 m.
+TrialRun run_by(const Law& law, const Trial& trial, const PrecisionPlan& plan) {
+  TrialRun run;
+  run.steps = long(frames) * trial.parts;
+  run.part = 1;
+  if (trial.parts < law.least_parts) {
+    run.stopped = "divergence";
+    run.part = 0.5;
+  }
+  run.work.elastic_evaluations = std::lround(run.part * double(run.steps)) * law.work_of_step;
+  run.seconds = 1e-5 * double(run.work.elastic_evaluations);
+  const double error = law.coefficient * std::pow(trial.parts, -law.order) + law.bias;
+  const PerParticle3& start = plan.input_case.scene.x;
+  for (int k = 0; k <= frames; ++k) {
+    const double t = end_time * k / frames;
+    PerParticle3 x = start;
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+      if (plan.mass[i] > 0) x.col(i) += t * Vector3(1, error, 0);
+    run.times.push_back(t);
+    run.x.push_back(x);
+  }
+  return run;
+}
+
+struct MadeUp {
+  PrecisionPlan plan;
+  TrialRuns runs;
+};
+
+/// All trials that are asked for, made by their laws.
+MadeUp made_by(const std::map<std::string, Law>& laws, std::vector<double> wanted,
+               double budget = 1e9) {
+  std::vector<std::string> methods;
+  for (const auto& [method, law] : laws) methods.push_back(method);
+  MadeUp made{precision_plan(falling(true), methods, wanted, budget, computing_provider()), {}};
+  made.plan.for_truth.clear();
+  for (auto trials = next_trials(made.plan, made.runs); !trials.empty();
+       trials = next_trials(made.plan, made.runs))
+    for (const Trial& trial : trials) {
+      REQUIRE(made.runs[trial.method].count(trial.parts) == 0);
+      made.runs[trial.method][trial.parts] = run_by(laws.at(trial.method), trial, made.plan);
+    }
+  return made;
+}
+
+const MethodPrice& price_of(const PrecisionAnswer& answer, size_t list, const std::string& method) {
+  for (const MethodPrice& price : answer.lists.at(list).prices)
+    if (price.method == method) return price;
+  throw std::logic_error("no price of " + method);
+}
+
+const MethodCurve& curve_of(const PrecisionAnswer& answer, const std::string& method) {
+  for (const MethodCurve& curve : answer.curves)
+    if (curve.method == method) return curve;
+  throw std::logic_error("no curve of " + method);
+}
+
+const std::map<std::string, Law> two_good_methods = {{"B", {0.3, 2, 1, 5}},
+                                                     {"RK4", {0.9, 4, 1, 13}}};
+
+}  // namespace
+
+TEST_CASE("prices are those of the methods' own laws of error") {
+  const MadeUp made = made_by(two_good_methods, {1e-2, 1e-3});
+  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  CHECK(answer.truth.motion == Approx(end_time).epsilon(1e-5));
+  for (size_t list = 0; list < 2; ++list)
+    for (const auto& [method, law] : two_good_methods) {
+      const double wanted = answer.plan.wanted[list];
+      const double parts = std::pow(law.coefficient / wanted, 1 / law.order);
+      const MethodPrice& price = price_of(answer, list, method);
+      CHECK(price.price.step == Approx(end_time / frames / parts).epsilon(0.01));
+      CHECK(price.price.applications ==
+            Approx(frames * parts * double(law.work_of_step)).epsilon(0.01));
+    }
+  CHECK(answer.lists[0].prices.front().method == "B");
+  CHECK(price_of(answer, 0, "RK4").over_best == Approx(13. / 5 * 3.080 / 5.477).epsilon(0.02));
+}
+
+TEST_CASE("each method's observed order is that of its own halved steps") {
+  const MadeUp made = made_by(two_good_methods, {1e-3});
+  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  CHECK(curve_of(answer, "B").bar.order == Approx(2).margin(0.01));
+  CHECK(curve_of(answer, "RK4").bar.order == Approx(4).margin(0.01));
+  CHECK(curve_of(answer, "B").bar.reading == Reading::asymptotic);
+}
+
+TEST_CASE("the largest stable step of an unstable method is bracketed") {
+  std::map<std::string, Law> laws = two_good_methods;
+  laws["A"] = {1e-5, 2, 11, 5};
+  const MadeUp made = made_by(laws, {1e-2});
+  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  const MethodCurve& curve = curve_of(answer, "A");
+  const double frame = end_time / frames;
+  CHECK(curve.stable_step <= frame / 11 * (1 + 1e-12));
+  CHECK(curve.unstable_step >= frame / 10 * (1 - 1e-12));
+  CHECK(price_of(answer, 0, "A").price.limit == LimitedBy::stability);
+  CHECK(price_of(answer, 0, "A").price.step == curve.stable_step);
+}
+
+TEST_CASE("a method that is never stable has no price and says why") {
+  std::map<std::string, Law> laws = two_good_methods;
+  laws["forward-euler"] = {1, 1, 1 << 30, 3};
+  const MadeUp made = made_by(laws, {1e-2});
+  CHECK(made.runs.at("forward-euler").rbegin()->first <= 64);
+  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  CHECK(std::isnan(price_of(answer, 0, "forward-euler").price.applications));
+  CHECK(price_of(answer, 0, "forward-euler").because == "no run comes to its end: divergence");
+  CHECK(precision_sentences(answer)[0].ends_with("forward-euler does not reach it"));
+}
+
+TEST_CASE("errors below ten times the distance of the two opinions have no price") {
+  std::map<std::string, Law> laws = two_good_methods;
+  laws["RK4"].bias = 4e-4;
+  const MadeUp made = made_by(laws, {1e-2, 1e-3}, 1e6);
+  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  CHECK(answer.truth.uncertainty == Approx(4e-4).epsilon(0.02));
+  CHECK(least_error(answer.truth) == Approx(4e-3).epsilon(0.02));
+  CHECK(!std::isnan(price_of(answer, 0, "B").price.applications));
+  CHECK(std::isnan(price_of(answer, 1, "B").price.applications));
+  CHECK(price_of(answer, 1, "B").because == "the truth is not known to a tenth of this error");
+}
+
+TEST_CASE("opinions on the truth are of two families, however well their own agree") {
+  std::map<std::string, Law> laws = two_good_methods;
+  laws["A"] = {0.3, 2, 1, 5};
+  laws["RK4"] = {0.9, 1.5, 1, 13, 2e-5};
+  const MadeUp made = made_by(laws, {1e-2});
+  const CaseTruth truth = case_truth(made.plan, made.runs);
+  CHECK(truth.first.method != "RK4");
+  CHECK(truth.second.method == "RK4");
+  const PrecisionPlan one =
+      precision_plan(falling(false), {"A", "C"}, {1e-2}, 1e6, computing_provider());
+  CHECK(one.for_truth == std::vector<std::string>{"RK4", "implicit-midpoint"});
+}
+
+TEST_CASE("methods whose prices are closer than the steps tried are tied") {
+  std::map<std::string, Law> laws = two_good_methods;
+  laws["A"] = {0.33, 2, 1, 5};
+  laws["C"] = {0.6, 2, 1, 7};
+  const MadeUp made = made_by(laws, {1e-3});
+  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  const std::string best = answer.lists[0].prices.front().method;
+  CHECK(best == "RK4");
+  CHECK(price_of(answer, 0, "B").over_best == Approx(5. / 13 * 17.32 / 5.477).epsilon(0.02));
+  CHECK(price_of(answer, 0, "B").is_tied);
+  CHECK(price_of(answer, 0, "A").over_best == Approx(1.276).epsilon(0.02));
+  CHECK_FALSE(price_of(answer, 0, "C").is_tied);
+  CHECK_FALSE(price_of(answer, 0, best).is_tied);
+  for (const MethodPrice& price : answer.lists[0].prices)
+    if (price.over_best < 2.5) CHECK(price.spacing < 1.31);
+}
+
+TEST_CASE("a method is not refined beyond sixteen times the cheapest or the budget") {
+  std::map<std::string, Law> laws = two_good_methods;
+  laws["forward-euler"] = {0.9, 1, 1, 3};
+  const MadeUp made = made_by(laws, {1e-2, 1e-3});
+  const double cheapest =
+      precision_answer(made.plan, made.runs).lists[1].prices.front().price.applications;
+  for (const auto& [parts, run] : made.runs.at("forward-euler"))
+    CHECK(operator_applications(run.work) <= dearest * cheapest);
+  const MadeUp poor = made_by(two_good_methods, {1e-2, 1e-6}, 3e3);
+  for (const auto& [method, levels] : poor.runs)
+    for (const auto& [parts, run] : levels)
+      CHECK(visits(poor.plan.input_case.scene, run.work) <= 2.5 * 3e3);
+}
+
+TEST_CASE("forward Euler's error in free fall is the step over the time") {
+  const Case input_case = falling(false);
+  const PrecisionPlan plan =
+      precision_plan(input_case, {"forward-euler", "B"}, {0.02}, 1e8, computing_provider());
+  TrialRuns runs;
+  for (auto trials = next_trials(plan, runs); !trials.empty(); trials = next_trials(plan, runs))
+    for (const Trial& trial : trials)
+      runs[trial.method][trial.parts] = run_trial(input_case, trial, computing_provider());
+  const PrecisionAnswer answer = precision_answer(plan, runs);
+  CHECK(answer.truth.motion == Approx(9 * end_time * end_time / 2));
+  for (const PrecisionRun& run : curve_of(answer, "forward-euler").curve.runs)
+    CHECK(run.error == Approx(1. / run.steps).epsilon(1e-6));
+  CHECK(price_of(answer, 0, "forward-euler").price.step == Approx(0.02 * end_time).epsilon(1e-3));
+  CHECK(price_of(answer, 0, "B").price.limit == LimitedBy::not_tried);
+}
+
+TEST_CASE("held particles do not dilute errors") {
+  const MadeUp made = made_by(two_good_methods, {1e-2});
+  const auto curves = method_curves(made.plan, made.runs, case_truth(made.plan, made.runs));
+  const MethodCurve& curve = curves.front();
+  CHECK(curve.curve.runs[0].error == Approx(0.3 / std::pow(curve.parts[0], 2)).epsilon(1e-3));
+  Case all_held = falling(false);
+  for (int i = 0; i < 4; ++i)
+    all_held.scene.prescribed.push_back({i, all_held.scene.mesh.rest.col(i), {}});
+  CHECK_THROWS_AS(precision_plan(all_held, {"A"}, {1e-2}, 1e6, computing_provider()), InputError);
+}
+
+TEST_CASE("a kept run is found again, and made again only for a larger budget") {
+  const std::string folder = "precision test store";
+  std::filesystem::remove_all(folder);
+  const Case input_case = falling(false);
+  const Trial poor{"RK4", 64, 1000}, rich{"RK4", 64, 1e6};
+  {
+    ResultStore store(folder);
+    const TrialRun run = stored_trial(input_case, poor, computing_provider(), store, "me");
+    CHECK(run.over_budget == 1000);
+    CHECK(run.part < 1);
+    CHECK(run.stopped == "its work exceeds the budget");
+  }
+  ResultStore store(folder);
+  stored_trial(input_case, poor, computing_provider(), store, "me");
+  const TrialRun whole = stored_trial(input_case, rich, computing_provider(), store, "me");
+  CHECK(whole.stopped.empty());
+  CHECK(whole.steps == 7 * 64);
+  const TrialRun again = stored_trial(input_case, poor, computing_provider(), store, "me");
+  CHECK(again.steps == whole.steps);
+  CHECK(again.work.elastic_evaluations == whole.work.elastic_evaluations);
+  CHECK(again.x.back() == whole.x.back());
+  CHECK(again.seconds == whole.seconds);
+  std::filesystem::remove_all(folder);
+}

@@ -1,0 +1,192 @@
+// foldproof precision: which integrator is cheapest for a case at a wanted error.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "convergence/any_case/precision_report.h"
+#include "scripts/program/command_line/input_files.h"
+#include "scripts/program/command_line/out_folder.h"
+#include "scripts/program/commands.h"
+#include "scripts/program/json_text.h"
+#include "scripts/program/progress.h"
+#include "scripts/program/provenance.h"
+#include "scripts/program/run_case.h"
+
+namespace foldproof {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double usual_budget = 2.5e8;  // of one run [visits]: two to eight seconds
+
+PrecisionPlan plan_of(const Options& options, const LevelSetProvider& level_sets) {
+  Case input_case = read_case(case_file(options.file), options.overrides);
+  Schedule& schedule = input_case.scene.schedule;
+  if (options.until > 0) schedule.end = std::min(options.until, schedule.end);
+  std::vector<std::string> methods = options.methods;
+  if (methods.empty() || methods == std::vector<std::string>{"all"}) {
+    methods.clear();
+    for (const Integrator& integrator : integrators()) methods.emplace_back(integrator.name);
+  }
+  std::vector<double> wanted;
+  for (const std::string& error : options.errors) wanted.push_back(std::stod(error));
+  return precision_plan(input_case, methods, wanted, options.effort * usual_budget, level_sets);
+}
+
+/// Makes what is missing, round by round, until nothing is.
+TrialRuns all_trials(const PrecisionPlan& plan, const LevelSetProvider& level_sets,
+                     ResultStore& store, const JobSettings& running) {
+  const std::string program = program_identity();
+  TrialRuns runs;
+  for (int round = 1;; ++round) {
+    const std::vector<Trial> trials = next_trials(plan, runs);
+    if (trials.empty()) return runs;
+    std::vector<TrialRun> made(trials.size());
+    std::vector<Job> jobs;
+    for (size_t k = 0; k < trials.size(); ++k)
+      jobs.push_back({trials[k].method, double(trials[k].parts), [&, k](const Progress&) {
+                        made[k] =
+                            stored_trial(plan.input_case, trials[k], level_sets, store, program);
+                        return RunRecord{};
+                      }});
+    RunRecord of_errors;
+    run_jobs(jobs, fmt::format("round {}: {} runs", round, trials.size()), running, of_errors);
+    if (!of_errors.records.empty())
+      throw std::runtime_error(of_errors.records.front().finding.note);
+    for (size_t k = 0; k < trials.size(); ++k)
+      runs[trials[k].method][trials[k].parts] = std::move(made[k]);
+  }
+}
+
+void print_methods(const PrecisionAnswer& answer) {
+  fmt::print("\n{:<22} {:>6} {:>12} {:>12}", "method", "order", "stable [s]", "not [s]");
+  for (const double wanted : answer.plan.wanted)
+    fmt::print("  {:>21}", fmt::format("price of {:.3g} %", 100 * wanted));
+  fmt::print("  {}\n", "reading of its order");
+  const auto number = [](double value, const char* form) {
+    return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(form), value);
+  };
+  for (const MethodCurve& curve : answer.curves) {
+    fmt::print("{:<22} {:>6} {:>12} {:>12}", curve.method, number(curve.bar.order, "{:.2f}"),
+               number(curve.stable_step, "{:.3g}"), number(curve.unstable_step, "{:.3g}"));
+    for (const PriceList& list : answer.lists) {
+      const auto price = std::ranges::find(list.prices, curve.method, &MethodPrice::method);
+      if (price == list.prices.end())
+        fmt::print("  {:>21}", "for the truth only");
+      else
+        fmt::print(
+            "  {:>10} {:>10}", number(price->price.applications, "{:.4g}"),
+            std::isnan(price->price.seconds) ? "-" : fmt::format("{:.3g} s", price->price.seconds));
+    }
+    fmt::print("  {}{}\n", name_of(curve.bar.reading),
+               curve.bar.reason.empty() ? "" : ": " + curve.bar.reason);
+  }
+}
+
+void print(const PrecisionAnswer& answer) {
+  for (const std::string& sentence : precision_sentences(answer)) fmt::print("{}\n", sentence);
+  fmt::print("{}\n", truth_in_words(answer));
+  print_methods(answer);
+  for (const PriceList& list : answer.lists)
+    for (const MethodPrice& price : list.prices)
+      if (!price.because.empty() && list.wanted >= least_error(answer.truth))
+        fmt::print("{} at {:.3g} %: {}\n", price.method, 100 * list.wanted, price.because);
+  fmt::print(
+      "\nprice: applications of force operators, and seconds of the processor; stable, not: the "
+      "largest stable step\nfound, and the next longer one, which is not.\n");
+}
+
+json to_json(const Opinion& opinion) {
+  return {{"method", opinion.method},
+          {"steps_a_frame", opinion.parts},
+          {"extrapolated", opinion.is_extrapolated},
+          {"error_bar", opinion.half_width}};
+}
+
+json to_json(const MethodPrice& price) {
+  return {{"method", price.method},
+          {"step", price.price.step},
+          {"limited_by", name_of(price.price.limit)},
+          {"applications", price.price.applications},
+          {"seconds", price.price.seconds},
+          {"over_cheapest", price.over_best},
+          {"tied", price.is_tied},
+          {"because", price.because}};
+}
+
+json to_json(const MethodCurve& curve) {
+  json runs = json::array();
+  for (size_t k = 0; k < curve.parts.size(); ++k) {
+    const PrecisionRun& run = curve.curve.runs[k];
+    runs.push_back({{"steps_a_frame", curve.parts[k]},
+                    {"steps", run.steps},
+                    {"error", run.error},
+                    {"applications", run.applications},
+                    {"seconds", run.seconds},
+                    {"unfinished_solves", run.work.unfinished_solves},
+                    {"stopped", curve.stopped[k]}});
+  }
+  return {{"method", curve.method},
+          {"order", curve.bar.order},
+          {"orders", curve.bar.orders},
+          {"reading", name_of(curve.bar.reading)},
+          {"because", curve.bar.reason},
+          {"stable_step", curve.stable_step},
+          {"unstable_step", curve.unstable_step},
+          {"runs", runs}};
+}
+
+json to_json(const PrecisionAnswer& answer) {
+  json told = {{"case", answer.plan.input_case.scene.name},
+               {"sentences", precision_sentences(answer)},
+               {"truth",
+                {{"first", to_json(answer.truth.first)},
+                 {"second", to_json(answer.truth.second)},
+                 {"motion", answer.truth.motion},
+                 {"uncertainty", answer.truth.uncertainty},
+                 {"good_down_to", least_error(answer.truth)}}},
+               {"methods", json::array()},
+               {"prices", json::array()}};
+  for (const MethodCurve& curve : answer.curves) told["methods"].push_back(to_json(curve));
+  for (const PriceList& list : answer.lists) {
+    json prices = json::array();
+    for (const MethodPrice& price : list.prices) prices.push_back(to_json(price));
+    told["prices"].push_back({{"error", list.wanted}, {"methods", prices}});
+  }
+  return told;
+}
+
+bool is_answered(const PrecisionAnswer& answer) {
+  return std::ranges::all_of(answer.lists, [](const PriceList& list) {
+    return !std::isnan(list.prices.front().price.applications);
+  });
+}
+
+}  // namespace
+
+int precision(const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
+  const PrecisionPlan plan = plan_of(options, level_sets);
+  const OutFolder folder(options.out);
+  ResultStore store(options.out + "/store");
+  const PrecisionAnswer answer =
+      precision_answer(plan, all_trials(plan, level_sets, store, options.running));
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  RunRecord run;
+  run.provenance = provenance(options.command);
+  run.seconds = seconds;
+  run.studies = {precision_record(answer, seconds)};
+  write_run(options.out + "/precision.h5", run);
+  if (options.json)
+    fmt::print("{}\n", json_text(to_json(answer)));
+  else
+    print(answer);
+  return is_answered(answer) ? all_hold : some_fail;
+}
+
+}  // namespace foldproof
