@@ -202,20 +202,31 @@ void add_converge(CLI::App& app, Options& options) {
   CLI::App* converge = add_command(
       app, options,
       {"converge",
-       "How large is the error that a case owes to its step? Order, limit and error bar",
+       "How large are the errors of a case's step and mesh? Orders, limits and error bars",
        help::converge},
       ::foldproof::converge);
   add_input(converge, "CASE", options.file, case_words);
   converge
+      ->add_option("--in", options.in,
+                   "What is refined: time (the steps), space (the mesh), or both, one by one")
+      ->type_name("WHAT")
+      ->check(one_of({"time", "space", "both"}))
+      ->capture_default_str();
+  converge
       ->add_option("--levels", options.levels,
-                   "Runs, 3 to 12, each with half the steps of the one before")
+                   "Runs, 3 to 12, each with half the steps, or edges half as long")
       ->type_name("N")
       ->check(whole_number(3, 12))
       ->capture_default_str();
-  converge->add_option("--method", options.methods, "Integrator in place of the case's own")
-      ->type_name("METHOD")
+  converge
+      ->add_option("--method", options.methods,
+                   "Integrators in place of the case's own: a list A,B,..., or all")
+      ->type_name("METHODS")
       ->check(some_text("an integrator"))
+      ->delimiter(',')
       ->allow_extra_args(false);
+  converge->add_flag("--refine-objects", options.refines_objects,
+                     "In space: level sets of objects get cells as much smaller, too");
   converge
       ->add_option("--until", options.until,
                    "Ask only the beginning of the run, up to this time [s]")

@@ -18,36 +18,46 @@ double sum_of(const std::vector<double>& values) {
   return sum;
 }
 
-QuantityOverLevels positions_over_levels(const LadderPlan& plan,
-                                         const std::vector<LevelRun>& runs) {
-  const Scene& scene = plan.input_case.scene;
+double mean_step_of(const LevelRun& run) {
+  return run.step_ends.empty() ? nan : run.step_ends.back() / double(run.step_ends.size());
+}
+
+}  // namespace
+
+QuantityOverLevels positions_over_levels(const Scene& scene, const std::vector<LevelRun>& runs,
+                                         double formal_order) {
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   QuantityOverLevels over{"positions", "m", {}, {}, {}, nan};
   for (size_t k = 0; k + 1 < runs.size(); ++k)
     over.differences.push_back(field_difference(runs[k], runs[k + 1], mass));
-  over.bar = error_bar({{},
-                        over.differences,
-                        2,
-                        double(integrator_named(scene.integrator).order),
-                        rounding_floor(longest_side(scene.x))});
+  over.bar = error_bar({{}, over.differences, 2, formal_order, rounding_floor(longest_side(scene.x))});
   over.first_error = sum_of(over.differences) + over.bar.half_width;
   return over;
 }
 
-QuantityOverLevels value_over_levels(const LadderPlan& plan, const std::vector<LevelRun>& runs,
-                                     size_t m) {
-  QuantityOverLevels over{
-      plan.measurements[m].name, unit_of(plan.measurements[m]), {}, {}, {}, nan};
+QuantityOverLevels value_over_levels(const Measurement& of, size_t m,
+                                     const std::vector<LevelRun>& runs, double formal_order) {
+  QuantityOverLevels over{of.name, unit_of(of), {}, {}, {}, nan};
   for (const LevelRun& run : runs) over.values.push_back(run.stopped.empty() ? run.values[m] : nan);
   for (size_t k = 0; k + 1 < over.values.size(); ++k)
     over.differences.push_back(over.values[k + 1] - over.values[k]);
-  const double order = integrator_named(plan.input_case.scene.integrator).order;
-  over.bar = error_bar({over.values, {}, 2, order, rounding_floor(std::abs(over.values.back()))});
+  over.bar =
+      error_bar({over.values, {}, 2, formal_order, rounding_floor(std::abs(over.values.back()))});
   over.first_error = std::abs(over.values.back() - over.values.front()) + over.bar.half_width;
   return over;
 }
 
-}  // namespace
+LadderAnswer answer_about(const Scene& scene, const std::string& in,
+                          const std::vector<LevelRun>& runs) {
+  LadderAnswer answer{scene.name, scene.integrator, in, {}, {}, {}, {}, {}};
+  for (const LevelRun& run : runs) {
+    answer.work.push_back(run.work);
+    answer.seconds.push_back(run.seconds);
+    answer.stopped.push_back(run.stopped);
+  }
+  answer.mean_step = mean_step_of(runs.back());
+  return answer;
+}
 
 std::vector<Measurement> measurements_of(const Case& input_case) {
   if (!input_case.quantities.empty()) return input_case.quantities;
@@ -76,17 +86,13 @@ Level time_level(const LadderPlan& plan, int k, const std::vector<double>& step_
 
 LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& runs) {
   const Scene& scene = plan.input_case.scene;
-  LadderAnswer answer{scene.name, scene.integrator, "time", {}, {}, {}, {}, {}};
-  for (const LevelRun& run : runs) {
-    answer.sizes.push_back(
-        run.step_ends.empty() ? nan : run.step_ends.back() / double(run.step_ends.size()));
-    answer.work.push_back(run.work);
-    answer.seconds.push_back(run.seconds);
-    answer.stopped.push_back(run.stopped);
-  }
-  answer.quantities.push_back(positions_over_levels(plan, runs));
+  const double order = integrator_named(scene.integrator).order;
+  LadderAnswer answer = answer_about(scene, "time", runs);
+  for (const LevelRun& run : runs) answer.sizes.push_back(mean_step_of(run));
+  answer.particles.assign(runs.size(), scene.mesh.particles());
+  answer.quantities.push_back(positions_over_levels(scene, runs, order));
   for (size_t m = 0; m < plan.measurements.size(); ++m)
-    answer.quantities.push_back(value_over_levels(plan, runs, m));
+    answer.quantities.push_back(value_over_levels(plan.measurements[m], m, runs, order));
   return answer;
 }
 

@@ -1,5 +1,4 @@
-// How far is a case's run from its limit? The error that it owes to its step, by
-// halving every step.
+// How far is a case's run from its limit? The errors of its steps, by halving every step.
 #pragma once
 
 #include <string>
@@ -28,6 +27,9 @@ Level time_level(const LadderPlan& plan, int k, const std::vector<double>& step_
 /// the first step [s].
 std::vector<double> divide_steps(const std::vector<double>& ends, double start, int parts);
 
+/// The formal order in space: of springs and hinges on a sheet that bends smoothly.
+constexpr double order_in_space = 2;
+
 /// One quantity over the ladder, read.
 struct QuantityOverLevels {
   std::string name, unit;
@@ -36,16 +38,39 @@ struct QuantityOverLevels {
   ErrorBar bar;                     // of the finest level
   // of level 0, the case as it stands: its distance to the finest level and that level's bar
   double first_error;
+  // of a ladder in space: the error that its steps leave in each level; else NaN
+  double step_error = std::numeric_limits<double>::quiet_NaN();
 };
+
+/// Positions over the levels; each run has those of the same particles. scene: of level 0.
+QuantityOverLevels positions_over_levels(const Scene& scene, const std::vector<LevelRun>& runs,
+                                         double formal_order);
+
+/// The m-th measurement, `of`, over the levels.
+QuantityOverLevels value_over_levels(const Measurement& of, size_t m,
+                                     const std::vector<LevelRun>& runs, double formal_order);
 
 struct LadderAnswer {
   std::string scene, method;
   std::string in;                              // "time" or "space"
-  std::vector<double> sizes;                   // mean step of each level [s]
+  std::vector<double> sizes;                   // mean step [s], or edge [m], of each level
   std::vector<double> work, seconds;           // of each level
   std::vector<std::string> stopped;            // why a level came to no end, or ""
   std::vector<QuantityOverLevels> quantities;  // positions first
+  std::vector<int> particles = {};             // of each level
+  double mean_step = std::numeric_limits<double>::quiet_NaN();  // of the finest level [s]
+  std::string refined_by = {};  // of a ladder in space: how its meshes became finer
+  // overrides that make each level, of a ladder in space
+  std::vector<std::vector<std::string>> overrides = {};
+  std::vector<std::string> warnings = {};  // a sentence each
+
+  /// Visits of all forces to all particles, of level k: what its run costs.
+  double cost(size_t k) const { return work[k] * particles[k]; }
 };
+
+/// An answer with all that runs say of themselves, and no quantity.
+LadderAnswer answer_about(const Scene& scene, const std::string& in,
+                          const std::vector<LevelRun>& runs);
 
 /// Reads all levels, coarse to fine.
 LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& runs);

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "reference/mesh/subdivision.h"
+#include "reference/scene/refine_cloth.h"
 
 namespace foldproof {
 
@@ -41,20 +41,6 @@ std::vector<PrescribedParticle> prescribed_with_midpoints(const Scene& scene) {
   return prescribed;
 }
 
-/// A half of an old edge has its rest angle; a new edge lies within an old triangle and has none.
-std::vector<double> rest_angles_of_halves(const Scene& scene, const TriangleMesh& finer) {
-  const int old = scene.mesh.particles();
-  std::vector<double> of_edge(scene.mesh.edges.size(), 0.0);
-  for (size_t h = 0; h < scene.rest_angles.size(); ++h)
-    of_edge[size_t(scene.mesh.hinges[h].edge)] = scene.rest_angles[h];
-  std::vector<double> angles;
-  for (const Hinge& hinge : finer.hinges) {
-    const Edge& edge = finer.edges[size_t(hinge.edge)];  // a < b: an old particle comes first
-    angles.push_back(edge.a < old ? of_edge[size_t(edge.b - old)] : 0.0);
-  }
-  return angles;
-}
-
 StickyPatch finer_patch(const TriangleMesh& mesh, const std::vector<Triangle>& quarters,
                         StickyPatch patch) {
   patch.particles = with_middles(mesh, patch.particles);
@@ -83,15 +69,11 @@ Scene with_half_steps(const Scene& scene) {
 }
 
 Scene with_finer_mesh(const Scene& scene) {
-  const Subdivision quarters = subdivision(scene.mesh, SubdivisionRule::midpoint, 1);
   Scene finer = scene;
-  finer.mesh = make_triangle_mesh(quarters.of(scene.mesh.rest), quarters.triangles);
-  finer.x = quarters.of(scene.x);
-  finer.v = quarters.of(scene.v);
+  refine_cloth(finer);
   finer.prescribed = prescribed_with_midpoints(scene);
-  if (scene.bending) finer.rest_angles = rest_angles_of_halves(scene, finer.mesh);
   for (StickyPatch& patch : finer.sticky)
-    patch = finer_patch(scene.mesh, quarters.triangles, patch);
+    patch = finer_patch(scene.mesh, finer.mesh.triangles, patch);
   if (scene.self_collision)
     finer.self_collision->thickness =
         std::min(finer.self_collision->thickness,

@@ -11,8 +11,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double order_in_space = 2;  // of springs and hinges on a sheet that bends smoothly
-
 double formal_order(const LadderAnswer& answer) {
   return answer.in == "time" ? integrator_named(answer.method).order : order_in_space;
 }
@@ -98,11 +96,12 @@ Table quantities_table(const LadderAnswer& answer) {
 Table levels_table(const LadderAnswer& answer) {
   Table table{{"level", "1"},
               {answer.in == "time" ? "mean step" : "size", answer.in == "time" ? "s" : "m"},
+              {"particles", "1"},
               {"operator applications", "1"},
               {"processor time", "s"},
               {"stopped", ""}};
   for (size_t k = 0; k < answer.sizes.size(); ++k)
-    table.row(k + 1, answer.sizes[k], answer.work[k], answer.seconds[k],
+    table.row(k + 1, answer.sizes[k], answer.particles[k], answer.work[k], answer.seconds[k],
               answer.stopped[k].empty() ? std::string("no") : answer.stopped[k]);
   return {"levels", "Levels, and their cost", table};
 }

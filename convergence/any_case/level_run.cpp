@@ -25,7 +25,9 @@ LevelRun watched_level(const Level& level, const LevelSetProvider& level_sets,
   const Observer observer{[&](const State& s) {
                             measurer.record(s);
                             run.times.push_back(s.time);
-                            run.x.push_back(s.x.leftCols(level.particles));
+                            run.x.push_back(level.common.empty()
+                                                ? PerParticle3(s.x.leftCols(level.particles))
+                                                : PerParticle3(s.x(Eigen::all, level.common)));
                             const Energies e = energies(built.system, s);
                             run.kinetic.push_back(e.kinetic);
                             run.elastic.push_back(e.stretch + e.bending);
@@ -79,7 +81,8 @@ std::optional<LevelRun> unpack(const StoredResult& kept, const Level& level) {
   run.contacts = array_of(kept, "contacts");
   run.step_ends = array_of(kept, "step_ends");
   const std::vector<double> positions = array_of(kept, "positions"), cost = array_of(kept, "cost");
-  const size_t numbers = 3 * size_t(level.particles);  // of a frame
+  const int kept_particles = level.common.empty() ? level.particles : int(level.common.size());
+  const size_t numbers = 3 * size_t(kept_particles);  // of a frame
   const auto stopped = kept.texts.find("stopped");
   if (cost.size() != 2 || stopped == kept.texts.end() ||
       run.values.size() != level.measurements.size() ||
@@ -92,7 +95,7 @@ std::optional<LevelRun> unpack(const StoredResult& kept, const Level& level) {
   run.stopped = stopped->second;
   for (size_t k = 0; k < run.times.size(); ++k)
     run.x.push_back(
-        Eigen::Map<const PerParticle3>(positions.data() + k * numbers, 3, level.particles));
+        Eigen::Map<const PerParticle3>(positions.data() + k * numbers, 3, kept_particles));
   return run;
 }
 
@@ -127,6 +130,7 @@ std::string key_of(const Level& level, const std::string& program) {
     key.add(number);
   key.add(step.ends);
   key.add(level.particles);
+  key.add(level.common);
   for (const Measurement& m : level.measurements) {
     for (const std::string& text : {m.name, m.what}) add(text, key);
     key.add(m.of.particles);

@@ -28,7 +28,8 @@ struct Level {
   std::string label;  // for progress and for the store
   Case input_case;
   std::vector<Measurement> measurements;
-  int particles;  // of these, the first ones, positions are kept
+  int particles;                 // of these, the first ones, positions are kept
+  std::vector<int> common = {};  // of these instead, if there are any
 };
 
 /// Runs the level; shows `progress` the part that is done. An error in building or running is

@@ -11,6 +11,7 @@
 #include "reference/scene/read_start.h"
 #include "reference/scene/read_sticky.h"
 #include "reference/scene/read_strain.h"
+#include "reference/scene/refine_cloth.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/read_cloth_mesh.h"
 
@@ -132,6 +133,13 @@ void reject_name(const std::string& name, const std::string& path) {
                      "two dots in a row; rename the file");
 }
 
+void refine(const KeyTable& cloth, const SceneLimits& limits, Scene& scene) {
+  const int times = refinements_of(cloth);
+  reject_many_triangles(cloth, "refine", std::ldexp(double(scene.mesh.triangles.size()), 2 * times),
+                        limits);
+  for (int k = 0; k < times; ++k) refine_cloth(scene);
+}
+
 /// Numbers of a case can each be sound and yet come to more than a double holds, or to less.
 void reject_overflow(const KeyTable& cloth, const Scene& scene) {
   const State start = start_state(scene);
@@ -169,6 +177,7 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
     scene.bending = read_bending(*bending);
     scene.rest_angles = read_rest_angles(*bending, scene.mesh);
   }
+  refine(*cloth, limits, scene);
   for (const auto& hold : keys.tables("hold")) read_hold(*hold, scene);
   reject_overflow(*cloth, scene);
   read_time(*time, scene);

@@ -10,6 +10,7 @@
 #include "reference/scene/key_values.h"
 #include "reference/scene/read_region.h"
 #include "reference/scene/read_cloth_mesh.h"
+#include "reference/scene/refine_cloth.h"
 
 namespace foldproof {
 
@@ -20,6 +21,7 @@ struct StickySheet {
   const PerParticle3& x;  // of the corners at the start [m]
   const std::vector<Triangle>& triangles;
   std::function<FaceGroups()> groups;  // of its OBJ file; empty if it has none
+  int parts = 1;                       // of each triangle that a list or a group means
 };
 
 /// Groups of the OBJ file that the table's key `mesh` names.
@@ -29,6 +31,14 @@ std::function<FaceGroups()> groups_of(const std::shared_ptr<KeyTable>& keys,
   return [=] { return read_obj_groups(mesh_file(*keys, folder, table)); };
 }
 
+/// Numbers of the triangles that those listed were divided into.
+std::vector<int> divided(const std::vector<int>& triangles, int parts) {
+  std::vector<int> all;
+  for (const int t : triangles)
+    for (int part = 0; part < parts; ++part) all.push_back(t * parts + part);
+  return all;
+}
+
 std::vector<int> triangles_of_group(const KeyTable& keys, const StickySheet& sheet) {
   const std::string name = keys.text("group");
   if (!sheet.groups)
@@ -36,7 +46,7 @@ std::vector<int> triangles_of_group(const KeyTable& keys, const StickySheet& she
                      ": 'group' names a group of an OBJ file; this is made without one");
   const FaceGroups groups = sheet.groups();
   const auto found = groups.find(name);
-  if (found != groups.end()) return found->second;
+  if (found != groups.end()) return divided(found->second, sheet.parts);
   std::string known;
   for (const auto& [other, triangles] : groups) known += (known.empty() ? "" : ", ") + other;
   throw InputError(keys.where("group") + ": there is no group '" + name +
@@ -44,7 +54,9 @@ std::vector<int> triangles_of_group(const KeyTable& keys, const StickySheet& she
 }
 
 /// Things selected by a table: at the places x, and of a group by of_group; all if it selects none.
-std::vector<int> read_region(const KeyTable& keys, const std::string& list, const PerParticle3& x,
+/// parts: number of things that each number of a list stands for.
+std::vector<int> read_region(const KeyTable& keys, const std::string& list, int parts,
+                             const PerParticle3& x,
                              const std::function<std::vector<int>()>& of_group) {
   const bool is_list = keys.has(list), is_box = keys.has("box"), is_sphere = keys.has("sphere"),
              is_group = keys.has("group");
@@ -52,7 +64,7 @@ std::vector<int> read_region(const KeyTable& keys, const std::string& list, cons
     throw InputError(keys.where() + ": give one of '" + list +
                      "', 'box', 'sphere', 'group', or none for all");
   std::vector<int> chosen;
-  if (is_list) chosen = numbered(keys, list, x.cols());
+  if (is_list) chosen = divided(numbered(keys, list, x.cols() / parts), parts);
   if (is_box) chosen = select_in_box(keys, x);
   if (is_sphere) chosen = select_in_sphere(keys, x);
   if (is_group) chosen = of_group();
@@ -71,15 +83,15 @@ std::vector<Triangle> read_triangles(const KeyTable& keys, const StickySheet& sh
     centres.col(Eigen::Index(t)) = (sheet.x.col(a) + sheet.x.col(b) + sheet.x.col(c)) / 3;
   }
   std::vector<Triangle> chosen;
-  for (const int t :
-       read_region(keys, "triangles", centres, [&] { return triangles_of_group(keys, sheet); }))
+  for (const int t : read_region(keys, "triangles", sheet.parts, centres,
+                                 [&] { return triangles_of_group(keys, sheet); }))
     chosen.push_back(sheet.triangles[size_t(t)]);
   return chosen;
 }
 
 std::vector<int> read_particles(const KeyTable& keys, const StickySheet& cloth,
                                 const std::vector<int>& copy_of) {
-  std::vector<int> chosen = read_region(keys, "particles", cloth.x, [&] {
+  std::vector<int> chosen = read_region(keys, "particles", 1, cloth.x, [&] {
     std::vector<int> corners;
     for (const int t : triangles_of_group(keys, cloth))
       for (const int corner : cloth.triangles[size_t(t)]) corners.push_back(corner);
@@ -136,8 +148,9 @@ void read_surface(const KeyTable& keys, const KeyTable& case_keys, const std::st
 
 StickyPatch read_patch(const KeyTable& keys, const KeyTable& case_keys, const std::string& folder,
                        const Scene& scene) {
-  const StickySheet cloth{scene.x, scene.mesh.triangles,
-                          groups_of(case_keys.table("cloth"), folder, "cloth")};
+  const auto cloth_keys = case_keys.table("cloth");
+  const StickySheet cloth{scene.x, scene.mesh.triangles, groups_of(cloth_keys, folder, "cloth"),
+                          1 << (2 * refinements_of(*cloth_keys))};
   const auto surface = keys.table("surface"), particles = keys.table("particles");
   if (!surface || !particles)
     throw InputError(keys.where() +

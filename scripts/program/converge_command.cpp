@@ -1,14 +1,17 @@
-// foldproof converge: the error that a case owes to its step, quantity by quantity.
+// foldproof converge: the errors that a case owes to its step and to its mesh,
+// quantity by quantity.
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "convergence/any_case/converge.h"
+#include "convergence/any_case/space_ladder.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/commands.h"
-#include "scripts/program/converge_file.h"
+#include "scripts/program/converge_report.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/ladder_runs.h"
 #include "scripts/program/predictability_runs.h"
@@ -20,102 +23,118 @@ namespace foldproof {
 
 namespace {
 
-using nlohmann::json;
+/// A ladder, and of one in time how long its positions are predictable.
+struct Told {
+  LadderAnswer ladder;
+  std::optional<PredictabilityAnswer> twins;
+};
+
+/// How the questions of one call are answered.
+struct Answering {
+  const Options& options;
+  const LevelSetProvider& level_sets;
+  ResultStore& store;
+};
+
+void require_asked_before_end(const std::vector<Measurement>& measurements, double end) {
+  for (const Measurement& m : measurements)
+    if (m.when == Instant::at_time && m.time > end)
+      throw InputError(fmt::format("quantity '{}' is asked at {:g} s, beyond --until {:g}", m.name,
+                                   m.time, end));
+}
 
 /// The first level, and the others, which divide its steps.
-LadderRuns ladder_runs(const LadderPlan& plan, const LevelSetProvider& level_sets,
-                       ResultStore& store, const Options& options) {
-  return run_ladder({plan.levels,
-                     [&](int k, const std::vector<LevelRun>& runs) {
-                       return time_level(plan, k,
-                                         k > 0 ? runs[0].step_ends : std::vector<double>());
-                     }},
-                    level_sets, store, options.running, limits_of(options.hours));
+Told told_in_time(const LadderPlan& plan, const Answering& by) {
+  const auto level = [&](int k, const std::vector<LevelRun>& runs) {
+    return time_level(plan, k, k > 0 ? runs[0].step_ends : std::vector<double>());
+  };
+  const LadderRuns done = run_ladder({plan.levels, level}, by.level_sets, by.store,
+                                     by.options.running, limits_of(by.options.hours));
+  if (!done.refused.empty()) log_line(done.refused);
+  PredictabilityAnswer twins = run_twins(plan, done.runs, by.level_sets, by.store, by.options);
+  LadderAnswer ladder = answer_before_horizon(plan, done.runs, twins);
+  return {std::move(ladder), std::move(twins)};
 }
 
-std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.6g}", value); }
-
-std::string orders_in_words(const ErrorBar& bar) {
-  std::string words;
-  for (const double order : bar.orders)
-    words += (words.empty() ? "" : " ") + (std::isnan(order) ? "-" : fmt::format("{:.2f}", order));
-  return words;
+Told told_in_space(const CaseSource& source, const Answering& by) {
+  const auto objects = by.options.refines_objects ? ObjectsToo::yes : ObjectsToo::no;
+  const SpaceRuns done =
+      run_meshes(space_ladder(source, by.options.levels, objects), by.level_sets, by.store,
+                 by.options.running, limits_of(by.options.hours));
+  if (!done.levels.refused.empty()) log_line(done.levels.refused);
+  return {space_answer(done.ladder, done.levels.runs, done.halved), {}};
 }
 
-void print(const LadderAnswer& answer) {
-  fmt::print("{}, method {}, in {}: {} levels; mean step {:.3g} s down to {:.3g} s\n\n",
-             answer.scene, answer.method, answer.in, answer.sizes.size(), answer.sizes.front(),
-             answer.sizes.back());
-  fmt::print("{:<24} {:<10} {:<16} {:>12} {:>10} {:>10}  {}\n", "quantity", "unit", "order by pair",
-             "limit", "+-", "as it is", "reading");
-  for (const QuantityOverLevels& q : answer.quantities)
-    fmt::print("{:<24} {:<10} {:<16} {:>12} {:>10.2g} {:>10.2g}  {}\n", q.name, q.unit,
-               orders_in_words(q.bar), number(q.bar.limit), q.bar.half_width, q.first_error,
-               q.bar.reason.empty() ? std::string(name_of(q.bar.reading))
-                                    : fmt::format("{}: {}", name_of(q.bar.reading), q.bar.reason));
-  fmt::print(
-      "\nlimit: Richardson's value for steps of no length; +-: error bar of the finest level (grid "
-      "convergence index);\n"
-      "as it is: error of the case with its own step, bar included.\n");
+std::vector<Told> told_for(const CaseSource& source, const Answering& by) {
+  LadderPlan plan{case_of(source), by.options.levels, {}};
+  plan.measurements = measurements_of(plan.input_case);
+  require_asked_before_end(plan.measurements, plan.input_case.scene.schedule.end);
+  std::vector<Told> all;
+  if (by.options.in != "space") all.push_back(told_in_time(plan, by));
+  if (by.options.in != "time") all.push_back(told_in_space(source, by));
+  return all;
 }
 
-json to_json(const QuantityOverLevels& q) {
-  return {{"name", q.name},
-          {"unit", q.unit},
-          {"values", q.values},
-          {"differences", q.differences},
-          {"orders", q.bar.orders},
-          {"reading", name_of(q.bar.reading)},
-          {"because", q.bar.reason},
-          {"order", q.bar.order},
-          {"limit", q.bar.limit},
-          {"safety_factor", q.bar.safety},
-          {"error_bar", q.bar.half_width},
-          {"error_as_it_is", q.first_error}};
+/// Those asked for, or the case's own, "".
+std::vector<std::string> methods_of(const Options& options) {
+  std::vector<std::string> methods = options.methods;
+  if (std::ranges::find(methods, "all") != methods.end()) {
+    methods.clear();
+    for (const Integrator& integrator : integrators()) methods.emplace_back(integrator.name);
+  }
+  for (const std::string& method : methods) integrator_named(method);
+  if (methods.empty()) methods.emplace_back();
+  return methods;
 }
 
-json to_json(const LadderAnswer& answer) {
-  json answer_json = {{"case", answer.scene},      {"method", answer.method},
-                      {"in", answer.in},           {"mean_step", answer.sizes},
-                      {"work", answer.work},       {"seconds", answer.seconds},
-                      {"stopped", answer.stopped}, {"quantities", json::array()}};
-  for (const QuantityOverLevels& q : answer.quantities)
-    answer_json["quantities"].push_back(to_json(q));
-  return answer_json;
+nlohmann::json to_json(const Told& told) {
+  nlohmann::json all = to_json(told.ladder);
+  if (told.twins) all["predictability"] = to_json(*told.twins);
+  return all;
+}
+
+/// One ladder as an object; several as a list, "ladders".
+nlohmann::json to_json(const std::vector<Told>& all) {
+  if (all.size() == 1) return to_json(all.front());
+  nlohmann::json ladders = nlohmann::json::array();
+  for (const Told& told : all) ladders.push_back(to_json(told));
+  return {{"ladders", ladders}};
+}
+
+int report(const std::vector<Told>& all, const Options& options) {
+  bool is_conclusive = true;
+  for (const Told& told : all) {
+    is_conclusive &= told.ladder.quantities.front().bar.reading != Reading::inconclusive;
+    if (options.json) continue;
+    print(told.ladder);
+    if (told.twins) print(*told.twins);
+    if (&told != &all.back()) fmt::print("\n");
+  }
+  if (options.json) fmt::print("{}\n", json_text(to_json(all)));
+  return is_conclusive ? all_hold : some_fail;
 }
 
 }  // namespace
 
 int converge(const Options& options) {
   const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
-  LadderPlan plan{read_case(case_file(options.file), options.overrides), options.levels, {}};
-  if (!options.methods.empty()) plan.input_case.scene.integrator = options.methods.front();
-  if (options.until > 0)
-    plan.input_case.scene.schedule.end =
-        std::min(options.until, plan.input_case.scene.schedule.end);
-  plan.measurements = measurements_of(plan.input_case);
-  for (const Measurement& m : plan.measurements)
-    if (m.when == Instant::at_time && m.time > plan.input_case.scene.schedule.end)
-      throw InputError(fmt::format("quantity '{}' is asked at {:g} s, beyond --until {:g}", m.name,
-                                   m.time, options.until));
-  build(plan.input_case.scene, level_sets);  // refuses now what cannot be built
+  CaseSource source{case_file(options.file), options.overrides, "", options.until};
+  const std::vector<std::string> methods = methods_of(options);
+  build(case_of(source).scene, level_sets);  // refuses now what cannot be built
   const OutFolder folder(options.out);
   require_replaceable(options.out + "/converge.h5");
   ResultStore store(options.out + "/store");
-  const LadderRuns ladder = ladder_runs(plan, level_sets, store, options);
-  if (!ladder.refused.empty()) log_line(ladder.refused);
-  const PredictabilityAnswer twins = run_twins(plan, ladder.runs, level_sets, store, options);
-  const LadderAnswer answer = answer_before_horizon(plan, ladder.runs, twins);
-  write_answers(options.out + "/converge.h5", {answer}, options.command);
-  if (options.json) {
-    json answer_json = to_json(answer);
-    answer_json["predictability"] = to_json(twins);
-    fmt::print("{}\n", json_text(answer_json));
-  } else {
-    print(answer);
-    print(twins);
+  std::vector<Told> all;
+  std::vector<LadderAnswer> ladders;
+  for (const std::string& method : methods) {
+    source.method = method;
+    for (Told& told : told_for(source, {options, level_sets, store})) {
+      ladders.push_back(told.ladder);
+      all.push_back(std::move(told));
+    }
   }
-  return answer.quantities.front().bar.reading == Reading::inconclusive ? some_fail : all_hold;
+  write_answers(options.out + "/converge.h5", ladders, options.command);
+  return report(all, options);
 }
 
 }  // namespace foldproof

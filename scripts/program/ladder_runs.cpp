@@ -92,6 +92,35 @@ void announce(const std::vector<LevelCost>& costs, size_t levels, int threads) {
                          duration_text(seconds), bytes / 1e9));
 }
 
+/// What the meshes cost, by runs of the two coarsest ones.
+std::vector<LevelCost> probed_costs(const SpaceLadder& ladder, LadderRunner& runner,
+                                    ProgressLine& line, double whole) {
+  for (int k = 0; k < 2; ++k) {
+    runner.run({space_level(ladder, k, {})}, {1}, {line, double(k), whole});
+    if (!runner.runs.back().stopped.empty())
+      throw InputError(fmt::format("level {} comes to no end: {}", k, runner.runs.back().stopped));
+  }
+  return foreseen_costs(runner.costs, int(ladder.levels.size()));
+}
+
+/// Leaves the runs of the finest mesh, of the check of its steps, and of the other meshes, coarse
+/// to fine.
+void run_with_finest_steps(const SpaceLadder& ladder, LadderRunner& runner, ProgressLine& line,
+                           double whole) {
+  const int finest = int(ladder.levels.size()) - 1;
+  runner.run({space_level(ladder, finest, {})}, {1}, {line, 0.02 * whole, whole});
+  if (!runner.runs[0].stopped.empty())
+    throw InputError("the finest mesh comes to no end: " + runner.runs[0].stopped);
+  const std::vector<double>& ends = runner.runs[0].step_ends;
+  std::vector<Level> others = {step_check_level(ladder, ends)};
+  std::vector<double> lengths = {2};  // twice the steps of the second-finest
+  for (int k = 0; k < finest; ++k) {
+    others.push_back(space_level(ladder, k, ends));
+    lengths.push_back(std::pow(4, k - finest + 1));
+  }
+  runner.run(others, lengths, {line, 0.55 * whole, whole});
+}
+
 }  // namespace
 
 LadderLimits limits_of(double hours) {
@@ -122,6 +151,27 @@ LadderRuns run_ladder(const LadderOfLevels& ladder, const LevelSetProvider& leve
   announce(costs, size_t(affordable.levels), threads_of(running));
   runner.run_later(later, costs, line);
   return {std::move(runner.runs), std::move(costs), affordable.refusal};
+}
+
+SpaceRuns run_meshes(SpaceLadder ladder, const LevelSetProvider& level_sets, ResultStore& store,
+                     const JobSettings& running, const LadderLimits& limits) {
+  ProgressLine line("meshes");
+  const double whole = 2 * std::pow(8, ladder.levels.size());  // if each takes 8 times as long
+  LadderRunner probes(level_sets, store, running);
+  const std::vector<LevelCost> costs = probed_costs(ladder, probes, line, whole);
+  const Affordable affordable =
+      affordable_levels(costs, 2, line.seconds(), limits, threads_of(running));
+  if (affordable.levels < 3)
+    throw InputError("an error bar needs three levels, and " + affordable.refusal);
+  ladder.levels.resize(size_t(affordable.levels));
+  announce(costs, ladder.levels.size(), threads_of(running));
+
+  LadderRunner runner(level_sets, store, running);
+  run_with_finest_steps(ladder, runner, line, whole);
+  std::vector<LevelRun> runs(runner.runs.begin() + 2, runner.runs.end());
+  runs.push_back(std::move(runner.runs[0]));
+  return {
+      std::move(ladder), {std::move(runs), costs, affordable.refusal}, std::move(runner.runs[1])};
 }
 
 }  // namespace foldproof

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "convergence/any_case/ladder_cost.h"
+#include "convergence/any_case/space_ladder.h"
 #include "scripts/program/jobs.h"
 
 namespace foldproof {
@@ -32,5 +33,17 @@ LadderLimits limits_of(double hours);
 /// fit; std::runtime_error if a result cannot be written.
 LadderRuns run_ladder(const LadderOfLevels& ladder, const LevelSetProvider& level_sets,
                       ResultStore& store, const JobSettings& running, const LadderLimits& limits);
+
+struct SpaceRuns {
+  SpaceLadder ladder;  // of the meshes that were run; 3 or more
+  LadderRuns levels;
+  LevelRun halved;  // of step_check_level
+};
+
+/// Runs the two coarsest meshes by their own steps, alone, which shows what the others cost; then
+/// the finest mesh that fits the limits; then, with its steps, all coarser ones at a time and the
+/// check of the steps. Stores and throws as run_ladder does.
+SpaceRuns run_meshes(SpaceLadder ladder, const LevelSetProvider& level_sets, ResultStore& store,
+                     const JobSettings& running, const LadderLimits& limits);
 
 }  // namespace foldproof

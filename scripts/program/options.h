@@ -37,6 +37,8 @@ struct Options {
   double fraction = 0.1;             // of converge: of the motion, at which twin runs have parted
   int ensemble = 4;                  // of converge: runs with disturbed starts; 0: none
   std::vector<std::string> methods;  // of converge and precision: integrators
+  std::string in = "time";           // of converge: time, space or both
+  bool refines_objects = false;      // of converge: level sets with the cloth
   // of converge and precision: how much of the run is asked [s]; 0: all of it
   double until = 0;
   std::vector<std::string> errors = {"1e-2", "1e-3"};  // of precision: wanted, as typed [1]

@@ -242,6 +242,18 @@ step = 0.001
         unknown = run(*ask[:-2], str(self.path / "new"), "--errors", "1e-9", "--effort", "0.01")
         self.assertEqual(unknown.returncode, 1, unknown.stderr)
         self.assertIn("no price, since the truth is not known to a tenth of this error", unknown.stdout)
+    def test_converge_refines_the_mesh(self) -> None:
+        asked = ("converge", "hinge", "--in", "space", "--until", "0.02", "--levels", "3", "--out", "out")
+        done = run(*asked, folder=self.path)
+        self.assertIn("refined by middles of edges, since shape 'hinge' has no finer one", done.stdout, done.stderr)
+        told = json.loads(run(*asked, "--json", folder=self.path).stdout)
+        self.assertEqual(told["particles"], [4, 9, 25])
+        self.assertEqual(told["overrides"], [[], ["cloth.refine=1"], ["cloth.refine=2"]])
+        both = json.loads(run(*asked[:3], "both", *asked[4:], "--method", "C,BDF2", "--json", folder=self.path).stdout)
+        self.assertEqual([(ladder["in"], ladder["method"]) for ladder in both["ladders"]],
+                         [("time", "C"), ("space", "C"), ("time", "BDF2"), ("space", "BDF2")])
+        self.assert_rejected(*asked, "--method", "D")
+        self.assert_rejected("converge", "hinge", "--in", "height")
 
     def test_any_obj_mesh_runs(self) -> None:
         quad = "v 0 0 0\nv 1 0 0\nv 1 1 0.1\nv 0 1 0\nv 0 2 0.2\nv 1 2 0\nf 1 2 3 4\nf 4 3 6 5\n"

@@ -207,10 +207,16 @@ Exit codes:
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* converge =
-    R"(Runs the case as it is, then with every step halved, and halved again. For each quantity: the order
-by which differences between levels fall, Richardson's limit, and the grid convergence index as
-error bar (safety 1.25 where the order has settled, else 3). Quantities are those of the case's
-[[quantity]] tables; without any: positions, energies, heights, and what its [expect] asks.
+    R"(Runs the case as it is and refined, and says for each quantity: the order by which differences
+between levels fall, Richardson's limit, and the grid convergence index as error bar (safety 1.25
+where the order has settled, else 3). Quantities are those of the case's [[quantity]] tables;
+without any: positions, energies, heights, and what its [expect] asks.
+
+--in time    every step is halved, and halved again.
+--in space   every edge is: shapes by their numbers, other meshes by the middles of edges. Boxes
+             hold regions, lists of particles hold points. Positions are those of the case's own
+             particles. All meshes take the steps that the finest one needs; one more run, with
+             half of them, tells their own error.
 
 Two more runs start disturbed: by 1e-12 of the cloth's extent, and by the size of the step's error.
 Where they part from the undisturbed run by --fraction of its motion, positions stop being
@@ -223,8 +229,8 @@ allow are refused, and the levels that ran answer. Seconds are the processor's, 
 DIR/converge.h5 is for `foldproof report DIR`.
 
 Examples:
-  foldproof converge drape_sphere --ensemble 8
-  foldproof converge hanging_sheet --levels 3 --method BDF2 --out mine
+  foldproof converge drape_sphere --ensemble 8 --method BDF2,C
+  foldproof converge hanging_sheet --in space --set cloth.columns=6 --set cloth.rows=6 --until 0.3
 
 Exit codes:
   0    the positions have an order, or an error bar all the same

@@ -1,0 +1,110 @@
+#include "scripts/program/converge_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace foldproof {
+
+namespace {
+
+using nlohmann::json;
+
+std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.6g}", value); }
+
+std::string orders_in_words(const ErrorBar& bar) {
+  std::string words;
+  for (const double order : bar.orders)
+    words += (words.empty() ? "" : " ") + (std::isnan(order) ? "-" : fmt::format("{:.2f}", order));
+  return words;
+}
+
+std::string reading_in_words(const ErrorBar& bar) {
+  const std::string name(name_of(bar.reading));
+  return bar.reason.empty() ? name : name + ": " + bar.reason;
+}
+
+bool is_in_space(const LadderAnswer& answer) { return answer.in == "space"; }
+
+void print_head(const LadderAnswer& answer) {
+  if (!is_in_space(answer)) {
+    fmt::print("{}, method {}, in {}: {} levels; mean step {:.3g} s down to {:.3g} s\n",
+               answer.scene, answer.method, answer.in, answer.sizes.size(), answer.sizes.front(),
+               answer.sizes.back());
+    return;
+  }
+  fmt::print(
+      "{}, method {}, in space: {} levels; mean edge {:.3g} m down to {:.3g} m, {} to {} "
+      "particles\n"
+      "refined by {}; formal order 2; all levels take the steps of the finest, mean {:.3g} s\n",
+      answer.scene, answer.method, answer.sizes.size(), answer.sizes.front(), answer.sizes.back(),
+      answer.particles.front(), answer.particles.back(), answer.refined_by, answer.mean_step);
+}
+
+void print_notes(const LadderAnswer& answer) {
+  const bool in_space = is_in_space(answer);
+  fmt::print(
+      "\nlimit: Richardson's value for {} of no length; +-: error bar of the finest level (grid "
+      "convergence index);\n"
+      "as it is: error of the case with its own {}, bar included.\n",
+      in_space ? "edges" : "steps", in_space ? "mesh" : "step");
+  for (const std::string& warning : answer.warnings) fmt::print("warning: {}\n", warning);
+  for (size_t k = 0; k < answer.stopped.size(); ++k)
+    if (!answer.stopped[k].empty()) fmt::print("level {} stopped: {}\n", k, answer.stopped[k]);
+}
+
+json to_json(const QuantityOverLevels& q) {
+  return {{"name", q.name},
+          {"unit", q.unit},
+          {"values", q.values},
+          {"differences", q.differences},
+          {"orders", q.bar.orders},
+          {"reading", name_of(q.bar.reading)},
+          {"because", q.bar.reason},
+          {"order", q.bar.order},
+          {"limit", q.bar.limit},
+          {"safety_factor", q.bar.safety},
+          {"error_bar", q.bar.half_width},
+          {"error_as_it_is", q.first_error},
+          {"error_of_steps", q.step_error}};
+}
+
+}  // namespace
+
+void print(const LadderAnswer& answer) {
+  print_head(answer);
+  fmt::print("\n{:<24} {:<10} {:<16} {:>12} {:>10} {:>10} {:>10}  {}\n", "quantity", "unit",
+             "order by pair", "limit", "+-", "as it is", is_in_space(answer) ? "steps" : "",
+             "reading");
+  for (const QuantityOverLevels& q : answer.quantities)
+    fmt::print("{:<24} {:<10} {:<16} {:>12} {:>10.2g} {:>10.2g} {:>10}  {}\n", q.name, q.unit,
+               orders_in_words(q.bar), number(q.bar.limit), q.bar.half_width, q.first_error,
+               std::isnan(q.step_error) ? "" : fmt::format("{:.2g}", q.step_error),
+               reading_in_words(q.bar));
+  print_notes(answer);
+}
+
+json to_json(const LadderAnswer& answer) {
+  json answer_json = {{"case", answer.scene},
+                      {"method", answer.method},
+                      {"in", answer.in},
+                      {is_in_space(answer) ? "mean_edge" : "mean_step", answer.sizes},
+                      {"mean_step_of_finest", answer.mean_step},
+                      {"particles", answer.particles},
+                      {"work", answer.work},
+                      {"seconds", answer.seconds},
+                      {"stopped", answer.stopped},
+                      {"warnings", answer.warnings},
+                      {"quantities", json::array()}};
+  if (is_in_space(answer)) {
+    answer_json["refined_by"] = answer.refined_by;
+    answer_json["formal_order"] = 2;
+    answer_json["overrides"] = answer.overrides;
+  }
+  for (const QuantityOverLevels& q : answer.quantities)
+    answer_json["quantities"].push_back(to_json(q));
+  return answer_json;
+}
+
+}  // namespace foldproof
