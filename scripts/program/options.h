@@ -33,6 +33,8 @@ struct Options {
   int cells = 64;                    // of inspect: along the longest side
   int subdivisions = 0;              // of project
   int levels = 4;                    // of converge: runs
+  std::string frames, times;         // of compare: a folder, a file of times
+  double rate = 0, first_time = 0;   // of compare: frames a second, time of the first one [s]
   double fraction = 0.1;             // of converge: of the motion, at which twin runs have parted
   int ensemble = 4;                  // of converge: runs with disturbed starts; 0: none
   std::vector<std::string> methods;  // of converge: integrators
