@@ -30,8 +30,8 @@ void append_to(Column& column, const Cell& cell) {
 
 }  // namespace
 
-Table::Table(std::vector<Column> columns) {
-  for (Column& column : columns) add(std::move(column));
+Table::Table(std::initializer_list<Column> columns) {
+  for (const Column& column : columns) add(column);
 }
 
 Table::Table(std::string name, std::string title, Table rows)

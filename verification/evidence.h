@@ -62,8 +62,7 @@ class Table {
   std::string name, title;  // of a study's table; evidence needs none
 
   Table() = default;
-  Table(std::initializer_list<Column> columns) : Table(std::vector<Column>(columns)) {}
-  Table(std::vector<Column> columns);
+  Table(std::initializer_list<Column> columns);
   Table(std::string name, std::string title, Table rows);
 
   /// Adds a row: one number, text or Estimate for each column, in their order.

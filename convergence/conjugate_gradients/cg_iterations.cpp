@@ -78,50 +78,42 @@ std::string words_of(ResidualScale scale) {
   return scale == ResidualScale::momentum ? "momentum" : "initial residual";
 }
 
-std::vector<Column> columns_of(const std::vector<Sweep>& measured) {
-  std::vector<std::string> varied_thing, scales;
-  std::vector<std::vector<double>> numbers(8);
-  for (const Sweep& sweep : measured) {
+Table costs_table(const std::vector<Sweep>& measured) {
+  Table table{{"varied", "1"},
+              {"residual compared with", "1"},
+              {"tolerance", "1"},
+              {"damping ratio", "1"},
+              {"step over limit", "1"},
+              {"particles", "1"},
+              {"mean iterations", "1"},
+              {"largest", "1"},
+              {"unfinished solves", "1"},
+              {"allowed by Chebyshev", "1"}};
+  for (const Sweep& sweep : measured)
     for (size_t i = 0; i < sweep.costs.size(); ++i) {
       const Setting& s = sweep.settings[i];
       const Cost& cost = sweep.costs[i];
-      varied_thing.push_back(sweep.name);
-      scales.push_back(words_of(s.scale));
-      const std::array<double, 8> row = {
-          s.tolerance, s.ratio,      s.step,          particles_of(s),
-          cost.mean,   cost.largest, cost.unfinished, iterations_allowed(s)};
-      for (size_t k = 0; k < row.size(); ++k) numbers[k].push_back(row[k]);
+      table.row(sweep.name, words_of(s.scale), s.tolerance, s.ratio, s.step, particles_of(s),
+                cost.mean, cost.largest, cost.unfinished, iterations_allowed(s));
     }
-  }
-  return {{"varied", "1", varied_thing},          {"residual compared with", "1", scales},
-          {"tolerance", "1", numbers[0]},         {"damping ratio", "1", numbers[1]},
-          {"step over limit", "1", numbers[2]},   {"particles", "1", numbers[3]},
-          {"mean iterations", "1", numbers[4]},   {"largest", "1", numbers[5]},
-          {"unfinished solves", "1", numbers[6]}, {"allowed by Chebyshev", "1", numbers[7]}};
+  return table;
 }
 
 NamedFinding fewer_than_ten(const std::vector<Sweep>& measured) {
-  Worst worst;
-  std::vector<double> means, maxima;
-  std::vector<std::string> scales;
+  Table typical_costs{{"residual compared with", "1"}, {"mean iterations", "1"}, {"largest", "1"}};
   for (const Sweep& sweep : measured) {
     for (size_t i = 0; i < sweep.costs.size(); ++i) {
       if (sweep.name != "damping" || sweep.values[i] != typical.ratio) continue;
-      worst.observe(sweep.costs[i].largest);
-      scales.push_back(words_of(sweep.settings[i].scale));
-      means.push_back(sweep.costs[i].mean);
-      maxima.push_back(sweep.costs[i].largest);
+      typical_costs.row(words_of(sweep.settings[i].scale), sweep.costs[i].mean,
+                        sweep.costs[i].largest);
     }
   }
-  const Verdict verdict{maxima.empty() ? nan : worst.value(), 9, 0, "iterations",
+  const Verdict verdict{typical_costs.worst("largest"), 9, 0, "iterations",
                         "fewer than ten, in the paper's words"};
   return {"cg-iterations.fewer-than-ten-in-the-typical-setting",
           "At damping ratio 0.1, a step of half the elastic limit and tolerance 1e-4, no solve "
           "needs ten iterations.",
-          {verdict,
-           {{"residual compared with", "1", scales},
-            {"mean iterations", "1", means},
-            {"largest", "1", maxima}},
+          {verdict, typical_costs,
            "the sheet's velocities hold noise of every wavelength; smooth motion needs fewer"}};
 }
 
@@ -136,56 +128,48 @@ NamedFinding within_chebyshev(const std::vector<Sweep>& measured) {
   return {"cg-iterations.stay-within-the-theoretical-bound",
           "No solve needs more iterations than the condition 1 + 2 zeta h/h_limit of its matrix "
           "allows, over all settings.",
-          {verdict, columns_of(measured),
+          {verdict, costs_table(measured),
            "measured is the largest ratio, with residuals compared with the initial one"}};
 }
 
 /// "Fewer than ten" is a matter of the setting.
 NamedFinding ten_or_more_elsewhere(const std::vector<Sweep>& measured) {
   double most = 0;
-  std::vector<double> means, maxima;
+  Table costs{{"mean iterations", "1"}, {"largest", "1"}};
   for (const Sweep& sweep : measured)
     for (const Cost& cost : sweep.costs) {
-      means.push_back(cost.mean);
-      maxima.push_back(cost.largest);
+      costs.row(cost.mean, cost.largest);
       most = std::max(most, cost.mean);
     }
-  const Verdict verdict{means.empty() ? nan : 10 / most, 1, 0, "1", "ten, in the paper's words"};
+  const Verdict verdict{costs.rows() == 0 ? nan : 10 / most, 1, 0, "1",
+                        "ten, in the paper's words"};
   return {"cg-iterations.ten-or-more-in-harder-settings",
           "In the hardest of the settings tried a solve takes ten iterations or more, on average.",
-          {verdict,
-           {{"mean iterations", "1", means}, {"largest", "1", maxima}},
-           "measured is ten over the largest mean of all settings"}};
+          {verdict, costs, "measured is ten over the largest mean of all settings"}};
 }
 
 NamedFinding no_growth_with_the_mesh(const std::vector<Sweep>& measured) {
   constexpr double largest_exponent = 0.1;
   double steepest = -std::numeric_limits<double>::infinity();
-  std::vector<std::string> scales;
-  std::vector<double> sizes, means;
+  Table meshes{{"residual compared with", "1"}, {"particles", "1"}, {"mean iterations", "1"}};
   for (const Sweep& sweep : measured) {
     if (sweep.name != "mesh") continue;
-    Convergence growth;  // over the width of a cell, which falls
+    Table growth{{"width of a cell", "1"}, {"mean iterations", "1"}};  // over what falls
     for (size_t i = 0; i < sweep.costs.size(); ++i) {
-      growth.steps.push_back(1 / std::sqrt(sweep.values[i]));
-      growth.errors.push_back(sweep.costs[i].mean);
-      scales.push_back(words_of(sweep.settings[i].scale));
-      sizes.push_back(sweep.values[i]);
-      means.push_back(sweep.costs[i].mean);
+      growth.row(1 / std::sqrt(sweep.values[i]), sweep.costs[i].mean);
+      meshes.row(words_of(sweep.settings[i].scale), sweep.values[i], sweep.costs[i].mean);
     }
-    const double exponent = -fitted_order(growth);  // in the number of cells along a side
+    // in the number of cells along a side
+    const double exponent = -fitted_order(convergence_of(growth, "mean iterations"));
     if (!std::isnan(steepest) && !(exponent <= steepest)) steepest = exponent;
   }
-  const Verdict verdict{sizes.empty() ? nan : steepest, largest_exponent, 0, "1",
+  const Verdict verdict{meshes.rows() == 0 ? nan : steepest, largest_exponent, 0, "1",
                         "the condition is the same on every mesh; a count that grew like its root "
                         "on a fixed material would have exponent 1/2"};
   return {"cg-iterations.do-not-grow-with-the-mesh",
           "At a fixed damping ratio and a fixed fraction of the elastic limit, iterations do not "
           "grow with the number of cells along a side.",
-          {verdict,
-           {{"residual compared with", "1", scales},
-            {"particles", "1", sizes},
-            {"mean iterations", "1", means}},
+          {verdict, meshes,
            "measured is the exponent of the mean iterations in the number of cells along a side, "
            "fitted over all meshes; negative: they fall"}};
 }
@@ -238,7 +222,7 @@ StudyResult run_cg_iterations(const Subject& subject, Tier tier, const Progress&
                      ten_or_more_elsewhere(measured), no_growth_with_the_mesh(measured)};
   result.figures = figures_of(measured);
   result.tables.push_back(
-      {"iterations", "Iterations of conjugate gradients a solve", columns_of(measured)});
+      {"iterations", "Iterations of conjugate gradients a solve", costs_table(measured)});
   return result;
 }
 

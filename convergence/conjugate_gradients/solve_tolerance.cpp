@@ -41,34 +41,33 @@ std::vector<double> tolerances(Tier tier) {
   return all;
 }
 
-/// One scheme with one tolerance over all steps.
+/// One scheme with one tolerance over all steps: errors over the motion, iterations of a solve in
+/// the mean, operator applications.
 struct TolerantRuns {
   std::string scheme;
-  double tolerance;
-  Convergence errors;              // over the motion [1], against the step [s]
-  std::vector<double> iterations;  // mean of a solve
-  std::vector<double> applications;
+  double tolerance, floor;
+  Table runs;
 
-  double order() const { return pair_orders(errors).back(); }
+  const std::vector<double>& errors() const { return runs.numbers("error"); }
+  double order() const { return pair_orders(convergence_of(runs, "error")).back(); }
 };
 
 TolerantRuns runs_with(const Subject& subject, const PrecisionProblem& problem,
                        const PrecisionTruth& truth, const Integrator& scheme, double tolerance) {
-  constexpr std::array<int, 3> finer = {2, 4, 8};  // steps over those at the elastic limit
-  TolerantRuns runs{std::string(scheme.name), tolerance, {}, {}, {}};
-  runs.errors.floor = truth.uncertainty;
   Scene scene = problem.scene;
-  scene.integrator = runs.scheme;
+  scene.integrator = std::string(scheme.name);
   scene.solver.tolerance = tolerance;
-  for (int times : finer) {
+  const auto run_with = [&](int times) {
     const int steps = times * int(std::ceil(problem.end / truth.elastic_limit));
     const PlannedRun run = run_planned(subject, scene, {problem.end, steps, infinite, infinite});
-    runs.errors.steps.push_back(problem.end / steps);
-    runs.errors.errors.push_back(largest_distance(run.last.x, truth.x) / truth.motion);
-    runs.iterations.push_back(double(run.work.cg_iterations) / double(run.work.solves));
-    runs.applications.push_back(operator_applications(run.work));
-  }
-  return runs;
+    return std::tuple{problem.end / steps, largest_distance(run.last.x, truth.x) / truth.motion,
+                      double(run.work.cg_iterations) / double(run.work.solves),
+                      operator_applications(run.work)};
+  };
+  const std::vector<int> finer = {2, 4, 8};  // steps over those at the elastic limit
+  return {scene.integrator, tolerance, truth.uncertainty,
+          refine({{"step", "s"}, {"error", "1"}, {"iterations", "1"}, {"applications", "1"}}, finer,
+                 run_with)};
 }
 
 /// How far looseness shifts the last pair's order, and the largest relative change of an error.
@@ -78,8 +77,8 @@ struct Harm {
 
 Harm harm_of(const TolerantRuns& loose, const TolerantRuns& tight) {
   Worst error;
-  for (size_t i = 0; i < loose.errors.errors.size(); ++i)
-    error.observe(std::abs(loose.errors.errors[i] / tight.errors.errors[i] - 1));
+  for (size_t i = 0; i < loose.errors().size(); ++i)
+    error.observe(std::abs(loose.errors()[i] / tight.errors()[i] - 1));
   return {std::abs(loose.order() - tight.order()), error.value()};
 }
 
@@ -89,36 +88,34 @@ using SchemeRuns = std::vector<TolerantRuns>;
 NamedFinding order_is_kept(const std::vector<SchemeRuns>& schemes, double tolerance,
                            const std::string& whose) {
   Worst worst;
-  std::vector<std::string> names;
-  std::vector<double> orders, exact_orders, errors;
+  Table orders{{"scheme", "1"},
+               {"order", "1"},
+               {"order with exact solves", "1"},
+               {"largest relative change of an error", "1"}};
   for (const SchemeRuns& runs : schemes) {
     for (const TolerantRuns& run : runs) {
       if (run.tolerance != tolerance) continue;
       const Harm harm = harm_of(run, runs.back());
-      names.push_back(run.scheme);
-      orders.push_back(run.order());
-      exact_orders.push_back(runs.back().order());
-      errors.push_back(harm.error);
+      orders.row(run.scheme, run.order(), runs.back().order(), harm.error);
       worst.observe(harm.order);
     }
   }
-  const Verdict verdict{names.empty() ? nan : worst.value(), order_kept / 10, 0, "1",
+  const Verdict verdict{orders.rows() == 0 ? nan : worst.value(), order_kept / 10, 0, "1",
                         "a tenth of what the order studies allow an order to be off, so that they "
                         "judge the scheme and not its solves"};
   return {"solve-tolerance." + whose + "-tolerance-preserves-the-order",
           "With the " + whose +
               " tolerance of the solves, the orders of A, B and C are those of exact solves.",
-          {verdict,
-           {{"scheme", "1", names},
-            {"order", "1", orders},
-            {"order with exact solves", "1", exact_orders},
-            {"largest relative change of an error", "1", errors}},
-           "measured is the largest shift of the order of the two finest runs"}};
+          {verdict, orders, "measured is the largest shift of the order of the two finest runs"}};
 }
 
 Table loosest(const std::vector<SchemeRuns>& schemes) {
-  std::vector<std::string> names;
-  std::vector<double> tolerance, exact_orders, orders, loose_iterations, exact_iterations;
+  Table table{{"scheme", "1"},
+              {"loosest tolerance", "1"},
+              {"order with it", "1"},
+              {"order with exact solves", "1"},
+              {"iterations a solve", "1"},
+              {"with exact solves", "1"}};
   for (const SchemeRuns& runs : schemes) {
     const TolerantRuns& tight = runs.back();
     size_t first = runs.size() - 1;
@@ -126,46 +123,25 @@ Table loosest(const std::vector<SchemeRuns>& schemes) {
       const Harm harm = harm_of(runs[first - 1], tight);
       if (!(harm.order <= order_kept && harm.error <= error_kept)) break;
     }
-    names.push_back(tight.scheme);
-    tolerance.push_back(runs[first].tolerance);
-    orders.push_back(runs[first].order());
-    exact_orders.push_back(tight.order());
-    loose_iterations.push_back(runs[first].iterations.back());
-    exact_iterations.push_back(tight.iterations.back());
+    const TolerantRuns& loose = runs[first];
+    table.row(tight.scheme, loose.tolerance, loose.order(), tight.order(),
+              loose.runs.numbers("iterations").back(), tight.runs.numbers("iterations").back());
   }
   return {"loosest",
           "The loosest tolerance that keeps the order within 0.1 and every error within 10 % of "
           "exact solves",
-          {{"scheme", "1", names},
-           {"loosest tolerance", "1", tolerance},
-           {"order with it", "1", orders},
-           {"order with exact solves", "1", exact_orders},
-           {"iterations a solve", "1", loose_iterations},
-           {"with exact solves", "1", exact_iterations}}};
+          table};
 }
 
 Table all_runs(const std::vector<SchemeRuns>& schemes) {
-  std::vector<std::string> names;
-  std::array<std::vector<double>, 5> numbers;
-  for (const SchemeRuns& runs : schemes) {
-    for (const TolerantRuns& run : runs) {
-      for (size_t i = 0; i < run.iterations.size(); ++i) {
-        names.push_back(run.scheme);
-        const std::array<double, 5> row = {run.tolerance, run.errors.steps[i],
-                                           100 * run.errors.errors[i], run.iterations[i],
-                                           run.applications[i]};
-        for (size_t k = 0; k < row.size(); ++k) numbers[k].push_back(row[k]);
-      }
-    }
-  }
-  return {"runs",
-          "Error and cost with each tolerance",
-          {{"scheme", "1", names},
-           {"tolerance", "1", numbers[0]},
-           {"step", "s", numbers[1]},
-           {"error", "%", numbers[2]},
-           {"iterations a solve", "1", numbers[3]},
-           {"operator applications", "1", numbers[4]}}};
+  Table table{{"scheme", "1"}, {"tolerance", "1"},          {"step", "s"},
+              {"error", "%"},  {"iterations a solve", "1"}, {"operator applications", "1"}};
+  for (const SchemeRuns& scheme : schemes)
+    for (const TolerantRuns& run : scheme)
+      for (size_t i = 0; i < run.runs.rows(); ++i)
+        table.row(run.scheme, run.tolerance, run.runs.numbers("step")[i], 100 * run.errors()[i],
+                  run.runs.numbers("iterations")[i], run.runs.numbers("applications")[i]);
+  return {"runs", "Error and cost with each tolerance", table};
 }
 
 /// A curve for each scheme and each of the coarsest and the finest step.
@@ -179,20 +155,14 @@ Figure figure_of(const std::vector<SchemeRuns>& schemes) {
       "Largest position error at the end, with the coarsest and with the finest step. Where a "
       "curve is level the step decides on the error, where it rises the solves do.",
       {}};
-  const size_t finest = schemes.front().front().iterations.size() - 1;
+  const size_t finest = schemes.front().front().runs.rows() - 1;
   const std::array<std::pair<size_t, const char*>, 2> levels = {
       {{0, "coarsest"}, {finest, "finest"}}};
   for (const auto& [level, words] : levels) {
     for (const SchemeRuns& runs : schemes) {
-      Curve curve{runs.front().scheme + ", " + words + " step",
-                  {},
-                  {},
-                  100 * runs.front().errors.floor,
-                  {}};
-      for (const TolerantRuns& run : runs) {
-        curve.x.push_back(run.tolerance);
-        curve.y.push_back(100 * run.errors.errors[level]);
-      }
+      Curve curve{
+          runs.front().scheme + ", " + words + " step", {}, {}, 100 * runs.front().floor, {}};
+      for (const TolerantRuns& run : runs) curve.point(run.tolerance, 100 * run.errors()[level]);
       figure.curves.push_back(std::move(curve));
     }
   }

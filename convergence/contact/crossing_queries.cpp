@@ -4,6 +4,7 @@
 
 #include "convergence/contact/crossing_families.h"
 #include "convergence/contact/studies.h"
+#include "convergence/tables.h"
 #include "verification/oracles/feature_distance.h"
 #include "verification/processor_time.h"
 #include "verification/specimens/random.h"
@@ -91,26 +92,18 @@ double total(const std::vector<Tally>& tallies, double Tally::*what) {
   return sum;
 }
 
-std::vector<double> column(const std::vector<Tally>& tallies, double Tally::*what) {
-  std::vector<double> values;
-  for (const Tally& tally : tallies) values.push_back(tally.*what);
-  return values;
-}
-
-std::vector<Column> columns_of(const std::vector<Tally>& tallies) {
-  std::vector<std::string> names;
-  std::vector<double> nanoseconds;
-  for (const Tally& tally : tallies) {
-    names.push_back(tally.name);
-    nanoseconds.push_back(1e9 * tally.seconds / tally.queries);
-  }
-  return {{"queries", "", names},
-          {"asked", "1", column(tallies, &Tally::queries)},
-          {"meet", "1", column(tallies, &Tally::meetings)},
-          {"missed", "1", column(tallies, &Tally::misses)},
-          {"told, though apart", "1", column(tallies, &Tally::alarms)},
-          {"told too late", "1", column(tallies, &Tally::late)},
-          {"a query", "ns", nanoseconds}};
+Table table_of(const std::vector<Tally>& tallies) {
+  Table table{{"queries", ""},
+              {"asked", "1"},
+              {"meet", "1"},
+              {"missed", "1"},
+              {"told, though apart", "1"},
+              {"told too late", "1"},
+              {"a query", "ns"}};
+  for (const Tally& tally : tallies)
+    table.row(tally.name, tally.queries, tally.meetings, tally.misses, tally.alarms, tally.late,
+              1e9 * tally.seconds / tally.queries);
+  return table;
 }
 
 /// Without meetings there is nothing to miss, and the count says nothing.
@@ -126,7 +119,7 @@ NamedFinding misses_none(const std::string& of, const std::string& words,
           "No meeting of moving features is missed: " + words + ".",
           {{misses(tallies), 0, 0, "queries",
             "a plane that parts them until the end is a proof that they do not meet"},
-           columns_of(tallies),
+           table_of(tallies),
            ""}};
 }
 
@@ -136,7 +129,7 @@ NamedFinding tells_in_time(const std::vector<Tally>& all) {
       "The time that is told is not after the first meeting.",
       {{total(all, &Tally::late), 0, 0, "queries",
         "time advances only as far as a plane keeps the features apart; decided without rounding"},
-       columns_of(all),
+       table_of(all),
        ""}};
 }
 
@@ -156,24 +149,24 @@ double distance_at(const CrossingQuery& query, double time) {
 struct Alarms {
   PairKind kind;
   std::vector<CrossingQuery> apart;
-  std::vector<double> keep, reported;
-  Worst reach;  // distance at the time told over the most promised [1]
+  Table told{{"distance to be kept", "m"}, {"apart", "1"}, {"told", "1"}};
+  Worst reach{};  // distance at the time told over the most promised [1]
 
   void ask(double distance) {
-    keep.push_back(distance);
-    reported.push_back(0);
+    int reported = 0;
     for (const CrossingQuery& query : apart) {
       const auto approach = first_approach(query.kind, query.x, query.displacement, distance);
       if (!approach) continue;
-      ++reported.back();
+      ++reported;
       const double most = reported_within(distance_at(query, 0), distance);
       reach.observe(distance_at(query, approach->time) / most);
     }
+    told.row(distance, apart.size(), reported);
   }
 };
 
 Alarms alarms_of(PairKind kind, int count) {
-  Alarms alarms{kind, {}, {}, {}, {}};
+  Alarms alarms{.kind = kind, .apart = {}};
   for (const CrossingQuery& query : make_queries(random_query, kind, count, 17))
     if (!meets_exactly(query)) alarms.apart.push_back(query);
   for (const double keep : {1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1}) alarms.ask(keep);
@@ -182,15 +175,9 @@ Alarms alarms_of(PairKind kind, int count) {
 
 NamedFinding tells_near_ones_only(const std::vector<Alarms>& all) {
   Worst worst;
-  std::vector<std::string> names;
-  std::vector<double> keep, reported, tally_queries;
+  std::vector<std::pair<std::string, Table>> told;
   for (const Alarms& alarms : all) {
-    for (std::size_t k = 0; k < alarms.keep.size(); ++k) {
-      names.push_back(name_of(alarms.kind));
-      keep.push_back(alarms.keep[k]);
-      tally_queries.push_back(double(alarms.apart.size()));
-      reported.push_back(alarms.reported[k]);
-    }
+    told.emplace_back(name_of(alarms.kind), alarms.told);
     worst.observe(alarms.reach.value());
   }
   // only the 50 digits of the distance tell 1 from the roundings of the moved coordinates
@@ -202,10 +189,7 @@ NamedFinding tells_near_ones_only(const std::vector<Alarms>& all) {
             "distance over half as much again as what is to be kept, or three quarters of the "
             "start's distance; coordinates of 10 m are rounded by 1e-15 m, a 10^12th of the least "
             "distance to be kept"},
-           {{"queries", "", names},
-            {"distance to be kept", "m", keep},
-            {"apart", "1", tally_queries},
-            {"told", "1", reported}},
+           stacked({"queries", ""}, told),
            ""}};
 }
 
@@ -220,11 +204,11 @@ Figure alarms_figure(const std::vector<Alarms>& all) {
                 {}};
   for (const Alarms& alarms : all) {
     Curve curve{name_of(alarms.kind), {}, {}, nan, {}};
-    for (std::size_t k = 0; k < alarms.keep.size(); ++k) {
-      if (alarms.reported[k] == 0) continue;  // not on logarithmic axes
-      curve.x.push_back(alarms.keep[k]);
-      curve.y.push_back(alarms.reported[k] / double(alarms.apart.size()));
-    }
+    const std::vector<double>&keep = alarms.told.numbers("distance to be kept"),
+          &reported = alarms.told.numbers("told");
+    for (std::size_t k = 0; k < keep.size(); ++k)
+      if (reported[k] != 0)  // not on logarithmic axes
+        curve.point(keep[k], reported[k] / double(alarms.apart.size()));
     figure.curves.push_back(std::move(curve));
   }
   return figure;
@@ -249,7 +233,7 @@ StudyResult run_crossing_queries(const Subject&, Tier tier, const Progress& prog
       misses_none("far-away", "all of these a thousand units from the origin", tallies.far),
       tells_in_time(all), tells_near_ones_only(alarms)};
   result.figures = {alarms_figure(alarms)};
-  result.tables = {{"queries", "What was asked, and what came of it", columns_of(all)}};
+  result.tables = {{"queries", "What was asked, and what came of it", table_of(all)}};
   return result;
 }
 

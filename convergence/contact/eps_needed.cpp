@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "convergence/ranges.h"
 #include "convergence/order.h"
 #include "convergence/contact/studies.h"
 #include "reference/mesh/shapes.h"
@@ -110,32 +111,19 @@ NeededEps find_needed_eps(const Body& body, double edge) {
   return {enough, longest};
 }
 
-/// eps against the edge, over a range of edges.
-struct Range {
-  Convergence measured;            // steps: the longest edges [m]; errors: eps [m]
-  std::vector<double> over_bound;  // eps over what is always enough [1]
-};
-
-Range range_of(const Body& body, int levels) {
-  Range range;
-  double edge = body.size / 6;
-  for (int k = 0; k < levels; ++k, edge /= 2) {
-    const NeededEps found = find_needed_eps(body, edge);
-    range.measured.steps.push_back(found.longest_edge);
-    range.measured.errors.push_back(found.eps);
-    range.over_bound.push_back(found.eps / body.bound(found.longest_edge));
-  }
-  return range;
+/// eps against the longest edge, over edges that are halved level by level.
+Table range_of(const Body& body, int levels) {
+  return refine(
+      {{"longest edge", "m"}, {"eps needed", "m"}, {"eps over what is always enough", "1"}},
+      halving_range(body.size / 6, levels), [&](double edge) {
+        const NeededEps found = find_needed_eps(body, edge);
+        return std::tuple{found.longest_edge, found.eps,
+                          found.eps / body.bound(found.longest_edge)};
+      });
 }
 
-std::vector<Column> evidence(const Range& range) {
-  return {{"longest edge", "m", range.measured.steps},
-          {"eps needed", "m", range.measured.errors},
-          {"eps over what is always enough", "1", range.over_bound}};
-}
-
-NamedFinding order_finding(const Body& body, const Range& range) {
-  const Estimate deviation = order_deviation(range.measured, body.order, 2);
+NamedFinding order_finding(const Body& body, const Table& range) {
+  const Estimate deviation = order_deviation(convergence_of(range, "eps needed"), body.order, 2);
   const std::string power = body.order == 2 ? "the square of the edge" : "the edge";
   return {"required-eps.order-is-as-derived." + body.name,
           "On the " + body.words + " the eps that is needed grows as " + power + ".",
@@ -143,22 +131,19 @@ NamedFinding order_finding(const Body& body, const Range& range) {
             "eps is sought to 5e-4 of itself, which is 0.0015 of an order; the next term of "
             "sqrt(R^2 + L^2/3) - R is L^2/(12 R^2) of the first, below 0.003 in the last pairs; "
             "along an edge every scale looks alike"},
-           evidence(range),
+           range,
            "measured is |order - " + std::to_string(int(body.order)) + "| over the last pairs"}};
 }
 
-NamedFinding bound_finding(const Body& body, const Range& range) {
-  Worst worst;
-  for (double ratio : range.over_bound) worst.observe(ratio);
+NamedFinding bound_finding(const Body& body, const Table& range) {
   const std::string bound = body.order == 2 ? "L^2/(6 R)" : "L/sqrt(3)";
   return {
       "required-eps.derived-eps-suffices." + body.name,
       "On the " + body.words + " an eps of " + bound + " suffices, L the longest edge.",
-      {{worst.value(), 1.001, 0, "1",
-        "the farthest point of a triangle from its corners is L/sqrt(3) from them at most; on a "
-        "ball its depth below them is at most (L/sqrt(3))^2/(2 R). A thousandth for the search"},
-       evidence(range),
-       ""}};
+      judge_worst(
+          range, 1.001,
+          "the farthest point of a triangle from its corners is L/sqrt(3) from them at most; on a "
+          "ball its depth below them is at most (L/sqrt(3))^2/(2 R). A thousandth for the search")};
 }
 
 StudyResult run_eps_needed(const Subject&, Tier tier, const Progress& progress) {
@@ -173,11 +158,12 @@ StudyResult run_eps_needed(const Subject&, Tier tier, const Progress& progress) 
                 {}};
   const std::vector<Body> bodies = {ball("ball", 0.13), ball("large-ball", 0.41), box_edge()};
   for (const Body& body : bodies) {
-    const Range range = range_of(body, tier == Tier::quick ? 4 : 7);
+    const Table range = range_of(body, tier == Tier::quick ? 4 : 7);
     result.findings.push_back(order_finding(body, range));
     result.findings.push_back(bound_finding(body, range));
-    figure.curves.push_back({body.words, range.measured.steps, range.measured.errors, nan,
-                             pair_orders(range.measured), body.order});
+    Curve curve = curve_of(body.words, convergence_of(range, "eps needed"));
+    curve.slope = body.order;
+    figure.curves.push_back(std::move(curve));
     progress(double(figure.curves.size()) / double(bodies.size()));
   }
   result.figures.push_back(std::move(figure));

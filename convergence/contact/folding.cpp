@@ -153,18 +153,11 @@ WrinkledSheet wrinkle(double wavelength) {
   return result;
 }
 
-std::vector<Column> evidence_of(const std::vector<WrinkledSheet>& runs) {
-  std::vector<double> bed, wavelength, expected, height;
-  for (const WrinkledSheet& run : runs) {
-    bed.push_back(run.bed);
-    wavelength.push_back(1e3 * run.wavelength);
-    expected.push_back(1e3 * run.expected);
-    height.push_back(1e3 * run.height);
-  }
-  return {{"bed", "N/m^3", bed},
-          {"wavelength", "mm", wavelength},
-          {"2 pi (D/K)^(1/4)", "mm", expected},
-          {"height", "mm", height}};
+Table evidence_of(const std::vector<WrinkledSheet>& runs) {
+  Table table{{"bed", "N/m^3"}, {"wavelength", "mm"}, {"2 pi (D/K)^(1/4)", "mm"}, {"height", "mm"}};
+  for (const WrinkledSheet& run : runs)
+    table.row(run.bed, 1e3 * run.wavelength, 1e3 * run.expected, 1e3 * run.height);
+  return table;
 }
 
 NamedFinding wavelength_finding(const std::vector<WrinkledSheet>& runs) {
@@ -181,23 +174,14 @@ NamedFinding wavelength_finding(const std::vector<WrinkledSheet>& runs) {
            "waves lower than a millimetre count as none"}};
 }
 
-std::vector<Column> evidence_of(const std::vector<FoldedSheet>& runs) {
-  std::vector<std::string> hinges, limits;
-  std::vector<double> area, height, wavelength, steps, sweeps, left;
-  for (const FoldedSheet& run : runs) {
-    hinges.push_back(run.name);
-    limits.push_back(run.is_limited ? "0 %" : "none");
-    area.push_back(run.area_lost);
-    height.push_back(1e3 * run.height);
-    wavelength.push_back(1e3 * run.wavelength);
-    steps.push_back(run.steps);
-    sweeps.push_back(run.sweeps);
-    left.push_back(run.left);
-  }
-  return {{"hinges", "", hinges},           {"limit on compression", "", limits},
-          {"area lost", "1", area},         {"height", "mm", height},
-          {"wavelength", "mm", wavelength}, {"steps", "1", steps},
-          {"sweeps a step", "1", sweeps},   {"violation left", "1", left}};
+Table evidence_of(const std::vector<FoldedSheet>& runs) {
+  Table table{{"hinges", ""},         {"limit on compression", ""}, {"area lost", "1"},
+              {"height", "mm"},       {"wavelength", "mm"},         {"steps", "1"},
+              {"sweeps a step", "1"}, {"violation left", "1"}};
+  for (const FoldedSheet& run : runs)
+    table.row(run.name, run.is_limited ? "0 %" : "none", run.area_lost, 1e3 * run.height,
+              1e3 * run.wavelength, run.steps, run.sweeps, run.left);
+  return table;
 }
 
 NamedFinding area_finding(const std::vector<FoldedSheet>& runs) {
@@ -223,7 +207,7 @@ NamedFinding lost_finding(const std::vector<FoldedSheet>& runs) {
           {{least / run.area_lost, 1, 0, "1",
             "measured is half the share by which the clamps come together, over the area lost: "
             "Poisson's ratio gives back a third of it"},
-           evidence_of({run}),
+           evidence_of(std::vector{run}),
            ""}};
 }
 
@@ -253,7 +237,7 @@ NamedFinding height_finding(const std::vector<FoldedSheet>& runs) {
           {{std::abs(run.height / expected - 1), edge / (2 * clear), 0, "1",
             "the clamps, two columns of offset rows, leave the clear length open by half an edge; "
             "the arc is taken for a cosine. A strip that is compressed stays flat"},
-           evidence_of({run}),
+           evidence_of(std::vector{run}),
            ""}};
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convergence/tables.h"
 #include "convergence/contact/contact_runs.h"
 #include "convergence/contact/studies.h"
 #include "reference/mesh/shapes.h"
@@ -66,14 +67,6 @@ int crests_of(const std::vector<double>& row, double least) {
   return crests;
 }
 
-/// What runs leave, one entry for each forecast time.
-struct Folds {
-  std::vector<double> tau, inside;  // s; deepest free particle at the end [m]
-  // a turn of the tube, after the projection, mean over its free rings [1]
-  std::vector<double> crests;
-  std::vector<double> angles;  // mean |theta - theta0| [rad]
-};
-
 std::vector<Object> objects_of(const Scene& scene) {
   std::vector<Object> objects;
   for (const SceneObject& part : scene.objects) objects.push_back(part.object);
@@ -109,48 +102,48 @@ double deepest_free(const Scene& scene, const State& s) {
   return deepest.value();
 }
 
-/// Runs the scene until `end` [s], with forecast times of so many steps.
-Folds folds_of(const Subject& subject, Scene scene, double end,
+/// Runs the scene until `end` [s], with forecast times of so many steps. A row each: the deepest
+/// free particle at the end, crests a turn of the tube after the projection, the mean over its free
+/// rings, and the mean |theta - theta0|.
+Table folds_of(const Subject& subject, Scene scene, double end,
                const std::vector<double>& taus_over_h) {
-  Folds folds;
+  Table folds{{"forecast time", "s"},
+              {"deepest particle", "m"},
+              {"crests a turn", "1"},
+              {"mean fold", "rad"}};
   const double h = usual_step(scene);
   for (const double steps : taus_over_h) {
     scene.collision.forecast_time = steps * h;
     const State s = run_to_end(subject, scene, h, end, [](const State&) {});
-    folds.tau.push_back(steps * h);
-    folds.inside.push_back(deepest_free(scene, s));
-    folds.angles.push_back(mean_fold(scene, s));
     const bool is_tube = scene.mesh.particles() == around * (along + 1);
-    folds.crests.push_back(is_tube ? crests_a_ring(scene, s) : nan);
+    folds.row(steps * h, deepest_free(scene, s), is_tube ? crests_a_ring(scene, s) : nan,
+              mean_fold(scene, s));
   }
   return folds;
 }
 
-NamedFinding tube_finding(const Folds& folds) {
+NamedFinding tube_finding(const Table& folds) {
+  const std::vector<double>& crests = folds.numbers("crests a turn");
   return {
       "folding-inside-objects.more-folds-when-allowed-inside",
       "Cloth that starts partly inside of a drum and is pushed together has fewer folds if it is "
       "brought to the surface at once than if it may stay inside.",
-      {{folds.crests.front() / folds.crests.back(), 0.5, 0, "1",
+      {{crests.front() / crests.back(), 0.5, 0, "1",
         "a surface that bars one side bars the folds to that side: at most half of them are left"},
-       {{"forecast time", "s", folds.tau},
-        {"deepest particle", "m", folds.inside},
-        {"crests a turn", "1", folds.crests},
-        {"mean fold", "rad", folds.angles}},
+       folds,
        "measured are the crests of a turn with a forecast time of a step over those with one of "
        "ten thousand, after the projection into [0, 0.01 m]"}};
 }
 
-NamedFinding ball_finding(const Folds& folds) {
+NamedFinding ball_finding(const Table& folds) {
+  const std::vector<double>& angles = folds.numbers("mean fold");
   return {
       "folding-inside-objects.same-folds-over-a-ball",
       "Cloth that falls on a ball from outside folds as much whatever the forecast time.",
-      {{std::abs(folds.angles.back() / folds.angles.front() - 1), 0.1, 0, "1",
+      {{std::abs(angles.back() / angles.front() - 1), 0.1, 0, "1",
         "which folds it finds is chance; the mean of some four hundred hinges that fold by as much "
         "as they differ is known to a twentieth, the ratio of two to less than a tenth"},
-       {{"forecast time", "s", folds.tau},
-        {"deepest particle", "m", folds.inside},
-        {"mean fold", "rad", folds.angles}},
+       with_columns(folds, {"forecast time", "deepest particle", "mean fold"}),
        "measured is the change of the mean fold angle from the first forecast time to the last"}};
 }
 
@@ -163,11 +156,11 @@ Scene sheet_over_ball(int n) {
 
 StudyResult run_folds_inside(const Subject& subject, Tier tier, const Progress& progress) {
   const bool full = tier == Tier::full;
-  const Folds tube =
+  const Table tube =
       folds_of(subject, tube_on_drum(), 0.3,
                full ? std::vector<double>{1, 10, 100, 1000, 1e4} : std::vector<double>{1, 1e4});
   progress(0.6);
-  const Folds ball =
+  const Table ball =
       folds_of(subject, sheet_over_ball(full ? 24 : 16), 0.8,
                full ? std::vector<double>{1, 10, 100, 300} : std::vector<double>{1, 100});
   StudyResult result;

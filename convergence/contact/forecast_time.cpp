@@ -86,29 +86,35 @@ NamedFinding flat_finding(const Subject& subject) {
 }
 
 /// Error against the step, for one setting.
-Convergence misses(const Subject& subject, const Setting& setting,
-                   const std::vector<double>& steps) {
-  Convergence result{steps, {}, 1e-15};
-  for (const double h : steps) result.errors.push_back(forecast_miss(subject, setting.scene, h));
-  return result;
+Table misses(const Subject& subject, const Setting& setting, const std::vector<double>& steps) {
+  return refine({{"step", "s"}, {"miss", "m"}}, steps, [&](double h) {
+    return std::tuple{h, forecast_miss(subject, setting.scene, h)};
+  });
 }
 
-NamedFinding order_finding(const Setting& setting, const Convergence& misses) {
-  const Estimate deviation = order_deviation(misses, 2, 2);
+/// With what rounding leaves as the floor.
+Convergence errors_of(const Table& misses) {
+  Convergence errors = convergence_of(misses, "miss");
+  errors.floor = 1e-15;
+  return errors;
+}
+
+NamedFinding order_finding(const Setting& setting, const Table& misses) {
+  const Estimate deviation = order_deviation(errors_of(misses), 2, 2);
   return {"forecast-time.second-order-on-a-" + setting.name,
           "On " + setting.words + ", it misses the surface by the square of the step.",
           {{deviation.value, 0.1, deviation.uncertainty, "1",
             "a first-order miss would be off by one: the forecast has then the wrong direction or "
             "velocity; the next term is smaller by the way of a step over the radius, a hundredth"},
-           {{"step", "s", misses.steps}, {"miss", "m", misses.errors}},
+           misses,
            "measured is |order - 2| of the last two pairs"}};
 }
 
 /// A point that comes down on a floor at forecast time tau: phi shrinks by the factor
 /// 1 - h/tau a step.
 struct Decay {
-  std::vector<double> times, phi;  // s, m
-  double off = 0;                  // |factor - derived|, the largest
+  Table heights{{"time", "s"}, {"phi", "m"}};
+  double off = 0;  // |factor - derived|, the largest
 };
 
 Decay decay_of(const Subject& subject, double tau_over_h) {
@@ -117,15 +123,14 @@ Decay decay_of(const Subject& subject, double tau_over_h) {
   scene.x.row(1).setConstant(3e-3);
   scene.collision.forecast_time = tau_over_h * h;
   Decay decay;
-  run_to_end(subject, scene, h, 30 * h, [&](const State& s) {
-    decay.times.push_back(s.time);
-    decay.phi.push_back(s.x(1, 0));
-  });
+  run_to_end(subject, scene, h, 30 * h,
+             [&](const State& s) { decay.heights.row(s.time, s.x(1, 0)); });
+  const std::vector<double>& phi = decay.heights.numbers("phi");
   Worst off;
-  for (size_t n = 0; n + 1 < decay.phi.size(); ++n) {
-    const bool is_treated = decay.phi[n] - tau_over_h * h * 0.9 < 0 || n > 6;
-    if (is_treated && std::abs(decay.phi[n]) > 1e-6)
-      off.observe(std::abs(decay.phi[n + 1] / decay.phi[n] - (1 - 1 / tau_over_h)));
+  for (size_t n = 0; n + 1 < phi.size(); ++n) {
+    const bool is_treated = phi[n] - tau_over_h * h * 0.9 < 0 || n > 6;
+    if (is_treated && std::abs(phi[n]) > 1e-6)
+      off.observe(std::abs(phi[n + 1] / phi[n] - (1 - 1 / tau_over_h)));
   }
   decay.off = off.value();
   return decay;
@@ -135,22 +140,22 @@ Decay decay_of(const Subject& subject, double tau_over_h) {
 /// the object that it would be inside at the next step.
 NamedFinding next_step_finding(const Subject& subject) {
   const double h = 0.004, height = 3e-3;
-  std::vector<std::string> responses = {"forecast", "projection"};
-  std::vector<double> heights;
-  for (const std::string& response : responses) {
+  Table heights{{"response", ""}, {"height after a step", "m"}};
+  for (const char* response : {"forecast", "projection"}) {
     Scene scene = swarm(floor_object(), {0, -0.9, 0});
     scene.x.row(1).setConstant(height);
     scene.collision.response = response;
     scene.collision.forecast_time = 5 * h;
-    heights.push_back(run_to_end(subject, scene, h, h, [](const State&) {}).x(1, 0));
+    heights.row(response, run_to_end(subject, scene, h, h, [](const State&) {}).x(1, 0));
   }
+  const std::vector<double>& after = heights.numbers("height after a step");
   return {"forecast-time.long-forecast-is-no-step-prediction",
           "With a forecast time of five steps a point is still above a floor that it would have "
           "passed at the next step.",
-          {{std::abs(heights[1]) / heights[0], 1e-6, 0, "1",
+          {{std::abs(after[1]) / after[0], 1e-6, 0, "1",
             "on the floor but for rounding, against four fifths of the height: there is nothing "
             "between"},
-           {{"response", "", responses}, {"height after a step", "m", heights}},
+           heights,
            "measured is the height with the next step's object over that with the forecast"}};
 }
 
@@ -168,9 +173,11 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
                 "ball of radius 0.3 m.",
                 {}};
   for (const Setting& setting : curved_settings()) {
-    const Convergence of = misses(subject, setting, steps);
+    const Table of = misses(subject, setting, steps);
     result.findings.push_back(order_finding(setting, of));
-    figure.curves.push_back({setting.words, of.steps, of.errors, nan, pair_orders(of)});
+    Curve curve = curve_of(setting.words, of, "step", "miss");
+    curve.pair_orders = pair_orders(errors_of(of));
+    figure.curves.push_back(std::move(curve));
     progress(double(result.findings.size()) / 8);
   }
   result.figures.push_back(figure);
@@ -184,26 +191,23 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
                   "a longer forecast time is a softer landing. One that is shorter than the step "
                   "overshoots: the point is inside after it, and is thrown off by the way out.",
                   {}};
-  Worst off;
-  std::vector<double> ratios, offs;
+  Table decays{{"forecast time over the step", "1"}, {"off", "1"}};
   const Decay thrown = decay_of(subject, 0.7);
-  approach.curves.push_back({"tau = 0.7 h", thrown.times, thrown.phi, nan, {}});
+  approach.curves.push_back(curve_of("tau = 0.7 h", thrown.heights, "time", "phi"));
   for (const double ratio : {1.0, 2.0, 5.0}) {
     const Decay decay = decay_of(subject, ratio);
-    approach.curves.push_back({fmt::format("tau = {} h", ratio), decay.times, decay.phi, nan, {}});
-    ratios.push_back(ratio);
-    offs.push_back(decay.off);
-    off.observe(decay.off);
+    approach.curves.push_back(
+        curve_of(fmt::format("tau = {} h", ratio), decay.heights, "time", "phi"));
+    decays.row(ratio, decay.off);
   }
   result.figures.push_back(approach);
   result.findings.push_back(
       {"forecast-time.decay-is-as-derived",
        "With a forecast time of a step or more, a treated point's distance from a plane is "
        "multiplied by 1 - h/tau in every step.",
-       {{off.value(), 1e-9, 0, "1",
-         "heights above a millionth of a metre, known to roundings of 0.4 m: 1e-10 of them"},
-        {{"forecast time over the step", "1", ratios}, {"off", "1", offs}},
-        ""}});
+       judge_worst(
+           decays, 1e-9,
+           "heights above a millionth of a metre, known to roundings of 0.4 m: 1e-10 of them")});
   result.findings.push_back(next_step_finding(subject));
   return result;
 }

@@ -4,6 +4,7 @@
 
 #include "convergence/contact/contact_runs.h"
 #include "convergence/order.h"
+#include "convergence/tables.h"
 #include "convergence/contact/studies.h"
 #include "verification/oracles/dense_algebra.h"
 
@@ -21,62 +22,55 @@ Scene sheet_on_ball(int n, PointKind points) {
   return scene;
 }
 
-/// How deep edges and triangles are once the sheet lies on the ball, and the length of a
-/// diagonal edge [m].
-struct Cut {
-  std::vector<double> edges, faces, lengths;
-};
-
-Cut cuts(const Subject& subject, const std::vector<int>& meshes, PointKind points) {
-  Cut cut;
-  for (const int n : meshes) {
-    const Scene scene = sheet_on_ball(n, points);
-    const State end = run_to_end(subject, scene, usual_step(scene), 0.4, [](const State&) {});
-    const Depths depths = depths_of(scene, end);
-    cut.edges.push_back(depths.edges);
-    cut.faces.push_back(depths.faces);
-    cut.lengths.push_back(std::sqrt(2.0) * side / n);
-  }
-  return cut;
+/// How deep edges and triangles are once the sheet lies on the ball, over the length of
+/// a diagonal edge.
+Table cuts(const Subject& subject, const std::vector<int>& meshes, PointKind points) {
+  return refine(
+      {{"edge", "m"}, {"depth of midpoints", "m"}, {"depth of centres", "m"}}, meshes, [&](int n) {
+        const Scene scene = sheet_on_ball(n, points);
+        const State end = run_to_end(subject, scene, usual_step(scene), 0.4, [](const State&) {});
+        const Depths depths = depths_of(scene, end);
+        return std::tuple{std::sqrt(2.0) * side / n, depths.edges, depths.faces};
+      });
 }
 
-NamedFinding order_finding(const Cut& cut) {
-  const Estimate deviation = order_deviation({cut.lengths, cut.edges, 0}, 2, 2);
+NamedFinding order_finding(const Table& cut) {
+  const Estimate deviation = order_deviation(convergence_of(cut, "depth of midpoints"), 2, 2);
   return {"pointwise-contact.edge-penetration-is-second-order",
           "Edges whose ends lie on a ball cut into it by the square of their length.",
           {{deviation.value, 0.3, 0, "1",
             "a chord of length L is L^2/(8R) deep; how far the longest edges have come to lie "
             "along the ball differs from mesh to mesh by a few percent, which is worth three "
             "tenths of an order between meshes half as fine again"},
-           {{"edge", "m", cut.lengths},
-            {"depth of midpoints", "m", cut.edges},
-            {"depth of centres", "m", cut.faces}},
+           cut,
            "measured is |order - 2| of the last two pairs"}};
 }
 
-NamedFinding bound_finding(const Cut& cut) {
+NamedFinding bound_finding(const Table& cut) {
+  const std::vector<double>&lengths = cut.numbers("edge"),
+        &depths = cut.numbers("depth of midpoints");
   Worst worst;
-  for (size_t k = 0; k < cut.lengths.size(); ++k)
-    worst.observe(cut.edges[k] / (cut.lengths[k] * cut.lengths[k] / (8 * radius)));
+  for (size_t k = 0; k < lengths.size(); ++k)
+    worst.observe(depths[k] / (lengths[k] * lengths[k] / (8 * radius)));
   return {
       "pointwise-contact.edge-penetration-is-within-the-chord",
       "No edge is deeper than a chord of its length.",
       {{worst.value(), 1.1, 0, "1",
         "L^2/(8R) of the longest edge, which the weight of the sheet stretches by a few percent"},
-       {{"edge", "m", cut.lengths}, {"depth of midpoints", "m", cut.edges}},
+       with_columns(cut, {"edge", "depth of midpoints"}),
        ""}};
 }
 
-NamedFinding held_finding(const Cut& particles, const Cut& faces) {
-  const double measured = faces.faces.front() / particles.faces.front();
+NamedFinding held_finding(const Table& particles, const Table& faces) {
+  const double alone = particles.numbers("depth of centres").front(),
+               held = faces.numbers("depth of centres").front();
   return {"pointwise-contact.centres-help-coarse-cloth",
           "With midpoints and centres as points, the centres of coarse triangles stay out.",
-          {{measured, 0.1, 0, "1",
+          {{held / alone, 0.1, 0, "1",
             "what a step leaves on a curved surface, the square of its way, is far below a tenth "
             "of a chord's depth"},
-           {{"edge", "m", faces.lengths},
-            {"particles alone", "m", particles.faces},
-            {"centres too", "m", faces.faces}},
+           Table{{"edge", "m"}, {"particles alone", "m"}, {"centres too", "m"}}.with_row(
+               faces.numbers("edge").front(), alone, held),
            "of the coarsest mesh"}};
 }
 
@@ -100,17 +94,14 @@ NamedFinding spike_finding(const Subject& subject) {
 StudyResult run_pointwise_contact(const Subject& subject, Tier tier, const Progress& progress) {
   std::vector<int> meshes = {4, 6, 9, 13};
   if (tier == Tier::full) meshes.push_back(20);
-  const Cut particles = cuts(subject, meshes, PointKind::particles);
+  const Table particles = cuts(subject, meshes, PointKind::particles);
   progress(0.6);
-  const Cut faces = cuts(subject, {meshes.front()}, PointKind::faces);
-  Cut coarsest = particles;
-  coarsest.faces.resize(1);
+  const Table faces = cuts(subject, {meshes.front()}, PointKind::faces);
   StudyResult result;
   result.findings = {order_finding(particles), bound_finding(particles),
-                     held_finding(coarsest, faces), spike_finding(subject)};
-  std::vector<double> chord;
-  for (const double L : particles.lengths) chord.push_back(L * L / (8 * radius));
-  const double nan = std::numeric_limits<double>::quiet_NaN();
+                     held_finding(particles, faces), spike_finding(subject)};
+  Curve chord{"chord", {}, {}, nan, {}};
+  for (const double L : particles.numbers("edge")) chord.point(L, L * L / (8 * radius));
   result.figures.push_back(
       {"depth",
        "How deep edges and triangles lie in a ball that holds the particles out",
@@ -118,9 +109,8 @@ StudyResult run_pointwise_contact(const Subject& subject, Tier tier, const Progr
        {"depth", "m", Scale::log},
        2,
        "A sheet at rest on a ball of radius 0.2 m. Chord: L^2/(8R).",
-       {{"midpoints of edges", particles.lengths, particles.edges, nan, {}},
-        {"centres of triangles", particles.lengths, particles.faces, nan, {}},
-        {"chord", particles.lengths, chord, nan, {}}}});
+       {curve_of("midpoints of edges", particles, "edge", "depth of midpoints"),
+        curve_of("centres of triangles", particles, "edge", "depth of centres"), chord}});
   return result;
 }
 

@@ -14,7 +14,7 @@ constexpr double end = 1.1, settled = 0.9;  // of the run, and from when on it s
 /// What one response makes of the same fall.
 struct Rest {
   std::string response;
-  std::vector<double> times, speeds;  // s, root mean square over the particles [m/s]
+  Table speeds{{"time", "s"}, {"speed", "m/s"}};  // root mean square over the particles
   // root mean square change of a particle's velocity in a step, over the step, after
   // `settled` [m/s^2]
   double jitter = 0;
@@ -33,19 +33,19 @@ Scene cloth_over_ball(const std::string& response) {
 Rest rest_of(const Subject& subject, const std::string& response) {
   const Scene scene = cloth_over_ball(response);
   const double h = usual_step(scene);
-  Rest rest{response, {}, {}};
+  Rest rest{response};
   PerParticle3 before = scene.v;
   double sum = 0;
   long steps = 0;
   Worst depth, speed;
   run_to_end(subject, scene, h, end, [&](const State& s) {
-    rest.times.push_back(s.time);
-    rest.speeds.push_back(std::sqrt(s.v.squaredNorm() / double(s.v.cols())));
+    const double speed_now = std::sqrt(s.v.squaredNorm() / double(s.v.cols()));
+    rest.speeds.row(s.time, speed_now);
     depth.observe(depths_of(scene, s).particles);
     if (s.time > settled) {
       sum += (s.v - before).squaredNorm() / double(s.v.cols()) / (h * h);
       ++steps;
-      speed.observe(rest.speeds.back());
+      speed.observe(speed_now);
     }
     before = s.v;
   });
@@ -55,11 +55,13 @@ Rest rest_of(const Subject& subject, const std::string& response) {
   return rest;
 }
 
-std::vector<Column> compare(const Rest& forecast, const Rest& other) {
-  return {{"response", "", std::vector<std::string>{forecast.response, other.response}},
-          {"shaking at rest", "m/s^2", std::vector<double>{forecast.jitter, other.jitter}},
-          {"speed at rest", "m/s", std::vector<double>{forecast.speed, other.speed}},
-          {"largest depth", "m", std::vector<double>{forecast.depth, other.depth}}};
+Table compare(const std::vector<Rest>& rests) {
+  Table table{{"response", ""},
+              {"shaking at rest", "m/s^2"},
+              {"speed at rest", "m/s"},
+              {"largest depth", "m"}};
+  for (const Rest& rest : rests) table.row(rest.response, rest.jitter, rest.speed, rest.depth);
+  return table;
 }
 
 constexpr const char* what_is_measured =
@@ -72,7 +74,7 @@ NamedFinding quieter(const Rest& forecast, const Rest& push_out) {
       "pushed out.",
       {{forecast.jitter / push_out.jitter, 0.5, 0, "1",
         "two responses that are equally good differ by a hundredth here; half is far beyond that"},
-       compare(forecast, push_out),
+       compare({forecast, push_out}),
        what_is_measured}};
 }
 
@@ -82,7 +84,7 @@ NamedFinding alike(const Rest& forecast, const Rest& projection) {
           "after each step and lose their velocity into it.",
           {{std::abs(forecast.jitter / projection.jitter - 1), 0.1, 0, "1",
             "the same shaking but for a tenth, which chance may make"},
-           compare(forecast, projection),
+           compare({forecast, projection}),
            what_is_measured}};
 }
 
@@ -96,22 +98,14 @@ StudyResult run_resting_contact(const Subject& subject, Tier, const Progress& pr
                 nan,
                 "Root mean square over the particles.",
                 {}};
-  Table table{"responses",
-              "Cloth on a ball, by response",
-              {{"response", ""},
-               {"shaking at rest", "m/s^2"},
-               {"speed at rest", "m/s"},
-               {"largest depth", "m"}}};
   for (const char* response : {"forecast", "projection", "push_out"}) {
     rests.push_back(rest_of(subject, response));
-    const Rest& rest = rests.back();
-    figure.curves.push_back({response, rest.times, rest.speeds, nan, {}});
-    table.row(response, rest.jitter, rest.speed, rest.depth);
+    figure.curves.push_back(curve_of(response, rests.back().speeds, "time", "speed"));
     progress(double(rests.size()) / 3);
   }
   result.findings = {quieter(rests[0], rests[2]), alike(rests[0], rests[1])};
   result.figures.push_back(std::move(figure));
-  result.tables.push_back(std::move(table));
+  result.tables.push_back({"responses", "Cloth on a ball, by response", compare(rests)});
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "convergence/tables.h"
 #include "convergence/contact/studies.h"
 #include "reference/mesh/shapes.h"
 #include "verification/processor_time.h"
@@ -33,42 +34,40 @@ TriangleMesh stacked_sheets(int n, int layers, double gap) {
   return make_triangle_mesh(std::move(rest), std::move(triangles));
 }
 
-/// The search for close pairs of one cloth.
-struct Search {
-  double particles, layers, pairs;
-  double seconds;  // processor time, the least of three searches
-};
-
-Search time_search(int n, int layers) {
-  const TriangleMesh mesh = stacked_sheets(n, layers, 0.0015);
-  const ClothTree cloth = make_cloth_tree(mesh);
-  Search search{double(mesh.particles()), double(layers), 0,
-                std::numeric_limits<double>::infinity()};
-  for (int k = 0; k < 3; ++k) {
-    const double start = processor_seconds();
-    search.pairs = double(near_pairs(cloth, mesh.rest, mesh.rest, 0.002).size());
-    search.seconds = std::min(search.seconds, processor_seconds() - start);
-  }
-  return search;
+/// The search for close pairs in stacks of sheets, the least processor time of three.
+Table searches() {
+  return {{"layers", "1"}, {"particles", "1"}, {"close pairs", "1"}, {"processor time", "s"}};
 }
 
-std::vector<double> column(const std::vector<Search>& of, double Search::*what) {
-  std::vector<double> values;
-  for (const Search& search : of) values.push_back(search.*what);
-  return values;
+void time_search(int n, int layers, Table& searches) {
+  const TriangleMesh mesh = stacked_sheets(n, layers, 0.0015);
+  const ClothTree cloth = make_cloth_tree(mesh);
+  size_t pairs = 0;
+  double seconds = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const double start = processor_seconds();
+    pairs = near_pairs(cloth, mesh.rest, mesh.rest, 0.002).size();
+    seconds = std::min(seconds, processor_seconds() - start);
+  }
+  searches.row(layers, mesh.particles(), pairs, seconds);
 }
 
 /// The exponent of seconds in particles, from the first to the last.
-double growth(const std::vector<Search>& of) {
-  return std::log(of.back().seconds / of.front().seconds) /
-         std::log(of.back().particles / of.front().particles);
+double growth(const Table& of) {
+  const std::vector<double>&seconds = of.numbers("processor time"),
+        &particles = of.numbers("particles");
+  return std::log(seconds.back() / seconds.front()) /
+         std::log(particles.back() / particles.front());
 }
 
 void add_searches(Tier tier, StudyResult& result) {
-  std::vector<Search> by_size, by_layers;
-  for (const int n : {23, 45, 71, 141}) by_size.push_back(time_search(n, 2));
-  if (tier == Tier::full) by_size.push_back(time_search(224, 2));
-  for (const int layers : {1, 2, 4, 8}) by_layers.push_back(time_search(45, layers));
+  Table by_size = searches(), by_layers = searches();
+  for (const int n : {23, 45, 71, 141}) time_search(n, 2, by_size);
+  if (tier == Tier::full) time_search(224, 2, by_size);
+  for (const int layers : {1, 2, 4, 8}) time_search(45, layers, by_layers);
+  Table evidence = with_columns(by_size, {"particles"});
+  evidence.add({"pairs", "1", by_size.numbers("close pairs")});
+  evidence.add(by_size.column("processor time"));
   result.findings.push_back(
       {"self-collision-cost.search-time-is-nearly-linear",
        "The search for close pairs takes time in proportion to the particles, but for little.",
@@ -76,9 +75,7 @@ void add_searches(Tier tier, StudyResult& result) {
          "each particle has the same number of neighbours, and a tree is as deep as the logarithm "
          "of their number: an exponent of 1.1 at most from a thousand on; a tenth for memory "
          "beyond the caches"},
-        {{"particles", "1", column(by_size, &Search::particles)},
-         {"pairs", "1", column(by_size, &Search::pairs)},
-         {"processor time", "s", column(by_size, &Search::seconds)}},
+        evidence,
         ""}});
   result.figures.push_back({"search",
                             "The search for close pairs, two layers",
@@ -86,23 +83,15 @@ void add_searches(Tier tier, StudyResult& result) {
                             {"processor time", "s", Scale::log},
                             1,
                             "Processor time of one search against particles, the least of three.",
-                            {{"search",
-                              column(by_size, &Search::particles),
-                              column(by_size, &Search::seconds),
-                              nan,
-                              {}}}});
-  result.tables.push_back({"layers",
-                           "The search for close pairs in stacks of 2025 particles a layer",
-                           {{"layers", "1", column(by_layers, &Search::layers)},
-                            {"particles", "1", column(by_layers, &Search::particles)},
-                            {"close pairs", "1", column(by_layers, &Search::pairs)},
-                            {"processor time", "s", column(by_layers, &Search::seconds)}}});
+                            {curve_of("search", by_size, "particles", "processor time")}});
+  result.tables.push_back(
+      {"layers", "The search for close pairs in stacks of 2025 particles a layer", by_layers});
 }
 
 /// How many particles move in zones, after so many rounds of impulses, in layers that fly
 /// through each other.
 void add_zones(const Subject& subject, StudyResult& result) {
-  std::vector<double> rounds, zones, particles, crossings;
+  Table rounds{{"rounds", "1"}, {"zones", "1"}, {"particles in zones", "1"}, {"impulses", "1"}};
   for (const int count : {1, 2, 4, 8, 16}) {
     Work work;
     for (const unsigned seed : {31u, 32u, 33u}) {
@@ -111,28 +100,19 @@ void add_zones(const Subject& subject, StudyResult& result) {
       const State start = start_state(scene);
       require_offered(subject.step, "step")(*prepared, std::vector<State>{start}, 0.004, work);
     }
-    rounds.push_back(count);
-    zones.push_back(double(work.zones));
-    particles.push_back(double(work.zone_particles));
-    crossings.push_back(double(work.crossings));
+    rounds.row(count, work.zones, work.zone_particles, work.crossings);
   }
+  const std::vector<double>& particles = rounds.numbers("particles in zones");
   result.findings.push_back({"self-collision-cost.impulse-rounds-reduce-rigid-zones",
                              "Rounds of impulses leave less to rigid zones.",
                              {{particles[3] / particles[0], 0.5, 0, "1",
                                "each round answers pairs that would else be joined to zones: eight "
                                "leave less than half of what one does"},
-                              {{"rounds", "1", rounds},
-                               {"zones", "1", zones},
-                               {"particles in zones", "1", particles},
-                               {"impulses", "1", crossings}},
+                              rounds,
                               "Three steps of four layers of 42 particles each that fly through "
                               "each other at 3 m/s, 4 ms long."}});
-  result.tables.push_back({"zones",
-                           "Particles left to rigid zones after so many rounds of impulses, of 504",
-                           {{"rounds", "1", rounds},
-                            {"zones", "1", zones},
-                            {"particles in zones", "1", particles},
-                            {"impulses", "1", crossings}}});
+  result.tables.push_back(
+      {"zones", "Particles left to rigid zones after so many rounds of impulses, of 504", rounds});
 }
 
 /// The mean gap under a sheet that has come to rest on a held one [m].
@@ -147,30 +127,26 @@ double resting_gap(const Subject& subject, double thickness, double h) {
 }
 
 void add_rest(const Subject& subject, StudyResult& result) {
-  std::vector<double> thicknesses, steps, gaps;
+  Table gaps{{"thickness", "m"}, {"step", "s"}, {"gap at rest", "m"}};
   Worst spread, outside;
   for (const double thickness : {0.002, 0.003, 0.004}) {
     double least = INFINITY, most = 0;
     for (const double h : {0.001, 0.002}) {
       const double gap = resting_gap(subject, thickness, h);
-      thicknesses.push_back(thickness);
-      steps.push_back(h);
-      gaps.push_back(gap);
+      gaps.row(thickness, h, gap);
       least = std::min(least, gap);
       most = std::max(most, gap);
       outside.observe(std::max(gap / thickness, 0.5 * thickness / gap));
     }
     spread.observe((most - least) / thickness);
   }
-  const std::vector<Column> evidence = {
-      {"thickness", "m", thicknesses}, {"step", "s", steps}, {"gap at rest", "m", gaps}};
   result.findings.push_back(
       {"self-collision-cost.sheet-rests-within-the-thickness",
        "A sheet comes to rest on another at half of the thickness or more, and at no more than it.",
        {{outside.value(), 1, 0, "1",
          "above the thickness nothing carries it; the springs of repulsion carry its weight at a "
          "small part of the overlap, and half of it is left for what falling adds"},
-        evidence,
+        gaps,
         ""}});
   result.findings.push_back(
       {"self-collision-cost.gap-does-not-depend-on-the-step",
@@ -179,7 +155,7 @@ void add_rest(const Subject& subject, StudyResult& result) {
          "what one step's fall adds is g h^2, .02 of the least thickness for the longest step; "
          "with that and again as much for where in its last bounce the sheet is it is .04, rounded "
          "up"},
-        evidence,
+        gaps,
         ""}});
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "convergence/tables.h"
 #include "convergence/contact/studies.h"
 #include "convergence/contact/wrinkle_measure.h"
 #include "reference/mesh/shapes.h"
@@ -65,61 +66,39 @@ ProjectedCloth project(const SunkCloth& cloth, const std::string& map, double re
                        {map, {0, reach, deepest}, PinchedPoints::left_alone, 1e-12, 50});
 }
 
-/// What became of the wrinkles, of points that began inside.
-struct KeptWrinkles {
-  std::vector<double> reach, deviation, share, wavelength;  // tau [m], [m], 1, [m]
-};
-
 /// The row of particles through the middle, in the order of s.
 std::vector<double> middle_row(const PerParticle& phi) {
   const Eigen::Index first = (rows / 2) * (columns + 1);
   return {phi.data() + first, phi.data() + first + columns + 1};
 }
 
-KeptWrinkles measure_kept(const SunkCloth& cloth, const std::string& map,
-                          const std::vector<double>& reaches) {
-  KeptWrinkles kept;
+const std::string deviation_column = "deviation of depths that were inside",
+                  share_column = "share of it that is left",
+                  wavelength_column = "dominant wavelength";
+
+/// What became of the wrinkles, of points that began inside, over tau.
+Table measure_kept(const SunkCloth& cloth, const std::string& map,
+                   const std::vector<double>& reaches) {
+  Table kept{{"tau", "m"}, {deviation_column, "m"}, {share_column, "1"}, {wavelength_column, "m"}};
   for (const double reach : reaches) {
     const ProjectedCloth after = project(cloth, map, reach);
     const auto is_inside = [&](Eigen::Index i) { return after.before[i] < 0; };
     const double was = deviation_where(after.before, is_inside),
                  is = deviation_where(after.after, is_inside);
-    kept.reach.push_back(reach);
-    kept.deviation.push_back(is);
-    kept.share.push_back(is / was);
-    kept.wavelength.push_back(dominant_wavelength(middle_row(after.after), width / columns));
+    kept.row(reach, is, is / was, dominant_wavelength(middle_row(after.after), width / columns));
   }
   return kept;
 }
 
-std::vector<Column> evidence(const std::vector<std::pair<std::string, KeptWrinkles>>& all) {
-  std::vector<std::string> names;
-  std::vector<double> reach, deviation, share, length;
-  for (const auto& [name, kept] : all) {
-    names.insert(names.end(), kept.reach.size(), name);
-    reach.insert(reach.end(), kept.reach.begin(), kept.reach.end());
-    deviation.insert(deviation.end(), kept.deviation.begin(), kept.deviation.end());
-    share.insert(share.end(), kept.share.begin(), kept.share.end());
-    length.insert(length.end(), kept.wavelength.begin(), kept.wavelength.end());
-  }
-  return {{"over", "", names},
-          {"tau", "m", reach},
-          {"deviation of depths that were inside", "m", deviation},
-          {"share of it that is left", "1", share},
-          {"dominant wavelength", "m", length}};
-}
+using AllKept = std::vector<std::pair<std::string, Table>>;  // body, what is kept over tau
 
-using AllKept = std::vector<std::pair<std::string, KeptWrinkles>>;  // body, what is kept over tau
+Table evidence(const AllKept& all) { return stacked({"over", ""}, all); }
 
 NamedFinding plain_flattens(const AllKept& plain) {
-  Worst worst;
-  for (const auto& [name, kept] : plain)
-    for (double deviation : kept.deviation) worst.observe(deviation);
   return {"wrinkle-preservation.plain-flattens-wrinkles",
           "Plain projection leaves nothing of the depths that were inside: all lie on the surface.",
-          {{worst.value(), 1e-12, 0, "m", "points arrive within 1e-12 m of the surface"},
-           evidence(plain),
-           ""}};
+          judge_worst(evidence(plain), deviation_column, 1e-12,
+                      "points arrive within 1e-12 m of the surface")};
 }
 
 /// The least slope of the blend, by which no two depths come closer than.
@@ -131,8 +110,8 @@ double least_slope(double reach) {
 NamedFinding blend_keeps_its_share(const AllKept& blend) {
   Worst worst;
   for (const auto& [name, kept] : blend)
-    for (size_t k = 0; k < kept.reach.size(); ++k)
-      worst.observe(least_slope(kept.reach[k]) / kept.share[k]);
+    for (size_t k = 0; k < kept.rows(); ++k)
+      worst.observe(least_slope(kept.numbers("tau")[k]) / kept.numbers(share_column)[k]);
   return {"wrinkle-preservation.blend-keeps-a-share-of-depths",
           "The blend leaves at least (tau - w/2)/(tau + t^ - w/2) of the deviation of depths that "
           "were inside.",
@@ -151,31 +130,26 @@ double share_of_the_deep(const SunkCloth& cloth, const std::string& map, double 
 }
 
 NamedFinding power_crushes_the_deep(const std::vector<SunkCloth>& sheets) {
-  Worst worst;
-  std::vector<std::string> names;
-  std::vector<double> power, blend;
-  for (const SunkCloth& cloth : sheets) {
-    names.push_back(cloth.name);
-    power.push_back(share_of_the_deep(cloth, "power", deepest / 5));
-    blend.push_back(share_of_the_deep(cloth, "blend", deepest / 5));
-    worst.observe(power.back() / blend.back());
-  }
+  const std::string by_power = "share left by the power law", by_blend = "share left by the blend";
+  Table shares{{"over", ""}, {by_power, "1"}, {by_blend, "1"}};
+  for (const SunkCloth& cloth : sheets)
+    shares.row(cloth.name, share_of_the_deep(cloth, "power", deepest / 5),
+               share_of_the_deep(cloth, "blend", deepest / 5));
   return {"wrinkle-preservation.power-crushes-deep-wrinkles",
           "With tau a fifth of the deepest penetration the power law leaves the deeper half of the "
           "wrinkles less than a tenth of what the blend leaves.",
-          {{worst.value(), 0.1, 0, "1",
+          {{largest_ratio(shares, by_power, by_blend), 0.1, 0, "1",
             "the power law's slope is at most (tau/(tau + t^)) p u^(p-1) = .0126 from the middle "
             "depth down, with p = 6 and u = 5/12; the blend's is .1304 there"},
-           {{"over", "", names},
-            {"share left by the power law", "1", power},
-            {"share left by the blend", "1", blend}},
+           shares,
            ""}};
 }
 
 NamedFinding wavelength_stays(const std::string& map, const AllKept& kept) {
   Worst worst;
   for (const auto& [name, one] : kept)
-    for (double length : one.wavelength) worst.observe(std::abs(length - wavelength));
+    for (double length : one.numbers(wavelength_column))
+      worst.observe(std::abs(length - wavelength));
   return {"wrinkle-preservation.wavelength-is-preserved." + map,
           "The dominant wavelength of the depths stays that of the wrinkles.",
           {{worst.value(), wavelength * wavelength / width, 0, "m",
@@ -189,8 +163,7 @@ Curve profile(const std::string& label, const PerParticle3& x) {
   Curve curve{label, {}, {}, nan, {}};
   const Eigen::Index first = (rows / 2) * (columns + 1);
   for (int k = 60; k <= 180; ++k) {
-    curve.x.push_back(x(0, first + k));
-    curve.y.push_back(x(2, first + k));
+    curve.point(x(0, first + k), x(2, first + k));
   }
   return curve;
 }
@@ -199,8 +172,7 @@ Curve outline() {
   Curve curve{"the ball", {}, {}, nan, {}};
   for (int k = -50; k <= 50; ++k) {
     const double a = 0.34 * k / 50;
-    curve.x.push_back(ball_radius * std::sin(a));
-    curve.y.push_back(ball_radius * std::cos(a));
+    curve.point(ball_radius * std::sin(a), ball_radius * std::cos(a));
   }
   return curve;
 }
@@ -227,8 +199,9 @@ Figure shares(const std::vector<std::pair<std::string, AllKept>>& by_map) {
                 "Half inside a ball. t^, the deepest penetration told apart, is 14 mm.",
                 {}};
   for (const auto& [map, all] : by_map) {
-    Curve curve{std::string(depth_map_named(map).title), {}, all[1].second.share, nan, {}};
-    for (double reach : all[1].second.reach) curve.x.push_back(reach / deepest);
+    Curve curve{
+        std::string(depth_map_named(map).title), {}, all[1].second.numbers(share_column), nan, {}};
+    for (double reach : all[1].second.numbers("tau")) curve.x.push_back(reach / deepest);
     figure.curves.push_back(std::move(curve));
   }
   return figure;
@@ -238,8 +211,7 @@ Figure shares(const std::vector<std::pair<std::string, AllKept>>& by_map) {
 Curve circle(const std::string& label, double x, double radius) {
   Curve curve{label, {}, {}, nan, {}};
   for (int k = 0; k <= 96; ++k) {
-    curve.x.push_back(x + radius * std::cos(2 * pi * k / 96));
-    curve.y.push_back(radius * std::sin(2 * pi * k / 96));
+    curve.point(x + radius * std::cos(2 * pi * k / 96), radius * std::sin(2 * pi * k / 96));
   }
   return curve;
 }

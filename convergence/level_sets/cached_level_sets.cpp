@@ -102,9 +102,10 @@ NamedFinding runs_with_cached_level_sets_agree() {
       {{differs(first) + differs(second) + std::abs(early) + std::abs(loaded - early - 3), 0, 0,
         "1",
         "values are stored in full: no bit may differ, and the second run loads all three bodies"},
-       {{"run that writes differs", "1", std::vector<double>{differs(first)}},
-        {"run that loads differs", "1", std::vector<double>{differs(second)}},
-        {"bodies loaded by the second run", "1", std::vector<double>{double(loaded - early)}}},
+       Table{{"run that writes differs", "1"},
+             {"run that loads differs", "1"},
+             {"bodies loaded by the second run", "1"}}
+           .with_row(differs(first), differs(second), double(loaded - early)),
        "a grid, an octree and a body that deforms under a falling cloth"}};
 }
 
@@ -122,9 +123,7 @@ NamedFinding unfit_grids_are_rejected() {
   };
   const auto good = make(ball(2));
   make(ball(1));
-  std::vector<std::string> names, reasons;
-  std::vector<double> wrong;
-  Worst worst;
+  Table answers{{"file", ""}, {"refused or replaced wrongly", "1"}, {"said", ""}};
   for (const Spoiling& spoiling : spoilings) {
     spoiling.file(file_of(ball(2)), file_of(ball(1)));
     said.clear();
@@ -134,19 +133,16 @@ NamedFinding unfit_grids_are_rejected() {
                              reason.find(spoiling.reason) != std::string::npos;
     const bool is_good_again = is_same(*make(ball(2)), *good) && !said.empty() &&
                                said.back().find("loaded") != std::string::npos;
-    names.push_back(spoiling.name);
-    reasons.push_back(reason.substr(0, reason.find('/')) +
-                      reason.substr(std::min(reason.size(), reason.rfind('/'))));
-    wrong.push_back((is_rebuilt ? 0 : 1) + (is_rejected ? 0 : 1) + (is_good_again ? 0 : 1));
-    worst.observe(wrong.back());
+    answers.row(spoiling.name,
+                (is_rebuilt ? 0 : 1) + (is_rejected ? 0 : 1) + (is_good_again ? 0 : 1),
+                reason.substr(0, reason.find('/')) +
+                    reason.substr(std::min(reason.size(), reason.rfind('/'))));
   }
-  return {
-      "level-set-cache.invalid-grids-are-rejected",
-      "A kept grid that is cut, damaged, foreign or of another mesh is refused with the reason, "
-      "and replaced.",
-      {{worst.value(), 0, 0, "1", "each must be refused and said so, and the new file be good"},
-       {{"file", "", names}, {"refused or replaced wrongly", "1", wrong}, {"said", "", reasons}},
-       ""}};
+  return {"level-set-cache.invalid-grids-are-rejected",
+          "A kept grid that is cut, damaged, foreign or of another mesh is refused with the "
+          "reason, and replaced.",
+          judge_worst(answers, "refused or replaced wrongly", 0,
+                      "each must be refused and said so, and the new file be good")};
 }
 
 }  // namespace foldproof

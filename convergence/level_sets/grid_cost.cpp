@@ -12,15 +12,9 @@ namespace {
 
 constexpr int points = 4000;
 
-/// A grid of a mesh: what it holds, how long it took, how far it errs.
-struct GridCost {
-  double cells, nodes, megabytes, band_nodes;
-  double band, marching;  // processor time [s]
-  double error;           // largest of phi at random points within three cells of the surface [m]
-  double h;               // m
-};
-
-GridCost cost_of(const MeshDistance& mesh, int cells) {
+/// Adds what a grid of a mesh holds, how long it took, and how far it errs at random points within
+/// three cells of the surface.
+void add_cost(const MeshDistance& mesh, int cells, Table& costs) {
   const Bounds& bounds = mesh.tree.nodes[0].bounds;
   const Lattice lattice = lattice_about(bounds, cells, 3);
   const double start = processor_seconds();
@@ -37,20 +31,8 @@ GridCost cost_of(const MeshDistance& mesh, int cells) {
     const Vector3 p = on_surface + random.vectors(1, 1.7 * lattice.spacing).col(0);
     error.observe(std::abs(grid.at(p).phi - mesh.at(p).phi));
   }
-  return {double(cells),
-          double(lattice.size()),
-          8e-6 * double(lattice.size()),
-          double(seeds.nodes.size()),
-          band,
-          marching,
-          error.value(),
-          lattice.spacing};
-}
-
-std::vector<double> column(const std::vector<GridCost>& costs, double GridCost::*what) {
-  std::vector<double> values;
-  for (const GridCost& cost : costs) values.push_back(cost.*what);
-  return values;
+  costs.row(cells, lattice.size(), 8e-6 * double(lattice.size()), seeds.nodes.size(), band,
+            marching, error.value());
 }
 
 }  // namespace
@@ -58,19 +40,15 @@ std::vector<double> column(const std::vector<GridCost>& costs, double GridCost::
 void add_grid_costs(const std::vector<int>& cells, StudyResult& result) {
   const TriangleMesh statue = make_statue(1, 4);
   const MeshDistance mesh = make_mesh_distance(statue.rest, statue.triangles);
-  std::vector<GridCost> costs;
-  for (const int n : cells) costs.push_back(cost_of(mesh, n));
-  result.tables.push_back(
-      {"cost",
-       "Grids about a statue of " + std::to_string(statue.triangles.size()) +
-           " triangles, 1 m high",
-       {{"cells along the longest side", "1", column(costs, &GridCost::cells)},
-        {"nodes", "1", column(costs, &GridCost::nodes)},
-        {"grid", "MB", column(costs, &GridCost::megabytes)},
-        {"nodes in a band of three cells", "1", column(costs, &GridCost::band_nodes)},
-        {"band", "s", column(costs, &GridCost::band)},
-        {"second-order marching", "s", column(costs, &GridCost::marching)},
-        {"largest error within three cells", "m", column(costs, &GridCost::error)}}});
+  Table costs{
+      {"cells along the longest side", "1"},    {"nodes", "1"}, {"grid", "MB"},
+      {"nodes in a band of three cells", "1"},  {"band", "s"},  {"second-order marching", "s"},
+      {"largest error within three cells", "m"}};
+  for (const int n : cells) add_cost(mesh, n, costs);
+  result.tables.push_back({"cost",
+                           "Grids about a statue of " + std::to_string(statue.triangles.size()) +
+                               " triangles, 1 m high",
+                           costs});
   Figure figure{"error-against-memory",
                 "Error of a grid about a statue against its memory",
                 {"memory", "MB", Scale::log},
@@ -80,11 +58,8 @@ void add_grid_costs(const std::vector<int>& cells, StudyResult& result) {
                 "the mesh. Edges of the mesh are kinks of phi, where trilinear values err by O(h), "
                 "and memory grows with h^-3.",
                 {}};
-  figure.curves = {{"regular grid, exact band",
-                    column(costs, &GridCost::megabytes),
-                    column(costs, &GridCost::error),
-                    nan,
-                    {}}};
+  figure.curves = {
+      curve_of("regular grid, exact band", costs, "grid", "largest error within three cells")};
   result.figures.push_back(std::move(figure));
 }
 

@@ -102,9 +102,8 @@ NamedFinding loading_is_cheap(const Costs& costs) {
           {{costs.load / costs.build, 0.1, 0, "1",
             "a tenth: with it ten runs cost about one computation more than the first; measured in "
             "processor time, which other programs on the machine do not lengthen much"},
-           {{"computing", "s", std::vector<double>{costs.build}},
-            {"loading", "s", std::vector<double>{costs.load}},
-            {"file", "MB", std::vector<double>{costs.megabytes}}},
+           Table{{"computing", "s"}, {"loading", "s"}, {"file", "MB"}}.with_row(
+               costs.build, costs.load, costs.megabytes),
            ""}};
 }
 
@@ -178,9 +177,7 @@ NamedFinding unfit_files_are_rejected() {
                     good = file_of(folder, animation(2), settings(4)),
                     spoilt = scratch.file("spoilt");
   kept(folder, animation(2), settings(4));
-  std::vector<std::string> names, reasons;
-  std::vector<double> wrong;
-  Worst worst;
+  Table answers{{"file", ""}, {"refused or replaced wrongly", "1"}, {"reason", ""}};
   for (const Spoiling& spoiling : spoilings()) {
     MeshSequence sequence = animation(2);
     OctreeSettings how = settings(4);
@@ -193,20 +190,16 @@ NamedFinding unfit_files_are_rejected() {
     const Kept rebuilt = kept(spoilt, sequence, how), again = kept(spoilt, sequence, how);
     const bool is_rejected = !rebuilt.was_loaded && rebuilt.why_rejected.empty() != is_there &&
                              rebuilt.why_rejected.find(spoiling.reason) != std::string::npos;
-    names.push_back(spoiling.name);
     const size_t name_at = rebuilt.why_rejected.find(".h5");
-    reasons.push_back(name_at == std::string::npos ? "no file"
-                                                   : rebuilt.why_rejected.substr(name_at + 3));
-    wrong.push_back((is_rejected ? 0 : 1) + (again.was_loaded ? 0 : 1));
-    worst.observe(wrong.back());
+    answers.row(
+        spoiling.name, (is_rejected ? 0 : 1) + (again.was_loaded ? 0 : 1),
+        name_at == std::string::npos ? "no file" : rebuilt.why_rejected.substr(name_at + 3));
   }
-  return {
-      "level-set-cache.invalid-files-are-rejected",
-      "A file that is cut, damaged, foreign or computed from something else is refused with the "
-      "reason, and replaced.",
-      {{worst.value(), 0, 0, "1", "each must be refused, and the new file be good"},
-       {{"file", "", names}, {"refused or replaced wrongly", "1", wrong}, {"reason", "", reasons}},
-       ""}};
+  return {"level-set-cache.invalid-files-are-rejected",
+          "A file that is cut, damaged, foreign or computed from something else is refused with "
+          "the reason, and replaced.",
+          judge_worst(answers, "refused or replaced wrongly", 0,
+                      "each must be refused, and the new file be good")};
 }
 
 StudyResult run_level_set_cache(const Subject&, Tier, const Progress& progress) {

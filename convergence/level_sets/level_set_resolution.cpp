@@ -150,19 +150,20 @@ void add_interpolation(const std::vector<int>& cells, StudyResult& result) {
 
 Table contour_table(const std::vector<ContourErrors>& crude,
                     const std::vector<ContourErrors>& exact) {
-  const auto column = [](const std::vector<ContourErrors>& levels, double ContourErrors::*what) {
-    return against_h(levels, what).errors;
-  };
+  Table table{{"h", "m"},
+              {"crude: mean offset", "cells"},
+              {"crude: largest offset", "cells"},
+              {"crude: mean angle of N", "degrees"},
+              {"crude: largest angle of N", "degrees"},
+              {"exact: largest offset", "cells"},
+              {"exact: largest angle of N", "degrees"}};
+  for (size_t k = 0; k < crude.size(); ++k)
+    table.row(crude[k].h, crude[k].mean_offset, crude[k].worst_offset, crude[k].mean_angle,
+              crude[k].worst_angle, exact[k].worst_offset, exact[k].worst_angle);
   return {"contour",
           "The surface that the grid draws, with the paper's crude start and with exact values "
           "next to it",
-          {{"h", "m", against_h(crude, &ContourErrors::mean_offset).steps},
-           {"crude: mean offset", "cells", column(crude, &ContourErrors::mean_offset)},
-           {"crude: largest offset", "cells", column(crude, &ContourErrors::worst_offset)},
-           {"crude: mean angle of N", "degrees", column(crude, &ContourErrors::mean_angle)},
-           {"crude: largest angle of N", "degrees", column(crude, &ContourErrors::worst_angle)},
-           {"exact: largest offset", "cells", column(exact, &ContourErrors::worst_offset)},
-           {"exact: largest angle of N", "degrees", column(exact, &ContourErrors::worst_angle)}}};
+          table};
 }
 
 void add_crude_start(const std::vector<int>& cells, StudyResult& result) {

@@ -124,19 +124,15 @@ const Balance& finest(const std::vector<Balance>& all, const std::string& body) 
   return *std::find_if(all.rbegin(), all.rend(), [&](const Balance& b) { return b.body == body; });
 }
 
-std::vector<Column> evidence_of(const std::vector<Balance>& all, const std::string& body) {
-  std::vector<double> cells, share, grid, tree;
+Table evidence_of(const std::vector<Balance>& all, const std::string& body) {
+  Table table{{"cells of the grid along each axis", "1"},
+              {"memory over the grid's", "1"},
+              {"miss of the grid", "m"},
+              {"miss of the octree", "m"}};
   for (const Balance& b : all)
-    if (b.body == body) {
-      cells.push_back(std::ldexp(1, b.level));
-      share.push_back(share_of_grid(b));
-      grid.push_back(b.grid_miss);
-      tree.push_back(b.tree_miss);
-    }
-  return {{"cells of the grid along each axis", "1", cells},
-          {"memory over the grid's", "1", share},
-          {"miss of the grid", "m", grid},
-          {"miss of the octree", "m", tree}};
+    if (b.body == body)
+      table.row(std::ldexp(1, b.level), share_of_grid(b), b.grid_miss, b.tree_miss);
+  return table;
 }
 
 NamedFinding takes_a_tenth(const std::vector<Balance>& all) {
@@ -163,26 +159,21 @@ NamedFinding even_curve_takes_more(const std::vector<Balance>& all) {
 }
 
 Table table_of(const std::vector<Balance>& all) {
-  std::vector<std::string> body;
-  std::vector<std::vector<double>> columns(8);
-  for (const Balance& b : all) {
-    body.push_back(b.body);
-    const double row[] = {std::ldexp(1, b.level), b.grid_miss,        b.tree_miss,
-                          b.grid_bytes / 1e6,     b.tree_bytes / 1e6, share_of_grid(b),
-                          b.evaluations,          b.seconds};
-    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].push_back(row[k]);
-  }
+  Table table{{"body", ""},
+              {"cells of the grid along each axis", "1"},
+              {"miss of the grid", "m"},
+              {"miss of the octree", "m"},
+              {"memory of the grid", "MB"},
+              {"memory of the octree", "MB"},
+              {"octree over grid", "1"},
+              {"distances asked for", "1"},
+              {"processor time to build", "s"}};
+  for (const Balance& b : all)
+    table.row(b.body, std::ldexp(1, b.level), b.grid_miss, b.tree_miss, b.grid_bytes / 1e6,
+              b.tree_bytes / 1e6, share_of_grid(b), b.evaluations, b.seconds);
   return {"balance",
           "Octree and regular grid of the same largest error within three cells of the surface",
-          {{"body", "", body},
-           {"cells of the grid along each axis", "1", columns[0]},
-           {"miss of the grid", "m", columns[1]},
-           {"miss of the octree", "m", columns[2]},
-           {"memory of the grid", "MB", columns[3]},
-           {"memory of the octree", "MB", columns[4]},
-           {"octree over grid", "1", columns[5]},
-           {"distances asked for", "1", columns[6]},
-           {"processor time to build", "s", columns[7]}}};
+          table};
 }
 
 Figure figure_of(const std::vector<Balance>& all) {
@@ -199,10 +190,8 @@ Figure figure_of(const std::vector<Balance>& all) {
         tree{std::string(body) + ", octree", {}, {}, nan, {}};
     for (const Balance& b : all) {
       if (b.body != body) continue;
-      grid.x.push_back(b.grid_miss);
-      grid.y.push_back(b.grid_bytes / 1e6);
-      tree.x.push_back(b.tree_miss);
-      tree.y.push_back(b.tree_bytes / 1e6);
+      grid.point(b.grid_miss, b.grid_bytes / 1e6);
+      tree.point(b.tree_miss, b.tree_bytes / 1e6);
     }
     figure.curves.push_back(std::move(grid));
     figure.curves.push_back(std::move(tree));

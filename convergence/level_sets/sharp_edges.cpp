@@ -98,57 +98,53 @@ Octree octree_of(const Askew& body, int depth) {
 /// One kind of samples over a row of spacings, and how far from an edge its stencil looks.
 struct Sampling {
   std::string name, words;
-  std::vector<EdgeErrors> errors;
+  Table errors;  // spacing by spacing
   double looks;  // cells
   std::string why_looks;
 };
 
-std::vector<double> column(const Sampling& sampling, double EdgeErrors::*of) {
-  std::vector<double> values;
-  for (const EdgeErrors& errors : sampling.errors) values.push_back(errors.*of);
-  return values;
+Table edge_table() {
+  return {{"spacing", "m"},
+          {"reach", "cells"},
+          {"largest angle", "degrees"},
+          {"largest miss of phi", "m"}};
 }
 
-std::vector<Column> evidence(const Sampling& sampling) {
-  return {{"spacing", "m", column(sampling, &EdgeErrors::h)},
-          {"reach", "cells", column(sampling, &EdgeErrors::reach)},
-          {"largest angle", "degrees", column(sampling, &EdgeErrors::worst_angle)},
-          {"largest miss of phi", "m", column(sampling, &EdgeErrors::worst_phi)}};
+void add_row(const EdgeErrors& errors, Table& table) {
+  table.row(errors.h, errors.reach, errors.worst_angle, errors.worst_phi);
 }
 
 NamedFinding reach_finding(const Sampling& sampling) {
-  Worst worst;
-  for (const EdgeErrors& errors : sampling.errors) worst.observe(errors.reach);
-  return {"sharp-edges.normals-blend-near-edges-only." + sampling.name,
-          "On " + sampling.words + " N is the face's but for a few cells next to an edge.",
-          {{worst.value(), sampling.looks, 0, "cells", sampling.why_looks},
-           evidence(sampling),
-           "measured is the farthest from the edge that N is off by more than a degree"}};
+  return {
+      "sharp-edges.normals-blend-near-edges-only." + sampling.name,
+      "On " + sampling.words + " N is the face's but for a few cells next to an edge.",
+      judge_worst(sampling.errors, "reach", sampling.looks, sampling.why_looks,
+                  "measured is the farthest from the edge that N is off by more than a degree")};
 }
 
 NamedFinding angle_finding(const Sampling& sampling) {
-  const double first = sampling.errors.front().worst_angle,
-               last = sampling.errors.back().worst_angle;
+  const std::vector<double>& angles = sampling.errors.numbers("largest angle");
+  const double first = angles.front(), last = angles.back();
   return {"sharp-edges.normal-error-persists-under-refinement." + sampling.name,
           "On " + sampling.words +
               " refinement narrows the strip of blended normals, but not their error.",
           {{std::abs(last / first - 1), 0.2, 0, "1",
             "next to an edge the samples of every spacing are alike but for where the edge lies "
             "among them, of which 6000 places are tried: a fifth is left for chance"},
-           evidence(sampling),
+           sampling.errors,
            "measured is the change of the largest angle from the coarsest to the finest"}};
 }
 
 NamedFinding phi_finding(const Sampling& sampling) {
-  const Estimate deviation = order_deviation(
-      {column(sampling, &EdgeErrors::h), column(sampling, &EdgeErrors::worst_phi), 0}, 1, 2);
+  const Estimate deviation =
+      order_deviation(convergence_of(sampling.errors, "largest miss of phi"), 1, 2);
   return {
       "sharp-edges.phi-is-first-order." + sampling.name,
       "On " + sampling.words + " the surface misses an edge by a part of a cell.",
       {{deviation.value, 0.2, deviation.uncertainty, "1",
         "a kink of phi is cut off over a cell: order 1; the largest of 6000 random places is known "
         "to a tenth or so, a fifth of an order between spacings of which one is half the other"},
-       evidence(sampling),
+       sampling.errors,
        "measured is |order - 1| of the last two pairs"}};
 }
 
@@ -162,8 +158,10 @@ Figure figure_of(const std::vector<Sampling>& samplings) {
                 "more than a degree.",
                 {}};
   for (const Sampling& sampling : samplings) {
-    Curve curve{sampling.words, column(sampling, &EdgeErrors::h), {}, nan, {}};
-    for (const EdgeErrors& errors : sampling.errors) curve.y.push_back(errors.reach * errors.h);
+    const std::vector<double>&spacings = sampling.errors.numbers("spacing"),
+          &reaches = sampling.errors.numbers("reach");
+    Curve curve{sampling.words, {}, {}, nan, {}};
+    for (size_t k = 0; k < spacings.size(); ++k) curve.point(spacings[k], reaches[k] * spacings[k]);
     figure.curves.push_back(std::move(curve));
   }
   return figure;
@@ -172,23 +170,17 @@ Figure figure_of(const std::vector<Sampling>& samplings) {
 StudyResult run_sharp_edges(const Subject&, Tier tier, const Progress& progress) {
   const Askew body;
   const int finest = tier == Tier::full ? 8 : 7;
-  Sampling grids{"grid",
-                 "a grid",
-                 {},
-                 2 * std::sqrt(6.0),
+  Sampling grids{"grid", "a grid", edge_table(), 2 * std::sqrt(6.0),
                  "differences at a cell's corners look two cells along each axis, 2 sqrt(3) cells "
                  "away; the kink inside the box is s/sqrt(2) from a point at s from the edge, so "
                  "that beyond 2 sqrt(6) cells all that is looked at is one plane"};
   Sampling trees{
-      "octree",
-      "an octree",
-      {},
-      std::sqrt(6.0),
+      "octree", "an octree", edge_table(), std::sqrt(6.0),
       "a cell's own gradient looks one cell along each axis: sqrt(6) cells, by the same reckoning"};
   for (int level = 5; level <= finest; ++level) {
     const double h = std::ldexp(1, -level);
-    grids.errors.push_back(edge_errors(body, grid_of(body, 1 << level), h));
-    trees.errors.push_back(edge_errors(body, octree_of(body, level), h));
+    add_row(edge_errors(body, grid_of(body, 1 << level), h), grids.errors);
+    add_row(edge_errors(body, octree_of(body, level), h), trees.errors);
     progress(double(level - 4) / (finest - 4));
   }
   StudyResult result;
