@@ -24,7 +24,7 @@ _foldproof_kind() {
   case $1 in
     simulate | ablate | converge | precision) echo toml ;;
     inspect) echo obj ;;
-    project | film | export) echo h5 ;;
+    project | film | export | compare) echo h5 ;;
     crossings) echo 'h5|obj' ;;
     evaluate) echo csv ;;
   esac

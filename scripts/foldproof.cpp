@@ -458,6 +458,30 @@ void add_evaluate(CLI::App& app, Options& options) {
       ->capture_default_str();
 }
 
+void add_compare(CLI::App& app, Options& options) {
+  CLI::App* compare = add_command(
+      app, options,
+      {"compare", "How far are frames of another program, or a captured cloth, from a stored run?",
+       help::compare},
+      compare_frames);
+  add_input(compare, "RUN.h5", options.file, "What `foldproof simulate` wrote");
+  add_input(compare, "FRAMES", options.frames, "Folder of OBJ or PLY files, one a frame [m]");
+  CLI::Option* times = compare->add_option("--times", options.times,
+                                           "Times of the frames [s], one a line (default: "
+                                           "times.txt in the folder, or what PLY files say)");
+  times->type_name("FILE")->check(some_text("a file of times"));
+  CLI::Option* rate = compare->add_option("--rate", options.rate, "Frames a second");
+  rate->type_name("FPS")->check(positive_number())->excludes(times);
+  compare->add_option("--start", options.first_time, "Time of the first frame [s]")
+      ->type_name("TIME")
+      ->check(finite_number())
+      ->needs(rate)
+      ->capture_default_str();
+  add_cache(compare, options);
+  add_out_if_typed(compare, options, "Also write run.h5 into this folder, for `foldproof report`");
+  add_json(compare, options);
+}
+
 void add_readers(CLI::App& app, Options& options) {
   add_json(
       add_command(app, options,
@@ -489,6 +513,7 @@ void add_readers(CLI::App& app, Options& options) {
       show_crossings);
   add_input(crossings, "FILE", options.names, "Stored runs (.h5), or meshes (.obj), each a frame");
   add_json(crossings, options);
+  add_compare(app, options);
   add_golden(app, options);
   add_evaluate(app, options);
 }

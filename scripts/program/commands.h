@@ -23,6 +23,7 @@ int evaluate_hinges(const Options& options);
 int print_golden_values(const Options& options);
 int run_bench(const Options& options);
 int show_crossings(const Options& options);  // crossings_command.cpp
+int compare_frames(const Options& options);  // compare_command.cpp
 int evaluate_queries(const Options& options);
 int show_claims(const Options& options);  // claims_command.cpp
 

@@ -34,6 +34,8 @@ struct Options {
   int subdivisions = 0;              // of project
   int levels = 4;                    // of converge: runs
   double hours = 0;                  // of converge: of the clock, for all runs; 0: no limit
+  std::string frames, times;         // of compare: a folder, a file of times
+  double rate = 0, first_time = 0;   // of compare: frames a second, time of the first one [s]
   double fraction = 0.1;             // of converge: of the motion, at which twin runs have parted
   int ensemble = 4;                  // of converge: runs with disturbed starts; 0: none
   std::vector<std::string> methods;  // of converge and precision: integrators

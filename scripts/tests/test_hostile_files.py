@@ -66,6 +66,14 @@ class DamagedFiles(FileTest):
         project = ["project", str(hurt), "--map", "plain", "--tau", "0.01", "--out", str(self.path / "projected")]
         self.trials(self.path / "out/small.h5", hurt, [["crossings", str(hurt)], project], self.TRIALS)
 
+    def test_frames_that_are_compared(self) -> None:
+        self.assertEqual(self.simulate(self.write("small.toml", SMALL_CASE)).returncode, 0)
+        stored, frames = str(self.path / "out/small.h5"), self.path / "frames"
+        self.assertEqual(run("export", stored, "--format", "ply", "--out", str(self.path / "whole")).returncode, 0)
+        frames.mkdir()
+        self.trials(self.path / "whole/small.0001.ply", frames / "small.0001.ply",
+                    [["compare", stored, str(frames)]], self.TRIALS)
+
     def test_runs_and_cases_in_reports(self) -> None:
         self.assertEqual(self.simulate(self.write("small.toml", SMALL_CASE), out="first").returncode, 0)
         self.assertEqual(run("check", "bending.forces-sum-to-zero", "--out", str(self.path / "first")).returncode, 0)

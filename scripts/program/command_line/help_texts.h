@@ -255,6 +255,20 @@ Exit codes:
   1    an error is not reached, or the truth is not known well enough
   2    bad input, or a file that cannot be written)";
 
+constexpr const char* compare =
+    R"(Frames with the run's vertices and triangles are compared vertex by vertex; other meshes by the
+nearest points of both surfaces. For each frame: distances, energies of stretching and bending by the
+run's forces, shares of fold angles, self-crossing pairs, and the depth in the run's objects. Between
+two frames of the run its cloth is interpolated from positions and velocities.
+
+Examples:
+  foldproof compare results/grab.h5 captured --rate 60 --start 0.5
+  foldproof compare results/grab.h5 frames --out mine && foldproof report mine
+
+Exit codes:
+  0    compared, whatever the distance
+  2    bad input; a frame cannot be read, or none lies in the run's time)";
+
 constexpr const char* project =
     R"(Prints how many points were moved, and of the last frame how much of the wrinkles is left: the
 standard deviation of the depths of points that were inside, and where the spectrum of the depth

@@ -1,0 +1,334 @@
+#include "reference/mesh/ply.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "reference/mesh/text_file.h"
+
+namespace foldproof {
+namespace {
+
+constexpr std::size_t most_vertices = 2'000'000, most_triangles = 4'000'000;
+constexpr std::size_t most_parts = 64;  // elements and properties of a header
+constexpr TextLimits ply_limits = {std::size_t(1) << 28, std::size_t(1) << 28};
+
+enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+struct TypeName {
+  std::string_view name, other;
+  Type type;
+  std::size_t bytes;
+};
+
+constexpr std::array<TypeName, 8> types = {{{"char", "int8", Type::int8, 1},
+                                            {"uchar", "uint8", Type::uint8, 1},
+                                            {"short", "int16", Type::int16, 2},
+                                            {"ushort", "uint16", Type::uint16, 2},
+                                            {"int", "int32", Type::int32, 4},
+                                            {"uint", "uint32", Type::uint32, 4},
+                                            {"float", "float32", Type::float32, 4},
+                                            {"double", "float64", Type::float64, 8}}};
+
+struct Property {
+  std::string_view name;
+  Type type;
+  bool is_list = false;
+  Type count_type = Type::uint8;  // of a list's length
+};
+
+struct Element {
+  std::string_view name;
+  std::size_t count = 0;
+  std::vector<Property> properties;
+};
+
+enum class Form { ascii, little_endian, big_endian };
+
+struct Header {
+  Form form = Form::ascii;
+  std::vector<Element> elements;
+  std::optional<double> time;
+};
+
+/// A place in the file.
+struct Reader {
+  std::string_view text;
+  const std::string& file;
+  std::size_t at = 0;
+  int line = 1;             // of the header and of ASCII
+  Form form = Form::ascii;  // of what is read next
+};
+
+[[noreturn]] void reject(const Reader& reader, const std::string& reason) {
+  if (reader.form != Form::ascii) throw InputError(reader.file + ": " + reason);
+  throw InputError(reader.file + ":" + std::to_string(reader.line) + ": " + reason);
+}
+
+std::string quote(std::string_view word) { return "'" + std::string(word.substr(0, 40)) + "'"; }
+
+// --- the header ---
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  constexpr std::string_view blanks = " \t\r\v\f";
+  std::vector<std::string_view> words;
+  for (std::size_t at = line.find_first_not_of(blanks); at < line.size();
+       at = line.find_first_not_of(blanks, at)) {
+    const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+/// The next line of the header; lines of what is no PLY file may be long, and are not split.
+std::vector<std::string_view> header_line(Reader& reader) {
+  const std::size_t end = reader.text.find('\n', reader.at);
+  if (end == std::string_view::npos)
+    reject(reader, "the header has no end_header; give a PLY file");
+  const std::string_view line = reader.text.substr(reader.at, end - reader.at);
+  if (line.size() > 4096) reject(reader, "a line of the header is longer than 4096 bytes");
+  reader.at = end + 1;
+  return words_of(line);
+}
+
+Type type_named(const Reader& reader, std::string_view word) {
+  for (const TypeName& row : types)
+    if (word == row.name || word == row.other) return row.type;
+  reject(reader,
+         quote(word) + " is no type; write char, uchar, short, ushort, int, uint, float or double");
+}
+
+template <class Number>
+bool is_number(std::string_view word, Number& value) {
+  const std::from_chars_result result =
+      std::from_chars(word.data(), word.data() + word.size(), value);
+  return result.ec == std::errc() && result.ptr == word.data() + word.size();
+}
+
+void read_format(Reader& reader, const std::vector<std::string_view>& words, Header& header) {
+  const std::string_view form = words.size() > 1 ? words[1] : std::string_view();
+  if (form == "ascii")
+    header.form = Form::ascii;
+  else if (form == "binary_little_endian")
+    header.form = Form::little_endian;
+  else if (form == "binary_big_endian")
+    header.form = Form::big_endian;
+  else
+    reject(reader,
+           quote(form) + " is no format; write ascii, binary_little_endian or binary_big_endian");
+}
+
+void read_element(Reader& reader, const std::vector<std::string_view>& words, Header& header) {
+  Element element;
+  if (words.size() != 3 || !is_number(words[2], element.count))
+    reject(reader, "an element is written 'element NAME COUNT'");
+  element.name = words[1];
+  header.elements.push_back(element);
+}
+
+void read_property(Reader& reader, const std::vector<std::string_view>& words, Header& header) {
+  if (header.elements.empty()) reject(reader, "a property before any element");
+  std::vector<Property>& properties = header.elements.back().properties;
+  if (words.size() == 3) {
+    properties.push_back({words[2], type_named(reader, words[1])});
+  } else if (words.size() == 5 && words[1] == "list") {
+    const Type count = type_named(reader, words[2]);
+    if (count == Type::float32 || count == Type::float64)
+      reject(reader, "the length of a list is no whole number; give it an integer type");
+    properties.push_back({words[4], type_named(reader, words[3]), true, count});
+  } else {
+    reject(reader, "a property is written 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
+  }
+}
+
+Header read_header(Reader& reader) {
+  Header header;
+  if (!reader.text.starts_with("ply\n") && !reader.text.starts_with("ply\r\n"))
+    reject(reader, "the file does not begin with the line 'ply'; give a PLY file");
+  bool has_format = false;
+  for (std::size_t parts = 0; parts <= most_parts;) {
+    const std::vector<std::string_view> words = header_line(reader);
+    const std::string_view first = words.empty() ? std::string_view() : words[0];
+    double time = 0;
+    if (first == "format") read_format(reader, words, header), has_format = true;
+    if (first == "element") read_element(reader, words, header), ++parts;
+    if (first == "property") read_property(reader, words, header), ++parts;
+    if (first == "comment" && words.size() == 4 && words[1] == "time" && words[3] == "s" &&
+        is_number(words[2], time) && std::isfinite(time))
+      header.time = time;
+    if (first == "end_header" && !has_format) reject(reader, "the header names no format");
+    ++reader.line;
+    if (first == "end_header") return header;
+  }
+  reject(reader, "more than 64 elements and properties, the most that is read");
+}
+
+// --- the data ---
+
+std::string_view next_word(Reader& reader) {
+  const auto is_blank = [](char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
+  };
+  while (reader.at < reader.text.size() && is_blank(reader.text[reader.at]))
+    reader.line += reader.text[reader.at++] == '\n' ? 1 : 0;
+  const std::size_t start = reader.at;
+  while (reader.at < reader.text.size() && !is_blank(reader.text[reader.at])) ++reader.at;
+  return reader.text.substr(start, reader.at - start);
+}
+
+template <class Number>
+double number_at(const char* bytes, bool is_swapped) {
+  std::array<char, sizeof(Number)> copy;
+  std::memcpy(copy.data(), bytes, sizeof(Number));
+  if (is_swapped) std::ranges::reverse(copy);
+  return double(std::bit_cast<Number>(copy));
+}
+
+double binary_number(Reader& reader, Type type) {
+  static_assert(std::endian::native == std::endian::little);
+  const std::size_t bytes = types[std::size_t(type)].bytes;
+  if (reader.text.size() - reader.at < bytes)
+    reject(reader, "the file ends before its last element; write it anew");
+  const char* from = reader.text.data() + reader.at;
+  reader.at += bytes;
+  const bool is_swapped = reader.form == Form::big_endian;
+  switch (type) {
+    case Type::int8:
+      return number_at<std::int8_t>(from, is_swapped);
+    case Type::uint8:
+      return number_at<std::uint8_t>(from, is_swapped);
+    case Type::int16:
+      return number_at<std::int16_t>(from, is_swapped);
+    case Type::uint16:
+      return number_at<std::uint16_t>(from, is_swapped);
+    case Type::int32:
+      return number_at<std::int32_t>(from, is_swapped);
+    case Type::uint32:
+      return number_at<std::uint32_t>(from, is_swapped);
+    case Type::float32:
+      return number_at<float>(from, is_swapped);
+    case Type::float64:
+      break;
+  }
+  return number_at<double>(from, is_swapped);
+}
+
+double next_number(Reader& reader, Type type) {
+  if (reader.form != Form::ascii) return binary_number(reader, type);
+  const std::string_view word = next_word(reader);
+  double value = 0;
+  if (word.empty()) reject(reader, "the file ends before its last element; write it anew");
+  if (!is_number(word, value)) reject(reader, quote(word) + " is not a number");
+  return value;
+}
+
+/// A whole number in [0, below), or a refusal that says what it is of.
+std::size_t next_whole(Reader& reader, Type type, std::size_t below, const char* of) {
+  const double value = next_number(reader, type);
+  if (!(value >= 0 && value < double(below) && value == std::floor(value)))
+    reject(reader,
+           std::string(of) + " is not from 0 to " + std::to_string(below > 0 ? below - 1 : 0));
+  return std::size_t(value);
+}
+
+void skip(Reader& reader, const Property& property) {
+  std::size_t count = 1;
+  if (property.is_list)
+    count = next_whole(reader, property.count_type, reader.text.size(), "the length of a list");
+  for (std::size_t k = 0; k < count; ++k) next_number(reader, property.type);
+}
+
+void read_vertices(Reader& reader, const Element& element, TriangleSoup& soup) {
+  if (element.count > most_vertices)
+    reject(reader, "more than 2000000 vertices, the most that is read");
+  std::vector<Vector3> all;
+  for (std::size_t v = 0; v < element.count; ++v) {
+    Vector3 place = Vector3::Constant(std::nan(""));
+    for (const Property& property : element.properties) {
+      const std::size_t axis = std::string_view("xyz").find(property.name);
+      if (!property.is_list && property.name.size() == 1 && axis < 3)
+        place[Eigen::Index(axis)] = next_number(reader, property.type);
+      else
+        skip(reader, property);
+    }
+    if (!place.allFinite())
+      reject(reader,
+             "vertex " + std::to_string(v) + " lacks a finite x, y or z; give numbers in m");
+    all.push_back(place);
+    soup.origin.vertex_lines.push_back(reader.line);
+  }
+  soup.rest.resize(3, Eigen::Index(all.size()));
+  for (std::size_t v = 0; v < all.size(); ++v) soup.rest.col(Eigen::Index(v)) = all[v];
+}
+
+void read_polygon(Reader& reader, const Property& property, std::size_t vertices,
+                  TriangleSoup& soup) {
+  const std::size_t corners =
+      next_whole(reader, property.count_type, reader.text.size(), "the length of a face");
+  if (corners < 3) reject(reader, "a face of fewer than three vertices; give at least three");
+  Triangle fan{};
+  for (std::size_t k = 0; k < corners; ++k) {
+    const int index = int(next_whole(reader, property.type, vertices, "an index of a vertex"));
+    if (k > 2) fan[1] = fan[2];
+    fan[std::min<std::size_t>(k, 2)] = index;
+    if (k < 2) continue;
+    if (soup.triangles.size() == most_triangles)
+      reject(reader, "more than 4000000 triangles, the most that is read");
+    soup.triangles.push_back(fan);
+    soup.origin.triangle_lines.push_back(reader.line);
+  }
+}
+
+bool has_corners(const Property& property) {
+  return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+void read_faces(Reader& reader, const Element& element, std::size_t vertices, TriangleSoup& soup) {
+  for (std::size_t f = 0; f < element.count; ++f)
+    for (const Property& property : element.properties)
+      if (has_corners(property))
+        read_polygon(reader, property, vertices, soup);
+      else
+        skip(reader, property);
+}
+
+/// An element without properties has no data to end a loop over a count that may be anything.
+void read_element_data(Reader& reader, const Element& element, TriangleSoup& soup) {
+  if (element.properties.empty()) return;
+  if (element.name == "vertex") {
+    read_vertices(reader, element, soup);
+  } else if (element.name == "face") {
+    read_faces(reader, element, std::size_t(soup.rest.cols()), soup);
+  } else {
+    for (std::size_t k = 0; k < element.count; ++k)
+      for (const Property& property : element.properties) skip(reader, property);
+  }
+}
+
+}  // namespace
+
+PlyMesh read_ply_text(std::string_view text, const std::string& file) {
+  Reader reader{text, file};
+  const Header header = read_header(reader);
+  reader.form = header.form;
+  PlyMesh mesh;
+  mesh.time = header.time;
+  mesh.soup.origin.file = file;
+  mesh.soup.rest.resize(3, 0);
+  for (const Element& element : header.elements) read_element_data(reader, element, mesh.soup);
+  if (mesh.soup.triangles.empty()) reject(reader, "the file has no face; give a mesh of triangles");
+  return mesh;
+}
+
+PlyMesh read_ply(const std::string& path) {
+  return read_ply_text(read_text_file(path, ply_limits), path);
+}
+
+}  // namespace foldproof

@@ -1,0 +1,192 @@
+#include "verification/cases/frame_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/level_set/mesh_distance.h"
+#include "reference/level_set/object.h"
+#include "verification/oracles/exact_crossings.h"
+
+namespace foldproof {
+
+namespace {
+
+/// The triangles, each from its lowest corner on, sorted: the same for the same faces.
+std::vector<Triangle> sorted_faces(std::vector<Triangle> triangles) {
+  for (Triangle& t : triangles) std::ranges::rotate(t, std::ranges::min_element(t));
+  std::ranges::sort(triangles);
+  return triangles;
+}
+
+/// A third of each adjacent triangle's area [m^2].
+PerParticle areas_of_vertices(const PerParticle3& x, const std::vector<Triangle>& triangles) {
+  const Eigen::VectorXd areas = triangle_areas(triangles, x);
+  PerParticle all = PerParticle::Zero(x.cols());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const int v : triangles[t]) all[v] += areas[Eigen::Index(t)] / 3;
+  return all;
+}
+
+/// Of each vertex of x to the surface [m].
+PerParticle distances_to(const MeshDistance& surface, const PerParticle3& x) {
+  PerParticle all(x.cols());
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    all[i] = std::sqrt(nearest_feature(surface, x.col(i), std::numeric_limits<double>::infinity())
+                           .squared_distance);
+  return all;
+}
+
+ClothDistance summary_of(const PerParticle& distances, const PerParticle& weights) {
+  Worst worst;
+  for (const double distance : distances) worst.observe(distance);
+  const PerParticle squares = distances.array().square();
+  return {std::sqrt(squares.mean()), worst.value(),
+          std::sqrt(squares.dot(weights) / weights.sum())};
+}
+
+ClothDistance surface_distance(const PerParticle3& a, const std::vector<Triangle>& a_triangles,
+                               const TimedMesh& b) {
+  const PerParticle to_b = distances_to(make_mesh_distance(b.x, b.triangles), a);
+  const PerParticle to_a = distances_to(make_mesh_distance(a, a_triangles), b.x);
+  PerParticle both(to_b.size() + to_a.size()), areas(both.size());
+  both << to_b, to_a;
+  areas << areas_of_vertices(a, a_triangles), areas_of_vertices(b.x, b.triangles);
+  return summary_of(both, areas);
+}
+
+double deepest(std::span<const Object> objects, double time, const PerParticle3& x) {
+  if (objects.empty()) return 0;
+  ObjectsOverSpan now(objects, {time, time, 0});
+  double depth = 0;
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    depth = std::max(depth, -nearest_of(now.at(x.col(i))).first.phi);
+  return depth;
+}
+
+FoldSpectrum folds_of(const TimedMesh& mesh) {
+  try {
+    return fold_spectrum(make_triangle_mesh(mesh.x, mesh.triangles), mesh.x);
+  } catch (const InputError&) {  // holes, fans or flaps of a captured surface
+    FoldSpectrum none;
+    none.fill(nan);
+    return none;
+  }
+}
+
+long crossings_of(const PerParticle3& x, const std::vector<Triangle>& triangles) {
+  return long(oracles::exact_crossings(x, triangles).size());
+}
+
+ClothShape shape_of_particles(const ComparedRun& run, double time, const PerParticle3& x) {
+  const State still{time, x, PerParticle3::Zero(3, x.cols())};
+  const Energies e = energies(run.built.system, still);
+  return {e.stretch, e.bending, fold_spectrum(run.scene.mesh, x),
+          crossings_of(x, run.scene.mesh.triangles), deepest(run.built.objects, time, x)};
+}
+
+Curve curve_over(const std::string& label, const std::vector<FrameComparison>& frames,
+                 double (*value)(const FrameComparison&)) {
+  Curve curve{label, {}, {}, nan, {}};
+  for (const FrameComparison& frame : frames) curve.point(frame.time, value(frame));
+  return curve;
+}
+
+Table numbers_over_time(const std::vector<FrameComparison>& frames) {
+  Table rows{{"time", "s"},
+             {"rms distance", "m"},
+             {"largest distance", "m"},
+             {"weighted rms", "m"},
+             {"stretch, run", "J"},
+             {"stretch, frame", "J"},
+             {"bending, run", "J"},
+             {"bending, frame", "J"},
+             {"crossings, run", "pairs"},
+             {"crossings, frame", "pairs"},
+             {"depth, run", "m"},
+             {"depth, frame", "m"}};
+  for (const FrameComparison& f : frames)
+    rows.row(f.time, f.distance.rms, f.distance.largest, f.distance.weighted, f.run.stretch,
+             f.frame.stretch, f.run.bending, f.frame.bending, f.run.crossings, f.frame.crossings,
+             f.run.depth, f.frame.depth);
+  return {"numbers", "The run and the frames, over time", rows};
+}
+
+Table folds_over_time(const std::vector<FrameComparison>& frames) {
+  Table rows{{"time", "s"}, {"fold angle", ""}, {"share, run", "1"}, {"share, frame", "1"}};
+  for (const FrameComparison& f : frames)
+    for (std::size_t b = 0; b < f.run.folds.size(); ++b)
+      rows.row(f.time, name_of_fold_band(b), f.run.folds[b], f.frame.folds[b]);
+  return {"folds", "Shares of the hinges' length, by the angle of the fold", rows};
+}
+
+}  // namespace
+
+std::string_view name_of(Matching matching) {
+  return matching == Matching::particles ? "vertex by vertex" : "by nearest points";
+}
+
+Matching matching_of(const TriangleMesh& cloth, std::span<const TimedMesh> frames) {
+  const std::vector<Triangle> faces = sorted_faces(cloth.triangles);
+  for (const TimedMesh& frame : frames)
+    if (frame.x.cols() != cloth.rest.cols() || sorted_faces(frame.triangles) != faces)
+      return Matching::surface;
+  return Matching::particles;
+}
+
+State state_between(const State& a, const State& b, double t) {
+  const double h = b.time - a.time, s = (t - a.time) / h;
+  if (s <= 0) return a;
+  if (s >= 1) return b;
+  const double c = s * s * (3 - 2 * s);  // of b's place
+  State now{t, a.x, a.v};
+  now.x = (1 - c) * a.x + c * b.x + h * s * (1 - s) * ((1 - s) * a.v - s * b.v);
+  now.v = (1 - s) * a.v + s * b.v;
+  return now;
+}
+
+FrameComparison compare_frame(const ComparedRun& run, const State& at, const TimedMesh& frame) {
+  const std::vector<Triangle>& triangles = run.scene.mesh.triangles;
+  FrameComparison c{frame.file, frame.time, {}, shape_of_particles(run, at.time, at.x), {}};
+  if (run.matching == Matching::particles) {
+    c.distance = summary_of((at.x - frame.x).colwise().norm().transpose(),
+                            lumped_masses(run.scene.mesh, run.scene.density));
+    c.frame = shape_of_particles(run, at.time, frame.x);
+    return c;
+  }
+  c.distance = surface_distance(at.x, triangles, frame);
+  c.frame = {nan, nan, folds_of(frame), crossings_of(frame.x, frame.triangles),
+             deepest(run.built.objects, at.time, frame.x)};
+  return c;
+}
+
+ComparisonEvidence evidence_of(const std::vector<FrameComparison>& frames, Matching matching) {
+  using F = const FrameComparison&;
+  ComparisonEvidence evidence{{numbers_over_time(frames), folds_over_time(frames)}, {}};
+  const Axis time{"time", "s", Scale::linear};
+  evidence.figures.push_back(
+      {"distance",
+       "Distance of the frames from the run",
+       time,
+       {"distance", "m", Scale::linear},
+       nan,
+       "Compared " + std::string(name_of(matching)) + ".",
+       {curve_over("root mean square", frames, [](F f) { return f.distance.rms; }),
+        curve_over("largest", frames, [](F f) { return f.distance.largest; }),
+        curve_over("weighted with masses or areas", frames,
+                   [](F f) { return f.distance.weighted; })}});
+  if (matching == Matching::particles)
+    evidence.figures.push_back(
+        {"energies",
+         "Energies of the shapes",
+         time,
+         {"energy", "J", Scale::linear},
+         nan,
+         "By the forces of the run's case, at the positions of both.",
+         {curve_over("stretch, run", frames, [](F f) { return f.run.stretch; }),
+          curve_over("stretch, frames", frames, [](F f) { return f.frame.stretch; }),
+          curve_over("bending, run", frames, [](F f) { return f.run.bending; }),
+          curve_over("bending, frames", frames, [](F f) { return f.frame.bending; })}});
+  return evidence;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,79 @@
+// How far is a cloth, of any program or captured, from that of a run? Frame by frame, in numbers.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reference/scene/scene.h"
+#include "verification/cases/folds.h"
+#include "verification/figures.h"
+
+namespace foldproof {
+
+/// One frame of the other cloth.
+struct TimedMesh {
+  std::string file;  // that it was read from, for messages
+  double time;       // s
+  PerParticle3 x;    // 3 x N [m]
+  std::vector<Triangle> triangles;
+};
+
+/// What a frame's vertices have to do with the run's particles.
+enum class Matching {
+  particles,  // as many, and the same triangles: vertex i is particle i
+  surface     // another mesh of the cloth: nearest points of the surfaces are compared
+};
+
+std::string_view name_of(Matching matching);  // "vertex by vertex", "by nearest points"
+
+/// particles if every frame has the cloth's particles and triangles, in any order of the triangles
+/// and of their corners.
+Matching matching_of(const TriangleMesh& cloth, std::span<const TimedMesh> frames);
+
+/// Between two frames of a run, by the cubic that has their positions and velocities. t in
+/// [a.time, b.time] [s].
+State state_between(const State& a, const State& b, double t);
+
+/// One cloth at one time.
+struct ClothShape {
+  double stretch, bending;  // energies by the run's own forces [J]; NaN of another mesh
+  FoldSpectrum folds;       // NaN of what is no oriented manifold
+  long crossings;           // pairs of an edge and a triangle that meet, decided exactly
+  double depth;             // of the deepest vertex inside an object of the run [m]; 0: none is
+};
+
+/// Distances of two cloths. Vertex by vertex: of each particle. By nearest points: of each vertex
+/// of either mesh to the surface of the other.
+struct ClothDistance {
+  double rms, largest;  // m
+  // root mean square, each particle weighted with its mass; by nearest points, each vertex with a
+  // third of its triangles' areas [m]
+  double weighted;
+};
+
+struct FrameComparison {
+  std::string file;
+  double time;  // s
+  ClothDistance distance;
+  ClothShape run, frame;
+};
+
+/// The run that frames are held against.
+struct ComparedRun {
+  const Scene& scene;
+  const BuiltScene& built;
+  Matching matching;
+};
+
+/// at: the run's state at the frame's time.
+FrameComparison compare_frame(const ComparedRun& run, const State& at, const TimedMesh& frame);
+
+/// The comparison of whole sequences as tables and figures of a study, for a report.
+struct ComparisonEvidence {
+  std::vector<Table> tables;
+  std::vector<Figure> figures;
+};
+ComparisonEvidence evidence_of(const std::vector<FrameComparison>& frames, Matching matching);
+
+}  // namespace foldproof
