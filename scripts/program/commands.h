@@ -22,6 +22,8 @@ int print_golden_values(const Options& options);
 int run_bench(const Options& options);
 int show_crossings(const Options& options);  // crossings_command.cpp
 int evaluate_queries(const Options& options);
+int judge_another_solver(const Options& options);  // judge_command.cpp, as the next
+int check_subject(const Options& options);
 int show_claims(const Options& options);  // claims_command.cpp
 
 }  // namespace foldproof

@@ -34,6 +34,8 @@ struct Options {
   int levels = 4;                    // of converge: runs
   std::vector<std::string> methods;  // of converge: integrators
   double until = 0;                  // of converge: how much of the run is asked [s]; 0: all of it
+  std::string solver, name;          // of judge, subject: command; of judge: name in the report
+  double patience = 60;              // of judge, subject: limit of silence [s]
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,
        restarts = false, pdf = false, papers = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code
