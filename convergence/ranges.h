@@ -28,4 +28,11 @@ inline std::vector<int> doubling_range(int coarsest, int finest) {
   return values;
 }
 
+/// coarsest, half of that, and so on: `count` values.
+inline std::vector<double> halving_range(double coarsest, int count) {
+  std::vector<double> values;
+  for (int level = 0; level < count; ++level) values.push_back(std::ldexp(coarsest, -level));
+  return values;
+}
+
 }  // namespace foldproof

@@ -53,7 +53,7 @@ _foldproof() {
     mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(shopt -s extglob
       compgen -f -X "!*.@($kind)" -- "$now"
       compgen -d -S / -- "$now")
-  elif [[ $command == report && $now != -* ]]; then
+  elif [[ ($command == report || $command == history) && $now != -* ]]; then
     mapfile -t COMPREPLY < <(compgen -d -S / -- "$now")
   fi
 }

@@ -221,6 +221,19 @@ void add_converge(CLI::App& app, Options& options) {
                    "Ask only the beginning of the run, up to this time [s]")
       ->type_name("TIME")
       ->check(positive_number());
+  converge
+      ->add_option("--fraction", options.fraction,
+                   "Twin runs have parted when this share of the motion lies between them")
+      ->type_name("SHARE")
+      ->check(share())
+      ->capture_default_str();
+  converge
+      ->add_option("--ensemble", options.ensemble,
+                   "Runs with disturbed starts, whose statistics are compared once positions are "
+                   "not predictable; below 2: none")
+      ->type_name("N")
+      ->check(whole_number(0, 1000))
+      ->capture_default_str();
   add_overrides(converge, options);
   add_folder(converge, options,
              "Folder whose store/ keeps every run; a second call makes only what is missing")
@@ -287,6 +300,24 @@ void add_film(CLI::App& app, Options& options) {
   film->get_option("--out")->type_name("FILE");
 }
 
+void add_history(CLI::App& app, Options& options) {
+  CLI::App* history = add_command(
+      app, options,
+      {"history", "Show what changed over several runs, and in which run first", help::history},
+      show_history);
+  history
+      ->add_option("DIR", options.names, "Folders of finished runs, or their verdicts.json files")
+      ->check(some_text("a file or folder"));
+  history
+      ->add_option("--log", options.log,
+                   "JSON lines, one a run: the runs given are appended, all in it are shown")
+      ->type_name("FILE")
+      ->check(some_text("a file"));
+  add_out_if_typed(history, options, "Also write a page to this file");
+  history->get_option("--out")->type_name("FILE");
+  add_json(history, options);
+}
+
 /// What reports/ makes of stored results.
 void add_pages(CLI::App& app, Options& options) {
   CLI::App* report = add_command(
@@ -300,6 +331,7 @@ void add_pages(CLI::App& app, Options& options) {
   add_switch(report, "--pdf", options.pdf, "Also DIR/report.pdf, printed by chromium");
   add_switch(report, "--papers", options.papers,
              "Figures and pictures also as PDF and PNG files, in DIR/figures");
+  add_history(app, options);
   add_film(app, options);
   CLI::App* files =
       add_command(app, options,

@@ -46,7 +46,7 @@ std::vector<Check> all_checks() {
         // level_set
         octree_checks, octree_union_checks, deforming_checks,
         // filters
-        repulsion_checks, impact_checks, crossing_checks,
+        repulsion_checks, impact_checks, impulse_checks, crossing_checks,
         // forces
         sticking_force_checks, sticking_motion_checks, sticking_bond_checks,
         // scene

@@ -12,15 +12,23 @@ namespace {
 
 constexpr double safety_in_range = 1.25, safety_outside = 3;
 
+/// Outside the asymptotic range no higher order is trusted [1].
+constexpr double order_outside = 1;
+
 std::vector<double> neighbouring_differences(const std::vector<double>& values) {
   std::vector<double> differences;
   for (size_t k = 0; k + 1 < values.size(); ++k) differences.push_back(values[k + 1] - values[k]);
   return differences;
 }
 
-/// log(a/b) / log ratio, or NaN where a and b differ in sign or are not above the floor.
+/// Whether an order can be read from this difference.
+bool stands_out(double difference, double floor) {
+  return std::abs(difference) > floors_for_order * floor;
+}
+
+/// log(a/b) / log ratio, or NaN where a and b differ in sign or do not stand out.
 double pair_order(double a, double b, const Ladder& ladder) {
-  if (!(a * b > 0) || !(std::abs(a) > ladder.floor) || !(std::abs(b) > ladder.floor)) return nan;
+  if (!(a * b > 0) || !stands_out(a, ladder.floor) || !stands_out(b, ladder.floor)) return nan;
   return std::log(a / b) / std::log(ladder.ratio);
 }
 
@@ -38,7 +46,7 @@ std::string why_no_order(const std::vector<double>& d, const std::vector<double>
                          double floor) {
   const double last = d.back(), before = d[d.size() - 2];
   if (!std::isfinite(last) || !std::isfinite(before)) return "a level came to no end";
-  if (!(std::abs(last) > floor) || !(std::abs(before) > floor))
+  if (!stands_out(last, floor) || !stands_out(before, floor))
     return "differences between levels have sunk to rounding or the solver's tolerance";
   if (last * before < 0) return "differences between levels change sign";
   if (!(orders.back() > 0)) return "differences between levels grow";
@@ -57,8 +65,25 @@ std::string why_not_asymptotic(const std::vector<double>& orders, double formal)
   return "the order still changes from level to level";
 }
 
-double grid_convergence_index(double difference, double ratio, double order, double safety) {
-  return safety * std::abs(difference) / (std::pow(ratio, order) - 1);
+/// The bar of a ladder that has an order. A difference smaller than the highest order that is
+/// trusted allows after the one before is an accident of signs; an order that falls may fall again.
+double bar_with_order(const ErrorBar& bar, const Ladder& ladder, double last, double before) {
+  const double highest = bar.reading == Reading::asymptotic
+                             ? ladder.formal_order
+                             : std::min(ladder.formal_order, order_outside);
+  double order = std::min(bar.order, highest);
+  if (bar.orders.size() > 1 && bar.order < bar.orders[bar.orders.size() - 2])
+    order =
+        std::min(order, std::max(2 * bar.order - bar.orders[bar.orders.size() - 2], least_order));
+  const double difference =
+      std::max(std::abs(last), std::abs(before) / std::pow(ladder.ratio, highest));
+  return std::max(bar.safety * difference / (std::pow(ladder.ratio, order) - 1), ladder.floor);
+}
+
+/// Three times the largest of the last two differences; NaN if one is.
+double spread(double last, double before, double floor) {
+  if (std::isnan(last) || std::isnan(before)) return nan;
+  return std::max(safety_outside * std::max(std::abs(last), std::abs(before)), floor);
 }
 
 }  // namespace
@@ -82,22 +107,20 @@ ErrorBar error_bar(const Ladder& ladder) {
   ErrorBar bar;
   for (size_t k = 0; k + 1 < d.size(); ++k)
     bar.orders.push_back(pair_order(d[k], d[k + 1], ladder));
-  const double largest = std::max(std::abs(d.back()), std::abs(d[d.size() - 2]));
+  const double last = d.back(), before = d[d.size() - 2];
   bar.reason = why_no_order(d, bar.orders, ladder.floor);
   if (!bar.reason.empty()) {
-    bar.half_width = std::max(safety_outside * largest, ladder.floor);
-    if (std::isnan(d.back()) || std::isnan(d[d.size() - 2])) bar.half_width = nan;
+    bar.half_width = spread(last, before, ladder.floor);
     return bar;
   }
   bar.reason = why_not_asymptotic(bar.orders, ladder.formal_order);
   bar.reading = bar.reason.empty() ? Reading::asymptotic : Reading::not_asymptotic;
   bar.order = bar.orders.back();
   bar.safety = bar.reason.empty() ? safety_in_range : safety_outside;
-  const double order = std::min(bar.order, ladder.formal_order);
-  bar.half_width =
-      std::max(grid_convergence_index(d.back(), ladder.ratio, order, bar.safety), ladder.floor);
+  bar.half_width = bar_with_order(bar, ladder, last, before);
   if (!ladder.values.empty())
-    bar.limit = ladder.values.back() + d.back() / (std::pow(ladder.ratio, order) - 1);
+    bar.limit = ladder.values.back() +
+                last / (std::pow(ladder.ratio, std::min(bar.order, ladder.formal_order)) - 1);
   return bar;
 }
 

@@ -43,18 +43,27 @@ constexpr double same_order = 0.2;
 /// Observed order below which differences are said not to fall [1].
 constexpr double least_order = 0.5;
 
+/// So many floors are the least difference that an order is read from: a floor then changes the
+/// order of a ratio of 2 by 0.3 at most [1].
+constexpr double floors_for_order = 10;
+
 /// Reads a ladder of n >= 3 levels. Orders are
 ///   p_k = log(d_k / d_(k+1)) / log ratio,  d_k = f_(k+1) - f_k,  none where d changes sign.
 /// The range is asymptotic if the last two orders agree within same_order and are at least
 /// least_order; with three levels, if the only one agrees with the formal order. The error
 /// bar is the grid convergence index (Roache 1994; Celik et al., J. Fluids Eng. 130 (2008)
 /// 078001, their eq. 7),
-///   safety * d_last / (ratio^p - 1),  p = min(observed, formal),
-/// with a safety of 1.25 in the asymptotic range and of 3 outside it. Without an order (differences
-/// grow, change sign or have sunk to the floor) the reading is inconclusive, and the bar is three
-/// times the largest of the last two differences: a spread, no estimate (Eca and Hoekstra, J.
-/// Comput. Phys. 262 (2014) 104, section 3). Quantities that do not change at all have a bar of the
-/// floor. Throws InputError for fewer than three levels, or other lengths than promised.
+///   safety * d / (ratio^p - 1),  p = min(p_last, highest),
+/// with a safety of 1.25 and the formal order as the highest in the asymptotic range, else of 3 and
+/// 1. Two things are ours, because the index alone misses errors of two terms by up to 250 times:
+///   d = max(d_last, d_before / ratio^highest), since a difference near a change of sign is small
+///   by accident; and an order that falls is taken to fall once more, p <= 2 p_last - p_before.
+/// With four levels, all bars of c1 h^p + c2 h^q with p >= 1 and a method of order p or 2 then hold
+/// the error (test_error_bar.cpp). Without an order (differences grow, change sign or have sunk to
+/// the floor) the reading is inconclusive, and the bar is three times the largest of the last two
+/// differences: a spread, no estimate (Eca and Hoekstra, J. Comput. Phys. 262 (2014) 104, section
+/// 3). Quantities that do not change at all have a bar of the floor. Throws InputError for fewer
+/// than three levels, or other lengths than promised.
 ErrorBar error_bar(const Ladder& ladder);
 
 }  // namespace foldproof

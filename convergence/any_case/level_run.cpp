@@ -18,13 +18,19 @@ LevelRun watched_level(const Level& level, const LevelSetProvider& level_sets) {
   const BuiltScene built = build(scene, level_sets);
   Measurer measurer(scene, built, level.measurements);
   LevelRun run;
+  long contacts = 0;  // of the latest step
   const Observer observer{[&](const State& s) {
                             measurer.record(s);
                             run.times.push_back(s.time);
                             run.x.push_back(s.x.leftCols(level.particles));
+                            const Energies e = energies(built.system, s);
+                            run.kinetic.push_back(e.kinetic);
+                            run.elastic.push_back(e.stretch + e.bending);
+                            run.contacts.push_back(double(contacts));
                           },
                           [&](const Diagnostics& row) {
                             measurer.record(row);
+                            contacts = row.work.object_contacts;
                             if (row.step > 0) run.step_ends.push_back(row.time);
                           }};
   const RunResult result = simulate(built.system, integrator_named(scene.integrator), built.start,
@@ -45,11 +51,10 @@ StoredResult pack(const LevelRun& run) {
   std::vector<double> positions;
   for (const PerParticle3& x : run.x)
     positions.insert(positions.end(), x.data(), x.data() + x.size());
-  kept.arrays = {{"values", run.values},
-                 {"times", run.times},
-                 {"positions", positions},
-                 {"step_ends", run.step_ends},
-                 {"cost", {run.work, run.seconds}}};
+  kept.arrays = {{"values", run.values},       {"times", run.times},
+                 {"positions", positions},     {"kinetic", run.kinetic},
+                 {"elastic", run.elastic},     {"contacts", run.contacts},
+                 {"step_ends", run.step_ends}, {"cost", {run.work, run.seconds}}};
   kept.texts["stopped"] = run.stopped;
   return kept;
 }
@@ -64,6 +69,9 @@ LevelRun unpack(const StoredResult& kept) {
   LevelRun run;
   run.values = array_of(kept, "values");
   run.times = array_of(kept, "times");
+  run.kinetic = array_of(kept, "kinetic");
+  run.elastic = array_of(kept, "elastic");
+  run.contacts = array_of(kept, "contacts");
   run.step_ends = array_of(kept, "step_ends");
   const std::vector<double> positions = array_of(kept, "positions"), cost = array_of(kept, "cost");
   run.work = cost.at(0);

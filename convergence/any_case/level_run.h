@@ -12,9 +12,11 @@
 namespace foldproof {
 
 struct LevelRun {
-  std::vector<double> values;     // one a measurement
-  std::vector<double> times;      // of the frames [s]
-  std::vector<PerParticle3> x;    // in each frame, 3 x N, of the first N particles [m]
+  std::vector<double> values;            // one a measurement
+  std::vector<double> times;             // of the frames [s]
+  std::vector<PerParticle3> x;           // in each frame, 3 x N, of the first N particles [m]
+  std::vector<double> kinetic, elastic;  // energies in each frame [J]
+  std::vector<double> contacts;   // in each frame: points that objects corrected in the last step
   std::vector<double> step_ends;  // s
   double work = 0;                // evaluations, preparations and products of all forces [1]
   double seconds = 0;             // of the clock, with others running beside

@@ -5,6 +5,8 @@
 
 #include "convergence/bending/bending_rigidity.h"
 #include "convergence/order.h"
+#include "convergence/ranges.h"
+#include "convergence/tables.h"
 #include "convergence/bending/studies.h"
 #include "verification/subject.h"
 
@@ -26,47 +28,34 @@ Wrap gentle_wrap(double degrees) {
 }
 
 /// D/ke over the directions, measured and by the oracle [1].
-struct Rigidity {
-  std::vector<double> degrees, forced, relaxed;
-  Eigen::Matrix3d forced_tensor, relaxed_tensor;  // the oracle's R
-};
-
-Rigidity measure(const Subject& subject, const RegularPattern& pattern) {
+Table measure(const Subject& subject, const RegularPattern& pattern) {
   const FourSheets sheets(subject, pattern, cells, width, ke);
-  const oracles::PeriodicMesh cell = pattern.cell();
-  Rigidity rigidity;
-  rigidity.forced_tensor = oracles::forced_rigidity(cell);
-  rigidity.relaxed_tensor = oracles::relaxed_rigidity(cell);
-  for (int degrees = 0; degrees <= 180; degrees += degrees_apart) {
-    rigidity.degrees.push_back(degrees);
-    rigidity.forced.push_back(forced_rigidity_of(sheets, gentle_wrap(degrees), ke));
-    rigidity.relaxed.push_back(relaxed_rigidity_of(sheets, gentle_wrap(degrees), ke));
-  }
+  const Eigen::Matrix3d forced = oracles::forced_rigidity(pattern.cell()),
+                        relaxed = oracles::relaxed_rigidity(pattern.cell());
+  Table rigidity{{"direction of the curvature", "degree"},
+                 {"D/ke, forced", "1"},
+                 {"oracle, forced", "1"},
+                 {"D/ke, relaxed", "1"},
+                 {"oracle, relaxed", "1"}};
+  for (int degrees = 0; degrees <= 180; degrees += degrees_apart)
+    rigidity.row(degrees, forced_rigidity_of(sheets, gentle_wrap(degrees), ke),
+                 oracles::cylinder_rigidity(forced, radians(degrees)),
+                 relaxed_rigidity_of(sheets, gentle_wrap(degrees), ke),
+                 oracles::cylinder_rigidity(relaxed, radians(degrees)));
   return rigidity;
 }
 
-NamedFinding as_homogenised(const RegularPattern& pattern, const Rigidity& rigidity) {
+NamedFinding as_homogenised(const RegularPattern& pattern, const Table& rigidity) {
   Worst worst;
-  std::vector<double> forced, relaxed;
-  for (size_t i = 0; i < rigidity.degrees.size(); ++i) {
-    const double angle = radians(rigidity.degrees[i]);
-    forced.push_back(oracles::cylinder_rigidity(rigidity.forced_tensor, angle));
-    relaxed.push_back(oracles::cylinder_rigidity(rigidity.relaxed_tensor, angle));
-    worst.observe(std::abs(rigidity.forced[i] / forced[i] - 1));
-    worst.observe(std::abs(rigidity.relaxed[i] / relaxed[i] - 1));
-  }
+  worst.observe(largest_deviation(rigidity, "D/ke, forced", "oracle, forced"));
+  worst.observe(largest_deviation(rigidity, "D/ke, relaxed", "oracle, relaxed"));
   const Verdict verdict{worst.value(), std::pow(gentle * pattern.longest_edge, 2), 0, "1",
                         "angles on a cylinder differ from those of small curvature by the square "
                         "of longest edge times curvature, relatively, with factors below 1"};
   return {"bending-rigidity.matches-homogenisation." + pattern.name,
           "On a gentle cylinder, the energy per area of " + pattern.words +
               " is that of the homogenised cell, in every direction.",
-          {verdict,
-           {{"direction of the curvature", "degree", rigidity.degrees},
-            {"D/ke, forced", "1", rigidity.forced},
-            {"oracle, forced", "1", forced},
-            {"D/ke, relaxed", "1", rigidity.relaxed},
-            {"oracle, relaxed", "1", relaxed}},
+          {verdict, rigidity,
            "forced: every vertex on the cylinder; relaxed: the vertices of the cell's second kind, "
            "if it has one, leave it until the energy is least"}};
 }
@@ -74,38 +63,32 @@ NamedFinding as_homogenised(const RegularPattern& pattern, const Rigidity& rigid
 // --- the same pattern, finer ---
 
 /// D/ke of a cylinder of fixed curvature as the cells become smaller, and how far it is from the
-/// homogenised one.
-struct Refinement {
-  Convergence error;  // relative, over the width of a cell [m]
-  std::vector<double> rigidity;
-};
-
-Refinement refine(const Subject& subject, const RegularPattern& pattern, int levels) {
+/// homogenised one, relatively.
+Table refined_rigidity(const Subject& subject, const RegularPattern& pattern, int levels) {
   constexpr double curvature = 17, degrees = 25, coarsest = 0.021;  // 1/m, of the curvature, m
   const double exact =
       oracles::cylinder_rigidity(oracles::forced_rigidity(pattern.cell()), radians(degrees));
-  Refinement refinement;
-  for (int level = 0; level < levels; ++level) {
-    const double size = std::ldexp(coarsest, -level);
-    const FourSheets sheets(subject, pattern, cells, size, ke);
-    refinement.error.steps.push_back(size);
-    refinement.rigidity.push_back(forced_rigidity_of(sheets, {radians(degrees), curvature, 0}, ke));
-    refinement.error.errors.push_back(std::abs(refinement.rigidity.back() / exact - 1));
-  }
-  return refinement;
+  return refine(
+      {{"width of a cell", "m"}, {"D/ke", "1"}, {"error", "1"}}, halving_range(coarsest, levels),
+      [&](double size) {
+        const FourSheets sheets(subject, pattern, cells, size, ke);
+        const double rigidity = forced_rigidity_of(sheets, {radians(degrees), curvature, 0}, ke);
+        return std::tuple{size, rigidity, std::abs(rigidity / exact - 1)};
+      });
 }
 
-NamedFinding size_does_not_matter(const std::vector<Refinement>& refinements) {
+NamedFinding size_does_not_matter(const std::vector<Table>& refinements) {
   Worst worst;
-  std::vector<std::string> names;
-  std::vector<double> coarsest, finest, orders;
+  Table patterns{{"pattern", ""},
+                 {"D/ke, coarsest", "1"},
+                 {"D/ke, finest", "1"},
+                 {"order of the last pair", "1"}};
   for (size_t i = 0; i < refinements.size(); ++i) {
-    const Refinement& refinement = refinements[i];
-    worst.observe(order_deviation(refinement.error, 2, 2).value);
-    names.push_back(regular_patterns()[i].words);
-    coarsest.push_back(refinement.rigidity.front());
-    finest.push_back(refinement.rigidity.back());
-    orders.push_back(pair_orders(refinement.error).back());
+    const Convergence error = convergence_of(refinements[i], "error");
+    worst.observe(order_deviation(error, 2, 2).value);
+    const std::vector<double>& rigidity = refinements[i].numbers("D/ke");
+    patterns.row(regular_patterns()[i].words, rigidity.front(), rigidity.back(),
+                 pair_orders(error).back());
   }
   const Verdict verdict{worst.value(), 0.05, 0, "1",
                         "errors are a series in the square of curvature times width; at the last "
@@ -113,11 +96,7 @@ NamedFinding size_does_not_matter(const std::vector<Refinement>& refinements) {
   return {"bending-rigidity.does-not-depend-on-cell-size",
           "The same pattern with smaller cells tends to its homogenised rigidity with second "
           "order: ke says the same at every size.",
-          {verdict,
-           {{"pattern", "", names},
-            {"D/ke, coarsest", "1", coarsest},
-            {"D/ke, finest", "1", finest},
-            {"order of the last pair", "1", orders}},
+          {verdict, patterns,
            "measured is the worst |order - 2| of the last two pairs over all patterns; curvature "
            "17 1/m along 25 degrees"}};
 }
@@ -136,13 +115,13 @@ NamedFinding refining_does_not_cure(const std::string& name, const std::string& 
   return {name,
           claim,
           {verdict,
-           {{"greatest difference of D/ke", "1", std::vector<double>{difference.value()}},
-            {"change of D/ke by halving the cells", "1", std::vector<double>{drift}}},
+           Table{{"greatest difference of D/ke", "1"}, {"change of D/ke by halving the cells", "1"}}
+               .with_row(difference.value(), drift),
            "measured is the change over the difference"}};
 }
 
-double last_change(const Refinement& refinement) {
-  const std::vector<double>& D = refinement.rigidity;
+double last_change(const Table& refinement) {
+  const std::vector<double>& D = refinement.numbers("D/ke");
   return std::abs(D[D.size() - 1] - D[D.size() - 2]);
 }
 
@@ -152,15 +131,13 @@ double last_change(const Refinement& refinement) {
 /// a share of 1/n.
 NamedFinding border_is_first_order(const Subject& subject, int levels, Figure& figure) {
   const RegularPattern& pattern = regular_patterns()[1];
-  Convergence whole;
-  for (int level = 0; level < levels; ++level) {
-    const int n = 6 << level;
-    const double D = whole_sheet_rigidity(subject, pattern, n, ke);
-    whole.steps.push_back(whole_side / n);
-    whole.errors.push_back(std::abs(D / 0.25 - 1));
-  }
-  figure.curves.push_back({"a whole sheet with its border, " + pattern.words, whole.steps,
-                           whole.errors, nan, pair_orders(whole)});
+  const Table sheets = refine({{"width of a cell", "m"}, {"1 - D/(ke/4)", "1"}},
+                              doubling_range(6, 6 << (levels - 1)), [&](int n) {
+                                const double D = whole_sheet_rigidity(subject, pattern, n, ke);
+                                return std::tuple{whole_side / n, std::abs(D / 0.25 - 1)};
+                              });
+  const Convergence whole = convergence_of(sheets, "1 - D/(ke/4)");
+  figure.curves.push_back(curve_of("a whole sheet with its border, " + pattern.words, whole));
   const Estimate deviation = order_deviation(whole, 1, 2);
   const Verdict verdict{deviation.value, 0.02, 0, "1",
                         "n rows of cells have n - 1 lines of hinges: the missing share is 1/n "
@@ -168,9 +145,7 @@ NamedFinding border_is_first_order(const Subject& subject, int levels, Figure& f
   return {"bending-rigidity.border-effect-is-first-order",
           "A whole sheet lacks the hinges of its border: its energy tends to the rigidity with "
           "first order.",
-          {verdict,
-           {{"width of a cell", "m", whole.steps}, {"1 - D/(ke/4)", "1", whole.errors}},
-           "D/ke of this pattern and direction is 1/4, by the homogenised cell"}};
+          {verdict, sheets, "D/ke of this pattern and direction is 1/4, by the homogenised cell"}};
 }
 
 NamedFinding free_strip(const Subject& subject, const RegularPattern& pattern) {
@@ -182,53 +157,42 @@ NamedFinding free_strip(const Subject& subject, const RegularPattern& pattern) {
                         std::pow(2 * cells * width * 3 * curvature, 2), 0, "1",
                         "the surfaces' slopes, at most 3 times curvature times the sheets' side, "
                         "change angles by their square"};
-  return {"bending-rigidity.free-strip-is-softer." + pattern.name,
-          "A narrow strip of " + pattern.words +
-              " with free edges yields more than a forced cylinder: it curves across and twists.",
-          {verdict,
-           {{"B/ke of the strip", "1", std::vector<double>{measured}},
-            {"oracle", "1", std::vector<double>{exact}},
-            {"D/ke of the cylinder", "1",
-             std::vector<double>{
-                 oracles::cylinder_rigidity(oracles::relaxed_rigidity(pattern.cell()), 0)}}},
-           "from the energies of six quadratic surfaces"}};
+  return {
+      "bending-rigidity.free-strip-is-softer." + pattern.name,
+      "A narrow strip of " + pattern.words +
+          " with free edges yields more than a forced cylinder: it curves across and twists.",
+      {verdict,
+       Table{{"B/ke of the strip", "1"}, {"oracle", "1"}, {"D/ke of the cylinder", "1"}}.with_row(
+           measured, exact,
+           oracles::cylinder_rigidity(oracles::relaxed_rigidity(pattern.cell()), 0)),
+       "from the energies of six quadratic surfaces"}};
 }
 
 // --- what is shown ---
 
-Table rigidity_table(const std::vector<Rigidity>& all) {
-  std::vector<std::string> names, kinds;
-  std::array<std::vector<double>, 7> numbers;  // four directions, least, greatest, strip
+Table rigidity_table(const std::vector<Table>& all) {
+  Table table{{"mesh", ""},  {"vertices", ""}, {"0°", "1"},       {"45°", "1"},  {"90°", "1"},
+              {"135°", "1"}, {"least", "1"},   {"greatest", "1"}, {"strip", "1"}};
   for (size_t p = 0; p < all.size(); ++p) {
     const RegularPattern& pattern = regular_patterns()[p];
     for (const bool relaxed : {false, true}) {
       if (relaxed && pattern.cell().sites.size() == 1) continue;
-      const Eigen::Matrix3d& R = relaxed ? all[p].relaxed_tensor : all[p].forced_tensor;
-      names.push_back(pattern.words);
-      kinds.push_back(relaxed ? "relaxed" : "forced");
-      for (size_t k = 0; k < 4; ++k)
-        numbers[k].push_back((relaxed ? all[p].relaxed : all[p].forced)[k * 45 / degrees_apart]);
+      const Eigen::Matrix3d R = relaxed ? oracles::relaxed_rigidity(pattern.cell())
+                                        : oracles::forced_rigidity(pattern.cell());
+      const std::vector<double>& D = all[p].numbers(relaxed ? "D/ke, relaxed" : "D/ke, forced");
+      const auto at = [&](int degrees) { return D[size_t(degrees / degrees_apart)]; };
       const oracles::RigidityRange range = oracles::cylinder_range(R);
-      numbers[4].push_back(range.least);
-      numbers[5].push_back(range.greatest);
-      numbers[6].push_back(oracles::strip_rigidity(R, 0));
+      table.row(pattern.words, relaxed ? "relaxed" : "forced", at(0), at(45), at(90), at(135),
+                range.least, range.greatest, oracles::strip_rigidity(R, 0));
     }
   }
   return {"rigidity",
           "D/ke of cylinders curved along four directions (measured), its range over all "
           "directions and that of a narrow free strip along x (oracle)",
-          {{"mesh", "", names},
-           {"vertices", "", kinds},
-           {"0°", "1", numbers[0]},
-           {"45°", "1", numbers[1]},
-           {"90°", "1", numbers[2]},
-           {"135°", "1", numbers[3]},
-           {"least", "1", numbers[4]},
-           {"greatest", "1", numbers[5]},
-           {"strip", "1", numbers[6]}}};
+          table};
 }
 
-Figure direction_figure(const std::vector<Rigidity>& all) {
+Figure direction_figure(const std::vector<Table>& all) {
   Figure figure{
       "direction",
       "Flexural rigidity by the direction of the curvature",
@@ -238,15 +202,15 @@ Figure direction_figure(const std::vector<Rigidity>& all) {
       "Vertices free to settle within a cell. A property of the material would be one level line.",
       {}};
   for (size_t p = 0; p < all.size(); ++p)
-    figure.curves.push_back({regular_patterns()[p].words, all[p].degrees, all[p].relaxed, nan, {}});
+    figure.curves.push_back(curve_of(regular_patterns()[p].words, all[p],
+                                     "direction of the curvature", "D/ke, relaxed"));
   return figure;
 }
 
 StudyResult run_bending_rigidity(const Subject& subject, Tier tier, const Progress& progress) {
   const int levels = tier == Tier::quick ? 5 : 7;
   StudyResult result;
-  std::vector<Rigidity> all;
-  std::vector<Refinement> refinements;
+  std::vector<Table> all, refinements;
   Figure refined{"refinement",
                  "Error of the rigidity as the cells become smaller",
                  {"width of a cell", "m", Scale::log},
@@ -258,11 +222,10 @@ StudyResult run_bending_rigidity(const Subject& subject, Tier tier, const Progre
   std::vector<double> at_zero;
   for (const RegularPattern& pattern : regular_patterns()) {
     all.push_back(measure(subject, pattern));
-    refinements.push_back(refine(subject, pattern, levels));
+    refinements.push_back(refined_rigidity(subject, pattern, levels));
     result.findings.push_back(as_homogenised(pattern, all.back()));
-    const Convergence& error = refinements.back().error;
-    refined.curves.push_back({pattern.words, error.steps, error.errors, nan, pair_orders(error)});
-    at_zero.push_back(all.back().relaxed.front());
+    refined.curves.push_back(curve_of(pattern.words, convergence_of(refinements.back(), "error")));
+    at_zero.push_back(all.back().numbers("D/ke, relaxed").front());
     progress(double(all.size()) / 12);
   }
   result.findings.push_back(size_does_not_matter(refinements));
@@ -270,9 +233,9 @@ StudyResult run_bending_rigidity(const Subject& subject, Tier tier, const Progre
       refining_does_not_cure("bending-rigidity.depends-on-direction",
                              "Squares split along one diagonal resist differently by direction, "
                              "and refinement does not remove that.",
-                             all[1].relaxed, last_change(refinements[1])));
+                             all[1].numbers("D/ke, relaxed"), last_change(refinements[1])));
   Worst drift;
-  for (const Refinement& refinement : refinements) drift.observe(last_change(refinement));
+  for (const Table& refinement : refinements) drift.observe(last_change(refinement));
   result.findings.push_back(refining_does_not_cure(
       "bending-rigidity.depends-on-pattern",
       "Curved along x, different patterns resist differently, and refinement does not remove that.",

@@ -134,17 +134,15 @@ Strip critical_strip(const Subject& subject, int rows) {
   return strip;
 }
 
-/// D/ke at the critical load N = 4 pi^2 D/L^2 of a strip clamped at both ends.
-struct Rigidities {
-  std::vector<double> rows, strains, loads, over_ke;
-};
-
-NamedFinding load_finding(const Rigidities& found) {
+/// Critical strains and loads, mesh by mesh; D/ke at the critical load N = 4 pi^2 D/L^2 of a strip
+/// clamped at both ends.
+NamedFinding load_finding(const Table& found) {
   constexpr double narrow = 2.0 / 9,
                    cylinder = 1.0 / 4;  // D/ke of equilateral triangles: free edges, cylinder
-  const double finest_rows = found.rows.back();
+  const double finest_rows = found.numbers("rows").back(),
+               finest = found.numbers("rigidity D").back();
   const double discrete = cylinder * std::pow(2 * pi / (finest_rows - 1), 2) / 12;
-  const double over = found.over_ke.back() - cylinder, under = narrow - found.over_ke.back();
+  const double over = finest - cylinder, under = narrow - finest;
   Worst outside;
   outside.observe(over);
   outside.observe(under);
@@ -154,24 +152,21 @@ NamedFinding load_finding(const Rigidities& found) {
           {{outside.value(), discrete, 0, "ke",
             "outside of the two rigidities by no more than n rows miss of a cosine's curvature, (2 "
             "pi/(n - 1))^2/12 of it, on the finest mesh"},
-           {{"rows", "1", found.rows},
-            {"critical strain", "1", found.strains},
-            {"critical load", "N/m", found.loads},
-            {"rigidity D", "ke", found.over_ke}},
+           found,
            "measured is the distance from the range, 0 within it"}};
 }
 
-/// ln(amplitude) of the mode over time beyond the critical load.
+/// The amplitude of the mode over time beyond the critical load, and its rate of growth.
 struct Growth {
-  std::vector<double> times, amplitudes;  // s, m
-  double expected, measured;              // 1/s
+  Table history{{"time", "s"}, {"amplitude", "m"}};
+  double expected, measured;  // 1/s
 };
 
 Growth growth_beyond(const Subject& subject, const Strip& strip) {
   const CompressedStrip at = compress(subject, strip);
   const Scene scene = scene_of_strip(strip);
   const auto prepared = require_offered(subject.prepare, "prepare")(scene);
-  Growth growth{{}, {}, std::sqrt(-at.stiffness), nan};
+  Growth growth{.expected = std::sqrt(-at.stiffness), .measured = nan};
   State s = at.rest;
   s.x.row(2) += 1e-9 * at.mode.transpose();
   s.v.row(2) += growth.expected * 1e-9 * at.mode.transpose();
@@ -179,14 +174,12 @@ Growth growth_beyond(const Subject& subject, const Strip& strip) {
   const int steps = int(duration / h);
   Work uncounted;
   for (int i = 0; i <= steps; ++i) {
-    if (i % (steps / 20) == 0) {
-      growth.times.push_back(i * h);
-      growth.amplitudes.push_back(s.x.row(2).dot(at.mode));
-    }
+    if (i % (steps / 20) == 0) growth.history.row(i * h, s.x.row(2).dot(at.mode));
     s = subject.step(*prepared, {&s, 1}, h, uncounted);
   }
+  const std::vector<double>& amplitudes = growth.history.numbers("amplitude");
   growth.measured =
-      std::log(growth.amplitudes.back() / growth.amplitudes.front()) / growth.times.back();
+      std::log(amplitudes.back() / amplitudes.front()) / growth.history.numbers("time").back();
   return growth;
 }
 
@@ -197,28 +190,11 @@ NamedFinding growth_finding(const Growth& growth) {
           {{std::abs(growth.measured / growth.expected - 1), 0.01, 0, "1",
             "a wrong mass, load or rigidity shifts the rate by more; the schemes add (sigma "
             "h)^2/24, a millionth"},
-           {{"time", "s", growth.times}, {"amplitude", "m", growth.amplitudes}},
+           growth.history,
            "measured is the relative error of the rate"}};
 }
 
-StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& progress) {
-  std::vector<int> meshes = {10, 20};
-  if (tier == Tier::full) meshes.push_back(40);
-  StudyResult result;
-  Rigidities found;
-  Strip critical{0, 0};
-  for (const int rows : meshes) {
-    critical = critical_strip(subject, rows);
-    const CompressedStrip at = compress(subject, critical);
-    found.rows.push_back(rows);
-    found.strains.push_back(critical.strain);
-    found.loads.push_back(at.load);
-    found.over_ke.push_back(at.load * std::pow(critical.length(), 2) / (4 * pi * pi * bending));
-    progress(double(found.rows.size()) / double(meshes.size() + 1));
-  }
-  result.findings.push_back(load_finding(found));
-  const Growth growth = growth_beyond(subject, {critical.rows, 1.4 * critical.strain});
-  result.findings.push_back(growth_finding(growth));
+Figure growth_figure(const Growth& growth) {
   Figure figure{"growth",
                 "A strip leaves its plane at 1.4 times the critical strain",
                 {"time", "s", Scale::linear},
@@ -226,14 +202,31 @@ StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& prog
                 nan,
                 "A straight line is exponential growth; the expected one follows from the forces' "
                 "eigenvalue.",
-                {{"simulated", growth.times, growth.amplitudes, nan, {}}}};
-  Curve expected{"expected", growth.times, {}, nan, {}};
-  for (const double t : growth.times)
-    expected.y.push_back(growth.amplitudes.front() * std::exp(growth.expected * t));
+                {curve_of("simulated", growth.history, "time", "amplitude")}};
+  Curve expected{"expected", {}, {}, nan, {}};
+  const double start = growth.history.numbers("amplitude").front();
+  for (const double t : growth.history.numbers("time"))
+    expected.point(t, start * std::exp(growth.expected * t));
   figure.curves.push_back(std::move(expected));
-  result.figures.push_back(std::move(figure));
+  return figure;
+}
+
+StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& progress) {
+  std::vector<int> meshes = {10, 20};
+  if (tier == Tier::full) meshes.push_back(40);
+  Table found{
+      {"rows", "1"}, {"critical strain", "1"}, {"critical load", "N/m"}, {"rigidity D", "ke"}};
+  Strip critical{0, 0};
+  for (const int rows : meshes) {
+    critical = critical_strip(subject, rows);
+    const double load = compress(subject, critical).load;
+    found.row(rows, critical.strain, load,
+              load * std::pow(critical.length(), 2) / (4 * pi * pi * bending));
+    progress(double(found.rows()) / double(meshes.size() + 1));
+  }
+  const Growth growth = growth_beyond(subject, {critical.rows, 1.4 * critical.strain});
   progress(1);
-  return result;
+  return {{load_finding(found), growth_finding(growth)}, {growth_figure(growth)}, {}, {}};
 }
 
 }  // namespace

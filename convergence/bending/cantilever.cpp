@@ -46,95 +46,82 @@ LoadCase load_case(double alpha) {
           tip.reach};
 }
 
-/// How far a strip's tip is from the elastica's, and why it may be.
-struct TipError {
-  double drop, reach;  // over L, signed [1]
-  double off;          // stretch, unfinished solve and the oracle's uncertainty [1]
-};
-
-/// `length`: what counts as the strip's length L, over the one from half a cell before
-/// the hinges [1].
-TipError tip_error(const LoadCase& load, const StripAtRest& rest, double length) {
-  const double L = length * strip_length;
-  return {rest.drop / L - load.drop.value, rest.reach / L - load.reach.value,
-          rest.strain + rest.last_step + load.drop.uncertainty + load.reach.uncertainty};
-}
-
 /// Errors of one load over the panels' length.
 struct Refined {
   LoadCase load;
-  std::vector<double> spacings, drops, reaches;  // m, over L
-  Convergence drop, reach;                       // |error| over L
-  double strain = 0;                             // largest of all
+  Table tips;         // level by level
+  double floor = 0;   // of drop and reach: stretch, unfinished solve, the oracle's uncertainty [1]
+  double strain = 0;  // largest of all
 };
 
-Refined refine(const Subject& subject, const LoadCase& load, const StripPattern& pattern,
-               const std::vector<int>& sizes) {
-  Refined refined{load, {}, {}, {}, {}, {}};
-  for (const int panels : sizes) {
+const std::string spacing_column = "spacing of the rows", drop_column = "drop of the tip over L",
+                  drop_error = "error of the drop", reach_column = "reach of the tip over L",
+                  reach_error = "error of the reach",
+                  distance_column = "distance from the elastica's tip over L";
+
+/// Drop and reach together make the distance: either may pass through zero by chance as the load
+/// grows, their distance not.
+Refined refined_tip(const Subject& subject, const LoadCase& load, const StripPattern& pattern,
+                    const std::vector<int>& sizes) {
+  Refined refined{load, {}};
+  const auto run = [&](int panels) {
     const RowStrip strip(subject, pattern, panels, load.load);
     const StripAtRest rest = at_rest(strip, level(strip));
-    const TipError error = tip_error(load, rest, 1);
-    refined.drops.push_back(rest.drop / strip_length);
-    refined.reaches.push_back(rest.reach / strip_length);
-    for (Convergence* convergence : {&refined.drop, &refined.reach}) {
-      convergence->steps.push_back(strip.spacing());
-      update_worst(convergence->floor, error.off);
-    }
-    refined.drop.errors.push_back(std::abs(error.drop));
-    refined.reach.errors.push_back(std::abs(error.reach));
+    update_worst(refined.floor,
+                 rest.strain + rest.last_step + load.drop.uncertainty + load.reach.uncertainty);
     update_worst(refined.strain, rest.strain);
-  }
+    const double drop = std::abs(rest.drop / strip_length - load.drop.value),
+                 reach = std::abs(rest.reach / strip_length - load.reach.value);
+    return std::tuple{strip.spacing(), rest.drop / strip_length, drop, rest.reach / strip_length,
+                      reach,           std::hypot(drop, reach)};
+  };
+  refined.tips = refine({{spacing_column, "m"},
+                         {drop_column, "1"},
+                         {drop_error, "1"},
+                         {reach_column, "1"},
+                         {reach_error, "1"},
+                         {distance_column, "1"}},
+                        sizes, run);
   return refined;
 }
 
-/// Drop and reach together: either may pass through zero by chance as the load grows,
-/// their distance not.
 Convergence distance(const Refined& refined) {
-  Convergence tip{refined.drop.steps, {}, std::hypot(refined.drop.floor, refined.reach.floor)};
-  for (size_t i = 0; i < refined.drop.errors.size(); ++i)
-    tip.errors.push_back(std::hypot(refined.drop.errors[i], refined.reach.errors[i]));
+  Convergence tip = convergence_of(refined.tips, distance_column);
+  tip.floor = std::hypot(refined.floor, refined.floor);
   return tip;
 }
 
 NamedFinding order_of(const Refined& refined) {
   const Convergence tip = distance(refined);
   const Estimate deviation = order_deviation(tip, 2, 1);
-  std::vector<double> orders = pair_orders(tip);
-  orders.insert(orders.begin(), nan);
+  Table evidence = refined.tips;
+  evidence.add({"order of the distance", "1", row_orders(tip)});
   const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
                         "a whole order would be off by 1; the third term of the error is smaller "
                         "than the second by the panels' number"};
   return {"cantilever.is-second-order." + refined.load.name,
           "The tip of a strip held cylindrical, " + refined.load.words +
               ", tends to the elastica's with second order.",
-          {verdict,
-           {{"spacing of the rows", "m", tip.steps},
-            {"drop of the tip over L", "1", refined.drops},
-            {"error of the drop", "1", refined.drop.errors},
-            {"reach of the tip over L", "1", refined.reaches},
-            {"error of the reach", "1", refined.reach.errors},
-            {"distance from the elastica's tip over L", "1", tip.errors},
-            {"order of the distance", "1", orders}},
+          {verdict, std::move(evidence),
            "measured is |order - 2| of the last pair; the springs' strain and the solve's last "
            "step make the uncertainty"}};
 }
 
 NamedFinding within_one_percent(const std::vector<Refined>& all) {
   Worst worst, uncertainty;
-  std::vector<std::string> names;
-  std::vector<double> drops, reaches, exact_drops, exact_reaches, strains;
+  Table finest{
+      {"load", ""},          {"drop over L", "1"},           {"drop of the elastica", "1"},
+      {"reach over L", "1"}, {"reach of the elastica", "1"}, {"largest strain of a panel", "1"}};
   for (const Refined& refined : all) {
     const LoadCase& load = refined.load;
-    names.push_back(load.words);
-    drops.push_back(refined.drops.back());
-    reaches.push_back(refined.reaches.back());
-    exact_drops.push_back(load.drop.value);
-    exact_reaches.push_back(load.reach.value);
-    strains.push_back(refined.strain);
-    worst.observe(refined.drop.errors.back() / load.drop.value);
-    worst.observe(refined.reach.errors.back() / load.reach.value);
-    uncertainty.observe(refined.drop.floor / load.drop.value);
+    const auto last = [&](const std::string& column) {
+      return refined.tips.numbers(column).back();
+    };
+    finest.row(load.words, last(drop_column), load.drop.value, last(reach_column), load.reach.value,
+               refined.strain);
+    worst.observe(last(drop_error) / load.drop.value);
+    worst.observe(last(reach_error) / load.reach.value);
+    uncertainty.observe(refined.floor / load.drop.value);
   }
   const Verdict verdict{
       worst.value(), 0.01, uncertainty.value(), "1",
@@ -142,61 +129,47 @@ NamedFinding within_one_percent(const std::vector<Refined>& all) {
   return {"cantilever.matches-the-elastica",
           "At the finest mesh, drop and reach of every clamped strip are the elastica's within one "
           "percent, with the rigidity that the homogenised mesh has.",
-          {verdict,
-           {{"load", "", names},
-            {"drop over L", "1", drops},
-            {"drop of the elastica", "1", exact_drops},
-            {"reach over L", "1", reaches},
-            {"reach of the elastica", "1", exact_reaches},
-            {"largest strain of a panel", "1", strains}},
-           "D = ke/4 comes from the homogenised cell"}};
+          {verdict, finest, "D = ke/4 comes from the homogenised cell"}};
 }
 
 /// The same strips, with the length counted from the first line of hinges.
 NamedFinding clamp_is_half_a_cell_before(const Refined& refined) {
-  Convergence naive;
-  naive.floor = refined.drop.floor;
-  naive.steps = refined.drop.steps;
   const LoadCase& load = refined.load;
-  std::vector<double> orders;
-  for (size_t i = 0; i < refined.drops.size(); ++i) {
+  const std::vector<double>&spacings = refined.tips.numbers(spacing_column),
+        &drops = refined.tips.numbers(drop_column);
+  Table naive{{spacing_column, "m"}, {drop_error, "1"}};
+  for (size_t i = 0; i < drops.size(); ++i) {
     // the load was made for L; a strip shorter by half a spacing has gamma (l/L)^3 and its
     // drop counts over l
-    const double ratio = 1 - naive.steps[i] / 2 / strip_length;
+    const double ratio = 1 - spacings[i] / 2 / strip_length;
     const double gamma =
         load.load.gravity * strip_density * std::pow(ratio * strip_length, 3) / strip_D;
-    naive.errors.push_back(
-        std::abs(refined.drops[i] / ratio - oracles::heavy_cantilever(gamma).drop.value));
+    naive.row(spacings[i],
+              std::abs(drops[i] / ratio - oracles::heavy_cantilever(gamma).drop.value));
   }
-  orders = pair_orders(naive);
-  orders.insert(orders.begin(), nan);
-  const Estimate deviation = order_deviation(naive, 1, 1);
+  Convergence errors = convergence_of(naive, drop_error);
+  errors.floor = refined.floor;
+  naive.add({"order", "1", row_orders(errors)});
+  const Estimate deviation = order_deviation(errors, 1, 1);
   const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
                         "a whole order would be off by 1; the second term is smaller than the "
                         "first by the panels' number"};
   return {"cantilever.clamp-on-the-hinges-is-first-order",
           "With the length counted from the first line of hinges instead of half a cell before it, "
           "the same strip is first order only.",
-          {verdict,
-           {{"spacing of the rows", "m", naive.steps},
-            {"error of the drop", "1", naive.errors},
-            {"order", "1", orders}},
-           ""}};
+          {verdict, naive, ""}};
 }
 
 NamedFinding patterns_agree(const Subject& subject, const LoadCase& load) {
   constexpr int panels = 12;
   Worst spread, uncertainty;
-  std::vector<std::string> names;
-  std::vector<double> drops, reaches;
+  Table tips{{"pattern", ""}, {"drop over L", "1"}, {"reach over L", "1"}};
   for (const StripPattern& pattern : strip_patterns()) {
     const RowStrip strip(subject, pattern, panels, load.load);
     const StripAtRest rest = at_rest(strip, level(strip));
-    names.push_back(pattern.words);
-    drops.push_back(rest.drop / strip_length);
-    reaches.push_back(rest.reach / strip_length);
-    spread.observe(std::abs(drops.back() - drops.front()));
-    spread.observe(std::abs(reaches.back() - reaches.front()));
+    tips.row(pattern.words, rest.drop / strip_length, rest.reach / strip_length);
+    for (const char* column : {"drop over L", "reach over L"})
+      spread.observe(std::abs(tips.numbers(column).back() - tips.numbers(column).front()));
     uncertainty.observe(rest.last_step);
   }
   const Verdict verdict{spread.value(), 10 * stretch_share, uncertainty.value(), "1",
@@ -204,9 +177,7 @@ NamedFinding patterns_agree(const Subject& subject, const LoadCase& load) {
                         "springs were made for; hinges across the strip are the same"};
   return {"cantilever.patterns-agree",
           "Held cylindrical, with rows of edges across it, a strip of any pattern hangs alike.",
-          {verdict,
-           {{"pattern", "", names}, {"drop over L", "1", drops}, {"reach over L", "1", reaches}},
-           load.words}};
+          {verdict, tips, load.words}};
 }
 
 Figure error_figure(const std::string& name, const std::string& title) {
@@ -221,8 +192,9 @@ Figure error_figure(const std::string& name, const std::string& title) {
 }
 
 void show(const Refined& refined, Figure& figure) {
-  const Convergence tip = distance(refined);
-  figure.curves.push_back({refined.load.words, tip.steps, tip.errors, tip.floor, pair_orders(tip)});
+  Curve curve = curve_of(refined.load.words, distance(refined));
+  curve.floor = distance(refined).floor;
+  figure.curves.push_back(std::move(curve));
 }
 
 StudyResult run_cantilever(const Subject& subject, Tier tier, const Progress& progress) {
@@ -233,12 +205,12 @@ StudyResult run_cantilever(const Subject& subject, Tier tier, const Progress& pr
   Figure weight = error_figure("own-weight", "Tip of a strip under its own weight");
   Figure tip = error_figure("tip-load", "Tip of a strip under a load on its end");
   for (const double gamma : {1.0, 5.0, 10.0}) {
-    all.push_back(refine(subject, heavy(gamma), strip_patterns()[0], sizes));
+    all.push_back(refined_tip(subject, heavy(gamma), strip_patterns()[0], sizes));
     show(all.back(), weight);
     progress(double(all.size()) / 7);
   }
   for (const double alpha : {1.0, 4.0, 10.0}) {
-    all.push_back(refine(subject, load_case(alpha), strip_patterns()[1], sizes));
+    all.push_back(refined_tip(subject, load_case(alpha), strip_patterns()[1], sizes));
     show(all.back(), tip);
     progress(double(all.size()) / 7);
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "convergence/order.h"
+#include "convergence/tables.h"
 #include "reference/mesh/shapes.h"
 #include "verification/seeds.h"
 
@@ -94,62 +96,75 @@ Sample sample_of(const Subject& subject, const Disorder& disorder, int cells,
   return sample;
 }
 
-/// All sizes of one kind of mesh.
+/// All sizes of one kind of mesh: D/ke as means over meshes and directions; settled: of
+/// the first meshes.
 struct Row {
   Disorder disorder;
-  std::vector<double> widths;  // m
-  std::vector<Sample> samples;
+  Table samples;
+
+  std::pair<double, double> last_two(std::string_view column) const {
+    const std::vector<double>& values = samples.numbers(column);
+    return {values[values.size() - 2], values.back()};
+  }
 };
 
+Row row_of(const Subject& subject, const Disorder& disorder, const Effort& effort) {
+  return {disorder, refine({{"width of a cell", "m"},
+                            {"forced", "1"},
+                            {"standard error", "1"},
+                            {"settled", "1"},
+                            {"worst error, forced", "1"},
+                            {"worst error, relaxed", "1"}},
+                           effort.sizes, [&](int cells) {
+                             const Sample sample = sample_of(subject, disorder, cells, effort);
+                             return std::tuple{gentle_side / cells,
+                                               sample.forced.value(),
+                                               sample.forced.standard_error(),
+                                               sample.relaxed.value(),
+                                               sample.forced_error.value(),
+                                               sample.relaxed_error.value()};
+                           })};
+}
+
+/// All kinds of meshes, one below the other.
+Table all_meshes(const std::vector<Row>& rows) {
+  std::vector<std::pair<std::string, Table>> meshes;
+  for (const Row& row : rows) meshes.emplace_back(row.disorder.words, row.samples);
+  return stacked({"mesh", ""}, meshes);
+}
+
 NamedFinding as_the_oracle(const std::vector<Row>& rows) {
+  const Table all = all_meshes(rows);
   Worst worst;
-  std::vector<std::string> names;
-  std::vector<double> widths, forced, relaxed;
-  for (const Row& row : rows) {
-    for (size_t i = 0; i < row.samples.size(); ++i) {
-      names.push_back(row.disorder.words);
-      widths.push_back(row.widths[i]);
-      forced.push_back(row.samples[i].forced_error.value());
-      relaxed.push_back(row.samples[i].relaxed_error.value());
-      worst.observe(forced.back());
-      worst.observe(relaxed.back());
-    }
-  }
+  worst.observe(all.worst("worst error, forced"));
+  worst.observe(all.worst("worst error, relaxed"));
   const Verdict verdict{worst.value(), gentle_bound, 0, "1",
                         "the surfaces' slopes change angles by their square, relatively"};
   return {"bending-rigidity.irregular.matches-homogenisation",
           "On jittered and random meshes too, the energy is what the hinges' definition gives, "
           "with all vertices on the surface and with those inside settled.",
           {verdict,
-           {{"mesh", "", names},
-            {"width of a cell", "m", widths},
-            {"worst error, forced", "1", forced},
-            {"worst error, relaxed", "1", relaxed}},
+           with_columns(all,
+                        {"mesh", "width of a cell", "worst error, forced", "worst error, relaxed"}),
            "settled: conjugate gradients on the subject's forces; the oracle solves its own sparse "
            "system"}};
 }
 
 NamedFinding excess_stays(const Row& row) {
-  const Mean& coarse = row.samples[row.samples.size() - 2].forced;
-  const Mean& fine = row.samples.back().forced;
-  const double excess = fine.value() - equilateral,
-               change = std::abs(fine.value() - coarse.value());
-  const double uncertainty = std::hypot(coarse.standard_error(), fine.standard_error());
-  std::vector<double> values, errors;
-  for (const Sample& sample : row.samples) {
-    values.push_back(sample.forced.value());
-    errors.push_back(sample.forced.standard_error());
-  }
+  const auto [coarse, fine] = row.last_two("forced");
+  const auto [coarse_error, fine_error] = row.last_two("standard error");
+  const double excess = fine - equilateral, change = std::abs(fine - coarse);
+  const double uncertainty = std::hypot(coarse_error, fine_error);
+  Table means = with_columns(row.samples, {"width of a cell"});
+  means.add({"D/ke, forced, mean", "1", row.samples.numbers("forced")});
+  means.add(row.samples.column("standard error"));
   const Verdict verdict{excess > 0 ? change / excess : nan, 0.5, uncertainty / excess, "1",
                         "an excess that vanished in proportion to the width would change by its "
                         "own size when the cells are halved; half of that tells the two apart"};
   return {"bending-rigidity.irregular.excess-persists-under-refinement." + row.disorder.name,
           "The excess of D over that of equilateral triangles stays when the cells are halved: " +
               row.disorder.words + ".",
-          {verdict,
-           {{"width of a cell", "m", row.widths},
-            {"D/ke, forced, mean", "1", values},
-            {"standard error", "1", errors}},
+          {verdict, means,
            "measured is the last change over the excess, NaN without one; the uncertainty is the "
            "standard error of the means over meshes"}};
 }
@@ -163,32 +178,16 @@ void show(const std::vector<Row>& rows, StudyResult& result) {
                 "Means over meshes and directions. Forced: all vertices on the cylinder; settled: "
                 "those inside leave it. Equilateral triangles have 0.25.",
                 {}};
-  std::vector<std::string> names;
-  std::array<std::vector<double>, 4> numbers;
-  for (const Row& row : rows) {
-    std::array<std::vector<double>, 2> curves;
-    for (size_t i = 0; i < row.samples.size(); ++i) {
-      const Sample& sample = row.samples[i];
-      curves[0].push_back(sample.forced.value());
-      curves[1].push_back(sample.relaxed.value());
-      names.push_back(row.disorder.words);
-      numbers[0].push_back(row.widths[i]);
-      numbers[1].push_back(sample.forced.value());
-      numbers[2].push_back(sample.forced.standard_error());
-      numbers[3].push_back(sample.relaxed.value());
-    }
-    figure.curves.push_back({row.disorder.words + ", forced", row.widths, curves[0], nan, {}});
-    figure.curves.push_back({row.disorder.words + ", settled", row.widths, curves[1], nan, {}});
-  }
+  for (const Row& row : rows)
+    for (const char* kind : {"forced", "settled"})
+      figure.curves.push_back(
+          curve_of(row.disorder.words + ", " + kind, row.samples, "width of a cell", kind));
   result.figures.push_back(std::move(figure));
   result.tables.push_back(
       {"irregular",
        "D/ke of irregular meshes: means over meshes and directions; settled: of the first mesh",
-       {{"mesh", "", names},
-        {"width of a cell", "m", numbers[0]},
-        {"forced", "1", numbers[1]},
-        {"standard error", "1", numbers[2]},
-        {"settled", "1", numbers[3]}}});
+       with_columns(all_meshes(rows),
+                    {"mesh", "width of a cell", "forced", "standard error", "settled"})});
 }
 
 }  // namespace
@@ -198,12 +197,7 @@ void add_irregular_rigidity(const Subject& subject, Tier tier, const Progress& p
   const Effort effort = tier == Tier::quick ? Effort{{14, 28}, 10, 1} : Effort{{14, 28, 56}, 24, 1};
   std::vector<Row> rows;
   for (const Disorder& disorder : disorders()) {
-    Row row{disorder, {}, {}};
-    for (const int cells : effort.sizes) {
-      row.widths.push_back(gentle_side / cells);
-      row.samples.push_back(sample_of(subject, disorder, cells, effort));
-    }
-    rows.push_back(std::move(row));
+    rows.push_back(row_of(subject, disorder, effort));
     progress(0.5 + 0.5 * double(rows.size()) / double(disorders().size()));
   }
   result.findings.push_back(as_the_oracle(rows));

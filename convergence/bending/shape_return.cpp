@@ -85,8 +85,8 @@ double distance_from(const PerParticle3& rest, const PerParticle3& x) {
 
 /// The distance from the rest shape over time.
 struct Return {
-  std::vector<double> times, distances;  // s, m
-  double left = 0;                       // largest distance in the last tenth of the time [m]
+  Table history{{"time", "s"}, {"distance", "m"}};
+  double left = 0;  // largest distance in the last tenth of the time [m]
 };
 
 Return let_go(const Subject& subject, const Shell& shell, RestAngles angles) {
@@ -101,22 +101,21 @@ Return let_go(const Subject& subject, const Shell& shell, RestAngles angles) {
     const double distance = distance_from(shell.mesh.rest, s.x);
     if (n >= 0.9 * steps) left.observe(distance);
     if (n % 12 != 0 && n < steps) continue;
-    result.times.push_back(s.time);
-    result.distances.push_back(distance);
+    result.history.row(s.time, distance);
   }
   result.left = left.value();
   return result;
 }
 
 NamedFinding comes_back(const std::vector<Shell>& shells, const std::vector<Return>& returns) {
+  const std::string start = "distance at the start",
+                    end = "largest distance in the last tenth of the time";
   Worst worst;
-  std::vector<std::string> names;
-  std::vector<double> starts, ends;
+  Table distances{{"shell", ""}, {start, "m"}, {end, "m"}};
   for (size_t i = 0; i < shells.size(); ++i) {
-    names.push_back(shells[i].words);
-    starts.push_back(returns[i].distances.front());
-    ends.push_back(returns[i].left);
-    worst.observe(ends.back() / starts.back());
+    const double first = returns[i].history.numbers("distance").front();
+    distances.row(shells[i].words, first, returns[i].left);
+    worst.observe(returns[i].left / first);
   }
   const Verdict verdict{
       worst.value(), 1e-3, 0, "of the start",
@@ -125,25 +124,22 @@ NamedFinding comes_back(const std::vector<Shell>& shells, const std::vector<Retu
   return {"shape-recovery.shell-returns-to-its-shape",
           "With its own angles as rest angles, a shell pulled out of shape by about a tenth of its "
           "size returns to it, on coarse and fine meshes.",
-          {verdict,
-           {{"shell", "", names},
-            {"distance at the start", "m", starts},
-            {"largest distance in the last tenth of the time", "m", ends}},
-           "root mean square over the particles, after the best rigid motion"}};
+          {verdict, distances, "root mean square over the particles, after the best rigid motion"}};
 }
 
 NamedFinding angles_matter(const Shell& shell, const Return& own, const Return& flat) {
   const Verdict verdict{own.left / flat.left, 0.01, 0, "1",
                         "a shell that springs alone brought back would return as well with flat "
                         "rest angles, and the ratio would be 1"};
-  return {"shape-recovery.flat-rest-angles-do-not-restore-it",
-          "The same shell with flat rest angles does not return: its rest angles keep the shape, "
-          "not its springs alone.",
-          {verdict,
-           {{"shell", "", std::vector<std::string>{shell.words}},
-            {"distance with its own angles", "m", std::vector<double>{own.left}},
-            {"distance with flat angles", "m", std::vector<double>{flat.left}}},
-           ""}};
+  return {
+      "shape-recovery.flat-rest-angles-do-not-restore-it",
+      "The same shell with flat rest angles does not return: its rest angles keep the shape, not "
+      "its springs alone.",
+      {verdict,
+       Table{
+           {"shell", ""}, {"distance with its own angles", "m"}, {"distance with flat angles", "m"}}
+           .with_row(shell.words, own.left, flat.left),
+       ""}};
 }
 
 StudyResult run_shape_return(const Subject& subject, Tier tier, const Progress& progress) {
@@ -160,12 +156,12 @@ StudyResult run_shape_return(const Subject& subject, Tier tier, const Progress& 
   std::vector<Return> returns;
   for (const Shell& shell : shells) {
     returns.push_back(let_go(subject, shell, RestAngles::own));
-    figure.curves.push_back({shell.words, returns.back().times, returns.back().distances, nan, {}});
+    figure.curves.push_back(curve_of(shell.words, returns.back().history, "time", "distance"));
     progress(double(returns.size()) / double(shells.size() + 1));
   }
   const Return flat = let_go(subject, shells[1], RestAngles::flat);
   figure.curves.push_back(
-      {shells[1].words + ", flat rest angles", flat.times, flat.distances, nan, {}});
+      curve_of(shells[1].words + ", flat rest angles", flat.history, "time", "distance"));
   result.findings.push_back(comes_back(shells, returns));
   result.findings.push_back(angles_matter(shells[1], returns[1], flat));
   result.figures.push_back(std::move(figure));

@@ -6,6 +6,7 @@
 #include "convergence/bending/row_strip.h"
 #include "convergence/bending/studies.h"
 #include "convergence/order.h"
+#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/gsl.h"
@@ -71,10 +72,10 @@ Eigen::Vector2d frequencies(const RowStrip& strip) {
   return omega;
 }
 
-NamedFinding order_of(int mode, const Convergence& error, const std::vector<double>& measured) {
+NamedFinding order_of(int mode, Table modes) {
+  const Convergence error = convergence_of(modes, "relative error");
   const Estimate deviation = order_deviation(error, 2, 1);
-  std::vector<double> orders = pair_orders(error);
-  orders.insert(orders.begin(), nan);
+  modes.add({"order", "1", row_orders(error)});
   const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
                         "a whole order would be off by 1; the third term of the error is smaller "
                         "than the second by the panels' number over the mode's"};
@@ -83,29 +84,21 @@ NamedFinding order_of(int mode, const Convergence& error, const std::vector<doub
       "strip-vibration.is-second-order.mode-" + number,
       "Mode " + number +
           " of a clamped strip held cylindrical tends with second order to the beam's frequency.",
-      {verdict,
-       {{"spacing of the rows", "m", error.steps},
-        {"omega", "rad/s", measured},
-        {"relative error", "1", error.errors},
-        {"order", "1", orders}},
-       "measured is |order - 2| of the last pair"}};
+      {verdict, std::move(modes), "measured is |order - 2| of the last pair"}};
 }
 
-NamedFinding is_the_beam(const Eigen::Vector2d& finest) {
-  Worst worst;
-  std::vector<double> measured, exact;
-  for (const int mode : {1, 2}) {
-    measured.push_back(finest[mode - 1]);
-    exact.push_back(exact_frequency(mode));
-    worst.observe(std::abs(measured.back() / exact.back() - 1));
-  }
-  const Verdict verdict{worst.value(), 0.01, 0, "1",
+NamedFinding is_the_beam(const std::array<Table, 2>& modes) {
+  Table frequencies{{"omega", "rad/s"}, {"clamped-free beam", "rad/s"}};
+  for (const size_t mode : {0, 1})
+    frequencies.row(modes[mode].numbers("omega").back(), exact_frequency(int(mode) + 1));
+  const double worst = largest_deviation(frequencies, "omega", "clamped-free beam");
+  const Verdict verdict{worst, 0.01, 0, "1",
                         "a rigidity off by a fiftieth would show; the least difference between "
                         "meshes of the table of rigidities is larger"};
   return {"strip-vibration.matches-the-beam",
           "At the finest mesh the first two frequencies of a clamped strip are the beam's within "
           "one percent.",
-          {verdict, {{"omega", "rad/s", measured}, {"clamped-free beam", "rad/s", exact}}, ""}};
+          {verdict, frequencies, ""}};
 }
 
 // --- steps ---
@@ -186,50 +179,43 @@ double worst_difference(const Subject& subject, const Scene& scene, const std::s
 
 NamedFinding steps_keep_the_frequency(const Subject& subject) {
   const Scene scene = free_strip();
-  Worst worst;
-  std::vector<std::string> names;
-  std::vector<double> modes, differences;
-  for (const Integrator& integrator : paper_schemes()) {
-    for (const int mode : {1, 2}) {
-      names.emplace_back(integrator.name);
-      modes.push_back(mode);
-      differences.push_back(worst_difference(subject, scene, names.back(), mode));
-      worst.observe(differences.back());
-    }
-  }
-  const Verdict verdict{worst.value(), 1e-5, 0, "of the amplitude",
-                        "the strip's slopes are about 1e-4 of 1 and turn what is linear to their "
-                        "square; forces by differences are good to 1e-6"};
+  Table differences{{"scheme", ""}, {"mode", "1"}, {"worst difference", "of the amplitude"}};
+  for (const Integrator& integrator : paper_schemes())
+    for (const int mode : {1, 2})
+      differences.row(integrator.name, mode,
+                      worst_difference(subject, scene, std::string(integrator.name), mode));
   return {"strip-vibration.schemes-preserve-the-frequency",
           "A free, undamped strip released in its first or second mode of the linear stiffness "
           "oscillates with that mode's frequency, lowered or raised only as the scheme's exact "
           "solution says.",
-          {verdict,
-           {{"scheme", "", names},
-            {"mode", "1", modes},
-            {"worst difference", "of the amplitude", differences}},
-           "exact for schemes A, B and C without damping: x_n = x_0 cos(2 n asin(omega h/2)), one "
-           "and a half periods"}};
+          judge_worst(differences, 1e-5,
+                      "the strip's slopes are about 1e-4 of 1 and turn what is linear to their "
+                      "square; forces by differences are good to 1e-6",
+                      "exact for schemes A, B and C without damping: x_n = x_0 cos(2 n asin(omega "
+                      "h/2)), one and a half periods")};
+}
+
+/// Frequencies of both modes on strips of ever more panels.
+std::array<Table, 2> refined_modes(const Subject& subject, const std::vector<int>& sizes,
+                                   const Progress& progress) {
+  const Table empty{{"spacing of the rows", "m"}, {"omega", "rad/s"}, {"relative error", "1"}};
+  std::array<Table, 2> modes = {empty, empty};
+  for (const int panels : sizes) {
+    const RowStrip strip(subject, strip_patterns()[0], panels, {});
+    const Eigen::Vector2d omega = frequencies(strip);
+    for (const int mode : {0, 1})
+      modes[size_t(mode)].row(strip.spacing(), omega[mode],
+                              std::abs(omega[mode] / exact_frequency(mode + 1) - 1));
+    progress(0.8 * double(modes[0].rows()) / double(sizes.size()));
+  }
+  return modes;
 }
 
 StudyResult run_strip_vibration(const Subject& subject, Tier tier, const Progress& progress) {
   std::vector<int> sizes = {8, 16, 32, 64};
   if (tier == Tier::full) sizes.push_back(128);
   StudyResult result;
-  std::array<Convergence, 2> errors;
-  std::array<std::vector<double>, 2> measured;
-  Eigen::Vector2d omega = Eigen::Vector2d::Zero();
-  for (const int panels : sizes) {
-    const RowStrip strip(subject, strip_patterns()[0], panels, {});
-    omega = frequencies(strip);
-    for (const size_t mode : {0, 1}) {
-      errors[mode].steps.push_back(strip.spacing());
-      errors[mode].errors.push_back(
-          std::abs(omega[Eigen::Index(mode)] / exact_frequency(int(mode) + 1) - 1));
-      measured[mode].push_back(omega[Eigen::Index(mode)]);
-    }
-    progress(0.8 * double(errors[0].steps.size()) / double(sizes.size()));
-  }
+  const std::array<Table, 2> modes = refined_modes(subject, sizes, progress);
   Figure figure{"frequency",
                 "Frequencies of a clamped strip",
                 {"spacing of the rows", "m", Scale::log},
@@ -239,11 +225,11 @@ StudyResult run_strip_vibration(const Subject& subject, Tier tier, const Progres
                 "before the first hinges.",
                 {}};
   for (const size_t mode : {0, 1}) {
-    result.findings.push_back(order_of(int(mode) + 1, errors[mode], measured[mode]));
-    figure.curves.push_back({"mode " + std::to_string(mode + 1), errors[mode].steps,
-                             errors[mode].errors, nan, pair_orders(errors[mode])});
+    result.findings.push_back(order_of(int(mode) + 1, modes[mode]));
+    figure.curves.push_back(curve_of("mode " + std::to_string(mode + 1),
+                                     convergence_of(modes[mode], "relative error")));
   }
-  result.findings.push_back(is_the_beam(omega));
+  result.findings.push_back(is_the_beam(modes));
   result.findings.push_back(steps_keep_the_frequency(subject));
   result.figures.push_back(std::move(figure));
   return result;

@@ -42,20 +42,14 @@ Response response_of(const Subject& subject, const VibratingSheet& sheet,
 
 NamedFinding as_derived(const VibratingSheet& sheet, const Response& response) {
   const std::string name(response.method.name);
-  Worst worst;
-  Column omega_h{"omega h", "1", std::vector<double>{}},
-      ratios{"damping ratio", "1", std::vector<double>{}},
-      measured{"|factor|", "1", std::vector<double>{}},
-      errors{"error of the factors", "1", std::vector<double>{}};
+  Table factors_seen{
+      {"omega h", "1"}, {"damping ratio", "1"}, {"|factor|", "1"}, {"error of the factors", "1"}};
   const auto observe = [&](const SheetMode& mode, const Relaxation& relaxation, double h,
                            const oracles::Factors& factors) {
     const oracles::Oscillator oscillator = oscillator_of(mode, relaxation);
-    const double error = distance_of(factors, oracles::step_factors(name, oscillator, h));
-    worst.observe(error);
-    std::get<0>(omega_h.values).push_back(mode.frequency * h);
-    std::get<0>(ratios.values).push_back(oscillator.damping / (2 * mode.frequency));
-    std::get<0>(measured.values).push_back(decay_of(factors));
-    std::get<0>(errors.values).push_back(error);
+    factors_seen.row(mode.frequency * h, oscillator.damping / (2 * mode.frequency),
+                     decay_of(factors),
+                     distance_of(factors, oracles::step_factors(name, oscillator, h)));
   };
   for (size_t i = 0; i < sheet.modes.size(); ++i) {
     for (size_t s = 0; s < response.steps.size(); ++s)
@@ -66,9 +60,7 @@ NamedFinding as_derived(const VibratingSheet& sheet, const Response& response) {
           "A step of " + name +
               " multiplies each vibration of a sheet, damped or not, by the factors derived from "
               "the method.",
-          {{worst.value(), factor_noise, 0, "1", why_factor_noise},
-           {omega_h, ratios, measured, errors},
-           ""}};
+          judge_worst(factors_seen, factor_noise, why_factor_noise)};
 }
 
 /// Powers of the step in what an undamped mode loses per period, by the expansion of |factor|.
@@ -91,25 +83,20 @@ NamedFinding order_of_loss(const VibratingSheet& sheet, const Response& response
                            const LossLaw& law) {
   const size_t fastest = size_t(std::ranges::max_element(sheet.modes, {}, &SheetMode::frequency) -
                                 sheet.modes.begin());
-  Convergence losses;
-  Worst shift;
+  const std::string loss = "|change of amplitude per period|";
+  Table losses{{"step", "s"}, {loss, "1"}};
   for (size_t s = 0; s < response.steps.size(); ++s) {
     const double h = response.steps[s];
-    losses.steps.push_back(h);
-    losses.errors.push_back(
-        std::abs(loss_per_period(sheet.modes[fastest], response.free[s][fastest], h)));
+    losses.row(h, std::abs(loss_per_period(sheet.modes[fastest], response.free[s][fastest], h)));
   }
-  const Estimate deviation = order_deviation(losses, law.order, 1);
-  std::vector<double> orders = pair_orders(losses);
-  orders.insert(orders.begin(), nan);
+  const Estimate deviation = order_deviation(convergence_of(losses, loss), law.order, 1);
+  losses.add({"order of the pair", "1", row_orders(convergence_of(losses, loss))});
   return {"artificial-damping.change-per-period-is-as-derived." + law.name,
           "Under " + law.name + " undamped vibrations " + law.words + ".",
           {{deviation.value, 0.25, deviation.uncertainty, "1",
             "a loss of another power of the step is off by 2 (by 1 at least); at omega h = 1/8 the "
             "next term of the expansion leaves some hundredths"},
-           {{"step", "s", losses.steps},
-            {"|change of amplitude per period|", "1", losses.errors},
-            {"order of the pair", "1", orders}},
+           losses,
            "measured is |order - expected| of the last pair, on the fastest mode of the sheet"}};
 }
 
@@ -129,10 +116,7 @@ Curve loss_curve(const VibratingSheet& sheet, const Response& response) {
   std::ranges::sort(points, {}, &std::pair<double, double>::first);
   Curve curve{
       std::string(response.method.name) + (grows.value() > 0 ? ", grows" : ""), {}, {}, nan, {}};
-  for (const auto& [omega_h, loss] : points) {
-    curve.x.push_back(omega_h);
-    curve.y.push_back(loss);
-  }
+  for (const auto& [omega_h, loss] : points) curve.point(omega_h, loss);
   return curve;
 }
 
@@ -168,9 +152,9 @@ Figure decay_figure(const VibratingSheet& sheet, const std::vector<Response>& re
     for (size_t i = 0; i < sheet.modes.size(); ++i) {
       if (sheet.modes[i].kind != ModeKind::bending) continue;
       const oracles::Oscillator oscillator = oscillator_of(sheet.modes[i], response.relaxation);
-      curve.x.push_back(sheet.modes[i].frequency * h);
       const double exact = std::log(decay_of(oracles::exact_factors(oscillator, h)));
-      curve.y.push_back(std::abs(std::log(decay_of(response.damped[i])) / exact - 1));
+      curve.point(sheet.modes[i].frequency * h,
+                  std::abs(std::log(decay_of(response.damped[i])) / exact - 1));
     }
     figure.curves.push_back(std::move(curve));
   }

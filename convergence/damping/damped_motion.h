@@ -62,20 +62,4 @@ double largest_reversal(const DampedRun& run);
 /// Turning back or overshooting, whatever is worse, over the whole way.
 double worst_overshoot_or_reversal(const DampedRun& run);
 
-/// What was measured of some motions at some steps, for a table of evidence.
-struct MotionRows {
-  Column motion{"motion", "1", std::vector<std::string>{}}, a{"h c/2", "1", std::vector<double>{}},
-      value;
-
-  MotionRows(const std::string& quantity, const std::string& unit)
-      : value{quantity, unit, std::vector<double>{}} {}
-
-  void add(const DampedMotion& of, double at, double measured) {
-    std::get<1>(motion.values).push_back(of.name);
-    std::get<0>(a.values).push_back(at);
-    std::get<0>(value.values).push_back(measured);
-  }
-  std::vector<Column> columns() const { return {motion, a, value}; }
-};
-
 }  // namespace foldproof

@@ -48,12 +48,14 @@ Vibration make_vibration(int cells) {
 /// The energy of one run, after every step.
 struct Run {
   std::string method;
-  double step;                 // s
-  std::vector<double> time;    // in periods [1]
-  std::vector<double> energy;  // over that at the start [1]
-  double cost;                 // evaluations a period [1]
-  double unfinished;           // solves that missed their tolerance [1]
-  bool whole;                  // it reached the end
+  double step;  // s
+  Table history{{"time", "periods"}, {"energy", "of the start's"}};
+  double cost = 0;        // evaluations a period [1]
+  double unfinished = 0;  // solves that missed their tolerance [1]
+  bool whole = true;      // it reached the end
+
+  const std::vector<double>& times() const { return history.numbers("time"); }
+  const std::vector<double>& energies() const { return history.numbers("energy"); }
 };
 
 /// Evaluations of all elastic forces, or of as much work: making ready their derivative, a
@@ -78,18 +80,18 @@ Run run_of(const Subject& subject, const Vibration& vibration, const std::string
   Stepper stepper(subject, scene, method);
   std::vector<State> past = {stepper.start()};
   const double start = energy_of(subject, *prepared, mass, past.front());
-  Run run{method, h, {0}, {1}, 0, 0, true};
+  Run run{.method = method, .step = h};
+  run.history.row(0, 1);
   const double end = length * vibration.period;
   while (past.back().time < end - h / 2 && run.whole) {
     State next = stepper.step_after(past, h);
     const double energy = energy_of(subject, *prepared, mass, next) / start;
     run.whole = energy < blown_up;
-    run.time.push_back(next.time / vibration.period);
-    run.energy.push_back(energy);
+    run.history.row(next.time / vibration.period, energy);
     if (past.size() > 1) past.erase(past.begin());
     past.push_back(std::move(next));
   }
-  run.cost = evaluations(stepper.work()) / run.time.back();
+  run.cost = evaluations(stepper.work()) / run.times().back();
   run.unfinished = double(stepper.work().unfinished_solves);
   return run;
 }
@@ -143,7 +145,8 @@ double step_of_equal_cost(const Subject& subject, const Vibration& vibration,
 // ---- what is said
 
 NamedFinding has_no_trend(const Run& run) {
-  const Trend trend = run.whole ? trend_of(run.time, run.energy, blocks) : Trend{nan, nan, {}, {}};
+  const Trend trend =
+      run.whole ? trend_of(run.times(), run.energies(), blocks) : Trend{nan, nan, {}, {}};
   return {"artificial-damping.energy-has-no-trend." + run.method,
           "Over a hundred periods the energy of an undamped crumpling sheet has no trend under " +
               run.method + ": its slope is zero within three standard errors.",
@@ -157,12 +160,20 @@ NamedFinding has_no_trend(const Run& run) {
                "that this notices."}};
 }
 
+/// At most some 500 steps of it.
+Table thinned_history(const Run& run) {
+  Table table;
+  for (const Column& column : run.history.columns())
+    table.add({column.name, column.unit, thin_out(run.history.numbers(column.name))});
+  return table;
+}
+
 NamedFinding stays_bounded(const Run& run) {
   // a mode keeps p^2 + (1 - (omega h/2)^2) (omega q)^2, which lies between 1 - (omega h/2)^2 and
   // 1 of its energy
   const double kept = 1 - part_of_limit * part_of_limit;
   Worst worst;
-  for (const double energy : run.energy) worst.observe(std::abs(std::log(energy)));
+  for (const double energy : run.energies()) worst.observe(std::abs(std::log(energy)));
   return {"artificial-damping.energy-stays-bounded." + run.method,
           "Over a hundred periods the energy of an undamped crumpling sheet stays within what the "
           "fastest mode's swings allow under " +
@@ -170,8 +181,7 @@ NamedFinding stays_bounded(const Run& run) {
           {{run.whole ? worst.value() : nan, -std::log(kept), 0, "|ln(energy/start)|",
             "a linear mode's energy lies between 1 and 1 - (omega h/2)^2 of a number that the "
             "scheme keeps; omega h/2 is at most a half"},
-           {{"time", "periods", thin_out(run.time)},
-            {"energy", "of the start's", thin_out(run.energy)}},
+           thinned_history(run),
            ""}};
 }
 
@@ -179,19 +189,18 @@ NamedFinding dies_out(const Run& run) {
   return {"artificial-damping.energy-dies-out.backward-euler",
           "Backward Euler takes more than half the energy of an undamped sheet within a hundred "
           "periods at half the elastic limit.",
-          {{run.energy.back(), 0.5, 0, "of the start's energy",
+          {{run.energies().back(), 0.5, 0, "of the start's energy",
             "half of the energy is what we call significant"},
-           {{"time", "periods", thin_out(run.time)},
-            {"energy", "of the start's", thin_out(run.energy)}},
+           thinned_history(run),
            ""}};
 }
 
 /// Means over equal spans of a curve of many steps, so that it can be read; a short one as it is.
 Curve readable_curve(const Run& run) {
   constexpr int spans = 50;
-  Curve curve{run.method, run.time, run.energy, nan, {}};
-  if (run.time.size() > spans + 1) {
-    const Trend trend = trend_of(run.time, run.energy, spans);
+  Curve curve = curve_of(run.method, run.history, "time", "energy");
+  if (run.history.rows() > spans + 1) {
+    const Trend trend = trend_of(run.times(), run.energies(), spans);
     curve.x = trend.times;
     curve.y = trend.means;
   }
@@ -215,27 +224,21 @@ Figure energy_figure(const std::string& name, const std::string& title, const st
 
 Table energy_table(const Vibration& vibration, const std::vector<Run>& same_step,
                    const std::vector<Run>& same_cost) {
-  Column method{"method", "1", std::vector<std::string>{}},
-      kind{"equal", "1", std::vector<std::string>{}},
-      step{"step over 2/omega_max", "1", std::vector<double>{}},
-      cost{"evaluations", "a period", std::vector<double>{}},
-      lasted{"lasted", "periods", std::vector<double>{}},
-      unfinished{"unfinished solves", "1", std::vector<double>{}},
-      energy{"energy at the end", "of the start's", std::vector<double>{}};
+  Table table{{"method", "1"},
+              {"equal", "1"},
+              {"step over 2/omega_max", "1"},
+              {"evaluations", "a period"},
+              {"lasted", "periods"},
+              {"energy at the end", "of the start's"},
+              {"unfinished solves", "1"}};
   for (const auto& [runs, words] : {std::pair{&same_step, "step"}, {&same_cost, "cost"}})
-    for (const Run& run : *runs) {
-      std::get<1>(method.values).push_back(run.method);
-      std::get<1>(kind.values).push_back(words);
-      std::get<0>(step.values).push_back(run.step / vibration.limit);
-      std::get<0>(cost.values).push_back(run.cost);
-      std::get<0>(lasted.values).push_back(run.time.back());
-      std::get<0>(unfinished.values).push_back(run.unfinished);
-      std::get<0>(energy.values).push_back(run.energy.back());
-    }
+    for (const Run& run : *runs)
+      table.row(run.method, words, run.step / vibration.limit, run.cost, run.times().back(),
+                run.energies().back(), run.unfinished);
   return {"energy",
           "Energy of an undamped sheet after a hundred periods, at equal step and at a step chosen "
           "for equal cost",
-          {method, kind, step, cost, lasted, energy, unfinished}};
+          table};
 }
 
 }  // namespace

@@ -40,9 +40,7 @@ std::string ways_in_words(const std::string& scheme) {
 NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& motions,
                                   const std::string& scheme) {
   Worst worst;
-  Column as{"h c/2", "1", std::vector<double>{}},
-      firsts{"first step over the way", "1", std::vector<double>{}},
-      totals{"all over the way", "1", std::vector<double>{}};
+  Table ways{{"h c/2", "1"}, {"first step over the way", "1"}, {"all over the way", "1"}};
   for (const double a : {0.2, 0.7, 1.6, 4.3, 10.0, 25.0}) {
     const int steps = int(std::ceil(30 / -std::log(std::abs((1 - a) / (1 + a)))));
     const DampedRun run = run_damped(subject, motions.triangle, scheme, a, steps);
@@ -50,16 +48,12 @@ NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& m
     const Paths derived = derived_paths(scheme, a);
     worst.observe(std::abs(first - derived.first) / (1 + a * a));
     worst.observe(std::abs(total - derived.total) / (1 + a * a));
-    std::get<0>(as.values).push_back(a);
-    std::get<0>(firsts.values).push_back(first);
-    std::get<0>(totals.values).push_back(total);
+    ways.row(a, first, total);
   }
   return {"monotonicity.distance-is-as-derived." + scheme,
           "Under scheme " + scheme + " a motion that is only damped goes " + ways_in_words(scheme) +
               ", a = h c/2.",
-          {{worst.value(), rounding, 0, "of (1 + a^2) times the way", why_rounding},
-           {as, firsts, totals},
-           ""}};
+          {{worst.value(), rounding, 0, "of (1 + a^2) times the way", why_rounding}, ways, ""}};
 }
 
 // ---- scheme A
@@ -67,31 +61,33 @@ NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& m
 NamedFinding overshoots(const Subject& subject, const DampedMotions& motions) {
   constexpr double a = 10;
   Worst worst;
-  MotionRows rows("farthest in the wrong direction", "ways");
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest in the wrong direction", "ways"}};
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet}) {
     const double wrong = largest_reversal(run_damped(subject, *motion, "A", a, 12));
     worst.observe(100 / wrong);
-    rows.add(*motion, a, wrong);
+    rows.row(motion->name, a, wrong);
   }
   return {"monotonicity.overshoots.A",
           "Scheme A is not monotone: at h c/2 = 10 its explicit half step throws the cloth back by "
           "more than a hundred times the way that it should go.",
           {{worst.value(), 1, 0, "1",
             "measured is a hundred over the way back; derived are 2a(a - 1) = 180 in one step"},
-           rows.columns(),
+           rows,
            ""}};
 }
 
 NamedFinding is_stable(const Subject& subject, const DampedMotions& motions) {
   Worst worst;
-  MotionRows rows("largest kinetic energy after the start", "of the start's");
+  Table rows{{"motion", "1"},
+             {"h c/2", "1"},
+             {"largest kinetic energy after the start", "of the start's"}};
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {1.6, 10.0, 100.0}) {
       const std::vector<double> energies = run_damped(subject, *motion, "A", a, 40).kinetic_energy;
       Worst largest;
       for (size_t n = 1; n < energies.size(); ++n) largest.observe(energies[n]);
       worst.observe(largest.value());
-      rows.add(*motion, a, largest.value());
+      rows.row(motion->name, a, largest.value());
     }
   return {
       "monotonicity.stable-under-any-damping.A",
@@ -99,7 +95,7 @@ NamedFinding is_stable(const Subject& subject, const DampedMotions& motions) {
       "energy than at the start.",
       {{worst.value(), 1, 0, "of the start's energy",
         "each step multiplies the speed of a mode by (1 - a)/(1 + a), whose size is below 1"},
-       rows.columns(),
+       rows,
        "Judged in the energy of all modes together: thrown twenty thousand ways off (2 a^2 at a = "
        "100), the fast modes leak into the slow ones, since the sheet is not quite linear."}};
 }
@@ -108,76 +104,70 @@ NamedFinding is_stable(const Subject& subject, const DampedMotions& motions) {
 
 NamedFinding is_bounded(const Subject& subject, const DampedMotions& motions,
                         const std::string& scheme) {
-  Worst worst;
-  MotionRows rows("farthest", "ways");
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "ways"}};
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {0.7, 4.3, 25.0, 110.0}) {
       const double far = largest_progress(run_damped(subject, *motion, scheme, a, 30));
-      worst.observe(far);
-      rows.add(*motion, a, far);
+      rows.row(motion->name, a, far);
     }
   return {
       "monotonicity.overshoot-is-bounded." + scheme,
       "Scheme " + scheme +
           " overshoots a linear motion by no more than the way itself, however large the damping.",
-      {{worst.value(), 2, 0, "ways",
+      {{rows.worst("farthest"), 2, 0, "ways",
         "derived: the farthest is 2a/(1 + a) of the way, in the first step"},
-       rows.columns(),
+       rows,
        ""}};
 }
 
 NamedFinding alternates(const Subject& subject, const DampedMotions& motions,
                         const std::string& scheme) {
   double kept = 0;
-  MotionRows rows("steps that keep the direction", "of 8");
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"steps that keep the direction", "of 8"}};
   for (const double a : {1.6, 4.3, 10.0, 25.0}) {
     const DampedRun run = run_damped(subject, motions.triangle, scheme, a, 8);
     double here = 0;
     for (size_t n = 1; n < run.speed.size(); ++n)
       if (!(run.speed[n][0] * run.speed[n - 1][0] < 0)) ++here;
     kept += here;
-    rows.add(motions.triangle, a, here);
+    rows.row(motions.triangle.name, a, here);
   }
   return {"monotonicity.velocity-alternates." + scheme,
           "Scheme " + scheme +
               " is not monotone in the strict sense: for h c/2 > 1 the velocity changes its sign "
               "in every step.",
           {{kept, 0, 0, "steps", "derived: a step multiplies the velocity by (1 - a)/(1 + a) < 0"},
-           rows.columns(),
+           rows,
            ""}};
 }
 
 NamedFinding monotone_below_one(const Subject& subject, const DampedMotions& motions,
                                 const std::string& scheme) {
-  Worst worst;
-  MotionRows rows("overshoot or way back", "ways");
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "ways"}};
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {0.2, 0.7, 0.95}) {
       const double wrong = worst_overshoot_or_reversal(run_damped(subject, *motion, scheme, a, 40));
-      worst.observe(wrong);
-      rows.add(*motion, a, wrong);
+      rows.row(motion->name, a, wrong);
     }
   return {"monotonicity.monotone-in-short-steps." + scheme,
           "Scheme " + scheme + " is monotone while h c/2 < 1.",
-          {{worst.value(), turning, 0, "of the way", why_turning}, rows.columns(), ""}};
+          {{rows.worst("overshoot or way back"), turning, 0, "of the way", why_turning}, rows, ""}};
 }
 
 // ---- fully implicit methods
 
 NamedFinding is_monotone(const Subject& subject, const DampedMotions& motions,
                          const std::string& method) {
-  Worst worst;
-  MotionRows rows("overshoot or way back", "ways");
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "ways"}};
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {0.7, 4.3, 25.0, 400.0}) {
       const double wrong = worst_overshoot_or_reversal(run_damped(subject, *motion, method, a, 30));
-      worst.observe(wrong);
-      rows.add(*motion, a, wrong);
+      rows.row(motion->name, a, wrong);
     }
   return {"monotonicity.monotone." + method,
           "Linear motions are monotone at any step under " + method +
               ": nothing overshoots, nothing turns back.",
-          {{worst.value(), turning, 0, "of the way", why_turning}, rows.columns(), ""}};
+          {{rows.worst("overshoot or way back"), turning, 0, "of the way", why_turning}, rows, ""}};
 }
 
 /// The farthest that BDF2 gets from two exact values of v' = -c v: its recurrence on v, with x =
@@ -197,23 +187,21 @@ double farthest_by_bdf2(double a, int steps) {
 
 std::vector<NamedFinding> bdf2_findings(const Subject& subject, const DampedMotions& motions) {
   Worst least, error;
-  MotionRows rows("farthest", "ways");
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "ways"}};
   for (const double a : {0.5, 1.6, 4.3, 10.0}) {
     const double far = largest_progress(run_damped(subject, motions.triangle, "BDF2", a, 30));
     least.observe(far > 1 ? 0.01 / (far - 1) : std::numeric_limits<double>::infinity());
     error.observe(std::abs(far - farthest_by_bdf2(a, 30)));
-    rows.add(motions.triangle, a, far);
+    rows.row(motions.triangle.name, a, far);
   }
   return {
       {"monotonicity.overshoots.BDF2",
        "BDF2, started exactly, is not monotone at large steps: it overshoots by more than a "
        "hundredth of the way.",
-       {{least.value(), 1, 0, "1", "measured is a hundredth over the overshoot"},
-        rows.columns(),
-        ""}},
+       {{least.value(), 1, 0, "1", "measured is a hundredth over the overshoot"}, rows, ""}},
       {"monotonicity.distance-is-as-derived.BDF2",
        "BDF2, started exactly, overshoots as its recurrence says, by a tenth of the way at most.",
-       {{error.value(), rounding, 0, "of the way", why_rounding}, rows.columns(), ""}}};
+       {{error.value(), rounding, 0, "of the way", why_rounding}, rows, ""}}};
 }
 
 StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& progress) {

@@ -1,4 +1,5 @@
 #include "convergence/damping/monotonicity.h"
+#include "convergence/ranges.h"
 
 #include <cmath>
 
@@ -10,13 +11,6 @@ namespace {
 
 constexpr double least_shown = 1e-6;  // of the way
 
-std::vector<double> ratios(double from, double to, int count) {
-  std::vector<double> list;
-  for (int i = 0; i < count; ++i)
-    list.push_back(from * std::pow(to / from, double(i) / (count - 1)));
-  return list;
-}
-
 Figure first_step_figure(const Subject& subject, const DampedMotions& motions) {
   Figure figure{"first-step",
                 "First step of a damped motion",
@@ -26,17 +20,17 @@ Figure first_step_figure(const Subject& subject, const DampedMotions& motions) {
                 "The exact motion goes 1 - exp(-h c) of its way. Above h c/2 = 1 the steps of A "
                 "and RK2 lead backwards. BDF2 is left out: its first step is another method's.",
                 {}};
-  const std::vector<double> as = ratios(0.05, 40, 16);
+  const std::vector<double> as = geometric_range(0.05, 40, 16);
   for (const Integrator& method : integrators()) {
     if (method.history > 1) continue;
-    Curve curve{std::string(method.name), as, {}, nan, {}};
+    Curve curve{std::string(method.name), {}, {}, nan, {}};
     for (const double a : as)
-      curve.y.push_back(
-          std::abs(run_damped(subject, motions.triangle, method.name, a, 1).progress[1][0]));
+      curve.point(
+          a, std::abs(run_damped(subject, motions.triangle, method.name, a, 1).progress[1][0]));
     figure.curves.push_back(std::move(curve));
   }
-  Curve exact{"exact", as, {}, nan, {}};
-  for (const double a : as) exact.y.push_back(1 - std::exp(-2 * a));
+  Curve exact{"exact", {}, {}, nan, {}};
+  for (const double a : as) exact.point(a, 1 - std::exp(-2 * a));
   figure.curves.push_back(std::move(exact));
   return figure;
 }
@@ -57,8 +51,7 @@ Figure distance_figure(const Subject& subject, const DampedMotions& motions) {
     const DampedRun run = run_damped(subject, motions.triangle, method.name, shown_a, 24);
     for (size_t n = 0; n < run.progress.size(); ++n) {
       const double distance = std::abs(run.progress[n][0] - 1);
-      curve.x.push_back(double(n));
-      curve.y.push_back(distance > least_shown && distance < 1e6 ? distance : nan);
+      curve.point(double(n), distance > least_shown && distance < 1e6 ? distance : nan);
     }
     figure.curves.push_back(std::move(curve));
   }
@@ -97,8 +90,7 @@ Figure history_figure(const Subject& subject, const DampedMotion& motion, const 
     Curve curve{method, {}, {}, nan, {}};
     const DampedRun run = run_damped(subject, motion, method, shown_a, 16);
     for (size_t n = 0; n < run.progress.size(); ++n) {
-      curve.x.push_back(double(n));
-      curve.y.push_back(run.progress[n][0]);
+      curve.point(double(n), run.progress[n][0]);
     }
     figure.curves.push_back(std::move(curve));
   }
@@ -115,13 +107,13 @@ Figure sheet_figure(const Subject& subject, const DampedMotions& motions, Tier t
                 "Backward Euler neither overshoots nor turns back at any step, A, B, C and the "
                 "implicit midpoint rule neither below 1. BDF2 is started exactly.",
                 {}};
-  const std::vector<double> as = ratios(0.1, 100, tier == Tier::quick ? 10 : 25);
+  const std::vector<double> as = geometric_range(0.1, 100, tier == Tier::quick ? 10 : 25);
   for (const std::string method : {"A", "B", "C", "BDF2", "implicit-midpoint"}) {
-    Curve curve{method, as, {}, nan, {}};
+    Curve curve{method, {}, {}, nan, {}};
     for (const double a : as) {
       const double wrong =
           worst_overshoot_or_reversal(run_damped(subject, motions.sheet, method, a, 20));
-      curve.y.push_back(wrong > least_shown && wrong < 1e5 ? wrong : nan);
+      curve.point(a, wrong > least_shown && wrong < 1e5 ? wrong : nan);
     }
     figure.curves.push_back(std::move(curve));
   }

@@ -8,11 +8,11 @@ namespace {
 
 NamedFinding passes_the_bound(const Subject& subject, const DampedMotion& hinge) {
   Worst worst;
-  MotionRows rows("farthest", "ways");
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "ways"}};
   for (const double a : {10.0, 25.0}) {
     const double far = largest_progress(run_damped(subject, hinge, "C", a, 30));
     worst.observe(2 / far);
-    rows.add(hinge, a, far);
+    rows.row(hinge.name, a, far);
   }
   return {"monotonicity.overshoot-exceeds-the-bound-on-a-hinge.C",
           "On a hinge whose damping falls as it unfolds, scheme C overshoots by more than the way "
@@ -21,40 +21,38 @@ NamedFinding passes_the_bound(const Subject& subject, const DampedMotion& hinge)
             "measured is the bound of linear motions over the farthest. C's last velocity comes "
             "from the damping at the step's start, explicitly, and is tamed by that at its end: (1 "
             "- a)/(1 + a') has no bound when a' < a"},
-           rows.columns(),
+           rows,
            "Scheme B takes both at the step's ends the other way round: 1.6 ways here, see the "
            "table."}};
 }
 
 NamedFinding is_monotone_on_a_hinge(const Subject& subject, const DampedMotion& hinge,
                                     const std::string& method) {
-  Worst worst;
-  MotionRows rows("overshoot or way back", "ways");
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "ways"}};
   for (const double a : {0.7, 4.3, 10.0, 25.0, 400.0}) {
     const DampedRun run = run_damped(subject, hinge, method, a, 30);
     const double wrong = run.work.unfinished_solves == 0 ? worst_overshoot_or_reversal(run)
                                                          : std::numeric_limits<double>::quiet_NaN();
-    worst.observe(wrong);
-    rows.add(hinge, a, wrong);
+    rows.row(hinge.name, a, wrong);
   }
   return {"monotonicity.monotone-on-a-hinge." + method,
           "On a nonlinear hinge too motion is monotone under " + method +
               ", as nearly as the exact motion is.",
-          {{worst.value(), 0.004, 0, "ways",
+          {{rows.worst("overshoot or way back"), 0.004, 0, "ways",
             "the exact motion passes its place of rest by 0.4 % and returns"},
-           rows.columns(),
+           rows,
            "A solve that did not finish would count as NaN."}};
 }
 
 NamedFinding passes_its_place(const Subject& subject, const DampedMotion& hinge) {
   Worst worst;
-  MotionRows rows("farthest", "ways");
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "ways"}};
   for (const double a : {0.7, 1.1, 1.6}) {
     const DampedRun run = run_damped(subject, hinge, "backward-euler", a, 30);
     const double far = run.work.unfinished_solves == 0 ? largest_progress(run)
                                                        : std::numeric_limits<double>::quiet_NaN();
     worst.observe(1.1 / far);
-    rows.add(hinge, a, far);
+    rows.row(hinge.name, a, far);
   }
   return {
       "monotonicity.overshoots-on-a-hinge.backward-euler",
@@ -63,31 +61,27 @@ NamedFinding passes_its_place(const Subject& subject, const DampedMotion& hinge)
       {{worst.value(), 1, 0, "1",
         "measured is 1.1 ways over the farthest; the damping at a step's end, where the hinge is "
         "folded farther, is less than that on the way. Without stiffness nothing brings it back"},
-       rows.columns(),
+       rows,
        "A solve that did not finish would count as NaN. In steps longer still the step's equation "
        "has several solutions, and Newton's method does not always find one: see the table."}};
 }
 
 Table hinge_table(const Subject& subject, const DampedMotion& hinge) {
-  Column method{"method", "1", std::vector<std::string>{}}, as{"h c/2", "1", std::vector<double>{}},
-      far{"farthest", "ways", std::vector<double>{}},
-      back{"way back", "ways", std::vector<double>{}},
-      newton{"Newton iterations", "a step", std::vector<double>{}},
-      unfinished{"unfinished solves", "1", std::vector<double>{}};
+  Table table{{"method", "1"},
+              {"h c/2", "1"},
+              {"farthest", "ways"},
+              {"way back", "ways"},
+              {"Newton iterations", "a step"},
+              {"unfinished solves", "1"}};
   for (const std::string name :
        {"B", "C", "implicit-midpoint", "BDF2", "backward-euler", "linear-backward-euler"})
     for (const double a : {0.7, 4.3, 10.0, 25.0}) {
       const DampedRun run = run_damped(subject, hinge, name, a, 30);
-      std::get<1>(method.values).push_back(name);
-      std::get<0>(as.values).push_back(a);
-      std::get<0>(far.values).push_back(largest_progress(run));
-      std::get<0>(back.values).push_back(largest_reversal(run));
-      std::get<0>(newton.values)
-          .push_back(double(run.work.newton_iterations) / double(run.speed.size() - 1));
-      std::get<0>(unfinished.values).push_back(double(run.work.unfinished_solves));
+      table.row(name, a, largest_progress(run), largest_reversal(run),
+                double(run.work.newton_iterations) / double(run.speed.size() - 1),
+                run.work.unfinished_solves);
     }
-  return {
-      "hinge", "A folding hinge: 1 is its exact way", {method, as, far, back, newton, unfinished}};
+  return {"hinge", "A folding hinge: 1 is its exact way", table};
 }
 
 }  // namespace

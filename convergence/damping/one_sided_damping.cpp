@@ -31,21 +31,21 @@ OneSided one_sided(const Subject& subject, const VibratingSheet& sheet, const In
   return {std::string(method.name), springs ? "springs" : "hinges", worst.value()};
 }
 
+Table evidence_of(const OneSided& springs, const OneSided& hinges) {
+  Table evidence{{"damped", "1"}, {"change of the undamped modes", "of the amplitude, a period"}};
+  for (const OneSided& one : {springs, hinges}) evidence.row(one.damped, one.worst);
+  return evidence;
+}
+
 NamedFinding spares_the_undamped(const OneSided& springs, const OneSided& hinges) {
-  Worst worst;
-  worst.observe(springs.worst);
-  worst.observe(hinges.worst);
   return {"artificial-damping.undamped-parts-stay-undamped." + springs.method,
           "Scheme " + springs.method +
               " adds no damping to bending when springs alone are damped heavily, nor to stretch "
               "when hinges are.",
-          {{worst.value(), 100 * factor_noise, 0, "of the amplitude, a period",
-            "the slowest mode takes a hundred steps for a period; of each step, " +
-                std::string(why_factor_noise)},
-           {{"damped", "1", std::vector<std::string>{springs.damped, hinges.damped}},
-            {"change of the undamped modes", "of the amplitude, a period",
-             std::vector<double>{springs.worst, hinges.worst}}},
-           "h c/2 is 10 for the fastest damped mode, the step half the elastic limit"}};
+          judge_worst(evidence_of(springs, hinges), 100 * factor_noise,
+                      "the slowest mode takes a hundred steps for a period; of each step, " +
+                          std::string(why_factor_noise),
+                      "h c/2 is 10 for the fastest damped mode, the step half the elastic limit")};
 }
 
 /// The same measure of backward Euler, which must be large: the claim's other half.
@@ -57,25 +57,16 @@ NamedFinding damps_everything(const OneSided& springs, const OneSided& hinges) {
           "of them loses more than a tenth of its amplitude in a period.",
           {{worst.value(), 1, 0, "1",
             "measured is a tenth over the loss; the derived loss is pi omega h"},
-           {{"damped", "1", std::vector<std::string>{springs.damped, hinges.damped}},
-            {"change of the undamped modes", "of the amplitude, a period",
-             std::vector<double>{springs.worst, hinges.worst}}},
+           evidence_of(springs, hinges),
            ""}};
 }
 
 Table one_sided_table(const std::vector<OneSided>& rows) {
-  std::vector<std::string> methods, damped;
-  std::vector<double> worst;
-  for (const OneSided& row : rows) {
-    methods.push_back(row.method);
-    damped.push_back(row.damped);
-    worst.push_back(row.worst);
-  }
+  Table table{{"method", "1"}, {"damped", "1"}, {"of the amplitude, a period", "1"}};
+  for (const OneSided& row : rows) table.row(row.method, row.damped, row.worst);
   return {"one-sided",
           "Largest change of an undamped mode while the others are damped heavily (h c/2 up to 10)",
-          {{"method", "1", methods},
-           {"damped", "1", damped},
-           {"of the amplitude, a period", "1", worst}}};
+          table};
 }
 
 }  // namespace

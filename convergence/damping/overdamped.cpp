@@ -1,5 +1,6 @@
 // How every method comes to rest against stiffness that damping outweighs.
 #include "convergence/damping/monotonicity.h"
+#include "convergence/ranges.h"
 
 #include <cmath>
 
@@ -36,111 +37,93 @@ Misconduct misconduct_of(const DampedRun& run) {
   return {worst_overshoot_or_reversal(run), velocity_misconduct(run)};
 }
 
-struct SheetRows {
-  Column a{"h c/2", "1", std::vector<double>{}},
-      position{"positions", "ways", std::vector<double>{}},
-      velocity{"velocities", "of the start's", std::vector<double>{}};
-
-  void add(double at, const Misconduct& measured) {
-    std::get<0>(a.values).push_back(at);
-    std::get<0>(position.values).push_back(measured.position);
-    std::get<0>(velocity.values).push_back(measured.velocity);
+/// The sheet at each of these steps, a = h c/2.
+Table sheet_at_steps(const Subject& subject, const DampedMotion& sheet, const std::string& method,
+                     const std::vector<double>& as, int steps) {
+  Table rows{{"h c/2", "1"}, {"positions", "ways"}, {"velocities", "of the start's"}};
+  for (const double a : as) {
+    const Misconduct wrong = misconduct_of(run_damped(subject, sheet, method, a, steps));
+    rows.row(a, wrong.position, wrong.velocity);
   }
-  std::vector<Column> columns() const { return {a, position, velocity}; }
-};
+  return rows;
+}
+
+/// The worst of positions and velocities alike.
+double worst_of_both(const Table& rows) {
+  Worst worst;
+  worst.observe(rows.worst("positions"));
+  worst.observe(rows.worst("velocities"));
+  return worst.value();
+}
 
 NamedFinding sheet_is_monotone(const Subject& subject, const DampedMotion& sheet,
                                const std::string& method) {
-  Worst worst;
-  SheetRows rows;
-  for (const double a : {0.7, 4.3, 25.0, 400.0}) {
-    const Misconduct wrong = misconduct_of(run_damped(subject, sheet, method, a, 30));
-    worst.observe(wrong.position);
-    worst.observe(wrong.velocity);
-    rows.add(a, wrong);
-  }
-  return {
-      "monotonicity.overdamped-sheet.monotone." + method,
-      "On an overdamped sheet with stiffness neither a position nor a velocity overshoots or turns "
-      "back at any step under " +
-          method + ".",
-      {{worst.value(), turning, 0, "of the way or of the speed", why_turning}, rows.columns(), ""}};
+  const Table rows = sheet_at_steps(subject, sheet, method, {0.7, 4.3, 25.0, 400.0}, 30);
+  return {"monotonicity.overdamped-sheet.monotone." + method,
+          "On an overdamped sheet with stiffness neither a position nor a velocity overshoots or "
+          "turns back at any step under " +
+              method + ".",
+          {{worst_of_both(rows), turning, 0, "of the way or of the speed", why_turning}, rows, ""}};
 }
 
 NamedFinding sheet_is_thrown_back(const Subject& subject, const DampedMotion& sheet) {
-  constexpr double a = 10;
-  SheetRows rows;
-  const Misconduct wrong = misconduct_of(run_damped(subject, sheet, "A", a, 12));
-  rows.add(a, wrong);
+  const Table rows = sheet_at_steps(subject, sheet, "A", {10}, 12);
   return {"monotonicity.overdamped-sheet.overshoots.A",
           "On an overdamped sheet with stiffness scheme A throws a mode back by more than fifty "
           "times its way at h c/2 = 10, a step at which it is stable.",
-          {{50 / wrong.position, 1, 0, "1",
+          {{50 / rows.numbers("positions").front(), 1, 0, "1",
             "measured is fifty over the way back; derived for half of the way fast is a^2 - a = 90 "
             "in the first step"},
-           rows.columns(),
+           rows,
            ""}};
 }
 
 NamedFinding sheet_is_bounded(const Subject& subject, const DampedMotion& sheet,
                               const std::string& scheme) {
-  Worst worst;
-  SheetRows rows;
-  for (const double a : {0.7, 2.2, 4.3, 7.0, 12.0}) {
-    const Misconduct wrong = misconduct_of(run_damped(subject, sheet, scheme, a, 30));
-    worst.observe(wrong.position);
-    worst.observe(wrong.velocity);
-    rows.add(a, wrong);
-  }
+  const Table rows = sheet_at_steps(subject, sheet, scheme, {0.7, 2.2, 4.3, 7.0, 12.0}, 30);
   return {"monotonicity.overdamped-sheet.overshoot-is-bounded." + scheme,
           "On an overdamped sheet with stiffness scheme " + scheme +
               " overshoots or turns back by less than the way itself, in positions, and less than "
               "twice the speed of the start, in velocities.",
-          {{worst.value(), 2, 0, "ways or speeds",
+          {{worst_of_both(rows), 2, 0, "ways or speeds",
             "derived without stiffness: a velocity is multiplied by (1 - a)/(1 + a), more than -1, "
             "so that it swings by less than twice its size; that part of a position that decays "
             "fast overshoots by less than itself"},
-           rows.columns(),
+           rows,
            ""}};
 }
 
 NamedFinding sheet_swings(const Subject& subject, const DampedMotion& sheet,
                           const std::string& scheme) {
+  const Table rows = sheet_at_steps(subject, sheet, scheme, {2.2, 4.3, 7.0, 12.0}, 30);
   Worst worst;
-  SheetRows rows;
-  for (const double a : {2.2, 4.3, 7.0, 12.0}) {
-    const Misconduct wrong = misconduct_of(run_damped(subject, sheet, scheme, a, 30));
-    worst.observe(0.1 / wrong.velocity);
-    rows.add(a, wrong);
-  }
+  for (const double velocity : rows.numbers("velocities")) worst.observe(0.1 / velocity);
   return {"monotonicity.overdamped-sheet.velocity-changes-sign." + scheme,
           "On an overdamped sheet with stiffness velocities change sign under " + scheme +
               " at steps with h c/2 > 2, by more than a tenth of those at the start.",
           {{worst.value(), 1, 0, "1",
             "each swing is to be a tenth of the velocity at the start or more: measured is a tenth "
             "over the smallest of the four"},
-           rows.columns(),
+           rows,
            ""}};
 }
 
 NamedFinding hinge_closes_monotonically(const Subject& subject, const DampedMotion& hinge,
                                         const std::string& method) {
-  Worst worst;
-  MotionRows rows("overshoot or way back", "ways");
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "ways"}};
   for (const double a : {0.2, 0.7, 4.3, 25.0, 110.0, 400.0}) {
     const DampedRun run = run_damped(subject, hinge, method, a, 40);
     const double wrong = run.work.unfinished_solves == 0 ? worst_overshoot_or_reversal(run) : nan;
-    worst.observe(wrong);
-    rows.add(hinge, a, wrong);
+    rows.row(hinge.name, a, wrong);
   }
   return {"monotonicity.closing-hinge-is-monotone." + method,
           "An overdamped hinge that closes by nearly two radians neither passes its rest angle nor "
           "turns back under " +
               method + ", at any step.",
-          {{worst.value(), 1e-7, 0, "of the way",
+          {{rows.worst("overshoot or way back"), 1e-7, 0, "of the way",
             "forty solves, each to 1e-11 of the momentum that the hinge would have at its fast "
             "rate, a thousand times its own"},
-           rows.columns(),
+           rows,
            "A solve that did not finish would count as NaN."}};
 }
 
@@ -159,57 +142,49 @@ Figure sheet_figure(const std::string& name, const std::string& of) {
 }
 
 /// The values worth a marker, if there is any.
-void add_curve(const std::string& method, const std::vector<double>& as, std::vector<double> values,
+void add_curve(const std::string& method, const Table& rows, std::string_view column,
                Figure& figure) {
+  Curve curve = curve_of(method, rows, "h c/2", column);
   bool any = false;
-  for (double& value : values) {
+  for (double& value : curve.y) {
     if (!(value > least_shown && value < most_shown)) value = nan;
     any |= std::isfinite(value);
   }
-  if (any) figure.curves.push_back({method, as, values, nan, {}});
+  if (any) figure.curves.push_back(std::move(curve));
 }
 
 void add_figures(const Subject& subject, const DampedMotion& sheet, Tier tier,
                  StudyResult& result) {
-  const int count = tier == Tier::quick ? 9 : 21;
-  std::vector<double> as;
-  for (int i = 0; i < count; ++i) as.push_back(0.1 * std::pow(1000.0, double(i) / (count - 1)));
   Figure positions = sheet_figure("overdamped-positions", "positions"),
          velocities = sheet_figure("overdamped-velocities", "velocities");
   for (const Integrator& method : integrators()) {
-    std::vector<double> x, v;
-    for (const double a : as) {
-      const Misconduct wrong = misconduct_of(run_damped(subject, sheet, method.name, a, 20));
-      x.push_back(wrong.position);
-      v.push_back(wrong.velocity);
-    }
-    add_curve(std::string(method.name), as, x, positions);
-    add_curve(std::string(method.name), as, v, velocities);
+    const Table rows = sheet_at_steps(subject, sheet, std::string(method.name),
+                                      geometric_range(0.1, 100, tier == Tier::quick ? 9 : 21), 20);
+    add_curve(std::string(method.name), rows, "positions", positions);
+    add_curve(std::string(method.name), rows, "velocities", velocities);
   }
   result.figures.push_back(std::move(positions));
   result.figures.push_back(std::move(velocities));
 }
 
 Table closing_table(const Subject& subject, const DampedMotion& hinge) {
-  Column method{"method", "1", std::vector<std::string>{}}, as{"h c/2", "1", std::vector<double>{}},
-      wrong{"overshoot or way back", "ways", std::vector<double>{}},
-      newton{"Newton iterations", "a step", std::vector<double>{}},
-      unfinished{"unfinished solves", "1", std::vector<double>{}};
+  Table table{{"method", "1"},
+              {"h c/2", "1"},
+              {"overshoot or way back", "ways"},
+              {"Newton iterations", "a step"},
+              {"unfinished solves", "1"}};
   for (const Integrator& integrator : integrators())
     for (const double a : {0.7, 4.3, 25.0, 400.0}) {
       if (integrator.family != Family::fully_implicit) continue;
       const DampedRun run = run_damped(subject, hinge, integrator.name, a, 40);
-      std::get<1>(method.values).push_back(std::string(integrator.name));
-      std::get<0>(as.values).push_back(a);
-      std::get<0>(wrong.values).push_back(worst_overshoot_or_reversal(run));
-      std::get<0>(newton.values)
-          .push_back(double(run.work.newton_iterations) / double(run.speed.size() - 1));
-      std::get<0>(unfinished.values).push_back(double(run.work.unfinished_solves));
+      table.row(integrator.name, a, worst_overshoot_or_reversal(run),
+                double(run.work.newton_iterations) / double(run.speed.size() - 1),
+                run.work.unfinished_solves);
     }
   return {"closing-hinge",
           "An overdamped hinge that closes by nearly two radians: what fully implicit methods make "
           "of it",
-          {method, as, wrong, newton, unfinished}};
+          table};
 }
 
 }  // namespace

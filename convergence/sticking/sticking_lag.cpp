@@ -9,6 +9,7 @@
 #include "convergence/ranges.h"
 #include "convergence/sticking/sticking_scenes.h"
 #include "convergence/stability/step_matrix.h"
+#include "convergence/tables.h"
 #include "convergence/sticking/studies.h"
 #include "reference/dynamics/integrator.h"
 
@@ -76,88 +77,88 @@ Lag measured_lag(const Subject& subject, const std::string& method, double k, do
 void add_lags_of_long_steps(const Subject& subject, StudyResult& result) {
   constexpr double k = 1000;
   const double omega = std::sqrt(k / particle_mass), tau = 8 / omega;
-  std::vector<std::string> methods;
-  std::vector<double> steps, measured, derived;
-  Worst off;
+  Table lags{{"scheme", ""}, {"omega h", "1"}, {"lag", "m"}, {"derived", "m"}};
   for (const char* method : {"A", "B", "C"})
     for (const double omega_h : {0.05, 0.4, 1.6}) {
       const double h = omega_h / omega;
-      methods.emplace_back(method), steps.push_back(omega_h);
-      measured.push_back(measured_lag(subject, method, k, tau, h).mean);
-      derived.push_back(derived_lag(method, k, tau, h));
-      off.observe(std::abs(measured.back() / derived.back() - 1));
+      lags.row(method, omega_h, measured_lag(subject, method, k, tau, h).mean,
+               derived_lag(method, k, tau, h));
     }
   result.findings.push_back(
       {"sticking-lag.lag-grows-with-the-step-in-C",
        "On a surface that moves by itself scheme C lags by 1 + q^2/(1 + q) times m a/k, q = h "
        "tau_s k/(2 m): up to h tau_s a/2 more; A and B by m a/k.",
-       {{off.value(), 1e-2, 0, "1",
+       {{largest_deviation(lags, "lag", "derived"), 1e-2, 0, "1",
          "the surface turns by less than 0.01 in a step and by 0.04 in tau_s, in which time the "
          "lag settles: its square is left; C lags up to six times as far as A"},
-        {{"scheme", "", methods},
-         {"omega h", "1", steps},
-         {"lag", "m", measured},
-         {"derived", "m", derived}},
+        lags,
         "tau_s = 8/omega"}});
 }
 
-void add_lags(const Subject& subject, Tier tier, StudyResult& result) {
-  Figure figure{"lag",
-                "How far what sticks to a turntable lags behind",
-                {"stiffness", "N/m", Scale::log},
-                {"lag", "m", Scale::log},
-                -1,
-                "A particle of 2 g, 0.31 m from the axis, 3.1 rad/s. The plain spring's lag is the "
-                "mean of a swing that never ends; the forecast's is at rest.",
-                {}};
-  Worst off, swings;
-  double least_swing = INFINITY;
-  std::vector<double> stiffness, plain, plain_swing, lag, derived, swing;
+Table lags_over_stiffness(const Subject& subject, Tier tier) {
+  Table lags{{"stiffness", "N/m"},
+             {"plain spring, mean lag", "m"},
+             {"plain spring, swing over m a/k", "1"},
+             {"with forecasts, lag", "m"},
+             {"derived", "m"},
+             {"with forecasts, swing over m a/k", "1"}};
   for (const double k : geometric_range(10, 1e4, tier == Tier::quick ? 4 : 10)) {
     // critical damping
     const double omega = std::sqrt(k / particle_mass), tau = 2 / omega, h = 0.02 / omega;
     const Lag without = measured_lag(subject, "C", k, 0, h),
               with = measured_lag(subject, "C", k, tau, h);
-    stiffness.push_back(k), plain.push_back(without.mean), plain_swing.push_back(without.swing);
-    lag.push_back(with.mean), derived.push_back(derived_lag("C", k, tau, h)),
-        swing.push_back(with.swing);
-    off.observe(std::abs(with.mean / derived.back() - 1));
-    swings.observe(with.swing);
-    least_swing = std::min(least_swing, std::isnan(without.swing) ? -INFINITY : without.swing);
+    lags.row(k, without.mean, without.swing, with.mean, derived_lag("C", k, tau, h), with.swing);
   }
-  figure.curves = {{"plain spring, mean", stiffness, plain, nan, {}},
-                   {"with forecasts", stiffness, lag, nan, {}},
-                   {"m a/k as derived", stiffness, derived, nan, {}}};
-  result.figures.push_back(figure);
-  const std::vector<Column> evidence = {{"stiffness", "N/m", stiffness},
-                                        {"plain spring, mean lag", "m", plain},
-                                        {"plain spring, swing over m a/k", "1", plain_swing},
-                                        {"with forecasts, lag", "m", lag},
-                                        {"derived", "m", derived},
-                                        {"with forecasts, swing over m a/k", "1", swing}};
-  result.findings.push_back(
-      {"sticking-lag.lag-is-m-a-over-k",
-       "With forecasts a particle on a turntable lags by m a/|k (1 + i w tau_s) - m w^2|: m a/k "
-       "where it is stiff.",
-       {{off.value(), 2e-3, 0, "1",
-         "k falls by 2 (lag/far)^2, at most 6e-4 here, and steps of 0.02/omega err by their "
-         "square; another law of k or of a is off by a factor"},
-        evidence,
-        ""}});
-  result.findings.push_back(
-      {"sticking-lag.forecasts-damp-the-swing",
-       "Stuck with critical forecasts, tau_s = 2/omega, it comes to rest against its place.",
-       {{swings.value(), 1e-3, 0, "1", "twelve times 2/omega leave (1 + 12) e^-12 = 8e-5 of m a/k"},
-        evidence,
-        ""}});
-  result.findings.push_back(
-      {"sticking-lag.plain-spring-swings-forever",
-       "A plain spring swings about its lag for ever, by as much again: it never holds a place.",
-       {{1.9 - least_swing, 0, 0, "1",
-         "the swing is from nothing to twice m a/k; a tenth for where the steps fall and what k "
-         "fades"},
-        evidence,
-        "measured is what the smallest swing, over m a/k, lacks of 1.9"}});
+  return lags;
+}
+
+Figure lag_figure(const Table& lags) {
+  return {"lag",
+          "How far what sticks to a turntable lags behind",
+          {"stiffness", "N/m", Scale::log},
+          {"lag", "m", Scale::log},
+          -1,
+          "A particle of 2 g, 0.31 m from the axis, 3.1 rad/s. The plain spring's lag is the mean "
+          "of a swing that never ends; the forecast's is at rest.",
+          {curve_of("plain spring, mean", lags, "stiffness", "plain spring, mean lag"),
+           curve_of("with forecasts", lags, "stiffness", "with forecasts, lag"),
+           curve_of("m a/k as derived", lags, "stiffness", "derived")}};
+}
+
+NamedFinding lag_finding(const Table& lags) {
+  return {"sticking-lag.lag-is-m-a-over-k",
+          "With forecasts a particle on a turntable lags by m a/|k (1 + i w tau_s) - m w^2|: m a/k "
+          "where it is stiff.",
+          {{largest_deviation(lags, "with forecasts, lag", "derived"), 2e-3, 0, "1",
+            "k falls by 2 (lag/far)^2, at most 6e-4 here, and steps of 0.02/omega err by their "
+            "square; another law of k or of a is off by a factor"},
+           lags,
+           ""}};
+}
+
+NamedFinding swing_finding(const Table& lags) {
+  return {"sticking-lag.forecasts-damp-the-swing",
+          "Stuck with critical forecasts, tau_s = 2/omega, it comes to rest against its place.",
+          judge_worst(lags, 1e-3, "twelve times 2/omega leave (1 + 12) e^-12 = 8e-5 of m a/k")};
+}
+
+NamedFinding plain_swing_finding(const Table& lags) {
+  double least_swing = INFINITY;
+  for (const double swing : lags.numbers("plain spring, swing over m a/k"))
+    least_swing = std::min(least_swing, std::isnan(swing) ? -INFINITY : swing);
+  return {"sticking-lag.plain-spring-swings-forever",
+          "A plain spring swings about its lag for ever, by as much again: it never holds a place.",
+          {{1.9 - least_swing, 0, 0, "1",
+            "the swing is from nothing to twice m a/k; a tenth for where the steps fall and what k "
+            "fades"},
+           lags,
+           "measured is what the smallest swing, over m a/k, lacks of 1.9"}};
+}
+
+void add_lags(const Subject& subject, Tier tier, StudyResult& result) {
+  const Table lags = lags_over_stiffness(subject, tier);
+  result.figures.push_back(lag_figure(lags));
+  result.findings = {lag_finding(lags), swing_finding(lags), plain_swing_finding(lags)};
 }
 
 // ---- the step's limit against the forecast time
@@ -179,6 +180,19 @@ double derived_limit(const std::string& method, double omega_tau) {
   return method == "C" ? omega_tau + std::sqrt(omega_tau * omega_tau + 4) : 2;
 }
 
+NamedFinding limit_finding(const std::string& name, const Table& limits) {
+  return {"sticking-lag.limit-is-as-derived." + name,
+          "Scheme " + name + ": what sticks is stable in steps up to " +
+              (name == "C" ? "tau_s + sqrt(tau_s^2 + 4/omega^2)."
+                           : "2/omega, whatever its forecast time."),
+          {{largest_deviation(limits, "omega h, measured", "derived"), 1e-3, 0, "1",
+            "a radius of 1 + 1e-7 counts as growth, which errs by a ten-thousandth where the "
+            "radius leaves 1 slowest; the formulas for A, B and for C differ by more from tau_s = "
+            "2e-3/omega on"},
+           limits,
+           "measured is the largest relative deviation"}};
+}
+
 void add_limits(const Subject& subject, Tier tier, StudyResult& result) {
   Figure figure{"limit",
                 "Largest stable step of a stuck particle",
@@ -190,28 +204,14 @@ void add_limits(const Subject& subject, Tier tier, StudyResult& result) {
                 {}};
   for (const Integrator& integrator : paper_schemes()) {
     const std::string name(integrator.name);
-    Curve curve{name, {}, {}, nan, {}}, known{name + ", derived", {}, {}, nan, {}};
-    Worst off;
-    for (const double omega_tau : geometric_range(0.03, 30, tier == Tier::quick ? 7 : 19)) {
-      curve.x.push_back(omega_tau), known.x.push_back(omega_tau);
-      curve.y.push_back(measured_limit(subject, name.c_str(), omega_tau));
-      known.y.push_back(derived_limit(name, omega_tau));
-      off.observe(std::abs(curve.y.back() / known.y.back() - 1));
-    }
-    result.findings.push_back({"sticking-lag.limit-is-as-derived." + name,
-                               "Scheme " + name + ": what sticks is stable in steps up to " +
-                                   (name == "C" ? "tau_s + sqrt(tau_s^2 + 4/omega^2)."
-                                                : "2/omega, whatever its forecast time."),
-                               {{off.value(), 1e-3, 0, "1",
-                                 "a radius of 1 + 1e-7 counts as growth, which errs by a "
-                                 "ten-thousandth where the radius leaves 1 slowest; the formulas "
-                                 "for A, B and for C differ by more from tau_s = 2e-3/omega on"},
-                                {{"omega tau_s", "1", curve.x},
-                                 {"omega h, measured", "1", curve.y},
-                                 {"derived", "1", known.y}},
-                                "measured is the largest relative deviation"}});
-    figure.curves.push_back(curve);
-    if (name != "B") figure.curves.push_back(known);
+    Table limits{{"omega tau_s", "1"}, {"omega h, measured", "1"}, {"derived", "1"}};
+    for (const double omega_tau : geometric_range(0.03, 30, tier == Tier::quick ? 7 : 19))
+      limits.row(omega_tau, measured_limit(subject, name.c_str(), omega_tau),
+                 derived_limit(name, omega_tau));
+    result.findings.push_back(limit_finding(name, limits));
+    figure.curves.push_back(curve_of(name, limits, "omega tau_s", "omega h, measured"));
+    if (name != "B")
+      figure.curves.push_back(curve_of(name + ", derived", limits, "omega tau_s", "derived"));
   }
   result.figures.push_back(figure);
 }
@@ -219,76 +219,77 @@ void add_limits(const Subject& subject, Tier tier, StudyResult& result) {
 // ---- two layers, stuck stiffly
 
 void add_layers(const Subject& subject, StudyResult& result) {
-  std::vector<double> ratios, with, without;
-  Worst stable;
+  Table layers{{"omega h of a bond", "1"},
+               {"radius less 1 with tau_s = h/2", "1"},
+               {"radius less 1 with a plain spring", "1"}};
   double least = INFINITY;
   for (const double omega_h : {1.0, 10.0, 100.0, 1000.0}) {
-    ratios.push_back(omega_h);
-    with.push_back(layers_radius(subject, omega_h, 0.5) - 1);
-    without.push_back(layers_radius(subject, omega_h, 0) - 1);
-    stable.observe(with.back());
-    if (omega_h > 2)
-      least = std::min(least, std::isnan(without.back()) ? -INFINITY : without.back());
+    const double without = layers_radius(subject, omega_h, 0) - 1;
+    layers.row(omega_h, layers_radius(subject, omega_h, 0.5) - 1, without);
+    if (omega_h > 2) least = std::min(least, std::isnan(without) ? -INFINITY : without);
   }
-  const std::vector<Column> evidence = {{"omega h of a bond", "1", ratios},
-                                        {"radius less 1 with tau_s = h/2", "1", with},
-                                        {"radius less 1 with a plain spring", "1", without}};
   result.findings.push_back(
       {"sticking-lag.stiff-layers-are-stable",
        "Two layers that stick to each other are stable in scheme C with tau_s = h/2, however stiff "
        "their bonds.",
-       {{stable.value(), 1e-3, 0, "1",
-         "disturbances of 1e-6 m turn a triangle of 0.1 m by 1e-5, whose square times (omega h)^2 "
-         "is 1e-4 of a step; what is unstable grows manyfold in one"},
-        evidence,
-        "measured is the largest spectral radius less 1"}});
+       judge_worst(layers, "radius less 1 with tau_s = h/2", 1e-3,
+                   "disturbances of 1e-6 m turn a triangle of 0.1 m by 1e-5, whose square times "
+                   "(omega h)^2 is 1e-4 of a step; what is unstable grows manyfold in one",
+                   "measured is the largest spectral radius less 1")});
   result.findings.push_back(
       {"sticking-lag.stiff-layers-need-forecasts",
        "Without forecasts the same bonds are unstable once omega h exceeds a few.",
        {{1 - least, 0, 0, "1",
          "beyond its limit a plain spring's radius grows as (omega h)^2: far above 2 at 10"},
-        evidence,
+        layers,
         "measured is what the smallest radius less 1, of omega h = 10 and more, lacks of 1"}});
 }
 
 // ---- cost
 
+Table iterations_over_stiffness(const Subject& subject, Tier tier) {
+  const int cells = tier == Tier::quick ? 8 : 24;
+  const double loose = iterations_where(subject, cells, StuckTo::nothing, 1);
+  Table iterations{
+      {"k tau_s h/(2 m)", "1"}, {"nothing sticks", "1"}, {"to a surface", "1"}, {"to cloth", "1"}};
+  for (const double number : geometric_range(0.01, 1e4, 7))
+    iterations.row(number, loose, iterations_where(subject, cells, StuckTo::surface, number),
+                   iterations_where(subject, cells, StuckTo::cloth, number));
+  return iterations;
+}
+
+NamedFinding cost_finding(const Table& iterations) {
+  const std::vector<double>&stuck = iterations.numbers("to a surface"),
+        &loose = iterations.numbers("nothing sticks");
+  Worst surface;
+  for (size_t k = 0; k < iterations.rows(); ++k) surface.observe(stuck[k] / loose[k]);
+  return {
+      "sticking-lag.surface-bonds-add-few-iterations",
+      "Bonds to a surface cost a solve no more than the digits by which its first guess is worse.",
+      {{surface.value(), 1.4, 0, "1",
+        "what they add is k tau_s on the diagonal, which does not spread the spectrum; but the "
+        "guess, the explicit velocity, is off by up to 1e4 times as much: fourteen digits to go "
+        "and not ten"},
+       iterations,
+       "measured is the largest number of iterations over that where nothing sticks; bonds between "
+       "layers spread the spectrum, and cost more"}};
+}
+
 void add_cost(const Subject& subject, Tier tier, StudyResult& result) {
+  const Table iterations = iterations_over_stiffness(subject, tier);
+  const std::string number = "k tau_s h/(2 m)";
   Figure figure{"iterations",
                 "Iterations of a solve where a sheet sticks",
-                {"k tau_s h/(2 m)", "1", Scale::log},
+                {number, "1", Scale::log},
                 {"iterations of a solve", "1", Scale::linear},
                 nan,
                 "A damped sheet whose particles all stick, to a surface or to a second sheet. "
                 "Scheme C, tolerance 1e-10.",
                 {}};
-  const int cells = tier == Tier::quick ? 8 : 24;
-  const double loose = iterations_where(subject, cells, StuckTo::nothing, 1);
-  std::vector<double> numbers = geometric_range(0.01, 1e4, 7), on_surface, on_cloth,
-                      none(numbers.size(), loose);
-  Worst surface;
-  for (const double number : numbers) {
-    on_surface.push_back(iterations_where(subject, cells, StuckTo::surface, number));
-    on_cloth.push_back(iterations_where(subject, cells, StuckTo::cloth, number));
-    surface.observe(on_surface.back() / loose);
-  }
-  figure.curves = {{"nothing sticks", numbers, none, nan, {}},
-                   {"to a surface", numbers, on_surface, nan, {}},
-                   {"to cloth", numbers, on_cloth, nan, {}}};
+  for (const char* to : {"nothing sticks", "to a surface", "to cloth"})
+    figure.curves.push_back(curve_of(to, iterations, number, to));
   result.figures.push_back(figure);
-  result.findings.push_back(
-      {"sticking-lag.surface-bonds-add-few-iterations",
-       "Bonds to a surface cost a solve no more than the digits by which its first guess is worse.",
-       {{surface.value(), 1.4, 0, "1",
-         "what they add is k tau_s on the diagonal, which does not spread the spectrum; but the "
-         "guess, the explicit velocity, is off by up to 1e4 times as much: fourteen digits to go "
-         "and not ten"},
-        {{"k tau_s h/(2 m)", "1", numbers},
-         {"nothing sticks", "1", none},
-         {"to a surface", "1", on_surface},
-         {"to cloth", "1", on_cloth}},
-        "measured is the largest number of iterations over that where nothing sticks; bonds "
-        "between layers spread the spectrum, and cost more"}});
+  result.findings.push_back(cost_finding(iterations));
 }
 
 StudyResult run_sticking_lag(const Subject& subject, Tier tier, const Progress& progress) {

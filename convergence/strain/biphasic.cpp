@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "convergence/strain/studies.h"
+#include "convergence/tables.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
 #include "verification/evidence.h"
@@ -72,29 +73,42 @@ Scene strip(const Springs& springs) {
 /// What a run shows.
 struct PulledStrip {
   Springs springs;
-  std::vector<double> loads, extensions;  // N/m, 1
+  Table pulled{{"load", "N/m"}, {"extension", "1"}, {"of the bar", "1"}};  // frame by frame
   double steps = 0, sweeps = 0, seconds = 0, step_limit = 0, largest_strain = 0;
 };
+
+/// The pulled end's mean distance from the other, over the rest length, less 1.
+double extension_of(const Scene& scene, const State& s) {
+  double ends = 0, count = 0;  // m
+  for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
+    if (scene.mesh.rest(0, i) < length - 1e-9) continue;
+    ends += s.x(0, i);
+    ++count;
+  }
+  return (ends / count - s.x(0, scene.prescribed.front().particle)) / length - 1;
+}
+
+/// A run that stopped has no extensions.
+Table without_extensions(const Table& pulled) {
+  Table table = with_columns(pulled, {"load"});
+  table.add({"extension", "1", std::vector<double>(pulled.rows(), nan)});
+  table.add(pulled.column("of the bar"));
+  return table;
+}
 
 PulledStrip pull_strip(const Springs& springs) {
   const Scene scene = strip(springs);
   const System system = build_system(scene);
-  PulledStrip result{springs, {}, {}};
+  PulledStrip result{springs};
   result.step_limit = elastic_limit(system, start_state(scene));
   const auto frame = [&](const State& s) {
-    double ends = 0, count = 0;  // m
-    for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
-      if (scene.mesh.rest(0, i) < length - 1e-9) continue;
-      ends += s.x(0, i);
-      ++count;
-    }
     for (const Edge& edge : scene.mesh.edges) {
       const double rest = (scene.mesh.rest.col(edge.b) - scene.mesh.rest.col(edge.a)).norm();
       update_worst(result.largest_strain, (s.x.col(edge.b) - s.x.col(edge.a)).norm() / rest - 1);
     }
-    result.loads.push_back(load_at(s.time));
-    result.extensions.push_back(
-        (ends / count - s.x(0, scene.prescribed.front().particle)) / length - 1);
+    const double load = load_at(s.time);
+    result.pulled.row(load, extension_of(scene, s),
+                      bar_extension(load, springs.young, springs.is_limited ? limit : INFINITY));
   };
   const auto start = std::chrono::steady_clock::now();
   const RunResult run = simulate(system, integrator_named(scene.integrator), start_state(scene),
@@ -102,15 +116,17 @@ PulledStrip pull_strip(const Springs& springs) {
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.steps = double(run.steps);
   result.sweeps = double(run.work.strain_sweeps) / result.steps;
-  if (run.stop) result.extensions.assign(result.extensions.size(), nan);
+  if (run.stop) result.pulled = without_extensions(result.pulled);
   return result;
 }
 
 /// Slope of extension over load between two loads, by least squares [m/N].
 double compliance(const PulledStrip& run, double low, double high) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-  for (size_t k = 0; k < run.loads.size(); ++k) {
-    const double x = run.loads[k], y = run.extensions[k];
+  const std::vector<double>&loads = run.pulled.numbers("load"),
+        &extensions = run.pulled.numbers("extension");
+  for (size_t k = 0; k < run.pulled.rows(); ++k) {
+    const double x = loads[k], y = extensions[k];
     if (!(x >= low && x <= high)) continue;
     n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
   }
@@ -123,20 +139,11 @@ double late_over_early(const PulledStrip& run) {
          compliance(run, 0.1 * locking, 0.9 * locking);
 }
 
-std::vector<Column> evidence_of(const PulledStrip& run) {
-  std::vector<double> bar;
-  for (const double load : run.loads)
-    bar.push_back(
-        bar_extension(load, run.springs.young, run.springs.is_limited ? limit : INFINITY));
-  return {{"load", "N/m", run.loads}, {"extension", "1", run.extensions}, {"of the bar", "1", bar}};
-}
-
 NamedFinding bar_finding(const PulledStrip& run) {
   Worst worst;
-  std::vector<Column> evidence = evidence_of(run);
-  const auto& bar = std::get<0>(evidence[2].values);
-  for (size_t k = 0; k < bar.size(); ++k)
-    worst.observe(std::abs(run.extensions[k] - bar[k]) / limit);
+  const std::vector<double>&bar = run.pulled.numbers("of the bar"),
+        &extensions = run.pulled.numbers("extension");
+  for (size_t k = 0; k < bar.size(); ++k) worst.observe(std::abs(extensions[k] - bar[k]) / limit);
   const double wave = length / std::sqrt(weak / density);     // s
   const double growth = most * locking * 2 * pi * frequency;  // of the load, at most [N/m/s]
   const double lag = (wave + damping_time) * growth / (2 * weak) / limit;
@@ -146,7 +153,7 @@ NamedFinding bar_finding(const PulledStrip& run) {
           {{worst.value(), lag, 0, "of the limit",
             "the strip lags behind its load by the time of a wave along it and that of its "
             "damping, in which a bar is extended by this much"},
-           std::move(evidence),
+           run.pulled,
            ""}};
 }
 
@@ -157,7 +164,7 @@ NamedFinding phases_finding(const PulledStrip& run) {
           {{late_over_early(run), 0.125, 0, "1",
             "a bar gives way (full load/load)^2 as much: between 1/9 and 1/16, 1/12 on average; "
             "half as much again"},
-           evidence_of(run),
+           run.pulled,
            "measured is the slope of extension over load from 3 to 4 times that load, over the "
            "slope up to 0.9 times it"}};
 }
@@ -175,20 +182,19 @@ NamedFinding one_phase_finding(const std::vector<PulledStrip>& runs) {
 
 NamedFinding steps_finding(const PulledStrip& limited, const PulledStrip& stiff) {
   const double ratio = stiff.steps / limited.steps;
-  return {
-      "biphasic.limits-allow-larger-steps",
-      "Springs that need no limit to stay within 10 % under the largest load are four times as "
-      "stiff, and take twice as many steps.",
-      {{std::abs(ratio / std::sqrt(most) - 1), 0.05, 0, "1",
-        "the elastic limit is proportional to one over the square root of the stiffness; steps are "
-        "fitted to frames"},
-       {{"springs", "", std::vector<std::string>{limited.springs.name, stiff.springs.name}},
-        {"elastic limit", "s", std::vector<double>{limited.step_limit, stiff.step_limit}},
-        {"steps", "1", std::vector<double>{limited.steps, stiff.steps}},
-        {"sweeps a step", "1", std::vector<double>{limited.sweeps, stiff.sweeps}},
-        {"seconds", "s", std::vector<double>{limited.seconds, stiff.seconds}},
-        {"largest strain", "1", std::vector<double>{limited.largest_strain, stiff.largest_strain}}},
-       ""}};
+  Table both{{"springs", ""},        {"elastic limit", "s"}, {"steps", "1"},
+             {"sweeps a step", "1"}, {"seconds", "s"},       {"largest strain", "1"}};
+  for (const PulledStrip& run : {limited, stiff})
+    both.row(run.springs.name, run.step_limit, run.steps, run.sweeps, run.seconds,
+             run.largest_strain);
+  return {"biphasic.limits-allow-larger-steps",
+          "Springs that need no limit to stay within 10 % under the largest load are four times as "
+          "stiff, and take twice as many steps.",
+          {{std::abs(ratio / std::sqrt(most) - 1), 0.05, 0, "1",
+            "the elastic limit is proportional to one over the square root of the stiffness; steps "
+            "are fitted to frames"},
+           both,
+           ""}};
 }
 
 Figure figure_of(const std::vector<PulledStrip>& runs) {
@@ -201,34 +207,18 @@ Figure figure_of(const std::vector<PulledStrip>& runs) {
                 "beyond, until it is the limit.",
                 {}};
   for (const PulledStrip& run : runs)
-    figure.curves.push_back({run.springs.name, run.loads, run.extensions, nan, {}});
-  const std::vector<Column> evidence = evidence_of(runs.front());
-  figure.curves.push_back(
-      {"bar with a limit", runs.front().loads, std::get<0>(evidence[2].values), nan, {}});
+    figure.curves.push_back(curve_of(run.springs.name, run.pulled, "load", "extension"));
+  figure.curves.push_back(curve_of("bar with a limit", runs.front().pulled, "load", "of the bar"));
   return figure;
 }
 
 Table table_of(const std::vector<PulledStrip>& runs) {
-  std::vector<std::string> names;
-  std::vector<double> columns, limits, steps, sweeps, seconds, strains;
-  for (const PulledStrip& run : runs) {
-    names.push_back(run.springs.name);
-    columns.push_back(run.springs.columns);
-    limits.push_back(1e3 * run.step_limit);
-    steps.push_back(run.steps);
-    sweeps.push_back(run.sweeps);
-    seconds.push_back(run.seconds);
-    strains.push_back(run.largest_strain);
-  }
-  return {"runs",
-          "What the same load costs",
-          {{"springs", "", names},
-           {"columns", "1", columns},
-           {"elastic limit", "ms", limits},
-           {"steps", "1", steps},
-           {"sweeps a step", "1", sweeps},
-           {"seconds", "s", seconds},
-           {"largest strain", "1", strains}}};
+  Table table{{"springs", ""},        {"columns", "1"}, {"elastic limit", "ms"}, {"steps", "1"},
+              {"sweeps a step", "1"}, {"seconds", "s"}, {"largest strain", "1"}};
+  for (const PulledStrip& run : runs)
+    table.row(run.springs.name, run.springs.columns, 1e3 * run.step_limit, run.steps, run.sweeps,
+              run.seconds, run.largest_strain);
+  return {"runs", "What the same load costs", table};
 }
 
 StudyResult run_biphasic(const Subject&, Tier tier, const Progress& progress) {

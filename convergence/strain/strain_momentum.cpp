@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "convergence/order.h"
+#include "convergence/ranges.h"
 #include "convergence/strain/studies.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/dynamics/system.h"
@@ -43,14 +44,14 @@ Scene spinning_sheet() {
   return scene;
 }
 
+/// One level: the drift of the angular momentum over a run of `count` steps.
 struct Drift {
-  std::string scheme;
-  std::vector<double> steps, relative, roundings;  // s; of |L|; in epsilon a step of sum m |x| |v|
-  double sweeps = 0;                               // a step, at the finest step [1]
+  double relative, roundings;  // of |L|; in epsilon a step of sum m |x| |v|
+  double sweeps;               // a step [1]
 };
 
-void add_level(const Subject& subject, const Scene& scene, int count, Drift& drift) {
-  Stepper stepper(subject, scene, drift.scheme);
+Drift drift_over(const Subject& subject, const Scene& scene, const std::string& scheme, int count) {
+  Stepper stepper(subject, scene, scheme);
   const System system = build_system(scene);
   const State start = stepper.start();
   State s = start;
@@ -62,42 +63,48 @@ void add_level(const Subject& subject, const Scene& scene, int count, Drift& dri
   }
   const Vector3 before = angular_momentum(system, start);
   const double moved = (angular_momentum(system, s) - before).norm();
-  drift.steps.push_back(end / count);
-  drift.relative.push_back(moved / before.norm());
-  drift.roundings.push_back(moved / (epsilon * count * size.value()));
-  drift.sweeps = double(stepper.work().strain_sweeps) / count;
+  return {moved / before.norm(), moved / (epsilon * count * size.value()),
+          double(stepper.work().strain_sweeps) / count};
 }
 
-std::vector<Column> evidence_of(const Drift& drift) {
+const std::string sweeps_at_finest = "sweeps a step, at the finest";
+
+/// The drifts of a scheme over steps that are halved level by level.
+Table drifts_of(const Subject& subject, const std::string& scheme, int levels) {
+  const Scene scene = spinning_sheet();
+  double sweeps = 0;
+  Table drifts = refine({{"step", "s"}, {"relative drift", "1"}, {"drift in roundings", "1"}},
+                        doubling_range(coarsest, coarsest << (levels - 1)), [&](int count) {
+                          const Drift drift = drift_over(subject, scene, scheme, count);
+                          sweeps = drift.sweeps;
+                          return std::tuple{end / count, drift.relative, drift.roundings};
+                        });
+  drifts.add({sweeps_at_finest, "1", std::vector<double>(drifts.rows(), sweeps)});
+  return drifts;
+}
+
+NamedFinding kept(const std::string& scheme, const Table& drifts) {
+  const double sweeps = drifts.numbers(sweeps_at_finest).back();
   return {
-      {"step", "s", drift.steps},
-      {"relative drift", "1", drift.relative},
-      {"drift in roundings", "1", drift.roundings},
-      {"sweeps a step, at the finest", "1", std::vector<double>(drift.steps.size(), drift.sweeps)}};
+      "strain-momentum.is-conserved." + scheme,
+      "Scheme " + scheme +
+          " keeps the angular momentum of a free sheet at its strain limits to rounding.",
+      {{drifts.worst("drift in roundings"), 16 + 12 * sweeps, 0, "epsilon, a step, of sum m|x||v|",
+        "sixteen roundings of x, v and the forces, all erring to one side, and two for each of "
+        "some six springs at a particle in each sweep"},
+       drifts,
+       ""}};
 }
 
-NamedFinding kept(const Drift& drift) {
-  Worst worst;
-  for (const double roundings : drift.roundings) worst.observe(roundings);
-  return {"strain-momentum.is-conserved." + drift.scheme,
-          "Scheme " + drift.scheme +
-              " keeps the angular momentum of a free sheet at its strain limits to rounding.",
-          {{worst.value(), 16 + 12 * drift.sweeps, 0, "epsilon, a step, of sum m|x||v|",
-            "sixteen roundings of x, v and the forces, all erring to one side, and two for each of "
-            "some six springs at a particle in each sweep"},
-           evidence_of(drift),
-           ""}};
-}
-
-NamedFinding drifts(const Drift& drift) {
-  const double fitted = fitted_order({drift.steps, drift.relative, 0});
-  return {"strain-momentum.drift-is-first-order." + drift.scheme,
-          "The angular momentum of a free sheet at its strain limits drifts under " + drift.scheme +
+NamedFinding drift_order(const std::string& scheme, const Table& drifts) {
+  const double fitted = fitted_order(convergence_of(drifts, "relative drift"));
+  return {"strain-momentum.drift-is-first-order." + scheme,
+          "The angular momentum of a free sheet at its strain limits drifts under " + scheme +
               ", by first order in the step.",
           {{std::abs(fitted - 1), 0.1, 0, "1",
             "a drift of another power of the step is off by 1; at these steps the next term leaves "
             "less than a tenth"},
-           evidence_of(drift),
+           drifts,
            "measured is |order - 1| of the line through all levels"}};
 }
 
@@ -115,11 +122,10 @@ StudyResult run_strain_momentum(const Subject& subject, Tier tier, const Progres
       {}};
   double done = 0;
   for (const Integrator& method : paper_schemes()) {
-    Drift drift{std::string(method.name), {}, {}, {}};
-    for (int level = 0, count = coarsest; level < levels; ++level, count *= 2)
-      add_level(subject, spinning_sheet(), count, drift);
-    result.findings.push_back(drift.scheme == "B" ? kept(drift) : drifts(drift));
-    figure.curves.push_back({drift.scheme, drift.steps, drift.relative, nan, {}});
+    const std::string scheme(method.name);
+    const Table drifts = drifts_of(subject, scheme, levels);
+    result.findings.push_back(scheme == "B" ? kept(scheme, drifts) : drift_order(scheme, drifts));
+    figure.curves.push_back(curve_of(scheme, drifts, "step", "relative drift"));
     progress(++done / 3);
   }
   result.figures.push_back(std::move(figure));

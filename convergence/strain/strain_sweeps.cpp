@@ -5,6 +5,7 @@
 
 #include "convergence/order.h"
 #include "convergence/strain/studies.h"
+#include "convergence/tables.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
 #include "verification/evidence.h"
@@ -85,70 +86,61 @@ double kinetic(const JerkedSheet& sheet, const PerParticle3& v) {
   return energies(sheet.system, {0, sheet.scene.x, v}).kinetic;
 }
 
-/// One order of sweeps on all meshes.
-struct Row {
-  std::string order;
-  std::vector<double> cells, sweeps, energy_left, asymmetry;
-};
-
-Row row_of(const NamedOrder& order, const std::vector<int>& meshes) {
-  Row row{order.name, {}, {}, {}, {}};
-  for (const int cells : meshes) {
-    const JerkedSheet sheet = jerked_sheet(cells);
-    const Swept all = swept(sheet, order.order, 1'000'000);
-    row.cells.push_back(cells);
-    row.sweeps.push_back(all.done.sweeps);
-    row.energy_left.push_back(kinetic(sheet, all.v) / kinetic(sheet, sheet.v));
-    row.asymmetry.push_back(asymmetry(sheet, all.v));
-  }
-  return row;
+/// One order of sweeps on all meshes, coarse to fine.
+Table refined(const NamedOrder& order, const std::vector<int>& meshes) {
+  return refine({{"cells along a side", "1"},
+                 {"sweeps", "1"},
+                 {"kinetic energy left", "of what there was"},
+                 {"asymmetry", "of the largest correction"}},
+                meshes, [&](int cells) {
+                  const JerkedSheet sheet = jerked_sheet(cells);
+                  const Swept all = swept(sheet, order.order, 1'000'000);
+                  return std::tuple{cells, all.done.sweeps,
+                                    kinetic(sheet, all.v) / kinetic(sheet, sheet.v),
+                                    asymmetry(sheet, all.v)};
+                });
 }
 
-std::vector<Column> evidence_of(const Row& row) {
-  return {{"cells along a side", "1", row.cells},
-          {"sweeps", "1", row.sweeps},
-          {"kinetic energy left", "of what there was", row.energy_left},
-          {"asymmetry", "of the largest correction", row.asymmetry}};
-}
-
-NamedFinding growth(const Row& row) {
+NamedFinding growth(const std::string& order, const Table& row) {
   std::vector<double> widths;
-  for (const double cells : row.cells) widths.push_back(1 / cells);
-  const double exponent = -fitted_order({widths, row.sweeps, 0});
+  for (const double cells : row.numbers("cells along a side")) widths.push_back(1 / cells);
+  const double exponent = -fitted_order({widths, row.numbers("sweeps"), 0});
   return {
-      "strain-sweeps.grow-quadratically." + row.order,
-      "Sweeps in the order '" + row.order +
+      "strain-sweeps.grow-quadratically." + order,
+      "Sweeps in the order '" + order +
           "' that find velocities within the limits grow as the square of the cells along a side.",
       {{std::abs(exponent - 2), 0.25, 0, "1",
         "near the limits a sweep is one of an iteration for a Poisson equation, in which a "
         "correction spreads like heat: over n cells in n^2 sweeps; growth in proportion, or as the "
         "cube, is off by 1"},
-       evidence_of(row),
+       row,
        "measured is |exponent - 2|"}};
 }
 
-NamedFinding mirror_finding(const Row& row) {
-  Worst worst;
-  for (const double asymmetry : row.asymmetry) worst.observe(asymmetry / epsilon);
+NamedFinding mirror_finding(const Table& row) {
   return {"strain-sweeps.jacobi-is-mirror-symmetric",
           "Sweeps that correct all springs from the same velocities answer a mirror-symmetric "
           "motion by a mirror-symmetric one.",
-          {{worst.value(), 64, 0, "epsilon of the largest correction",
+          {{row.worst("asymmetry") / epsilon, 64, 0, "epsilon of the largest correction",
             "only the order in which a particle's impulses are added differs between the two "
             "sides, and the limits pull its roundings back from sweep to sweep"},
-           evidence_of(row),
+           row,
            ""}};
 }
 
+/// One order and its sweeps on all meshes.
+struct Row {
+  std::string order;
+  Table sweeps;
+};
+
 NamedFinding bias_finding(const std::vector<Row>& rows) {
   Worst worst;
-  std::vector<std::string> orders;
-  std::vector<double> coarsest;
+  Table coarsest{{"order", ""}, {"asymmetry", "of the largest correction"}};
   for (const Row& row : rows) {
     if (row.order == "jacobi") continue;
-    orders.push_back(row.order);
-    coarsest.push_back(row.asymmetry.front());
-    worst.observe(0.01 / row.asymmetry.front());
+    coarsest.row(row.order, row.sweeps.numbers("asymmetry").front());
+    worst.observe(0.01 / row.sweeps.numbers("asymmetry").front());
   }
   return {"strain-sweeps.sequential-sweeps-break-mirror-symmetry",
           "Sweeps that correct springs in turn answer a mirror-symmetric motion unsymmetrically, "
@@ -156,22 +148,21 @@ NamedFinding bias_finding(const std::vector<Row>& rows) {
           {{worst.value(), 1, 0, "1",
             "measured is a hundredth of the largest correction over the asymmetry, on the coarsest "
             "mesh: it is no small part"},
-           {{"order", "", orders}, {"asymmetry", "of the largest correction", coarsest}},
+           coarsest,
            "The velocities within the limits are many; which of them is found depends on who is "
            "asked first."}};
 }
 
 NamedFinding energy(const std::vector<Row>& rows) {
   Worst worst;
-  for (const Row& row : rows)
-    for (const double left : row.energy_left) worst.observe(left);
+  for (const Row& row : rows) worst.observe(row.sweeps.worst("kinetic energy left"));
   return {"strain-sweeps.kinetic-energy-decreases",
           "Limiting the strain of a sheet that moves away from its place takes kinetic energy, in "
           "whatever order.",
           {{worst.value(), 1, 0, "of what there was",
             "springs within their limits at the start; what each impulse takes is relative motion "
             "beyond them"},
-           evidence_of(rows.front()),
+           rows.front().sweeps,
            ""}};
 }
 
@@ -180,49 +171,39 @@ Curve residuals(const NamedOrder& order, int cells) {
   Curve curve{order.name, {}, {}, nan, {}};
   for (int sweeps = 1;; sweeps *= 2) {
     const StrainSweeps done = swept(sheet, order.order, sweeps).done;
-    curve.x.push_back(done.sweeps);
-    curve.y.push_back(done.remaining_violation);
+    curve.point(done.sweeps, done.remaining_violation);
     if (!(done.remaining_violation > tolerance)) return curve;
   }
 }
 
 Table table_of(const std::vector<Row>& rows) {
-  std::vector<std::string> orders;
-  Row all{"", {}, {}, {}, {}};
-  for (const Row& row : rows)
-    for (size_t k = 0; k < row.cells.size(); ++k) {
-      orders.push_back(row.order);
-      all.cells.push_back(row.cells[k]);
-      all.sweeps.push_back(row.sweeps[k]);
-      all.energy_left.push_back(row.energy_left[k]);
-      all.asymmetry.push_back(row.asymmetry[k]);
-    }
-  std::vector<Column> columns = evidence_of(all);
-  columns.insert(columns.begin(), {"order", "", orders});
-  return {"orders", "Sweeps until no violation exceeds a thousandth", columns};
+  std::vector<std::pair<std::string, Table>> groups;
+  for (const Row& row : rows) groups.emplace_back(row.order, row.sweeps);
+  return {"orders", "Sweeps until no violation exceeds a thousandth",
+          stacked({"order", ""}, groups)};
 }
 
 /// Springs that are beyond their limits at the start are brought back in one step,
 /// whatever that takes.
 Table recovery_table() {
-  std::vector<double> stretches = {1.05, 1.12, 1.2, 1.4}, given, elastic, sweeps;
+  Table table{{"length over rest length", "1"},
+              {"kinetic energy given", "J"},
+              {"elastic energy of the stretch", "J"},
+              {"sweeps", "1"}};
   const JerkedSheet sheet = jerked_sheet(12);
   StrainLimiter free = sheet.limiter(SweepOrder::gauss_seidel, 10'000);
   free.inverse_mass = sheet.system.mass.cwiseInverse();
-  for (const double stretch : stretches) {
+  for (const double stretch : {1.05, 1.12, 1.2, 1.4}) {
     const State stretched{0, stretch * sheet.scene.x, PerParticle3::Zero(3, sheet.v.cols())};
     PerParticle3 v = stretched.v;
-    sweeps.push_back(limit_strain(free, sheet.step, stretched.x, v).sweeps);
-    given.push_back(energies(sheet.system, {0, stretched.x, v}).kinetic);
-    elastic.push_back(energies(sheet.system, stretched).stretch);
+    const int sweeps = limit_strain(free, sheet.step, stretched.x, v).sweeps;
+    table.row(stretch, energies(sheet.system, {0, stretched.x, v}).kinetic,
+              energies(sheet.system, stretched).stretch, sweeps);
   }
   return {"brought-back",
           "Kinetic energy that limits of +10 % give to a free sheet that rests stretched in all "
           "directions",
-          {{"length over rest length", "1", stretches},
-           {"kinetic energy given", "J", given},
-           {"elastic energy of the stretch", "J", elastic},
-           {"sweeps", "1", sweeps}}};
+          table};
 }
 
 StudyResult run_strain_sweeps(const Subject&, Tier tier, const Progress& progress) {
@@ -239,17 +220,17 @@ StudyResult run_strain_sweeps(const Subject&, Tier tier, const Progress& progres
                 {}};
   std::vector<Row> rows;
   for (const NamedOrder& order : sweep_orders()) {
-    rows.push_back(row_of(order, meshes));
-    result.findings.push_back(growth(rows.back()));
-    if (order.order == SweepOrder::jacobi) result.findings.push_back(mirror_finding(rows.back()));
+    rows.push_back({order.name, refined(order, meshes)});
+    const Table& row = rows.back().sweeps;
+    result.findings.push_back(growth(order.name, row));
+    if (order.order == SweepOrder::jacobi) result.findings.push_back(mirror_finding(row));
     figure.curves.push_back(residuals(order, 12));
     progress(double(rows.size()) / double(sweep_orders().size()));
   }
   result.findings.push_back(bias_finding(rows));
   result.findings.push_back(energy(rows));
   result.figures.push_back(std::move(figure));
-  result.tables.push_back(table_of(rows));
-  result.tables.push_back(recovery_table());
+  result.tables = {table_of(rows), recovery_table()};
   return result;
 }
 

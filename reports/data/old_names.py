@@ -11,11 +11,18 @@ RENAMES = Path(__file__).resolve().parents[2] / "scripts" / "renames.toml"
 BEFORE = "0.1.0"   # the last version with the old names
 
 
+def current_names(version: str) -> dict[str, str]:
+    """The new name of each finding that a run of this version calls otherwise."""
+    if version != BEFORE:
+        return {}
+    return tomllib.loads(RENAMES.read_text(encoding="utf-8"))["findings"]
+
+
 def with_current_names(run: Run) -> Run:
     """The run with its findings and studies called as they are today; itself if it was written after the renames."""
-    if run.provenance.get("version") != BEFORE:
+    now = current_names(str(run.provenance.get("version")))
+    if not now:
         return run
-    now = tomllib.loads(RENAMES.read_text(encoding="utf-8"))["findings"]
     return replace(run,
                    findings=[replace(one, name=now.get(one.name, one.name), study=now.get(one.study, one.study)) for one in run.findings],
                    studies=[replace(one, name=now.get(one.name, one.name)) for one in run.studies],

@@ -14,7 +14,8 @@ int inspect(const Options& options);        // inspect_command.cpp
 int run_checks(const Options& options);
 int run_studies(const Options& options);
 int verify(const Options& options);
-int make_report(const Options& options);  // report_commands.cpp, as the next two
+int make_report(const Options& options);  // report_commands.cpp, as the next three
+int show_history(const Options& options);
 int make_film(const Options& options);
 int export_frames(const Options& options);
 int evaluate_hinges(const Options& options);

@@ -9,6 +9,7 @@
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/json_text.h"
+#include "scripts/program/predictability_runs.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
@@ -111,12 +112,17 @@ int converge(const Options& options) {
   build(plan.input_case.scene, level_sets);  // refuses now what cannot be built
   const OutFolder folder(options.out);
   ResultStore store(options.out + "/store");
-  const LadderAnswer answer =
-      time_answer(plan, ladder_runs(plan, level_sets, store, options.running));
-  if (options.json)
-    fmt::print("{}\n", json_text(to_json(answer)));
-  else
+  const std::vector<LevelRun> runs = ladder_runs(plan, level_sets, store, options.running);
+  const PredictabilityAnswer twins = run_twins(plan, runs, level_sets, store, options);
+  const LadderAnswer answer = answer_before_horizon(plan, runs, twins);
+  if (options.json) {
+    json answer_json = to_json(answer);
+    answer_json["predictability"] = to_json(twins);
+    fmt::print("{}\n", json_text(answer_json));
+  } else {
     print(answer);
+    print(twins);
+  }
   return answer.quantities.front().bar.reading == Reading::inconclusive ? some_fail : all_hold;
 }
 

@@ -17,6 +17,7 @@ struct Options {
   std::vector<std::string> words;  // as typed, the program's name first
   std::string out = "results", tier = "quick", file, rest_file;
   std::vector<std::string> names, overrides;
+  std::string log;                 // of history: file of JSON lines
   std::string cache;               // folder that keeps level sets; none if empty
   std::string map, rule = "loop";  // of project: a depth map, a rule of subdivision
   double reach = 0, eps = 0;       // of project [m]
@@ -32,6 +33,8 @@ struct Options {
   int cells = 64;                    // of inspect: along the longest side
   int subdivisions = 0;              // of project
   int levels = 4;                    // of converge: runs
+  double fraction = 0.1;             // of converge: of the motion, at which twin runs have parted
+  int ensemble = 4;                  // of converge: runs with disturbed starts; 0: none
   std::vector<std::string> methods;  // of converge: integrators
   double until = 0;                  // of converge: how much of the run is asked [s]; 0: all of it
   std::string solver, name;          // of judge, subject: command; of judge: name in the report

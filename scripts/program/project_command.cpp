@@ -21,6 +21,7 @@
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
+#include "verification/cases/quantities.h"
 #include "verification/files/stored_run_file.h"
 #include "verification/files/trajectory_file.h"
 
@@ -111,7 +112,8 @@ struct Report {
   long frames = 0, moved = 0, pinched = 0, unfinished = 0;  // points, over all frames
   std::size_t inside = 0;                                   // points of the last frame
   double longest_edge = 0;                                  // of the last frame [m]
-  std::vector<Wrinkles> wrinkles;                           // of the last frame
+  double faces_before = 0, faces_after = 0;  // deepest point of a triangle, of all frames [m]
+  std::vector<Wrinkles> wrinkles;            // of the last frame
 };
 
 void count(const ProjectedCloth& cloth, Report& report) {
@@ -136,6 +138,11 @@ void compare_last_frame(const Source& source, Report& report) {
                      wrinkles_of(report.projection.map, source, mapped.before, mapped.after)};
 }
 
+/// As the quantity faces_outside has it [m].
+double deepest_face(const Source& source, const State& s) {
+  return value_at(*find_quantity("faces_outside"), source.scene, source.objects, s);
+}
+
 Report project_all(const Source& source, const Options& options) {
   Report report;
   report.projection = projection_of(options, source);
@@ -148,7 +155,9 @@ Report project_all(const Source& source, const Options& options) {
   for (std::size_t k = 0; k < source.run.times.size(); ++k) {
     State s = source.frame(k);
     const ProjectedCloth cloth = project_folds(source.objects, s.x, s.time, report.projection);
+    report.faces_before = std::max(report.faces_before, deepest_face(source, s));
     s.x = cloth.x;
+    report.faces_after = std::max(report.faces_after, deepest_face(source, s));
     count(cloth, report);
     file.add_frame(s);
     progress.show(double(k + 1) / double(source.run.times.size()));
@@ -175,6 +184,8 @@ void print(const Report& report, const std::string& folder) {
     fmt::print("  {:<8} {:>22} {:>16} {:>11} {:>11}\n", row.of, length_text(row.deviation),
                length_text(row.wavelength[0]), length_text(row.wavelength[1]),
                length_text(row.wavelength[2]));
+  fmt::print("deepest point of a triangle over all frames: {:.3g} m before, {:.3g} m after\n",
+             report.faces_before, report.faces_after);
   fmt::print(
       "edges up to {:.3g} m: whatever the objects, eps = {:.3g} m would keep every triangle out\n",
       report.longest_edge, report.longest_edge / std::sqrt(3.0));
@@ -194,6 +205,8 @@ nlohmann::json to_json(const Report& report, const std::string& folder) {
                          {"unfinished", report.unfinished},
                          {"inside", report.inside},
                          {"longest_edge", report.longest_edge},
+                         {"faces_before", report.faces_before},
+                         {"faces_after", report.faces_after},
                          {"wrinkles", nlohmann::json::array()}};
   for (const Wrinkles& row : report.wrinkles)
     json["wrinkles"].push_back(

@@ -28,7 +28,7 @@ void add(std::vector<std::string>& arguments, const std::string& option, const s
 }  // namespace
 
 int run_report_script(const std::string& makes, const std::string& script,
-                      const std::vector<std::string>& arguments) {
+                      const std::vector<std::string>& arguments, bool compares) {
   const std::string path = data_folder() + "/reports/" + script;
   std::vector<char*> words = {const_cast<char*>(python), const_cast<char*>(path.c_str())};
   for (const std::string& argument : arguments)
@@ -42,6 +42,7 @@ int run_report_script(const std::string& makes, const std::string& script,
   int status = 0;
   const bool has_ended = child > 0 && waitpid(child, &status, 0) > 0 && WIFEXITED(status);
   if (has_ended && WEXITSTATUS(status) == all_hold) return all_hold;
+  if (has_ended && compares && WEXITSTATUS(status) == some_fail) return some_fail;
   if (has_ended && WEXITSTATUS(status) == bad_input) return bad_input;  // it said why
   log_line("the " + makes + " could not be made: " +
            (has_ended && WEXITSTATUS(status) == not_started
@@ -55,6 +56,14 @@ int make_report(const Options& options) {
   if (options.pdf) arguments.push_back("--pdf");
   if (options.papers) arguments.push_back("--papers");
   return run_report_script("report", "make_report.py", arguments);
+}
+
+int show_history(const Options& options) {
+  std::vector<std::string> arguments = options.names;
+  add(arguments, "--log", options.log);
+  add(arguments, "--out", options.out);
+  if (options.json) arguments.push_back("--json");
+  return run_report_script("history", "make_history.py", arguments, true);
 }
 
 int make_film(const Options& options) {

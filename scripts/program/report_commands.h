@@ -7,9 +7,9 @@
 namespace foldproof {
 
 /// Runs reports/<script> with Debian's Python and waits for it; an error names what it `makes`.
-/// Returns its exit code: all_hold, or bad_input, which is also what a script that cannot be run,
-/// or that was killed, comes to.
+/// Returns its exit code: all_hold, or bad_input, which also stands for a script that cannot be run
+/// or was killed. Only a script that `compares` runs may return some_fail.
 int run_report_script(const std::string& makes, const std::string& script,
-                      const std::vector<std::string>& arguments);
+                      const std::vector<std::string>& arguments, bool compares = false);
 
 }  // namespace foldproof

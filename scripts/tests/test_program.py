@@ -199,6 +199,24 @@ step = 0.001
             self.assertEqual(done.returncode, 2)
             self.assertIn(f"{name}: there is no such case file, and no shipped case of that name", done.stderr)
 
+    def test_converge_tells_how_long_positions_are_predictable(self) -> None:
+        asked = ("converge", "hinge", "--until", "0.1", "--levels", "3", "--out", "out")
+        done = run(*asked, folder=self.path)
+        self.assertIn("predictable to its end (t = 0.1 s)", done.stdout, done.stderr)
+        told = json.loads(run(*asked, "--json", folder=self.path).stdout)["predictability"]
+        self.assertIsNone(told["horizon"])
+        self.assertEqual([len(twin["distances"]) for twin in told["twins"]], [len(told["times"])] * 2)
+        self.assertLess(told["twins"][0]["disturbance"], 1e-11)
+        self.assertAlmostEqual(told["twins"][1]["distances"][0] / told["twins"][1]["disturbance"], 1, 6)
+        strict = run(*asked, "--fraction", "1e-9", "--ensemble", "3", "--json", folder=self.path)
+        told = json.loads(strict.stdout)
+        self.assertLess(told["predictability"]["horizon"], 0.1)
+        self.assertEqual(told["predictability"]["ensemble"], 3)
+        self.assertEqual(len(told["predictability"]["statistics"][0]["levels"]), 3)
+        self.assertIn("only statistics are predictable", told["quantities"][-1]["because"])
+        for words in ("--fraction 1", "--fraction 0", "--ensemble -1"):
+            self.assert_rejected("converge", "hinge", *words.split())
+
     def test_any_obj_mesh_runs(self) -> None:
         quad = "v 0 0 0\nv 1 0 0\nv 1 1 0.1\nv 0 1 0\nv 0 2 0.2\nv 1 2 0\nf 1 2 3 4\nf 4 3 6 5\n"
         done = self.simulate(str(ROOT / "cases/any_mesh.toml"), "--set", "cloth.mesh=" + self.write("quad.obj", quad),
@@ -484,7 +502,7 @@ step = 0.001
 
         commands = [[name] for name in commands_in(run("--help").stdout)]
         commands += [["evaluate", name] for name in commands_in(run("evaluate", "--help").stdout)]
-        self.assertEqual(len(commands), 19)
+        self.assertEqual(len(commands), 20)
         for command in commands:
             text = run(*command, "--help").stdout
             self.assertNotRegex(text, r"\b(TEXT|U?INT|FLOAT|REQUIRED)\b|\(\dx\)", command)

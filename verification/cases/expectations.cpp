@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reference/scene/key_file.h"
+#include "verification/cases/face_bound.h"
 #include "verification/cases/quantities.h"
 #include "verification/cases/replaced_shape.h"
 
@@ -126,6 +127,8 @@ Case with_usual_expectations(Case input_case) {
   add_unless_stated(
       {"is_reproducible", 0, "the same numbers in the same order give the same bits, whoever asks"},
       input_case.expectations);
+  if (const auto faces = expected_faces_outside(scene, input_case.expectations))
+    add_unless_stated(*faces, input_case.expectations);
   // it starts crossed
   if (is_stated("tangle_does_not_grow", input_case.expectations)) return input_case;
   add_unless_stated(

@@ -46,7 +46,8 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
 
 /// Adds what is expected of every shipped case that does not say otherwise: that it runs to its
 /// end; where the forces have an energy and nothing is driven, that the energy is accounted for;
-/// that the run is reproducible; and that the cloth crosses itself in no frame, unless
+/// that the run is reproducible; where there are objects, that whole triangles stay outside but for
+/// what face_bound.h derives; and that the cloth crosses itself in no frame, unless
 /// tangle_does_not_grow is stated.
 Case with_usual_expectations(Case input_case);
 

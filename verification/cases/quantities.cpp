@@ -312,6 +312,7 @@ const std::vector<Quantity>& quantities() {
   static const std::vector<Quantity> table = [] {
     std::vector<Quantity> all = quantities_of_the_run();
     for (const Quantity& more : quantities_of_shape_and_place()) all.push_back(more);
+    for (const Quantity& more : face_quantities()) all.push_back(more);
     for (const Quantity& more : sticking_quantities()) all.push_back(more);
     for (const Quantity& more : strain_quantities()) all.push_back(more);
     for (const Quantity& more : standing_quantities()) all.push_back(more);

@@ -70,6 +70,9 @@ struct Quantity {
 double value_at(const Quantity& quantity, const Scene& scene, std::span<const Object> objects,
                 const State& frame);
 
+/// The row of whole triangles against objects (face_quantities.cpp).
+std::vector<Quantity> face_quantities();
+
 /// The rows of cloth that sticks (sticking_quantities.cpp).
 std::vector<Quantity> sticking_quantities();
 

@@ -210,6 +210,13 @@ CLI::Validator positive_number() {
   });
 }
 
+CLI::Validator share() {
+  return validator("a number above 0 and below 1", [](const std::string& typed) {
+    double value = 0;
+    return CLI::detail::lexical_cast(typed, value) && value > 0 && value < 1;
+  });
+}
+
 CLI::Validator some_text(const std::string& wanted) {
   return validator(wanted, [](const std::string&) { return true; });
 }

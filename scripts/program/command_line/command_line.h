@@ -23,6 +23,7 @@ CLI::Validator one_of(const std::vector<std::string>& names);
 CLI::Validator whole_number(long least, long most);
 CLI::Validator finite_number();
 CLI::Validator positive_number();
+CLI::Validator share();  // above 0 and below 1
 CLI::Validator some_text(const std::string& wanted);
 
 /// Ends a parse that failed: prints help if it was asked for, else one line on standard error, that

@@ -47,6 +47,19 @@ Exit codes:
   0    written; its path is printed
   2    there is nothing to report on, it cannot be read, or a package is missing)";
 
+constexpr const char* history =
+    R"(Needs the Debian packages python3-h5py, python3-matplotlib and python3-jinja2.
+
+Examples:
+  foldproof history results-monday results             what changed from one run to the next
+  foldproof history results --log history.jsonl        append this run to a log, then show it
+  foldproof history --log history.jsonl --out history.html
+
+Exit codes:
+  0    nothing got worse in the newest run
+  1    something did: it held before, and holds no longer
+  2    bad input, or a package is missing)";
+
 constexpr const char* film =
     R"(Needs the Debian packages ffmpeg, python3-h5py, python3-matplotlib and python3-pil.
 
@@ -225,8 +238,14 @@ by which differences between levels fall, Richardson's limit, and the grid conve
 error bar (safety 1.25 where the order has settled, else 3). Quantities are those of the case's
 [[quantity]] tables; without any: positions, energies, heights, and what its [expect] asks.
 
+Two more runs start disturbed: by 1e-12 of the cloth's extent, and by the size of the step's error.
+Where they part from the undisturbed run by --fraction of its motion, positions stop being
+predictable. Orders and bars are asked up to there only. Beyond it, --ensemble such runs give means
+over time of height, energies, contacts and fold angles, with their spread.
+
 Examples:
   foldproof converge hinge --until 0.2
+  foldproof converge drape_sphere --ensemble 8
   foldproof converge hanging_sheet --levels 3 --method BDF2 --out mine
 
 Exit codes:

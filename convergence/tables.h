@@ -1,0 +1,27 @@
+// Parts of tables: some of their columns, one group of their rows.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "verification/evidence.h"
+
+namespace foldproof {
+
+/// The columns with these names, in this order; std::logic_error if one is not there.
+Table with_columns(const Table& table, std::initializer_list<std::string_view> names);
+
+/// The rows whose text in a column is `text`, without that column; std::logic_error if the column
+/// is not there or holds numbers.
+Table group_of(const Table& table, std::string_view column, std::string_view text);
+
+/// Tables of the same columns, one below the other; a first column of texts says which is which.
+Table stacked(Column names, const std::vector<std::pair<std::string, Table>>& tables);
+
+/// The largest |a/b - 1| over the rows; NaN if any is. 0 without rows.
+double largest_deviation(const Table& table, std::string_view a, std::string_view b);
+
+}  // namespace foldproof
