@@ -65,6 +65,13 @@ Table stacked(Column names, const std::vector<std::pair<std::string, Table>>& ta
   return all;
 }
 
+double largest_ratio(const Table& table, std::string_view a, std::string_view b) {
+  const std::vector<double>&numerators = table.numbers(a), &denominators = table.numbers(b);
+  Worst ratio;
+  for (size_t k = 0; k < table.rows(); ++k) ratio.observe(numerators[k] / denominators[k]);
+  return ratio.value();
+}
+
 double largest_deviation(const Table& table, std::string_view a, std::string_view b) {
   const std::vector<double>&numerators = table.numbers(a), &denominators = table.numbers(b);
   Worst deviation;

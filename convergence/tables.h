@@ -21,6 +21,9 @@ Table group_of(const Table& table, std::string_view column, std::string_view tex
 /// Tables of the same columns, one below the other; a first column of texts says which is which.
 Table stacked(Column names, const std::vector<std::pair<std::string, Table>>& tables);
 
+/// The largest a/b over the rows; NaN if any is. 0 without rows, and if no ratio is above it.
+double largest_ratio(const Table& table, std::string_view a, std::string_view b);
+
 /// The largest |a/b - 1| over the rows; NaN if any is. 0 without rows.
 double largest_deviation(const Table& table, std::string_view a, std::string_view b);
 

@@ -1,7 +1,6 @@
 // mirror-symmetry: a symmetric sheet stays symmetric but for rounding, which grows as any
 // disturbance does.
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "convergence/integrators/studies.h"
@@ -13,7 +12,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double side = 0.5;           // m: with eight columns, every x is exact
 constexpr double disturbance = 1e-10;  // m
 
@@ -50,25 +48,18 @@ double asymmetry(const PerParticle3& x, const std::vector<int>& partner) {
   return worst.value();
 }
 
-struct History {
-  std::vector<double> times, values;  // s, m
-  std::vector<double> steps;          // taken until then [1]
-};
-
-History asymmetry_of_run(const Subject& subject, const Scene& scene, double end) {
+/// The asymmetry over a run: time, steps taken until then, distance.
+Table asymmetry_of_run(const Subject& subject, const Scene& scene, double end) {
   const auto prepared = require_offered(subject.prepare, "prepare")(scene);
   const std::vector<int> partner = mirror_particles(scene);
   State s = start_state(scene);
   const double h = 0.4 * elastic_limit(build_system(scene), s);
   const int steps = int(end / h), apart = steps / 40;
-  History history;
+  Table history{{"time", "s"}, {"steps", "1"}, {"asymmetry", "m"}};
   Work uncounted;
   for (int i = 1; i <= steps; ++i) {
     s = require_offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
-    if (i % apart != 0) continue;
-    history.times.push_back(i * h);
-    history.steps.push_back(i);
-    history.values.push_back(asymmetry(s.x, partner));
+    if (i % apart == 0) history.row(i * h, i, asymmetry(s.x, partner));
   }
   return history;
 }
@@ -83,34 +74,38 @@ Scene disturb(Scene scene) {
 
 /// Growth per second of the disturbance: the slope of its logarithm over time by
 /// least squares [1/s].
-double growth_rate(const History& history) {
+double growth_rate(const Table& history) {
+  const std::vector<double>&times = history.numbers("time"), &sizes = history.numbers("asymmetry");
   double n = 0, t = 0, y = 0, tt = 0, ty = 0;
-  for (size_t i = 0; i < history.times.size(); ++i) {
-    const double time = history.times[i], value = std::log(history.values[i]);
+  for (size_t i = 0; i < times.size(); ++i) {
+    const double time = times[i], value = std::log(sizes[i]);
     n += 1, t += time, y += value, tt += time * time, ty += time * value;
   }
   return (n * ty - t * y) / (n * tt - t * t);
 }
 
-NamedFinding finding_of(const History& rounding, const History& seeded) {
-  Worst worst, grown;
-  std::vector<double> roundings;
-  for (size_t i = 0; i < rounding.times.size(); ++i) {
-    grown.observe(seeded.values[i] / disturbance);
-    roundings.push_back(rounding.values[i] / (epsilon * side * rounding.steps[i] * grown.value()));
-    worst.observe(roundings.back());
+NamedFinding finding_of(const Table& rounding, const Table& seeded) {
+  const std::vector<double>&times = rounding.numbers("time"), &steps = rounding.numbers("steps"),
+        &own = rounding.numbers("asymmetry"), &disturbed = seeded.numbers("asymmetry");
+  Table evidence{{"time", "s"},
+                 {"asymmetry from rounding", "m"},
+                 {"asymmetry from 1e-10 m", "m"},
+                 {"rounding over epsilon * side * steps * growth", "1"}};
+  Worst grown;
+  for (size_t i = 0; i < times.size(); ++i) {
+    grown.observe(disturbed[i] / disturbance);
+    evidence.row(times[i], own[i], disturbed[i],
+                 own[i] / (epsilon * side * steps[i] * grown.value()));
   }
   return {"mirror-symmetry.only-rounding-breaks-it",
           "A symmetric sheet stays symmetric but for rounding, which grows no faster than a "
           "disturbance put in by hand.",
-          {{worst.value(), 16, 0, "epsilon * side * steps * growth",
+          {{evidence.worst("rounding over epsilon * side * steps * growth"), 16, 0,
+            "epsilon * side * steps * growth",
             "a step rounds x, v and the dozen forces on a particle in their last digits; sixteen "
             "is all of these erring to one side, and each grows from then on as the disturbance "
             "has grown from the start"},
-           {{"time", "s", rounding.times},
-            {"asymmetry from rounding", "m", rounding.values},
-            {"asymmetry from 1e-10 m", "m", seeded.values},
-            {"rounding over epsilon * side * steps * growth", "1", roundings}},
+           evidence,
            "the disturbance grows by " + std::to_string(growth_rate(seeded)) +
                " per second in the exponent"}};
 }
@@ -118,9 +113,9 @@ NamedFinding finding_of(const History& rounding, const History& seeded) {
 StudyResult run_mirror_symmetry(const Subject& subject, Tier tier, const Progress& progress) {
   const double end = tier == Tier::quick ? 1.2 : 2;  // s
   const Scene scene = falling_sheet();
-  const History rounding = asymmetry_of_run(subject, scene, end);
+  const Table rounding = asymmetry_of_run(subject, scene, end);
   progress(0.5);
-  const History seeded = asymmetry_of_run(subject, disturb(scene), end);
+  const Table seeded = asymmetry_of_run(subject, disturb(scene), end);
   progress(1);
   StudyResult result;
   result.findings.push_back(finding_of(rounding, seeded));
@@ -131,8 +126,8 @@ StudyResult run_mirror_symmetry(const Subject& subject, Tier tier, const Progres
        {"largest distance from the mirror image", "m", Scale::log},
        nan,
        "From rounding alone, and from a random disturbance of 1e-10 m: both grow alike.",
-       {{"from rounding", rounding.times, rounding.values, nan, {}},
-        {"from a disturbance of 1e-10 m", seeded.times, seeded.values, nan, {}}}});
+       {curve_of("from rounding", rounding, "time", "asymmetry"),
+        curve_of("from a disturbance of 1e-10 m", seeded, "time", "asymmetry")}});
   return result;
 }
 

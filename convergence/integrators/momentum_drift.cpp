@@ -2,10 +2,13 @@
 // of the other falls.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "convergence/integrators/studies.h"
 #include "convergence/order.h"
+#include "convergence/ranges.h"
+#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
 #include "verification/evidence.h"
@@ -21,18 +24,13 @@ constexpr int pairs_judged = 3;
 
 constexpr double solver_tolerance = 1e-10;
 
-/// Drifts of one method over all levels.
+/// Drifts of one method over all levels: the angular momentum's, relative, in roundings (epsilon *
+/// steps * the largest sum of m |x| |v| seen) and in tolerances (the solver's tolerance * steps *
+/// the largest |x| |v| seen, both in the norm weighted with the masses); the linear momentum's in
+/// roundings (epsilon * steps * the largest sum of m |v| seen).
 struct Drift {
   std::string scheme;
-  std::vector<double> steps;     // mean step [s]
-  std::vector<double> relative;  // |L(end) - L(0)| / |L(0)| [1]
-  // |L(end) - L(0)| in units of epsilon * steps * the largest sum of m |x| |v| seen [1]
-  std::vector<double> roundings;
-  // the same in the solver's tolerance * steps * the largest |x| |v| seen, both in the norm
-  // weighted with the masses [1]
-  std::vector<double> of_tolerance;
-  // |p(end) - p(0)| in epsilon * steps * the largest sum of m |v| seen [1]
-  std::vector<double> linear;
+  Table levels;
 };
 
 /// A jittered sheet, bent and stretched, that turns, flaps and flies away.
@@ -80,8 +78,8 @@ struct Scales {
   }
 };
 
-/// Runs `count` steps and records the drifts.
-void add_level(Stepper& stepper, const Integrator& method, int count, Drift& drift) {
+/// One level: its mean step and the drifts over `count` steps.
+std::array<double, 5> level_of(Stepper& stepper, const Integrator& method, int count) {
   const PerParticle mass = lumped_masses(stepper.scene().mesh, stepper.scene().density);
   const State start = stepper.start();
   History history(start, method.history);
@@ -94,31 +92,29 @@ void add_level(Stepper& stepper, const Integrator& method, int count, Drift& dri
   const Vector3 before = momentum_about_origin(mass, start);
   const double moved = (momentum_about_origin(mass, history.now()) - before).norm();
   const Vector3 pushed = (history.now().v - start.v) * mass;
-  drift.steps.push_back(end / count);
-  drift.relative.push_back(moved / before.norm());
-  drift.roundings.push_back(moved / (epsilon * count * scales.angular.value()));
-  drift.of_tolerance.push_back(moved / (solver_tolerance * count * scales.weighted.value()));
-  drift.linear.push_back(pushed.norm() / (epsilon * count * scales.linear.value()));
+  return {end / count, moved / before.norm(), moved / (epsilon * count * scales.angular.value()),
+          moved / (solver_tolerance * count * scales.weighted.value()),
+          pushed.norm() / (epsilon * count * scales.linear.value())};
 }
 
 Drift drift_of(const Subject& subject, const Scene& scene, const Integrator& method, int levels) {
   Stepper stepper(subject, scene, std::string(method.name));
-  Drift drift{std::string(method.name), {}, {}, {}, {}, {}};
-  for (int level = 0, count = coarsest; level < levels; ++level, count *= 2)
-    add_level(stepper, method, count, drift);
-  return drift;
+  return {std::string(method.name),
+          refine({{"step", "s"},
+                  {"relative drift", "1"},
+                  {"drift in roundings", "1"},
+                  {"drift in tolerances", "1"},
+                  {"linear momentum's drift in roundings", "1"}},
+                 doubling_range(coarsest, coarsest << (levels - 1)),
+                 [&](int count) { return level_of(stepper, method, count); })};
 }
 
 NamedFinding kept(const Drift& drift, const std::string& material) {
-  Worst worst;
-  for (double roundings : drift.roundings) worst.observe(roundings);
   Finding finding{
-      {worst.value(), 16, 0, "epsilon, a step, of sum m|x||v|",
+      {drift.levels.worst("drift in roundings"), 16, 0, "epsilon, a step, of sum m|x||v|",
        "a step rounds x and v of each particle once, and the dozen or so forces on it, each at "
        "most about m|v|/h, in their last digits; sixteen is all of these erring to one side"},
-      {{"step", "s", drift.steps},
-       {"relative drift", "1", drift.relative},
-       {"drift in roundings", "1", drift.roundings}},
+      with_columns(drift.levels, {"step", "relative drift", "drift in roundings"}),
       ""};
   return {"momentum-drift." + material + "-angular-is-conserved." + drift.scheme,
           "Scheme " + drift.scheme + " keeps the angular momentum of a free, " + material +
@@ -126,25 +122,23 @@ NamedFinding kept(const Drift& drift, const std::string& material) {
           std::move(finding)};
 }
 
-Convergence convergence_of(const Drift& drift) {
-  // no floor: the start is known, and rounding is judged by itself
-  return {drift.steps, drift.relative, 0};
+/// Without a floor: the start is known, and rounding is judged by itself.
+Convergence relative_drift(const Drift& drift) {
+  return convergence_of(drift.levels, "relative drift");
 }
 
 NamedFinding falls_with_the_order(const Drift& drift) {
   const int order = integrator_named(drift.scheme).order;
-  const Convergence convergence = convergence_of(drift);
+  const Convergence convergence = relative_drift(drift);
   const Estimate deviation =
-      order_deviation(convergence, order, std::min(pairs_judged, int(drift.steps.size()) - 2));
-  std::vector<double> orders = pair_orders(convergence);
-  orders.insert(orders.begin(), nan);
+      order_deviation(convergence, order, std::min(pairs_judged, int(drift.levels.rows()) - 2));
+  Table evidence = with_columns(drift.levels, {"step", "relative drift"});
+  evidence.add({"order of the pair", "1", row_orders(convergence)});
+  evidence.add(drift.levels.column("drift in roundings"));
   Finding finding{{deviation.value, 0.1, deviation.uncertainty, "1",
                    "a drift of another power of the step is off by 1; at these steps the next term "
                    "leaves less than a tenth"},
-                  {{"step", "s", drift.steps},
-                   {"relative drift", "1", drift.relative},
-                   {"order of the pair", "1", orders},
-                   {"drift in roundings", "1", drift.roundings}},
+                  std::move(evidence),
                   "measured is the largest |order - " + std::to_string(order) +
                       "| over the last pairs, three if there are so many"};
   return {"momentum-drift.damped-drift-order." + drift.scheme,
@@ -156,10 +150,11 @@ NamedFinding falls_with_the_order(const Drift& drift) {
 NamedFinding drift_is_real(const Drift& drift) {
   constexpr double rounding_bound = 16;
   Worst worst;
-  for (double roundings : drift.roundings) worst.observe(rounding_bound / roundings);
+  for (double roundings : drift.levels.numbers("drift in roundings"))
+    worst.observe(rounding_bound / roundings);
   Finding finding{{worst.value(), 0.01, 0, "of the drift",
                    "a hundred times what counts as kept cannot be rounding"},
-                  {{"step", "s", drift.steps}, {"drift in roundings", "1", drift.roundings}},
+                  with_columns(drift.levels, {"step", "drift in roundings"}),
                   "measured is the bound of a kept momentum over the drift"};
   return {"momentum-drift.damped-drift-exceeds-rounding.C",
           "The drift of scheme C on a damped sheet is no rounding.", std::move(finding)};
@@ -173,63 +168,51 @@ struct Drifts {
 };
 
 NamedFinding linear_is_kept(const Drifts& drifts) {
-  Worst worst;
-  Column steps{"step", "s", std::vector<double>{}},
-      roundings{"drift in roundings", "1", std::vector<double>{}};
-  for (const Drift* drift : {&drifts.undamped, &drifts.damped})
-    for (size_t k = 0; k < drift->steps.size(); ++k) {
-      worst.observe(drift->linear[k]);
-      std::get<0>(steps.values).push_back(drift->steps[k]);
-      std::get<0>(roundings.values).push_back(drift->linear[k]);
-    }
+  Table drift{{"step", "s"}, {"drift in roundings", "1"}};
+  for (const Drift* one : {&drifts.undamped, &drifts.damped})
+    for (size_t k = 0; k < one->levels.rows(); ++k)
+      drift.row(one->levels.numbers("step")[k],
+                one->levels.numbers("linear momentum's drift in roundings")[k]);
   return {"momentum-drift.linear-is-conserved." + drifts.damped.scheme,
           "The linear momentum of a free sheet is kept to rounding under " + drifts.damped.scheme +
               ", damped or not, however early a solve stops.",
-          {{worst.value(), 1, 0, "epsilon, a step, of sum m|v|",
+          {{drift.worst("drift in roundings"), 1, 0, "epsilon, a step, of sum m|v|",
             "forces come in sums of zero and every iterate of a solve differs from its guess by "
             "such forces: what is left are the roundings of each particle's velocity, half an "
             "epsilon of it at most, some of either sign"},
-           {steps, roundings},
+           drift,
            ""}};
 }
 
 NamedFinding kept_to_tolerance(const Drift& drift, const std::string& material) {
-  Worst worst;
-  for (const double part : drift.of_tolerance) worst.observe(part);
   return {
       "momentum-drift." + material + "-angular-is-conserved." + drift.scheme,
       "The implicit midpoint rule keeps the angular momentum of a free, " + material +
           " sheet to the tolerance of its solves.",
-      {{worst.value(), 4, 0, "tolerances, a step, of |x||v|",
+      {{drift.levels.worst("drift in tolerances"), 4, 0, "tolerances, a step, of |x||v|",
         "derived: a step changes it by x cross twice the residual, which is at most the tolerance "
         "times the momentum and the first impulse, less than twice the momentum here"},
-       {{"step", "s", drift.steps},
-        {"relative drift", "1", drift.relative},
-        {"drift in tolerances", "1", drift.of_tolerance}},
+       with_columns(drift.levels, {"step", "relative drift", "drift in tolerances"}),
        "|x||v| stands for sqrt(sum m|x|^2 sum m|v|^2)"}};
 }
 
 Table table_of(const std::vector<Drifts>& all) {
-  Column method{"method", "1", std::vector<std::string>{}},
-      sheet{"sheet", "1", std::vector<std::string>{}}, step{"step", "s", std::vector<double>{}},
-      relative{"angular momentum, relative drift", "1", std::vector<double>{}},
-      order{"order of the pair", "1", std::vector<double>{}},
-      linear{"linear momentum, drift in roundings", "1", std::vector<double>{}};
+  Table table{{"method", "1"},
+              {"sheet", "1"},
+              {"step", "s"},
+              {"angular momentum, relative drift", "1"},
+              {"order of the pair", "1"},
+              {"linear momentum, drift in roundings", "1"}};
   for (const Drifts& drifts : all)
     for (const auto& [drift, words] :
-         {std::pair{&drifts.undamped, "undamped"}, {&drifts.damped, "damped"}})
-      for (size_t k = 0; k < drift->steps.size(); ++k) {
-        std::get<1>(method.values).push_back(drift->scheme);
-        std::get<1>(sheet.values).push_back(words);
-        std::get<0>(step.values).push_back(drift->steps[k]);
-        std::get<0>(relative.values).push_back(drift->relative[k]);
-        std::get<0>(order.values)
-            .push_back(k == 0 ? nan : std::log2(drift->relative[k - 1] / drift->relative[k]));
-        std::get<0>(linear.values).push_back(drift->linear[k]);
-      }
-  return {"all-methods",
-          "Drift of momentum under all methods",
-          {method, sheet, step, relative, order, linear}};
+         {std::pair{&drifts.undamped, "undamped"}, {&drifts.damped, "damped"}}) {
+      const std::vector<double>& relative = drift->levels.numbers("relative drift");
+      for (size_t k = 0; k < relative.size(); ++k)
+        table.row(drift->scheme, words, drift->levels.numbers("step")[k], relative[k],
+                  k == 0 ? nan : std::log2(relative[k - 1] / relative[k]),
+                  drift->levels.numbers("linear momentum's drift in roundings")[k]);
+    }
+  return {"all-methods", "Drift of momentum under all methods", table};
 }
 
 Figure figure_of(const std::string& name, const std::string& material,
@@ -242,10 +225,11 @@ Figure figure_of(const std::string& name, const std::string& material,
                 "Change of the angular momentum from the start to the end of the run, over its "
                 "size. Curves without slope are rounding, or the tolerance of solves.",
                 {}};
-  for (const Drift* drift : drifts)
-    figure.curves.push_back({drift->scheme, drift->steps, drift->relative, nan,
-                             drift->relative.front() > 1e-7 ? pair_orders(convergence_of(*drift))
-                                                            : std::vector<double>{}});
+  for (const Drift* drift : drifts) {
+    Curve curve = curve_of(drift->scheme, relative_drift(*drift));
+    if (!(curve.y.front() > 1e-7)) curve.pair_orders.clear();
+    figure.curves.push_back(std::move(curve));
+  }
   return figure;
 }
 

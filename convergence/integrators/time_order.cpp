@@ -5,6 +5,8 @@
 #include <random>
 
 #include "convergence/order.h"
+#include "convergence/ranges.h"
+#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/seeds.h"
 
@@ -23,12 +25,12 @@ std::string in_words(int order) {
   return words.at(size_t(order));
 }
 
-/// The errors of one integrator with one pattern over all levels.
+/// The errors of one integrator with one pattern over all levels: mean step, steps, errors.
 struct Run {
   Integrator integrator;
   StepPattern pattern;
-  std::vector<double> counts;  // steps of each level
-  Convergence x, v;            // errors in m and m/s over the mean step in s
+  Table levels;
+  double floor;  // m, m/s
 
   std::string label() const {
     return std::string(integrator.name) + ", " + std::string(pattern.name);
@@ -62,20 +64,19 @@ struct Meter {
 
 Run errors_of(const Subject& subject, const OrderProblem& problem, const ObservedMethod& method,
               const StepPattern& pattern, Meter& meter) {
-  Run run{method.integrator, pattern, {}, {}, {}};
   Scene scene = problem.scene;
-  scene.integrator = std::string(run.integrator.name);
+  scene.integrator = std::string(method.integrator.name);
   const auto prepared = require_offered(subject.prepare, "prepare")(scene);
-  run.x.floor = run.v.floor = problem.uncertainty;
-  for (int level = 0, count = method.coarsest; level < method.levels; ++level, count *= 2) {
-    const State end = end_of(subject, *prepared, scene, steps_of(run.pattern, problem.end, count));
-    run.counts.push_back(count);
-    for (Convergence* c : {&run.x, &run.v}) c->steps.push_back(problem.end / count);
-    run.x.errors.push_back(largest_difference(end.x, problem.truth.x));
-    run.v.errors.push_back(largest_difference(end.v, problem.truth.v));
+  const auto level = [&](int count) {
+    const State end = end_of(subject, *prepared, scene, steps_of(pattern, problem.end, count));
     meter.add(count);
-  }
-  return run;
+    return std::tuple{problem.end / count, count, largest_difference(end.x, problem.truth.x),
+                      largest_difference(end.v, problem.truth.v)};
+  };
+  return {method.integrator, pattern,
+          refine({{"mean step", "s"}, {"steps", "1"}, {"error in x", "m"}, {"error in v", "m/s"}},
+                 doubling_range(method.coarsest, method.coarsest << (method.levels - 1)), level),
+          problem.uncertainty};
 }
 
 std::vector<Run> all_runs(const Subject& subject, const OrderProblem& problem,
@@ -92,19 +93,20 @@ std::vector<Run> all_runs(const Subject& subject, const OrderProblem& problem,
   return all;
 }
 
-std::vector<double> after_nan(std::vector<double> orders) {
-  orders.insert(orders.begin(), nan);
-  return orders;
-}
-
 /// Which of the two quantities of a run is meant.
 struct Quantity {
   std::string name, words, unit;
-  Convergence Run::*errors;
+
+  std::string column() const { return "error in " + name; }
+  Convergence of(const Run& run) const {
+    Convergence errors = convergence_of(run.levels, column());
+    errors.floor = run.floor;
+    return errors;
+  }
 };
 
 std::array<Quantity, 2> quantities() {
-  return {{{"x", "positions", "m", &Run::x}, {"v", "velocities", "m/s", &Run::v}}};
+  return {{{"x", "positions", "m"}, {"v", "velocities", "m/s"}}};
 }
 
 /// The levels whose errors the reference solution can tell from its own: at least four, that three
@@ -119,14 +121,13 @@ Convergence above_floor(const Convergence& errors) {
 }
 
 NamedFinding finding_of(const OrderProblem& problem, const Run& run, const Quantity& quantity) {
-  const Convergence& errors = run.*quantity.errors;
+  const Convergence errors = quantity.of(run);
   const Estimate deviation =
       order_deviation(above_floor(errors), run.integrator.order, pairs_judged);
+  Table evidence = with_columns(run.levels, {"mean step", "steps", quantity.column()});
+  evidence.add({"order of the pair", "1", row_orders(errors)});
   Finding finding{{deviation.value, bound, deviation.uncertainty, "1", why_bound},
-                  {{"mean step", "s", errors.steps},
-                   {"steps", "1", run.counts},
-                   {"error in " + quantity.name, quantity.unit, errors.errors},
-                   {"order of the pair", "1", after_nan(pair_orders(errors))}},
+                  std::move(evidence),
                   "measured is the largest |order - expected| over the last three pairs of errors "
                   "that exceed fifty times the reference's uncertainty, where the table of "
                   "integrators states what is expected"};
@@ -143,23 +144,20 @@ NamedFinding newmark_with_variable_steps(const OrderProblem& problem,
                                          const std::vector<Run>& runs) {
   constexpr double second = 2;  // in the paper's words, whatever the table says
   Worst deviation, uncertainty;
-  std::vector<std::string> patterns, names;
-  std::vector<double> orders;
+  Table orders{{"steps", "1"}, {"error in", "1"}, {"order of the last pair", "1"}};
   for (const Run& run : runs) {
     if (run.integrator.name != "B" || run.pattern.name == "constant") continue;
     for (const Quantity& quantity : quantities()) {
-      const Convergence& errors = run.*quantity.errors;
+      const Convergence errors = quantity.of(run);
       const Estimate one = order_deviation(above_floor(errors), second, pairs_judged);
       deviation.observe(one.value);
       uncertainty.observe(one.uncertainty);
-      patterns.emplace_back(run.pattern.name);
-      names.push_back(quantity.name);
-      orders.push_back(pair_orders(errors).back());
+      orders.row(run.pattern.name, quantity.name, pair_orders(errors).back());
     }
   }
   Finding finding{
-      {orders.empty() ? nan : deviation.value(), bound, uncertainty.value(), "1", why_bound},
-      {{"steps", "1", patterns}, {"error in", "1", names}, {"order of the last pair", "1", orders}},
+      {orders.rows() == 0 ? nan : deviation.value(), bound, uncertainty.value(), "1", why_bound},
+      orders,
       "B is a one-step map with a local error of third order, so its order does not need a "
       "constant step"};
   return {problem.study + ".B-is-second-order-with-variable-steps",
@@ -196,7 +194,7 @@ Figure figure_of(const OrderProblem& problem, const std::vector<Run>& runs,
       {}};
   for (const Run& run : runs) {
     if (!selection.shows(run)) continue;
-    const Convergence& errors = run.*quantity.errors;
+    const Convergence errors = quantity.of(run);
     const std::string label = of_paper ? run.label() : std::string(run.integrator.name);
     figure.curves.push_back(
         {label, errors.steps, errors.errors, errors.floor, pair_orders(errors)});
@@ -205,31 +203,23 @@ Figure figure_of(const OrderProblem& problem, const std::vector<Run>& runs,
 }
 
 Table table_of(const std::vector<Run>& runs) {
-  std::vector<std::string> schemes, patterns, names;
-  std::vector<double> fitted, last, from, above;
-  for (const Run& run : runs) {
+  Table table{{"scheme", "1"},
+              {"steps", "1"},
+              {"error in", "1"},
+              {"order fitted to all levels", "1"},
+              {"order of the last pair", "1"},
+              {"asymptotic from mean step", "s"},
+              {"levels ten times above the floor", "1"}};
+  for (const Run& run : runs)
     for (const Quantity& quantity : quantities()) {
-      const Convergence& errors = run.*quantity.errors;
+      const Convergence errors = quantity.of(run);
       const std::vector<double> orders = pair_orders(errors);
       const int first = asymptotic_from(orders, run.integrator.order, bound);
-      schemes.emplace_back(run.integrator.name);
-      patterns.emplace_back(run.pattern.name);
-      names.push_back(quantity.name);
-      fitted.push_back(fitted_order(errors));
-      last.push_back(orders.back());
-      from.push_back(first < int(orders.size()) ? errors.steps[size_t(first)] : nan);
-      above.push_back(levels_above_floor(errors, 10));
+      table.row(run.integrator.name, run.pattern.name, quantity.name, fitted_order(errors),
+                orders.back(), first < int(orders.size()) ? errors.steps[size_t(first)] : nan,
+                levels_above_floor(errors, 10));
     }
-  }
-  return {"orders",
-          "Observed orders",
-          {{"scheme", "1", schemes},
-           {"steps", "1", patterns},
-           {"error in", "1", names},
-           {"order fitted to all levels", "1", fitted},
-           {"order of the last pair", "1", last},
-           {"asymptotic from mean step", "s", from},
-           {"levels ten times above the floor", "1", above}}};
+  return {"orders", "Observed orders", table};
 }
 
 }  // namespace

@@ -33,14 +33,14 @@ NamedFinding zero_stability(const Subject& subject) {
     (difference_factor(of, middle) <= 1 ? below : above) = middle;
   }
   const oracles::Estimate exact = oracles::bdf2_largest_ratio();
-  return {"variable-step-stability.BDF2.largest-step-ratio-is-as-derived",
-          "BDF2 with steps of a constant ratio amplifies differences of x'' = 0 from the ratio 1 + "
-          "sqrt(2) on.",
-          {{std::abs((below + above) / 2 - exact.value), 1e-9, exact.uncertainty, "1",
-            "the factor r^2/(1 + 2 r) is found to roundings, and its slope there is 0.35"},
-           {{"ratio found", "1", std::vector<double>{(below + above) / 2}},
-            {"1 + sqrt(2)", "1", std::vector<double>{exact.value}}},
-           ""}};
+  return {
+      "variable-step-stability.BDF2.largest-step-ratio-is-as-derived",
+      "BDF2 with steps of a constant ratio amplifies differences of x'' = 0 from the ratio 1 + "
+      "sqrt(2) on.",
+      {{std::abs((below + above) / 2 - exact.value), 1e-9, exact.uncertainty, "1",
+        "the factor r^2/(1 + 2 r) is found to roundings, and its slope there is 0.35"},
+       Table{{"ratio found", "1"}, {"1 + sqrt(2)", "1"}}.with_row((below + above) / 2, exact.value),
+       ""}};
 }
 
 /// A corner in flight at v0, whose second state is disturbed: what comes of the disturbance after
@@ -72,15 +72,14 @@ std::vector<NamedFinding> growing_steps(const std::string& where, const SteppedM
        "Steps that grow by 2.40 leave BDF2 bounded on " + where + ".",
        {{kept / bound, 1, 0, "1",
          "differences fall by p = r^2/(1 + 2 r) each step, so they add up to less than 1/(1 - p)"},
-        {{"amplification after 600 steps", "1", std::vector<double>{kept}},
-         {"1/(1 - p)", "1", std::vector<double>{bound}}},
+        Table{{"amplification after 600 steps", "1"}, {"1/(1 - p)", "1"}}.with_row(kept, bound),
         ""}},
       {"variable-step-stability.BDF2.grows-above-that-ratio." + where,
        "Steps that grow by 2.43 make BDF2 grow without bound on " + where + ", though implicit.",
        {{1000 / grown, 1, 0, "1",
          "p = 1.0077 to the power 600 is 98, summed up more than ten thousand; a thousand tells it "
          "from what stays bounded"},
-        {{"amplification after 600 steps", "1", std::vector<double>{grown}}},
+        Table{{"amplification after 600 steps", "1"}}.with_row(grown),
         "measured is a thousand over the amplification"}}};
 }
 

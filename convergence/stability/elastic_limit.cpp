@@ -5,6 +5,7 @@
 #include "convergence/order.h"
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/studies.h"
+#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/subject.h"
 
@@ -35,26 +36,20 @@ Scene undamped_sheet(const Regime& regime, int cells) {
 }
 
 /// Limits of one regime over all meshes.
-struct Limits {
-  Convergence exact;           // 2/omega [s] over the width of a cell [m]
-  std::vector<double> bounds;  // the reference's elastic limit [s]
-};
-
-Limits limits_of(const Subject& subject, const Regime& regime, const std::vector<int>& meshes) {
-  Limits limits;
-  for (int cells : meshes) {
-    const Scene scene = undamped_sheet(regime, cells);
-    limits.exact.steps.push_back(flat_side / cells);
-    limits.exact.errors.push_back(2 / fastest_mode(subject, scene).omega);
-    limits.bounds.push_back(elastic_limit(build_system(scene), start_state(scene)));
-  }
-  return limits;
+Table limits_of(const Subject& subject, const Regime& regime, const std::vector<int>& meshes) {
+  return refine({{"width of a cell", "m"}, {"2/omega", "s"}, {"elastic limit", "s"}}, meshes,
+                [&](int cells) {
+                  const Scene scene = undamped_sheet(regime, cells);
+                  return std::tuple{flat_side / cells, 2 / fastest_mode(subject, scene).omega,
+                                    elastic_limit(build_system(scene), start_state(scene))};
+                });
 }
 
-NamedFinding exponent_of(const Regime& regime, const Limits& limits) {
-  const Estimate deviation = order_deviation(limits.exact, regime.exponent, 1);
-  std::vector<double> orders = pair_orders(limits.exact);
-  orders.insert(orders.begin(), nan);
+NamedFinding exponent_of(const Regime& regime, const Table& limits) {
+  const Convergence exact = convergence_of(limits, "2/omega");
+  const Estimate deviation = order_deviation(exact, regime.exponent, 1);
+  Table evidence = with_columns(limits, {"width of a cell", "2/omega"});
+  evidence.add({"exponent", "1", row_orders(exact)});
   const Verdict verdict{deviation.value, 0.05, 0, "1",
                         "a whole exponent would be off by 1; what the border does to the fastest "
                         "mode dies out as the cells become many"};
@@ -62,53 +57,46 @@ NamedFinding exponent_of(const Regime& regime, const Limits& limits) {
           "With " + regime.words +
               ", the largest stable step is proportional to the cells' width to the power " +
               (regime.exponent == 1 ? "one." : "two."),
-          {verdict,
-           {{"width of a cell", "m", limits.exact.steps},
-            {"2/omega", "s", limits.exact.errors},
-            {"exponent", "1", orders}},
-           "measured is |exponent - expected| of the last pair"}};
+          {verdict, std::move(evidence), "measured is |exponent - expected| of the last pair"}};
 }
 
-NamedFinding bound_of(const Regime& regime, const Limits& limits) {
-  Worst worst;
+NamedFinding bound_of(const Regime& regime, const Table& limits) {
+  const std::vector<double>&exact = limits.numbers("2/omega"),
+        &bounds = limits.numbers("elastic limit");
   std::vector<double> ratios;
-  for (size_t i = 0; i < limits.bounds.size(); ++i) {
-    ratios.push_back(limits.bounds[i] / limits.exact.errors[i]);
-    worst.observe(ratios.back());
-  }
-  const Verdict verdict{worst.value(), 1, 0.01 * worst.value(), "1",
+  for (size_t i = 0; i < bounds.size(); ++i) ratios.push_back(bounds[i] / exact[i]);
+  Table evidence = with_columns(limits, {"width of a cell"});
+  evidence.add({"elastic limit over 2/omega", "1", ratios});
+  const double worst = evidence.worst("elastic limit over 2/omega");
+  const Verdict verdict{worst, 1, 0.01 * worst, "1",
                         "the bound on the frequency must not lie below it"};
-  return {
-      "elastic-limit.bound-is-safe." + regime.name,
-      "With " + regime.words +
-          ", the reference's elastic limit is no longer than the largest stable step.",
-      {verdict,
-       {{"width of a cell", "m", limits.exact.steps}, {"elastic limit over 2/omega", "1", ratios}},
-       "power iteration approaches omega from below, which errs towards passing; the uncertainty "
-       "is the one percent within which runs confirm 2/omega"}};
+  return {"elastic-limit.bound-is-safe." + regime.name,
+          "With " + regime.words +
+              ", the reference's elastic limit is no longer than the largest stable step.",
+          {verdict, std::move(evidence),
+           "power iteration approaches omega from below, which errs towards passing; the "
+           "uncertainty is the one percent within which runs confirm 2/omega"}};
 }
 
 /// On a flat sheet at rest springs act in its plane and hinges across it: neither
 /// adds to the other.
-NamedFinding smaller_of_both(const std::vector<Limits>& alone, const Limits& both) {
+NamedFinding smaller_of_both(const std::vector<Table>& alone, const Table& both) {
+  Table limits = with_columns(both, {"width of a cell"});
+  limits.add({"2/omega, both", "s", both.numbers("2/omega")});
+  limits.add({"2/omega, springs alone", "s", alone[0].numbers("2/omega")});
+  limits.add({"2/omega, bending alone", "s", alone[1].numbers("2/omega")});
   Worst worst;
-  std::vector<double> springs, bending;
-  for (size_t i = 0; i < both.exact.errors.size(); ++i) {
-    springs.push_back(alone[0].exact.errors[i]);
-    bending.push_back(alone[1].exact.errors[i]);
-    worst.observe(std::abs(both.exact.errors[i] / std::min(springs.back(), bending.back()) - 1));
-  }
+  for (size_t i = 0; i < limits.rows(); ++i)
+    worst.observe(std::abs(limits.numbers("2/omega, both")[i] /
+                               std::min(limits.numbers("2/omega, springs alone")[i],
+                                        limits.numbers("2/omega, bending alone")[i]) -
+                           1));
   const Verdict verdict{worst.value(), 0.01, 0, "1",
                         "power iteration has found the frequencies to better than a hundredth"};
   return {"elastic-limit.both.is-the-smaller-of-the-two",
           "With springs and bending, the largest stable step is the smaller of the two: springs' "
           "on wide cells, bending's on narrow ones.",
-          {verdict,
-           {{"width of a cell", "m", both.exact.steps},
-            {"2/omega, both", "s", both.exact.errors},
-            {"2/omega, springs alone", "s", springs},
-            {"2/omega, bending alone", "s", bending}},
-           ""}};
+          {verdict, std::move(limits), ""}};
 }
 
 NamedFinding scheme_limit(const Subject& subject, const Regime& regime,
@@ -124,7 +112,7 @@ NamedFinding scheme_limit(const Subject& subject, const Regime& regime,
   return {"elastic-limit.is-two-over-omega." + regime.name + "." + name,
           "With " + regime.words + ", the largest stable step of scheme " + name +
               " on an undamped flat sheet is 2/omega.",
-          {verdict, {{"largest stable step over 2/omega", "1", std::vector<double>{ratio}}}, ""}};
+          {verdict, Table{{"largest stable step over 2/omega", "1"}}.with_row(ratio), ""}};
 }
 
 StudyResult run_elastic_limit(const Subject& subject, Tier tier, const Progress& progress) {
@@ -140,15 +128,16 @@ StudyResult run_elastic_limit(const Subject& subject, Tier tier, const Progress&
                 {}};
   double done = 0;
   const double parts = 1 + double(regimes().size() * (1 + paper_schemes().size()));
-  std::vector<Limits> alone;
+  std::vector<Table> alone;
   for (const Regime& regime : regimes()) {
-    const Limits limits = limits_of(subject, regime, meshes);
+    const Table limits = limits_of(subject, regime, meshes);
     result.findings.push_back(exponent_of(regime, limits));
     result.findings.push_back(bound_of(regime, limits));
-    figure.curves.push_back({regime.words, limits.exact.steps, limits.exact.errors, nan,
-                             pair_orders(limits.exact), regime.exponent});
-    figure.curves.push_back(
-        {regime.words + ", the solver's bound", limits.exact.steps, limits.bounds, nan, {}});
+    Curve exact = curve_of(regime.words, convergence_of(limits, "2/omega"));
+    exact.slope = regime.exponent;
+    figure.curves.push_back(std::move(exact));
+    figure.curves.push_back(curve_of(regime.words + ", the solver's bound", limits,
+                                     "width of a cell", "elastic limit"));
     alone.push_back(limits);
     progress(++done / parts);
     for (const Integrator& integrator : paper_schemes()) {
@@ -156,9 +145,9 @@ StudyResult run_elastic_limit(const Subject& subject, Tier tier, const Progress&
       progress(++done / parts);
     }
   }
-  const Limits both = limits_of(subject, both_regimes(), meshes);
+  const Table both = limits_of(subject, both_regimes(), meshes);
   result.findings.push_back(smaller_of_both(alone, both));
-  figure.curves.push_back({both_regimes().words, both.exact.steps, both.exact.errors, nan, {}});
+  figure.curves.push_back(curve_of(both_regimes().words, both, "width of a cell", "2/omega"));
   progress(1);
   result.figures.push_back(std::move(figure));
   return result;

@@ -27,10 +27,10 @@ double largest_damping_rate(const Subject& subject, const Scene& scene) {
   return largest_eigenvalue(scene, damping_operator(subject, scene)).value;
 }
 
-NamedFinding damping_exponent(const Damping& damping, const Convergence& limits, double exponent) {
-  const Estimate deviation = order_deviation(limits, exponent, 1);
-  std::vector<double> orders = pair_orders(limits);
-  orders.insert(orders.begin(), nan);
+NamedFinding damping_exponent(const Damping& damping, Table limits, double exponent) {
+  const Convergence rates = convergence_of(limits, "2/rate of damping");
+  const Estimate deviation = order_deviation(rates, exponent, 1);
+  limits.add({"exponent", "1", row_orders(rates)});
   return {"stability-sheet.damping-limit-exponent." + damping.name,
           "With " + damping.words +
               " the largest stable step of a fully explicit method is proportional to the cells' "
@@ -39,9 +39,7 @@ NamedFinding damping_exponent(const Damping& damping, const Convergence& limits,
           {{deviation.value, 0.1, 0, "1",
             "another whole exponent is off by 1; what the border does to the fastest mode dies out "
             "as the cells become many"},
-           {{"width of a cell", "m", limits.steps},
-            {"2/rate of damping", "s", limits.errors},
-            {"exponent", "1", orders}},
+           std::move(limits),
            "measured is |exponent - expected| of the last pair; 2/rate is forward Euler's and "
            "RK2's limit, where damping decides"}};
 }
@@ -66,21 +64,21 @@ void add_refinement(const Subject& subject, Tier tier, StudyResult& result) {
                 "limits forward Euler and explicit midpoint.",
                 {}};
   Curve elastic{"2/omega, springs", {}, {}, nan, {}, 1};
-  for (const int cells : meshes) {
-    elastic.x.push_back(flat_side / cells);
-    elastic.y.push_back(2 / fastest_mode(subject, damped_sheet(cells, dampings()[0])).omega);
-  }
+  for (const int cells : meshes)
+    elastic.point(flat_side / cells,
+                  2 / fastest_mode(subject, damped_sheet(cells, dampings()[0])).omega);
   figure.curves.push_back(std::move(elastic));
   for (const auto& [damping, exponent] :
        {std::pair(dampings()[0], 2.0), std::pair(dampings()[1], 3.0)}) {
-    Convergence limits;
-    for (const int cells : meshes) {
-      limits.steps.push_back(flat_side / cells);
-      limits.errors.push_back(2 / largest_damping_rate(subject, damped_sheet(cells, damping)));
-    }
+    const Table limits =
+        refine({{"width of a cell", "m"}, {"2/rate of damping", "s"}}, meshes, [&](int cells) {
+          return std::tuple{flat_side / cells,
+                            2 / largest_damping_rate(subject, damped_sheet(cells, damping))};
+        });
     result.findings.push_back(damping_exponent(damping, limits, exponent));
-    figure.curves.push_back({"2/rate, " + damping.words, limits.steps, limits.errors, nan,
-                             pair_orders(limits), exponent});
+    Curve curve = curve_of("2/rate, " + damping.words, convergence_of(limits, "2/rate of damping"));
+    curve.slope = exponent;
+    figure.curves.push_back(std::move(curve));
   }
   result.figures.push_back(std::move(figure));
 }
@@ -97,13 +95,8 @@ Scene unit_sheet(int cells) {
 }
 
 /// Steps a unit of time takes, by method: mixed and three explicit ones.
-struct StepCounts {
-  std::vector<double> widths, mixed, euler, midpoint, classical;
-};
-
-StepCounts step_counts(const Subject& subject, const std::vector<int>& meshes) {
-  StepCounts counts;
-  for (const int cells : meshes) {
+Table step_counts(const Subject& subject, const std::vector<int>& meshes) {
+  const auto count = [&](int cells) {
     const Scene scene = unit_sheet(cells);
     const double omega = fastest_mode(subject, scene).omega;
     const auto rates =
@@ -111,51 +104,45 @@ StepCounts step_counts(const Subject& subject, const std::vector<int>& meshes) {
     const auto steps = [&](int order) {
       return 1 / oracles::largest_runge_kutta_step(order, rates).value;
     };
-    counts.widths.push_back(1. / cells);
-    counts.mixed.push_back(omega / 2);
-    counts.euler.push_back(steps(1));
-    counts.midpoint.push_back(steps(2));
-    counts.classical.push_back(steps(4));
-  }
-  return counts;
+    return std::tuple{1. / cells, omega / 2, steps(1), steps(2), steps(4)};
+  };
+  return refine({{"width of a cell", "1"},
+                 {"schemes A and B", "1"},
+                 {"forward Euler", "1"},
+                 {"explicit midpoint", "1"},
+                 {"classical Runge-Kutta 4", "1"}},
+                meshes, count);
 }
 
-Table table_of(const StepCounts& counts) {
-  return {"steps",
-          "Steps in one unit of time of a sheet whose side, modulus, damping and density are 1",
-          {{"width of a cell", "1", counts.widths},
-           {"schemes A and B", "1", counts.mixed},
-           {"forward Euler", "1", counts.euler},
-           {"explicit midpoint", "1", counts.midpoint},
-           {"classical Runge-Kutta 4", "1", counts.classical}}};
-}
+/// Steps on the mesh with ten cells a side, the second one.
+double at_tenth(const Table& counts, std::string_view method) { return counts.numbers(method)[1]; }
 
-/// The index of the mesh with ten cells a side.
-constexpr size_t tenth = 1;
-
-NamedFinding an_order_of_magnitude(const StepCounts& counts) {
-  const double factor = counts.classical[tenth] / counts.mixed[tenth];
+NamedFinding an_order_of_magnitude(const Table& counts) {
+  const double factor =
+      at_tenth(counts, "classical Runge-Kutta 4") / at_tenth(counts, "schemes A and B");
   return {"stability-sheet.tenth-width.explicit-needs-ten-times-the-steps",
           "At a width of a tenth a fully explicit method needs at least ten times the steps of a "
           "mixed one.",
           {{10 / factor, 1, 0, "1", "the paper's example: 10 steps against 100"},
-           table_of(counts),
+           counts,
            "measured is ten over the factor between classical Runge-Kutta, which steps furthest, "
            "and A"}};
 }
 
-NamedFinding factor_exponent(const StepCounts& counts) {
-  Convergence factors{counts.widths, {}, 0};
-  for (size_t i = 0; i < counts.widths.size(); ++i)
-    factors.errors.push_back(counts.classical[i] / counts.mixed[i]);
-  const Estimate deviation = order_deviation(factors, -1, 1);
+NamedFinding factor_exponent(const Table& counts) {
+  const std::vector<double>&widths = counts.numbers("width of a cell"),
+        &mixed = counts.numbers("schemes A and B"),
+        &classical = counts.numbers("classical Runge-Kutta 4");
+  Table factors{{"width of a cell", "1"}, {"steps of RK4 over those of A", "1"}};
+  for (size_t i = 0; i < widths.size(); ++i) factors.row(widths[i], classical[i] / mixed[i]);
+  const Estimate deviation =
+      order_deviation(convergence_of(factors, "steps of RK4 over those of A"), -1, 1);
   return {
       "stability-sheet.tenth-width.step-ratio-exponent",
       "The factor between the steps of explicit and mixed methods grows as one over the width of a "
       "cell.",
       {{deviation.value, 0.1, 0, "1", "a factor that stayed, or grew with the square, is off by 1"},
-       {{"width of a cell", "1", factors.steps},
-        {"steps of RK4 over those of A", "1", factors.errors}},
+       factors,
        "measured is |exponent + 1| of the last pair"}};
 }
 
@@ -184,8 +171,7 @@ NamedFinding by_trying(const Subject& subject, const Integrator& integrator, dou
           {{std::abs(steps / expected - 1), 0.01, 0, "1",
             "a disturbance grows a thousandfold in 2400 steps from a third of a percent beyond the "
             "limit on; the bisection ends at a sixth of a percent"},
-           {{"steps in a unit of time", "1", std::vector<double>{steps}},
-            {"as known", "1", std::vector<double>{expected}}},
+           Table{{"steps in a unit of time", "1"}, {"as known", "1"}}.with_row(steps, expected),
            ""}};
 }
 
@@ -194,14 +180,17 @@ NamedFinding by_trying(const Subject& subject, const Integrator& integrator, dou
 void add_tenth(const Subject& subject, Tier tier, StudyResult& result) {
   std::vector<int> meshes = {5, 10, 20};
   if (tier == Tier::full) meshes.insert(meshes.end(), {40, 80});
-  const StepCounts counts = step_counts(subject, meshes);
+  const Table counts = step_counts(subject, meshes);
   result.findings.push_back(an_order_of_magnitude(counts));
   result.findings.push_back(factor_exponent(counts));
-  for (const auto& [name, expected] :
-       {std::pair("A", counts.mixed[tenth]), std::pair("forward-euler", counts.euler[tenth]),
-        std::pair("RK2", counts.midpoint[tenth]), std::pair("RK4", counts.classical[tenth])})
-    result.findings.push_back(by_trying(subject, integrator_named(name), expected));
-  result.tables.push_back(table_of(counts));
+  for (const auto& [name, column] :
+       {std::pair("A", "schemes A and B"), std::pair("forward-euler", "forward Euler"),
+        std::pair("RK2", "explicit midpoint"), std::pair("RK4", "classical Runge-Kutta 4")})
+    result.findings.push_back(by_trying(subject, integrator_named(name), at_tenth(counts, column)));
+  result.tables.push_back(
+      {"steps",
+       "Steps in one unit of time of a sheet whose side, modulus, damping and density are 1",
+       counts});
 }
 
 }  // namespace foldproof

@@ -8,6 +8,7 @@
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
 #include "convergence/stability/studies.h"
+#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
 
@@ -71,43 +72,37 @@ SheetLimits limits_of(const Subject& subject, Scene scene) {
 
 NamedFinding undamped_finding(const HardSheet& sheet, const SheetLimits& limits) {
   Worst worst;
-  std::vector<std::string> names;
-  for (const Integrator& integrator : paper_schemes()) names.emplace_back(integrator.name);
-  for (const double ratio : limits.schemes) worst.observe(std::abs(ratio - 1));
+  Table ratios{{"scheme", "1"}, {"largest stable step over 2/omega", "1"}};
+  for (size_t k = 0; k < limits.schemes.size(); ++k) {
+    ratios.row(paper_schemes()[k].name, limits.schemes[k]);
+    worst.observe(std::abs(limits.schemes[k] - 1));
+  }
   const Verdict verdict{worst.value(), 0.01, 0, "1",
                         "the bisection ends at a width of a sixth of that, and power iteration has "
                         "found omega to better than half of it"};
   return {"hard-limits.is-two-over-omega." + sheet.name,
           "With " + sheet.words +
               ", the largest stable step of schemes A, B and C is 2/omega all the same.",
-          {verdict,
-           {{"scheme", "1", names}, {"largest stable step over 2/omega", "1", limits.schemes}},
-           "measured is the largest |ratio - 1|"}};
+          {verdict, ratios, "measured is the largest |ratio - 1|"}};
 }
 
 NamedFinding bound_finding(const std::vector<HardSheet>& sheets,
                            const std::vector<SheetLimits>& limits) {
-  Worst worst;
-  std::vector<std::string> names;
-  std::vector<double> ratios;
-  for (size_t i = 0; i < sheets.size(); ++i) {
-    names.push_back(sheets[i].words);
-    ratios.push_back(limits[i].bound);
-    worst.observe(ratios.back());
-  }
+  Table ratios{{"sheet", "1"}, {"elastic limit over 2/omega", "1"}};
+  for (size_t i = 0; i < sheets.size(); ++i) ratios.row(sheets[i].words, limits[i].bound);
+  const double worst = ratios.worst("elastic limit over 2/omega");
   return {"hard-limits.bound-is-safe",
           "The reference's elastic limit is no longer than the largest stable step on hard sheets "
           "either.",
-          {{worst.value(), 1, 0.01 * worst.value(), "1",
-            "the bound on the frequency must not lie below it"},
-           {{"sheet", "1", names}, {"elastic limit over 2/omega", "1", ratios}},
+          {{worst, 1, 0.01 * worst, "1", "the bound on the frequency must not lie below it"},
+           ratios,
            "power iteration approaches omega from below, which errs towards passing; the "
            "uncertainty is the one percent within which runs confirm 2/omega"}};
 }
 
 // ---- damping
 
-struct Damped {
+struct DampedLimit {
   std::string scheme;
   double ratio;     // of damping, at the fastest mode [1]
   double expected;  // largest stable step over 2/omega [1]
@@ -117,8 +112,8 @@ struct Damped {
 /// sheet, and each is an oscillator with the damping ratio zeta = kd_s omega/(2 Y). The step of A
 /// and B is then limited to 2/omega, that of C to (2/omega) (zeta + sqrt(1 + zeta^2)); the
 /// fastest mode decides.
-std::vector<Damped> damped_limits() {
-  std::vector<Damped> limits;
+std::vector<DampedLimit> damped_limits() {
+  std::vector<DampedLimit> limits;
   for (const double zeta : {0.5, 1.5, 4.0, 10.0, 30.0, 100.0}) {
     limits.push_back({"C", zeta, zeta + std::sqrt(1 + zeta * zeta)});
     for (const char* scheme : {"A", "B"}) limits.push_back({scheme, zeta, 1});
@@ -129,9 +124,9 @@ std::vector<Damped> damped_limits() {
 /// A and B leave their limit slowly: at a step longer by a fraction d a disturbance grows by about
 /// 2 d/zeta a step. No run of bearable length tells that from decay; the matrix of the fastest
 /// mode's step does.
-bool is_told_by_runs(const Damped& limit) { return limit.scheme == "C" || limit.ratio < 1; }
+bool is_told_by_runs(const DampedLimit& limit) { return limit.scheme == "C" || limit.ratio < 1; }
 
-double damped_limit(const Subject& subject, const Damped& limit) {
+double damped_limit(const Subject& subject, const DampedLimit& limit) {
   constexpr double growth = 1e-6;
   Scene scene = sheet_scene(square(0.2, 2, 1), 0);
   const FastestMode mode = fastest_mode(subject, scene);
@@ -148,29 +143,29 @@ double damped_limit(const Subject& subject, const Damped& limit) {
          mode.omega / 2;
 }
 
-NamedFinding damped_finding(const std::vector<Damped>& limits,
-                            const std::vector<double>& measured) {
-  Worst worst;
-  std::vector<std::string> schemes, told_by;
-  std::vector<double> ratios, expected;
-  for (size_t i = 0; i < limits.size(); ++i) {
-    schemes.push_back(limits[i].scheme);
-    told_by.emplace_back(is_told_by_runs(limits[i]) ? "runs" : "step matrix of the fastest mode");
-    ratios.push_back(limits[i].ratio);
-    expected.push_back(limits[i].expected);
-    worst.observe(std::abs(measured[i] / expected.back() - 1));
+/// All of them, measured; after each one `step` is called.
+Table measured_limits(const Subject& subject, const std::function<void()>& step) {
+  Table table{{"scheme", "1"},
+              {"told by", "1"},
+              {"damping ratio of the fastest mode", "1"},
+              {"largest stable step over 2/omega", "1"},
+              {"expected", "1"}};
+  for (const DampedLimit& limit : damped_limits()) {
+    table.row(limit.scheme, is_told_by_runs(limit) ? "runs" : "step matrix of the fastest mode",
+              limit.ratio, damped_limit(subject, limit), limit.expected);
+    step();
   }
+  return table;
+}
+
+NamedFinding damped_finding(const Table& limits) {
   return {"hard-limits.damped-limit-is-as-derived",
           "Damped in proportion to stiffness, schemes A and B are stable up to 2/omega, C up to "
           "(2/omega) (zeta + sqrt(1 + zeta^2)), for damping ratios zeta up to 100.",
-          {{worst.value(), 0.01, 0, "1",
+          {{largest_deviation(limits, "largest stable step over 2/omega", "expected"), 0.01, 0, "1",
             "the bisection ends at a width of a sixth of that; the limits are those of the damped "
             "oscillator"},
-           {{"scheme", "1", schemes},
-            {"told by", "1", told_by},
-            {"damping ratio of the fastest mode", "1", ratios},
-            {"largest stable step over 2/omega", "1", measured},
-            {"expected", "1", expected}},
+           limits,
            "measured is the largest |found/expected - 1|. Beyond their limit A and B grow too "
            "slowly at ratios of 10 and more for runs to tell it from decay: there the spectral "
            "radius of the fastest mode's step does"}};
@@ -193,18 +188,7 @@ Table table_of(const std::vector<HardSheet>& sheets, const std::vector<SheetLimi
   return table;
 }
 
-Curve measured_curve(const char* scheme, const std::vector<Damped>& limits,
-                     const std::vector<double>& measured) {
-  Curve curve{scheme, {}, {}, nan, {}};
-  for (size_t i = 0; i < limits.size(); ++i) {
-    if (limits[i].scheme != scheme) continue;
-    curve.x.push_back(limits[i].ratio);
-    curve.y.push_back(measured[i]);
-  }
-  return curve;
-}
-
-Figure damping_figure(const std::vector<Damped>& limits, const std::vector<double>& measured) {
+Figure damping_figure(const Table& limits) {
   Figure figure{"damped",
                 "Largest stable step of a sheet damped in proportion to its stiffness",
                 {"damping ratio of the fastest mode", "1", Scale::log},
@@ -213,10 +197,12 @@ Figure damping_figure(const std::vector<Damped>& limits, const std::vector<doubl
                 "Damping leaves the limit of schemes A and B where it is, and widens that of C.",
                 {}};
   for (const char* scheme : {"A", "B", "C"})
-    figure.curves.push_back(measured_curve(scheme, limits, measured));
-  Curve derived{
-      "derived for C: zeta + sqrt(1 + zeta^2)", geometric_range(0.5, 100, 81), {}, nan, {}};
-  for (const double zeta : derived.x) derived.y.push_back(zeta + std::sqrt(1 + zeta * zeta));
+    figure.curves.push_back(curve_of(scheme, group_of(limits, "scheme", scheme),
+                                     "damping ratio of the fastest mode",
+                                     "largest stable step over 2/omega"));
+  Curve derived{"derived for C: zeta + sqrt(1 + zeta^2)", {}, {}, nan, {}};
+  for (const double zeta : geometric_range(0.5, 100, 81))
+    derived.point(zeta, zeta + std::sqrt(1 + zeta * zeta));
   figure.curves.push_back(std::move(derived));
   return figure;
 }
@@ -224,8 +210,7 @@ Figure damping_figure(const std::vector<Damped>& limits, const std::vector<doubl
 StudyResult run_hard_limits(const Subject& subject, Tier, const Progress& progress) {
   StudyResult result;
   const std::vector<HardSheet> sheets = hard_sheets();
-  const std::vector<Damped> damped = damped_limits();
-  const double parts = double(sheets.size() + damped.size() + paper_schemes().size());
+  const double parts = double(sheets.size() + damped_limits().size() + paper_schemes().size());
   double done = 0;
   std::vector<SheetLimits> limits;
   for (const HardSheet& sheet : sheets) {
@@ -234,19 +219,15 @@ StudyResult run_hard_limits(const Subject& subject, Tier, const Progress& progre
     progress(++done / parts);
   }
   result.findings.push_back(bound_finding(sheets, limits));
-  std::vector<double> measured;
-  for (const Damped& one : damped) {
-    measured.push_back(damped_limit(subject, one));
-    progress(++done / parts);
-  }
-  result.findings.push_back(damped_finding(damped, measured));
+  const Table damped = measured_limits(subject, [&] { progress(++done / parts); });
+  result.findings.push_back(damped_finding(damped));
   for (const char* scheme : {"A", "B", "C"}) {
     result.findings.push_back(step_jump(subject, sheet_scene(square(0.4, 4, 1), 0), scheme));
     progress(++done / parts);
   }
   result.findings.push_back(sliver_collapse());
   result.tables.push_back(table_of(sheets, limits));
-  result.figures.push_back(damping_figure(damped, measured));
+  result.figures.push_back(damping_figure(damped));
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "convergence/ranges.h"
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
+#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/estimate.h"
 #include "verification/oracles/stability.h"
@@ -86,23 +87,21 @@ double tried_ratio(const Subject& subject, const Integrator& method, Scene scene
          mode.omega / 2;
 }
 
-/// Rows of evidence, one a point of the map.
-struct MapPoints {
-  std::vector<double> material, width, zeta, tried, known;
-};
-
-MapPoints points_of(const Subject& subject, const Integrator& method, const MappedSheet& sheet) {
-  MapPoints points;
+/// One row a point of the map.
+Table points_of(const Subject& subject, const Integrator& method, const MappedSheet& sheet) {
+  Table points{{"damping ratio on the coarsest mesh", "1"},
+               {"width of a cell", "m"},
+               {"damping ratio of the fastest mode", "1"},
+               {"largest stable step over 2/omega", "1"},
+               {"as derived", "1"}};
   for (const MeshMode& one : sheet.modes)
     for (const double material : sheet.materials) {
-      const double relaxation = 2 * material / sheet.modes.front().mode.omega;
-      points.material.push_back(material);
-      points.width.push_back(flat_side / one.cells);
-      points.zeta.push_back(material * sheet.faster(one));
-      points.known.push_back(known_ratio(method, points.zeta.back()));
-      points.tried.push_back(tried_ratio(subject, method,
-                                         relaxing_sheet(sheet.springs, one.cells, relaxation),
-                                         one.mode, points.known.back()));
+      const double relaxation = 2 * material / sheet.modes.front().mode.omega,
+                   zeta = material * sheet.faster(one), known = known_ratio(method, zeta);
+      points.row(material, flat_side / one.cells, zeta,
+                 tried_ratio(subject, method, relaxing_sheet(sheet.springs, one.cells, relaxation),
+                             one.mode, known),
+                 known);
     }
   return points;
 }
@@ -134,8 +133,7 @@ std::vector<Curve> level_curves(const Integrator& method, const MappedSheet& she
       const double zeta = ratio_at_level(method, level, sheet.faster(one),
                                          {sheet.materials.front(), sheet.materials.back()});
       if (std::isnan(zeta)) continue;
-      curve.x.push_back(zeta);
-      curve.y.push_back(one.cells);
+      curve.point(zeta, one.cells);
     }
     if (curve.x.size() > 1) curves.push_back(std::move(curve));
   }
@@ -151,14 +149,14 @@ std::string caption_of(const Integrator& method) {
          "square where hinges do.";
 }
 
-Map map_of(const Integrator& method, const MappedSheet& sheet, const MapPoints& points) {
+Map map_of(const Integrator& method, const MappedSheet& sheet, const Table& points) {
   Map map{"map-" + sheet.springs.name + "-" + std::string(method.name),
           "Largest stable step of " + std::string(method.title) + ", " + sheet.springs.words,
           {"damping ratio of the fastest mode on cells of a quarter of the side", "1", Scale::log},
           {"cells a side", "1", Scale::log},
           sheet.materials,
           {},
-          points.tried,
+          points.numbers("largest stable step over 2/omega"),
           "largest stable step over elastic limit",
           "1",
           Scale::log,
@@ -170,25 +168,21 @@ Map map_of(const Integrator& method, const MappedSheet& sheet, const MapPoints& 
   return map;
 }
 
-NamedFinding as_derived(const Integrator& method, const Springs& springs, const MapPoints& points) {
-  Worst worst;
-  for (size_t i = 0; i < points.tried.size(); ++i)
-    worst.observe(std::abs(points.tried[i] / points.known[i] - 1));
-  if (points.tried.empty()) worst.observe(nan);
+NamedFinding as_derived(const Integrator& method, const Springs& springs, const Table& points) {
+  const double worst =
+      points.rows() == 0
+          ? nan
+          : largest_deviation(points, "largest stable step over 2/omega", "as derived");
   return {
       "stability-sheet.map-follows-the-fastest-mode." + springs.name + "." +
           std::string(method.name),
       "Over damping and resolution, with " + springs.words + ", the largest stable step of " +
           std::string(method.title) + " is that of the oscillator that the fastest mode is.",
-      {{worst.value(), 0.01, 0, "1",
+      {{worst, 0.01, 0, "1",
         "the bisection ends at a relative width of 3e-4, and beyond the limit of A and B, which "
         "they leave most slowly, the radius exceeds 1 by a few thousandths of the relative excess, "
         "of which 1e-6 counts; a limit that scaled otherwise would be off by factors"},
-       {{"damping ratio on the coarsest mesh", "1", points.material},
-        {"width of a cell", "m", points.width},
-        {"damping ratio of the fastest mode", "1", points.zeta},
-        {"largest stable step over 2/omega", "1", points.tried},
-        {"as derived", "1", points.known}},
+       points,
        "measured is the largest relative deviation over the map"}};
 }
 
@@ -199,7 +193,7 @@ void add_stability_maps(const Subject& subject, Tier tier, StudyResult& result) 
     const MappedSheet sheet = mapped_sheet(subject, springs, tier);
     for (const char* name : {"A", "B", "C", "RK4"}) {
       const Integrator& method = integrator_named(name);
-      const MapPoints points = points_of(subject, method, sheet);
+      const Table points = points_of(subject, method, sheet);
       result.maps.push_back(map_of(method, sheet, points));
       result.findings.push_back(as_derived(method, sheet.springs, points));
     }

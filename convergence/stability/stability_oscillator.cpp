@@ -7,6 +7,7 @@
 #include "convergence/ranges.h"
 #include "convergence/stability/step_matrix.h"
 #include "convergence/stability/studies.h"
+#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/exact_solutions.h"
 #include "verification/oracles/stability.h"
@@ -44,28 +45,20 @@ double measured_limit(const SteppedMotion& of, double known) {
 }
 
 /// omega h against zeta of one method.
-struct LimitRow {
-  std::vector<double> zeta, measured, known;
-};
-
-LimitRow limit_row(const Subject& subject, const Integrator& integrator,
-                   const std::vector<double>& ratios) {
-  LimitRow row;
+Table limit_row(const Subject& subject, const Integrator& integrator,
+                const std::vector<double>& ratios) {
+  Table row{{"damping ratio", "1"}, {"largest stable omega h", "1"}, {"as known", "1"}};
   for (const double zeta : ratios) {
     const double known = known_limit(integrator, zeta);
     if (!(known > 0)) continue;  // unstable at every step: judged by itself
-    row.zeta.push_back(zeta);
-    row.known.push_back(known);
-    row.measured.push_back(
-        measured_limit(stepped_motion(subject, hinge_oscillator(zeta), integrator.name), known));
+    row.row(zeta,
+            measured_limit(stepped_motion(subject, hinge_oscillator(zeta), integrator.name), known),
+            known);
   }
   return row;
 }
 
-NamedFinding limit_finding(const Integrator& integrator, const LimitRow& row) {
-  Worst worst;
-  for (size_t i = 0; i < row.zeta.size(); ++i)
-    worst.observe(std::abs(row.measured[i] / row.known[i] - 1));
+NamedFinding limit_finding(const Integrator& integrator, const Table& row) {
   const std::string name(integrator.name), title(integrator.title);
   const bool mixed = integrator.family == Family::mixed;
   const std::string what =
@@ -75,25 +68,23 @@ NamedFinding limit_finding(const Integrator& integrator, const LimitRow& row) {
   return {
       "stability-oscillator.limit-is-as-derived." + name,
       "The largest stable step of " + title + " on the damped oscillator is " + what + ".",
-      {{worst.value(), 1e-3, 0, "1",
+      {{largest_deviation(row, "largest stable omega h", "as known"), 1e-3, 0, "1",
         "a tenth of a percent tells any two of these formulas apart; a spectral radius of 1 + 1e-8 "
         "counts as growth, which errs by a ten-thousandth at most, where methods leave 1 slowest"},
-       {{"damping ratio", "1", row.zeta},
-        {"largest stable omega h", "1", row.measured},
-        {"as known", "1", row.known}},
+       row,
        "measured is the largest relative deviation"}};
 }
 
 /// Methods that leave the imaginary axis at once: first and second order.
 NamedFinding undamped_growth(const Subject& subject, const Integrator& integrator) {
   const SteppedMotion of = stepped_motion(subject, hinge_oscillator(0), integrator.name);
-  const std::vector<double> steps = {0.05, 0.13, 0.37, 0.9};
   const int power = integrator.order == 1 ? 2 : 4;  // |R(iy)|^2 = 1 + y^2, 1 + y^4/4
   Worst worst;
-  std::vector<double> excess;
-  for (const double y : steps) {
-    excess.push_back(std::pow(spectral_radius_at(of, y), 2) - 1);
-    worst.observe(std::abs(excess.back() / (std::pow(y, power) / (power == 2 ? 1 : 4)) - 1));
+  Table excesses{{"omega h", "1"}, {"squared spectral radius - 1", "1"}};
+  for (const double y : {0.05, 0.13, 0.37, 0.9}) {
+    const double excess = std::pow(spectral_radius_at(of, y), 2) - 1;
+    excesses.row(y, excess);
+    worst.observe(std::abs(excess / (std::pow(y, power) / (power == 2 ? 1 : 4)) - 1));
   }
   const std::string name(integrator.name);
   return {"stability-oscillator.undamped-motion-grows." + name,
@@ -101,35 +92,33 @@ NamedFinding undamped_growth(const Subject& subject, const Integrator& integrato
               " grows at every step: |R(iy)|^2 = 1 + y^" + (power == 2 ? "2." : "4/4."),
           {{worst.value(), 1e-3, 0, "1",
             "the smallest excess, 1.6e-6, is found to 1e-9; another power of y is off by a factor"},
-           {{"omega h", "1", steps}, {"squared spectral radius - 1", "1", excess}},
+           excesses,
            "measured is the largest relative deviation of the excess"}};
 }
 
 NamedFinding unlimited_finding(const Subject& subject, const Integrator& integrator) {
-  Worst worst;
-  std::vector<double> ratios, largest;
+  const std::string largest = "largest spectral radius, omega h .01 to 1000";
+  Table radii{{"damping ratio", "1"}, {largest, "1"}};
   for (const double zeta : {0.0, 0.01, 0.1, 0.5, 1.0, 10.0}) {
     const SteppedMotion of = stepped_motion(subject, hinge_oscillator(zeta), integrator.name);
     Worst here;
     for (const double omega_h : geometric_range(0.01, 1000, 26))
       here.observe(spectral_radius_at(of, omega_h));
-    ratios.push_back(zeta);
-    largest.push_back(here.value());
-    worst.observe(here.value() - 1);
+    radii.row(zeta, here.value());
   }
+  Worst worst;
+  for (const double radius : radii.numbers(largest)) worst.observe(radius - 1);
   return {"stability-oscillator.has-no-limit." + std::string(integrator.name),
           std::string(integrator.title) + " is stable on the damped oscillator at every step.",
           {{worst.value(), threshold, 0, "1", "what counts as growth everywhere in this study"},
-           {{"damping ratio", "1", ratios},
-            {"largest spectral radius, omega h .01 to 1000", "1", largest}},
+           radii,
            "measured is the largest spectral radius, less 1"}};
 }
 
 Curve known_curve(const Integrator& integrator) {
   Curve curve{"limit as known", {}, {}, nan, {}};
   for (const double zeta : geometric_range(0.01, 10, 61)) {
-    curve.x.push_back(known_limit(integrator, zeta));
-    curve.y.push_back(zeta);
+    curve.point(known_limit(integrator, zeta), zeta);
   }
   return curve;
 }
@@ -180,11 +169,12 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
     if (integrator.family == Family::fully_implicit) {
       result.findings.push_back(unlimited_finding(subject, integrator));
     } else {
-      const LimitRow row = limit_row(subject, integrator, ratios);
+      const Table row = limit_row(subject, integrator, ratios);
       result.findings.push_back(limit_finding(integrator, row));
       Curve curve{std::string(integrator.name), {}, {}, nan, {}};
-      for (size_t i = 0; i < row.zeta.size(); ++i)
-        if (row.zeta[i] > 0) curve.x.push_back(row.zeta[i]), curve.y.push_back(row.measured[i]);
+      for (size_t i = 0; i < row.rows(); ++i)
+        if (row.numbers("damping ratio")[i] > 0)
+          curve.point(row.numbers("damping ratio")[i], row.numbers("largest stable omega h")[i]);
       figure.curves.push_back(std::move(curve));
       if (!(known_limit(integrator, 0) > 0))
         result.findings.push_back(undamped_growth(subject, integrator));

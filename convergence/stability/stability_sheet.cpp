@@ -7,6 +7,7 @@
 #include "convergence/ranges.h"
 #include "convergence/stability/step_matrix.h"
 #include "convergence/stability/studies.h"
+#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/stability.h"
 
@@ -37,42 +38,25 @@ double known_limit(const Integrator& integrator, const LinearForces& forces) {
       .value;
 }
 
-/// Steps of one method over damping constants [s].
-struct DampedLimits {
-  std::vector<double> times, measured, known, elastic;
-};
-
-DampedLimits damped_limits(const Subject& subject, const Integrator& integrator,
-                           const Damping& damping, int points) {
+/// Steps of one method over damping constants.
+Table damped_limits(const Subject& subject, const Integrator& integrator, const Damping& damping,
+                    int points) {
   constexpr double omega0 = 50, threshold = 1e-6;
-  DampedLimits limits;
+  Table limits{{"multiple of the damping", "1"},
+               {"largest stable step", "s"},
+               {"as known", "s"},
+               {"2/omega", "s"}};
   for (const double times : geometric_range(0.01, 100, points)) {
     const SmallMotion motion =
         free_motion(clamped_sheet(times * damping.springs, times * damping.bending), omega0);
     const LinearForces forces = linear_forces(subject, motion);
     const double known = known_limit(integrator, forces);
-    limits.times.push_back(times);
-    limits.known.push_back(known);
-    limits.elastic.push_back(oracles::largest_leapfrog_step(forces.stiffness).value);
-    limits.measured.push_back(largest_constant_step(
-        stepped_motion(subject, motion, integrator.name), {known / 2, known * 4, threshold, 11}));
+    limits.row(times,
+               largest_constant_step(stepped_motion(subject, motion, integrator.name),
+                                     {known / 2, known * 4, threshold, 11}),
+               known, oracles::largest_leapfrog_step(forces.stiffness).value);
   }
   return limits;
-}
-
-std::vector<Column> columns_of(const DampedLimits& limits) {
-  return {{"multiple of the damping", "1", limits.times},
-          {"largest stable step", "s", limits.measured},
-          {"as known", "s", limits.known},
-          {"2/omega", "s", limits.elastic}};
-}
-
-double worst_deviation(const std::vector<double>& measured, const std::vector<double>& expected) {
-  if (measured.empty()) return nan;
-  Worst worst;
-  for (size_t i = 0; i < measured.size(); ++i)
-    worst.observe(std::abs(measured[i] / expected[i] - 1));
-  return worst.value();
 }
 
 const char* const why_percent =
@@ -81,43 +65,40 @@ const char* const why_percent =
     "fell with the damping would be off by factors";
 
 NamedFinding independence(const Integrator& integrator, const Damping& damping,
-                          const DampedLimits& limits) {
+                          const Table& limits) {
   const std::string name(integrator.name);
   return {
       "stability-sheet.limit-does-not-depend-on-damping." + damping.name + "." + name,
       "On a sheet with " + damping.words + " scheme " + name +
           " is stable up to 2/omega, the limit without damping, however large the damping.",
-      {{worst_deviation(limits.measured, limits.elastic), 0.01, 0, "1", why_percent},
-       columns_of(limits),
+      {{largest_deviation(limits, "largest stable step", "2/omega"), 0.01, 0, "1", why_percent},
+       limits,
        "measured is the largest relative deviation from 2/omega while the damping rises by 1e4"}};
 }
 
-NamedFinding never_narrower(const Damping& damping, const DampedLimits& limits) {
-  Worst worst;
-  for (size_t i = 0; i < limits.measured.size(); ++i)
-    worst.observe(limits.elastic[i] / limits.measured[i]);
+NamedFinding never_narrower(const Damping& damping, const Table& limits) {
   return {"stability-sheet.damping-never-lowers-the-limit." + damping.name + ".C",
           "On a sheet with " + damping.words + " scheme C is stable up to 2/omega at least.",
-          {{worst.value(), 1.001, 0, "1",
+          {{largest_ratio(limits, "2/omega", "largest stable step"), 1.001, 0, "1",
             "the bisection and the linearised forces leave less than a thousandth"},
-           columns_of(limits),
+           limits,
            "measured is the largest 2/omega over the largest stable step, while the damping rises "
            "by 1e4"}};
 }
 
-NamedFinding as_known(const Integrator& integrator, const Damping& damping,
-                      const DampedLimits& limits) {
+NamedFinding as_known(const Integrator& integrator, const Damping& damping, const Table& limits) {
   const std::string name(integrator.name);
   const bool mixed = integrator.family == Family::mixed;
-  return {"stability-sheet.limit-is-as-derived." + damping.name + "." + name,
-          "On a sheet with " + damping.words + " the largest stable step of " +
-              std::string(integrator.title) +
-              (mixed ? " is where 4 + 2 h C - h^2 K becomes singular."
-                     : " is where its stability polynomial leaves 1 at one of the sheet's rates: "
-                       "damping narrows it."),
-          {{worst_deviation(limits.measured, limits.known), 0.01, 0, "1", why_percent},
-           columns_of(limits),
-           "measured is the largest relative deviation while the damping rises by 1e4"}};
+  return {
+      "stability-sheet.limit-is-as-derived." + damping.name + "." + name,
+      "On a sheet with " + damping.words + " the largest stable step of " +
+          std::string(integrator.title) +
+          (mixed ? " is where 4 + 2 h C - h^2 K becomes singular."
+                 : " is where its stability polynomial leaves 1 at one of the sheet's rates: "
+                   "damping narrows it."),
+      {{largest_deviation(limits, "largest stable step", "as known"), 0.01, 0, "1", why_percent},
+       limits,
+       "measured is the largest relative deviation while the damping rises by 1e4"}};
 }
 
 void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progress,
@@ -138,14 +119,14 @@ void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progre
     for (const Integrator& integrator : integrators()) {
       if (integrator.family == Family::fully_implicit) continue;
       if (!damps_all(damping) && grows_undamped(integrator)) continue;
-      const DampedLimits limits = damped_limits(subject, integrator, damping, points);
+      const Table limits = damped_limits(subject, integrator, damping, points);
       if (integrator.name == "A" || integrator.name == "B")
         result.findings.push_back(independence(integrator, damping, limits));
       else
         result.findings.push_back(as_known(integrator, damping, limits));
       if (integrator.name == "C") result.findings.push_back(never_narrower(damping, limits));
-      figure.curves.push_back(
-          {std::string(integrator.name), limits.times, limits.measured, nan, {}});
+      figure.curves.push_back(curve_of(std::string(integrator.name), limits,
+                                       "multiple of the damping", "largest stable step"));
       progress(0.7 * ++done / 21);
     }
     result.figures.push_back(std::move(figure));

@@ -59,12 +59,13 @@ NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& s
   require_offered(subject.step, "step");
   const FastestMode mode = fastest_mode(subject, scene);
   Worst worst;
-  std::vector<double> phases, least, most;
+  Table energies{{"phase at the jump", "rad"},
+                 {"least energy after it, over the start's", "1"},
+                 {"largest energy after it, over the start's", "1"}};
   for (int k = 0; k < 8; ++k) {
-    phases.push_back(2 * pi * k / 8);
-    const EnergyRange range = after_jump({subject, scene, mode, *prepared}, phases.back());
-    least.push_back(1 / range.over_least.value());
-    most.push_back(range.largest.value());
+    const double phase = 2 * pi * k / 8;
+    const EnergyRange range = after_jump({subject, scene, mode, *prepared}, phase);
+    energies.row(phase, 1 / range.over_least.value(), range.largest.value());
     worst.observe(range.largest.value() * one_minus_squared);
     worst.observe(range.over_least.value() * one_minus_squared);
   }
@@ -74,9 +75,7 @@ NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& s
           {{worst.value(), 1.01, 0, "1",
             "one for the derived range; a hundredth for the vibration being not quite the fastest "
             "mode alone"},
-           {{"phase at the jump", "rad", phases},
-            {"least energy after it, over the start's", "1", least},
-            {"largest energy after it, over the start's", "1", most}},
+           energies,
            "measured is how far the range is used: the largest energy, or one over the least, "
            "times 1 - s^2"}};
 }

@@ -45,27 +45,24 @@ NamedFinding resonance_finding(const Subject& subject, const std::string& scheme
               " grow, though each alone is stable: a step below the limit does not suffice if "
               "steps vary.",
           {verdict,
-           {{"spectral radius of the pair", "1", std::vector<double>{pair}},
-            {"of two short steps", "1", std::vector<double>{alone[0]}},
-            {"of two long steps", "1", std::vector<double>{alone[1]}}},
+           Table{{"spectral radius of the pair", "1"},
+                 {"of two short steps", "1"},
+                 {"of two long steps", "1"}}
+               .with_row(pair, alone[0], alone[1]),
            "measured is the larger spectral radius of two equal steps over that of the pair"}};
 }
 
 NamedFinding damped_finding(const Subject& subject, const std::string& scheme) {
-  std::vector<double> ratios = {0.5, 0.7, 1, 2, 5, 20}, radii;
-  Worst worst;
-  for (const double zeta : ratios) {
-    radii.push_back(stepped_radius(stepped_motion(subject, hinge_oscillator(zeta), scheme),
+  Table radii{{"damping ratio", "1"}, {"spectral radius of the pair", "1"}};
+  for (const double zeta : {0.5, 0.7, 1.0, 2.0, 5.0, 20.0})
+    radii.row(zeta, stepped_radius(stepped_motion(subject, hinge_oscillator(zeta), scheme),
                                    short_step, long_step));
-    worst.observe(radii.back());
-  }
   return {"variable-step-stability.damping-removes-resonance." + scheme,
           "A damping ratio of a half or more makes steps of .69/omega and 1.99/omega in turn "
           "stable in scheme " +
               scheme + ".",
-          {{worst.value(), 1, 0, "1", "a spectral radius above 1 grows"},
-           {{"damping ratio", "1", ratios}, {"spectral radius of the pair", "1", radii}},
-           "measured is the largest of the radii"}};
+          judge_worst(radii, 1, "a spectral radius above 1 grows",
+                      "measured is the largest of the radii")};
 }
 
 /// The damping ratio from which on a pair of steps no longer grows; 0 if it never does.
@@ -104,8 +101,7 @@ void add_border(const std::string& scheme, Map& map) {
   Curve curve{"spectral radius 1, derived", {}, {}, nan, {}};
   for (const double ratio : linear_range(0.02, 1, 197)) {
     const double zeta = curing_ratio(scheme, ratio * long_step, long_step);
-    curve.x.push_back(ratio);
-    curve.y.push_back(zeta > 0 ? zeta : nan);
+    curve.point(ratio, zeta > 0 ? zeta : nan);
   }
   map.curves.push_back(std::move(curve));
   map.caption += " Below the curve, from the derived matrices, pairs grow.";
@@ -124,7 +120,7 @@ NamedFinding map_finding(const std::string& scheme, const Map& map) {
           {{worst.value(), 1e-6, 0, "1",
             "entries are found to 1e-12 or so; where the two eigenvalues coincide that moves them "
             "by its root"},
-           {{"points compared", "1", std::vector<double>{double(map.values.size())}}},
+           Table{{"points compared", "1"}}.with_row(double(map.values.size())),
            "measured is the largest relative deviation over the map"}};
 }
 
@@ -184,7 +180,7 @@ void add_sheet_findings(const Subject& subject, const std::string& scheme, Study
            " with steps of .69 and 1.99 over its highest frequency in turn.",
        {{1e3 / undamped, 1, 0, "1",
          "a thousand times its size is beyond what bounded modes can add up to"},
-        {{"largest size over the start's", "1", std::vector<double>{undamped}}},
+        Table{{"largest size over the start's", "1"}}.with_row(undamped),
         "measured is a thousand over the growth"}});
   result.findings.push_back({"variable-step-stability.damped-sheet-does-not-grow." + scheme,
                              "A sheet whose highest mode has a damping ratio of a half does not "
@@ -193,7 +189,7 @@ void add_sheet_findings(const Subject& subject, const std::string& scheme, Study
                              {{damped / 10, 1, 0, "1",
                                "a mode near its limit may exceed its start, by 1/sqrt(1 - (omega "
                                "h/2)^2) = 10 at 1.99/omega"},
-                              {{"largest size over the start's", "1", std::vector<double>{damped}}},
+                              Table{{"largest size over the start's", "1"}}.with_row(damped),
                               "measured is the growth over ten"}});
 }
 

@@ -259,14 +259,10 @@ Table iterations_over_stiffness(const Subject& subject, Tier tier) {
 }
 
 NamedFinding cost_finding(const Table& iterations) {
-  const std::vector<double>&stuck = iterations.numbers("to a surface"),
-        &loose = iterations.numbers("nothing sticks");
-  Worst surface;
-  for (size_t k = 0; k < iterations.rows(); ++k) surface.observe(stuck[k] / loose[k]);
   return {
       "sticking-lag.surface-bonds-add-few-iterations",
       "Bonds to a surface cost a solve no more than the digits by which its first guess is worse.",
-      {{surface.value(), 1.4, 0, "1",
+      {{largest_ratio(iterations, "to a surface", "nothing sticks"), 1.4, 0, "1",
         "what they add is k tau_s on the diagonal, which does not spread the spectrum; but the "
         "guess, the explicit velocity, is off by up to 1e4 times as much: fourteen digits to go "
         "and not ten"},

@@ -72,4 +72,14 @@ TEST_CASE("largest_deviation is relative, of either sign, and keeps NaN") {
   CHECK(std::isnan(largest_deviation(table, "measured", "derived")));
 }
 
+TEST_CASE("largest_ratio divides row by row and keeps NaN") {
+  Table table{{"a", "m"}, {"b", "m"}};
+  table.row(3.0, 4.0);
+  table.row(1.0, 8.0);
+  CHECK(largest_ratio(table, "a", "b") == 0.75);
+  CHECK(largest_ratio(table, "b", "a") == 8);
+  table.row(0.0, 0.0);
+  CHECK(std::isnan(largest_ratio(table, "a", "b")));
+}
+
 }  // namespace foldproof

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "convergence/order.h"
+#include "convergence/tables.h"
 #include "convergence/work_precision/precision_problem.h"
 #include "convergence/work_precision/studies.h"
 #include "reference/mesh/shapes.h"
@@ -77,95 +78,86 @@ MeshRun run_mesh(const Subject& subject, int cells) {
   return mesh;
 }
 
-/// Differences of neighbouring meshes [m] against the coarser one's cells [m].
-Convergence differences(const std::vector<MeshRun>& meshes) {
-  Convergence result;
-  for (size_t i = 0; i + 1 < meshes.size(); ++i) {
-    result.steps.push_back(width / meshes[i].cells);
-    result.errors.push_back(largest_distance(meshes[i].x, meshes[i + 1].x));
+const std::string difference_column = "difference to half the width";
+
+/// Differences of neighbouring meshes against the coarser one's cells.
+Table differences(const std::vector<MeshRun>& meshes) {
+  Table table{{"width of a cell", "m"}, {difference_column, "m"}};
+  for (size_t i = 0; i + 1 < meshes.size(); ++i)
+    table.row(width / meshes[i].cells, largest_distance(meshes[i].x, meshes[i + 1].x));
+  return table;
+}
+
+Convergence errors_of(const std::vector<MeshRun>& meshes) {
+  Convergence result = convergence_of(differences(meshes), difference_column);
+  for (size_t i = 0; i + 1 < meshes.size(); ++i)
     result.floor = std::max(result.floor, meshes[i].uncertainty + meshes[i + 1].uncertainty);
-  }
   return result;
 }
 
-/// What a mesh errs by [m], from its difference to the next finer one and the order
-/// that was observed:
+/// Errors of meshes and steps. What a mesh errs by follows from its difference to the next finer
+/// one and the order that was observed:
 ///   e(dx) - e(dx/2) = e(dx) (1 - 2^-order)
-std::vector<double> space_errors(const Convergence& differences, double order) {
-  std::vector<double> errors;
-  for (double difference : differences.errors)
-    errors.push_back(difference / (1 - std::pow(2, -order)));
-  return errors;
+Table errors_table(const std::vector<MeshRun>& meshes, const Convergence& differences) {
+  const double order = pair_orders(differences).back();
+  Table table{{"cells along a side", "1"}, {"error of the mesh", "m"}, {"error of the step", "m"}};
+  for (size_t i = 0; i < differences.errors.size(); ++i)
+    table.row(meshes[i].cells, differences.errors[i] / (1 - std::pow(2, -order)),
+              meshes[i].time_error);
+  return table;
 }
 
-NamedFinding second_order(const Convergence& errors) {
+NamedFinding second_order(const std::vector<MeshRun>& meshes) {
+  const Convergence errors = errors_of(meshes);
   const Estimate deviation = order_deviation(errors, 2, 1);
-  std::vector<double> orders = pair_orders(errors);
-  orders.insert(orders.begin(), nan);
+  Table evidence = differences(meshes);
+  evidence.add({"order of the pair", "1", row_orders(errors)});
   const Verdict verdict{deviation.value, 0.5, deviation.uncertainty, "1",
                         "first order would be off by 1; half of that is left to the border, whose "
                         "springs and hinges lack a neighbour, on meshes this coarse"};
   return {"mesh-error.is-second-order-in-cell-width",
           "Positions of a smooth motion converge with second order in the cells' width.",
-          {verdict,
-           {{"width of a cell", "m", errors.steps},
-            {"difference to half the width", "m", errors.errors},
-            {"order of the pair", "1", orders}},
+          {verdict, std::move(evidence),
            "measured is |order - 2| of the last pair, at the particles of the coarsest mesh"}};
 }
 
 /// The usual step: the share of the elastic limit that automatic steps take.
-NamedFinding step_errs_less(const std::vector<MeshRun>& meshes, const std::vector<double>& space) {
-  Worst worst, uncertainty;
-  std::vector<double> cells, time;
-  for (size_t i = 0; i < space.size(); ++i) {
-    cells.push_back(meshes[i].cells);
-    time.push_back(meshes[i].time_error);
-    worst.observe(time.back() / space[i]);
-    uncertainty.observe(meshes[i].uncertainty / space[i]);
-  }
+NamedFinding step_errs_less(const std::vector<MeshRun>& meshes, const Table& errors) {
+  Worst uncertainty;
+  for (size_t i = 0; i < errors.rows(); ++i)
+    uncertainty.observe(meshes[i].uncertainty / errors.numbers("error of the mesh")[i]);
   const Verdict verdict{
-      worst.value(), 0.1, uncertainty.value(), "1",
-      "a tenth: then a shorter step would lessen the whole error by no more than that"};
+      largest_ratio(errors, "error of the step", "error of the mesh"), 0.1, uncertainty.value(),
+      "1", "a tenth: then a shorter step would lessen the whole error by no more than that"};
   return {"mesh-error.usual-step-error-is-below-a-tenth-of-it",
           "At the share of the elastic limit that automatic steps take, the step's error is less "
           "than a tenth of the mesh's.",
-          {verdict,
-           {{"cells along a side", "1", cells},
-            {"error of the mesh", "m", space},
-            {"error of the step", "m", time}},
-           "measured is the largest ratio of the two"}};
+          {verdict, errors, "measured is the largest ratio of the two"}};
 }
 
-Table balance(const std::vector<MeshRun>& meshes, const std::vector<double>& space) {
-  std::vector<std::vector<double>> columns(8);
-  for (size_t i = 0; i < space.size(); ++i) {
+Table balance(const std::vector<MeshRun>& meshes, const Table& errors) {
+  Table table{{"cells along a side", "1"},
+              {"width of a cell", "m"},
+              {"elastic limit", "s"},
+              {"error of the mesh", "%"},
+              {"error of the step", "%"},
+              {"step's error over the mesh's", "1"},
+              {"step over elastic limit at which both are equal", "1"},
+              {"operator applications", "1"}};
+  for (size_t i = 0; i < errors.rows(); ++i) {
     const MeshRun& mesh = meshes[i];
-    const double equal = usual_share() * std::sqrt(space[i] / mesh.time_error);
-    const double row[] = {double(mesh.cells),
-                          width / mesh.cells,
-                          mesh.limit,
-                          100 * space[i] / mesh.farthest,
-                          100 * mesh.time_error / mesh.farthest,
-                          mesh.time_error / space[i],
-                          equal,
-                          mesh.applications};
-    for (size_t k = 0; k < columns.size(); ++k) columns[k].push_back(row[k]);
+    const double space = errors.numbers("error of the mesh")[i];
+    table.row(mesh.cells, width / mesh.cells, mesh.limit, 100 * space / mesh.farthest,
+              100 * mesh.time_error / mesh.farthest, mesh.time_error / space,
+              usual_share() * std::sqrt(space / mesh.time_error), mesh.applications);
   }
   return {"balance",
           "Error of the mesh and of the step (scheme C at half the elastic limit), over the motion",
-          {{"cells along a side", "1", columns[0]},
-           {"width of a cell", "m", columns[1]},
-           {"elastic limit", "s", columns[2]},
-           {"error of the mesh", "%", columns[3]},
-           {"error of the step", "%", columns[4]},
-           {"step's error over the mesh's", "1", columns[5]},
-           {"step over elastic limit at which both are equal", "1", columns[6]},
-           {"operator applications", "1", columns[7]}}};
+          table};
 }
 
-Figure figure_of(const std::vector<MeshRun>& meshes, const Convergence& errors,
-                 const std::vector<double>& space) {
+Figure figure_of(const std::vector<MeshRun>& meshes, const Table& space) {
+  const Convergence errors = errors_of(meshes);
   Figure figure{
       "errors",
       "Errors of the mesh and of the step",
@@ -175,12 +167,10 @@ Figure figure_of(const std::vector<MeshRun>& meshes, const Convergence& errors,
       "Largest component at the particles of the coarsest mesh, at the end of the motion. The step "
       "is half the elastic limit of its mesh, so that it shrinks with the cells.",
       {}};
-  figure.curves.push_back({"mesh", errors.steps, space, nan, pair_orders(errors)});
+  figure.curves.push_back(
+      {"mesh", errors.steps, space.numbers("error of the mesh"), nan, pair_orders(errors)});
   Curve step{"step, half the elastic limit", {}, {}, nan, {}};
-  for (const MeshRun& mesh : meshes) {
-    step.x.push_back(width / mesh.cells);
-    step.y.push_back(mesh.time_error);
-  }
+  for (const MeshRun& mesh : meshes) step.point(width / mesh.cells, mesh.time_error);
   figure.curves.push_back(std::move(step));
   return figure;
 }
@@ -192,12 +182,11 @@ StudyResult run_mesh_error(const Subject& subject, Tier tier, const Progress& pr
     meshes.push_back(run_mesh(subject, coarsest << level));
     progress(std::pow(8, level + 1 - levels));
   }
-  const Convergence errors = differences(meshes);
-  const std::vector<double> space = space_errors(errors, pair_orders(errors).back());
+  const Table errors = errors_table(meshes, errors_of(meshes));
   StudyResult result;
-  result.findings = {second_order(errors), step_errs_less(meshes, space)};
-  result.figures = {figure_of(meshes, errors, space)};
-  result.tables = {balance(meshes, space)};
+  result.findings = {second_order(meshes), step_errs_less(meshes, errors)};
+  result.figures = {figure_of(meshes, errors)};
+  result.tables = {balance(meshes, errors)};
   return result;
 }
 

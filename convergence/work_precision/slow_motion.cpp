@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "convergence/order.h"
+#include "convergence/ranges.h"
+#include "convergence/tables.h"
 #include "convergence/stability/step_matrix.h"
 #include "verification/oracles/dense_algebra.h"
 
@@ -26,19 +28,23 @@ Creeping creeping(double omega) {
 
 /// Relative errors of the rate over the steps h [s]: -ln(mu)/(rate h) - 1, mu the step matrix's
 /// eigenvalue next to exp(-rate h).
-Convergence rate_errors(const Subject& subject, const std::string& scheme) {
+Table rate_errors(const Subject& subject, const std::string& scheme) {
   const SteppedMotion of = stepped_motion(subject, hinge_oscillator(zeta), scheme);
   const Creeping motion = creeping(of.motion.omega0);
-  Convergence errors;
-  for (int level = 0; level < levels; ++level) {
-    const double h = 2 * most / motion.c / (1 << level), expected = std::exp(-motion.rate * h);
-    const Eigen::VectorXcd values = oracles::eigenvalues(step_matrix(of, {h, h}));
-    Eigen::Index next = 0;
-    (values.array() - expected).abs().minCoeff(&next);
-    errors.steps.push_back(h);
-    errors.errors.push_back(std::abs(std::log(values[next].real()) / (-motion.rate * h) - 1));
-  }
-  return errors;
+  return refine({{"h", "s"}, {"h c/2", "1"}, {"relative error of the rate", "1"}},
+                halving_range(2 * most / motion.c, levels), [&](double h) {
+                  const double expected = std::exp(-motion.rate * h);
+                  const Eigen::VectorXcd values = oracles::eigenvalues(step_matrix(of, {h, h}));
+                  Eigen::Index next = 0;
+                  (values.array() - expected).abs().minCoeff(&next);
+                  return std::tuple{
+                      h, h * motion.c / 2,
+                      std::abs(std::log(values[next].real()) / (-motion.rate * h) - 1)};
+                });
+}
+
+Convergence errors_of(const Table& rates) {
+  return convergence_of(rates, "relative error of the rate");
 }
 
 // On the slow solution v = -(k/c)(1 + d) x with d of the order k/c^2. With a = h c/2,
@@ -52,45 +58,32 @@ double derived_error(const Creeping& motion, double h) {
   return slow * slow * h / 2 * a / (1 + a) / motion.rate;
 }
 
-std::vector<double> dampings_of(const Convergence& errors, const Creeping& motion) {
-  std::vector<double> a;
-  for (const double h : errors.steps) a.push_back(h * motion.c / 2);
-  return a;
-}
-
-NamedFinding as_derived(const Convergence& errors, const Creeping& motion) {
-  Worst worst;
-  std::vector<double> derived, orders = pair_orders(errors);
-  orders.insert(orders.begin(), nan);
-  for (size_t i = 0; i < errors.steps.size(); ++i) {
-    derived.push_back(derived_error(motion, errors.steps[i]));
-    worst.observe(std::abs(errors.errors[i] / derived.back() - 1));
-  }
+NamedFinding as_derived(const Table& rates, const Creeping& motion) {
+  std::vector<double> derived;
+  for (const double h : rates.numbers("h")) derived.push_back(derived_error(motion, h));
+  Table evidence = with_columns(rates, {"h c/2", "relative error of the rate"});
+  evidence.add({"derived", "1", derived});
+  evidence.add({"order of the pair", "1", row_orders(errors_of(rates))});
   return {"work-precision.slow-motion-is-first-order.C",
           "Under heavy damping C's error on the slow motion is that of a method of first order, "
           "unless the step resolves the damping.",
-          {{worst.value(), 0.05, 0, "1",
+          {{largest_deviation(evidence, "relative error of the rate", "derived"), 0.05, 0, "1",
             "the derivation leaves out the square of the rate times the step, a twenty-fifth at "
             "the longest step"},
-           {{"h c/2", "1", dampings_of(errors, motion)},
-            {"relative error of the rate", "1", errors.errors},
-            {"derived", "1", derived},
-            {"order of the pair", "1", orders}},
+           evidence,
            "measured is the largest relative deviation from the derived error, (k/c)^2 (h/2) a/(1 "
            "+ a) with a = h c/2: of first order in h for a above one, of second below"}};
 }
 
-NamedFinding keeps_its_order(const Convergence& errors, const Creeping& motion) {
+NamedFinding keeps_its_order(const Table& rates) {
   Worst worst;
-  std::vector<double> orders = pair_orders(errors);
-  for (const double order : orders) worst.observe(std::abs(order - 2));
-  orders.insert(orders.begin(), nan);
+  for (const double order : pair_orders(errors_of(rates))) worst.observe(std::abs(order - 2));
+  Table evidence = with_columns(rates, {"h c/2", "relative error of the rate"});
+  evidence.add({"order of the pair", "1", row_orders(errors_of(rates))});
   return {"work-precision.slow-motion-is-second-order.A",
           "However large the damping, A's error on the slow motion is of second order in the step.",
           {{worst.value(), 0.1, 0, "1", "a method of first order is off by 1"},
-           {{"h c/2", "1", dampings_of(errors, motion)},
-            {"relative error of the rate", "1", errors.errors},
-            {"order of the pair", "1", orders}},
+           evidence,
            "measured is the largest |order - 2| of all pairs, from h c/2 = 32 down"}};
 }
 
@@ -108,12 +101,13 @@ void add_slow_motion(const Subject& subject, StudyResult& result) {
                 {}};
   const Creeping motion = creeping(hinge_oscillator(zeta).omega0);
   for (const std::string scheme : {"A", "B", "C"}) {
-    const Convergence errors = rate_errors(subject, scheme);
-    if (scheme == "A") result.findings.push_back(keeps_its_order(errors, motion));
-    if (scheme == "C") result.findings.push_back(as_derived(errors, motion));
-    // C's own goes from 2 to 1
-    figure.curves.push_back({scheme, dampings_of(errors, motion), errors.errors, nan,
-                             pair_orders(errors), scheme == "A" ? 2 : nan});
+    const Table rates = rate_errors(subject, scheme);
+    if (scheme == "A") result.findings.push_back(keeps_its_order(rates));
+    if (scheme == "C") result.findings.push_back(as_derived(rates, motion));
+    Curve curve = curve_of(scheme, rates, "h c/2", "relative error of the rate");
+    curve.pair_orders = pair_orders(errors_of(rates));
+    curve.slope = scheme == "A" ? 2 : nan;  // C's own goes from 2 to 1
+    figure.curves.push_back(std::move(curve));
   }
   result.figures.push_back(std::move(figure));
 }

@@ -18,8 +18,8 @@ NamedFinding reference_is_known(const PrecisionScene& scene) {
       "Two opinions on where " + scene.problem.description +
           " ends agree to a ten-thousandth of its motion.",
       {verdict,
-       {{"largest motion", "m", std::vector<double>{scene.truth.motion}},
-        {"disagreement and own uncertainty", "1", std::vector<double>{scene.truth.uncertainty}}},
+       Table{{"largest motion", "m"}, {"disagreement and own uncertainty", "1"}}.with_row(
+           scene.truth.motion, scene.truth.uncertainty),
        (scene.problem.first == FirstOpinion::oracle ? "GSL and extrapolated scheme "
                                                     : "extrapolated RK4 and extrapolated scheme ") +
            scene.problem.second}};
@@ -43,10 +43,12 @@ size_t finest_judged(const PrecisionCurve& curve, double uncertainty) {
 
 /// The two finest runs of every curve, where each method is closest to its asymptotic range.
 NamedFinding errors_fall(const PrecisionScene& scene) {
-  constexpr int least_judged = 6;  // of the eleven methods
+  constexpr size_t least_judged = 6;  // of the eleven methods
   Worst worst, worst_with_uncertainty;
-  std::vector<std::string> methods;
-  std::vector<double> coarse, fine, shrinkages;
+  Table shrinkages{{"method", "1"},
+                   {"error of the run before", "1"},
+                   {"error of the finest run", "1"},
+                   {"error left when the step is halved", "1"}};
   std::string left_out;
   for (const PrecisionCurve& curve : scene.curves) {
     const size_t i = finest_judged(curve, scene.truth.uncertainty);
@@ -54,15 +56,13 @@ NamedFinding errors_fall(const PrecisionScene& scene) {
       left_out += " " + std::string(curve.integrator.name);
       continue;
     }
-    methods.emplace_back(curve.integrator.name);
-    coarse.push_back(curve.runs[i - 1].error);
-    fine.push_back(curve.runs[i].error);
-    shrinkages.push_back(shrinkage(curve.runs[i - 1], curve.runs[i]));
-    worst.observe(shrinkages.back());
-    worst_with_uncertainty.observe(shrinkages.back() *
-                                   (1 + 2 * scene.truth.uncertainty / fine.back()));
+    const PrecisionRun &coarse = curve.runs[i - 1], &fine = curve.runs[i];
+    const double left = shrinkage(coarse, fine);
+    shrinkages.row(curve.integrator.name, coarse.error, fine.error, left);
+    worst.observe(left);
+    worst_with_uncertainty.observe(left * (1 + 2 * scene.truth.uncertainty / fine.error));
   }
-  if (int(methods.size()) < least_judged) worst.observe(nan);
+  if (shrinkages.rows() < least_judged) worst.observe(nan);
   const Verdict verdict{
       worst.value(), std::sqrt(0.5), worst_with_uncertainty.value() - worst.value(), "1",
       "an error of first order is halved with the step, one that does not fall stays 1; the bound "
@@ -70,11 +70,7 @@ NamedFinding errors_fall(const PrecisionScene& scene) {
   return {"work-precision.errors-decrease." + scene.problem.name,
           "On " + scene.problem.description +
               ", errors fall with the step at the end of every method's range.",
-          {verdict,
-           {{"method", "1", methods},
-            {"error of the run before", "1", coarse},
-            {"error of the finest run", "1", fine},
-            {"error left when the step is halved", "1", shrinkages}},
+          {verdict, shrinkages,
            "measured is the largest factor that a halved step leaves of the error, from the two "
            "finest runs that err ten times more than the reference" +
                (left_out.empty() ? "" : "; without two such runs within the budget:" + left_out)}};
@@ -103,16 +99,15 @@ NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
   const double predicted =
       scene.truth.two_over_omega / (runge_kutta_reach * scene.truth.two_over_c);
   Worst worst;
-  std::vector<std::string> schemes;
-  std::vector<double> wanted, mixed, fully_explicit, ratios;
+  Table steps{{"scheme", "1"},           {"error", "1"},
+              {"its largest step", "s"}, {"largest step of explicit methods", "s"},
+              {"their ratio", "1"},      {"ratio of the limits", "1"}};
   for (double error : wanted_errors) {
     for (const char* scheme : {"A", "B"}) {
-      schemes.emplace_back(scheme);
-      wanted.push_back(error);
-      mixed.push_back(step_of(scene, scheme, error));
-      fully_explicit.push_back(largest_explicit_step(scene, error));
-      ratios.push_back(mixed.back() / fully_explicit.back());
-      if (error == wanted_errors.front()) worst.observe(predicted / ratios.back());
+      const double mixed = step_of(scene, scheme, error),
+                   fully_explicit = largest_explicit_step(scene, error);
+      steps.row(scheme, error, mixed, fully_explicit, mixed / fully_explicit, predicted);
+      if (error == wanted_errors.front()) worst.observe(predicted / (mixed / fully_explicit));
     }
   }
   const double runs_apart = scene.problem.ratio * scene.problem.ratio;
@@ -123,13 +118,7 @@ NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
           "On " + scene.problem.description +
               ", schemes A and B reach one percent of error with steps larger than the best "
               "explicit method's by the ratio of the elastic limit to the explicit damping limit.",
-          {verdict,
-           {{"scheme", "1", schemes},
-            {"error", "1", wanted},
-            {"its largest step", "s", mixed},
-            {"largest step of explicit methods", "s", fully_explicit},
-            {"their ratio", "1", ratios},
-            {"ratio of the limits", "1", std::vector<double>(wanted.size(), predicted)}},
+          {verdict, steps,
            "measured is the ratio of the limits over the least ratio of the steps at one percent; "
            "at a tenth of it accuracy, not stability, decides on the steps of A and B"}};
 }
@@ -146,11 +135,12 @@ double growth_beyond(const PrecisionScene& scene, double h) {
 /// A lasting motion takes back what a short one forgives: steps beyond 2/omega.
 NamedFinding within_the_limit(const PrecisionScene& scene) {
   Worst worst;
-  std::vector<double> steps, growths;
+  Table steps{
+      {"error", "1"}, {"largest step of B", "s"}, {"growth of the fastest mode in the run", "1"}};
   for (double error : wanted_errors) {
-    steps.push_back(step_of(scene, "B", error));
-    growths.push_back(growth_beyond(scene, steps.back()));
-    worst.observe(steps.back() / scene.truth.two_over_omega);
+    const double step = step_of(scene, "B", error);
+    steps.row(error, step, growth_beyond(scene, step));
+    worst.observe(step / scene.truth.two_over_omega);
   }
   return {"work-precision.steps-stay-within-the-limit." + scene.problem.name,
           "On " + scene.problem.description +
@@ -159,9 +149,7 @@ NamedFinding within_the_limit(const PrecisionScene& scene) {
           {{worst.value(), scene.problem.ratio, 0, "1",
             "beyond 2/omega the fastest mode grows only by about (h^2 omega^2/2 - 2)/a a step, a = "
             "h c/2, and a step is known only to the ratio of neighbouring runs"},
-           {{"error", "1", std::vector<double>(wanted_errors.begin(), wanted_errors.end())},
-            {"largest step of B", "s", steps},
-            {"growth of the fastest mode in the run", "1", growths}},
+           steps,
            "measured is the largest of the steps over 2/omega"}};
 }
 
@@ -175,8 +163,8 @@ NamedFinding C_needs_shorter_steps(const PrecisionScene& scene) {
               ", C reaches one percent of error only with steps less than half of B's.",
           {{ratio, 0.5, 0, "1",
             "both steps are known to the ratio of neighbouring runs, the root of two"},
-           {{"largest step of C", "s", std::vector<double>{step_of(scene, "C", error)}},
-            {"largest step of B", "s", std::vector<double>{step_of(scene, "B", error)}}},
+           Table{{"largest step of C", "s"}, {"largest step of B", "s"}}.with_row(
+               step_of(scene, "C", error), step_of(scene, "B", error)),
            "measured is the ratio of the steps. Where h c is large, C moves positions by h F/c of "
            "the step's start: its error falls with the first power of h until h c is small"}};
 }
@@ -184,30 +172,25 @@ NamedFinding C_needs_shorter_steps(const PrecisionScene& scene) {
 /// C's solves over A's at equal numbers of steps.
 NamedFinding one_more_solve(const std::vector<PrecisionScene>& scenes) {
   Worst worst;
-  std::vector<std::string> things;
-  std::vector<double> steps, solves, work;
+  Table ratios{{"scene", "1"},
+               {"steps", "1"},
+               {"solves of C over those of A", "1"},
+               {"operator applications of C over those of A", "1"}};
   for (const PrecisionScene& scene : scenes) {
     for (const PrecisionRun& a : curve_of(scene, "A").runs) {
       for (const PrecisionRun& c : curve_of(scene, "C").runs) {
         if (a.steps != c.steps || std::isnan(a.error) || std::isnan(c.error)) continue;
-        things.push_back(scene.problem.description);
-        steps.push_back(a.steps);
-        solves.push_back(double(c.work.solves) / double(a.work.solves));
-        work.push_back(c.applications / a.applications);
-        worst.observe(std::abs(solves.back() - 2));
+        const double solves = double(c.work.solves) / double(a.work.solves);
+        ratios.row(scene.problem.description, a.steps, solves, c.applications / a.applications);
+        worst.observe(std::abs(solves - 2));
       }
     }
   }
-  const Verdict verdict{solves.empty() ? nan : worst.value(), 0, 0, "1",
+  const Verdict verdict{ratios.rows() == 0 ? nan : worst.value(), 0, 0, "1",
                         "counted: two solves a step against one"};
   return {"work-precision.C-solves-twice-as-often-as-A",
           "At equal steps scheme C has two implicit solves where A has one.",
-          {verdict,
-           {{"scene", "1", things},
-            {"steps", "1", steps},
-            {"solves of C over those of A", "1", solves},
-            {"operator applications of C over those of A", "1", work}},
-           "measured is the largest |ratio of the solves - 2|"}};
+          {verdict, ratios, "measured is the largest |ratio of the solves - 2|"}};
 }
 
 }  // namespace

@@ -39,8 +39,7 @@ std::vector<CostAxis> cost_axes() {
 Curve curve_of(const PrecisionScene& scene, const PrecisionCurve& curve, const CostAxis& cost) {
   Curve points{std::string(curve.integrator.name), {}, {}, percent * scene.truth.uncertainty, {}};
   for (const PrecisionRun& run : curve.runs) {
-    points.x.push_back(cost.of(scene, run));
-    points.y.push_back(percent * run.error);
+    points.point(cost.of(scene, run), percent * run.error);
     points.marks.push_back(mark_of(run));
   }
   return points;
@@ -106,166 +105,120 @@ Podium podium(const PrecisionScene& scene, double wanted, const Currency& curren
 }
 
 Table cheapest(const std::vector<PrecisionScene>& scenes) {
-  std::vector<std::string> things, by, first, limits, second;
-  std::vector<double> errors, steps, relative, work, seconds, against_C, against_next;
-  for (const PrecisionScene& scene : scenes) {
-    for (double wanted : wanted_errors) {
+  Table table{{"scene", "1"},
+              {"error wanted", "%"},
+              {"by", "1"},
+              {"cheapest method", "1"},
+              {"its step", "s"},
+              {"step over bound of elastic limit", "1"},
+              {"step limited by", "1"},
+              {"operator applications", "1"},
+              {"processor time", "s"},
+              {"C costs this many times as much", "1"},
+              {"next best", "1"},
+              {"it costs this many times as much", "1"}};
+  for (const PrecisionScene& scene : scenes)
+    for (double wanted : wanted_errors)
       for (const Currency& currency : currencies) {
-        const Podium best = podium(scene, wanted, currency);
-        things.push_back(scene.problem.description);
-        errors.push_back(percent * wanted);
-        by.push_back(currency.name);
-        first.push_back(best.first);
-        limits.emplace_back(name_of(best.best.limit));
-        steps.push_back(best.best.step);
-        relative.push_back(best.best.step / scene.truth.elastic_limit);
-        work.push_back(best.best.applications);
-        seconds.push_back(best.best.seconds);
-        against_C.push_back(best.scheme_C.*currency.cost / best.best.*currency.cost);
-        second.push_back(best.second);
-        against_next.push_back(best.next.*currency.cost / best.best.*currency.cost);
+        const Podium at = podium(scene, wanted, currency);
+        const Price& best = at.best;
+        table.row(scene.problem.description, percent * wanted, currency.name, at.first, best.step,
+                  best.step / scene.truth.elastic_limit, name_of(best.limit), best.applications,
+                  best.seconds, at.scheme_C.*currency.cost / best.*currency.cost, at.second,
+                  at.next.*currency.cost / best.*currency.cost);
       }
-    }
-  }
   return {"cheapest",
-          "The cheapest method for a wanted position error, by counted work and by seconds",
-          {{"scene", "1", things},
-           {"error wanted", "%", errors},
-           {"by", "1", by},
-           {"cheapest method", "1", first},
-           {"its step", "s", steps},
-           {"step over bound of elastic limit", "1", relative},
-           {"step limited by", "1", limits},
-           {"operator applications", "1", work},
-           {"processor time", "s", seconds},
-           {"C costs this many times as much", "1", against_C},
-           {"next best", "1", second},
-           {"it costs this many times as much", "1", against_next}}};
+          "The cheapest method for a wanted position error, by counted work and by seconds", table};
 }
 
 Table prices(const std::vector<PrecisionScene>& scenes) {
-  std::vector<std::string> things, methods, limits;
-  std::vector<double> errors, steps, relative, work, seconds, unfinished;
-  for (const PrecisionScene& scene : scenes) {
-    for (double wanted : wanted_errors) {
+  Table table{{"scene", "1"},
+              {"error wanted", "%"},
+              {"method", "1"},
+              {"largest step", "s"},
+              {"step over bound of elastic limit", "1"},
+              {"step limited by", "1"},
+              {"operator applications", "1"},
+              {"processor time", "s"},
+              {"unfinished solves", "1"}};
+  for (const PrecisionScene& scene : scenes)
+    for (double wanted : wanted_errors)
       for (const PrecisionCurve& curve : scene.curves) {
         const Price price = price_at(curve, scene.problem.end, wanted);
-        things.push_back(scene.problem.description);
-        errors.push_back(percent * wanted);
-        methods.emplace_back(curve.integrator.name);
-        steps.push_back(price.step);
-        relative.push_back(price.step / scene.truth.elastic_limit);
-        limits.emplace_back(name_of(price.limit));
-        work.push_back(price.applications);
-        seconds.push_back(price.seconds);
-        unfinished.push_back(price.unfinished);
+        table.row(scene.problem.description, percent * wanted, curve.integrator.name, price.step,
+                  price.step / scene.truth.elastic_limit, name_of(price.limit), price.applications,
+                  price.seconds, price.unfinished);
       }
-    }
-  }
-  return {"prices",
-          "What a position error costs with each method",
-          {{"scene", "1", things},
-           {"error wanted", "%", errors},
-           {"method", "1", methods},
-           {"largest step", "s", steps},
-           {"step over bound of elastic limit", "1", relative},
-           {"step limited by", "1", limits},
-           {"operator applications", "1", work},
-           {"processor time", "s", seconds},
-           {"unfinished solves", "1", unfinished}}};
+  return {"prices", "What a position error costs with each method", table};
 }
 
 Table scales(const std::vector<PrecisionScene>& scenes) {
-  std::vector<std::string> things;
-  std::vector<double> particles, ends, motions, uncertainties, limits, elastic, damping;
-  for (const PrecisionScene& scene : scenes) {
-    things.push_back(scene.problem.description);
-    particles.push_back(double(scene.problem.scene.mesh.particles()));
-    ends.push_back(scene.problem.end);
-    motions.push_back(scene.truth.motion);
-    uncertainties.push_back(percent * scene.truth.uncertainty);
-    limits.push_back(scene.truth.elastic_limit);
-    elastic.push_back(scene.truth.two_over_omega);
-    damping.push_back(scene.truth.two_over_c);
-  }
-  return {"scenes",
-          "The motions, and how well their ends are known",
-          {{"scene", "1", things},
-           {"particles", "1", particles},
-           {"end", "s", ends},
-           {"largest motion", "m", motions},
-           {"reference off by at most", "%", uncertainties},
-           {"elastic limit, the solver's bound", "s", limits},
-           {"2/omega, fastest mode", "s", elastic},
-           {"2/c, fastest damping rate", "s", damping}}};
+  Table table{{"scene", "1"},
+              {"particles", "1"},
+              {"end", "s"},
+              {"largest motion", "m"},
+              {"reference off by at most", "%"},
+              {"elastic limit, the solver's bound", "s"},
+              {"2/omega, fastest mode", "s"},
+              {"2/c, fastest damping rate", "s"}};
+  for (const auto& [problem, truth, curves] : scenes)
+    table.row(problem.description, problem.scene.mesh.particles(), problem.end, truth.motion,
+              percent * truth.uncertainty, truth.elastic_limit, truth.two_over_omega,
+              truth.two_over_c);
+  return {"scenes", "The motions, and how well their ends are known", table};
 }
 
 /// How much of every curve there is to see.
 Table coverage(const std::vector<PrecisionScene>& scenes) {
-  std::vector<std::string> things, methods;
-  std::array<std::vector<double>, 5> numbers;
-  for (const PrecisionScene& scene : scenes) {
+  Table table{{"scene", "1"},
+              {"method", "1"},
+              {"runs", "1"},
+              {"measured", "1"},
+              {"that err more than the reference", "1"},
+              {"with unfinished solves", "1"},
+              {"diverged", "1"}};
+  for (const PrecisionScene& scene : scenes)
     for (const PrecisionCurve& curve : scene.curves) {
-      things.push_back(scene.problem.description);
-      methods.emplace_back(curve.integrator.name);
-      std::array<double, 5> row = {};
-      for (const PrecisionRun& run : curve.runs) {
-        const bool is_measured = !std::isnan(run.error);
-        const std::array<bool, 5> counts = {true, is_measured, run.error > scene.truth.uncertainty,
-                                            mark_of(run) == Mark::unfinished, !is_measured};
-        for (size_t k = 0; k < row.size(); ++k) row[k] += counts[k];
-      }
-      for (size_t k = 0; k < row.size(); ++k) numbers[k].push_back(row[k]);
+      const auto count = [&](const auto& is_counted) {
+        return std::ranges::count_if(curve.runs, is_counted);
+      };
+      const auto is_measured = [](const PrecisionRun& run) { return !std::isnan(run.error); };
+      const auto is_seen = [&](const PrecisionRun& run) {
+        return run.error > scene.truth.uncertainty;
+      };
+      const auto is_unfinished = [](const PrecisionRun& run) {
+        return mark_of(run) == Mark::unfinished;
+      };
+      table.row(scene.problem.description, curve.integrator.name, curve.runs.size(),
+                count(is_measured), count(is_seen), count(is_unfinished),
+                long(curve.runs.size()) - count(is_measured));
     }
-  }
-  return {"coverage",
-          "How many runs each curve has",
-          {{"scene", "1", things},
-           {"method", "1", methods},
-           {"runs", "1", numbers[0]},
-           {"measured", "1", numbers[1]},
-           {"that err more than the reference", "1", numbers[2]},
-           {"with unfinished solves", "1", numbers[3]},
-           {"diverged", "1", numbers[4]}}};
+  return {"coverage", "How many runs each curve has", table};
 }
 
 Table all_runs(const std::vector<PrecisionScene>& scenes) {
-  std::vector<std::string> things, methods;
-  std::array<std::vector<double>, 10> numbers;
-  for (const PrecisionScene& scene : scenes) {
-    for (const PrecisionCurve& curve : scene.curves) {
+  Table table{{"scene", "1"},
+              {"method", "1"},
+              {"steps", "1"},
+              {"error", "%"},
+              {"elastic evaluations", "1"},
+              {"damping preparations", "1"},
+              {"damping products", "1"},
+              {"stiffness preparations", "1"},
+              {"stiffness products", "1"},
+              {"operator applications", "1"},
+              {"unfinished solves", "1"},
+              {"processor time", "s"}};
+  for (const PrecisionScene& scene : scenes)
+    for (const PrecisionCurve& curve : scene.curves)
       for (const PrecisionRun& run : curve.runs) {
         const Work& w = run.work;
-        things.push_back(scene.problem.description);
-        methods.emplace_back(curve.integrator.name);
-        const std::array<double, 10> row = {double(run.steps),
-                                            percent * run.error,
-                                            double(w.elastic_evaluations),
-                                            double(w.damping_preparations),
-                                            double(w.damping_products),
-                                            double(w.stiffness_preparations),
-                                            double(w.stiffness_products),
-                                            run.applications,
-                                            double(w.unfinished_solves),
-                                            run.seconds};
-        for (size_t k = 0; k < row.size(); ++k) numbers[k].push_back(row[k]);
+        table.row(scene.problem.description, curve.integrator.name, run.steps, percent * run.error,
+                  w.elastic_evaluations, w.damping_preparations, w.damping_products,
+                  w.stiffness_preparations, w.stiffness_products, run.applications,
+                  w.unfinished_solves, run.seconds);
       }
-    }
-  }
-  return {"runs",
-          "Every run; no error where it diverged",
-          {{"scene", "1", things},
-           {"method", "1", methods},
-           {"steps", "1", numbers[0]},
-           {"error", "%", numbers[1]},
-           {"elastic evaluations", "1", numbers[2]},
-           {"damping preparations", "1", numbers[3]},
-           {"damping products", "1", numbers[4]},
-           {"stiffness preparations", "1", numbers[5]},
-           {"stiffness products", "1", numbers[6]},
-           {"operator applications", "1", numbers[7]},
-           {"unfinished solves", "1", numbers[8]},
-           {"processor time", "s", numbers[9]}}};
+  return {"runs", "Every run; no error where it diverged", table};
 }
 
 }  // namespace
