@@ -518,6 +518,45 @@ void add_readers(CLI::App& app, Options& options) {
   add_evaluate(app, options);
 }
 
+/// How long another solver may stay silent, and its settings.
+void add_solver_options(CLI::App* command, Options& options) {
+  command->add_option("--seconds", options.patience, "Limit of silence during a call [s]")
+      ->type_name("S")
+      ->check(positive_number())
+      ->capture_default_str();
+  command
+      ->add_option("--settings", options.overrides,
+                   "Passed to the solver in every scene; may be given again")
+      ->type_name("KEY=VALUE")
+      ->check(some_text("KEY=VALUE"))
+      ->allow_extra_args(false);
+}
+
+void add_judge(CLI::App& app, Options& options) {
+  CLI::App* judge = add_command(
+      app, options,
+      {"judge", "Put another solver on trial: laws that any cloth solver must meet", help::judge},
+      judge_another_solver);
+  judge->add_option("--solver", options.solver, "Command that starts the solver's adapter")
+      ->type_name("CMD")
+      ->check(some_text("a command"))
+      ->required();
+  judge->add_option("--name", options.name, "Name in the report (default: the solver's own)")
+      ->check(some_text("a name"));
+  add_solver_options(judge, options);
+  add_out_if_typed(judge, options,
+                   "Also write run.h5, verdicts.json and junit.xml into this folder");
+  add_json(judge, options);
+  CLI::App* subject =
+      add_command(app, options, {"subject", "Does an adapter keep to the protocol?", help::subject},
+                  check_subject);
+  subject->add_option("--check", options.solver, "Command that starts the adapter")
+      ->type_name("CMD")
+      ->check(some_text("a command"))
+      ->required();
+  add_solver_options(subject, options);
+}
+
 int run(int argc, char** argv) {
   Options options;
   options.command = command_line(argc, argv);
@@ -539,6 +578,7 @@ int run(int argc, char** argv) {
   add_converge(app, options);
   add_precision(app, options);
   add_project(app, options);
+  add_judge(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

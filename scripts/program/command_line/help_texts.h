@@ -92,6 +92,31 @@ Exit codes:
   1    it is no solid, or rays do not agree
   2    bad input)";
 
+constexpr const char* judge =
+    R"(CMD starts an adapter that speaks the protocol of verification/subjects/PROTOCOL.md, in a process of
+its own. Smoke laws come first: if one fails, suspect the adapter. A crash, a hang or nonsense of
+the solver fails the law that met it, with its last words; the next law goes on.
+
+Examples:
+  foldproof judge --solver "python3 verification/subjects/adapters/toy_solver.py"
+  foldproof judge --solver ./adapter --name mine --settings iterations=20 --out mine
+
+Exit codes:
+  0    every law holds, or does not apply
+  1    a law fails
+  2    bad input)";
+
+constexpr const char* subject =
+    R"(Asks each operation of the declared level once, on a small sheet.
+
+Examples:
+  foldproof subject --check "python3 verification/subjects/adapters/toy_solver.py"
+
+Exit codes:
+  0    the adapter keeps to the protocol
+  1    it breaks it; the first breach is named
+  2    bad input)";
+
 constexpr const char* crossings =
     R"(Examples:
   foldproof crossings results/fast.h5

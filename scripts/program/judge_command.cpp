@@ -1,0 +1,99 @@
+// foldproof judge and foldproof subject: another solver on trial, and its adapter.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "scripts/program/command_line/out_folder.h"
+#include "scripts/program/commands.h"
+#include "scripts/program/progress.h"
+#include "scripts/program/provenance.h"
+#include "scripts/program/run_all.h"
+#include "verification/files/verdicts_file.h"
+#include "verification/subjects/suite/conformance.h"
+#include "verification/subjects/suite/laws.h"
+
+namespace foldproof {
+
+namespace {
+
+SolverCommand solver_command(const Options& options) {
+  SolverCommand command;
+  command.command = options.solver;
+  command.limits.seconds = options.patience;
+  for (const std::string& setting : options.overrides) {
+    const size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError(
+          fmt::format("--settings {}: write KEY=VALUE, such as iterations=20", setting));
+    command.settings.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+  }
+  return command;
+}
+
+/// The heading of the table: the solver's own words, the settings, and the mapping.
+std::string heading(const Judgement& judgement, const SolverCommand& command) {
+  const Declaration& d = judgement.declaration;
+  if (d.name.empty()) return fmt::format("{}: did not start\n", command.command);
+  std::string text = fmt::format("{} {} (L{}, {}, {} of order {})\n", d.name, d.version, d.level,
+                                 d.is_single ? "f4" : "f8", d.scheme, d.order);
+  for (const auto& [key, value] : command.settings)
+    text += fmt::format("  setting {} = {}\n", key, value);
+  for (const auto& [key, value] : judgement.mapping)
+    text += fmt::format("  mapping of {}: {}\n", key, value);
+  return text;
+}
+
+/// Failures of the solver itself have words instead of a number.
+std::string failure_notes(const std::vector<Record>& records) {
+  std::string text;
+  for (const Record& record : records)
+    if (record.outcome == Outcome::fails && !record.finding.note.empty())
+      text += fmt::format("{}: {}\n", record.name, record.finding.note);
+  return text;
+}
+
+constexpr const char* smoke_failed =
+    "A smoke law fails: suspect the adapter before the engine. Try `foldproof subject --check`.\n";
+
+}  // namespace
+
+int judge_another_solver(const Options& options) {
+  const OutFolder folder(options.out);
+  const SolverCommand command = solver_command(options);
+  const Judgement judgement = judge_solver(command, portable_laws(), [](const Record& record) {
+    if (record.outcome != Outcome::holds && record.outcome != Outcome::not_applicable)
+      log_line(fmt::format("{} {}", outcome_text(record), record.name));
+  });
+  RunRecord run;
+  run.provenance = provenance(options.command);
+  run.tier = options.tier;
+  run.subject = options.name.empty() ? judgement.declaration.name : options.name;
+  if (run.subject.empty()) run.subject = command.command;
+  run.subject_version = judgement.declaration.version;
+  run.records = judgement.records;
+  if (!options.out.empty()) {
+    write_run(options.out + "/run.h5", run);
+    write_verdicts(options.out, run);
+  }
+  if (options.json) {
+    fmt::print("{}", verdicts_json(run));
+    return exit_code(run);
+  }
+  fmt::print("{}{}{}{}{}\n", heading(judgement, command), listing(run), failure_notes(run.records),
+             judgement.smoke_holds ? "" : smoke_failed, summary(run));
+  return exit_code(run);
+}
+
+int check_subject(const Options& options) {
+  const char* const words[] = {"kept", "declined", "BROKEN"};
+  bool is_broken = false;
+  for (const ConformanceRow& row : check_conformance(solver_command(options))) {
+    fmt::print("{:<9} {:<44} {}\n", words[int(row.conformity)], row.demand, row.note);
+    is_broken |= row.conformity == Conformity::broken;
+  }
+  fmt::print("{}\n", is_broken ? "the adapter does not keep to the protocol"
+                               : "the adapter keeps to the protocol");
+  return is_broken ? some_fail : all_hold;
+}
+
+}  // namespace foldproof

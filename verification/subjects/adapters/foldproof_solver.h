@@ -1,0 +1,241 @@
+// The solver's side of the protocol (PROTOCOL.md) in C++17: derive from Solver, then call serve().
+// One header; copy it. Needs nlohmann/json and POSIX.
+//
+//   struct Mine : foldproof_solver::Solver {
+//     Mine() { declared.name = "mine"; declared.order = 1; }
+//     foldproof_solver::Mapping prepare(const foldproof_solver::Scene& scene) override;
+//     void advance(double dt, long steps) override;  // moves x and v, N x 3 numbers each
+//   };
+//   int main() { Mine mine; return foldproof_solver::serve(mine); }
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace foldproof_solver {
+
+using Json = nlohmann::json;
+using Numbers = std::vector<double>;  // N x 3: x, y, z of particle 0, then of particle 1 ...
+using Mapping = std::map<std::string, std::string>;
+
+/// Thrown for anything the solver does not offer; the reason is printed in the report.
+struct Declined : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The declaration, the answer to `start`.
+struct Declared {
+  std::string name = "unnamed", version = "0", level = "L1", precision = "f8", scheme = "unnamed";
+  int order = 0;
+  std::vector<std::string> capabilities;
+  double solve_tolerance = 0;
+};
+
+/// A scene: arrays by name (PROTOCOL.md lists them), and the header's object `scene`.
+struct Scene {
+  Json header;
+  std::map<std::string, Numbers> numbers;
+  std::map<std::string, std::vector<std::int32_t>> integers;
+};
+
+/// An adapter overrides these. x [m] and v [m/s] are N x 3; forces [N] too; energy in J.
+struct Solver {
+  Declared declared;
+  Numbers x, v;
+  double time = 0;  // s
+
+  virtual ~Solver() = default;
+  virtual Mapping prepare(const Scene&) { throw Declined("scenes"); }
+  virtual void advance(double, long) { throw Declined("steps"); }
+  virtual void set_state(Numbers new_x, Numbers new_v, double new_time) {
+    x = std::move(new_x), v = std::move(new_v), time = new_time;
+  }
+  /// The state before the latest, for schemes that look back; only with capability "history".
+  virtual void set_state_before(Numbers, Numbers, double) {}
+  virtual Numbers forces() { throw Declined("forces"); }
+  virtual Numbers damping() { throw Declined("damping forces"); }
+  virtual double energy() { throw Declined("energy"); }
+};
+
+namespace detail {
+
+inline int descriptor(const char* name) {
+  const char* text = std::getenv(name);
+  if (!text)
+    throw std::runtime_error(std::string(name) + " is not set: foldproof starts this program");
+  return std::atoi(text);
+}
+
+/// Reads that many bytes; false at the end of the pipe.
+inline bool read_all(int from, void* to, std::size_t bytes) {
+  for (char* at = static_cast<char*>(to); bytes > 0;) {
+    const ssize_t got = ::read(from, at, bytes);
+    if (got <= 0) return false;
+    at += got, bytes -= std::size_t(got);
+  }
+  return true;
+}
+
+inline void write_all(int to, const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t sent = ::write(to, text.data() + done, text.size() - done);
+    if (sent <= 0) std::exit(1);
+    done += std::size_t(sent);
+  }
+}
+
+inline bool read_header(int from, std::string& line) {
+  line.clear();
+  for (char c; read_all(from, &c, 1);) {
+    if (c == '\n') return true;
+    line += c;
+  }
+  return false;
+}
+
+template <class Number>
+std::vector<Number> read_array(int from, std::size_t count) {
+  std::vector<Number> numbers(count);
+  if (!read_all(from, numbers.data(), count * sizeof(Number))) std::exit(1);
+  return numbers;
+}
+
+inline void read_arrays(int from, Scene& message) {
+  if (!message.header.contains("arrays")) return;
+  for (const Json& entry : message.header["arrays"]) {
+    std::size_t count = 1;
+    for (const Json& extent : entry["shape"]) count *= extent.get<std::size_t>();
+    const std::string name = entry["name"];
+    if (entry["type"] == "i4")
+      message.integers[name] = read_array<std::int32_t>(from, count);
+    else
+      message.numbers[name] = read_array<double>(from, count);
+  }
+}
+
+/// An answer in the making.
+struct Answer {
+  Json header = Json::object();
+  std::string bytes;
+
+  void add(const char* name, const Numbers& values, const std::string& precision,
+           std::vector<std::size_t> shape) {
+    header["arrays"].push_back({{"name", name}, {"type", precision}, {"shape", shape}});
+    if (precision == "f8") {
+      bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
+      return;
+    }
+    const std::vector<float> single(values.begin(), values.end());
+    bytes.append(reinterpret_cast<const char*>(single.data()), single.size() * sizeof(float));
+  }
+};
+
+inline void add_state(const Solver& solver, Answer& answer) {
+  answer.add("x", solver.x, solver.declared.precision, {solver.x.size() / 3, 3});
+  answer.add("v", solver.v, solver.declared.precision, {solver.v.size() / 3, 3});
+}
+
+inline void declare(const Declared& d, Answer& answer) {
+  answer.header = {{"protocol", 1},
+                   {"name", d.name},
+                   {"version", d.version},
+                   {"level", d.level},
+                   {"precision", d.precision},
+                   {"scheme", {{"name", d.scheme}, {"order", d.order}}},
+                   {"capabilities", d.capabilities},
+                   {"solve_tolerance", d.solve_tolerance}};
+}
+
+inline void run(Solver& solver, const Scene& message, Answer& answer) {
+  solver.prepare(message);
+  Numbers all_x, all_v;
+  long done = 0;
+  for (const Json& frame : message.header["frames"]) {
+    solver.advance(message.header["scene"]["dt"], frame.get<long>() - done);
+    done = frame.get<long>();
+    all_x.insert(all_x.end(), solver.x.begin(), solver.x.end());
+    all_v.insert(all_v.end(), solver.v.begin(), solver.v.end());
+  }
+  const std::size_t frames = message.header["frames"].size(), particles = solver.x.size() / 3;
+  answer.add("x", all_x, solver.declared.precision, {frames, particles, 3});
+  answer.add("v", all_v, solver.declared.precision, {frames, particles, 3});
+}
+
+inline void take_state(Solver& solver, const Scene& message) {
+  if (!message.numbers.count("x")) return;
+  const double time = message.header.value("time", 0.0);
+  solver.set_state(message.numbers.at("x"), message.numbers.at("v"), time);
+  if (message.numbers.count("x_before"))
+    solver.set_state_before(message.numbers.at("x_before"), message.numbers.at("v_before"),
+                            message.header["time_before"]);
+}
+
+/// Operations that ask about the state.
+inline void ask(Solver& solver, const Scene& message, const std::string& operation,
+                Answer& answer) {
+  take_state(solver, message);
+  const std::size_t particles = solver.x.size() / 3;
+  if (operation == "step") {
+    solver.advance(message.header["dt"], 1);
+    add_state(solver, answer);
+  } else if (operation == "forces") {
+    answer.add("f", solver.forces(), solver.declared.precision, {particles, 3});
+  } else if (operation == "damping") {
+    answer.add("f", solver.damping(), solver.declared.precision, {particles, 3});
+  } else if (operation == "energy") {
+    answer.header["energy"] = solver.energy();
+  } else {
+    throw Declined("operation '" + operation + "'");
+  }
+}
+
+inline void perform(Solver& solver, const Scene& message, Answer& answer) {
+  const std::string operation = message.header["op"];
+  if (operation == "start") {
+    declare(solver.declared, answer);
+  } else if (operation == "prepare") {
+    answer.header["mapping"] = solver.prepare(message);
+  } else if (operation == "run") {
+    run(solver, message, answer);
+  } else if (operation == "advance") {
+    solver.advance(message.header["dt"], message.header["steps"]);
+    add_state(solver, answer);
+  } else if (operation == "get_state") {
+    add_state(solver, answer);
+  } else if (operation != "stop") {
+    ask(solver, message, operation, answer);
+  }
+}
+
+}  // namespace detail
+
+/// Answers until `stop` or the end of the pipe; returns the exit code.
+inline int serve(Solver& solver) {
+  const int in = detail::descriptor("FOLDPROOF_IN"), out = detail::descriptor("FOLDPROOF_OUT");
+  for (std::string line; detail::read_header(in, line);) {
+    Scene message{Json::parse(line), {}, {}};
+    detail::read_arrays(in, message);
+    detail::Answer answer;
+    try {
+      detail::perform(solver, message, answer);
+    } catch (const Declined& reason) {
+      answer = {{{"declined", reason.what()}}, ""};
+    } catch (const std::exception& error) {
+      answer = {{{"error", error.what()}}, ""};
+    }
+    answer.header["id"] = message.header["id"];
+    detail::write_all(out, answer.header.dump() + "\n" + answer.bytes);
+    if (message.header["op"] == "stop") break;
+  }
+  return 0;
+}
+
+}  // namespace foldproof_solver

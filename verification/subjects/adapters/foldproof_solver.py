@@ -1,0 +1,162 @@
+"""The solver's side of the protocol (PROTOCOL.md): derive from Solver, then call serve(). Needs numpy.
+
+    class Mine(Solver):
+        name, version, level, precision, scheme, order = "mine", "1.0", "L1", "f8", "symplectic Euler", 1
+        capabilities = ("set_state", "held", "masses")
+        def prepare(self, scene): ...          # keeps what it needs; returns the mapping in words
+        def advance(self, dt, steps): ...      # moves self.x and self.v, both (N, 3)
+    serve(Mine())
+"""
+from __future__ import annotations
+
+import json
+import os
+import sys
+import traceback
+from typing import Any, BinaryIO
+
+import numpy as np
+
+PROTOCOL = 1
+TYPES = {"f8": "<f8", "f4": "<f4", "i4": "<i4"}
+
+
+class Declined(Exception):
+    """Raised for what the solver does not offer; the message is the reason that the report prints."""
+
+
+class Scene:
+    """A scene: arrays as attributes (triangles (M, 3), rest, x, v (N, 3) ...), `header` for the rest."""
+
+    def __init__(self, header: dict[str, Any], arrays: dict[str, np.ndarray]) -> None:
+        self.header, self.arrays = header, arrays
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        try:
+            return self.__dict__["arrays"][name]
+        except KeyError:
+            raise AttributeError(f"the scene has no array '{name}'") from None
+
+
+class Solver:
+    """What an adapter overrides. x [m] and v [m/s] are (N, 3); forces [N] too; energies in J."""
+
+    name, version, level, precision = "unnamed", "0", "L1", "f8"
+    scheme, order = "unnamed", 1
+    capabilities: tuple[str, ...] = ()
+    solve_tolerance = 0.0  # relative residual of linear systems; 0 where none is solved
+    x: np.ndarray
+    v: np.ndarray
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        raise Declined("scenes")
+
+    def advance(self, dt: float, steps: int) -> None:
+        raise Declined("steps")
+
+    def set_state(self, x: np.ndarray, v: np.ndarray, time: float) -> None:
+        self.x, self.v = x, v
+
+    def forces(self) -> np.ndarray:
+        raise Declined("forces")
+
+    def damping(self) -> np.ndarray:
+        raise Declined("damping forces")
+
+    def energy(self) -> float:
+        raise Declined("energy")
+
+
+class Pipe:
+    """Messages over two descriptors: a JSON line, then the arrays that it lists."""
+
+    def __init__(self, source: BinaryIO, sink: BinaryIO) -> None:
+        self.source, self.sink = source, sink
+
+    def receive(self) -> tuple[dict[str, Any], dict[str, np.ndarray]] | None:
+        line = self.source.readline()
+        if not line:
+            return None
+        header = json.loads(line)
+        arrays = {}
+        for entry in header.get("arrays", []):
+            kind, shape = np.dtype(TYPES[entry["type"]]), entry["shape"]
+            data = self.source.read(kind.itemsize * int(np.prod(shape)))
+            arrays[entry["name"]] = np.frombuffer(data, kind).reshape(shape).copy()
+        return header, arrays
+
+    def send(self, header: dict[str, Any], arrays: dict[str, np.ndarray] | None = None) -> None:
+        data = {name: np.ascontiguousarray(value) for name, value in (arrays or {}).items()}
+        listed = [{"name": name, "type": value.dtype.str[1:], "shape": list(value.shape)} for name, value in data.items()]
+        text = json.dumps({**header, "arrays": listed}) + "\n"
+        self.sink.write(text.encode() + b"".join(value.tobytes() for value in data.values()))
+        self.sink.flush()
+
+
+def declaration(solver: Solver) -> dict[str, Any]:
+    return {"protocol": PROTOCOL, "name": solver.name, "version": solver.version, "level": solver.level,
+            "precision": solver.precision, "scheme": {"name": solver.scheme, "order": solver.order},
+            "capabilities": list(solver.capabilities), "solve_tolerance": solver.solve_tolerance}
+
+
+def state_of(solver: Solver) -> dict[str, np.ndarray]:
+    kind = TYPES[solver.precision]
+    return {"x": np.asarray(solver.x, kind), "v": np.asarray(solver.v, kind)}
+
+
+def run_frames(solver: Solver, scene: Scene) -> dict[str, np.ndarray]:
+    """The states at steps 'frames', ascending, counted in steps of dt: x, v (F, N, 3)."""
+    solver.prepare(scene)
+    done, frames = 0, []
+    for steps in scene.header["frames"]:
+        solver.advance(scene.header["scene"]["dt"], steps - done)
+        done = steps
+        frames.append(state_of(solver))
+    return {name: np.stack([frame[name] for frame in frames]) for name in ("x", "v")}
+
+
+def answer(solver: Solver, header: dict[str, Any], arrays: dict[str, np.ndarray]) -> tuple[dict, dict]:
+    operation = header["op"]
+    if operation == "start":
+        return declaration(solver), {}
+    if operation == "prepare":
+        return {"mapping": solver.prepare(Scene(header, arrays)) or {}}, {}
+    if operation == "run":
+        return {}, run_frames(solver, Scene(header, arrays))
+    if operation == "advance":
+        solver.advance(header["dt"], header["steps"])
+        return {}, state_of(solver)
+    if operation == "get_state":
+        return {}, state_of(solver)
+    if "x" in arrays:
+        solver.set_state(arrays["x"], arrays["v"], header.get("time", 0.0))
+    if operation == "step":
+        solver.advance(header["dt"], 1)
+        return {}, state_of(solver)
+    if operation in ("forces", "damping"):
+        return {}, {"f": np.asarray(getattr(solver, operation)(), TYPES[solver.precision])}
+    if operation == "energy":
+        return {"energy": float(solver.energy())}, {}
+    raise Declined(f"operation '{operation}'")
+
+
+def open_pipe() -> Pipe:
+    return Pipe(os.fdopen(int(os.environ["FOLDPROOF_IN"]), "rb"), os.fdopen(int(os.environ["FOLDPROOF_OUT"]), "wb"))
+
+
+def serve(solver: Solver, pipe: Pipe | None = None) -> None:
+    """Answers until 'stop' or the end of the pipe. An exception is told, and the next call answered."""
+    pipe = pipe or open_pipe()
+    while (message := pipe.receive()) is not None:
+        header, arrays = message
+        if header["op"] == "stop":
+            pipe.send({"id": header["id"]})
+            return
+        try:
+            reply, sent = answer(solver, header, arrays)
+        except Declined as reason:
+            reply, sent = {"declined": str(reason)}, {}
+        except Exception as error:  # told to the client, which calls it a failure
+            traceback.print_exc(file=sys.stderr)
+            reply, sent = {"error": f"{type(error).__name__}: {error}"}, {}
+        pipe.send({"id": header["id"], **reply}, sent)

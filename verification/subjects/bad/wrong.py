@@ -1,0 +1,232 @@
+#!/usr/bin/python3
+"""Solvers that keep to the protocol and are wrong, each in one law of physics or one claim: wrong.py KIND
+
+The portable suite must find each by the laws that it breaks. "none" is the unspoiled toy; "backward_euler" and
+"trapezoidal" are other correct schemes, which must raise no alarm, at f8; "single" is one at f4.
+"""
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+os.environ["OPENBLAS_NUM_THREADS"] = "1"  # before numpy: small systems, and other jobs beside
+
+import numpy as np  # noqa: E402
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "adapters"))
+from foldproof_solver import Scene, serve  # noqa: E402
+from toy_solver import ToySolver  # noqa: E402
+
+
+class Unspoiled(ToySolver):
+    """The toy."""
+
+
+class WrongMass(ToySolver):
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        self.mass = np.full_like(self.mass, self.mass.mean())
+        return mapping
+
+
+class GravityScaled(ToySolver):
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        self.gravity = 1.02 * self.gravity
+        return mapping
+
+
+class MomentumDropped(ToySolver):
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            super().advance(dt, 1)
+            self.v[0] *= 0.999
+
+
+class SingleForDouble(ToySolver):
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            super().advance(dt, 1)
+            self.x, self.v = self.x.astype("f4").astype("f8"), self.v.astype("f4").astype("f8")
+
+
+class FirstOrderAsSecond(ToySolver):
+    scheme, order = "symplectic Euler, said to be Verlet", 2
+
+
+class HiddenDamping(ToySolver):
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            super().advance(dt, 1)
+            self.v *= 1 - 0.05 * dt
+
+
+class StateNotRestored(ToySolver):
+    """What a warm start of an iteration leaves behind: the last velocity is kept over set_state."""
+
+    kept = 0.0
+
+    def set_state(self, x: np.ndarray, v: np.ndarray, time: float) -> None:
+        super().set_state(x, v + 1e-9 * self.kept, time)
+
+    def advance(self, dt: float, steps: int) -> None:
+        super().advance(dt, steps)
+        self.kept = float(np.abs(self.v).max())
+
+
+class SceneLeavesTraces(ToySolver):
+    steps_so_far = 0
+
+    def advance(self, dt: float, steps: int) -> None:
+        super().advance(dt, steps)
+        self.steps_so_far += steps
+        self.x = self.x * (1 + 1e-15 * self.steps_so_far)
+
+
+class Random(ToySolver):
+    def advance(self, dt: float, steps: int) -> None:
+        super().advance(dt, steps)
+        self.x = self.x * (1 + 1e-14 * np.random.default_rng().random(self.x.shape))
+
+
+class KnowsItsAxes(ToySolver):
+    """Springs along x are stiffer: right where it was tried, wrong when turned."""
+
+    def forces(self) -> np.ndarray:
+        f = super().forces()
+        weight = self.mass[:, None] * self.gravity
+        return weight + (f - weight) * np.array([1.01, 1, 1])
+
+
+class DependsOnNumbers(ToySolver):
+    """One particle after the other, each from what the ones before became (Gauss-Seidel, as if it were exact)."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            x = self.x
+            for part in (slice(0, len(x) // 2), slice(len(x) // 2, None)):
+                acceleration = self.forces() / self.mass[:, None]
+                self.v[part] += dt * acceleration[part]
+                self.v[self.held] = 0
+                self.x = x.copy()
+                self.x[: part.stop] = x[: part.stop] + dt * self.v[: part.stop]
+
+
+class HeldLoosely(ToySolver):
+    def advance(self, dt: float, steps: int) -> None:
+        held, self.held = self.held, np.array([], int)
+        start = self.x[held].copy()
+        super().advance(dt, steps)
+        self.x[held] = start + 1e-6 * (self.x[held] - start)
+        self.held = held
+
+
+class EnergyHalved(ToySolver):
+    def energy(self) -> float:
+        return 0.5 * super().energy()
+
+
+class PreStressed(ToySolver):
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        self.length = 0.999 * self.length
+        return mapping
+
+
+class SpinDamped(ToySolver):
+    """Takes angular momentum from a free sheet, linear momentum not."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            super().advance(dt, 1)
+            mean = self.mass @ self.v / self.mass.sum()
+            self.v = mean + (1 - 0.5 * dt) * (self.v - mean)
+
+
+class ForcesUnbalanced(ToySolver):
+    def forces(self) -> np.ndarray:
+        f = super().forces()
+        f[3] += 1e-9 * np.abs(f).max()
+        return f
+
+
+class Implicit(ToySolver):
+    """One nonlinear solve a step, dense: theta 1 is backward Euler, 1/2 the trapezoidal rule."""
+
+    theta, level = 1.0, "L1"
+
+    def jacobian(self) -> np.ndarray:
+        direction, elongation = self.springs()
+        length = self.length + elongation
+        across = self.k * elongation / length
+        block = np.einsum("e,ei,ej->eij", self.k - across, direction, direction) + across[:, None, None] * np.eye(3)
+        n = len(self.x)
+        matrix = np.zeros((n, n, 3, 3))
+        a, b = self.edges.T
+        for rows, columns, sign in ((a, a, -1), (b, b, -1), (a, b, 1), (b, a, 1)):
+            np.add.at(matrix, (rows, columns), sign * block)
+        return matrix.transpose(0, 2, 1, 3).reshape(3 * n, 3 * n)
+
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            self.solve_step(dt)
+
+    def solve_step(self, dt: float) -> None:
+        x, v, mass = self.x, self.v, np.repeat(self.mass, 3)
+        known, new = self.forces(), v.copy()
+        free = np.repeat(~np.isin(np.arange(len(x)), self.held), 3)
+        matrix = np.diag(mass) - (dt * self.theta) ** 2 * self.jacobian()
+        inverse = np.linalg.inv(matrix[np.ix_(free, free)])  # at the start of the step: chord iterations
+        size = np.inf
+        for _ in range(40):
+            self.x = x + dt * (self.theta * new + (1 - self.theta) * v)
+            mean = self.theta * self.forces() + (1 - self.theta) * known
+            residual = mass * (new - v).ravel() - dt * mean.ravel()
+            change = inverse @ residual[free]
+            new.ravel()[free] -= change
+            last, size = size, np.abs(change).max()
+            if size == 0 or (size < 1e-12 and size >= last):  # rounding is left
+                break
+        self.x, self.v = x + dt * (self.theta * new + (1 - self.theta) * v), new
+
+
+class BackwardEuler(Implicit):
+    scheme = "backward Euler"
+
+
+class Trapezoidal(Implicit):
+    theta, scheme, order = 0.5, "trapezoidal rule", 2
+
+
+class Single(ToySolver):
+    precision = "f4"
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        for name in ("x", "v", "mass", "k", "length", "gravity"):
+            setattr(self, name, getattr(self, name).astype("f4"))
+        return mapping
+
+    def set_state(self, x: np.ndarray, v: np.ndarray, time: float) -> None:
+        super().set_state(x.astype("f4"), v.astype("f4"), time)
+
+    def advance(self, dt: float, steps: int) -> None:
+        super().advance(np.float32(dt), steps)
+
+
+KINDS = {
+    "none": Unspoiled, "backward_euler": BackwardEuler, "trapezoidal": Trapezoidal, "single": Single,
+    "wrong_mass": WrongMass, "gravity_scaled": GravityScaled, "momentum_dropped": MomentumDropped,
+    "single_for_double": SingleForDouble, "first_order_as_second": FirstOrderAsSecond, "hidden_damping": HiddenDamping,
+    "state_not_restored": StateNotRestored, "scene_leaves_traces": SceneLeavesTraces, "random": Random,
+    "knows_its_axes": KnowsItsAxes, "depends_on_numbers": DependsOnNumbers, "held_loosely": HeldLoosely,
+    "energy_halved": EnergyHalved, "pre_stressed": PreStressed, "spin_damped": SpinDamped,
+    "forces_unbalanced": ForcesUnbalanced,
+}
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2 or sys.argv[1] not in KINDS:
+        print("usage: wrong.py KIND, below foldproof;", *KINDS)
+        sys.exit(2)
+    serve(KINDS[sys.argv[1]]())

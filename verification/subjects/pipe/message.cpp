@@ -1,0 +1,124 @@
+#include "verification/subjects/pipe/message.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+
+namespace foldproof {
+
+static_assert(std::endian::native == std::endian::little, "arrays are sent as they lie in memory");
+
+namespace {
+
+void append(Request& request, const char* name, const char* type, std::vector<long> shape,
+            std::string_view bytes) {
+  request.header["arrays"].push_back({{"name", name}, {"type", type}, {"shape", shape}});
+  request.bytes += bytes;
+}
+
+template <class Number>
+std::string_view bytes_of(const Number* numbers, size_t count) {
+  return {reinterpret_cast<const char*>(numbers), count * sizeof(Number)};
+}
+
+std::string shape_text(const nlohmann::json& shape) { return shape.dump(); }
+
+long count_of(const WantedArray& array) {
+  long count = 1;
+  for (const long extent : array.shape) count *= extent;
+  return count;
+}
+
+template <class Number>
+std::vector<double> read_numbers(ChildProcess& child, const WantedArray& wanted,
+                                 ChildProcess::Deadline deadline) {
+  std::vector<Number> numbers(size_t(count_of(wanted)));
+  child.read(reinterpret_cast<char*>(numbers.data()), numbers.size() * sizeof(Number), deadline);
+  for (size_t k = 0; k < numbers.size(); ++k)
+    if (!std::isfinite(numbers[k]))
+      throw SolverFailure(
+          "nan", fmt::format("sent {} as number {} of array '{}'", numbers[k], k, wanted.name));
+  return {numbers.begin(), numbers.end()};
+}
+
+/// Same but for the first extent?
+bool differs_in_length_only(const nlohmann::json& shape, const std::vector<long>& wanted) {
+  if (!shape.is_array() || shape.size() != wanted.size() || wanted.empty()) return false;
+  for (size_t k = 0; k < wanted.size(); ++k)
+    if (!shape[k].is_number_integer() || (k > 0 && shape[k] != wanted[k])) return false;
+  return shape[0] != wanted[0];
+}
+
+void require_array(const nlohmann::json& entry, const WantedArray& wanted,
+                   const std::string& type) {
+  if (!entry.is_object() || entry.value("name", nlohmann::json()) != wanted.name)
+    throw SolverFailure(
+        "shape", fmt::format("sent {} where array '{}' is due",
+                             entry.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace),
+                             wanted.name));
+  if (entry.value("type", nlohmann::json()) != type)
+    throw SolverFailure("shape", fmt::format("sent array '{}' not as {}, its declared precision",
+                                             wanted.name, type));
+  const nlohmann::json shape = entry.value("shape", nlohmann::json());
+  if (shape == nlohmann::json(wanted.shape)) return;
+  const bool by_length = differs_in_length_only(shape, wanted.shape);
+  const bool is_longer = by_length && shape[0] > wanted.shape[0];
+  throw SolverFailure(!by_length  ? "shape"
+                      : is_longer ? "oversized"
+                                  : "truncated",
+                      fmt::format("sent array '{}' of shape {} instead of {}", wanted.name,
+                                  shape_text(shape), shape_text(wanted.shape)));
+}
+
+}  // namespace
+
+void Request::add(const char* name, const PerParticle3& values) {
+  append(*this, name, "f8", {long(values.cols()), 3},
+         bytes_of(values.data(), size_t(values.size())));
+}
+
+void Request::add(const char* name, std::span<const double> values) {
+  append(*this, name, "f8", {long(values.size())}, bytes_of(values.data(), values.size()));
+}
+
+void Request::add(const char* name, std::span<const int> values, int wide) {
+  static_assert(sizeof(int) == 4);
+  const long rows = long(values.size()) / wide;
+  append(*this, name, "i4", wide == 1 ? std::vector<long>{rows} : std::vector<long>{rows, wide},
+         bytes_of(values.data(), values.size()));
+}
+
+nlohmann::json parse_header(const std::string& line) {
+  nlohmann::json header = nlohmann::json::parse(line, nullptr, false);
+  if (header.is_object()) return header;
+  std::string shown = line.substr(0, 60);
+  for (char& c : shown)
+    if (c < ' ' || c > '~') c = '?';
+  throw SolverFailure("header", fmt::format("sent a header that is no JSON object: '{}'", shown));
+}
+
+void require_arrays(const nlohmann::json& header, const std::vector<WantedArray>& wanted,
+                    const std::string& type) {
+  const nlohmann::json arrays = header.value("arrays", nlohmann::json::array());
+  if (!arrays.is_array() || arrays.size() != wanted.size())
+    throw SolverFailure("shape", fmt::format("sent {} arrays instead of {}",
+                                             arrays.is_array() ? arrays.size() : 0, wanted.size()));
+  for (size_t k = 0; k < wanted.size(); ++k) require_array(arrays[k], wanted[k], type);
+}
+
+std::vector<std::vector<double>> read_arrays(ChildProcess& child,
+                                             const std::vector<WantedArray>& wanted, bool is_single,
+                                             ChildProcess::Deadline deadline) {
+  std::vector<std::vector<double>> arrays;
+  for (const WantedArray& one : wanted)
+    arrays.push_back(is_single ? read_numbers<float>(child, one, deadline)
+                               : read_numbers<double>(child, one, deadline));
+  return arrays;
+}
+
+PerParticle3 as_particles(const std::vector<double>& values) {
+  return Eigen::Map<const PerParticle3>(values.data(), 3, Eigen::Index(values.size() / 3));
+}
+
+}  // namespace foldproof

@@ -1,0 +1,321 @@
+#include "verification/subjects/pipe/piped_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "verification/subjects/pipe/message.h"
+
+namespace foldproof {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr size_t longest_header = 1 << 20;
+constexpr double longest_progress = 10;  // times the limit of silence that a call may last
+
+std::string text_of(const json& header, const char* key) {
+  const json value = header.value(key, json());
+  if (value.is_string()) return value.get<std::string>();
+  throw SolverFailure("header", fmt::format("sent no text as '{}'", key));
+}
+
+double number_of(const json& header, const char* key, double if_missing) {
+  const json value = header.value(key, json(if_missing));
+  if (value.is_number() && std::isfinite(value.get<double>())) return value.get<double>();
+  throw SolverFailure("header", fmt::format("sent no finite number as '{}'", key));
+}
+
+int level_of(const std::string& text) {
+  if (text.size() == 2 && text[0] == 'L' && text[1] >= '0' && text[1] <= '3') return text[1] - '0';
+  throw SolverFailure("header", "declared no level L0 to L3");
+}
+
+bool declares_single(const std::string& precision) {
+  if (precision == "f4" || precision == "f8") return precision == "f4";
+  throw SolverFailure("header", "declared a precision that is neither f4 nor f8");
+}
+
+std::vector<std::string> texts_of(const json& header, const char* key) {
+  std::vector<std::string> texts;
+  const json list = header.value(key, json::array());
+  if (!list.is_array()) throw SolverFailure("header", fmt::format("sent no list as '{}'", key));
+  for (const json& entry : list) {
+    if (!entry.is_string()) throw SolverFailure("header", fmt::format("sent no text in '{}'", key));
+    texts.push_back(entry.get<std::string>());
+  }
+  return texts;
+}
+
+Declaration read_declaration(const json& header) {
+  if (header.value("protocol", json()) != protocol_version)
+    throw SolverFailure("header", fmt::format("does not speak protocol {}", protocol_version));
+  const json scheme = header.value("scheme", json::object());
+  if (!scheme.is_object()) throw SolverFailure("header", "sent no object as 'scheme'");
+  Declaration declared;
+  declared.name = text_of(header, "name");
+  declared.version = text_of(header, "version");
+  declared.level = level_of(text_of(header, "level"));
+  declared.is_single = declares_single(text_of(header, "precision"));
+  declared.scheme = text_of(scheme, "name");
+  declared.order = int(std::clamp(number_of(scheme, "order", 0), 0.0, 9.0));
+  declared.capabilities = texts_of(header, "capabilities");
+  declared.solve_tolerance = number_of(header, "solve_tolerance", 0);
+  if (!(declared.solve_tolerance >= 0 && declared.solve_tolerance < 1))
+    throw SolverFailure("header", "declared a solve_tolerance outside [0, 1)");
+  return declared;
+}
+
+template <class Rows>
+std::vector<int> flat(const Rows& rows) {
+  std::vector<int> numbers;
+  for (const auto& row : rows) numbers.insert(numbers.end(), row.begin(), row.end());
+  return numbers;
+}
+
+std::vector<double> hinge_weights(const TriangleMesh& mesh) {
+  const Eigen::VectorXd lengths = rest_lengths(mesh), areas = edge_areas(mesh);
+  std::vector<double> weights;
+  for (const Hinge& hinge : mesh.hinges)
+    weights.push_back(lengths[hinge.edge] * lengths[hinge.edge] / (2 * areas[hinge.edge]));
+  return weights;
+}
+
+void add_scene(const PortableScene& scene, const SolverCommand& command, Request& request) {
+  const PortableMaterial& m = scene.material;
+  json settings = json::object();
+  for (const auto& [key, value] : command.settings) settings[key] = value;
+  request.header["scene"] = {{"name", scene.name},
+                             {"dt", scene.dt},
+                             {"gravity", {scene.gravity[0], scene.gravity[1], scene.gravity[2]}},
+                             {"material",
+                              {{"density", m.density},
+                               {"young", m.young},
+                               {"bending_rigidity", m.bending_rigidity},
+                               {"stretch_damping", m.stretch_damping},
+                               {"bending_damping", m.bending_damping},
+                               {"rest_length_scale", m.rest_length_scale}}},
+                             {"own_masses", scene.own_masses},
+                             {"settings", settings}};
+  if (!scene.extension.empty()) request.header["scene"]["extension"] = json::parse(scene.extension);
+  std::vector<std::array<int, 2>> edges;
+  for (const Edge& edge : scene.mesh.edges) edges.push_back({edge.a, edge.b});
+  std::vector<std::array<int, 4>> hinges;
+  for (const Hinge& hinge : scene.mesh.hinges) hinges.push_back(hinge.particles);
+  std::vector<double> angles = scene.rest_angles;
+  angles.resize(hinges.size(), 0);
+  const Eigen::VectorXd stiffness = edge_stiffness(scene), lengths = scaled_rest_lengths(scene);
+  const auto span_of = [](const auto& v) { return std::span(v.data(), size_t(v.size())); };
+  request.add("triangles", flat(scene.mesh.triangles), 3);
+  request.add("rest", scene.mesh.rest);
+  request.add("x", scene.x);
+  request.add("v", scene.v);
+  request.add("mass", span_of(scene.mass));
+  request.add("held", scene.held, 1);
+  request.add("edges", flat(edges), 2);
+  request.add("edge_stiffness", span_of(stiffness));
+  request.add("rest_lengths", span_of(lengths));
+  request.add("hinges", flat(hinges), 4);
+  request.add("hinge_weights", hinge_weights(scene.mesh));
+  request.add("rest_angles", angles);
+}
+
+}  // namespace
+
+const std::vector<std::string>& failure_causes() {
+  static const std::vector<std::string> causes{"crash",  "exit",  "hang", "truncated", "oversized",
+                                               "header", "shape", "nan",  "error"};
+  return causes;
+}
+
+bool Declaration::offers(const std::string& capability) const {
+  return std::ranges::find(capabilities, capability) != capabilities.end();
+}
+
+double Declaration::rounding() const {
+  return is_single ? double(std::numeric_limits<float>::epsilon()) : epsilon;
+}
+
+struct PipedSolver::Impl {
+  SolverCommand command;
+  ChildProcess child;
+  long particles = 0, calls = 0;
+  bool is_single = false;
+  std::optional<SolverFailure> failed = {};
+
+  explicit Impl(SolverCommand c) : command(std::move(c)), child(command.command, command.limits) {}
+
+  ChildProcess::Deadline deadline(double times = 1) const {
+    const auto seconds = std::chrono::duration<double>(command.limits.seconds * times);
+    return std::chrono::steady_clock::now() +
+           std::chrono::duration_cast<std::chrono::steady_clock::duration>(seconds);
+  }
+
+  /// The header of the answer; each progress message renews the limit of silence.
+  json receive_header(ChildProcess::Deadline last) {
+    while (true) {
+      child.begin_answer();
+      const auto until = std::min(last, deadline());
+      json header = parse_header(child.read_line(longest_header, until));
+      if (header.value("id", json()) != calls)
+        throw SolverFailure("header", fmt::format("answered without the id {} of the call", calls));
+      if (!header.contains("progress")) return header;
+    }
+  }
+
+  Answer exchange(Request& request, const std::vector<WantedArray>& wanted) {
+    if (child.has_unread_bytes())
+      throw SolverFailure("oversized", "sent more bytes than its last answer says");
+    request.header["id"] = ++calls;
+    child.begin_answer();
+    child.write(request.header.dump() + "\n", deadline());
+    child.write(request.bytes, deadline());
+    const auto last = deadline(longest_progress);
+    Answer answer{receive_header(last), {}};
+    if (answer.header.contains("declined")) throw NotOffered{text_of(answer.header, "declined")};
+    if (answer.header.contains("error"))
+      throw SolverFailure("error", "failed, it says: " + text_of(answer.header, "error"));
+    require_arrays(answer.header, wanted, is_single ? "f4" : "f8");
+    answer.arrays = read_arrays(child, wanted, is_single, std::min(last, deadline()));
+    return answer;
+  }
+
+  /// Sends a request and receives its answer, or tells what went wrong, and ends the solver.
+  Answer ask(Request request, const std::vector<WantedArray>& wanted) {
+    if (failed) throw *failed;
+    const std::string operation = request.header["op"];
+    try {
+      return exchange(request, wanted);
+    } catch (const SolverFailure& failure) {
+      const std::string words = child.last_words();
+      failed.emplace(failure.cause,
+                     fmt::format("the solver {} (during '{}'); its last words: {}", failure.what(),
+                                 operation, words.empty() ? "none" : words));
+      throw *failed;
+    }
+  }
+
+  Request request_of(const char* operation) const { return {{{"op", operation}}}; }
+
+  std::vector<WantedArray> state_arrays() const {
+    return {{"x", {particles, 3}}, {"v", {particles, 3}}};
+  }
+
+  Snapshot ask_state(Request request) {
+    const Answer answer = ask(std::move(request), state_arrays());
+    return {as_particles(answer.arrays[0]), as_particles(answer.arrays[1])};
+  }
+
+  Request about(const char* operation, const Snapshot& state, double time) const {
+    Request request = request_of(operation);
+    request.header["time"] = time;
+    request.add("x", state.x);
+    request.add("v", state.v);
+    return request;
+  }
+
+  PerParticle3 ask_forces(Request request) {
+    return as_particles(ask(std::move(request), {{"f", {particles, 3}}}).arrays[0]);
+  }
+};
+
+PipedSolver::PipedSolver(SolverCommand command)
+    : impl_(std::make_unique<Impl>(std::move(command))) {
+  Request request = impl_->request_of("start");
+  request.header["protocol"] = protocol_version;
+  const json header = impl_->ask(std::move(request), {}).header;
+  try {
+    declaration_ = read_declaration(header);
+  } catch (const SolverFailure& failure) {
+    throw SolverFailure(failure.cause,
+                        fmt::format("the solver {} (during 'start')", failure.what()));
+  }
+  impl_->is_single = declaration_.is_single;
+}
+
+PipedSolver::~PipedSolver() = default;
+PipedSolver::PipedSolver(PipedSolver&&) noexcept = default;
+PipedSolver& PipedSolver::operator=(PipedSolver&&) noexcept = default;
+
+std::vector<std::pair<std::string, std::string>> PipedSolver::prepare(const PortableScene& scene) {
+  Request request = impl_->request_of("prepare");
+  add_scene(scene, impl_->command, request);
+  impl_->particles = scene.x.cols();
+  const json mapping = impl_->ask(std::move(request), {}).header.value("mapping", json::object());
+  std::vector<std::pair<std::string, std::string>> rows;
+  if (mapping.is_object())
+    for (const auto& [key, value] : mapping.items())
+      rows.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
+  return rows;
+}
+
+Snapshot PipedSolver::advance(double dt, long steps) {
+  Request request = impl_->request_of("advance");
+  request.header["dt"] = dt;
+  request.header["steps"] = steps;
+  return impl_->ask_state(std::move(request));
+}
+
+Snapshot PipedSolver::get_state() { return impl_->ask_state(impl_->request_of("get_state")); }
+
+Snapshot PipedSolver::step(const std::vector<Snapshot>& past, const std::vector<double>& times,
+                           double dt) {
+  Request request = impl_->about("step", past.back(), times.back());
+  request.header["dt"] = dt;
+  if (past.size() > 1) {
+    request.header["time_before"] = times.front();
+    request.add("x_before", past.front().x);
+    request.add("v_before", past.front().v);
+  }
+  return impl_->ask_state(std::move(request));
+}
+
+PerParticle3 PipedSolver::forces(const Snapshot& state, double time) {
+  return impl_->ask_forces(impl_->about("forces", state, time));
+}
+
+PerParticle3 PipedSolver::damping(const Snapshot& state, double time) {
+  return impl_->ask_forces(impl_->about("damping", state, time));
+}
+
+double PipedSolver::energy(const Snapshot& state, double time) {
+  const Answer answer = impl_->ask(impl_->about("energy", state, time), {});
+  return number_of(answer.header, "energy", nan);
+}
+
+std::vector<Snapshot> PipedSolver::run(const PortableScene& scene,
+                                       const std::vector<long>& frames) {
+  Request request = impl_->request_of("run");
+  add_scene(scene, impl_->command, request);
+  request.header["frames"] = frames;
+  const long n = scene.x.cols(), count = long(frames.size());
+  const Answer answer =
+      impl_->ask(std::move(request), {{"x", {count, n, 3}}, {"v", {count, n, 3}}});
+  std::vector<Snapshot> states;
+  const auto frame = [n](const std::vector<double>& all, long k) {
+    return PerParticle3(Eigen::Map<const PerParticle3>(all.data() + 3 * n * k, 3, n));
+  };
+  for (long k = 0; k < count; ++k)
+    states.push_back({frame(answer.arrays[0], k), frame(answer.arrays[1], k)});
+  return states;
+}
+
+bool PipedSolver::declines_unknown_operation() {
+  try {
+    impl_->ask(impl_->request_of("no_such_operation"), {});
+  } catch (const NotOffered&) {
+    return true;
+  }
+  return false;
+}
+
+void PipedSolver::stop() {
+  impl_->ask(impl_->request_of("stop"), {});
+  if (impl_->child.has_unread_bytes())
+    throw SolverFailure("oversized", "the solver sent more bytes than its last answer says");
+}
+
+}  // namespace foldproof

@@ -1,0 +1,94 @@
+// A solver in a process of its own, asked over the protocol of verification/subjects/PROTOCOL.md.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "verification/subjects/pipe/child_process.h"
+#include "verification/subjects/pipe/portable_scene.h"
+#include "verification/verdict.h"
+
+namespace foldproof {
+
+constexpr int protocol_version = 1;
+
+/// The causes of a SolverFailure:
+///   crash, exit, hang    the process ended by a signal, ended by itself, or did not answer in time
+///   truncated, oversized an answer that is shorter or longer than it says
+///   header               no JSON object, a wrong id, a wrong type or version
+///   shape, nan           arrays of other shapes or types than asked for; numbers that are not
+///                        finite
+///   error                the solver said that it failed
+const std::vector<std::string>& failure_causes();
+
+/// How a solver is started.
+struct SolverCommand {
+  std::string command;                                        // for sh -c
+  std::vector<std::pair<std::string, std::string>> settings;  // passed through in every scene
+  ProcessLimits limits = {};
+};
+
+/// The solver's description of itself: its answer to `start`.
+struct Declaration {
+  std::string name, version;
+  int level = 0;           // 0 to 3
+  bool is_single = false;  // precision f4 instead of f8
+  std::string scheme;      // its integrator, in its own words
+  int order = 0;           // claimed, of the global error
+  std::vector<std::string> capabilities;
+  double solve_tolerance = 0;  // relative residual of its linear systems; 0: solves none
+
+  bool offers(const std::string& capability) const;
+  double rounding() const;  // the distance from 1 to the next number of its precision
+};
+
+/// Positions and velocities of a scene's particles, 3 x N [m], [m/s].
+struct Snapshot {
+  PerParticle3 x, v;
+};
+
+/// Each call throws SolverFailure if it goes wrong, and NotOffered if the solver declines. After a
+/// failure the process is ended; later calls fail with the same words.
+class PipedSolver {
+ public:
+  /// Starts the process and asks for its declaration.
+  explicit PipedSolver(SolverCommand command);
+  ~PipedSolver();
+  PipedSolver(PipedSolver&&) noexcept;
+  PipedSolver& operator=(PipedSolver&&) noexcept;
+
+  const Declaration& declaration() const { return declaration_; }
+
+  /// Makes a scene ready. Returns the mapping: how the solver understood the parameters.
+  std::vector<std::pair<std::string, std::string>> prepare(const PortableScene& scene);
+
+  Snapshot advance(double dt, long steps);
+  Snapshot get_state();
+
+  /// One step of dt [s] from the state, which the solver takes over. `past` are states before the
+  /// latest, for solvers with capability "history".
+  Snapshot step(const std::vector<Snapshot>& past, const std::vector<double>& times, double dt);
+
+  PerParticle3 forces(const Snapshot& state, double time);   // elastic and external [N], 3 x N
+  PerParticle3 damping(const Snapshot& state, double time);  // [N], 3 x N
+  double energy(const Snapshot& state, double time);         // potential [J]
+
+  /// The states after these numbers of steps of scene.dt, ascending.
+  std::vector<Snapshot> run(const PortableScene& scene, const std::vector<long>& frames);
+
+  /// Asks for an operation that no protocol has. Is it declined?
+  bool declines_unknown_operation();
+
+  /// Asks the solver to end, and checks that nothing but the answer came.
+  void stop();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+  Declaration declaration_;
+};
+
+}  // namespace foldproof

@@ -1,0 +1,118 @@
+#include "verification/subjects/suite/conformance.h"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <optional>
+
+#include "verification/subjects/suite/scenes.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr long steps = 3;
+
+struct Demand {
+  const char* text;
+  int level;                                      // the least level that must keep it
+  const char* capability;                         // that must be declared, or ""
+  std::function<std::string(PipedSolver&)> keep;  // returns a note
+};
+
+Snapshot start_of(const PortableScene& scene) { return {scene.x, scene.v}; }
+
+std::string mapping_text(PipedSolver& solver) {
+  std::string text;
+  for (const auto& [key, value] : solver.prepare(suite::moving_sheet()))
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", key, value);
+  return text.empty() ? "no mapping is stated" : text;
+}
+
+std::string run_twice_as_far(PipedSolver& solver) {
+  const PortableScene scene = suite::moving_sheet();
+  const std::vector<Snapshot> frames = solver.run(scene, {steps, 2 * steps});
+  return fmt::format("{} frames of {} particles", frames.size(), frames[0].x.cols());
+}
+
+std::string step_once(PipedSolver& solver) {
+  const PortableScene scene = suite::moving_sheet();
+  solver.step({start_of(scene)}, {0}, scene.dt);
+  return "";
+}
+
+std::string start_other_scene(PipedSolver& solver) {
+  const PortableScene scene = suite::small_sheet();
+  solver.prepare(scene);
+  const long particles = solver.advance(scene.dt, steps).x.cols();
+  return fmt::format("{} particles", particles);
+}
+
+std::string ask_declined(PipedSolver& solver) {
+  if (!solver.declines_unknown_operation())
+    throw SolverFailure("header", "answered an operation that does not exist");
+  return "";
+}
+
+std::vector<Demand> demands() {
+  const auto state = [] { return start_of(suite::moving_sheet()); };
+  return {
+      {"run returns the frames", 0, "", run_twice_as_far},
+      {"prepare states the mapping", 1, "", mapping_text},
+      {"advance returns the state", 1, "",
+       [](PipedSolver& s) { return s.advance(suite::moving_sheet().dt, steps), std::string(); }},
+      {"get_state returns the state", 1, "",
+       [](PipedSolver& s) { return s.get_state(), std::string(); }},
+      {"step moves a given state", 1, "set_state", step_once},
+      {"forces are returned", 2, "",
+       [state](PipedSolver& s) { return s.forces(state(), 0), std::string(); }},
+      {"damping forces are returned", 2, "",
+       [state](PipedSolver& s) { return s.damping(state(), 0), std::string(); }},
+      {"energy is returned", 2, "",
+       [state](PipedSolver& s) { return fmt::format("{:.3g} J", s.energy(state(), 0)); }},
+      {"an unknown operation is declined", 0, "", ask_declined},
+      {"a second scene of other size is accepted", 1, "", start_other_scene},
+      {"stop is answered, and nothing else is sent", 0, "",
+       [](PipedSolver& s) { return s.stop(), std::string(); }},
+  };
+}
+
+ConformanceRow try_demand(const Demand& demand, PipedSolver& solver) {
+  try {
+    return {demand.text, Conformity::kept, demand.keep(solver)};
+  } catch (const NotOffered& missing) {
+    return {demand.text, Conformity::declined, missing.operation};
+  } catch (const SolverFailure& failure) {
+    return {demand.text, Conformity::broken, failure.what()};
+  }
+}
+
+std::string describe(const Declaration& d) {
+  std::string all;
+  for (const std::string& capability : d.capabilities) all += " " + capability;
+  return fmt::format("{} {}: L{}, {}, {} of order {}; capabilities:{}", d.name, d.version, d.level,
+                     d.is_single ? "f4" : "f8", d.scheme, d.order, all.empty() ? " none" : all);
+}
+
+}  // namespace
+
+std::vector<ConformanceRow> check_conformance(const SolverCommand& command) {
+  std::vector<ConformanceRow> rows;
+  std::optional<PipedSolver> solver;
+  try {
+    solver.emplace(command);
+  } catch (const SolverFailure& failure) {
+    return {{"start is answered by a declaration", Conformity::broken, failure.what()}};
+  }
+  const Declaration& declared = solver->declaration();
+  rows.push_back({"start is answered by a declaration", Conformity::kept, describe(declared)});
+  for (const Demand& demand : demands()) {
+    if (declared.level < demand.level) continue;
+    if (*demand.capability && !declared.offers(demand.capability)) continue;
+    rows.push_back(try_demand(demand, *solver));
+    if (rows.back().conformity == Conformity::broken) break;
+  }
+  return rows;
+}
+
+}  // namespace foldproof

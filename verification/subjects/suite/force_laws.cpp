@@ -1,0 +1,104 @@
+// Level 2: forces and energy.
+#include <cmath>
+
+#include "verification/subjects/suite/laws.h"
+#include "verification/subjects/suite/scenes.h"
+
+namespace foldproof {
+
+namespace {
+
+using namespace suite;
+
+constexpr double roundings = 64;  // of a sum over the forces of six springs a particle
+
+/// The scale of elastic forces: of every edge, stiffness times length; summed [N].
+double spring_scale(const PortableScene& scene) {
+  return edge_stiffness(scene).dot(rest_lengths(scene.mesh));
+}
+
+Snapshot start_of(const PortableScene& scene) { return {scene.x, scene.v}; }
+
+PerParticle3 forces_at_start(Trial& trial, const PortableScene& scene) {
+  trial.require_level(2);
+  trial.prepare(scene);
+  return trial.solver().forces(start_of(scene), 0);
+}
+
+Finding forces_sum_to_zero(Trial& trial) {
+  const PortableScene scene = moving_sheet();
+  const PerParticle3 f = forces_at_start(trial, scene);
+  Table measured{{"particles", "1"}, {"net force", "sum of k L"}};
+  measured.row(f.cols(), f.rowwise().sum().norm() / spring_scale(scene));
+  return judge_worst(measured, roundings * trial.declaration().rounding(), "rounding of a sum");
+}
+
+Finding torques_sum_to_zero(Trial& trial) {
+  const PortableScene scene = moving_sheet();
+  const PerParticle3 f = forces_at_start(trial, scene);
+  Vector3 torque = Vector3::Zero();
+  for (Eigen::Index i = 0; i < f.cols(); ++i)
+    torque += Vector3(scene.x.col(i)).cross(Vector3(f.col(i)));
+  Table measured{{"particles", "1"}, {"net torque", "sum of k L size"}};
+  measured.row(f.cols(), torque.norm() / (spring_scale(scene) * size_of(scene.x)));
+  return judge_worst(measured, roundings * trial.declaration().rounding(), "rounding of a sum");
+}
+
+Finding weight_is_mass_times_g(Trial& trial) {
+  const PortableScene scene = falling_sheet();
+  const Vector3 weight = scene.mass.sum() * scene.gravity;
+  const PerParticle3 f = forces_at_start(trial, scene);
+  Table measured{{"particles", "1"}, {"error of the net force", "m g + sum of k L"}};
+  measured.row(f.cols(),
+               (f.rowwise().sum() - weight).norm() / (weight.norm() + spring_scale(scene)));
+  return judge_worst(measured, roundings * trial.declaration().rounding(), "rounding of a sum");
+}
+
+Finding rest_is_force_free(Trial& trial) {
+  const PortableScene scene = sheet_at_rest();
+  const PerParticle3 f = forces_at_start(trial, scene);
+  Table measured{{"particles", "1"}, {"largest force", "largest k times size"}};
+  measured.row(f.cols(), f.colwise().norm().maxCoeff() /
+                             (edge_stiffness(scene).maxCoeff() * size_of(scene.x)));
+  return judge_worst(measured, roundings * trial.declaration().rounding(),
+                     "rounding of the springs at a particle");
+}
+
+/// Central difference of the energy along the velocities, against minus the forces' power.
+Finding forces_are_the_energy_gradient(Trial& trial) {
+  const PortableScene scene = moving_sheet();
+  const PerParticle3 f = forces_at_start(trial, scene);
+  const double way = std::cbrt(trial.declaration().rounding()) * size_of(scene.x);
+  const PerParticle3 along = scene.v / scene.v.colwise().norm().maxCoeff();
+  const auto energy_at = [&](double distance) {
+    return trial.solver().energy({scene.x + distance * along, scene.v}, 0);
+  };
+  const double slope = (energy_at(way) - energy_at(-way)) / (2 * way);
+  const double scale = spring_scale(scene);
+  Table measured{{"distance", "m"}, {"slope plus power", "sum of k L"}};
+  measured.row(way, std::abs(slope + (f.array() * along.array()).sum()) / scale);
+  // third derivative: k/L^2 at most; rounding: of the energy, over the distance
+  const double relative = way / rest_lengths(scene.mesh).minCoeff();
+  const double bound =
+      relative * relative + roundings * trial.declaration().rounding() * size_of(scene.x) / way;
+  return judge_worst(measured, bound, "third derivative of the energy, and rounding of it");
+}
+
+}  // namespace
+
+std::vector<Law> force_laws() {
+  return {
+      {"forces.sum-to-zero", "Elastic forces of a free sheet sum to zero.", "Newton's third law",
+       forces_sum_to_zero},
+      {"forces.torques-sum-to-zero", "Elastic forces of a free sheet exert no torque.",
+       "Newton's third law", torques_sum_to_zero},
+      {"forces.weight-is-mass-times-g", "The net force on a free sheet is its weight.",
+       "Newton's second law", weight_is_mass_times_g},
+      {"forces.rest-is-force-free", "The rest shape is free of forces.", "equilibrium",
+       rest_is_force_free},
+      {"forces.are-minus-the-energy-gradient", "Elastic forces are minus the energy's gradient.",
+       "conservative forces", forces_are_the_energy_gradient},
+  };
+}
+
+}  // namespace foldproof

@@ -1,0 +1,55 @@
+#include "verification/subjects/suite/laws.h"
+
+#include <algorithm>
+
+namespace foldproof {
+
+namespace {
+
+Record judge_law(const Law& law, Trial& trial) {
+  Record record;
+  record.name = law.name;
+  record.kind = "check";
+  record.claim = law.claim;
+  record.source = law.source;
+  return judge(std::move(record), [&] {
+    try {
+      return law.run(trial);
+    } catch (const SolverFailure& failure) {
+      trial.note(failure);
+      throw;
+    }
+  });
+}
+
+bool is_smoke(const Record& record) { return record.name.starts_with("smoke."); }
+
+}  // namespace
+
+std::vector<Law> portable_laws() {
+  std::vector<Law> all;
+  for (const auto& laws : {motion_laws(), symmetry_laws(), repeat_laws(), force_laws()})
+    all.insert(all.end(), laws.begin(), laws.end());
+  return all;
+}
+
+Judgement judge_solver(const SolverCommand& command, const std::vector<Law>& laws,
+                       const std::function<void(const Record&)>& done) {
+  Trial trial(command);
+  Judgement judgement;
+  for (const Law& law : laws) {
+    judgement.records.push_back(judge_law(law, trial));
+    done(judgement.records.back());
+  }
+  judgement.smoke_holds = std::ranges::all_of(judgement.records, [](const Record& record) {
+    return !is_smoke(record) || record.outcome == Outcome::holds;
+  });
+  try {
+    judgement.declaration = trial.declaration();
+  } catch (const SolverFailure&) {  // its records say so
+  }
+  judgement.mapping = trial.mapping();
+  return judgement;
+}
+
+}  // namespace foldproof

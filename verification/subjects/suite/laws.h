@@ -1,0 +1,41 @@
+// The portable suite: laws that any cloth solver must meet.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "verification/subjects/suite/trial.h"
+#include "verification/verdict.h"
+
+namespace foldproof {
+
+/// A law: true of every solver, whatever its scheme. Its bound is made of the declared precision,
+/// order and tolerance. `run` throws NotOffered where the solver lacks what the law asks.
+struct Law {
+  std::string name, claim, source;
+  std::function<Finding(Trial&)> run;
+};
+
+/// Smoke laws first.
+std::vector<Law> portable_laws();
+
+std::vector<Law> motion_laws();    // smoke, rest, inertia, gravity, momentum, held particles
+std::vector<Law> symmetry_laws();  // translation, rotation, mirror, numbering
+std::vector<Law> repeat_laws();    // determinism, state, order, precision
+std::vector<Law> force_laws();     // level 2: sums, weight, energy
+
+/// What came of a trial.
+struct Judgement {
+  Declaration declaration;  // unset if the solver never started
+  std::vector<std::pair<std::string, std::string>> mapping;
+  std::vector<Record> records;  // one a law
+  bool smoke_holds = false;
+};
+
+/// Asks the laws; a failure of the solver is the finding of its law, and the next one goes on.
+///   done   is called after each law
+Judgement judge_solver(const SolverCommand& command, const std::vector<Law>& laws,
+                       const std::function<void(const Record&)>& done);
+
+}  // namespace foldproof

@@ -1,0 +1,183 @@
+// Smoke, rest, inertia, gravity, momentum, held particles.
+#include <cmath>
+
+#include "verification/subjects/suite/laws.h"
+#include "verification/subjects/suite/scenes.h"
+
+namespace foldproof {
+
+namespace {
+
+using namespace suite;
+
+constexpr long few = 20, many = 50;  // steps
+
+double largest(const PerParticle3& vectors) { return vectors.colwise().norm().maxCoeff(); }
+
+Finding stays_roughly(Trial& trial) {
+  const PortableScene scene = sheet_at_rest();
+  const double edge = rest_lengths(scene.mesh).mean();
+  Table measured{{"steps", "1"}, {"largest displacement", "mean edge"}};
+  measured.row(few, largest(trial.after(scene, few).x - scene.x) / edge);
+  return judge_worst(measured, 0.01, "a hundredth of an edge: a solver that is driven rightly");
+}
+
+Finding falls_roughly(Trial& trial) {
+  const PortableScene scene = falling_sheet();
+  const double time = many * scene.dt;
+  const Vector3 fall = scene.gravity * time * time / 2;
+  const PerParticle3 moved = trial.after(scene, many).x - scene.x;
+  Table measured{{"steps", "1"}, {"error of the fall", "g t^2/2"}};
+  measured.row(many, largest(moved.colwise() - fall) / fall.norm());
+  return judge_worst(measured, 0.05, "2 % of a first order method, and as much again and a half");
+}
+
+Finding stays_exactly(Trial& trial) {
+  const PortableScene scene = sheet_at_rest();
+  const PerParticle3 moved = trial.after(scene, few).x - scene.x;
+  Table measured{{"steps", "1"}, {"largest displacement", "largest position"}};
+  measured.row(few, largest(moved) / size_of(scene.x));
+  return judge_worst(measured, rounding_error(scene, few, trial.declaration()),
+                     "rounding of rest lengths, enlarged by elastic forces");
+}
+
+Finding keeps_its_velocity(Trial& trial) {
+  const PortableScene scene = drifting_sheet();
+  const double time = few * scene.dt;
+  const Snapshot end = trial.after(scene, few);
+  const double path = scene.v.col(0).norm() * time;
+  const double rounding = rounding_error(scene, few, trial.declaration());
+  Table measured{{"of", ""}, {"error over rounding", "1"}};
+  measured.row("positions",
+               largest(end.x - scene.x - time * scene.v) / (rounding * (size_of(scene.x) + path)));
+  // a position error of rounding, made within one step, is a velocity error of it over the step
+  measured.row("velocities", largest(end.v - scene.v) /
+                                 (rounding * (size_of(scene.x) / scene.dt + largest(scene.v))));
+  const PerParticle3 lost = (end.v - scene.v) * scene.mass.asDiagonal();
+  measured.row("mean velocity",
+               lost.rowwise().sum().norm() / scene.mass.sum() / (rounding * scene.v.col(0).norm()));
+  return judge_worst(measured, 1, "rounding alone: no force acts");
+}
+
+/// Mean velocity after the fall, against g t.
+Finding gains_speed(Trial& trial) {
+  const PortableScene scene = falling_sheet();
+  const Vector3 expected = scene.gravity * (many * scene.dt);
+  const PerParticle3 momenta = trial.after(scene, many).v * scene.mass.asDiagonal();
+  const Vector3 mean = momenta.rowwise().sum() / scene.mass.sum();
+  Table measured{{"steps", "1"}, {"error of the mean velocity", "g t"}};
+  measured.row(many, (mean - expected).norm() / expected.norm());
+  return judge_worst(measured, rounding_error(scene, many, trial.declaration()),
+                     "any consistent step integrates a constant force exactly; rounding is left");
+}
+
+/// A method of order 1 errs by dt/2 g t, others not at all.
+Finding falls_as_its_order_says(Trial& trial) {
+  const Declaration declared = trial.declaration();
+  Table measured{{"steps", "1"}, {"error over what the order allows", "1"}};
+  for (const long steps : {many, 2 * many}) {
+    PortableScene scene = falling_sheet();
+    const double time = many * scene.dt;
+    scene.dt = time / double(steps);
+    const Vector3 fall = scene.gravity * time * time / 2;
+    const PerParticle3 moved = trial.after(scene, steps).x - scene.x;
+    const double rounding =
+        rounding_error(scene, steps, declared) * (1 + size_of(scene.x) / fall.norm());
+    const double allowed = declared.order < 2 ? 1 / double(steps) + rounding : rounding;
+    measured.row(steps, largest(moved.colwise() - fall) / fall.norm() / allowed);
+  }
+  return judge_worst(measured, 1, "order 1: g t dt/2; order 2 and more: exact, rounding is left");
+}
+
+Vector3 momentum_of(const PortableScene& scene, const PerParticle3& v) {
+  return (v * scene.mass.asDiagonal()).rowwise().sum();
+}
+
+Finding keeps_momentum(Trial& trial, const PortableScene& scene) {
+  const Snapshot end = trial.after(scene, few);
+  const double scale =
+      (scene.v.colwise().norm() * scene.mass.asDiagonal()).sum() +
+      scene.mass.sum() * size_of(scene.x) * std::sqrt(squared_phase(scene, 1)) / scene.dt;
+  Table measured{{"steps", "1"}, {"change of linear momentum", "sum of m (|v| + omega size)"}};
+  measured.row(few, (momentum_of(scene, end.v) - momentum_of(scene, scene.v)).norm() / scale);
+  const Declaration& declared = trial.declaration();
+  return judge_worst(measured, 8 * few * declared.rounding() + few * declared.solve_tolerance,
+                     "inner forces cancel to a few roundings a step, or to the solver's tolerance");
+}
+
+Finding keeps_linear_momentum(Trial& trial) { return keeps_momentum(trial, moving_sheet()); }
+
+Finding keeps_momentum_of_unequal_masses(Trial& trial) {
+  trial.require("masses");
+  return keeps_momentum(trial, moving_sheet_of_unequal_masses());
+}
+
+Vector3 angular_momentum_of(const PortableScene& scene, const Snapshot& state) {
+  Vector3 sum = Vector3::Zero();
+  for (Eigen::Index i = 0; i < state.x.cols(); ++i)
+    sum += scene.mass[i] * Vector3(state.x.col(i)).cross(Vector3(state.v.col(i)));
+  return sum;
+}
+
+double angular_drift(Trial& trial, long steps) {
+  PortableScene scene = moving_sheet();
+  const double time = few * scene.dt;
+  scene.dt = time / double(steps);
+  const Snapshot end = trial.after(scene, steps);
+  const Vector3 start = angular_momentum_of(scene, {scene.x, scene.v});
+  return (angular_momentum_of(scene, end) - start).norm() / start.norm();
+}
+
+Finding angular_momentum_converges(Trial& trial) {
+  const Declaration declared = trial.declaration();
+  const double floor = 10 * rounding_error(moving_sheet(), 4 * few, declared);
+  const double coarse = angular_drift(trial, 2 * few), fine = angular_drift(trial, 4 * few);
+  Table measured{{"drift at dt/2", "L"}, {"drift at dt/4", "L"}, {"fine over coarse", "1"}};
+  measured.row(coarse, fine, fine <= floor ? 0 : fine / coarse);
+  const double expected = std::pow(0.5, std::max(1, declared.order));
+  return judge_worst(measured, "fine over coarse", 1.35 * expected,
+                     "2^-order, and a third for the next term of the series; 0 below rounding");
+}
+
+Finding held_particles_stay(Trial& trial) {
+  trial.require("held");
+  const PortableScene scene = hanging_sheet();
+  const Snapshot end = trial.after(scene, many);
+  Table measured{{"particle", "1"}, {"displacement", "largest position"}};
+  for (const int i : scene.held)
+    measured.row(i, (end.x.col(i) - scene.x.col(i)).norm() / size_of(scene.x));
+  return judge_worst(measured, 8 * trial.declaration().rounding(), "a few roundings of a position");
+}
+
+}  // namespace
+
+std::vector<Law> motion_laws() {
+  return {
+      {"smoke.sheet-at-rest-stays", "A sheet in its rest shape, without forces, stays.",
+       "equilibrium", stays_roughly},
+      {"smoke.free-fall-within-5-percent", "A free sheet falls by g t^2/2, within 5 %.", "Galilei",
+       falls_roughly},
+      {"rest.no-force-no-motion", "A sheet in its rest shape stays, to rounding.", "equilibrium",
+       stays_exactly},
+      {"inertia.free-sheet-keeps-its-velocity",
+       "A sheet that drifts without forces keeps its velocity.", "Newton's first law",
+       keeps_its_velocity},
+      {"gravity.speed-grows-by-g-t", "A falling sheet gains the velocity g t.",
+       "Newton's second law", gains_speed},
+      {"gravity.fall-is-as-exact-as-the-order-claims",
+       "The error of a free fall is what the claimed order allows.", "Taylor's series of the fall",
+       falls_as_its_order_says},
+      {"momentum.linear-is-conserved", "A free sheet keeps its linear momentum.",
+       "Newton's third law", keeps_linear_momentum},
+      {"momentum.linear-of-unequal-masses-is-conserved",
+       "A free sheet of given, unequal masses keeps its linear momentum.", "Newton's third law",
+       keeps_momentum_of_unequal_masses},
+      {"momentum.angular-drift-falls-with-the-step",
+       "The change of a free sheet's angular momentum falls as the order claims.",
+       "Newton's third law along the line of force", angular_momentum_converges},
+      {"held.particles-stay", "Held particles stay where they are.", "protocol: array 'held'",
+       held_particles_stay},
+  };
+}
+
+}  // namespace foldproof

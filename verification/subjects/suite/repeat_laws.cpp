@@ -1,0 +1,109 @@
+// Determinism, state, observed order, precision.
+#include <algorithm>
+#include <cmath>
+
+#include "verification/subjects/suite/laws.h"
+#include "verification/subjects/suite/scenes.h"
+
+namespace foldproof {
+
+namespace {
+
+using namespace suite;
+
+constexpr long steps = 20;
+
+long differing(const Snapshot& a, const Snapshot& b) {
+  return (a.x.array() != b.x.array()).count() + (a.v.array() != b.v.array()).count();
+}
+
+Finding count_differences(const Snapshot& a, const Snapshot& b, const char* why) {
+  Table measured{{"numbers", "1"}, {"numbers that differ", "1"}};
+  measured.row(2 * a.x.size(), differing(a, b));
+  return judge_worst(measured, 0, why);
+}
+
+Finding same_in_a_fresh_process(Trial& trial) {
+  trial.restart();
+  const Snapshot first = trial.after(moving_sheet(), steps);
+  trial.restart();
+  return count_differences(first, trial.after(moving_sheet(), steps),
+                           "the same program, input and machine: the same bits");
+}
+
+Finding second_scene_starts_afresh(Trial& trial) {
+  trial.restart();
+  const Snapshot first = trial.after(moving_sheet(), steps);
+  trial.after(falling_sheet(), steps);
+  return count_differences(first, trial.after(moving_sheet(), steps),
+                           "nothing of an earlier scene may be left");
+}
+
+Finding step_depends_on_its_state_alone(Trial& trial) {
+  trial.require_level(1);
+  trial.require("set_state");
+  const PortableScene scene = moving_sheet();
+  trial.prepare(scene);
+  const std::vector<Snapshot> start{{scene.x, scene.v}};
+  const Snapshot first = trial.solver().step(start, {0}, scene.dt);
+  trial.solver().advance(scene.dt, steps);
+  return count_differences(first, trial.solver().step(start, {0}, scene.dt),
+                           "the state that was set is all that a step depends on");
+}
+
+/// Positions of the moving sheet after 0.04 s, in so many steps.
+PerParticle3 positions_after(Trial& trial, long count) {
+  PortableScene scene = moving_sheet();
+  scene.dt *= double(steps) / double(count);
+  return trial.after(scene, count).x;
+}
+
+Finding order_is_as_claimed(Trial& trial) {
+  const int claimed = trial.declaration().order;
+  if (claimed == 0) throw NotOffered{"a claimed order"};
+  std::vector<PerParticle3> runs;
+  for (const long count : {steps, 2 * steps, 4 * steps, 8 * steps})
+    runs.push_back(positions_after(trial, count));
+  std::vector<double> differences;
+  for (size_t k = 1; k < runs.size(); ++k) differences.push_back((runs[k] - runs[k - 1]).norm());
+  const double coarse = std::log2(differences[0] / differences[1]);
+  const double fine = std::log2(differences[1] / differences[2]);
+  Table measured{{"observed", "1"},
+                 {"observed on coarser steps", "1"},
+                 {"claimed", "1"},
+                 {"short of the claim", "1"}};
+  measured.row(fine, coarse, claimed, double(claimed) - fine);
+  return judge_worst(measured, "short of the claim", 0.35,
+                     "halved steps see the next term of the series as a third of an order at most");
+}
+
+bool is_float(double number) { return double(float(number)) == number; }
+
+Finding results_need_their_digits(Trial& trial) {
+  if (trial.declaration().is_single) throw NotOffered{"double precision"};
+  const Snapshot end = trial.after(moving_sheet(), steps);
+  const long floats = std::count_if(end.x.data(), end.x.data() + end.x.size(), is_float);
+  Table measured{{"numbers", "1"}, {"share that single precision holds", "1"}};
+  measured.row(end.x.size(), double(floats) / double(end.x.size()));
+  return judge_worst(measured, 0.1, "a number in double precision is one of single with 2^-29");
+}
+
+}  // namespace
+
+std::vector<Law> repeat_laws() {
+  return {
+      {"repeat.fresh-process-gives-the-same-bits", "The same scene gives the same bits again.",
+       "determinism", same_in_a_fresh_process},
+      {"repeat.second-scene-starts-afresh", "A scene after another one gives the same bits.",
+       "determinism", second_scene_starts_afresh},
+      {"repeat.step-depends-on-its-state-alone", "A state that is set again gives the same step.",
+       "determinism", step_depends_on_its_state_alone},
+      {"order.observed-is-as-claimed", "Halving the step reduces the error as claimed.",
+       "Richardson", order_is_as_claimed},
+      {"precision.results-need-the-declared-digits",
+       "Positions declared double are not all single precision numbers.", "IEEE 754",
+       results_need_their_digits},
+  };
+}
+
+}  // namespace foldproof

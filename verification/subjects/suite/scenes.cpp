@@ -1,0 +1,104 @@
+#include "verification/subjects/suite/scenes.h"
+
+#include "reference/mesh/shapes.h"
+
+namespace foldproof::suite {
+
+namespace {
+
+constexpr double step = 0.002;  // s; a third of the explicit limit of the sheet
+
+const Vector3 earth{0, 0, -9.81};
+
+PortableScene sheet_of_cells(int cells) {
+  PortableScene scene;
+  scene.mesh = make_sheet({.pattern = SheetPattern::jittered,
+                           .width = 0.1 * cells,
+                           .columns = cells,
+                           .rows = cells,
+                           .jitter = 0.2,
+                           .seed = 7});
+  scene.x = scene.mesh.rest;
+  scene.v = PerParticle3::Zero(3, scene.x.cols());
+  scene.material.young = 5;
+  scene.mass = lumped_masses(scene.mesh, scene.material.density);
+  scene.dt = step;
+  return scene;
+}
+
+}  // namespace
+
+PortableScene sheet_at_rest() {
+  PortableScene scene = sheet_of_cells(6);
+  scene.name = "sheet at rest";
+  return scene;
+}
+
+PortableScene small_sheet() {
+  PortableScene scene = sheet_of_cells(2);
+  scene.name = "small sheet";
+  return scene;
+}
+
+PortableScene falling_sheet() {
+  PortableScene scene = sheet_at_rest();
+  scene.name = "falling sheet";
+  scene.gravity = earth;
+  return scene;
+}
+
+PortableScene drifting_sheet() {
+  PortableScene scene = sheet_at_rest();
+  scene.name = "drifting sheet";
+  scene.v.colwise() = Vector3(0.31, -0.23, 0.47);
+  return scene;
+}
+
+PortableScene moving_sheet() {
+  PortableScene scene = sheet_at_rest();
+  scene.name = "moving sheet";
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    const Vector3 p = scene.mesh.rest.col(i);
+    scene.x.col(i) << 1.04 * p[0], 1.06 * p[1], 0.03 * std::sin(7 * p[0]) * std::cos(5 * p[1]);
+    scene.v.col(i) << 0.11 - 0.7 * p[1], 0.6 * p[0] + 0.2 * p[1], 0.3 * std::cos(6 * p[0]) - 0.17;
+  }
+  return scene;
+}
+
+PortableScene moving_sheet_of_unequal_masses() {
+  PortableScene scene = moving_sheet();
+  scene.name = "moving sheet of unequal masses";
+  for (Eigen::Index i = 0; i < scene.mass.size(); ++i)
+    scene.mass[i] *= 1.15 + 0.55 * std::sin(1.7 * double(i) + 0.4);
+  scene.own_masses = true;
+  return scene;
+}
+
+PortableScene hanging_sheet() {
+  PortableScene scene = falling_sheet();
+  scene.name = "hanging sheet";
+  scene.held = {0, 6};
+  return scene;
+}
+
+double size_of(const PerParticle3& x) { return x.colwise().norm().maxCoeff(); }
+
+double squared_phase(const PortableScene& scene, long steps) {
+  const Eigen::VectorXd stiffness = edge_stiffness(scene);
+  PerParticle rows = PerParticle::Zero(scene.mass.size());
+  for (size_t e = 0; e < scene.mesh.edges.size(); ++e) {
+    rows[scene.mesh.edges[e].a] += 2 * stiffness[Eigen::Index(e)];
+    rows[scene.mesh.edges[e].b] += 2 * stiffness[Eigen::Index(e)];
+  }
+  const double time = double(steps) * scene.dt;
+  return time * time * (rows.array() / scene.mass.array()).maxCoeff();
+}
+
+double rounding_error(const PortableScene& scene, long steps, const Declaration& declared) {
+  constexpr double roundings_a_step = 8;
+  const double roundings = roundings_a_step * double(steps + 1) *
+                           (1 + squared_phase(scene, steps)) * declared.rounding();
+  return roundings + double(steps) * declared.solve_tolerance;
+}
+
+}  // namespace foldproof::suite

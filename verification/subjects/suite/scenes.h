@@ -1,0 +1,42 @@
+// The plain scenes of the portable suite, and the error that rounding may make in them.
+#pragma once
+
+#include "verification/subjects/pipe/piped_solver.h"
+
+namespace foldproof::suite {
+
+/// A flat jittered sheet of 0.6 m x 0.52 m, 0.2 kg/m^2, Y = 5 N/m, in its rest shape, free.
+PortableScene sheet_at_rest();
+
+/// The same of 2 x 2 cells.
+PortableScene small_sheet();
+
+/// It falls from rest.
+PortableScene falling_sheet();
+
+/// It drifts without any force.
+PortableScene drifting_sheet();
+
+/// Stretched by 4 % and 6 %, curved, with a smooth velocity that spins and shears it: under tension
+/// for longer than the 0.04 s that the laws ask.
+PortableScene moving_sheet();
+
+/// The same, its masses multiplied by factors between 0.6 and 1.7.
+PortableScene moving_sheet_of_unequal_masses();
+
+/// Two corners held, under gravity.
+PortableScene hanging_sheet();
+
+/// Largest extent of the positions, or distance from the origin [m].
+double size_of(const PerParticle3& x);
+
+/// (time of the motion)^2 times a bound on the squared elastic frequencies [1]: twice the stiffness
+/// of all springs at a particle, over its mass.
+double squared_phase(const PortableScene& scene, long steps);
+
+/// Bound on the position error of rounding after the steps, over the largest position [1]: each
+/// step rounds position and velocity by a few roundings, and elastic forces, of a few more, enlarge
+/// this by the squared phase at most. Solvers of linear systems may add their tolerance a step.
+double rounding_error(const PortableScene& scene, long steps, const Declaration& declared);
+
+}  // namespace foldproof::suite

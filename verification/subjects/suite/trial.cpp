@@ -1,0 +1,72 @@
+#include "verification/subjects/suite/trial.h"
+
+#include <fmt/format.h>
+
+namespace foldproof {
+
+namespace {
+
+constexpr int most_hangs = 3;  // each takes the whole limit of the clock
+
+}  // namespace
+
+PipedSolver& Trial::solver() {
+  if (gave_up_) throw *gave_up_;
+  if (running_) return *running_;
+  try {
+    running_.emplace(command_);
+  } catch (const SolverFailure& failure) {
+    gave_up_.emplace(failure.cause, failure.what());
+    throw;
+  }
+  declared_ = running_->declaration();
+  return *running_;
+}
+
+void Trial::restart() {
+  running_.reset();
+  solver();
+}
+
+const Declaration& Trial::declaration() {
+  solver();
+  return declared_;
+}
+
+void Trial::require_level(int level) {
+  if (declaration().level < level)
+    throw NotOffered{fmt::format("level L{} (it declares L{})", level, declared_.level)};
+}
+
+void Trial::require(const std::string& capability) {
+  if (!declaration().offers(capability))
+    throw NotOffered{fmt::format("capability '{}'", capability)};
+}
+
+void Trial::prepare(const PortableScene& scene) {
+  for (auto& [key, value] : solver().prepare(scene)) {
+    const std::pair row{key, value};
+    if (std::find(mapping_.begin(), mapping_.end(), row) == mapping_.end()) mapping_.push_back(row);
+  }
+}
+
+std::vector<Snapshot> Trial::motion(const PortableScene& scene, const std::vector<long>& steps) {
+  if (declaration().level == 0) return solver().run(scene, steps);
+  prepare(scene);
+  std::vector<Snapshot> states;
+  long done = 0;
+  for (const long count : steps) {
+    states.push_back(solver().advance(scene.dt, count - done));
+    done = count;
+  }
+  return states;
+}
+
+void Trial::note(const SolverFailure& failure) {
+  running_.reset();
+  if (failure.cause != "hang" || ++hangs_ < most_hangs) return;
+  gave_up_.emplace("hang",
+                   fmt::format("{} hangs, not asked again; the last: {}", hangs_, failure.what()));
+}
+
+}  // namespace foldproof

@@ -1,0 +1,51 @@
+// A solver on trial: kept running from law to law, started again after a failure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "verification/subjects/pipe/piped_solver.h"
+
+namespace foldproof {
+
+class Trial {
+ public:
+  explicit Trial(SolverCommand command) : command_(std::move(command)) {}
+
+  /// The running solver. Throws SolverFailure if it cannot be started; a start that failed, or a
+  /// third hang, is not tried again: the same failure is thrown.
+  PipedSolver& solver();
+
+  /// Starts another process in place of the running one.
+  void restart();
+
+  const Declaration& declaration();
+
+  /// Throws NotOffered unless the solver declares it.
+  void require_level(int level);
+  void require(const std::string& capability);
+
+  /// Makes the scene ready and remembers the mapping.
+  void prepare(const PortableScene& scene);
+
+  /// The states after these numbers of steps, ascending, by `advance`, or by `run` at level 0.
+  std::vector<Snapshot> motion(const PortableScene& scene, const std::vector<long>& steps);
+  Snapshot after(const PortableScene& scene, long steps) { return motion(scene, {steps}).front(); }
+
+  /// To be called when a law has thrown: the process has ended, the next law starts another.
+  void note(const SolverFailure& failure);
+
+  const std::vector<std::pair<std::string, std::string>>& mapping() const { return mapping_; }
+
+ private:
+  SolverCommand command_;
+  std::optional<PipedSolver> running_;
+  std::optional<SolverFailure> gave_up_;
+  Declaration declared_;
+  std::vector<std::pair<std::string, std::string>> mapping_;
+  int hangs_ = 0;
+};
+
+}  // namespace foldproof

@@ -1,0 +1,238 @@
+// Solvers that break, lie or are wrong: each is named by its cause, and none brings us down.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <string>
+
+#include "verification/subjects/suite/conformance.h"
+#include "verification/subjects/suite/laws.h"
+#include "verification/subjects/suite/scenes.h"
+
+namespace foldproof {
+
+namespace {
+
+SolverCommand python(const std::string& program) {
+  return {"exec /usr/bin/python3 " SUBJECTS_FOLDER "/" + program, {}, {}};
+}
+
+SolverCommand broken(const std::string& kind) {
+  SolverCommand command = python("bad/broken.py " + kind);
+  command.limits.seconds = 20;
+  return command;
+}
+
+/// The failure of the first advance that is followed by another call.
+SolverFailure failure_of(const SolverCommand& command) {
+  try {
+    PipedSolver solver(command);
+    solver.prepare(suite::small_sheet());
+    solver.advance(1e-3, 2);
+    solver.get_state();
+  } catch (const SolverFailure& failure) {
+    return failure;
+  }
+  return {"none", "nothing failed"};
+}
+
+void require_failure(const std::string& kind, const std::string& cause, const std::string& words) {
+  INFO(kind);
+  const SolverFailure failure = failure_of(broken(kind));
+  INFO(failure.what());
+  CHECK(failure.cause == cause);
+  CHECK(std::string(failure.what()).find(words) != std::string::npos);
+  CHECK(std::ranges::count(failure_causes(), failure.cause) == 1);
+}
+
+void ignore(const Record&) {}
+
+/// Those of the laws whose names begin with one of these.
+std::vector<Law> laws_of(const std::vector<std::string>& beginnings) {
+  std::vector<Law> laws = portable_laws();
+  std::erase_if(laws, [&](const Law& law) {
+    return std::ranges::none_of(
+        beginnings, [&](const std::string& beginning) { return law.name.starts_with(beginning); });
+  });
+  return laws;
+}
+
+/// Those of the laws that a solver of bad/wrong.py fails.
+std::set<std::string> failing_laws(const std::string& kind, const std::vector<Law>& laws) {
+  std::set<std::string> names;
+  for (const Record& record : judge_solver(python("bad/wrong.py " + kind), laws, ignore).records)
+    if (record.outcome != Outcome::holds && record.outcome != Outcome::not_applicable)
+      names.insert(record.name);
+  return names;
+}
+
+std::set<std::string> failing_laws(const std::string& kind) {
+  return failing_laws(kind, portable_laws());
+}
+
+void require_law_fails(const std::string& kind, const std::string& law) {
+  INFO(kind);
+  CHECK(failing_laws(kind, laws_of({law})) == std::set<std::string>{law});
+}
+
+}  // namespace
+
+TEST_CASE("subject: a solver that ends is told by signal or exit code, with its last words") {
+  require_failure("crash", "crash", "signal 11");
+  require_failure("crash", "crash", "about to touch address 0");
+  require_failure("exit_3", "exit", "code 3");
+  require_failure("exit_3", "exit", "giving up");
+  require_failure("exception", "error", "ValueError: a matrix is singular");
+  const SolverCommand missing{"/nowhere/solver", {}, {}};
+  CHECK(std::string(failure_of(missing).what()).find("not found") != std::string::npos);
+}
+
+TEST_CASE("subject: a solver that ends while its child lives is told by its exit code") {
+  require_failure("fork_and_exit", "exit", "code 4");
+}
+
+TEST_CASE("subject: a hang is told when its time is up") {
+  SolverCommand command = broken("hang");
+  command.limits.seconds = 1.5;
+  const auto start = std::chrono::steady_clock::now();
+  const SolverFailure failure = failure_of(command);
+  CHECK(failure.cause == "hang");
+  CHECK(std::string(failure.what()).find("last words: thinking") != std::string::npos);
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(15));
+}
+
+TEST_CASE("subject: answers of the wrong length are told") {
+  require_failure("truncated", "truncated", "in the middle of an answer");
+  require_failure("short_array", "truncated", "shape [9,3] instead of [10,3]");
+  require_failure("oversized", "oversized", "shape [1000000000000,3]");
+  require_failure("too_many_bytes", "oversized", "more bytes than its last answer says");
+}
+
+TEST_CASE("subject: arrays of the wrong shape and numbers that are not finite are told") {
+  require_failure("wrong_shape", "shape", "shape [10,2] instead of [10,3]");
+  require_failure("nan", "nan", "sent nan as number 5 of array 'x'");
+}
+
+TEST_CASE("subject: headers that are no answer are told") {
+  require_failure("invalid_json", "header", "no JSON object");
+  require_failure("noise_on_the_pipe", "header", "iteration 1: residual 0.3");
+  require_failure("endless_header", "header", "longer than");
+  require_failure("wrong_id", "header", "without the id");
+}
+
+TEST_CASE("subject: memory and files are limited") {
+  SolverCommand command = broken("fill_memory");
+  command.limits.memory_bytes = 768L << 20;
+  CHECK(std::string(failure_of(command).what()).find("Unable to allocate") != std::string::npos);
+  SolverCommand writing = broken("fill_disk");
+  writing.limits.bytes_per_file = 8L << 20;
+  CHECK(std::string(failure_of(writing).what()).find("File too large") != std::string::npos);
+}
+
+TEST_CASE("subject: noise on standard output does no harm") {
+  CHECK(failure_of(broken("noise_on_stdout")).cause == "none");
+}
+
+TEST_CASE("subject: a solver that never starts fails every law once, without another start") {
+  SolverCommand command = broken("silent_start");
+  command.limits.seconds = 0.5;
+  const auto start = std::chrono::steady_clock::now();
+  const Judgement judgement = judge_solver(command, portable_laws(), ignore);
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
+  CHECK(judgement.records.size() == portable_laws().size());
+  CHECK(!judgement.smoke_holds);
+  for (const Record& record : judgement.records) CHECK(record.outcome == Outcome::fails);
+}
+
+TEST_CASE("subject: after a failure the next law goes on") {
+  const Judgement judgement = judge_solver(broken("too_many_bytes"), portable_laws(), ignore);
+  CHECK(judgement.declaration.name == "toy springs (Python)");
+  const auto fails = [](const Record& record) { return record.outcome == Outcome::fails; };
+  CHECK(std::ranges::count_if(judgement.records, fails) >= 15);
+  const auto rest =
+      std::ranges::find(judgement.records, "forces.rest-is-force-free", &Record::name);
+  REQUIRE(rest != judgement.records.end());
+  CHECK(rest->outcome == Outcome::holds);
+}
+
+TEST_CASE("subject: correct solvers raise no alarm, in single and double precision") {
+  for (const char* kind : {"none", "single"}) {
+    INFO(kind);
+    CHECK(failing_laws(kind) == std::set<std::string>{});
+  }
+  const std::vector<Law> laws =
+      laws_of({"smoke", "rest", "inertia", "gravity", "momentum", "held", "symmetry.r", "order"});
+  for (const char* kind : {"backward_euler", "trapezoidal"}) {
+    INFO(kind);
+    CHECK(failing_laws(kind, laws) == std::set<std::string>{});
+  }
+}
+
+TEST_CASE("subject: wrong masses and gravity are found") {
+  require_law_fails("wrong_mass", "momentum.linear-of-unequal-masses-is-conserved");
+  CHECK(failing_laws("gravity_scaled") ==
+        std::set<std::string>{"gravity.speed-grows-by-g-t",
+                              "gravity.fall-is-as-exact-as-the-order-claims",
+                              "forces.weight-is-mass-times-g"});
+}
+
+TEST_CASE("subject: lost momentum and hidden damping are found") {
+  require_law_fails("momentum_dropped", "momentum.linear-is-conserved");
+  require_law_fails("hidden_damping", "inertia.free-sheet-keeps-its-velocity");
+  CHECK(failing_laws("spin_damped") ==
+        std::set<std::string>{"momentum.angular-drift-falls-with-the-step"});
+}
+
+TEST_CASE("subject: false claims of precision and order are found") {
+  require_law_fails("single_for_double", "precision.results-need-the-declared-digits");
+  CHECK(failing_laws("first_order_as_second") ==
+        std::set<std::string>{"gravity.fall-is-as-exact-as-the-order-claims",
+                              "order.observed-is-as-claimed"});
+}
+
+TEST_CASE("subject: states that are not restored are found") {
+  CHECK(failing_laws("state_not_restored") ==
+        std::set<std::string>{"repeat.step-depends-on-its-state-alone"});
+  require_law_fails("scene_leaves_traces", "repeat.second-scene-starts-afresh");
+  require_law_fails("random", "repeat.fresh-process-gives-the-same-bits");
+}
+
+TEST_CASE("subject: broken symmetries are found") {
+  require_law_fails("knows_its_axes", "symmetry.rotation");
+  require_law_fails("depends_on_numbers", "symmetry.renumbering");
+}
+
+TEST_CASE("subject: wrong forces and loosely held particles are found") {
+  CHECK(failing_laws("held_loosely") == std::set<std::string>{"held.particles-stay"});
+  CHECK(failing_laws("energy_halved") ==
+        std::set<std::string>{"forces.are-minus-the-energy-gradient"});
+  require_law_fails("pre_stressed", "rest.no-force-no-motion");
+  require_law_fails("pre_stressed", "forces.rest-is-force-free");
+  require_law_fails("forces_unbalanced", "forces.sum-to-zero");
+  require_law_fails("forces_unbalanced", "forces.torques-sum-to-zero");
+}
+
+TEST_CASE("subject: the conformance test accepts the toys and names the first breach") {
+  for (const SolverCommand& toy :
+       {python("adapters/toy_solver.py"), SolverCommand{TOY_SOLVER, {}, {}}}) {
+    const std::vector<ConformanceRow> rows = check_conformance(toy);
+    CHECK(rows.size() == 12);
+    for (const ConformanceRow& row : rows) {
+      INFO(row.demand << ": " << row.note);
+      CHECK(row.conformity == Conformity::kept);
+    }
+  }
+  const std::vector<ConformanceRow> rows = check_conformance(broken("invalid_json"));
+  CHECK(rows.back().conformity == Conformity::broken);
+  CHECK(rows.back().demand == "advance returns the state");
+}
+
+TEST_CASE("subject: the toy in C++ meets every law") {
+  for (const Record& record : judge_solver({TOY_SOLVER, {}, {}}, portable_laws(), ignore).records) {
+    INFO(record.name << " " << record.finding.note);
+    CHECK(record.outcome == Outcome::holds);
+  }
+}
+
+}  // namespace foldproof
