@@ -30,7 +30,8 @@ QuantityOverLevels positions_over_levels(const Scene& scene, const std::vector<L
   QuantityOverLevels over{"positions", "m", {}, {}, {}, nan};
   for (size_t k = 0; k + 1 < runs.size(); ++k)
     over.differences.push_back(field_difference(runs[k], runs[k + 1], mass));
-  over.bar = error_bar({{}, over.differences, 2, formal_order, rounding_floor(longest_side(scene.x))});
+  over.bar =
+      error_bar({{}, over.differences, 2, formal_order, rounding_floor(longest_side(scene.x))});
   over.first_error = sum_of(over.differences) + over.bar.half_width;
   return over;
 }

@@ -261,7 +261,7 @@ bool needs_coarser(const Survey& survey, const std::string& method) {
 }
 
 /// The method's next run on its ladder of halved steps; parts 0: none.
-Trial next_on_ladder(const Survey& survey, const std::string& method, double most_work) {
+PrecisionTrial next_on_ladder(const Survey& survey, const std::string& method, double most_work) {
   const auto found = survey.runs.find(method);
   if (found == survey.runs.end()) return {method, survey.plan.first.at(method), survey.plan.budget};
   if (needs_coarser(survey, method))
@@ -271,8 +271,8 @@ Trial next_on_ladder(const Survey& survey, const std::string& method, double mos
   return {method, 0, 0};
 }
 
-std::vector<Trial> refined_truth(const Survey& survey) {
-  std::vector<Trial> trials;
+std::vector<PrecisionTrial> refined_truth(const Survey& survey) {
+  std::vector<PrecisionTrial> trials;
   if (survey.truth.uncertainty <= truth_part * survey.plan.wanted.back()) return trials;
   for (const Opinion* opinion : {&survey.truth.first, &survey.truth.second}) {
     if (opinion->parts == 0) continue;
@@ -294,8 +294,8 @@ size_t bracket(const MethodCurve& curve, double wanted) {
   return first == runs.size() ? 0 : first;
 }
 
-std::vector<Trial> narrowed_brackets(const Survey& survey) {
-  std::vector<Trial> trials;
+std::vector<PrecisionTrial> narrowed_brackets(const Survey& survey) {
+  std::vector<PrecisionTrial> trials;
   for (const double wanted : survey.plan.wanted) {
     if (!(wanted >= least_error(survey.truth))) continue;
     double least = INFINITY;
@@ -308,9 +308,9 @@ std::vector<Trial> narrowed_brackets(const Survey& survey) {
       if (fine == 0 || !(price_of(survey, curve, wanted).applications <= contender * least))
         continue;
       const int few = curve.parts[fine - 1], many = curve.parts[fine];
-      const Trial middle{curve.method, (few + many) / 2, survey.plan.budget};
+      const PrecisionTrial middle{curve.method, (few + many) / 2, survey.plan.budget};
       if (many > narrow * few && many - few > 1 &&
-          std::ranges::none_of(trials, [&](const Trial& t) {
+          std::ranges::none_of(trials, [&](const PrecisionTrial& t) {
             return t.method == middle.method && t.parts == middle.parts;
           }))
         trials.push_back(middle);
@@ -420,17 +420,17 @@ std::vector<MethodCurve> method_curves(const PrecisionPlan& plan, const TrialRun
   return curves;
 }
 
-std::vector<Trial> next_trials(const PrecisionPlan& plan, const TrialRuns& runs) {
+std::vector<PrecisionTrial> next_trials(const PrecisionPlan& plan, const TrialRuns& runs) {
   const CaseTruth truth = case_truth(plan, runs);
   const Survey survey{plan, runs, truth, method_curves(plan, runs, truth)};
   const double most_work = dearest * cheapest_work(survey);
-  std::vector<Trial> trials;
+  std::vector<PrecisionTrial> trials;
   // whose steps are dear; by then it is known how dear
   for (const bool is_implicit : {false, true}) {
     if (!trials.empty()) break;
     for (const std::string& method : all_methods(plan)) {
       if ((family_of(method) == Family::fully_implicit) != is_implicit) continue;
-      const Trial trial = next_on_ladder(survey, method, most_work);
+      const PrecisionTrial trial = next_on_ladder(survey, method, most_work);
       if (trial.parts > 0) trials.push_back(trial);
     }
   }

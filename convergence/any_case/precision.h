@@ -85,7 +85,7 @@ std::vector<MethodCurve> method_curves(const PrecisionPlan& plan, const TrialRun
 /// `dearest` times what the cheapest method pays. Then both opinions on the truth are refined
 /// until they agree. Then brackets of prices of methods that might be cheapest are narrowed to a
 /// quarter of a step.
-std::vector<Trial> next_trials(const PrecisionPlan& plan, const TrialRuns& runs);
+std::vector<PrecisionTrial> next_trials(const PrecisionPlan& plan, const TrialRuns& runs);
 
 constexpr double dearest = 16;
 

@@ -123,7 +123,7 @@ double visits(const Scene& scene, const Work& w) {
          double(w.close_pairs + w.crossing_queries);
 }
 
-Scene scene_of(const Scene& scene, const Trial& trial) {
+Scene scene_of(const Scene& scene, const PrecisionTrial& trial) {
   Scene tried = scene;
   tried.integrator = trial.method;
   StepRule& step = tried.schedule.step;
@@ -132,7 +132,8 @@ Scene scene_of(const Scene& scene, const Trial& trial) {
   return tried;
 }
 
-TrialRun run_trial(const Case& input_case, const Trial& trial, const LevelSetProvider& level_sets) {
+TrialRun run_trial(const Case& input_case, const PrecisionTrial& trial,
+                   const LevelSetProvider& level_sets) {
   const Scene scene = scene_of(input_case.scene, trial);
   try {
     return timed_trial(scene, trial.budget, build(scene, level_sets));
@@ -143,7 +144,7 @@ TrialRun run_trial(const Case& input_case, const Trial& trial, const LevelSetPro
   }
 }
 
-TrialRun stored_trial(const Case& input_case, const Trial& trial,
+TrialRun stored_trial(const Case& input_case, const PrecisionTrial& trial,
                       const LevelSetProvider& level_sets, ResultStore& store,
                       const std::string& program) {
   Level level{input_case.scene.name + ", " + trial.method + ", " + std::to_string(trial.parts) +

@@ -14,7 +14,7 @@ namespace foldproof {
 
 /// A run to make: a method, with `parts` equal steps from frame to frame. No step is longer than a
 /// frame's interval; events within a frame divide it further.
-struct Trial {
+struct PrecisionTrial {
   std::string method;
   int parts = 1;      // >= 1
   double budget = 0;  // of the run [visits]
@@ -36,16 +36,17 @@ struct TrialRun {
 double visits(const Scene& scene, const Work& work);
 
 /// The scene with the trial's method and step.
-Scene scene_of(const Scene& scene, const Trial& trial);
+Scene scene_of(const Scene& scene, const PrecisionTrial& trial);
 
 /// Runs the trial. It ends at the first frame at which it has taken more visits than its budget. Of
 /// long runs of large cloth only every second, third, ... frame is kept, so that a run keeps at
 /// most a million numbers. An error in building or running goes into `stopped`.
-TrialRun run_trial(const Case& input_case, const Trial& trial, const LevelSetProvider& level_sets);
+TrialRun run_trial(const Case& input_case, const PrecisionTrial& trial,
+                   const LevelSetProvider& level_sets);
 
 /// The trial's run from the store, or made now and kept there. A run that a smaller budget
 /// ended is made again.
-TrialRun stored_trial(const Case& input_case, const Trial& trial,
+TrialRun stored_trial(const Case& input_case, const PrecisionTrial& trial,
                       const LevelSetProvider& level_sets, ResultStore& store,
                       const std::string& program);
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "convergence/any_case/distances.h"
 #include "reference/scene/key_file.h"
 #include "reference/scene/read_cloth_mesh.h"
 #include "reference/scene/refine_cloth.h"

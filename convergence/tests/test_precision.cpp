@@ -37,7 +37,7 @@ struct Law {
 };
 
 /// The run that the law makes of the trial. Free particles move by t, from 0 to 0.7 m.
-TrialRun run_by(const Law& law, const Trial& trial, const PrecisionPlan& plan) {
+TrialRun run_by(const Law& law, const PrecisionTrial& trial, const PrecisionPlan& plan) {
   TrialRun run;
   run.steps = long(frames) * trial.parts;
   run.part = 1;
@@ -74,7 +74,7 @@ MadeUp made_by(const std::map<std::string, Law>& laws, std::vector<double> wante
   made.plan.for_truth.clear();
   for (auto trials = next_trials(made.plan, made.runs); !trials.empty();
        trials = next_trials(made.plan, made.runs))
-    for (const Trial& trial : trials) {
+    for (const PrecisionTrial& trial : trials) {
       REQUIRE(made.runs[trial.method].count(trial.parts) == 0);
       made.runs[trial.method][trial.parts] = run_by(laws.at(trial.method), trial, made.plan);
     }
@@ -229,7 +229,7 @@ TEST_CASE("forward Euler's error in free fall is the step over the time") {
       precision_plan(input_case, {"forward-euler", "B"}, {0.02}, 1e8, computing_provider());
   TrialRuns runs;
   for (auto trials = next_trials(plan, runs); !trials.empty(); trials = next_trials(plan, runs))
-    for (const Trial& trial : trials)
+    for (const PrecisionTrial& trial : trials)
       runs[trial.method][trial.parts] = run_trial(input_case, trial, computing_provider());
   const PrecisionAnswer answer = precision_answer(plan, runs);
   CHECK(answer.truth.motion == Approx(9 * end_time * end_time / 2));
@@ -266,7 +266,7 @@ TEST_CASE("a kept run is found again, and made again only for a larger budget") 
   const std::string folder = "precision test store";
   std::filesystem::remove_all(folder);
   const Case input_case = falling(false);
-  const Trial poor{"RK4", 64, 1000}, rich{"RK4", 64, 1e6};
+  const PrecisionTrial poor{"RK4", 64, 1000}, rich{"RK4", 64, 1e6};
   {
     ResultStore store(folder);
     const TrialRun run = stored_trial(input_case, poor, computing_provider(), store, "me");

@@ -11,6 +11,7 @@
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/converge_file.h"
 #include "scripts/program/converge_report.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/ladder_runs.h"
@@ -58,9 +59,8 @@ Told told_in_time(const LadderPlan& plan, const Answering& by) {
 
 Told told_in_space(const CaseSource& source, const Answering& by) {
   const auto objects = by.options.refines_objects ? ObjectsToo::yes : ObjectsToo::no;
-  const SpaceRuns done =
-      run_meshes(space_ladder(source, by.options.levels, objects), by.level_sets, by.store,
-                 by.options.running, limits_of(by.options.hours));
+  const SpaceRuns done = run_meshes(space_ladder(source, by.options.levels, objects), by.level_sets,
+                                    by.store, by.options.running, limits_of(by.options.hours));
   if (!done.levels.refused.empty()) log_line(done.levels.refused);
   return {space_answer(done.ladder, done.levels.runs, done.halved), {}};
 }

@@ -103,8 +103,8 @@ std::vector<LevelCost> probed_costs(const SpaceLadder& ladder, LadderRunner& run
   return foreseen_costs(runner.costs, int(ladder.levels.size()));
 }
 
-/// Leaves the runs of the finest mesh, of the check of its steps, and of the other meshes, coarse
-/// to fine.
+/// Leaves the runs of the finest mesh, of the check of its steps, and of the other meshes,
+/// coarse to fine.
 void run_with_finest_steps(const SpaceLadder& ladder, LadderRunner& runner, ProgressLine& line,
                            double whole) {
   const int finest = int(ladder.levels.size()) - 1;

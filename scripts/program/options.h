@@ -44,7 +44,7 @@ struct Options {
   // of converge and precision: how much of the run is asked [s]; 0: all of it
   double until = 0;
   std::vector<std::string> errors = {"1e-2", "1e-3"};  // of precision: wanted, as typed [1]
-  double effort = 1;  // of precision: largest work of a run over the usual budget [1]
+  double effort = 1;         // of precision: largest work of a run over the usual budget [1]
   std::string solver, name;  // of judge, subject: command; of judge: name in the report
   double patience = 60;      // of judge, subject: limit of silence [s]
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,

@@ -42,7 +42,7 @@ TrialRuns all_trials(const PrecisionPlan& plan, const LevelSetProvider& level_se
   const std::string program = program_identity();
   TrialRuns runs;
   for (int round = 1;; ++round) {
-    const std::vector<Trial> trials = next_trials(plan, runs);
+    const std::vector<PrecisionTrial> trials = next_trials(plan, runs);
     if (trials.empty()) return runs;
     std::vector<TrialRun> made(trials.size());
     std::vector<Job> jobs;
