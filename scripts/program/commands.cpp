@@ -10,7 +10,7 @@
 #include "convergence/studies.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/bodies/level_set_provider.h"
-#include "scripts/program/bench.h"
+#include "scripts/program/bench/bench.h"
 #include "scripts/program/data_folder.h"
 #include "scripts/program/command_line/input_files.h"
 #include "verification/subjects/bending_rows.h"

@@ -1,4 +1,4 @@
-#include "scripts/program/bench_parts.h"
+#include "scripts/program/bench/bench_parts.h"
 
 #include <malloc.h>
 

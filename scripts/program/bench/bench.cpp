@@ -1,4 +1,4 @@
-#include "scripts/program/bench.h"
+#include "scripts/program/bench/bench.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "scripts/program/bench_parts.h"
+#include "scripts/program/bench/bench_parts.h"
 #include "scripts/program/progress.h"
 
 namespace foldproof {

@@ -7,7 +7,7 @@
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/octree.h"
 #include "reference/mesh/shapes.h"
-#include "scripts/program/bench_parts.h"
+#include "scripts/program/bench/bench_parts.h"
 
 namespace foldproof {
 

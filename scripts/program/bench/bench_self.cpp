@@ -3,7 +3,7 @@
 
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
-#include "scripts/program/bench_parts.h"
+#include "scripts/program/bench/bench_parts.h"
 #include "verification/processor_time.h"
 
 namespace foldproof {

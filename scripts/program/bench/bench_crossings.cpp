@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "convergence/contact/crossing_families.h"
-#include "scripts/program/bench_parts.h"
+#include "scripts/program/bench/bench_parts.h"
 #include "verification/specimens/random.h"
 
 namespace foldproof {

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "reference/filters/strain_limit.h"
-#include "scripts/program/bench_parts.h"
+#include "scripts/program/bench/bench_parts.h"
 
 namespace foldproof {
 

@@ -7,7 +7,7 @@
 #include "reference/level_set/narrow_band.h"
 #include "reference/bodies/self_intersection.h"
 #include "reference/mesh/shapes.h"
-#include "scripts/program/bench_parts.h"
+#include "scripts/program/bench/bench_parts.h"
 
 namespace foldproof {
 
