@@ -22,7 +22,8 @@ LadderAnswer answer_of(std::vector<QuantityOverLevels> quantities) {
           {1, 2, 4, 8},
           {3, 6, 12, 24},
           {"", "", "", "fell"},
-          std::move(quantities)};
+          std::move(quantities),
+          {4, 4, 4, 4}};
 }
 
 }  // namespace
@@ -71,6 +72,7 @@ TEST_CASE("a study of a ladder has its differences, its bars and its costs") {
   CHECK(quantities.numbers("error bar").at(0) == Approx(1.25 / 3));
   CHECK_THAT(quantities.texts("reading").at(2), Contains("inconclusive: differences"));
   CHECK(study.tables.at(1).texts("stopped") == std::vector<std::string>{"no", "no", "no", "fell"});
+  CHECK(study.tables[1].numbers("particles") == std::vector<double>{4, 4, 4, 4});
   CHECK(study.tables[1].numbers("processor time") == std::vector<double>{3, 6, 12, 24});
 }
 
