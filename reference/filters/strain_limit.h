@@ -14,7 +14,7 @@ namespace foldproof {
 enum class SweepOrder {
   gauss_seidel,  // one after the other, by the particles that they join
   alternating,   // the same, every other sweep backwards
-  // colour by colour, no two springs of a colour sharing a particle: threads may share a colour
+  // colour by colour, as parallel solvers do: no two springs of a colour share a particle
   coloured,
   // all from the same velocities, each impulse divided by the number of those that meet at its ends
   jacobi
@@ -25,7 +25,6 @@ struct StrainLimits {
   SweepOrder order = SweepOrder::gauss_seidel;
   int sweeps = 20;          // the most of one call
   double tolerance = 1e-3;  // violation over the rest length at which sweeps end [1]
-  int threads = 1;          // of coloured sweeps; the result does not depend on it
 };
 
 /// What sweeps need to know of a spring: 16 bytes.
