@@ -6,8 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "reference/fast/colour_threads.h"
-
 namespace foldproof {
 
 namespace {
@@ -20,12 +18,6 @@ constexpr double at_the_limit = 8 * std::numeric_limits<double>::epsilon();
 struct SweepResult {
   double violation = 0;  // the largest, over the rest length [1]
   long corrected = 0, unreachable = 0;
-
-  void add(const SweepResult& part) {
-    update_worst(violation, part.violation);
-    corrected += part.corrected;
-    unreachable += part.unreachable;
-  }
 };
 
 /// One spring beyond a limit: what an impulse along d has to do.
@@ -75,8 +67,6 @@ class Sweeps {
   /// number: of the sweep, from 0.
   SweepResult sweep(int number) {
     if (limiter_.limits.order == SweepOrder::jacobi) return jacobi_sweep();
-    const bool is_coloured = limiter_.limits.order == SweepOrder::coloured;
-    if (is_coloured && limiter_.limits.threads > 1) return on_threads();
     const bool backwards = limiter_.limits.order == SweepOrder::alternating && number % 2 == 1;
     SweepResult result;
     if (backwards)
@@ -132,20 +122,6 @@ class Sweeps {
   void correct(const LimitedSpring& spring, SweepResult& result) {
     const Correction needed = needed_correction(spring);
     if (record(spring, needed, result)) push(spring, needed.share);
-  }
-
-  /// A coloured sweep on threads: same bits, since springs of a colour share no particle and are
-  /// sorted by colour.
-  SweepResult on_threads() {
-    std::vector<SweepResult> result(size_t(limiter_.limits.threads));
-    run_colours_on_threads(limiter_.colours, limiter_.limits.threads,
-                           [&](int first, int last, int thread) {
-                             for (int i = first; i < last; ++i)
-                               correct(limiter_.springs[size_t(i)], result[size_t(thread)]);
-                           });
-    SweepResult sum;
-    for (const SweepResult& part : result) sum.add(part);
-    return sum;
   }
 
   // Of n impulses that meet at a particle each gives an n-th, and the same at its other end, or

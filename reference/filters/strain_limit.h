@@ -14,7 +14,7 @@ namespace foldproof {
 enum class SweepOrder {
   gauss_seidel,  // one after the other, in the order of their particles
   alternating,   // the same, every other sweep backwards
-  // colour by colour; springs of one colour share no particle, so threads may share a colour
+  // colour by colour, as parallel solvers do: no two springs of a colour share a particle
   coloured,
   // all from the same velocities; each impulse is divided by the number of impulses that
   // meet at its ends
@@ -26,7 +26,6 @@ struct StrainLimits {
   SweepOrder order = SweepOrder::gauss_seidel;
   int sweeps = 20;          // maximum per call
   double tolerance = 1e-3;  // relative violation at which sweeps end [1]
-  int threads = 1;          // for coloured sweeps; the result does not depend on it
 };
 
 /// Data of a spring for the sweeps: 16 bytes.

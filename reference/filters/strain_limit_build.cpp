@@ -1,4 +1,4 @@
-// How a strain limiter is made: its springs sorted, and coloured for threads.
+// How a strain limiter is made: its springs sorted, and coloured where the order is by colour.
 #include <algorithm>
 #include <string>
 #include <tuple>
@@ -16,7 +16,6 @@ void check(const StrainLimits& limits) {
     reject("compression must lie in [0, 1)");
   if (!(limits.tolerance > 0)) reject("tolerance must be > 0");
   if (limits.sweeps < 1) reject("at least one sweep is needed");
-  if (!(limits.threads >= 1 && limits.threads <= 256)) reject("threads must lie in 1 .. 256");
 }
 
 /// The first colour that no spring before it has at either end, for each spring.

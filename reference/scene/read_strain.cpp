@@ -22,12 +22,6 @@ void read_strain_limits(const KeyTable& keys, Scene& scene) {
                                      {"jacobi", SweepOrder::jacobi}});
   limits.sweeps = int(count_or(*table, "sweeps", limits.sweeps));
   limits.tolerance = positive_or(*table, "tolerance", limits.tolerance);
-  limits.threads = int(count_or(*table, "threads", limits.threads));
-  if (limits.threads > 256)
-    throw InputError(table->where("threads") + ": 'threads' must lie in 1 .. 256");
-  if (limits.threads > 1 && limits.order != SweepOrder::coloured)
-    throw InputError(table->where("threads") +
-                     ": only sweeps in the order \"coloured\" have threads");
   scene.strain_limits = limits;
 }
 

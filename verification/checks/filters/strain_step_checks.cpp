@@ -191,22 +191,8 @@ Finding colours_finding(const Subject&) {
     measured.row(cloth.name + ", " + std::to_string(limiter.colours.size() - 1) + " colours",
                  wrong);
   }
-  return judge_worst(measured, 0, "threads that share a colour would write to one particle");
-}
-
-Finding threads_finding(const Subject& subject) {
-  Table measured{{"case", ""}, {"numbers that differ from those of one thread", "numbers"}};
-  for (LimitedCloth& cloth : limited_cloths(SweepOrder::coloured)) {
-    cloth.scene.strain_limits->sweeps = 5;
-    const PerParticle3 alone = corrected_by_strain_limits(subject, cloth, cloth.state.v);
-    for (const int threads : {2, 5}) {
-      cloth.scene.strain_limits->threads = threads;
-      measured.row(cloth.name + ", " + std::to_string(threads) + " threads",
-                   count_differing_entries(
-                       corrected_by_strain_limits(subject, cloth, cloth.state.v), alone));
-    }
-  }
-  return judge_worst(measured, 0, "no two springs of a colour share a particle");
+  return judge_worst(measured, 0,
+                     "a colour is a set of springs that could be corrected at the same time");
 }
 
 // ---- case files
@@ -225,13 +211,12 @@ Finding read_finding(const Subject&) {
         trial_scene(springs +
                     "[strain_limits]\nextension = 0.23\ncompression = 0.07\nsweeps = 9\n"
                     "tolerance = 3e-4\norder = \"" +
-                    named.name + (named.name == "coloured" ? "\"\nthreads = 3\n" : "\"\n"));
+                    named.name + "\"\n");
     const StrainLimits& read = *scene.strain_limits;
     differences.row("extension", in_roundings(read.extension - 0.23, 0.23));
     differences.row("compression", in_roundings(read.compression - 0.07, 0.07));
     differences.row("tolerance", in_roundings(read.tolerance - 3e-4, 3e-4));
     differences.row("sweeps", infinite_unless(read.sweeps == 9));
-    differences.row("threads", infinite_unless(read.threads == (named.name == "coloured" ? 3 : 1)));
     differences.row("order " + named.name, infinite_unless(read.order == named.order));
   }
   const std::string ball = "[[object]]\nshape = \"sphere\"\nradius = 0.1\n";
@@ -262,8 +247,7 @@ Finding rejected_finding(const Subject&) {
       {springs + "[strain_limits]\nsweeps = 0\n", {"sweeps", "1 .."}},
       {springs + "[strain_limits]\ntolerance = 0\n", {"tolerance", "> 0"}},
       {springs + "[strain_limits]\norder = \"random\"\n", {"order", "alternating", "jacobi"}},
-      {springs + "[strain_limits]\nthreads = 2\n", {"threads", "coloured"}},
-      {springs + "[strain_limits]\norder = \"coloured\"\nthreads = 300\n", {"threads", "256"}},
+      {springs + "[strain_limits]\norder = \"coloured\"\nthreads = 2\n", {"threads", "unknown"}},
       {springs + "[strain_limits]\nextention = 0.1\n", {"extention", "extension"}},
   });
 }
@@ -337,9 +321,6 @@ std::vector<Check> strain_step_checks() {
            {"strain.springs-of-a-colour-share-no-particle",
             "No two springs of a colour share a particle, and none is lost.", "our own",
             colours_finding},
-           {"strain.thread-count-does-not-matter",
-            "Coloured sweeps give the same bits on any number of threads.", "our own",
-            threads_finding},
            {"scene.strain-limits-are-read",
             "Strain limits are read as they are written, and built before objects.",
             "cases/KEYS.md", read_finding},
