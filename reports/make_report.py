@@ -34,7 +34,7 @@ from pages.hard_cases import findings_by_case  # noqa: E402
 from pages.kill_matrix import load_mutation  # noqa: E402
 from pages.ledger import claim_views  # noqa: E402
 from pages.needs import load_needs  # noqa: E402
-from pages.page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison  # noqa: E402
+from pages.page import CaseView, Page, StudyView, faults_of, OF_STUDIES, findings_by_section, render, render_comparison  # noqa: E402
 from pages.printed import print_page  # noqa: E402
 from pages.trust import load_coverage, load_variants, tolerances_of, note_on_unfinished_run  # noqa: E402
 from pictures.case_pictures import make_pictures  # noqa: E402
@@ -160,7 +160,7 @@ def draw(run: Run, bench: Run | None, figures: Path, for_papers: bool) -> Page:
     everything = run.findings + (bench.findings if bench else [])
     for view in studies:
         view.findings = [finding for finding in everything
-                         if finding.kind == "study" and finding.study == view.study.name]
+                         if finding.kind in OF_STUDIES and finding.study == view.study.name]
     checks, others, rates = findings_by_section(run, bench)
     for view in cases:
         view.foreign = origin_differs(view, run)

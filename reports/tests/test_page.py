@@ -92,6 +92,17 @@ class Order(MadeUpPage):
                      f"build/foldproof check '{NAMES[6]}'", "Evidence"):
             self.assertIn(part, row)
 
+    def test_a_validation_has_a_section_of_its_own(self) -> None:
+        with TemporaryDirectory() as folder:
+            put_run(Path(folder))
+            with h5py.File(Path(folder) / "run.h5", "r+") as file:
+                file[f"findings/{NAMES[3]}"].attrs["kind"] = "validation"
+            text = make_report(Path(folder), Path(folder) / "report.html", Path(folder) / "figures").read_text("utf-8")
+        section = text[text.index('<section id="validation">'):]
+        self.assertIn(f'id="{anchor(NAMES[3])}"', section[:section.index("</section>\n</section>")])
+        self.assertIn('id="not-validated"', section)
+        self.assertNotIn('<section id="validation">', self.text)
+
     def test_a_hard_case_stands_with_the_hard_ones(self) -> None:
         self.assertLess(self.text.index('<section id="hard"'), self.text.index(f'id="{NAMES[7]}"'))
         self.assertIn("cases/hard/sharp_fold.toml", self.text)
