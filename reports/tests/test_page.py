@@ -11,6 +11,7 @@ import unittest
 from html.parser import HTMLParser
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 from data.results import Column, Study, Table
@@ -93,13 +94,14 @@ class Order(MadeUpPage):
             self.assertIn(part, row)
 
     def test_a_validation_has_a_section_of_its_own(self) -> None:
-        with TemporaryDirectory() as folder:
-            put_run(Path(folder))
-            with h5py.File(Path(folder) / "run.h5", "r+") as file:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            put_run(folder)
+            with h5py.File(folder / "run.h5", "r+") as file:
                 file[f"findings/{NAMES[3]}"].attrs["kind"] = "validation"
-            text = make_report(Path(folder), Path(folder) / "report.html", Path(folder) / "figures").read_text("utf-8")
+            text = make_report(folder, folder / "report.html", folder / "figures").read_text(encoding="utf-8")
         section = text[text.index('<section id="validation">'):]
-        self.assertIn(f'id="{anchor(NAMES[3])}"', section[:section.index("</section>\n</section>")])
+        self.assertIn(f"Claim of {NAMES[3]}.", section[:section.index('<section id="faults"')])
         self.assertIn('id="not-validated"', section)
         self.assertNotIn('<section id="validation">', self.text)
 
