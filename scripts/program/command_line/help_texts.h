@@ -282,9 +282,9 @@ Exit codes:
 
 constexpr const char* compare =
     R"(Frames with the run's vertices and triangles are compared vertex by vertex; other meshes by the
-nearest points of both surfaces. For each frame: distances, energies of stretching and bending by the
-run's forces, shares of fold angles, self-crossing pairs, and the depth in the run's objects. Between
-two frames of the run its cloth is interpolated from positions and velocities.
+nearest points of both surfaces. For each frame: distances, energies of stretching and bending by
+the run's forces, shares of fold angles, self-crossing pairs, and the depth in the run's objects.
+Between two frames of the run its cloth is interpolated from positions and velocities.
 
 Examples:
   foldproof compare results/grab.h5 captured --rate 60 --start 0.5
