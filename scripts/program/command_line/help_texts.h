@@ -249,9 +249,9 @@ predictable. Orders and bars are asked up to there only. Beyond it, --ensemble s
 over time of height, energies, contacts and fold angles, with their spread.
 
 The folder keeps every run: what was cut off goes on, and a second call runs only what is missing.
-The first two levels, run alone, show what the others cost; those that the memory or --hours does not
-allow are refused, and the levels that ran answer. Seconds are the processor's, of a run's own thread.
-DIR/converge.h5 is for `foldproof report DIR`.
+The two coarsest levels, run alone, show what the others cost; those that the memory or --hours
+does not allow are refused, and the levels that ran answer. Seconds are the processor's, of a run's
+own thread. DIR/converge.h5 is for `foldproof report DIR`.
 
 Examples:
   foldproof converge drape_sphere --ensemble 8 --method BDF2,C
