@@ -56,13 +56,13 @@ bool is_in_units_of_its_error(const Verdict& verdict) {
 
 }  // namespace
 
-std::string_view name_of(Scope scope) {
+std::string_view name_of(FindingScope scope) {
   switch (scope) {
-    case Scope::specific:
+    case FindingScope::specific:
       return "specific";
-    case Scope::generic:
+    case FindingScope::generic:
       return "generic";
-    case Scope::structural:
+    case FindingScope::structural:
       return "structural";
   }
   throw std::logic_error("name_of: a scope without a name");
@@ -86,19 +86,20 @@ std::string_view name_of(Certainty certainty) {
   throw std::logic_error("name_of: a certainty without a name");
 }
 
-Scope scope_of(const Record& record) {
-  if (is_in(structural_findings, record.name)) return Scope::structural;
+FindingScope scope_of(const Record& record) {
+  if (is_in(structural_findings, record.name)) return FindingScope::structural;
   const bool is_generic =
       std::any_of(generic_expectations.begin(), generic_expectations.end(),
                   [&](std::string_view end) { return record.name.ends_with(end); });
-  return record.name.starts_with("case.") && is_generic ? Scope::generic : Scope::specific;
+  return record.name.starts_with("case.") && is_generic ? FindingScope::generic
+                                                        : FindingScope::specific;
 }
 
 Certainty certainty_of(const Record& record) {
   const Verdict& verdict = record.finding.verdict;
   if (verdict.uncertainty != 0) return Certainty::estimated;  // NaN, too
   if (record.kind == "bench" || is_in(timed_findings, record.name)) return Certainty::timed_once;
-  if (scope_of(record) == Scope::structural) return Certainty::structural;
+  if (scope_of(record) == FindingScope::structural) return Certainty::structural;
   if (is_counted(verdict)) return Certainty::counted;
   return is_in_units_of_its_error(verdict) ? Certainty::within_bound : Certainty::computed;
 }

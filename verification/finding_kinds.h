@@ -8,7 +8,7 @@
 
 namespace foldproof {
 
-enum class Scope {
+enum class FindingScope {
   specific,   // a statement of its own
   generic,    // every case makes it: runs to its end, repeats its bits, does not cross itself
   structural  // true by construction: an error of the method cannot make it fail
@@ -26,10 +26,10 @@ enum class Certainty {
 };
 
 /// The word for each kind in files: "within bound", else as above ("timed once").
-std::string_view name_of(Scope scope);
+std::string_view name_of(FindingScope scope);
 std::string_view name_of(Certainty certainty);
 
-Scope scope_of(const Record& record);
+FindingScope scope_of(const Record& record);
 
 /// From the uncertainty, the unit and the bound; never from whether it holds.
 Certainty certainty_of(const Record& record);

@@ -22,10 +22,10 @@ Certainty certainty_with(const Verdict& verdict) {
 TEST_CASE("what every case says is generic, what its own says is specific") {
   const Verdict none{0, 0, 0, "pairs", ""};
   for (const char* end : {"runs-to-its-end", "is-reproducible", "never-crosses-itself"})
-    CHECK(scope_of(record_of(std::string("case.robe.") + end, none)) == Scope::generic);
-  CHECK(scope_of(record_of("case.robe.stays-outside", none)) == Scope::specific);
-  CHECK(scope_of(record_of("group.is-reproducible", none)) == Scope::specific);
-  CHECK(scope_of(record_of("case.hinge.never-crosses-itself", none)) == Scope::structural);
+    CHECK(scope_of(record_of(std::string("case.robe.") + end, none)) == FindingScope::generic);
+  CHECK(scope_of(record_of("case.robe.stays-outside", none)) == FindingScope::specific);
+  CHECK(scope_of(record_of("group.is-reproducible", none)) == FindingScope::specific);
+  CHECK(scope_of(record_of("case.hinge.never-crosses-itself", none)) == FindingScope::structural);
   CHECK(certainty_of(record_of("dynamics.solves-are-counted", none)) == Certainty::structural);
 }
 
