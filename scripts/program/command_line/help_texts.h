@@ -234,8 +234,8 @@ Exit codes:
 constexpr const char* converge =
     R"(Runs the case as it is and refined, and says for each quantity: the order by which differences
 between levels fall, Richardson's limit, and the grid convergence index as error bar (safety 1.25
-where the order has settled, else 3). Quantities are those of the case's [[quantity]] tables;
-without any: positions, energies, heights, and what its [expect] asks.
+where the order has settled at the method's, else 3). Quantities are those of the case's
+[[quantity]] tables; without any: positions, energies, heights, and what its [expect] asks.
 
 --in time    every step is halved, and halved again.
 --in space   every edge is: shapes by their numbers, other meshes by the middles of edges. Boxes
