@@ -36,7 +36,7 @@ from pages.ledger import claim_views  # noqa: E402
 from pages.needs import load_needs  # noqa: E402
 from pages.page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison  # noqa: E402
 from pages.printed import print_page  # noqa: E402
-from pages.trust import load_coverage, load_variants, tolerances_of, note_on_unfinished_run  # noqa: E402
+from pages.trust import kinds_of, load_coverage, load_variants, tolerances_of, note_on_unfinished_run  # noqa: E402
 from pictures.case_pictures import make_pictures  # noqa: E402
 from plots.angle_spectrum import plot_angle_spectrum  # noqa: E402
 from plots.case_plots import plot_diagnostics  # noqa: E402
@@ -168,7 +168,7 @@ def draw(run: Run, bench: Run | None, figures: Path, for_papers: bool) -> Page:
     return Page(provenance=run.provenance, claims=claim_views(run.claims, everything), checks=checks, studies=studies[:len(run.studies)],
                 other_findings=others, cases=cases, rates=rates, bench_studies=studies[len(run.studies):],
                 bench_provenance=bench.provenance if bench else {}, faults=faults_of(run),
-                tolerances=tolerances_of(run.findings), case_findings=usual, hard_findings=hard, alone=run.path is None)
+                tolerances=tolerances_of(run.findings), kinds=kinds_of(run.findings), case_findings=usual, hard_findings=hard, alone=run.path is None)
 
 
 def run_jobs(jobs: list[Job], for_papers: bool) -> list[Any]:

@@ -22,7 +22,7 @@ from pages.hard_cases import STUDIES as HARD_STUDIES, CaseFindings, is_of_case
 from pages.kill_matrix import Mutation, kill_tables
 from pages.ledger import ClaimView
 from pages.needs import Needs
-from pages.trust import Coverage, Tolerances, Variants
+from pages.trust import Coverage, Kinds, Tolerances, Variants
 from pictures.case_pictures import PictureRow, length_text
 from plots.map_plots import map_notes
 from plots.plot_style import Plot
@@ -76,6 +76,7 @@ class Page:
     bench_provenance: dict[str, Any]
     faults: list[Fault]
     tolerances: Tolerances
+    kinds: Kinds
     case_findings: list[CaseFindings] = field(default_factory=list)
     hard_findings: list[CaseFindings] = field(default_factory=list)   # of cases/hard
     coverage: Coverage | None = None
