@@ -41,7 +41,9 @@ constexpr const char* report =
 
 Examples:
   foldproof report results --papers
+  foldproof report results --summary                   one page: what was tested, what holds
   foldproof report results mine                        what differs: mine/compare.html
+  foldproof report results mine --summary              one page on mine, and what changed
 
 Exit codes:
   0    written; its path is printed
