@@ -40,10 +40,8 @@ constexpr const char* report =
     R"(Needs the Debian packages python3-h5py, python3-matplotlib and python3-jinja2; --pdf also chromium.
 
 Examples:
-  foldproof report results --papers
   foldproof report results --summary                   one page: what was tested, what holds
   foldproof report results mine                        what differs: mine/compare.html
-  foldproof report results mine --summary              one page on mine, and what changed
 
 Exit codes:
   0    written; its path is printed
