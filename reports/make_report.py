@@ -41,7 +41,7 @@ from pages.page import CaseView, Page, StudyView, faults_of, findings_by_section
 from pages.printed import print_page  # noqa: E402
 from pages.summary import since_last  # noqa: E402
 from pages.summary_page import render_summary  # noqa: E402
-from pages.trust import load_coverage, load_variants, tolerances_of, note_on_unfinished_run  # noqa: E402
+from pages.trust import kinds_of, load_coverage, load_variants, tolerances_of, note_on_unfinished_run  # noqa: E402
 from pictures.case_pictures import make_pictures  # noqa: E402
 from plots.angle_spectrum import plot_angle_spectrum  # noqa: E402
 from plots.case_plots import plot_diagnostics  # noqa: E402
@@ -209,7 +209,7 @@ def gather(run: Run, bench: Run | None, cases: list[CaseView], studies: list[Stu
     return Page(provenance=run.provenance, claims=claim_views(run.claims, everything), checks=checks, studies=studies[:len(run.studies)],
                 other_findings=others, cases=cases, rates=rates, bench_studies=studies[len(run.studies):],
                 bench_provenance=bench.provenance if bench else {}, faults=faults_of(run),
-                tolerances=tolerances_of(run.findings), case_findings=usual, hard_findings=hard, alone=run.path is None)
+                tolerances=tolerances_of(run.findings), kinds=kinds_of(run.findings), case_findings=usual, hard_findings=hard, alone=run.path is None)
 
 
 def run_jobs(jobs: list[Job], for_papers: bool) -> list[Any]:

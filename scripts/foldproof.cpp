@@ -544,6 +544,7 @@ void add_judge(CLI::App& app, Options& options) {
       ->check(some_text("a command"))
       ->required();
   judge->add_option("--name", options.name, "Name in the report (default: the solver's own)")
+      ->type_name("NAME")
       ->check(some_text("a name"));
   add_solver_options(judge, options);
   add_out_if_typed(judge, options,

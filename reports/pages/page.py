@@ -26,7 +26,7 @@ from pages.needs import Needs
 from pages.sentences import Piece, html_of
 from pages.summary import Judged, Summary, since_last, summary_of
 from pages.summary_markdown import count_words
-from pages.trust import Coverage, Tolerances, Variants
+from pages.trust import Coverage, Kinds, Tolerances, Variants
 from pictures.case_pictures import PictureRow, length_text
 from plots.map_plots import map_notes
 from plots.plot_style import Plot
@@ -81,6 +81,7 @@ class Page:
     bench_provenance: dict[str, Any]
     faults: list[Fault]
     tolerances: Tolerances
+    kinds: Kinds
     case_findings: list[CaseFindings] = field(default_factory=list)
     hard_findings: list[CaseFindings] = field(default_factory=list)   # of cases/hard
     coverage: Coverage | None = None
