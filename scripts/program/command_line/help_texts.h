@@ -40,7 +40,7 @@ constexpr const char* report =
     R"(Needs the Debian packages python3-h5py, python3-matplotlib and python3-jinja2; --pdf also chromium.
 
 Examples:
-  foldproof report results --papers
+  foldproof report results --summary                   one page: what was tested, what holds
   foldproof report results mine                        what differs: mine/compare.html
 
 Exit codes:
