@@ -129,11 +129,16 @@ class Program(Installed):
 
     def test_links_of_its_pages_lead_somewhere(self) -> None:
         pages = self.here.prefix / "share/doc/foldproof"
-        for name in ("README.md", "reports/TUTORIAL.md"):
+        for name in ("README.md", "reports/TUTORIAL.md", "verification/subjects/PROTOCOL.md"):
             for link in LINK.findall((pages / name).read_text(encoding="utf-8")):
                 self.assertTrue(((pages / name).parent / link).exists(), f"{name}: {link}")
         for name in ("LICENSE", "copyright", "GPL-3.txt", "MPL-2.0.txt"):
             self.assertGreater((pages / name).stat().st_size, 1000)
+
+    def test_another_solver_is_put_on_trial(self) -> None:
+        toy = self.here.prefix / "share/doc/foldproof/verification/subjects/adapters/toy_solver.py"
+        done = self.here.run("judge", "--solver", f"PYTHONDONTWRITEBYTECODE=1 exec /usr/bin/python3 '{toy}'")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_versions_agree(self) -> None:
         self.assertRegex((ROOT / "CITATION.cff").read_text(encoding="utf-8"), rf"(?m)^version: {re.escape(VERSION)}$")

@@ -30,6 +30,18 @@ class WrongMass(ToySolver):
         return mapping
 
 
+class OwnMassesIgnored(ToySolver):
+    """Masses are those of the density, whatever the scene says."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        a, b, c = (scene.rest[scene.triangles[:, k]] for k in range(3))
+        areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+        thirds = np.repeat(scene.header["scene"]["material"]["density"] * areas / 3, 3)
+        self.mass = np.bincount(scene.triangles.ravel(), thirds, len(self.x))
+        return mapping
+
+
 class GravityScaled(ToySolver):
     def prepare(self, scene: Scene) -> dict[str, str]:
         mapping = super().prepare(scene)
@@ -217,7 +229,8 @@ class Single(ToySolver):
 
 KINDS = {
     "none": Unspoiled, "backward_euler": BackwardEuler, "trapezoidal": Trapezoidal, "single": Single,
-    "wrong_mass": WrongMass, "gravity_scaled": GravityScaled, "momentum_dropped": MomentumDropped,
+    "wrong_mass": WrongMass, "own_masses_ignored": OwnMassesIgnored,
+    "gravity_scaled": GravityScaled, "momentum_dropped": MomentumDropped,
     "single_for_double": SingleForDouble, "first_order_as_second": FirstOrderAsSecond, "hidden_damping": HiddenDamping,
     "state_not_restored": StateNotRestored, "scene_leaves_traces": SceneLeavesTraces, "random": Random,
     "knows_its_axes": KnowsItsAxes, "depends_on_numbers": DependsOnNumbers, "held_loosely": HeldLoosely,
