@@ -69,13 +69,16 @@ NamedFinding order_of(const StripTest& test, const StripLadder& levels) {
           {verdict, std::move(evidence), ""}};
 }
 
+/// Heights over arc length: loops have several heights at a place across.
 void show(const StripTest& test, const StripLadder& levels, Figure& figure) {
   Curve elastica{test.words + ", elastica", {}, {}, nan, {}};
-  for (const oracles::StripPoint& point : levels.elastica.points)
-    elastica.point(point.across, point.up);
+  const std::vector<oracles::StripPoint>& curve = levels.elastica.points;
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    elastica.point(double(i) / double(curve.size() - 1), curve[i].up);
   Curve simulated{test.words + ", simulated", {}, {}, nan, {}};
-  for (std::size_t i = 0; i < levels.points.size(); i += 4)
-    simulated.point(levels.points[i].across, levels.points[i].up);
+  const double spacing = levels.levels.numbers(levels.levels.columns()[0].name).back();
+  for (std::size_t i = 0; i + 1 < levels.points.size(); i += 4)
+    simulated.point((double(i) + 0.5) * spacing, levels.points[i].up);
   figure.curves.push_back(elastica);
   figure.curves.push_back(simulated);
 }
@@ -86,7 +89,7 @@ StudyResult run_strip_tests(const Subject& subject, Tier tier, const Progress& p
   StudyResult result;
   Figure shapes{"shapes",
                 "Strips as a laboratory bends them",
-                {"across, over L", "1", Scale::linear},
+                {"arc length from the clamp, over L", "1", Scale::linear},
                 {"height over L", "1", Scale::linear},
                 nan,
                 "Every fourth row of the finest mesh beside the elastica.",
